@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace fleetplan::api {
+
+/// What a single request may ask for. The defaults are the service's.
+struct Limits {
+  std::size_t max_body = 32u << 20;    // bytes, after decompression
+  std::int64_t max_cells = 4'000'000;  // of the map
+  std::size_t max_robots = 2000;
+  int max_depth = 32;                     // nesting of the JSON
+  std::int64_t default_budget_ms = 5000;  // of a request that names none
+  std::int64_t max_budget_ms = 120'000;   // a longer one is clamped, with a warning
+};
+
+}  // namespace fleetplan::api

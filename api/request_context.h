@@ -1,0 +1,22 @@
+#pragma once
+
+#include <chrono>
+#include <stop_token>
+#include <string>
+
+#include "api/limits.h"
+
+namespace fleetplan::api {
+
+/// What an endpoint knows of its request beside the body.
+struct RequestContext {
+  using Clock = std::chrono::steady_clock;
+
+  std::string request_id;
+  Clock::time_point received_at = Clock::now();  // last byte of the body in
+  Clock::time_point started_at = Clock::now();   // taken from the queue
+  std::stop_token stop;                          // the client is gone or the server drains
+  Limits limits;
+};
+
+}  // namespace fleetplan::api

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace fleetplan::core {
+
+/// The same heading in (-pi, pi]. Any finite angle is accepted.
+inline double normalize_angle(double angle) {
+  constexpr double kPi = std::numbers::pi;
+  if (angle > -kPi && angle <= kPi) return angle;
+  const double wrapped = std::remainder(angle, 2.0 * kPi);  // in [-pi, pi]
+  return wrapped <= -kPi ? kPi : wrapped;
+}
+
+/// The signed rotation in (-pi, pi] that turns heading `from` into heading `to` the shorter way; exactly half
+/// a turn is counter-clockwise.
+inline double rotation_between(double from, double to) { return normalize_angle(to - from); }
+
+}  // namespace fleetplan::core

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace fleetplan::core {
+
+/// Two disks, or a disk and a wall, that overlap by no more than this are in contact, and contact is allowed
+/// (metres). It is the promise of the API; wide enough for coordinates that went through decimal text.
+inline constexpr double kContactTolerance = 1e-9;
+
+/// What the search subtracts from every required distance (metres): half of the contact tolerance, so that
+/// neither its own rounding (about 1e-12) nor that of a start in contact with a neighbour decides anything.
+inline constexpr double kSearchSlack = 0.5 * kContactTolerance;
+
+}  // namespace fleetplan::core

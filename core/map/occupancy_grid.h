@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/position.h"
+
+namespace fleetplan::core {
+
+/// A cell of the grid: column 0 is the leftmost, row 0 the bottom one.
+struct Cell {
+  int column = 0;
+  int row = 0;
+  bool operator==(const Cell&) const = default;
+};
+
+/// Which cells are blocked. A blocked cell is a closed square; everything outside the map is blocked as well.
+/// Map frame: cell (c, r) covers [c, c+1] x [r, r+1] times the resolution.
+class OccupancyGrid {
+ public:
+  /// A free map of `columns` x `rows` cells (both >= 1) of `resolution` metres (> 0) each.
+  OccupancyGrid(int columns, int rows, double resolution);
+
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  double resolution() const { return resolution_; }
+  double width() const { return columns_ * resolution_; }
+  double height() const { return rows_ * resolution_; }
+  std::int64_t cell_count() const { return static_cast<std::int64_t>(columns_) * rows_; }
+
+  bool inside(Cell cell) const {
+    return cell.column >= 0 && cell.column < columns_ && cell.row >= 0 && cell.row < rows_;
+  }
+  /// True for cells outside the map too.
+  bool blocked(Cell cell) const { return !inside(cell) || blocked_[index(cell)] != 0; }
+  void block(Cell cell) { blocked_[index(cell)] = 1; }
+
+  Position center(Cell cell) const {
+    return {(cell.column + 0.5) * resolution_, (cell.row + 0.5) * resolution_};
+  }
+  /// The cell that a position lies in; on a border, the cell to the right or above. May be outside the map.
+  Cell cell_at(const Position& position) const;
+
+  std::size_t index(Cell cell) const {
+    return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(cell.column);
+  }
+
+ private:
+  int columns_;
+  int rows_;
+  double resolution_;
+  std::vector<std::uint8_t> blocked_;  // row by row from the bottom, 1 = blocked
+};
+
+}  // namespace fleetplan::core

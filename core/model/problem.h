@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+#include "core/map/occupancy_grid.h"
+#include "core/model/robot.h"
+
+namespace fleetplan::core {
+
+/// Why a map and a set of robots make no problem.
+struct ProblemFault {
+  enum class Kind {
+    start_in_obstacle,  // the robot's disk at its start overlaps a blocked cell or leaves the map
+    goal_in_obstacle,   // likewise at its goal
+    starts_overlap,     // the starts of `robot` and `other` (< robot) overlap
+    goals_overlap,      // the goals of `robot` and `other` (< robot) overlap
+  };
+  Kind kind;
+  std::size_t robot = 0;
+  std::size_t other = 0;  // pairs only
+  double gap =
+      0.0;  // metres, negative: how far the disks (or the disk and the nearest blocked point) overlap
+};
+
+/// A map and robots that can be planned for. A problem that exists is valid: radii and speeds are positive
+/// and finite, every start and goal is clear of obstacles by the bare radius, no two starts and no two goals
+/// overlap (by more than kContactTolerance). Nobody re-checks deeper.
+class Problem {
+ public:
+  /// The problem, or all of its faults in the order of the robots. `robots` have positive finite radii and
+  /// speeds.
+  static std::variant<Problem, std::vector<ProblemFault>> create(OccupancyGrid grid,
+                                                                 std::vector<Robot> robots);
+
+  const OccupancyGrid& grid() const { return grid_; }
+  const std::vector<Robot>& robots() const { return robots_; }
+
+ private:
+  Problem(OccupancyGrid grid, std::vector<Robot> robots);
+
+  OccupancyGrid grid_;
+  std::vector<Robot> robots_;
+};
+
+}  // namespace fleetplan::core

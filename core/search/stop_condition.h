@@ -1,0 +1,28 @@
+#pragma once
+
+#include <chrono>
+#include <stop_token>
+
+namespace fleetplan::core {
+
+/// When to give up: a deadline, or somebody who asks to stop. Cheap enough to be looked at in every search
+/// loop.
+class StopCondition {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  StopCondition() = default;
+  explicit StopCondition(Clock::time_point deadline, std::stop_token stop = {})
+      : deadline_(deadline), stop_(std::move(stop)) {}
+
+  bool met() const { return cancelled() || Clock::now() >= deadline_; }
+  bool cancelled() const { return stop_.stop_requested(); }
+  Clock::time_point deadline() const { return deadline_; }
+  const std::stop_token& stop_token() const { return stop_; }
+
+ private:
+  Clock::time_point deadline_ = Clock::time_point::max();
+  std::stop_token stop_;
+};
+
+}  // namespace fleetplan::core
