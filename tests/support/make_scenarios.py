@@ -1,0 +1,383 @@
+#!/usr/bin/env python3
+"""Writes the request files of tests/scenarios, the same ones every time.
+
+Usage: tests/support/make_scenarios.py [FOLDER]   (default: tests/scenarios)
+
+Each scenario is a function that returns a request of POST /v1/plan. Before it is written, a request is checked:
+starts and goals clear of walls by the radius, no two starts and no two goals overlapping. Python standard library
+only. Randomness is drawn from random.Random(seed).random() alone, whose values Python promises to keep.
+"""
+
+import json
+import math
+import pathlib
+import random
+import sys
+
+PI = 3.141592653589793
+
+
+# ---------------------------------------------------------------- maps and poses
+
+class Map:
+    """A map under construction; rows from the top, as they are written."""
+
+    def __init__(self, columns, rows, resolution):
+        self.columns, self.count, self.resolution = columns, rows, resolution
+        self.cells = [["."] * columns for _ in range(rows)]
+
+    @classmethod
+    def from_picture(cls, rows, resolution):
+        made = cls(len(rows[0]), len(rows), resolution)
+        made.cells = [list(row) for row in rows]
+        return made
+
+    def block(self, column, row, columns=1, rows=1):
+        """Blocks a rectangle of cells; (column, row) is its lower left cell, row 0 the bottom one."""
+        for r in range(row, row + rows):
+            for c in range(column, column + columns):
+                self.cells[self.count - 1 - r][c] = "#"
+
+    def blocked(self, column, row):
+        inside = 0 <= column < self.columns and 0 <= row < self.count
+        return not inside or self.cells[self.count - 1 - row][column] == "#"
+
+    def center(self, column, row):
+        return (column + 0.5) * self.resolution, (row + 0.5) * self.resolution
+
+    def clearance(self, x, y):
+        """Metres from a point to the nearest blocked cell or map edge, looking as far as two metres."""
+        size = self.resolution
+        nearest = min(x, y, self.columns * size - x, self.count * size - y)
+        reach = int(2.0 / size) + 1
+        at_column, at_row = int(x / size), int(y / size)
+        for r in range(max(0, at_row - reach), min(self.count, at_row + reach + 1)):
+            for c in range(max(0, at_column - reach), min(self.columns, at_column + reach + 1)):
+                if self.blocked(c, r):
+                    dx = max(c * size - x, 0.0, x - (c + 1) * size)
+                    dy = max(r * size - y, 0.0, y - (r + 1) * size)
+                    nearest = min(nearest, math.hypot(dx, dy))
+        return nearest
+
+    def json(self):
+        return {"resolution": self.resolution, "rows": ["".join(row) for row in self.cells]}
+
+
+def pose(x, y, theta=None):
+    made = {"x": round(x, 4), "y": round(y, 4)}
+    if theta is not None:
+        made["theta"] = round(theta, 6)
+    return made
+
+
+def robot(name, start, goal=None, **kind):
+    made = {"id": name, **kind, "start": start}
+    if goal is not None:
+        made["goal"] = goal
+    return made
+
+
+class Places:
+    """Hands out cell centres that keep disks clear of walls and of each other."""
+
+    def __init__(self, grid, seed):
+        self.grid, self.random, self.taken = grid, random.Random(seed), []
+
+    def below(self, limit):
+        return int(self.random.random() * limit)
+
+    def heading(self):
+        return (self.random.random() * 2.0 - 1.0) * PI
+
+    def fits(self, x, y, radius):
+        apart = all(math.hypot(x - ox, y - oy) >= radius + other for ox, oy, other in self.taken)
+        return apart and self.grid.clearance(x, y) >= radius
+
+    def take(self, radius, cells=None):
+        """A random cell centre, of `cells` if given, where a disk of `radius` fits."""
+        for _ in range(100_000):
+            if cells:
+                cell = cells[self.below(len(cells))]
+            else:
+                cell = self.below(self.grid.columns), self.below(self.grid.count)
+            x, y = self.grid.center(*cell)
+            if self.fits(x, y, radius):
+                self.taken.append((x, y, radius))
+                return x, y
+        raise SystemExit(f"no place left for a robot of radius {radius}")
+
+
+# ---------------------------------------------------------------- the scenarios
+
+def corridor_swap():
+    grid = Map.from_picture([
+        "########################",
+        "###############..#######",
+        "#......................#",
+        "########################"], 0.5)
+    return {
+        "map": grid.json(),
+        "robot_defaults": {"radius": 0.2, "linear_speed": 1.0, "angular_speed": PI},
+        "robots": [
+            robot("east-bound", pose(0.75, 0.75, 0.0), pose(11.25, 0.75, 0.0)),
+            robot("west-bound", pose(11.25, 0.75, PI), pose(0.75, 0.75, PI)),
+        ],
+    }
+
+
+def crossing():
+    grid = Map(28, 28, 0.5)
+    for column in (0, 18):
+        for row in (0, 18):
+            grid.block(column, row, 10, 10)
+    heavy = {"radius": 0.7, "linear_speed": 0.5, "angular_speed": 0.8}
+    cart = {"radius": 0.4, "linear_speed": 1.0, "angular_speed": 1.6}
+    scout = {"radius": 0.2, "linear_speed": 1.8, "angular_speed": PI}
+    up, down = PI / 2, -PI / 2
+    return {
+        "map": grid.json(),
+        "robots": [
+            robot("heavy-east", pose(1.25, 6.25, 0.0), pose(12.75, 6.25, 0.0), **heavy),
+            robot("heavy-south", pose(6.25, 12.75, down), pose(6.25, 1.25, down), **heavy),
+            robot("cart-west", pose(12.75, 7.75, PI), pose(1.25, 7.75, PI), **cart),
+            robot("cart-north", pose(7.75, 1.25, up), pose(7.75, 12.75, up), **cart),
+            robot("cart-turning", pose(3.25, 7.75, 0.0), pose(6.25, 3.25, down), **cart),
+            robot("scout-east", pose(3.25, 5.75, 0.0), pose(10.75, 8.25, up), **scout),
+            robot("scout-south", pose(8.25, 11.25, down), pose(8.25, 2.75, 0.0), **scout),
+            robot("scout-north", pose(5.75, 2.75, up), pose(5.75, 11.25, PI), **scout),
+        ],
+        "options": {"mode": "anytime", "max_iterations": 100},
+    }
+
+
+def warehouse():
+    grid = Map(70, 44, 0.5)
+    shelf_rows = range(4, 40, 5)
+    for row in shelf_rows:  # shelves of 2 x 16 cells, aisles of 3 cells between them
+        for column in (12, 31, 50):
+            grid.block(column, row, 16, 2)
+    for row in range(3, 42, 4):  # pick stations along the west wall, with a place for one robot between two
+        grid.block(0, row, 3, 1)
+    tote = {"radius": 0.2, "linear_speed": 1.5, "angular_speed": PI}
+    pallet = {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 2.0}
+
+    aisles = [(c, r + above) for r in shelf_rows for c in range(12, 66) for above in (-1, 2)
+              if (c - 12) % 19 < 16]
+    stations = [(1, row) for row in range(1, 43, 4)]
+    starts, goals = Places(grid, 40), Places(grid, 41)
+    robots = []
+    for index in range(40):
+        carries_pallet = index % 4 == 3
+        kind = pallet if carries_pallet else tote
+        x, y = starts.take(kind["radius"])
+        if index < 2 * len(stations) and index % 2 == 0:
+            goal_x, goal_y = goals.take(kind["radius"], stations)
+            theta = PI
+        elif carries_pallet:
+            goal_x, goal_y = goals.take(kind["radius"], [(c, r) for c in range(5, 11) for r in range(2, 42)])
+            theta = 0.0
+        else:
+            goal_x, goal_y = goals.take(kind["radius"], aisles)
+            faces_up = grid.blocked(int(goal_x / 0.5), int(goal_y / 0.5) + 1)
+            theta = PI / 2 if faces_up else -PI / 2
+        name = f"{'pallet' if carries_pallet else 'tote'}-{index + 1:02}"
+        robots.append(robot(name, pose(x, y, starts.below(4) * PI / 2 - PI / 2), pose(goal_x, goal_y, theta),
+                            **kind))
+    return {"map": grid.json(), "robots": robots, "options": {"time_budget_ms": 10000}}
+
+
+def hall_100():
+    grid = Map(64, 64, 1.0)
+    kinds = [{"radius": 0.3, "linear_speed": 1.5, "angular_speed": PI},
+             {"radius": 0.5, "linear_speed": 1.0, "angular_speed": PI},
+             {"radius": 1.0, "linear_speed": 0.5, "angular_speed": PI}]
+    starts, goals = Places(grid, 64), Places(grid, 65)
+    robots = []
+    for index in range(100):
+        kind = kinds[index % 3]
+        start = pose(*starts.take(kind["radius"]), starts.heading())
+        goal = pose(*goals.take(kind["radius"]), goals.heading())
+        robots.append(robot(f"r{index + 1:03}", start, goal, **kind))
+    return {"map": grid.json(), "robots": robots, "options": {"time_budget_ms": 10000}}
+
+
+def lab_polygon():
+    grid = Map(108, 72, 0.05)
+    grid.block(26, 40, 16, 10)
+    grid.block(52, 14, 10, 18)
+    grid.block(74, 46, 14, 8)
+    places = [("rover-1", (0.412, 0.533, 0.3), (4.871, 3.118, 0.0)),
+              ("rover-2", (4.937, 0.486, 3.0), (0.463, 3.071, PI)),
+              ("rover-3", (0.388, 1.817, 0.0), (4.926, 1.764, 0.0)),
+              ("rover-4", (5.013, 3.062, -2.6), (0.519, 0.447, PI)),
+              ("rover-5", (2.683, 3.127, -1.571), (2.337, 0.418, -PI / 2)),
+              ("rover-6", (3.621, 0.392, 1.4), (3.287, 3.183, PI / 2))]
+    return {
+        "map": grid.json(),
+        "robot_defaults": {"radius": 0.15, "linear_speed": 0.1, "angular_speed": 0.418879},
+        "robots": [robot(name, pose(*start), pose(*goal)) for name, start, goal in places],
+        "options": {"inflation": 0.05, "wait_before_move": 1.0, "time_budget_ms": 10000},
+    }
+
+
+def partly_solvable():
+    grid = Map.from_picture([
+        "##############################",
+        "#.......#..........###########",
+        "#.......#..........###########",
+        "#.......#....................#",
+        "#..................###########",
+        "#..................###########",
+        "#.......#..........###########",
+        "#.......#..........#.........#",
+        "####.####..........#.........#",
+        "#.......#..........#.........#",
+        "#.......#....................#",
+        "#..................#.........#",
+        "#..................#.........#",
+        "#.......#..........#.........#",
+        "##############################"], 0.5)
+    return {
+        "map": grid.json(),
+        "robot_defaults": {"radius": 0.2, "linear_speed": 1.2, "angular_speed": PI},
+        "robots": [
+            robot("courier-1", pose(1.25, 6.25, 0.0), pose(7.75, 0.75, 0.0)),
+            robot("courier-2", pose(7.75, 6.25, PI), pose(1.25, 1.25, PI)),
+            robot("courier-3", pose(1.25, 0.75, 0.0), pose(13.25, 1.25, 0.0)),
+            # Wider than the door of the room in the lower right, which is 0.5 m.
+            robot("wide-lift", pose(6.25, 4.75, 0.0), pose(12.25, 2.25, 0.0), radius=0.45, linear_speed=0.6),
+            # Its goal is at the end of the dead end where `charging` stays.
+            robot("late-comer", pose(5.25, 2.75, 0.0), pose(14.25, 5.75)),
+            robot("charging", pose(12.25, 5.75, PI)),
+        ],
+    }
+
+
+def hospital_ward():
+    grid = Map(60, 26, 0.4)
+    for column in range(0, 60, 10):  # rooms above and below a corridor of eight cells, doors of three cells
+        for row in (0, 18):
+            grid.block(column, row, 1, 8)
+    for row in (8, 17):
+        grid.block(0, row, 60, 1)
+        for column in range(4, 60, 10):
+            for door in range(4):
+                grid.cells[grid.count - 1 - row][column + door] = "."
+    grid.block(59, 0, 1, 26)
+    grid.block(0, 0, 1, 26)
+    cart = {"radius": 0.35, "linear_speed": 0.8, "angular_speed": 1.5}
+    bed = {"radius": 0.55, "linear_speed": 0.6, "angular_speed": 0.8}
+    return {
+        "map": grid.json(),
+        "robot_defaults": {"radius": 0.25, "linear_speed": 1.2, "angular_speed": 2.5},
+        "robots": [
+            robot("meals-1", pose(2.137, 1.324, 1.2), pose(22.061, 9.117, PI / 2)),
+            robot("meals-2", pose(21.853, 1.458, PI / 2), pose(2.218, 9.034, PI / 2)),
+            robot("linen-1", pose(1.274, 5.163, 0.0), pose(17.842, 1.276, -PI / 2), **cart),
+            robot("linen-2", pose(22.416, 5.427, PI), pose(5.931, 1.337, -PI / 2), **cart),
+            robot("lab-samples", pose(6.214, 9.153, -PI / 2), pose(13.763, 1.218), linear_speed=1.5),
+            robot("pharmacy", pose(13.928, 1.174, PI / 2), pose(10.183, 9.226)),
+            robot("bed-7", pose(10.087, 8.891, -PI / 2), pose(22.143, 5.094, 0.0), **bed),
+            robot("parked-cart-a", pose(7.92, 4.11, 0.0), radius=0.35),
+            robot("parked-cart-b", pose(15.36, 6.29, 0.0), radius=0.35),
+            robot("parked-bed", pose(19.47, 4.24, 0.0), radius=0.45),
+        ],
+        "options": {"inflation": 0.03, "start_safe_interval": 5.0},
+    }
+
+
+def charging_docks():
+    grid = Map(40, 24, 0.5)
+    for column in range(3, 40, 4):  # docks of three cells between fins along the north wall
+        grid.block(column, 20, 1, 4)
+    grid.block(8, 8, 6, 4)
+    grid.block(26, 8, 6, 4)
+    north, south = PI / 2, -PI / 2
+    robots = []
+    for dock in range(0, 10, 2):  # a charged robot leaves, an empty one comes for its dock
+        x = 2.0 * dock + 0.75
+        robots.append(robot(f"charged-{dock + 1}", pose(x, 11.25, north), pose(19.0 - x, 0.75, south)))
+        robots.append(robot(f"empty-{dock + 1}", pose(x, 2.25, 0.0), pose(x, 11.25, north)))
+    robots.append(robot("out-of-order", pose(10.75, 11.25, north)))
+    return {
+        "map": grid.json(),
+        "robot_defaults": {"radius": 0.35, "linear_speed": 1.0, "angular_speed": 1.8},
+        "robots": robots,
+        "options": {"mode": "anytime", "objective": "makespan", "max_iterations": 50},
+    }
+
+
+SCENARIOS = [  # in display order
+    ("corridor-swap", "Corridor swap", corridor_swap,
+     "Two robots swap the ends of a corridor with a single passing bay."),
+    ("crossing", "Crossing", crossing,
+     "Eight robots of three sizes and speeds meet at a crossing, with goal headings; improved for 100 iterations."),
+    ("charging-docks", "Charging docks", charging_docks,
+     "Charged robots leave their docks while empty ones come for them; the makespan is improved."),
+    ("hospital-ward", "Hospital ward", hospital_ward,
+     "Carts, couriers and a bed in a corridor with parked carts; no robot stands on the lattice."),
+    ("lab-polygon", "Laboratory polygon", lab_polygon,
+     "Six small robots on a polygon of 5 cm cells, with inflated radii and waits before moves for safe execution."),
+    ("warehouse", "Warehouse", warehouse,
+     "Forty tote and pallet robots between shelves, aisles and pick stations."),
+    ("hall-100", "Hall with 100 robots", hall_100,
+     "A hundred robots of three types in an empty hall of 64 m by 64 m, starts and goals at random."),
+    ("partly-solvable", "Partly solvable", partly_solvable,
+     "One robot is too wide for a door and one has its goal behind a parked robot; the others are served."),
+]
+
+
+# ---------------------------------------------------------------- checking and writing
+
+def faults(request):
+    """What makes a request invalid: poses in obstacles, overlapping starts or goals."""
+    grid = Map.from_picture(request["map"]["rows"], request["map"]["resolution"])
+    defaults = request.get("robot_defaults", {})
+    found = []
+    for member in ("start", "goal"):
+        disks = [(r["id"], r[member]["x"], r[member]["y"], r.get("radius", defaults.get("radius")))
+                 for r in request["robots"] if member in r]
+        for index, (name, x, y, radius) in enumerate(disks):
+            if grid.clearance(x, y) < radius - 1e-9:
+                found.append(f"{member} of {name}: {grid.clearance(x, y):.3f} m from an obstacle, radius {radius}")
+            for other, ox, oy, other_radius in disks[:index]:
+                if math.hypot(x - ox, y - oy) < radius + other_radius - 1e-9:
+                    found.append(f"{member}s of {other} and {name} overlap")
+    if len({r["id"] for r in request["robots"]}) != len(request["robots"]):
+        found.append("duplicate ids")
+    return found
+
+
+def text(request):
+    """The request as JSON with one line for each map row and each robot."""
+    def lines(items):
+        return ",\n".join("      " + json.dumps(item) for item in items)
+    parts = ['  "map": {{\n    "resolution": {},\n    "rows": [\n{}\n    ]\n  }}'.format(
+        json.dumps(request["map"]["resolution"]), lines(request["map"]["rows"]))]
+    if "robot_defaults" in request:
+        parts.append('  "robot_defaults": ' + json.dumps(request["robot_defaults"]))
+    robots = ",\n".join("    " + json.dumps(made) for made in request["robots"])
+    parts.append(f'  "robots": [\n{robots}\n  ]')
+    if "options" in request:
+        parts.append('  "options": ' + json.dumps(request["options"]))
+    return "{\n" + ",\n".join(parts) + "\n}\n"
+
+
+def main():
+    default = pathlib.Path(__file__).resolve().parent.parent / "scenarios"
+    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else default
+    for name, _, make, _ in SCENARIOS:
+        request = make()
+        found = faults(request)
+        if found:
+            raise SystemExit(f"{name}:\n  " + "\n  ".join(found))
+        written = text(request)
+        assert json.loads(written) == request
+        (folder / f"{name}.json").write_text(written)
+    index = [json.dumps({"name": name, "title": title, "description": description})
+             for name, title, _, description in SCENARIOS]
+    (folder / "index.json").write_text("[\n  " + ",\n  ".join(index) + "\n]\n")
+
+
+if __name__ == "__main__":
+    main()
