@@ -1,0 +1,163 @@
+#include "core/verify/fleet_clearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+
+#include "core/geometry/tolerance.h"
+#include "core/verify/relative_motion.h"
+#include "core/verify/time_windows.h"
+
+namespace fleetplan::core {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Where the disk of a robot is within a time window.
+struct Reach {
+  std::size_t robot = 0;
+  double left = kInfinity, right = -kInfinity, bottom = kInfinity, top = -kInfinity;
+
+  void include(const Position& position) {
+    left = std::min(left, position.x());
+    right = std::max(right, position.x());
+    bottom = std::min(bottom, position.y());
+    top = std::max(top, position.y());
+  }
+};
+
+/// Goes through time window by window. In each it sweeps the boxes of all robots from left to right and looks
+/// closely at the pairs whose boxes are nearer than the least gap so far, or near enough to overlap.
+class ClearanceSweep {
+ public:
+  ClearanceSweep(const std::vector<std::vector<Leg>>& legs_by_robot, const std::vector<double>& radii,
+                 double tolerance, std::size_t most_overlaps)
+      : legs_(legs_by_robot),
+        radii_(radii),
+        tolerance_(tolerance),
+        most_overlaps_(most_overlaps),
+        current_leg_(radii.size(), 0),
+        slack_(rounding_of_boxes()) {}
+
+  FleetClearance run() {
+    if (radii_.size() < 2) return {};
+    const std::vector<double> boundaries = time_windows(legs_);
+    for (std::size_t k = 0; k < boundaries.size(); ++k) {
+      sweep({boundaries[k], k + 1 < boundaries.size() ? boundaries[k + 1] : kInfinity});
+    }
+    return {least_, std::move(overlaps_)};
+  }
+
+ private:
+  /// Far more than boxes and gaps are off by, so that which pairs are skipped never decides the result.
+  double rounding_of_boxes() const {
+    double largest = 0.0;
+    for (const std::vector<Leg>& legs : legs_) {
+      for (const Leg& leg : legs) {
+        largest = std::max({largest, leg.from.lpNorm<Eigen::Infinity>(), leg.to.lpNorm<Eigen::Infinity>()});
+      }
+    }
+    for (const double radius : radii_) largest = std::max(largest, radius);
+    return 1e-9 + 1e-12 * largest;
+  }
+
+  /// Pairs whose gap exceeds this neither overlap nor make the least gap smaller.
+  double interesting_gap() const { return std::max(least_, -tolerance_) + slack_; }
+
+  void sweep(const TimeSpan& window) {
+    const std::vector<Reach> reaches = reaches_in(window);
+    for (std::size_t i = 0; i < reaches.size(); ++i) {
+      const Reach& a = reaches[i];
+      for (std::size_t j = i + 1; j < reaches.size(); ++j) {
+        const Reach& b = reaches[j];
+        const double enough = interesting_gap();
+        if (b.left - a.right > enough) break;
+        if (std::max(b.bottom - a.top, a.bottom - b.top) > enough) continue;
+        compare(std::min(a.robot, b.robot), std::max(a.robot, b.robot), window);
+      }
+    }
+  }
+
+  std::vector<Reach> reaches_in(const TimeSpan& window) {
+    std::vector<Reach> reaches(radii_.size());
+    for (std::size_t robot = 0; robot < radii_.size(); ++robot) {
+      const std::vector<Leg>& legs = legs_[robot];
+      while (legs[current_leg_[robot]].t_end <= window.begin) ++current_leg_[robot];
+      Reach& reach = reaches[robot];
+      reach.robot = robot;
+      for (std::size_t k = current_leg_[robot]; k < legs.size() && legs[k].t_begin < window.end; ++k) {
+        reach.include(position_at(legs[k], window.begin));
+        reach.include(position_at(legs[k], window.end));
+      }
+      reach.left -= radii_[robot];
+      reach.right += radii_[robot];
+      reach.bottom -= radii_[robot];
+      reach.top += radii_[robot];
+    }
+    std::sort(reaches.begin(), reaches.end(), [](const Reach& a, const Reach& b) {
+      return a.left != b.left ? a.left < b.left : a.robot < b.robot;
+    });
+    return reaches;
+  }
+
+  /// Both robots leg by leg through the window.
+  void compare(std::size_t first, std::size_t second, const TimeSpan& window) {
+    const double contact = radii_[first] + radii_[second];
+    const double allowed = contact - tolerance_;
+    const Leg* a = &legs_[first][current_leg_[first]];
+    const Leg* b = &legs_[second][current_leg_[second]];
+    double least_squared = kInfinity;
+    for (double now = window.begin; now < window.end;) {
+      while (a->t_end <= now) ++a;
+      while (b->t_end <= now) ++b;
+      const double until = std::min({a->t_end, b->t_end, window.end});
+      const RelativeMotion motion{now, until, position_at(*b, now) - position_at(*a, now),
+                                  position_at(*b, until) - position_at(*a, until)};
+      const double squared = least_squared_distance(motion);
+      least_squared = std::min(least_squared, squared);
+      if (allowed > 0.0 && squared < allowed * allowed) note_overlap(first, second, motion, allowed);
+      now = until;
+    }
+    least_ = std::min(least_, std::sqrt(least_squared) - contact);
+  }
+
+  void note_overlap(std::size_t first, std::size_t second, const RelativeMotion& motion, double allowed) {
+    const std::optional<TimeSpan> span = span_closer_than(motion, allowed);
+    if (!span) return;
+    const ClosestMoment closest = closest_moment(motion);
+    const std::uint64_t pair = static_cast<std::uint64_t>(first) * radii_.size() + second;
+    const auto latest = latest_overlap_.find(pair);
+    if (latest != latest_overlap_.end() && overlaps_[latest->second].t_end == span->begin) {
+      Overlap& overlap = overlaps_[latest->second];
+      overlap.t_end = span->end;
+      // Two that move alike come nearer by rounding alone: that is no later, deeper moment.
+      if (closest.distance < overlap.distance - kContactTolerance) overlap.t_deepest = closest.t;
+      overlap.distance = std::min(overlap.distance, closest.distance);
+    } else if (overlaps_.size() < most_overlaps_) {
+      latest_overlap_[pair] = overlaps_.size();
+      overlaps_.push_back({first, second, span->begin, span->end, closest.t, closest.distance});
+    }
+  }
+
+  const std::vector<std::vector<Leg>>& legs_;
+  const std::vector<double>& radii_;
+  double tolerance_;
+  std::size_t most_overlaps_;
+  std::vector<std::size_t> current_leg_;  // by robot, the first that has not ended when the window begins
+  double slack_;
+  double least_ = kInfinity;
+  std::vector<Overlap> overlaps_;
+  std::unordered_map<std::uint64_t, std::size_t> latest_overlap_;  // by pair, which overlap of it is the last
+};
+
+}  // namespace
+
+FleetClearance fleet_clearance(const std::vector<std::vector<Leg>>& legs_by_robot,
+                               const std::vector<double>& radii, double tolerance,
+                               std::size_t most_overlaps) {
+  return ClearanceSweep(legs_by_robot, radii, tolerance, most_overlaps).run();
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/map/occupancy_grid.h"
+#include "core/verify/segment_to_rectangle.h"
+
+namespace fleetplan::core {
+
+/// The blocked point that comes nearest to a segment.
+struct NearestObstacle {
+  NearestPoint point;
+  bool is_edge = false;  // the edge of the map, or what is beyond it, rather than a blocked cell
+};
+
+/// All that is blocked: the cells of a map, and everything outside it.
+class ObstacleField {
+ public:
+  /// Reads the map once; linear in its cells.
+  explicit ObstacleField(const OccupancyGrid& grid);
+
+  /// The first moment at which a point on its way from `from` to `to` (maybe the same) is nearest to anything
+  /// blocked, if that is nearer than `reach` metres. Off by a few ulp of the largest coordinate. Work grows
+  /// with the number of blocked cells within `reach` of the part of the way inside the map, never with its
+  /// length.
+  std::optional<NearestObstacle> nearest(const Position& from, const Position& to, double reach) const;
+
+ private:
+  /// Columns and rows from (first) to, but not including, (last).
+  struct Block {
+    int first_column, last_column, first_row, last_row;
+    std::int64_t cells() const {
+      return static_cast<std::int64_t>(last_column - first_column) * (last_row - first_row);
+    }
+  };
+  class Descent;
+
+  NearestPoint nearest_edge(const Position& from, const Position& to) const;
+  std::int64_t blocked_in(const Block& block) const;
+  Rectangle rectangle(const Block& block) const;
+  Block block_around(const Position& from, const Position& to, double reach) const;
+  std::size_t corner(int column, int row) const;
+
+  int columns_;
+  int rows_;
+  double resolution_;
+  double width_;
+  double height_;
+  std::vector<std::uint32_t> blocked_below_left_;  // of each corner of a cell, row by row from the bottom
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,60 @@
+#include "core/verify/obstacle_rules.h"
+
+#include <optional>
+#include <string>
+
+#include "core/geometry/tolerance.h"
+#include "core/verify/wording.h"
+
+namespace fleetplan::core {
+namespace {
+
+double time_at(const Leg& leg, double fraction) {
+  return fraction > 0.0 ? leg.t_begin + fraction * (leg.t_end - leg.t_begin) : leg.t_begin;
+}
+
+Violation overlap_with(const NearestObstacle& obstacle, std::size_t robot, double radius, double t) {
+  const double distance = obstacle.point.distance;
+  std::string detail;
+  if (distance > 0.0) {
+    detail = "the disk reaches " + metres(radius - distance) +
+             (obstacle.is_edge ? " beyond the edge of the map" : " into a blocked cell");
+  } else {
+    detail = obstacle.is_edge ? "the centre of the disk reaches the edge of the map"
+                              : "the centre of the disk reaches a blocked cell";
+  }
+  detail += " at t = " + seconds(t);
+  return {Violation::Kind::obstacle_collision, {robot}, t, distance, radius, detail};
+}
+
+}  // namespace
+
+std::vector<Violation> check_obstacles(const ObstacleField& field, std::size_t robot, double radius,
+                                       const std::vector<Leg>& legs, double tolerance) {
+  std::vector<Violation> violations;
+  const double reach = radius - tolerance;
+  const Leg* overlapping = nullptr;  // the leg before, if it overlaps something
+  for (const Leg& leg : legs) {
+    const std::optional<NearestObstacle> nearest = field.nearest(leg.from, leg.to, reach);
+    if (!nearest) {
+      overlapping = nullptr;
+      continue;
+    }
+    // Along a wall rounding alone makes one moment the deepest: it is so from the beginning then.
+    const double distance = nearest->point.distance;
+    const std::optional<NearestObstacle> at_first = field.nearest(leg.from, leg.from, reach);
+    const bool from_the_beginning = at_first && at_first->point.distance <= distance + kContactTolerance;
+    const double t = time_at(leg, from_the_beginning ? 0.0 : nearest->point.fraction);
+
+    const bool goes_on = overlapping != nullptr && overlapping->to == leg.from && at_first;
+    overlapping = &leg;
+    if (!goes_on) {
+      violations.push_back(overlap_with(*nearest, robot, radius, t));
+    } else if (distance < violations.back().distance - kContactTolerance) {
+      violations.back() = overlap_with(*nearest, robot, radius, t);
+    }
+  }
+  return violations;
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,92 @@
+#include "core/verify/verify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "core/verify/endpoint_rules.h"
+#include "core/verify/execution.h"
+#include "core/verify/fleet_clearance.h"
+#include "core/verify/motion_rules.h"
+#include "core/verify/obstacle_rules.h"
+#include "core/verify/wording.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// The plan of each robot, null where it has none.
+std::vector<const RobotPlan*> plans_by_robot(std::size_t robots, const std::vector<RobotPlan>& plans) {
+  std::vector<const RobotPlan*> by_robot(robots, nullptr);
+  for (const RobotPlan& plan : plans) {
+    if (plan.robot >= robots || by_robot[plan.robot] != nullptr) {
+      throw std::invalid_argument("a plan of no robot, or a second one of the same robot");
+    }
+    by_robot[plan.robot] = &plan;
+  }
+  return by_robot;
+}
+
+Violation collision(const Overlap& overlap, const std::vector<std::size_t>& robots,
+                    const std::vector<double>& radii) {
+  const double contact = radii[overlap.first] + radii[overlap.second];
+  std::string detail = "the disks overlap by " + metres(contact - overlap.distance) +
+                       " from t = " + seconds(overlap.t_begin) +
+                       (std::isfinite(overlap.t_end) ? " to " + seconds(overlap.t_end) : " on, for ever");
+  return {Violation::Kind::robot_collision,
+          {robots[overlap.first], robots[overlap.second]},
+          overlap.t_deepest,
+          overlap.distance,
+          contact,
+          std::move(detail)};
+}
+
+void append(std::vector<Violation>& all, std::vector<Violation> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(all));
+}
+
+void sort_by_time(std::vector<Violation>& violations) {
+  std::stable_sort(violations.begin(), violations.end(), [](const Violation& a, const Violation& b) {
+    return std::tie(a.t, a.kind, a.robots) < std::tie(b.t, b.kind, b.robots);
+  });
+}
+
+}  // namespace
+
+VerifyReport verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
+                    const std::vector<RobotPlan>& plans, double tolerance) {
+  VerifyReport report;
+  const ObstacleField field(grid);
+  const std::vector<const RobotPlan*> plan_of = plans_by_robot(robots.size(), plans);
+  std::vector<std::size_t> checked;  // the robots whose numbers are usable
+  std::vector<double> radii;
+  std::vector<std::vector<Leg>> legs;
+  for (std::size_t index = 0; index < robots.size(); ++index) {
+    const Robot& robot = robots[index];
+    const RobotPlan* plan = plan_of[index];
+    if (const auto unusable = find_unusable_number(index, robot, plan)) {
+      report.violations.push_back(*unusable);
+      continue;
+    }
+    if (plan != nullptr) {
+      append(report.violations, check_motion(robot, *plan, tolerance));
+      append(report.violations, check_endpoints(robot, *plan, tolerance));
+    }
+    checked.push_back(index);
+    radii.push_back(robot.radius);
+    legs.push_back(execute(robot, plan));
+    append(report.violations, check_obstacles(field, index, robot.radius, legs.back(), tolerance));
+  }
+
+  const FleetClearance clearance = fleet_clearance(legs, radii, tolerance, kMostCollisions);
+  for (const Overlap& overlap : clearance.overlaps) {
+    report.violations.push_back(collision(overlap, checked, radii));
+  }
+  report.min_clearance = clearance.least;
+  sort_by_time(report.violations);
+  return report;
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,229 @@
+// Continuity and speed: valid plans broken in one place each.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "tests/core/verify/scene.h"
+
+namespace fleetplan::core {
+namespace {
+
+using support::PlanBuilder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double kPi = std::numbers::pi;
+
+/// (5, 5) -> (8, 5), waits, turns left, -> (8, 9): four actions that end at 3, 5, 5 + pi/2 and 9 + pi/2 s.
+Scene valid_scene() {
+  Scene scene;
+  scene.add(robot_at(5, 5),
+            [](PlanBuilder& plan) { plan.translate_to(8, 5).wait(2).rotate_to(kPi / 2).translate_to(8, 9); });
+  return scene;
+}
+
+void shift(Scene& scene, std::size_t first, double seconds) {
+  for (std::size_t k = first; k < scene.plans()[0].actions.size(); ++k) {
+    scene.action(k).t_start += seconds;
+    scene.action(k).t_end += seconds;
+  }
+  scene.plans()[0].cost += seconds;
+}
+
+TEST(Discontinuity, AContiguousPlanHasNone) { EXPECT_THAT(valid_scene().violations(), IsEmpty()); }
+
+TEST(Discontinuity, APlanStartsAtTimeZero) {
+  Scene scene = valid_scene();
+  shift(scene, 0, 0.5);
+  const auto violations = scene.violations();
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::discontinuity));
+  EXPECT_EQ(violations[0].distance, 0.5);
+  EXPECT_EQ(violations[0].required, 0.0);
+  EXPECT_EQ(violations[0].detail, "actions[0] starts at t = 0.5 s, but a plan starts at t = 0 s");
+}
+
+TEST(Discontinuity, GapsInTimeAreToldAndTinyOnesAreNot) {
+  Scene scene = valid_scene();
+  shift(scene, 2, 0.5 * kTolerance);
+  EXPECT_THAT(scene.violations(), IsEmpty());
+  shift(scene, 2, 0.25);
+  const auto violations = scene.violations();
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::discontinuity));
+  EXPECT_NEAR(violations[0].distance, 5.25, 1e-5);
+  EXPECT_NEAR(violations[0].required, 5.0, 1e-5);
+}
+
+TEST(Discontinuity, ActionsThatOverlapInTimeAreTold) {
+  Scene scene = valid_scene();
+  shift(scene, 1, -1.0);
+  EXPECT_THAT(kinds_of(scene.violations()), ElementsAre(Kind::discontinuity));
+}
+
+TEST(Discontinuity, AnActionThatEndsBeforeItStartsIsTold) {
+  Scene scene = valid_scene();
+  scene.action(1).t_end = 2.0;
+  for (std::size_t k = 2; k < 4; ++k) {
+    scene.action(k).t_start -= 3.0;
+    scene.action(k).t_end -= 3.0;
+  }
+  scene.plans()[0].cost -= 3.0;
+  const auto violations = scene.violations();
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::discontinuity));
+  EXPECT_EQ(violations[0].distance, 2.0);
+  EXPECT_EQ(violations[0].required, 3.0);
+}
+
+TEST(Discontinuity, JumpsInSpaceAreTold) {
+  Scene scene = valid_scene();
+  scene.action(1).from.position.x() += 0.5;
+  scene.action(1).to.position.x() += 0.5;
+  const auto violations = scene.violations();  // there and back
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::discontinuity, Kind::discontinuity));
+  EXPECT_NEAR(violations[0].distance, 0.5, 1e-12);
+  EXPECT_EQ(violations[0].t, 3.0);
+  EXPECT_EQ(violations[0].detail, "actions[1] starts 0.5 m from where the action before ends");
+}
+
+TEST(Discontinuity, JumpsOfTheHeadingAreToldModuloAFullTurn) {
+  Scene scene = valid_scene();
+  scene.action(1).from.theta += 2.0 * kPi;
+  scene.action(1).to.theta -= 4.0 * kPi;
+  EXPECT_THAT(scene.violations(), IsEmpty());
+  scene.action(1).from.theta = 0.25;
+  scene.action(1).to.theta = 0.25;
+  const auto violations = scene.violations();
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::discontinuity, Kind::discontinuity));
+  EXPECT_NEAR(violations[0].distance, 0.25, 1e-12);
+}
+
+TEST(Discontinuity, AWaitThatMovesIsTold) {
+  Scene scene = valid_scene();
+  scene.action(0).type = Action::Type::wait;
+  const auto violations = scene.violations();
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::discontinuity));
+  EXPECT_EQ(violations[0].detail, "actions[0] waits, but moves by 3 m");
+}
+
+TEST(Discontinuity, ARotationThatMovesIsTold) {
+  Scene scene = valid_scene();
+  scene.action(0).type = Action::Type::rotate;
+  EXPECT_THAT(kinds_of(scene.violations()), ElementsAre(Kind::discontinuity));
+}
+
+TEST(Discontinuity, AWaitOrTranslationThatTurnsIsTold) {
+  Scene scene = valid_scene();
+  scene.action(2).type = Action::Type::wait;
+  EXPECT_THAT(kinds_of(scene.violations()), ElementsAre(Kind::discontinuity));
+  scene.action(2).type = Action::Type::translate;
+  const auto violations = scene.violations();
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::discontinuity));
+  EXPECT_NEAR(violations[0].distance, kPi / 2, 1e-12);
+}
+
+TEST(Discontinuity, TheCostIsWhenTheLastActionEnds) {
+  Scene scene = valid_scene();
+  scene.plans()[0].cost += 0.5;
+  const auto violations = scene.violations();
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::discontinuity));
+  EXPECT_NEAR(violations[0].distance - violations[0].required, 0.5, 1e-12);
+
+  Scene standing;
+  standing.add(robot_at(5, 5), [](PlanBuilder&) {});
+  EXPECT_THAT(standing.violations(), IsEmpty());
+  standing.plans()[0].cost = 1.0;
+  EXPECT_THAT(kinds_of(standing.violations()), ElementsAre(Kind::discontinuity));
+}
+
+TEST(Discontinuity, NumbersThatAreNoneLeaveTheRobotOutOfAllOtherChecks) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                           -std::numeric_limits<double>::infinity(), 1e300}) {
+    for (const bool in_time : {false, true}) {
+      Scene scene = valid_scene();
+      scene.stand(robot_at(8, 5)).stand(robot_at(1, 1));
+      EXPECT_THAT(kinds_of(scene.violations()), ElementsAre(Kind::robot_collision));
+      (in_time ? scene.action(1).t_end : scene.action(1).to.position.y()) = bad;
+      const auto report = scene.check();
+      ASSERT_THAT(kinds_of(report.violations), ElementsAre(Kind::discontinuity)) << bad;
+      EXPECT_THAT(report.violations[0].robots, ElementsAre(0));
+      EXPECT_EQ(report.violations[0].t, 3.0);
+      EXPECT_THAT(report.violations[0].detail, HasSubstr("actions[1] has a number that is not finite"));
+      EXPECT_NEAR(*report.min_clearance, std::hypot(7, 4) - 1.0, 1e-12);
+    }
+  }
+}
+
+TEST(Speed, SlowerThanTheRobotIsFineAndFasterIsNot) {
+  const auto drive_at = [](double speed) {
+    Scene scene;
+    scene.add(robot_at(5, 5), [speed](PlanBuilder& plan) { plan.translate_to(8, 5, speed); });
+    return scene.violations();
+  };
+  EXPECT_THAT(drive_at(0.1), IsEmpty());
+  EXPECT_THAT(drive_at(1.0), IsEmpty());
+  const auto violations = drive_at(1.25);
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::speed));
+  EXPECT_NEAR(violations[0].distance, 1.25, 1e-12);
+  EXPECT_EQ(violations[0].required, 1.0);
+  EXPECT_EQ(violations[0].detail, "actions[0] goes at 1.25 m/s, but the robot can do no more than 1 m/s");
+}
+
+TEST(Speed, IsJudgedByTheSecondsMissing) {
+  Scene scene = valid_scene();
+  scene.action(3).t_end -= 0.5 * kTolerance;
+  EXPECT_THAT(scene.violations(), IsEmpty());
+  scene.action(3).t_end -= 1.5 * kTolerance;
+  scene.plans()[0].cost = scene.action(3).t_end;
+  EXPECT_THAT(kinds_of(scene.violations()), ElementsAre(Kind::speed));
+}
+
+TEST(Speed, RotationsTakeTheShorterWay) {
+  Scene scene;
+  scene.add(robot_at(5, 5, 3.0), [](PlanBuilder& plan) { plan.rotate_to(-3.0); });
+  EXPECT_NEAR(scene.plans()[0].cost, 2.0 * kPi - 6.0, 1e-12);
+  EXPECT_THAT(scene.violations(), IsEmpty());
+  scene.action(0).t_end = scene.plans()[0].cost = 0.2;
+  const auto violations = scene.violations();
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::speed));
+  EXPECT_NEAR(violations[0].distance, (2.0 * kPi - 6.0) / 0.2, 1e-12);
+}
+
+TEST(Speed, AMoveInNoTimeIsToldInSeconds) {
+  Scene scene = valid_scene();
+  scene.action(0).t_end = 0.0;
+  shift(scene, 1, -3.0);
+  const auto violations = scene.violations();
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::speed));
+  EXPECT_EQ(violations[0].distance, 0.0);
+  EXPECT_NEAR(violations[0].required, 3.0, 1e-12);
+  EXPECT_EQ(violations[0].detail, "actions[0] takes 0 s, but the robot needs at least 3 s");
+}
+
+TEST(Speed, BackwardsIsFineAndSidewaysIsNot) {
+  const auto drive_heading = [](double theta) {
+    Scene scene;
+    scene.add(robot_at(5, 5, theta), [](PlanBuilder& plan) { plan.translate_to(8, 5); });
+    return scene.violations();
+  };
+  EXPECT_THAT(drive_heading(0.0), IsEmpty());
+  EXPECT_THAT(drive_heading(kPi), IsEmpty());
+  EXPECT_THAT(drive_heading(0.5 * kTolerance / 3.0), IsEmpty());
+  const auto violations = drive_heading(kPi / 6);
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::speed));
+  EXPECT_NEAR(violations[0].distance, 1.5, 1e-12);
+  EXPECT_EQ(violations[0].required, 0.0);
+  EXPECT_THAT(violations[0].detail, HasSubstr("1.5 m sideways"));
+}
+
+TEST(Speed, AVeryShortMoveMayHaveAnyHeading) {
+  Scene scene;
+  scene.add(robot_at(5, 5), [](PlanBuilder& plan) { plan.translate_to(5, 5 + 0.5 * kTolerance); });
+  EXPECT_THAT(scene.violations(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace fleetplan::core
