@@ -29,8 +29,8 @@ struct ProblemFault {
 /// overlap (by more than kContactTolerance). Nobody re-checks deeper.
 class Problem {
  public:
-  /// The problem, or all of its faults in the order of the robots. `robots` have positive finite radii and
-  /// speeds.
+  /// The problem, or its faults (the first 1000) in the order of the robots. `robots` have positive finite
+  /// radii and speeds.
   static std::variant<Problem, std::vector<ProblemFault>> create(OccupancyGrid grid,
                                                                  std::vector<Robot> robots);
 

@@ -1,0 +1,60 @@
+#include "core/actions.h"
+
+#include <cmath>
+
+#include "core/geometry/angle.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Rotations and waits shorter than this are rounding, radians and seconds; far below what the checker
+/// tolerates.
+constexpr double kNegligible = 1e-12;
+
+class ActionList {
+ public:
+  explicit ActionList(const Robot& robot) : robot_(robot), pose_(robot.start) {}
+
+  /// Turns to a heading, then waits until `t_end`.
+  void turn_and_wait(double theta, double t_end) {
+    const double rotation = std::abs(rotation_between(pose_.theta, theta));
+    if (rotation > kNegligible) {
+      double turned = now_ + rotation / robot_.angular_speed;
+      if (std::abs(t_end - turned) <= kNegligible) turned = t_end;
+      append(Action::Type::rotate, turned, {pose_.position, theta});
+    }
+    if (t_end - now_ > kNegligible) append(Action::Type::wait, t_end, pose_);
+  }
+  void translate(const TimedSegment& move) {
+    append(Action::Type::translate, move.t_end, {move.path.to, pose_.theta});
+  }
+  double now() const { return now_; }
+  std::vector<Action> take() { return std::move(actions_); }
+
+ private:
+  void append(Action::Type type, double t_end, const Pose& to) {
+    actions_.push_back({type, now_, t_end, pose_, to});
+    now_ = t_end;
+    pose_ = to;
+  }
+
+  const Robot& robot_;
+  Pose pose_;
+  double now_ = 0.0;
+  std::vector<Action> actions_;
+};
+
+}  // namespace
+
+std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory) {
+  ActionList list(robot);
+  for (const TimedSegment& move : trajectory.moves) {
+    const Position direction = move.path.to - move.path.from;
+    list.turn_and_wait(normalize_angle(std::atan2(direction.y(), direction.x())), move.t_start);
+    list.translate(move);
+  }
+  if (robot.goal && robot.goal->theta) list.turn_and_wait(*robot.goal->theta, trajectory.cost);
+  return list.take();
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,110 @@
+#include "core/geometry/disk_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fleetplan::core {
+namespace {
+
+/// Velocities whose cross product is below this fraction of the product of their lengths count as parallel:
+/// the ellipse is then so long that its extreme points lie outside any rectangle that matters.
+constexpr double kParallel = 1e-12;
+
+double cross(const Position& a, const Position& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// The part of [0, length] on which |q + v x| < reach. Empty if there is none.
+UnsafeInterval near_zero(const Position& q, const Position& v, double length, double reach) {
+  const double qq = q.squaredNorm() - reach * reach;
+  const double vv = v.squaredNorm();
+  if (vv == 0.0) return qq < 0.0 ? UnsafeInterval{0.0, length} : UnsafeInterval{};
+  const double qv = q.dot(v);
+  // The distance of the line from the origin, by the cross product: no cancellation far away from the origin.
+  const double c = cross(q, v);
+  const double discriminant = reach * reach * vv - c * c;
+  if (discriminant <= 0.0) return {};
+  const double half = std::sqrt(discriminant);
+  return {std::max(0.0, (-qv - half) / vv), std::min(length, (-qv + half) / vv)};
+}
+
+/// Collects the extreme values of the departure offset u - s over the clipped region.
+class Extent {
+ public:
+  void add(double w) {
+    begin_ = std::min(begin_, w);
+    end_ = std::max(end_, w);
+  }
+  UnsafeInterval shifted(double t0) const { return {begin_ + t0, end_ + t0}; }
+
+ private:
+  double begin_ = kForever;
+  double end_ = -kForever;
+};
+
+}  // namespace
+
+bool collide(const MovingDisk& a, const MovingDisk& b, double reach) {
+  const double begin = std::max(a.t_start, b.t_start);
+  const double end = std::min(a.t_end, b.t_end);
+  if (begin > end) return false;
+  const Position q = a.at(begin) - b.at(begin);
+  const Position v = a.velocity - b.velocity;
+  const double qq = q.squaredNorm();
+  const double rr = reach * reach;
+  if (qq < rr) return true;
+  const double qv = q.dot(v);
+  if (qv >= 0.0) return false;  // moving apart, or not at all
+  const double vv = v.squaredNorm();
+  const double length = end - begin;
+  if (-qv < vv * length) {  // closest between the two ends
+    const double c = cross(q, v);
+    return c * c < rr * vv;
+  }
+  return (q + v * length).squaredNorm() < rr;
+}
+
+UnsafeInterval unsafe_interval(const Position& p, const MovingDisk& b, double reach) {
+  const UnsafeInterval x = near_zero(b.from - p, b.velocity, b.t_end - b.t_start, reach);
+  return {b.t_start + x.begin, b.t_start + x.end};
+}
+
+UnsafeInterval forbidden_departures(const Position& from, const Position& velocity, double duration,
+                                    const MovingDisk& b, double reach) {
+  const Position q = from - b.from;
+  const double length = b.t_end - b.t_start;
+  Extent extent;
+  // The four edges of the rectangle; an edge with a collision includes the rectangle's corners that collide.
+  if (const auto u = near_zero(q, -b.velocity, length, reach); !u.empty()) {  // s = 0
+    extent.add(u.begin);
+    extent.add(u.end);
+  }
+  const Position arrived = q + velocity * duration;
+  if (const auto u = near_zero(arrived, -b.velocity, length, reach); !u.empty()) {  // s = d
+    extent.add(u.begin - duration);
+    extent.add(u.end - duration);
+  }
+  if (const auto s = near_zero(q, velocity, duration, reach); !s.empty()) {  // u = 0
+    extent.add(-s.end);
+    extent.add(-s.begin);
+  }
+  if (length == kForever) return extent.shifted(b.t_start);  // a wait without end: no fourth edge, no ellipse
+  const Position ended = q - b.velocity * length;
+  if (const auto s = near_zero(ended, velocity, duration, reach); !s.empty()) {  // u = L
+    extent.add(length - s.end);
+    extent.add(length - s.begin);
+  }
+  // The ellipse's extreme points: offsets w whose relative path is a tangent of the disk.
+  const Position relative = velocity - b.velocity;
+  const double vv = relative.squaredNorm();
+  const double turn = cross(b.velocity, velocity);
+  if (std::abs(turn) > kParallel * std::sqrt(velocity.squaredNorm() * b.velocity.squaredNorm())) {
+    for (const double side : {-reach, reach}) {
+      const double w = (cross(q, relative) + side * std::sqrt(vv)) / turn;
+      const double s = (b.velocity * w - q).dot(relative) / vv;
+      const double u = s + w;
+      if (s >= 0.0 && s <= duration && u >= 0.0 && u <= length) extent.add(w);
+    }
+  }
+  return extent.shifted(b.t_start);
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <limits>
+
+#include "core/geometry/position.h"
+
+namespace fleetplan::core {
+
+inline constexpr double kForever = std::numeric_limits<double>::infinity();
+
+/// A straight piece of space; of length 0 for a robot that stands still.
+struct Segment {
+  Position from{0.0, 0.0};
+  Position to{0.0, 0.0};
+
+  double length() const { return (to - from).norm(); }
+};
+
+/// A segment passed at constant speed during [t_start, t_end], seconds. A wait has from == to, and only a
+/// wait may last for ever.
+struct TimedSegment {
+  Segment path;
+  double t_start = 0.0;
+  double t_end = 0.0;
+
+  double duration() const { return t_end - t_start; }
+  Position velocity() const {
+    const double d = duration();
+    return d > 0.0 && d < kForever ? Position((path.to - path.from) / d) : Position(0.0, 0.0);
+  }
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "core/map/line_of_sight.h"
+#include "core/map/occupancy_grid.h"
+
+namespace fleetplan::core {
+
+/// Where robots may stop: a vertex is the centre of a cell, numbered row by row from the bottom. Kept apart
+/// from what is blocked (LineOfSight).
+class Lattice {
+ public:
+  /// One lattice move.
+  struct Step {
+    int columns;
+    int rows;
+  };
+
+  /// `connectivity` is 4, 8, 16 or 32: the moves of the 2^k neighbourhood (Rivera, Hernandez, Baier, AAAI
+  /// 2017).
+  Lattice(const OccupancyGrid& grid, int connectivity);
+
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  double spacing() const { return spacing_; }
+  int vertex_count() const { return columns_ * rows_; }
+  std::span<const Step> steps() const { return steps_; }
+
+  Position position(int vertex) const {
+    return {(vertex % columns_ + 0.5) * spacing_, (vertex / columns_ + 0.5) * spacing_};
+  }
+  int vertex(Cell cell) const { return cell.row * columns_ + cell.column; }
+  /// The vertex that a position coincides with (to kContactTolerance), or -1.
+  int vertex_at(const Position& position) const;
+  /// Vertices within `distance` metres of a position, ascending.
+  std::vector<int> vertices_near(const Position& position, double distance) const;
+
+ private:
+  int columns_;
+  int rows_;
+  double spacing_;
+  std::vector<Step> steps_;
+};
+
+/// Which lattice moves a disk of one radius may make on the static map; computed when first asked for. Not
+/// thread-safe.
+class StaticMoves {
+ public:
+  StaticMoves(const Lattice& lattice, const LineOfSight& sight, double radius);
+
+  /// Bit k is set if step k of the lattice is free of obstacles from `vertex`.
+  std::uint32_t from(int vertex);
+
+ private:
+  const Lattice& lattice_;
+  const LineOfSight& sight_;
+  double radius_;
+  std::vector<std::uint32_t> masks_;
+  std::vector<bool> known_;
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/position.h"
+#include "core/map/occupancy_grid.h"
+
+namespace fleetplan::core {
+
+/// Static feasibility of disks of any radius on the grid, exact, without rasterising per radius (paper,
+/// section on static obstacles). A summed-area table of blocked cells accepts free rectangles at once; near
+/// obstacles the vertical extent of the swept disk within each grid column is exact, since a capsule is
+/// convex: its upper boundary is concave, so its maximum over the column is where it is highest, clamped to
+/// the column.
+class LineOfSight {
+ public:
+  explicit LineOfSight(const OccupancyGrid& grid);
+
+  /// May a disk stand at `center`? Contact with an obstacle (to within kSearchSlack) is allowed.
+  bool disk_fits(const Position& center, double radius) const { return may_sweep(center, center, radius); }
+
+  /// May a disk sweep the segment, its ends included? `radius` > 0 in metres.
+  bool may_sweep(const Position& from, const Position& to, double radius) const;
+
+ private:
+  struct Capsule {  // in cells, from.x <= to.x
+    Position from;
+    Position to;
+    double radius;
+  };
+
+  bool free_of_cells(const Capsule& capsule) const;
+  bool columns_free(const Capsule& capsule) const;
+  /// Blocked cells in the rectangle of cells, bounds inclusive and inside the map.
+  std::int32_t blocked_in(int column_min, int column_max, int row_min, int row_max) const;
+
+  int columns_;
+  int rows_;
+  double cells_per_metre_;
+  std::vector<std::int32_t> sums_;  // (columns + 1) x (rows + 1)
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,79 @@
+#include "core/planner.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/actions.h"
+#include "core/search/fleet.h"
+#include "core/search/fleet_state.h"
+#include "core/search/improve.h"
+#include "core/search/lower_bound.h"
+#include "core/search/prioritized.h"
+#include "core/search/triage.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Of the time left, so much goes into attempts to plan everybody; the rest makes the best one into a safe
+/// partial plan.
+constexpr double kAttemptsShare = 0.8;
+
+StopCondition attempts_stop(const StopCondition& stop) {
+  using Clock = StopCondition::Clock;
+  if (stop.deadline() == Clock::time_point::max()) return stop;
+  const auto now = Clock::now();
+  const auto left = std::chrono::duration_cast<Clock::duration>((stop.deadline() - now) * kAttemptsShare);
+  return StopCondition(now + left, stop.stop_token());
+}
+
+void add(Objectives& total, double cost) {
+  total.flowtime += cost;
+  total.makespan = std::max(total.makespan, cost);
+}
+
+RobotPlan robot_plan(const FleetState& state, std::size_t index) {
+  const auto& trajectory = state.trajectory(index);
+  if (!trajectory) return {index, 0.0, {}};  // parked
+  return {index, trajectory->cost, to_actions(state.fleet().robot(index), *trajectory)};
+}
+
+/// Puts the plans together: a robot that is not in `unplanned` follows its trajectory or is parked.
+Plan collect(const FleetState& state, std::vector<std::optional<Unplanned>> unplanned) {
+  Plan plan;
+  for (std::size_t i = 0; i < state.fleet().size(); ++i) {
+    if (unplanned[i]) {
+      plan.unplanned.push_back(std::move(*unplanned[i]));
+      continue;
+    }
+    const Robot& robot = state.fleet().robot(i);
+    plan.plans.push_back(robot_plan(state, i));
+    add(plan.objectives, plan.plans.back().cost);
+    add(plan.lower_bound, robot.goal ? lower_bound(robot, state.fleet().motion(i)) : 0.0);
+  }
+  return plan;
+}
+
+}  // namespace
+
+Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop) {
+  const Fleet fleet(problem, options);
+  FleetState state(fleet);
+  Random random(options.seed);
+
+  std::vector<std::optional<Unplanned>> unplanned = triage(state, stop);
+  std::vector<std::size_t> movers;
+  for (std::size_t i = 0; i < fleet.size(); ++i) {
+    if (fleet.robot(i).goal && !unplanned[i]) movers.push_back(i);
+  }
+  PrioritizedResult prioritized = plan_prioritized(state, movers, random, attempts_stop(stop), stop);
+  for (Unplanned& robot : prioritized.unplanned) unplanned[robot.robot] = std::move(robot);
+  Improvement improvement;
+  if (options.mode == PlanOptions::Mode::anytime) improvement = improve(state, movers, random, stop);
+
+  Plan plan = collect(state, std::move(unplanned));
+  plan.deterministic = !prioritized.cut_off && !improvement.cut_off && !stop.cancelled();
+  plan.search = {prioritized.attempts, state.expansions(), improvement.improvements};
+  return plan;
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,307 @@
+#include "core/search/aa_sipp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/geometry/angle.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Arrivals and departures that differ by less are the same (seconds): rounding of sums of durations.
+constexpr double kSameTime = 1e-11;
+/// Directions that differ by less are the same (radians): far above rounding, far below a visible bend.
+constexpr double kSameHeading = 1e-12;
+/// Candidates between two looks at the clock.
+constexpr int kStopStride = 32;
+
+double heading_of(const Position& d) { return std::atan2(d.y(), d.x()); }
+
+}  // namespace
+
+SearchResult AaSipp::run(std::size_t robot, const Vertices& vertices, CostToGo& cost_to_go,
+                         const SearchLimits& limits, const StopCondition& stop) {
+  robot_ = robot;
+  motion_ = &fleet_.motion(robot);
+  vertices_ = &vertices;
+  cost_to_go_ = &cost_to_go;
+  stop_ = &stop;
+  limits_ = limits;
+  expansions_ = 0;
+  place_of_vertex_.resize(std::max(place_of_vertex_.size(), static_cast<std::size_t>(vertices.count())), -1);
+  Outcome outcome = search(false);
+  if (outcome == Outcome::pruned) outcome = search(true);
+  SearchResult result;
+  result.expansions = expansions_;
+  result.complete = outcome != Outcome::stopped;
+  if (outcome == Outcome::found) result.trajectory = extract();
+  reset();
+  return result;
+}
+
+void AaSipp::reset() {
+  for (const Place& place : places_) place_of_vertex_[static_cast<std::size_t>(place.vertex)] = -1;
+  places_.clear();
+  intervals_.clear();
+  labels_of_interval_.clear();
+  labels_.clear();
+  candidates_.clear();
+  open_.clear();
+  goal_label_ = -1;
+  pruned_ = false;
+}
+
+AaSipp::Outcome AaSipp::search(bool thorough) {
+  reset();
+  thorough_ = thorough;
+  goal_place_ = place_of(vertices_->goal());
+  const Place& goal = places_[static_cast<std::size_t>(goal_place_)];
+  if (goal.interval_count == 0) return Outcome::exhausted;
+  const SafeInterval& last =
+      intervals_[static_cast<std::size_t>(goal.first_interval + goal.interval_count - 1)];
+  if (last.end < kForever) return Outcome::exhausted;
+  release_ = last.begin;
+  add_start();
+  for (int step = 1; goal_label_ < 0; ++step) {
+    if (open_.empty()) return pruned_ ? Outcome::pruned : Outcome::exhausted;
+    if (step % kStopStride == 0 && stop_->met()) return Outcome::stopped;
+    const int candidate = open_.front().candidate;
+    process(candidate);
+  }
+  return Outcome::found;
+}
+
+int AaSipp::place_of(int vertex) {
+  int& known = place_of_vertex_[static_cast<std::size_t>(vertex)];
+  if (known >= 0) return known;
+  known = static_cast<int>(places_.size());
+  const Position position = vertices_->position(vertex);
+  const auto safe = table_.safe_intervals(robot_, position);
+  CostToGo::Estimate estimate;
+  if (vertex != vertices_->goal()) estimate = cost_to_go_->from(vertex, *stop_);
+  places_.push_back(
+      {vertex, position, estimate, static_cast<int>(intervals_.size()), static_cast<int>(safe.size())});
+  intervals_.insert(intervals_.end(), safe.begin(), safe.end());
+  labels_of_interval_.resize(intervals_.size(), -1);
+  return known;
+}
+
+void AaSipp::add_start() {
+  const int place = place_of(vertices_->start());
+  const int interval = places_[static_cast<std::size_t>(place)].first_interval;
+  if (places_[static_cast<std::size_t>(place)].interval_count == 0) return;
+  if (!intervals_[static_cast<std::size_t>(interval)].contains(0.0)) return;
+  push({0.0, 0.0, fleet_.robot(robot_).start.theta, -1, -1, place, interval, Kind::timed, false, false});
+}
+
+double AaSipp::to_go(int place, double heading) const {
+  if (place == goal_place_) {
+    const auto& goal = *fleet_.robot(robot_).goal;
+    return goal.theta ? motion_->rotation_time(heading, *goal.theta) : 0.0;
+  }
+  const auto& estimate = places_[static_cast<std::size_t>(place)].estimate;
+  return estimate.seconds + motion_->rotation_time(heading, estimate.heading);
+}
+
+void AaSipp::push(const Candidate& candidate) {
+  const double h = to_go(candidate.place, candidate.heading);
+  const double f = std::max(candidate.arrival + h, release_);
+  if (!(f < limits_.bound)) return;
+  candidates_.push_back(candidate);
+  open_.push_back({f, h, static_cast<int>(candidates_.size()) - 1});
+  std::push_heap(open_.begin(), open_.end(), std::greater<>());
+}
+
+double AaSipp::duration(const Candidate& candidate) const {
+  const Label& from = labels_[static_cast<std::size_t>(candidate.from)];
+  const Position d = places_[static_cast<std::size_t>(candidate.place)].position -
+                     places_[static_cast<std::size_t>(from.place)].position;
+  return motion_->translation_time(d.norm());
+}
+
+void AaSipp::process(int index) {
+  const double f = open_.front().f;
+  std::pop_heap(open_.begin(), open_.end(), std::greater<>());
+  open_.pop_back();
+  Candidate candidate = candidates_[static_cast<std::size_t>(index)];
+  if (candidate.kind == Kind::timed) return settle(candidate, f);
+
+  const Label& from = labels_[static_cast<std::size_t>(candidate.from)];
+  const bool from_parent = candidate.kind == Kind::from_parent;
+  const bool seen =
+      !from_parent ||
+      fleet_.sight().may_sweep(places_[static_cast<std::size_t>(from.place)].position,
+                               places_[static_cast<std::size_t>(candidate.place)].position, motion_->radius);
+  const auto [via, place, interval] = std::tuple(candidate.via, candidate.place, candidate.interval);
+  if (candidate.leads) follow(via, place, interval + 1, candidate.blocked || !seen);  // later intervals
+  // A label that dominates the optimistic arrival also dominates the way through the expanded label.
+  if (dominated(interval, candidate.arrival, candidate.heading)) return;
+  const std::optional<double> departure = seen ? time_move(candidate) : std::nullopt;
+  const double optimistic = candidate.arrival;
+  if (departure) {
+    candidate.departure = *departure;
+    candidate.arrival = *departure + duration(candidate);
+    candidate.kind = Kind::timed;
+    if (candidate.arrival <= optimistic + kSameTime) return settle(candidate, f);
+  }
+  if (from_parent) offer(Kind::local, via, place, interval, false, true);
+  if (!departure) return;
+  const double f_timed = std::max(candidate.arrival + to_go(place, candidate.heading), release_);
+  if (is_final(place, interval) && f_timed <= (1.0 + limits_.suboptimality) * f && f_timed < limits_.bound) {
+    return settle(candidate, f_timed);
+  }
+  push(candidate);
+}
+
+bool AaSipp::is_final(int place, int interval) const {
+  return place == goal_place_ && intervals_[static_cast<std::size_t>(interval)].end == kForever;
+}
+
+bool AaSipp::dominated(int interval, double arrival, double heading) const {
+  for (int l = labels_of_interval_[static_cast<std::size_t>(interval)]; l >= 0;) {
+    const Label& label = labels_[static_cast<std::size_t>(l)];
+    if (label.arrival + motion_->rotation_time(label.heading, heading) <= arrival + kSameTime) return true;
+    l = label.next;
+  }
+  return false;
+}
+
+void AaSipp::settle(const Candidate& candidate, double f) {
+  int& first = labels_of_interval_[static_cast<std::size_t>(candidate.interval)];
+  if (dominated(candidate.interval, candidate.arrival, candidate.heading)) return;
+  // While the goal is not even free, one label for each interval will do in a first search.
+  if (!thorough_ && first >= 0 && f <= release_) {
+    pruned_ = true;
+    return;
+  }
+  const int label = static_cast<int>(labels_.size());
+  labels_.push_back({candidate.arrival, candidate.heading, candidate.departure, candidate.from,
+                     candidate.place, candidate.interval, first});
+  first = label;
+  if (is_final(candidate.place, candidate.interval)) {
+    goal_label_ = label;
+    return;
+  }
+  expand(label);
+}
+
+void AaSipp::expand(int label) {
+  ++expansions_;
+  const int place = labels_[static_cast<std::size_t>(label)].place;
+  if (fleet_.options().any_angle) shoot_at_goal(label);
+  vertices_->for_each_neighbour(places_[static_cast<std::size_t>(place)].vertex, [&](int vertex) {
+    const int target = place_of(vertex);
+    follow(label, target, places_[static_cast<std::size_t>(target)].first_interval, false);
+  });
+}
+
+/// Where the goal is in sight, tries to go there at once, in the interval that it may stay in.
+void AaSipp::shoot_at_goal(int label) {
+  const int from = labels_[static_cast<std::size_t>(label)].place;
+  if (from == goal_place_ || !places_[static_cast<std::size_t>(from)].estimate.straight) return;
+  const Place& goal = places_[static_cast<std::size_t>(goal_place_)];
+  offer(Kind::local, label, goal_place_, goal.first_interval + goal.interval_count - 1, false, true);
+}
+
+/// Puts the first way into `interval` of the place, or a later one, on the open list.
+void AaSipp::follow(int via, int place, int interval, bool blocked) {
+  const Place& target = places_[static_cast<std::size_t>(place)];
+  const int end = target.first_interval + target.interval_count;
+  const bool parent =
+      fleet_.options().any_angle && !blocked && labels_[static_cast<std::size_t>(via)].parent >= 0;
+  for (; interval < end; ++interval) {
+    const Offer shortcut =
+        parent ? offer(Kind::from_parent, via, place, interval, true, blocked) : Offer::too_late;
+    if (shortcut == Offer::made) return;
+    const Offer local = offer(Kind::local, via, place, interval, true, blocked);
+    if (local == Offer::made || (local == Offer::too_late && shortcut == Offer::too_late)) return;
+  }
+}
+
+/// Puts a move on the open list with the earliest arrival it could have, unless it is impossible or
+/// dominated; too late if that holds for all later intervals as well.
+AaSipp::Offer AaSipp::offer(Kind kind, int via, int place, int interval, bool leads, bool blocked) {
+  const int from = kind == Kind::from_parent ? labels_[static_cast<std::size_t>(via)].parent : via;
+  const Label& label = labels_[static_cast<std::size_t>(from)];
+  if (label.place == place) return Offer::too_late;
+  const Position d = places_[static_cast<std::size_t>(place)].position -
+                     places_[static_cast<std::size_t>(label.place)].position;
+  const double seconds = motion_->translation_time(d.norm());
+  const double heading = heading_of(d);
+  const SafeInterval& source = intervals_[static_cast<std::size_t>(label.interval)];
+  const SafeInterval& target = intervals_[static_cast<std::size_t>(interval)];
+  if (target.begin - seconds > source.end) return Offer::too_late;
+  const auto window = departure_window(label, heading, seconds, target);
+  if (!window) return Offer::useless;
+  const double arrival = window->begin + seconds;
+  if (dominated(interval, arrival, heading)) return Offer::useless;
+  push({arrival, window->begin, heading, from, via, place, interval, kind, leads, blocked});
+  return Offer::made;
+}
+
+/// May the robot go on in the direction it came in, without the added wait, as one translation?
+bool AaSipp::passes_through(const Label& from, double heading) const {
+  return from.parent >= 0 && motion_->wait_before_move > 0.0 &&
+         std::abs(rotation_between(from.heading, heading)) <= kSameHeading;
+}
+
+/// When a move from a label may depart so that it leaves within the label's safe interval and arrives within
+/// `target`.
+std::optional<AaSipp::Window> AaSipp::departure_window(const Label& from, double heading, double duration,
+                                                       const SafeInterval& target) const {
+  const double end = std::min(intervals_[static_cast<std::size_t>(from.interval)].end, target.end - duration);
+  if (passes_through(from, heading) && from.arrival + duration >= target.begin && from.arrival <= end) {
+    return Window{from.arrival, end};
+  }
+  const double ready =
+      from.arrival + motion_->rotation_time(from.heading, heading) + motion_->wait_before_move;
+  const double begin = std::max(ready, target.begin - duration);
+  if (begin > end) return std::nullopt;
+  return Window{begin, end};
+}
+
+std::optional<double> AaSipp::time_move(const Candidate& candidate) const {
+  const Label& from = labels_[static_cast<std::size_t>(candidate.from)];
+  const Segment path{places_[static_cast<std::size_t>(from.place)].position,
+                     places_[static_cast<std::size_t>(candidate.place)].position};
+  const double seconds = duration(candidate);
+  const auto window = departure_window(from, candidate.heading, seconds,
+                                       intervals_[static_cast<std::size_t>(candidate.interval)]);
+  if (!window) return std::nullopt;
+  if (!passes_through(from, candidate.heading) || window->begin > from.arrival) {
+    return table_.earliest_departure(robot_, path, seconds, window->begin, window->end);
+  }
+  const auto at_once = table_.earliest_departure(robot_, path, seconds, from.arrival, from.arrival);
+  if (at_once) return at_once;
+  const double rested = from.arrival + motion_->wait_before_move;
+  if (rested > window->end) return std::nullopt;
+  return table_.earliest_departure(robot_, path, seconds, rested, window->end);
+}
+
+Trajectory AaSipp::extract() const {
+  std::vector<const Label*> way;
+  for (int l = goal_label_; l >= 0; l = labels_[static_cast<std::size_t>(l)].parent) {
+    way.push_back(&labels_[static_cast<std::size_t>(l)]);
+  }
+  std::reverse(way.begin(), way.end());
+  Trajectory trajectory;
+  trajectory.start = places_[static_cast<std::size_t>(way.front()->place)].position;
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const Position& to = places_[static_cast<std::size_t>(way[i]->place)].position;
+    const bool goes_on = i > 1 && way[i]->departure == way[i - 1]->arrival &&
+                         std::abs(rotation_between(way[i - 1]->heading, way[i]->heading)) <= kSameHeading;
+    if (goes_on) {
+      trajectory.moves.back().path.to = to;
+      trajectory.moves.back().t_end = way[i]->arrival;
+    } else {
+      const Position& from = places_[static_cast<std::size_t>(way[i - 1]->place)].position;
+      trajectory.moves.push_back({{from, to}, way[i]->departure, way[i]->arrival});
+    }
+  }
+  const Label& last = *way.back();
+  trajectory.cost = last.arrival + to_go(last.place, last.heading);
+  return trajectory;
+}
+
+}  // namespace fleetplan::core

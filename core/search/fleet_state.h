@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/model/trajectory.h"
+#include "core/reservation/reservation_table.h"
+#include "core/search/aa_sipp.h"
+#include "core/search/cost_to_go.h"
+#include "core/search/fleet.h"
+#include "core/search/stop_condition.h"
+#include "core/search/vertices.h"
+
+namespace fleetplan::core {
+
+/// Who is where at the moment: every robot holds a trajectory, or stands at its start for ever, or blocks its
+/// start for a while, or is not there at all (as at first). Plans one robot among all the others.
+class FleetState {
+ public:
+  explicit FleetState(const Fleet& fleet);
+
+  const Fleet& fleet() const { return fleet_; }
+
+  /// Each of these replaces what the robot held before.
+  void follow(std::size_t robot, Trajectory trajectory);
+  void stand_for_ever(std::size_t robot);
+  void block_start(std::size_t robot, double seconds);
+  void leave(std::size_t robot);
+
+  /// The trajectory that the robot follows, if it does.
+  const std::optional<Trajectory>& trajectory(std::size_t robot) const { return trajectories_[robot]; }
+
+  /// Plans a robot (with a goal) that has left; changes nobody's reservation.
+  SearchResult plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
+
+  /// May the robot reach its goal on the static map? True when `stop` was met before that was known.
+  bool goal_reachable(std::size_t robot, const StopCondition& stop);
+  /// The path that the robot would take if it were alone, without regard to time beyond its start.
+  Trajectory alone(std::size_t robot, const StopCondition& stop);
+
+  /// The robots in the way of a trajectory, or of standing at the start for ever; ascending.
+  std::vector<std::size_t> in_the_way(std::size_t robot, const Trajectory& trajectory) const;
+  std::vector<std::size_t> in_the_way_of_standing(std::size_t robot) const;
+
+  std::int64_t expansions() const { return expansions_; }
+
+ private:
+  struct Guide {
+    Vertices vertices;
+    CostToGo cost_to_go;
+    Guide(const Fleet& fleet, std::size_t robot)
+        : vertices(fleet, robot), cost_to_go(fleet, robot, vertices) {}
+  };
+
+  Guide& guide(std::size_t robot);
+  void forget_other_guides(std::size_t robot);
+  void reserve(std::size_t robot, const std::vector<TimedSegment>& segments);
+  Trajectory standing(std::size_t robot) const;
+
+  const Fleet& fleet_;
+  ReservationTable table_;
+  AaSipp search_;
+  std::vector<std::optional<Trajectory>> trajectories_;
+  std::vector<std::unique_ptr<Guide>> guides_;
+  std::int64_t expansions_ = 0;
+};
+
+}  // namespace fleetplan::core

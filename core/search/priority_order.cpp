@@ -1,0 +1,66 @@
+#include "core/search/priority_order.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace fleetplan::core {
+namespace {
+
+/// The number of orders of `count` robots, or `limit` if that is less.
+std::size_t permutations(std::size_t count, std::size_t limit) {
+  std::size_t product = 1;
+  for (std::size_t i = 2; i <= count && product < limit; ++i) product *= i;
+  return std::min(product, limit);
+}
+
+}  // namespace
+
+PriorityOrder initial_order(const Fleet& fleet, std::vector<std::size_t> robots, Random& random) {
+  const auto distance = [&](std::size_t i) {
+    return (fleet.robot(i).goal->position - fleet.robot(i).start.position).squaredNorm();
+  };
+  switch (fleet.options().priority) {
+    case PlanOptions::Priority::shortest_first:
+      std::stable_sort(robots.begin(), robots.end(),
+                       [&](auto a, auto b) { return distance(a) < distance(b); });
+      break;
+    case PlanOptions::Priority::longest_first:
+      std::stable_sort(robots.begin(), robots.end(),
+                       [&](auto a, auto b) { return distance(a) > distance(b); });
+      break;
+    case PlanOptions::Priority::random:
+      random.shuffle(robots);
+      break;
+    case PlanOptions::Priority::as_listed:
+      break;
+  }
+  return robots;
+}
+
+OrderSequence::OrderSequence(PlanOptions::Reordering reordering, PriorityOrder first, Random& random)
+    : reordering_(reordering), current_(std::move(first)), random_(random) {
+  is_new();
+}
+
+bool OrderSequence::advance(std::size_t failed) {
+  if (reordering_ == PlanOptions::Reordering::none) return false;
+  if (reordering_ == PlanOptions::Reordering::raise_failed) {
+    const auto position = std::find(current_.begin(), current_.end(), failed);
+    std::rotate(current_.begin(), position, position + 1);
+    if (is_new()) return true;
+  }
+  const std::size_t all = permutations(current_.size(), tried_.size() + 1);
+  while (tried_.size() < all) {
+    random_.shuffle(current_);
+    if (is_new()) return true;
+  }
+  return false;
+}
+
+void OrderSequence::drop(std::size_t robot) {
+  std::erase(current_, robot);
+  tried_.clear();
+  is_new();
+}
+
+}  // namespace fleetplan::core

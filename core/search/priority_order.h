@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <vector>
+
+#include "core/search/fleet.h"
+#include "core/search/random.h"
+
+namespace fleetplan::core {
+
+/// Robots by index, the highest priority first.
+using PriorityOrder = std::vector<std::size_t>;
+
+/// The first order of these robots (ascending, with goals), by straight distance from start to goal or as the
+/// options say; ties as listed.
+PriorityOrder initial_order(const Fleet& fleet, std::vector<std::size_t> robots, Random& random);
+
+/// The orders to try one after the other, none of them twice.
+class OrderSequence {
+ public:
+  OrderSequence(PlanOptions::Reordering reordering, PriorityOrder first, Random& random);
+
+  const PriorityOrder& current() const { return current_; }
+
+  /// Goes on to the next order after `failed` found no way: raises it to the top (paper, section Prioritized
+  /// planning) or shuffles. Where raising leads back to an order that failed already, shuffles as well. False
+  /// if all orders have been tried.
+  bool advance(std::size_t failed);
+
+  /// Leaves a robot out from now on.
+  void drop(std::size_t robot);
+
+ private:
+  bool is_new() { return tried_.insert(current_).second; }
+
+  PlanOptions::Reordering reordering_;
+  PriorityOrder current_;
+  Random& random_;
+  std::set<PriorityOrder> tried_;
+};
+
+}  // namespace fleetplan::core

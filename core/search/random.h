@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace fleetplan::core {
+
+/// Repeatable random choices: the standard fixes the engine, and the rest is ours, as the standard's
+/// distributions differ between libraries.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+  /// Uniform in [0, count), count >= 1; the bias is below count / 2^64.
+  std::size_t below(std::size_t count) { return static_cast<std::size_t>(engine_() % count); }
+  /// Uniform in [0, 1).
+  double unit() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
+
+  template <class T>
+  void shuffle(std::vector<T>& items) {
+    for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[below(i)]);
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,119 @@
+#include "core/search/triage.h"
+
+#include <functional>
+#include <utility>
+
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::core {
+namespace {
+
+using Reason = Unplanned::Reason;
+
+class Triage {
+ public:
+  Triage(FleetState& state, const StopCondition& stop)
+      : state_(state),
+        fleet_(state.fleet()),
+        stop_(stop),
+        unplanned_(fleet_.size()),
+        stays_(fleet_.size(), false) {}
+
+  std::vector<std::optional<Unplanned>> run() {
+    for (std::size_t i = 0; i < fleet_.size(); ++i) {
+      if (!fleet_.robot(i).goal) stay(i);
+    }
+    for (std::size_t i = 0; i < fleet_.size(); ++i) check_start(i);
+    for (std::size_t i = 0; i < fleet_.size(); ++i) check_goal(i);
+    for (std::size_t i = 0; i < fleet_.size(); ++i) check_way(i);
+    // A robot that stays may stand on another one's goal, which then stays as well.
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t i = 0; i < fleet_.size(); ++i) changed = check_standing_on_goal(i) || changed;
+    }
+    return std::move(unplanned_);
+  }
+
+ private:
+  void stay(std::size_t robot) {
+    stays_[robot] = true;
+    state_.stand_for_ever(robot);
+  }
+  void give_up(std::size_t robot, Reason reason, const char* detail,
+               std::vector<std::size_t> blocked_by = {}) {
+    unplanned_[robot] = Unplanned{robot, reason, detail, std::move(blocked_by)};
+    stay(robot);
+  }
+  bool overlap(std::size_t a, const Position& p, std::size_t b, const Position& q) const {
+    return (p - q).norm() < fleet_.motion(a).radius + fleet_.motion(b).radius - kContactTolerance;
+  }
+  std::vector<std::size_t> others(std::size_t robot,
+                                  const std::function<bool(std::size_t)>& in_the_way) const {
+    std::vector<std::size_t> found;
+    for (std::size_t j = 0; j < fleet_.size(); ++j) {
+      if (j != robot && in_the_way(j)) found.push_back(j);
+    }
+    return found;
+  }
+
+  void check_start(std::size_t i) {
+    if (stays_[i]) return;
+    const Position& start = fleet_.robot(i).start.position;
+    if (!fleet_.sight().disk_fits(start, fleet_.motion(i).radius)) {
+      return give_up(i, Reason::start_blocked,
+                     "the inflated robot does not fit between the obstacles at its start");
+    }
+    auto near =
+        others(i, [&](std::size_t j) { return overlap(i, start, j, fleet_.robot(j).start.position); });
+    if (near.empty()) return;
+    give_up(i, Reason::start_blocked, "the inflated robot overlaps another one at its start",
+            std::move(near));
+  }
+
+  void check_goal(std::size_t i) {
+    if (stays_[i]) return;
+    const Position& goal = fleet_.robot(i).goal->position;
+    if (!fleet_.sight().disk_fits(goal, fleet_.motion(i).radius)) {
+      return give_up(i, Reason::goal_blocked,
+                     "the inflated robot does not fit between the obstacles at its goal");
+    }
+    // Of two inflated goals that overlap, the one listed first is served.
+    auto near = others(i, [&](std::size_t j) {
+      return j < i && !stays_[j] && overlap(i, goal, j, fleet_.robot(j).goal->position);
+    });
+    if (near.empty()) return;
+    give_up(i, Reason::goal_blocked, "the inflated robot overlaps another one's goal at its goal",
+            std::move(near));
+  }
+
+  void check_way(std::size_t i) {
+    if (stays_[i] || state_.goal_reachable(i, stop_)) return;
+    give_up(i, Reason::goal_unreachable,
+            "no way leads from the start to the goal that is wide enough for the robot");
+  }
+
+  bool check_standing_on_goal(std::size_t i) {
+    if (stays_[i]) return false;
+    const Position& goal = fleet_.robot(i).goal->position;
+    auto near = others(
+        i, [&](std::size_t j) { return stays_[j] && overlap(i, goal, j, fleet_.robot(j).start.position); });
+    if (near.empty()) return false;
+    give_up(i, Reason::goal_blocked, "a robot that stays where it is stands in the way at the goal",
+            std::move(near));
+    return true;
+  }
+
+  FleetState& state_;
+  const Fleet& fleet_;
+  const StopCondition& stop_;
+  std::vector<std::optional<Unplanned>> unplanned_;
+  std::vector<bool> stays_;
+};
+
+}  // namespace
+
+std::vector<std::optional<Unplanned>> triage(FleetState& state, const StopCondition& stop) {
+  return Triage(state, stop).run();
+}
+
+}  // namespace fleetplan::core
