@@ -1,0 +1,158 @@
+// Paints a scene on a canvas. What stands still while a plan plays (map, starts, goals, paths) is painted on a
+// backdrop once for each camera; a frame is a copy of it and the robots.
+
+import { drawTiles, rasterize } from "./map_raster.js";
+import { drawGoal, drawPath, drawRobot, drawStart } from "./marks.js";
+import { robotColour } from "./palette.js";
+import { robotPoseAt } from "./scene.js";
+import { remainingPath } from "./timeline.js";
+import { toScreen } from "./view.js";
+
+const GRID_LINES_FROM = 14; // pixels a cell: below, lines would only grey the floor
+
+export class Painter {
+  #canvas;
+  #context;
+  #backdrop = document.createElement("canvas");
+  #backdropKey = null;
+  #scene = null;
+  #tracks = null;
+  #theme = null;
+  #tiles = [];
+  #colours = [];
+
+  constructor(canvas) {
+    this.#canvas = canvas;
+    this.#context = canvas.getContext("2d");
+  }
+
+  /** What to paint from now on. */
+  show(scene, tracks, theme) {
+    if (scene.grid !== this.#scene?.grid || theme !== this.#theme) {
+      this.#tiles = scene.grid ? rasterize(scene.grid, theme.wall) : [];
+    }
+    this.#colours = scene.robots.map(({ index }) => robotColour(index, theme.robotLightness));
+    this.#scene = scene;
+    this.#tracks = tracks;
+    this.#theme = theme;
+    this.#backdropKey = null;
+  }
+
+  /** Paints the moment `time`; `marked` are the ids to bring out. */
+  paint({ camera, viewport, ratio, time, marked }) {
+    if (!this.#scene || viewport.width === 0) return;
+    const width = Math.round(viewport.width * ratio);
+    const height = Math.round(viewport.height * ratio);
+    if (this.#canvas.width !== width || this.#canvas.height !== height) {
+      this.#canvas.width = width;
+      this.#canvas.height = height;
+    }
+    this.#refreshBackdrop(camera, viewport, ratio, width, height);
+    const context = this.#context;
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.drawImage(this.#backdrop, 0, 0);
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.#paintMarkedPaths(context, camera, viewport, time, marked);
+    this.#paintRobots(context, camera, viewport, time, marked);
+  }
+
+  #refreshBackdrop(camera, viewport, ratio, width, height) {
+    const key = [camera.x, camera.y, camera.scale, width, height, ratio].join();
+    if (key === this.#backdropKey) return;
+    this.#backdropKey = key;
+    this.#backdrop.width = width;
+    this.#backdrop.height = height;
+    const context = this.#backdrop.getContext("2d", { alpha: false });
+    context.fillStyle = this.#theme.void;
+    context.fillRect(0, 0, width, height);
+    if (this.#scene.grid) this.#paintMap(context, camera, viewport, ratio);
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.#paintPlan(context, camera, viewport);
+  }
+
+  #paintMap(context, camera, viewport, ratio) {
+    const { bounds, columns, rows, resolution } = this.#scene.grid;
+    const corner = toScreen(camera, viewport, { x: bounds.left, y: bounds.top });
+    const [left, top, cell] = [corner.x * ratio, corner.y * ratio, camera.scale * resolution * ratio];
+    const [x, y] = [Math.round(left), Math.round(top)];
+    const width = Math.round(left + columns * cell) - x;
+    const height = Math.round(top + rows * cell) - y;
+    context.fillStyle = this.#theme.floor;
+    context.fillRect(x, y, width, height);
+    if (cell >= GRID_LINES_FROM * ratio) {
+      paintGridLines(context, { left, top, cell, columns, rows }, this.#theme.grid);
+    }
+    drawTiles(context, this.#tiles, left, top, cell);
+    const line = Math.max(1, Math.round(ratio));
+    context.strokeStyle = this.#theme.edge;
+    context.lineWidth = line;
+    context.strokeRect(x - line / 2, y - line / 2, width + line, height + line);
+  }
+
+  #paintPlan(context, camera, viewport) {
+    this.#scene.robots.forEach((robot, at) => {
+      const track = this.#tracks.get(robot.id);
+      const screen = (point) => toScreen(camera, viewport, point);
+      const radius = robot.radius * camera.scale;
+      const colour = this.#colours[at];
+      if (track.path.length > 1) drawPath(context, track.path.map(screen), colour, { width: 1.25, alpha: 0.34 });
+      if (track.actions.length > 0) drawStart(context, screen(robot.start), radius, colour);
+      if (robot.goal) drawGoal(context, screen(robot.goal), robot.goal.theta, radius, colour);
+    });
+  }
+
+  #paintMarkedPaths(context, camera, viewport, time, marked) {
+    this.#scene.robots.forEach((robot, at) => {
+      if (!marked.has(robot.id)) return;
+      const track = this.#tracks.get(robot.id);
+      const screen = (point) => toScreen(camera, viewport, point);
+      if (track.path.length > 1) {
+        const rest = remainingPath(track.actions, robot.start, time).map(screen);
+        drawPath(context, rest, this.#colours[at], { width: 3, alpha: 0.95 });
+      } else if (robot.goal && track.status !== "planned") {
+        drawPath(context, [robot.start, robot.goal].map(screen), this.#colours[at], {
+          width: 1.5,
+          alpha: 0.8,
+          dashes: [3, 5],
+        });
+      }
+    });
+  }
+
+  #paintRobots(context, camera, viewport, time, marked) {
+    const theme = this.#theme;
+    const order = this.#scene.robots.map((_, at) => at);
+    order.sort((a, b) => marked.has(this.#scene.robots[a].id) - marked.has(this.#scene.robots[b].id));
+    for (const at of order) {
+      const robot = this.#scene.robots[at];
+      const track = this.#tracks.get(robot.id);
+      const pose = robotPoseAt(robot, track, time);
+      const centre = toScreen(camera, viewport, pose);
+      const radius = robot.radius * camera.scale;
+      const beyond = radius + 40;
+      if (centre.x < -beyond || centre.x > viewport.width + beyond) continue;
+      if (centre.y < -beyond || centre.y > viewport.height + beyond) continue;
+      drawRobot(context, theme, {
+        centre,
+        theta: pose.theta,
+        radius,
+        colour: this.#colours[at],
+        label: robot.label,
+        unplanned: track.status === "unplanned",
+        name: marked.has(robot.id) ? robot.id : null,
+      });
+    }
+  }
+}
+
+function paintGridLines(context, { left, top, cell, columns, rows }, colour) {
+  context.fillStyle = colour;
+  const right = Math.round(left + columns * cell);
+  const bottom = Math.round(top + rows * cell);
+  for (let column = 1; column < columns; column += 1) {
+    context.fillRect(Math.round(left + column * cell), Math.round(top), 1, bottom - Math.round(top));
+  }
+  for (let row = 1; row < rows; row += 1) {
+    context.fillRect(Math.round(left), Math.round(top + row * cell), right - Math.round(left), 1);
+  }
+}

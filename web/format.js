@@ -1,0 +1,18 @@
+// Numbers for people.
+
+export const seconds = (value) => `${value.toFixed(2)} s`;
+
+export function milliseconds(value) {
+  if (value >= 1000) return `${(value / 1000).toFixed(2)} s`;
+  return `${value.toFixed(value < 10 ? 2 : 0)} ms`;
+}
+
+export function metres(value) {
+  if (Math.abs(value) < 5e-6) return "0 mm";
+  if (Math.abs(value) < 1) return `${(value * 1000).toFixed(Math.abs(value) < 0.01 ? 2 : 0)} mm`;
+  return `${value.toFixed(2)} m`;
+}
+
+export const count = (value, one, many = `${one}s`) => `${value.toLocaleString("en")} ${value === 1 ? one : many}`;
+
+export const degrees = (radians) => `${Math.round((radians * 180) / Math.PI)}°`;

@@ -1,0 +1,64 @@
+// Pointer, wheel and pinch on the scene, told as camera movements. Positions in CSS pixels within the element.
+
+const CLICK_SLACK = 4; // pixels: a press that moved less is a click
+
+/**
+ * Watches an element. `told` has: pan(dx, dy), zoom(pixel, factor), hover(pixel or null), click(pixel).
+ */
+export function watchGestures(element, told) {
+  const pressed = new Map(); // pointer id -> last position
+  let travelled = 0;
+
+  const within = (event) => {
+    const box = element.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  };
+
+  element.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    element.setPointerCapture(event.pointerId);
+    if (pressed.size === 0) travelled = 0;
+    pressed.set(event.pointerId, within(event));
+  });
+
+  element.addEventListener("pointermove", (event) => {
+    const now = within(event);
+    const before = pressed.get(event.pointerId);
+    if (!before) {
+      if (event.pointerType === "mouse") told.hover(now);
+      return;
+    }
+    travelled += Math.hypot(now.x - before.x, now.y - before.y);
+    if (pressed.size === 1) {
+      if (travelled > CLICK_SLACK) told.pan(now.x - before.x, now.y - before.y);
+    } else if (pressed.size === 2) {
+      const [other] = [...pressed].filter(([id]) => id !== event.pointerId).map(([, position]) => position);
+      pinch(other, before, now);
+    }
+    pressed.set(event.pointerId, now);
+  });
+
+  /** One finger rests at `other`, one moved: half of the move pans, the change of their distance zooms. */
+  function pinch(other, before, now) {
+    told.pan((now.x - before.x) / 2, (now.y - before.y) / 2);
+    const apart = Math.hypot(before.x - other.x, before.y - other.y);
+    if (apart < 1) return;
+    const middle = { x: (now.x + other.x) / 2, y: (now.y + other.y) / 2 };
+    told.zoom(middle, Math.hypot(now.x - other.x, now.y - other.y) / apart);
+  }
+
+  element.addEventListener("pointerup", (event) => {
+    const known = pressed.delete(event.pointerId);
+    if (known && pressed.size === 0 && travelled <= CLICK_SLACK) told.click(within(event));
+  });
+  element.addEventListener("pointercancel", (event) => pressed.delete(event.pointerId));
+  element.addEventListener("pointerleave", () => told.hover(null));
+
+  const onWheel = (event) => {
+    event.preventDefault();
+    const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
+    const pixels = Math.max(-240, Math.min(240, event.deltaY * lines));
+    told.zoom(within(event), Math.exp(-pixels * (event.ctrlKey ? 0.01 : 0.002)));
+  };
+  element.addEventListener("wheel", onWheel, { passive: false });
+}

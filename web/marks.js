@@ -1,0 +1,145 @@
+// The marks of a scene: robots, starts, goals, paths. Positions and sizes in CSS pixels, angles in radians,
+// counter-clockwise as in the world.
+
+const SMALLEST_DOT = 2.5; // a robot of fewer pixels is shown as a dot of this radius
+const SMALLEST_LABEL = 8; // font pixels
+
+/** A robot as a disk with a wedge where it heads; one without a plan is hollow and crossed out. */
+export function drawRobot(context, theme, { centre, theta, radius, colour, label, unplanned, name }) {
+  const shown = Math.max(radius, SMALLEST_DOT);
+  if (name !== null) drawHalo(context, centre, shown, theme);
+  if (unplanned) drawStuck(context, theme, centre, theta, shown, colour);
+  else drawDisk(context, theme, centre, theta, shown, colour, label);
+  if (name !== null) drawName(context, theme, centre, shown, name);
+}
+
+/** Where a robot stood at first: a faint ring. */
+export function drawStart(context, centre, radius, colour) {
+  if (radius < SMALLEST_DOT) return;
+  ring(context, centre, radius - 0.5, colour, { width: 1, alpha: 0.45, dashes: [2, 3] });
+}
+
+/** A goal: a ring and, if the heading matters, a tick across it where the robot will face. */
+export function drawGoal(context, centre, theta, radius, colour) {
+  const shown = Math.max(radius, SMALLEST_DOT);
+  const width = Math.min(2, Math.max(1, shown / 6));
+  ring(context, centre, shown - width / 2, colour, { width, alpha: 0.9, dashes: [] });
+  if (theta === null || shown < 4) return;
+  context.save();
+  context.globalAlpha = 0.9;
+  context.strokeStyle = colour;
+  context.lineWidth = Math.min(2.5, width * 1.4);
+  context.lineCap = "round";
+  context.beginPath();
+  context.moveTo(centre.x + Math.cos(theta) * shown * 0.5, centre.y - Math.sin(theta) * shown * 0.5);
+  context.lineTo(centre.x + Math.cos(theta) * shown * 1.3, centre.y - Math.sin(theta) * shown * 1.3);
+  context.stroke();
+  context.restore();
+}
+
+export function drawPath(context, points, colour, { width, alpha, dashes = [] }) {
+  if (points.length < 2) return;
+  context.save();
+  context.globalAlpha = alpha;
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.lineJoin = context.lineCap = "round";
+  context.setLineDash(dashes);
+  context.beginPath();
+  context.moveTo(points[0].x, points[0].y);
+  for (let at = 1; at < points.length; at += 1) context.lineTo(points[at].x, points[at].y);
+  context.stroke();
+  context.restore();
+}
+
+function drawDisk(context, theme, centre, theta, radius, colour, label) {
+  context.beginPath();
+  context.arc(centre.x, centre.y, radius, 0, 2 * Math.PI);
+  context.fillStyle = colour;
+  context.fill();
+  if (radius < 4) return;
+  const labelled = drawLabel(context, theme, centre, radius, label);
+  context.save();
+  context.translate(centre.x, centre.y);
+  context.rotate(-theta);
+  context.fillStyle = theme.floor;
+  context.beginPath();
+  context.moveTo(radius * 0.92, 0);
+  if (labelled) {
+    context.lineTo(radius * 0.66, radius * 0.3);
+    context.lineTo(radius * 0.66, -radius * 0.3);
+  } else {
+    context.lineTo(-radius * 0.32, radius * 0.5);
+    context.lineTo(-radius * 0.06, 0);
+    context.lineTo(-radius * 0.32, -radius * 0.5);
+  }
+  context.closePath();
+  context.fill();
+  context.restore();
+}
+
+/** Writes the label in the disk if there is room; whether it did. */
+function drawLabel(context, theme, centre, radius, label) {
+  const size = Math.min(15, radius * 0.82);
+  if (size < SMALLEST_LABEL) return false;
+  context.font = `600 ${size.toFixed(1)}px ${theme.font}`;
+  if (context.measureText(label).width > radius * 1.2) return false;
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  context.fillStyle = theme.floor;
+  context.fillText(label, centre.x, centre.y + size * 0.06);
+  return true;
+}
+
+function drawStuck(context, theme, centre, theta, radius, colour) {
+  context.beginPath();
+  context.arc(centre.x, centre.y, radius, 0, 2 * Math.PI);
+  context.fillStyle = theme.floor;
+  context.fill();
+  const width = Math.min(2.5, Math.max(1.5, radius / 6));
+  ring(context, centre, radius - width / 2, colour, { width, alpha: 1, dashes: [] });
+  const arm = radius * 0.4;
+  context.save();
+  context.strokeStyle = theme.danger;
+  context.lineWidth = width;
+  context.lineCap = "round";
+  context.beginPath();
+  context.moveTo(centre.x - arm, centre.y - arm);
+  context.lineTo(centre.x + arm, centre.y + arm);
+  context.moveTo(centre.x + arm, centre.y - arm);
+  context.lineTo(centre.x - arm, centre.y + arm);
+  context.stroke();
+  context.restore();
+}
+
+function drawHalo(context, centre, radius, theme) {
+  ring(context, centre, radius + 4, theme.ink, { width: 2, alpha: 0.85, dashes: [] });
+}
+
+function drawName(context, theme, centre, radius, name) {
+  context.save();
+  context.font = `600 12px ${theme.font}`;
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  const width = context.measureText(name).width + 12;
+  const y = centre.y - radius - 17;
+  context.fillStyle = theme.ink;
+  context.beginPath();
+  context.roundRect(centre.x - width / 2, y - 9, width, 18, 5);
+  context.fill();
+  context.fillStyle = theme.floor;
+  context.fillText(name, centre.x, y + 0.5);
+  context.restore();
+}
+
+function ring(context, centre, radius, colour, { width, alpha, dashes }) {
+  context.save();
+  context.globalAlpha = alpha;
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.setLineDash(dashes);
+  context.beginPath();
+  context.arc(centre.x, centre.y, Math.max(0, radius), 0, 2 * Math.PI);
+  context.stroke();
+  context.restore();
+}

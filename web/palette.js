@@ -1,0 +1,25 @@
+// Colours. What the canvas draws with comes from the style sheet's custom properties, so that light and dark
+// are decided in one place; robots get hues of even strength that stay readable on either.
+
+// Degrees in OKLCH, ordered so that neighbours differ most; red is kept for what went wrong.
+const HUES = [256, 62, 150, 325, 200, 98, 290, 175, 46, 232, 128, 345];
+const GOLDEN_ANGLE = 137.508;
+
+/** The colour of the robot at an index, as a CSS colour; `lightness` in [0, 1]. */
+export function robotColour(index, lightness) {
+  const round = Math.floor(index / HUES.length);
+  const hue = round === 0 ? HUES[index] : (HUES[index % HUES.length] + round * GOLDEN_ANGLE) % 360;
+  const shade = lightness + [0, -0.09, 0.08][round % 3];
+  return `oklch(${shade.toFixed(3)} 0.145 ${hue.toFixed(1)})`;
+}
+
+const NAMES = ["void", "floor", "wall", "grid", "edge", "ink", "muted", "danger", "accent"];
+
+/** The canvas's colours under the present theme. */
+export function readTheme() {
+  const style = getComputedStyle(document.documentElement);
+  const theme = { robotLightness: Number(style.getPropertyValue("--robot-lightness")) };
+  for (const name of NAMES) theme[name] = style.getPropertyValue(`--scene-${name}`).trim();
+  theme.font = getComputedStyle(document.body).fontFamily;
+  return theme;
+}

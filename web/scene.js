@@ -1,0 +1,111 @@
+// What there is to draw of a request and its answer. Reads requests generously: a faulty one is drawn as far as
+// it makes sense, since telling its faults is the service's part.
+
+import { doingAt, pathOf, poseAt } from "./timeline.js";
+
+const FREE = new Set([".", "G"]);
+
+/** The map as {columns, rows, resolution, origin, blocked, bounds}; blocked[row * columns + column], top row first. */
+function readGrid(map) {
+  const lines = Array.isArray(map?.rows) ? map.rows.filter((row) => typeof row === "string") : [];
+  const columns = lines.reduce((most, row) => Math.max(most, row.length), 0);
+  if (columns === 0) return null;
+  const resolution = positive(map.resolution) ? map.resolution : 1;
+  const origin = { x: finiteOr(map.origin?.x, 0), y: finiteOr(map.origin?.y, 0) };
+  const blocked = new Uint8Array(columns * lines.length);
+  lines.forEach((line, row) => {
+    for (let column = 0; column < columns; column += 1) {
+      blocked[row * columns + column] = FREE.has(line[column]) ? 0 : 1;
+    }
+  });
+  const bounds = {
+    left: origin.x,
+    bottom: origin.y,
+    right: origin.x + columns * resolution,
+    top: origin.y + lines.length * resolution,
+  };
+  return { columns, rows: lines.length, resolution, origin, blocked, bounds };
+}
+
+function readRobots(request) {
+  const listed = Array.isArray(request?.robots) ? request.robots : [];
+  const robots = [];
+  listed.forEach((robot, index) => {
+    const radius = robot?.radius ?? request.robot_defaults?.radius;
+    const start = readPose(robot?.start);
+    if (!start || !positive(radius)) return;
+    const id = typeof robot.id === "string" ? robot.id : `#${index}`;
+    const goal = readPose(robot.goal);
+    robots.push({ index, id, radius, start: { ...start, theta: start.theta ?? 0 }, goal });
+  });
+  return robots;
+}
+
+function readPose(pose) {
+  if (!Number.isFinite(pose?.x) || !Number.isFinite(pose?.y)) return null;
+  return { x: pose.x, y: pose.y, theta: Number.isFinite(pose.theta) ? pose.theta : null };
+}
+
+/** The scene of a parsed request: {grid, robots}; the grid is null when there is no map to draw. */
+export function readScene(request) {
+  const robots = readRobots(request);
+  const shared = commonPrefixLength(robots.map(({ id }) => id));
+  for (const robot of robots) robot.label = robot.id.slice(shared);
+  return { grid: readGrid(request?.map), robots };
+}
+
+/**
+ * What each robot of the scene does, by id: {status, actions, path, cost, unplanned}. The status is "ready" before
+ * there is an answer, then "planned", "parked" (it has no goal) or "unplanned".
+ */
+export function readTracks(scene, answer) {
+  const plans = new Map((answer?.plans ?? []).map((plan) => [plan.robot, plan]));
+  const failures = new Map((answer?.unplanned ?? []).map((entry) => [entry.robot, entry]));
+  const tracks = new Map();
+  for (const robot of scene.robots) {
+    const actions = plans.get(robot.id)?.actions ?? [];
+    tracks.set(robot.id, {
+      status: statusOf(robot, plans, failures),
+      actions,
+      path: pathOf(actions),
+      cost: plans.get(robot.id)?.cost ?? null,
+      unplanned: failures.get(robot.id) ?? null,
+    });
+  }
+  return tracks;
+}
+
+function statusOf(robot, plans, failures) {
+  if (failures.has(robot.id)) return "unplanned";
+  if (!robot.goal) return "parked";
+  return plans.has(robot.id) ? "planned" : "ready";
+}
+
+/** The pose of a robot at t on its track. */
+export function robotPoseAt(robot, track, t) {
+  return poseAt(track.actions, robot.start, t);
+}
+
+/** One word for what a robot does at t. */
+export function robotStateAt(track, t) {
+  return track.status === "planned" ? doingAt(track.actions, t) : track.status;
+}
+
+/** How many leading characters all ids share, never splitting a number nor leaving an id empty. */
+function commonPrefixLength(ids) {
+  if (ids.length < 2) return 0;
+  let length = 0;
+  while (length < ids[0].length - 1 && ids.every((id) => id.length > length + 1 && id[length] === ids[0][length])) {
+    length += 1;
+  }
+  while (length > 0 && /\d/.test(ids[0][length - 1])) length -= 1;
+  return length;
+}
+
+function positive(value) {
+  return Number.isFinite(value) && value > 0;
+}
+
+function finiteOr(value, otherwise) {
+  return Number.isFinite(value) ? value : otherwise;
+}

@@ -1,0 +1,64 @@
+// The camera: between the world (metres, x right, y up) and the screen (CSS pixels, x right, y down). Pure.
+// A camera is {x, y, scale}: the world point in the middle of the viewport and pixels per metre. A viewport is
+// {width, height}, bounds are {left, bottom, right, top}.
+
+const LARGEST_CELL = 240; // pixels: how far one can zoom in
+const SMALLEST_SHARE = 0.5; // of the fitted scale: how far one can zoom out
+
+export function toScreen(camera, viewport, point) {
+  return {
+    x: viewport.width / 2 + (point.x - camera.x) * camera.scale,
+    y: viewport.height / 2 - (point.y - camera.y) * camera.scale,
+  };
+}
+
+export function toWorld(camera, viewport, pixel) {
+  return {
+    x: camera.x + (pixel.x - viewport.width / 2) / camera.scale,
+    y: camera.y - (pixel.y - viewport.height / 2) / camera.scale,
+  };
+}
+
+/** The camera that shows all of the bounds, `margin` pixels clear of the viewport's edges. */
+export function fit(bounds, viewport, margin) {
+  const width = Math.max(bounds.right - bounds.left, 1e-9);
+  const height = Math.max(bounds.top - bounds.bottom, 1e-9);
+  const across = Math.max(viewport.width - 2 * margin, 1);
+  const down = Math.max(viewport.height - 2 * margin, 1);
+  return {
+    x: (bounds.left + bounds.right) / 2,
+    y: (bounds.bottom + bounds.top) / 2,
+    scale: Math.min(across / width, down / height),
+  };
+}
+
+/** The smallest and largest sensible scale for a map of these bounds and cell size. */
+export function scaleLimits(bounds, viewport, margin, resolution) {
+  const fitted = fit(bounds, viewport, margin).scale;
+  return { min: fitted * SMALLEST_SHARE, max: Math.max(LARGEST_CELL / resolution, fitted) };
+}
+
+/** Zooms by `factor`; the world point under the pixel stays under it. */
+export function zoomAt(camera, viewport, pixel, factor, limits) {
+  const scale = Math.min(limits.max, Math.max(limits.min, camera.scale * factor));
+  const held = toWorld(camera, viewport, pixel);
+  return {
+    x: held.x - (pixel.x - viewport.width / 2) / scale,
+    y: held.y + (pixel.y - viewport.height / 2) / scale,
+    scale,
+  };
+}
+
+/** Moves what is seen by dx, dy pixels. */
+export function panBy(camera, dx, dy) {
+  return { ...camera, x: camera.x - dx / camera.scale, y: camera.y + dy / camera.scale };
+}
+
+/** Keeps the middle of the viewport within the bounds, so that the map cannot be lost. */
+export function keepInSight(camera, bounds) {
+  return {
+    ...camera,
+    x: Math.min(bounds.right, Math.max(bounds.left, camera.x)),
+    y: Math.min(bounds.top, Math.max(bounds.bottom, camera.y)),
+  };
+}
