@@ -1,6 +1,9 @@
 // Numbers for people.
 
-export const seconds = (value) => `${value.toFixed(2)} s`;
+export function seconds(value) {
+  const digits = value < 1000 ? 2 : 1;
+  return `${value.toLocaleString("en", { minimumFractionDigits: digits, maximumFractionDigits: digits })} s`;
+}
 
 export function milliseconds(value) {
   if (value >= 1000) return `${(value / 1000).toFixed(2)} s`;

@@ -66,8 +66,8 @@ function drawDisk(context, theme, centre, theta, radius, colour, label) {
   context.beginPath();
   context.moveTo(radius * 0.92, 0);
   if (labelled) {
-    context.lineTo(radius * 0.66, radius * 0.3);
-    context.lineTo(radius * 0.66, -radius * 0.3);
+    context.lineTo(radius * 0.7, radius * 0.28);
+    context.lineTo(radius * 0.7, -radius * 0.28);
   } else {
     context.lineTo(-radius * 0.32, radius * 0.5);
     context.lineTo(-radius * 0.06, 0);
@@ -80,10 +80,13 @@ function drawDisk(context, theme, centre, theta, radius, colour, label) {
 
 /** Writes the label in the disk if there is room; whether it did. */
 function drawLabel(context, theme, centre, radius, label) {
-  const size = Math.min(15, radius * 0.82);
+  const widest = Math.min(15, radius * 0.82);
+  if (widest < SMALLEST_LABEL) return false;
+  context.font = `600 ${widest.toFixed(1)}px ${theme.font}`;
+  const share = Math.min(1, (radius * 1.1) / context.measureText(label).width);
+  const size = widest * share;
   if (size < SMALLEST_LABEL) return false;
-  context.font = `600 ${size.toFixed(1)}px ${theme.font}`;
-  if (context.measureText(label).width > radius * 1.2) return false;
+  if (share < 1) context.font = `600 ${size.toFixed(1)}px ${theme.font}`;
   context.textAlign = "center";
   context.textBaseline = "middle";
   context.fillStyle = theme.floor;

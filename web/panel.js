@@ -71,13 +71,14 @@ export function showSummary(answer) {
     box.replaceChildren();
     return;
   }
+  const timings = answer.timings_ms;
   const figures = element(
     "dl",
     { class: "figures" },
-    figure("Flowtime", seconds(answer.flowtime), bound(answer.flowtime, answer.lower_bound.flowtime)),
-    figure("Makespan", seconds(answer.makespan), bound(answer.makespan, answer.lower_bound.makespan)),
+    figure("Flowtime", seconds(answer.flowtime), ...bound(answer.flowtime, answer.lower_bound.flowtime)),
+    figure("Makespan", seconds(answer.makespan), ...bound(answer.makespan, answer.lower_bound.makespan)),
     figure("Smallest gap", answer.min_clearance === null ? "–" : metres(answer.min_clearance), "between two robots"),
-    figure("Planned in", milliseconds(answer.timings_ms.plan), effort(answer)),
+    figure("Planned in", milliseconds(timings.plan), count(answer.search.expansions, "expansion"), `${milliseconds(timings.total)} in all`),
   );
   box.replaceChildren(badges(answer), figures);
   if (answer.warnings.length > 0) box.append(warningList(answer.warnings));
@@ -102,18 +103,14 @@ function badge(text, tone, path, title = "") {
   return element("span", { class: `badge ${tone}`, title }, path ? icon(path) : null, text);
 }
 
-function figure(name, value, note) {
-  const small = note ? element("small", { textContent: note }) : null;
-  return element("div", {}, element("dt", { textContent: name }), element("dd", {}, value, small));
+function figure(name, value, ...notes) {
+  const small = notes.filter((note) => note !== "").map((textContent) => element("small", { textContent }));
+  return element("div", {}, element("dt", { textContent: name }), element("dd", {}, value, ...small));
 }
 
 function bound(value, least) {
-  if (!(least > 0)) return "";
-  return `${(value / least).toFixed(3)} × bound ${seconds(least)}`;
-}
-
-function effort({ search, timings_ms }) {
-  return `${count(search.expansions, "expansion")}, ${milliseconds(timings_ms.total)} in all`;
+  if (!(least > 0)) return [];
+  return [`lower bound ${seconds(least)}`, `${(value / least).toFixed(3)} times that`];
 }
 
 function warningList(warnings) {

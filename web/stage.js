@@ -7,7 +7,8 @@ import { readTheme } from "./palette.js";
 import { robotPoseAt } from "./scene.js";
 import { fit, keepInSight, panBy, scaleLimits, toScreen, toWorld, zoomAt } from "./view.js";
 
-const MARGIN = 28; // pixels left free around a fitted map
+const MARGIN = 24; // pixels left free around a fitted map
+const HEADROOM = 64; // pixels above it, where the view's buttons are
 const KEY_PAN = 60; // pixels
 const KEY_ZOOM = 1.4;
 const REACH = 6; // pixels around a small robot that still pick it
@@ -70,7 +71,7 @@ export class Stage {
 
   fit() {
     this.#fitted = true;
-    if (this.#viewport.width > 0) this.#camera = fit(this.#bounds(), this.#viewport, this.#margin());
+    if (this.#viewport.width > 0) this.#camera = fit(this.#bounds(), this.#viewport, this.#insets());
     this.#schedule();
   }
 
@@ -101,8 +102,9 @@ export class Stage {
     return { x: this.#viewport.width / 2, y: this.#viewport.height / 2 };
   }
 
-  #margin() {
-    return Math.min(MARGIN, this.#viewport.width * 0.04);
+  #insets() {
+    const margin = Math.min(MARGIN, this.#viewport.width * 0.03);
+    return { left: margin, right: margin, bottom: margin, top: HEADROOM };
   }
 
   #bounds() {
@@ -117,7 +119,7 @@ export class Stage {
 
   #zoom(pixel, factor) {
     const cell = this.#scene.grid?.resolution ?? 1;
-    const limits = scaleLimits(this.#bounds(), this.#viewport, this.#margin(), cell);
+    const limits = scaleLimits(this.#bounds(), this.#viewport, this.#insets(), cell);
     this.#move(zoomAt(this.#camera, this.#viewport, pixel, factor, limits));
   }
 

@@ -19,22 +19,26 @@ export function toWorld(camera, viewport, pixel) {
   };
 }
 
-/** The camera that shows all of the bounds, `margin` pixels clear of the viewport's edges. */
-export function fit(bounds, viewport, margin) {
+/**
+ * The camera that shows all of the bounds in the middle of the viewport less its insets, pixels {left, top, right,
+ * bottom} to keep clear.
+ */
+export function fit(bounds, viewport, insets) {
   const width = Math.max(bounds.right - bounds.left, 1e-9);
   const height = Math.max(bounds.top - bounds.bottom, 1e-9);
-  const across = Math.max(viewport.width - 2 * margin, 1);
-  const down = Math.max(viewport.height - 2 * margin, 1);
+  const across = Math.max(viewport.width - insets.left - insets.right, 1);
+  const down = Math.max(viewport.height - insets.top - insets.bottom, 1);
+  const scale = Math.min(across / width, down / height);
   return {
-    x: (bounds.left + bounds.right) / 2,
-    y: (bounds.bottom + bounds.top) / 2,
-    scale: Math.min(across / width, down / height),
+    x: (bounds.left + bounds.right) / 2 + (insets.right - insets.left) / 2 / scale,
+    y: (bounds.bottom + bounds.top) / 2 + (insets.top - insets.bottom) / 2 / scale,
+    scale,
   };
 }
 
 /** The smallest and largest sensible scale for a map of these bounds and cell size. */
-export function scaleLimits(bounds, viewport, margin, resolution) {
-  const fitted = fit(bounds, viewport, margin).scale;
+export function scaleLimits(bounds, viewport, insets, resolution) {
+  const fitted = fit(bounds, viewport, insets).scale;
   return { min: fitted * SMALLEST_SHARE, max: Math.max(LARGEST_CELL / resolution, fitted) };
 }
 
