@@ -1,0 +1,72 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { readScene, readTracks, robotPoseAt, robotStateAt } from "../../../web/scene.js";
+
+const REQUEST = {
+  map: { rows: ["#.", ".G", "@T"], resolution: 0.5, origin: { x: 10, y: -2 } },
+  robot_defaults: { radius: 0.2 },
+  robots: [
+    { id: "amr-1", start: { x: 10.25, y: -1.25, theta: 1 }, goal: { x: 10.75, y: -1.25 } },
+    { id: "amr-2", radius: 0.1, start: { x: 10.75, y: -0.75 }, goal: { x: 10.25, y: -1.25, theta: 0 } },
+    { id: "amr-30", start: { x: 10.75, y: -1.25 } },
+  ],
+};
+
+test("the first row is the top of the map", () => {
+  const { grid } = readScene(REQUEST);
+  assert.deepEqual([...grid.blocked], [1, 0, 0, 0, 1, 1]);
+  assert.deepEqual(grid.bounds, { left: 10, bottom: -2, right: 11, top: -0.5 });
+});
+
+test("a robot takes what it does not say from the defaults", () => {
+  const { robots } = readScene(REQUEST);
+  assert.deepEqual(robots.map(({ radius }) => radius), [0.2, 0.1, 0.2]);
+  assert.deepEqual(robots.map(({ start }) => start.theta), [1, 0, 0]);
+  assert.deepEqual(robots.map(({ goal }) => goal?.theta), [null, 0, undefined]);
+});
+
+test("labels leave out what all ids begin with but never split a number", () => {
+  const labels = (...ids) =>
+    readScene({ robots: ids.map((id) => ({ id, radius: 1, start: { x: 0, y: 0 } })) }).robots.map(({ label }) => label);
+  assert.deepEqual(labels("amr-1", "amr-2", "amr-30"), ["1", "2", "30"]);
+  assert.deepEqual(labels("r10", "r11"), ["10", "11"]);
+  assert.deepEqual(labels("east", "west"), ["east", "west"]);
+  assert.deepEqual(labels("solo"), ["solo"]);
+});
+
+test("a faulty request is read as far as it makes sense", () => {
+  assert.equal(readScene(null).grid, null);
+  assert.equal(readScene({ map: { rows: "..." } }).grid, null);
+  assert.equal(readScene({ map: { rows: [] }, robots: {} }).robots.length, 0);
+  const odd = { map: { rows: ["..", 7, "."], resolution: -1 }, robots: [null, { id: "a" }, REQUEST.robots[1]] };
+  const scene = readScene(odd);
+  assert.deepEqual([scene.grid.columns, scene.grid.rows, scene.grid.resolution], [2, 2, 1]);
+  assert.deepEqual(scene.robots.map(({ id, index }) => [id, index]), [["amr-2", 2]]);
+});
+
+test("before an answer robots are ready or parked where they start", () => {
+  const scene = readScene(REQUEST);
+  const tracks = readTracks(scene, null);
+  assert.deepEqual(scene.robots.map(({ id }) => robotStateAt(tracks.get(id), 0)), ["ready", "ready", "parked"]);
+  assert.deepEqual(robotPoseAt(scene.robots[0], tracks.get("amr-1"), 5), { x: 10.25, y: -1.25, theta: 1 });
+});
+
+test("an answer tells who moves, who stays and who has no plan", () => {
+  const from = { x: 10.25, y: -1.25, theta: 0 };
+  const to = { x: 10.75, y: -1.25, theta: 0 };
+  const move = { type: "translate", t_start: 0, t_end: 1, from, to };
+  const answer = {
+    plans: [
+      { robot: "amr-1", cost: 1, actions: [move] },
+      { robot: "amr-30", cost: 0, actions: [] },
+    ],
+    unplanned: [{ robot: "amr-2", reason: "goal_blocked", detail: "", blocked_by: [] }],
+  };
+  const scene = readScene(REQUEST);
+  const tracks = readTracks(scene, answer);
+  const states = (t) => scene.robots.map(({ id }) => robotStateAt(tracks.get(id), t));
+  assert.deepEqual(states(0.5), ["moving", "unplanned", "parked"]);
+  assert.deepEqual(states(1), ["arrived", "unplanned", "parked"]);
+  assert.deepEqual(tracks.get("amr-1").path.length, 2);
+});
