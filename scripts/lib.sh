@@ -1,0 +1,118 @@
+# Shared by the scripts in this folder: packages, users, builds. Sourced by bash with `set -euo pipefail`.
+#
+# After sourcing: ROOT is the project's folder and the current directory. Everything here talks on stderr, so
+# that stdout belongs to what a script runs.
+
+ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+cd "$ROOT"
+
+# What the server is built from; "package:command" is present too when the command comes from elsewhere.
+BUILD_PACKAGES=(g++:g++ cmake:cmake ninja-build:ninja pkgconf:pkg-config
+  libcpp-httplib-dev nlohmann-json3-dev libeigen3-dev libspdlog-dev libcli11-dev)
+# What the tests want beside it.
+TEST_PACKAGES=(libgtest-dev libgmock-dev clang-format:clang-format clang-tidy:clang-tidy
+  python3:python3 nodejs:node npm:npm chromium:chromium)
+
+say() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
+die() { say "$*"; exit 1; }
+
+# ---------------------------------------------------------------- packages
+
+# missing_packages PACKAGE[:COMMAND]...: prints the names of those that are not installed.
+missing_packages() {
+  local wanted installed
+  installed=$(dpkg-query -W -f '${Package} ${Status}\n' "${@%%:*}" 2>/dev/null || true)
+  for wanted in "$@"; do
+    grep -qxF "${wanted%%:*} install ok installed" <<<"$installed" && continue
+    [[ $wanted == *:* ]] && command -v "${wanted#*:}" >/dev/null && continue
+    printf '%s\n' "${wanted%%:*}"
+  done
+}
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
+}
+
+# need_packages PACKAGE[:COMMAND]...: installs what is missing, and asks for nothing when nothing is.
+need_packages() {
+  if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    die "this is not a Debian system (no apt-get). Install the equivalents of: ${*%%:*};" \
+      "then: cmake --preset serve && cmake --build --preset serve && build/serve/server/fleetplan"
+  fi
+  local missing
+  mapfile -t missing < <(missing_packages "$@")
+  [ ${#missing[@]} -gt 0 ] || return 0
+  if [ "$(id -u)" != 0 ] && ! command -v sudo >/dev/null; then
+    die "missing packages: ${missing[*]}. Run this once as root, or: apt-get install ${missing[*]}"
+  fi
+  say "installing ${missing[*]}"
+  local apt=(env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=600
+    -o Acquire::Retries=3 -o Dpkg::Use-Pty=0)
+  local log
+  log=$(mktemp)
+  if ! { as_root "${apt[@]}" update && as_root "${apt[@]}" install --no-install-recommends "${missing[@]}"; } \
+    >"$log" 2>&1 </dev/null; then
+    tail -n 20 "$log" >&2
+    rm -f "$log"
+    die "could not install: ${missing[*]}"
+  fi
+  rm -f "$log"
+}
+
+# ---------------------------------------------------------------- users
+
+# become_invoking_user SCRIPT [ARGS...]: when run through sudo, starts the script again as the user who called
+# sudo, so that what it builds belongs to that user; stays root if the project is not that user's to write in.
+become_invoking_user() {
+  [ "$(id -u)" = 0 ] && [ "${SUDO_UID:-0}" != 0 ] || return 0
+  local entry name home
+  entry=$(getent passwd "$SUDO_UID") || return 0
+  IFS=: read -r name _ _ _ _ home _ <<<"$entry"
+  local user=(setpriv --reuid "$SUDO_UID" --regid "${SUDO_GID:-$SUDO_UID}" --init-groups)
+  "${user[@]}" test -w "$ROOT" || return 0
+  if [ -e build ] && ! "${user[@]}" test -w build; then return 0; fi
+  exec "${user[@]}" env -u SUDO_UID -u SUDO_GID HOME="$home" USER="$name" LOGNAME="$name" "$@"
+}
+
+# need_writable_build: says what to do when an earlier run as root owns the build.
+need_writable_build() {
+  mkdir -p build 2>/dev/null || die "cannot write in $ROOT; run this as the user who owns it"
+  local other
+  other=$(find build -maxdepth 2 -type d ! -writable -print -quit)
+  [ -z "$other" ] || die "$ROOT/$other belongs to another user (built as root before?):" \
+    "sudo chown -R $(id -un) '$ROOT/build'"
+}
+
+# ---------------------------------------------------------------- builds
+
+# How many compilers at once: as many as CPUs, and as memory allows at 1 GiB each.
+build_jobs() {
+  local cpus kib limit
+  cpus=$(nproc)
+  kib=$(awk '/^MemAvailable:/ {print $2}' /proc/meminfo)
+  limit=$(cat /sys/fs/cgroup/memory.max 2>/dev/null || echo max)
+  if [ "$limit" != max ] && [ $((limit / 1024)) -lt "$kib" ]; then kib=$((limit / 1024)); fi
+  local fitting=$((kib / 1024 / 1024))
+  if [ "$fitting" -lt 1 ]; then fitting=1; fi
+  echo $((cpus < fitting ? cpus : fitting))
+}
+
+# configure PRESET: quiet unless it fails; starts afresh when the old configuration cannot be used, as after the
+# project was moved.
+configure() {
+  local log
+  log=$(mktemp)
+  if ! cmake --preset "$1" >"$log" 2>&1 && ! cmake --fresh --preset "$1" >"$log" 2>&1; then
+    cat "$log" >&2
+    rm -f "$log"
+    return 1
+  fi
+  rm -f "$log"
+}
+
+# build PRESET [TARGET...]: configures and builds.
+build() {
+  local preset=$1
+  shift
+  configure "$preset" && cmake --build --preset "$preset" -j "$(build_jobs)" ${1:+--target "$@"}
+}
