@@ -1,0 +1,123 @@
+// The distance to what is blocked: known cases, and brute force over all cells.
+
+#include "core/verify/obstacle_field.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "tests/support/ascii_map.h"
+
+namespace fleetplan::core {
+namespace {
+
+using support::ascii_map;
+
+constexpr double kNoLimit = 1e9;
+
+/// The distance of a point to the nearest blocked point, cell by cell.
+double plain_distance(const OccupancyGrid& grid, const Position& point) {
+  double least = std::min({point.x(), grid.width() - point.x(), point.y(), grid.height() - point.y()});
+  if (least <= 0.0) return 0.0;
+  const double size = grid.resolution();
+  for (int row = 0; row < grid.rows(); ++row) {
+    for (int column = 0; column < grid.columns(); ++column) {
+      if (!grid.blocked({column, row})) continue;
+      const double x = std::clamp(point.x(), column * size, (column + 1) * size);
+      const double y = std::clamp(point.y(), row * size, (row + 1) * size);
+      least = std::min(least, std::hypot(point.x() - x, point.y() - y));
+    }
+  }
+  return least;
+}
+
+OccupancyGrid random_grid(std::mt19937& random, double density) {
+  std::uniform_int_distribution<int> size(1, 25);
+  OccupancyGrid grid(size(random), size(random), std::uniform_real_distribution<double>(0.05, 2.0)(random));
+  for (int row = 0; row < grid.rows(); ++row) {
+    for (int column = 0; column < grid.columns(); ++column) {
+      if (std::bernoulli_distribution(density)(random)) grid.block({column, row});
+    }
+  }
+  return grid;
+}
+
+TEST(ObstacleField, OfAFreeMapIsItsEdge) {
+  const ObstacleField field(ascii_map({"....", "....", "...."}));
+  const auto nearest = field.nearest(Position(1, 1.5), Position(3.25, 1.5), kNoLimit);
+  ASSERT_TRUE(nearest.has_value());
+  EXPECT_TRUE(nearest->is_edge);
+  EXPECT_EQ(nearest->point.distance, 0.75);
+  EXPECT_EQ(nearest->point.fraction, 1.0);
+  EXPECT_FALSE(field.nearest(Position(1, 1.5), Position(3.25, 1.5), 0.75).has_value());
+}
+
+TEST(ObstacleField, WithoutReachHasNothing) {
+  const ObstacleField field(ascii_map({"#"}));
+  EXPECT_FALSE(field.nearest(Position(0.5, 0.5), Position(0.5, 0.5), 0.0).has_value());
+  EXPECT_FALSE(field.nearest(Position(0.5, 0.5), Position(7, 7), -1.0).has_value());
+}
+
+TEST(ObstacleField, TheFirstOfSeveralObstaclesEnteredCounts) {
+  const ObstacleField field(ascii_map({
+      ".........",
+      "..#..##..",
+      ".........",
+  }));
+  const auto forth = field.nearest(Position(0.5, 1.5), Position(8.5, 1.5), kNoLimit);
+  EXPECT_EQ(forth->point.distance, 0.0);
+  EXPECT_DOUBLE_EQ(forth->point.fraction, 1.5 / 8.0);
+  const auto back = field.nearest(Position(8.5, 1.5), Position(0.5, 1.5), kNoLimit);
+  EXPECT_DOUBLE_EQ(back->point.fraction, 1.5 / 8.0);
+}
+
+TEST(ObstacleField, AgreesWithBruteForceAtPoints) {
+  std::mt19937 random(7);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same cases each time
+  for (int round = 0; round < 300; ++round) {
+    SCOPED_TRACE("seed 7, round " + std::to_string(round));
+    const OccupancyGrid grid = random_grid(random, 0.1);
+    const ObstacleField field(grid);
+    const Position point(std::uniform_real_distribution<double>(-0.2, 1.2)(random) * grid.width(),
+                         std::uniform_real_distribution<double>(-0.2, 1.2)(random) * grid.height());
+    EXPECT_NEAR(field.nearest(point, point, kNoLimit)->point.distance, plain_distance(grid, point), 1e-12);
+  }
+}
+
+TEST(ObstacleField, AgreesWithBruteForceAlongSegments) {
+  constexpr int kSamples = 1000;
+  std::mt19937 random(11);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same cases each time
+  int apart = 0;
+  for (int round = 0; round < 150; ++round) {
+    SCOPED_TRACE("seed 11, round " + std::to_string(round));
+    const OccupancyGrid grid = random_grid(random, 0.04);
+    const ObstacleField field(grid);
+    const auto along = [&random](double size) {
+      return std::uniform_real_distribution<double>(0.0, 1.0)(random) * size;
+    };
+    const Position from(along(grid.width()), along(grid.height()));
+    const Position to(along(grid.width()), along(grid.height()));
+    const auto nearest = field.nearest(from, to, kNoLimit);
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k <= kSamples; ++k) {
+      least = std::min(least, plain_distance(grid, from + (to - from) * k / kSamples));
+    }
+    EXPECT_LE(nearest->point.distance, least + 1e-12);
+    EXPECT_GE(nearest->point.distance, least - (to - from).norm() / kSamples);
+    const Position there = from + nearest->point.fraction * (to - from);
+    EXPECT_NEAR(plain_distance(grid, there), nearest->point.distance, 1e-9);
+    if (nearest->point.distance > 0.0) ++apart;
+
+    // Any smaller reach either finds the same, or nothing because there is nothing.
+    const double reach = along(2.0 * nearest->point.distance + 0.1);
+    const auto limited = field.nearest(from, to, reach);
+    EXPECT_EQ(limited.has_value(), nearest->point.distance < reach);
+    EXPECT_EQ(limited.value_or(*nearest).point.distance, nearest->point.distance);
+  }
+  EXPECT_GT(apart, 30);
+}
+
+}  // namespace
+}  // namespace fleetplan::core
