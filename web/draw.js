@@ -95,7 +95,8 @@ export class Painter {
       const screen = (point) => toScreen(camera, viewport, point);
       const radius = robot.radius * camera.scale;
       const colour = this.#colours[at];
-      if (track.path.length > 1) drawPath(context, track.path.map(screen), colour, { width: 1.25, alpha: 0.34 });
+      if (track.path.length > 1)
+        drawPath(context, track.path.map(screen), colour, { width: 1.25, alpha: 0.34 });
       if (track.actions.length > 0) drawStart(context, screen(robot.start), radius, colour);
       if (robot.goal) drawGoal(context, screen(robot.goal), robot.goal.theta, radius, colour);
     });

@@ -18,7 +18,8 @@ export function fileStem(name) {
 /** The command that plans the request from a POSIX shell; examples are fetched, other requests inlined. */
 export function curlCommand({ example, text }, base) {
   const post = `curl -sS ${new URL("v1/plan", base)} -H 'Content-Type: application/json' --data-binary @-`;
-  if (example !== null) return `curl -sS ${new URL(`v1/examples/${encodeURIComponent(example)}`, base)} | ${post}`;
+  if (example !== null)
+    return `curl -sS ${new URL(`v1/examples/${encodeURIComponent(example)}`, base)} | ${post}`;
   return `${post} <<'JSON'\n${text}\nJSON\n`;
 }
 

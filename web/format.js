@@ -16,6 +16,7 @@ export function metres(value) {
   return `${value.toFixed(2)} m`;
 }
 
-export const count = (value, one, many = `${one}s`) => `${value.toLocaleString("en")} ${value === 1 ? one : many}`;
+export const count = (value, one, many = `${one}s`) =>
+  `${value.toLocaleString("en")} ${value === 1 ? one : many}`;
 
 export const degrees = (radians) => `${Math.round((radians * 180) / Math.PI)}°`;

@@ -36,7 +36,12 @@ const player = new Player();
 const transport = new Transport(player, refresh);
 const stage = new Stage({ hover, select });
 const list = new RobotList({ hover, select });
-const setup = new Setup({ example: chooseExample, text: chooseText, plan: startPlanning, cancel: cancelPlanning });
+const setup = new Setup({
+  example: chooseExample,
+  text: chooseText,
+  plan: startPlanning,
+  cancel: cancelPlanning,
+});
 
 // Choosing a request
 
@@ -131,7 +136,9 @@ function cancelPlanning() {
 
 function fail(error) {
   if (!(error instanceof ProblemError)) throw error;
-  showProblem(error.problem, (index) => select(scene.robots.find((robot) => robot.index === index)?.id ?? null));
+  showProblem(error.problem, (index) =>
+    select(scene.robots.find((robot) => robot.index === index)?.id ?? null),
+  );
 }
 
 function announce(text) {
@@ -199,13 +206,18 @@ function refreshReadout() {
   const readout = byId("readout");
   readout.hidden = pose === null;
   if (pose === null) return;
-  setText(readout, `${id}: ${stateOf(id)} at (${pose.x.toFixed(2)}, ${pose.y.toFixed(2)}) m, ${degrees(pose.theta)}`);
+  setText(
+    readout,
+    `${id}: ${stateOf(id)} at (${pose.x.toFixed(2)}, ${pose.y.toFixed(2)}) m, ${degrees(pose.theta)}`,
+  );
 }
 
 // Controls that belong to the page as a whole
 
 byId("save-request").addEventListener("click", () => saveText(`${fileStem(chosen.name)}.json`, chosen.text));
-byId("save-answer").addEventListener("click", () => saveText(`${fileStem(chosen.name)}.plan.json`, answered.text));
+byId("save-answer").addEventListener("click", () =>
+  saveText(`${fileStem(chosen.name)}.plan.json`, answered.text),
+);
 byId("copy-curl").addEventListener("click", async () => {
   const copied = await copyText(curlCommand(chosen, document.baseURI));
   const button = byId("copy-curl");

@@ -77,8 +77,17 @@ export function showSummary(answer) {
     { class: "figures" },
     figure("Flowtime", seconds(answer.flowtime), ...bound(answer.flowtime, answer.lower_bound.flowtime)),
     figure("Makespan", seconds(answer.makespan), ...bound(answer.makespan, answer.lower_bound.makespan)),
-    figure("Smallest gap", answer.min_clearance === null ? "–" : metres(answer.min_clearance), "between two robots"),
-    figure("Planned in", milliseconds(timings.plan), count(answer.search.expansions, "expansion"), `${milliseconds(timings.total)} in all`),
+    figure(
+      "Smallest gap",
+      answer.min_clearance === null ? "–" : metres(answer.min_clearance),
+      "between two robots",
+    ),
+    figure(
+      "Planned in",
+      milliseconds(timings.plan),
+      count(answer.search.expansions, "expansion"),
+      `${milliseconds(timings.total)} in all`,
+    ),
   );
   box.replaceChildren(badges(answer), figures);
   if (answer.warnings.length > 0) box.append(warningList(answer.warnings));
@@ -88,7 +97,9 @@ function badges(answer) {
   const outcome = OUTCOMES[answer.status] ?? OUTCOMES.none;
   const list = element("div", { class: "badges" }, badge(outcome.text, outcome.tone, outcome.path));
   if (answer.verified) {
-    list.append(badge("Verified", "good", TICK, "An independent check in continuous time found no collision"));
+    list.append(
+      badge("Verified", "good", TICK, "An independent check in continuous time found no collision"),
+    );
   } else {
     list.append(badge("Not verified", "bad", CROSS));
   }
@@ -114,7 +125,9 @@ function bound(value, least) {
 }
 
 function warningList(warnings) {
-  const texts = warnings.map((warning) => (typeof warning === "string" ? warning : (warning.detail ?? JSON.stringify(warning))));
+  const texts = warnings.map((warning) =>
+    typeof warning === "string" ? warning : (warning.detail ?? JSON.stringify(warning)),
+  );
   return element(
     "ul",
     { class: "warnings", "aria-label": "Warnings" },
@@ -137,9 +150,16 @@ export function showUnplanned(unplanned, select) {
     element(
       "li",
       { class: "card" },
-      element("div", { class: "chips" }, chip(robot), element("span", { class: "reason", textContent: REASONS[reason] ?? reason })),
+      element(
+        "div",
+        { class: "chips" },
+        chip(robot),
+        element("span", { class: "reason", textContent: REASONS[reason] ?? reason }),
+      ),
       detail ? element("p", { textContent: detail }) : null,
-      blocked_by?.length > 0 ? element("div", { class: "chips" }, "In the way:", ...blocked_by.map(chip)) : null,
+      blocked_by?.length > 0
+        ? element("div", { class: "chips" }, "In the way:", ...blocked_by.map(chip))
+        : null,
     ),
   );
   box.append(element("h2", { textContent: "Without a plan" }), element("ul", { class: "stuck" }, ...entries));
@@ -180,9 +200,17 @@ export class RobotList {
     const swatch = element("span", { class: `swatch${filled}` });
     swatch.style.color = colour;
     const state = element("span", { class: `robot-state ${track.status}` });
-    const cost = element("span", { class: "robot-cost", textContent: track.cost === null ? "" : seconds(track.cost) });
+    const cost = element("span", {
+      class: "robot-cost",
+      textContent: track.cost === null ? "" : seconds(track.cost),
+    });
     const id = element("span", { class: "robot-id", textContent: robot.id, title: robot.id });
-    const button = element("button", { type: "button", class: "robot", "aria-pressed": "false", "data-robot": robot.id });
+    const button = element("button", {
+      type: "button",
+      class: "robot",
+      "aria-pressed": "false",
+      "data-robot": robot.id,
+    });
     button.append(swatch, id, state, cost);
     return { button, state };
   }

@@ -95,7 +95,10 @@ export function robotStateAt(track, t) {
 function commonPrefixLength(ids) {
   if (ids.length < 2) return 0;
   let length = 0;
-  while (length < ids[0].length - 1 && ids.every((id) => id.length > length + 1 && id[length] === ids[0][length])) {
+  while (
+    length < ids[0].length - 1 &&
+    ids.every((id) => id.length > length + 1 && id[length] === ids[0][length])
+  ) {
     length += 1;
   }
   while (length > 0 && /\d/.test(ids[0][length - 1])) length -= 1;

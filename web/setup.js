@@ -41,7 +41,8 @@ export class Setup {
       ...examples.map(({ name, title }) => element("option", { value: name, textContent: title || name })),
     );
     this.#select.disabled = examples.length === 0;
-    if (examples.length === 0) this.#select.append(element("option", { value: "", textContent: "No examples" }));
+    if (examples.length === 0)
+      this.#select.append(element("option", { value: "", textContent: "No examples" }));
   }
 
   /** Shows which example is chosen; for a request of one's own, pass its name and `own`. */
@@ -81,7 +82,8 @@ export class Setup {
     }
     if (hadFocus === this.#plan) this.#cancel.focus();
     const since = performance.now();
-    const show = () => setText(this.#elapsed, `Planning ${((performance.now() - since) / 1000).toFixed(1)} s`);
+    const show = () =>
+      setText(this.#elapsed, `Planning ${((performance.now() - since) / 1000).toFixed(1)} s`);
     show();
     this.#timer = setInterval(show, CLOCK_MS);
   }

@@ -21,14 +21,25 @@ test("the first row is the top of the map", () => {
 
 test("a robot takes what it does not say from the defaults", () => {
   const { robots } = readScene(REQUEST);
-  assert.deepEqual(robots.map(({ radius }) => radius), [0.2, 0.1, 0.2]);
-  assert.deepEqual(robots.map(({ start }) => start.theta), [1, 0, 0]);
-  assert.deepEqual(robots.map(({ goal }) => goal?.theta), [null, 0, undefined]);
+  assert.deepEqual(
+    robots.map(({ radius }) => radius),
+    [0.2, 0.1, 0.2],
+  );
+  assert.deepEqual(
+    robots.map(({ start }) => start.theta),
+    [1, 0, 0],
+  );
+  assert.deepEqual(
+    robots.map(({ goal }) => goal?.theta),
+    [null, 0, undefined],
+  );
 });
 
 test("labels leave out what all ids begin with but never split a number", () => {
   const labels = (...ids) =>
-    readScene({ robots: ids.map((id) => ({ id, radius: 1, start: { x: 0, y: 0 } })) }).robots.map(({ label }) => label);
+    readScene({ robots: ids.map((id) => ({ id, radius: 1, start: { x: 0, y: 0 } })) }).robots.map(
+      ({ label }) => label,
+    );
   assert.deepEqual(labels("amr-1", "amr-2", "amr-30"), ["1", "2", "30"]);
   assert.deepEqual(labels("r10", "r11"), ["10", "11"]);
   assert.deepEqual(labels("east", "west"), ["east", "west"]);
@@ -39,16 +50,25 @@ test("a faulty request is read as far as it makes sense", () => {
   assert.equal(readScene(null).grid, null);
   assert.equal(readScene({ map: { rows: "..." } }).grid, null);
   assert.equal(readScene({ map: { rows: [] }, robots: {} }).robots.length, 0);
-  const odd = { map: { rows: ["..", 7, "."], resolution: -1 }, robots: [null, { id: "a" }, REQUEST.robots[1]] };
+  const odd = {
+    map: { rows: ["..", 7, "."], resolution: -1 },
+    robots: [null, { id: "a" }, REQUEST.robots[1]],
+  };
   const scene = readScene(odd);
   assert.deepEqual([scene.grid.columns, scene.grid.rows, scene.grid.resolution], [2, 2, 1]);
-  assert.deepEqual(scene.robots.map(({ id, index }) => [id, index]), [["amr-2", 2]]);
+  assert.deepEqual(
+    scene.robots.map(({ id, index }) => [id, index]),
+    [["amr-2", 2]],
+  );
 });
 
 test("before an answer robots are ready or parked where they start", () => {
   const scene = readScene(REQUEST);
   const tracks = readTracks(scene, null);
-  assert.deepEqual(scene.robots.map(({ id }) => robotStateAt(tracks.get(id), 0)), ["ready", "ready", "parked"]);
+  assert.deepEqual(
+    scene.robots.map(({ id }) => robotStateAt(tracks.get(id), 0)),
+    ["ready", "ready", "parked"],
+  );
   assert.deepEqual(robotPoseAt(scene.robots[0], tracks.get("amr-1"), 5), { x: 10.25, y: -1.25, theta: 1 });
 });
 

@@ -12,9 +12,16 @@ import {
 } from "../../../web/timeline.js";
 
 const { PI } = Math;
-const near = (actual, expected) => assert.ok(Math.abs(actual - expected) < 1e-12, `${actual} is not ${expected}`);
+const near = (actual, expected) =>
+  assert.ok(Math.abs(actual - expected) < 1e-12, `${actual} is not ${expected}`);
 const pose = (x, y, theta = 0) => ({ x, y, theta });
-const turn = (t_start, t_end, from, to) => ({ type: "rotate", t_start, t_end, from: pose(0, 0, from), to: pose(0, 0, to) });
+const turn = (t_start, t_end, from, to) => ({
+  type: "rotate",
+  t_start,
+  t_end,
+  from: pose(0, 0, from),
+  to: pose(0, 0, to),
+});
 
 // Turns left, goes 2 m up, waits 1 s, goes 1 m up.
 const ACTIONS = [
@@ -79,18 +86,39 @@ test("where two actions meet the pose is the one they share", () => {
 
 test("what a robot does is told by the action under way", () => {
   const told = [0, 0.49, 0.5, 2.49, 2.5, 3.5, 4.49, 4.5, 9].map((t) => doingAt(ACTIONS, t));
-  const expected = ["turning", "turning", "moving", "moving", "waiting", "moving", "moving", "arrived", "arrived"];
+  const expected = [
+    "turning",
+    "turning",
+    "moving",
+    "moving",
+    "waiting",
+    "moving",
+    "moving",
+    "arrived",
+    "arrived",
+  ];
   assert.deepEqual(told, expected);
   assert.equal(doingAt([], 0), "arrived");
 });
 
 test("a path has a corner for each end of a translation", () => {
-  assert.deepEqual(pathOf(ACTIONS), [{ x: 1, y: 1 }, { x: 1, y: 3 }, { x: 1, y: 4 }]);
+  assert.deepEqual(pathOf(ACTIONS), [
+    { x: 1, y: 1 },
+    { x: 1, y: 3 },
+    { x: 1, y: 4 },
+  ]);
   assert.deepEqual(pathOf([ACTIONS[0], ACTIONS[2]]), []);
 });
 
 test("the remaining path begins where the robot is and leaves out what is done", () => {
-  assert.deepEqual(remainingPath(ACTIONS, pose(1, 1), 1.5), [{ x: 1, y: 2 }, { x: 1, y: 3 }, { x: 1, y: 4 }]);
-  assert.deepEqual(remainingPath(ACTIONS, pose(1, 1), 3), [{ x: 1, y: 3 }, { x: 1, y: 4 }]);
+  assert.deepEqual(remainingPath(ACTIONS, pose(1, 1), 1.5), [
+    { x: 1, y: 2 },
+    { x: 1, y: 3 },
+    { x: 1, y: 4 },
+  ]);
+  assert.deepEqual(remainingPath(ACTIONS, pose(1, 1), 3), [
+    { x: 1, y: 3 },
+    { x: 1, y: 4 },
+  ]);
   assert.deepEqual(remainingPath(ACTIONS, pose(1, 1), 5), [{ x: 1, y: 4 }]);
 });

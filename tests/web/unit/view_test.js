@@ -18,7 +18,11 @@ test("the camera's point is in the middle, x goes right and y goes up", () => {
 });
 
 test("world and screen are inverse to each other", () => {
-  for (const pixel of [{ x: 0, y: 0 }, { x: 800, y: 600 }, { x: 123.25, y: 456.75 }]) {
+  for (const pixel of [
+    { x: 0, y: 0 },
+    { x: 800, y: 600 },
+    { x: 123.25, y: 456.75 },
+  ]) {
     const back = toScreen(CAMERA, VIEWPORT, toWorld(CAMERA, VIEWPORT, pixel));
     nearPoint(back, pixel.x, pixel.y);
   }
@@ -33,7 +37,10 @@ test("a fitted map touches two opposite insets and lies within all of them", () 
     const upper = toScreen(camera, VIEWPORT, { x: bounds.left, y: bounds.top });
     const lower = toScreen(camera, VIEWPORT, { x: bounds.right, y: bounds.bottom });
     const spare = [upper.x - 20, upper.y - 60, 780 - lower.x, 560 - lower.y];
-    assert.ok(spare.every((pixels) => pixels > -1e-9), String(spare));
+    assert.ok(
+      spare.every((pixels) => pixels > -1e-9),
+      String(spare),
+    );
     assert.ok(Math.abs(spare[0] - spare[2]) < 1e-9 && Math.abs(spare[1] - spare[3]) < 1e-9, String(spare));
     assert.ok(Math.min(spare[0], spare[1]) < 1e-9, String(spare));
   }

@@ -1,0 +1,60 @@
+// Headless Chromium and pages that remember what went wrong in them.
+
+import { chromium } from "playwright-core";
+
+const FLAGS = [
+  "--no-sandbox",
+  "--disable-gpu",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+];
+
+export function startBrowser() {
+  return chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: FLAGS });
+}
+
+/**
+ * A page that has loaded `url` and its first request, in a context of its own: {page, complaints, requested, close}.
+ * `complaints` collects console errors and warnings and uncaught exceptions, `requested` every address asked for.
+ */
+export async function openPage(browser, url, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
+  const page = await context.newPage();
+  const complaints = [];
+  const requested = [];
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type())) complaints.push(message.text());
+  });
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  page.on("request", (request) => requested.push(request.url()));
+  await page.goto(url);
+  await page.waitForFunction(() => window.fleetplan?.request);
+  return { page, complaints, requested, close: () => context.close() };
+}
+
+/** Chooses an example and waits until it is the one drawn. */
+export async function choose(page, name) {
+  const expected = await page.evaluate(async (example) => (await fetch(`v1/examples/${example}`)).json(), name);
+  await page.selectOption("#example", name);
+  await page.waitForFunction((text) => JSON.stringify(window.fleetplan.request) === text, JSON.stringify(expected));
+  return expected;
+}
+
+/** Presses Plan and waits for the answer. */
+export async function pressPlan(page) {
+  await page.click("#plan");
+  await page.waitForFunction(() => window.fleetplan.answer, null, { timeout: 60_000 });
+  return page.evaluate(() => window.fleetplan.answer);
+}
+
+/** Moves the scrubber to a time as a person would by dragging it. */
+export function seek(page, time) {
+  return page.evaluate((value) => {
+    const scrubber = document.getElementById("scrubber");
+    scrubber.value = String(value);
+    scrubber.dispatchEvent(new Event("input", { bubbles: true }));
+  }, time);
+}

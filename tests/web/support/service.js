@@ -1,0 +1,60 @@
+// The real server, started for a test run on a free port of 127.0.0.1 and stopped by its pid.
+
+import { spawn } from "node:child_process";
+import { createServer } from "node:net";
+import { createInterface } from "node:readline";
+import { fileURLToPath } from "node:url";
+
+const WEB_ROOT = fileURLToPath(new URL("../../../web", import.meta.url));
+const START_MS = 10_000;
+
+/** Starts the server that FLEETPLAN_BIN names: {url, stop}. */
+export async function startService(flags = []) {
+  const binary = process.env.FLEETPLAN_BIN;
+  if (!binary) throw new Error("FLEETPLAN_BIN must name the server binary");
+  const port = String(await freePort());
+  const all = ["--host", "127.0.0.1", "--port", port, "--web-root", WEB_ROOT, "--log-level", "warn", ...flags];
+  const child = spawn(binary, all, { stdio: ["ignore", "pipe", "inherit"] });
+  const ended = new Promise((resolve) => child.once("exit", resolve));
+  try {
+    const url = await listening(child);
+    return { url, stop: () => stop(child, ended) };
+  } catch (error) {
+    child.kill("SIGKILL");
+    throw error;
+  }
+}
+
+function listening(child) {
+  return new Promise((resolve, reject) => {
+    const late = setTimeout(() => reject(new Error("the server did not say that it listens")), START_MS);
+    const fail = (why) => {
+      clearTimeout(late);
+      reject(new Error(`the server did not start: ${why}`));
+    };
+    child.once("error", fail);
+    child.once("exit", (code, signal) => fail(signal ?? `exit code ${code}`));
+    createInterface({ input: child.stdout }).on("line", (line) => {
+      const found = /listening on (http:\/\/\S+)/.exec(line);
+      if (!found) return;
+      clearTimeout(late);
+      resolve(new URL("/", found[1]).href);
+    });
+  });
+}
+
+async function stop(child, ended) {
+  child.kill("SIGTERM");
+  await ended;
+}
+
+function freePort() {
+  return new Promise((resolve, reject) => {
+    const probe = createServer();
+    probe.once("error", reject);
+    probe.listen(0, "127.0.0.1", () => {
+      const { port } = probe.address();
+      probe.close(() => resolve(port));
+    });
+  });
+}
