@@ -2,7 +2,7 @@
 //
 // Scripting surface, read-only, for tests and the curious: `window.fleetplan` has `time`, `duration` (seconds),
 // `playing`, `request` and `answer` (parsed JSON or null), `poseOf(id)` (the pose drawn now, metres and
-// radians), `stateOf(id)` and `screenOf(id)` (its centre on the canvas, CSS pixels).
+// radians), `stateOf(id)` and `screenOf(id)` ({x, y, radius} of its disk on the canvas, CSS pixels).
 
 import { fetchExample, listExamples, plan, ProblemError } from "./client.js";
 import { byId, setText } from "./dom.js";
@@ -263,8 +263,8 @@ window.fleetplan = Object.freeze({
   poseOf,
   stateOf,
   screenOf(id) {
-    const pose = poseOf(id);
-    return pose && stage.screenOf(pose);
+    const robot = robotOf(id);
+    return robot && stage.screenOf(poseOf(id), robot.radius);
   },
 });
 

@@ -83,9 +83,9 @@ export class Stage {
     this.#zoom(this.#middle(), 1 / KEY_ZOOM);
   }
 
-  /** Where a world point is on the canvas, in CSS pixels. */
-  screenOf(point) {
-    return toScreen(this.#camera, this.#viewport, point);
+  /** Where a disk of the world is on the canvas: {x, y, radius}, CSS pixels. */
+  screenOf(point, radius) {
+    return { ...toScreen(this.#camera, this.#viewport, point), radius: radius * this.#camera.scale };
   }
 
   #resize() {

@@ -37,9 +37,15 @@ export async function openPage(browser, url, options = {}) {
 
 /** Chooses an example and waits until it is the one drawn. */
 export async function choose(page, name) {
-  const expected = await page.evaluate(async (example) => (await fetch(`v1/examples/${example}`)).json(), name);
+  const expected = await page.evaluate(
+    async (example) => (await fetch(`v1/examples/${example}`)).json(),
+    name,
+  );
   await page.selectOption("#example", name);
-  await page.waitForFunction((text) => JSON.stringify(window.fleetplan.request) === text, JSON.stringify(expected));
+  await page.waitForFunction(
+    (text) => JSON.stringify(window.fleetplan.request) === text,
+    JSON.stringify(expected),
+  );
   return expected;
 }
 

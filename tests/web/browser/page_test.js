@@ -1,0 +1,427 @@
+// The page in headless Chromium, against the real server.
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { after, before, test } from "node:test";
+
+import { choose, openPage, pressPlan, seek, startBrowser } from "../support/browser.js";
+import { expectedPose, headingGap } from "../support/expected_pose.js";
+import { startService } from "../support/service.js";
+
+const NEAR = 1e-9; // metres and radians: both sides interpolate the same doubles
+
+let service;
+let browser;
+
+before(async () => {
+  service = await startService();
+  browser = await startBrowser();
+});
+
+after(async () => {
+  await browser?.close();
+  await service?.stop();
+});
+
+/** Runs `steps` on a fresh page; afterwards the page must not have complained but for `allowed`. */
+async function onPage(steps, { options = {}, allowed = null } = {}) {
+  const opened = await openPage(browser, service.url, options);
+  try {
+    await steps(opened.page, opened);
+    const complaints = opened.complaints.filter((text) => !allowed?.test(text));
+    assert.deepEqual(complaints, []);
+  } finally {
+    await opened.close();
+  }
+}
+
+const hook = (page, name) => page.evaluate((member) => window.fleetplan[member], name);
+const text = (page, selector) => page.innerText(selector);
+const hasTime = (page, time) => page.waitForFunction((t) => Math.abs(window.fleetplan.time - t) < 1e-9, time);
+
+const TINY = {
+  map: { rows: [".....", "....."] },
+  robots: [
+    {
+      id: "solo",
+      radius: 0.3,
+      linear_speed: 0.1,
+      angular_speed: 1,
+      start: { x: 0.5, y: 0.5 },
+      goal: { x: 4.5, y: 1.5 },
+    },
+  ],
+};
+
+async function paste(page, request) {
+  await page.click("#paste");
+  await page.fill("#paste-text", typeof request === "string" ? request : JSON.stringify(request));
+  await page.click("#paste-form button");
+}
+
+test("the page loads with the first example drawn and asks nobody else", async () => {
+  await onPage(async (page, { requested }) => {
+    const { examples } = await page.evaluate(async () => (await fetch("v1/examples")).json());
+    const first = await page.evaluate(
+      async (name) => (await fetch(`v1/examples/${name}`)).json(),
+      examples[0].name,
+    );
+    assert.deepEqual(await hook(page, "request"), first);
+    assert.equal(await page.locator("#robots .robot").count(), first.robots.length);
+    for (const address of requested) assert.equal(new URL(address).origin, new URL(service.url).origin);
+  });
+});
+
+test("one click on a page just opened plans and plays", async () => {
+  await onPage(async (page) => {
+    await pressPlan(page);
+    await page.waitForFunction(() => window.fleetplan.playing && window.fleetplan.time > 0.2);
+    assert.equal(await page.getAttribute("#play", "aria-label"), "Pause");
+  });
+});
+
+test("every example loads, plans and plays as its plan says", async () => {
+  await onPage(async (page) => {
+    const { examples } = await page.evaluate(async () => (await fetch("v1/examples")).json());
+    assert.ok(examples.length >= 3);
+    for (const { name, robots } of examples) {
+      const request = await choose(page, name);
+      assert.equal(await page.locator("#robots .robot").count(), robots);
+      const answer = await pressPlan(page);
+      assert.equal(answer.verified, true, name);
+      assert.equal(answer.plans.length + answer.unplanned.length, robots, name);
+      await page.waitForFunction(() => window.fleetplan.playing);
+      await page.keyboard.press("Space");
+      const plans = new Map(answer.plans.map((plan) => [plan.robot, plan.actions]));
+      for (const share of [0, 0.137, 0.5, 0.861, 1]) {
+        const time = answer.makespan * share;
+        await seek(page, time);
+        await hasTime(page, time);
+        const ids = request.robots.map(({ id }) => id);
+        const drawn = await page.evaluate((all) => all.map((id) => window.fleetplan.poseOf(id)), ids);
+        request.robots.forEach((robot, at) => {
+          const expected = expectedPose(robot.start, plans.get(robot.id) ?? [], time);
+          const where = `${name}: ${robot.id} at ${time}`;
+          assert.ok(Math.hypot(drawn[at].x - expected.x, drawn[at].y - expected.y) < NEAR, where);
+          assert.ok(headingGap(drawn[at].theta, expected.theta) < NEAR, where);
+        });
+      }
+    }
+  });
+});
+
+test("what is drawn of a deterministic plan is what the service answers anyone", async () => {
+  await onPage(async (page) => {
+    const request = await choose(page, "corridor-swap");
+    const shown = await pressPlan(page);
+    const response = await fetch(new URL("v1/plan", service.url), {
+      method: "POST",
+      headers: { "Content-Type": "application/json" },
+      body: JSON.stringify(request),
+    });
+    const answer = await response.json();
+    assert.equal(shown.deterministic, true);
+    assert.deepEqual(shown.plans, answer.plans);
+  });
+});
+
+test("a robot is painted where its pose is", async () => {
+  await onPage(async (page) => {
+    await paste(page, TINY);
+    await pressPlan(page);
+    await page.keyboard.press("Space");
+    await seek(page, 20);
+    await hasTime(page, 20);
+    await page.evaluate(
+      () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
+    );
+    const painted = await page.evaluate(() => {
+      const canvas = document.getElementById("scene");
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      const scale = canvas.width / canvas.clientWidth;
+      const { x, y, radius } = window.fleetplan.screenOf("solo");
+      const { theta } = window.fleetplan.poseOf("solo");
+      const beside = (radii) => {
+        const column = Math.round((x + Math.sin(theta) * radius * radii) * scale);
+        const row = Math.round((y + Math.cos(theta) * radius * radii) * scale);
+        return [...data.slice((row * canvas.width + column) * 4).slice(0, 3)];
+      };
+      return { inside: beside(0.8), outside: beside(1.3) };
+    });
+    assert.deepEqual(painted.outside, [255, 255, 255], "the bare floor");
+    assert.notDeepEqual(painted.inside, painted.outside);
+  });
+});
+
+test("the scrubber, its keys and the page's keys move through the plan", async () => {
+  await onPage(async (page) => {
+    const answer = await pressPlan(page);
+    await page.waitForFunction(() => window.fleetplan.playing);
+    await page.keyboard.press("Space");
+    assert.equal(await hook(page, "playing"), false);
+    await seek(page, 2);
+    await hasTime(page, 2);
+    await page.focus("#scrubber");
+    await page.keyboard.press("ArrowRight");
+    await hasTime(page, 2.25);
+    await page.keyboard.press("ArrowLeft");
+    await page.keyboard.press("ArrowLeft");
+    await hasTime(page, 1.75);
+    await page.keyboard.press("Home");
+    await hasTime(page, 0);
+    await page.keyboard.press("End");
+    await hasTime(page, await hook(page, "duration"));
+    assert.ok(Math.abs((await hook(page, "duration")) - answer.makespan) < NEAR);
+    await page.keyboard.press("r");
+    await hasTime(page, 0);
+    await page.keyboard.press("l");
+    assert.equal(await page.getAttribute("#loop", "aria-pressed"), "true");
+    await page.keyboard.press("]");
+    assert.equal(await page.inputValue("#speed"), "2");
+    await page.keyboard.press("Space");
+    assert.equal(await hook(page, "playing"), true);
+  });
+});
+
+test("a plan rests at its end when it has played", async () => {
+  await onPage(async (page) => {
+    const answer = await pressPlan(page);
+    await page.selectOption("#speed", "16");
+    await page.waitForFunction(() => window.fleetplan.time > 0 && !window.fleetplan.playing, null, {
+      timeout: 60_000,
+    });
+    assert.ok(Math.abs((await hook(page, "time")) - answer.makespan) < NEAR);
+    const [moved] = answer.plans.filter(({ actions }) => actions.length > 0);
+    assert.equal(await page.evaluate((id) => window.fleetplan.stateOf(id), moved.robot), "arrived");
+  });
+});
+
+test("wheel, drag and the fit key move the camera", async () => {
+  await onPage(async (page) => {
+    const [{ id }] = (await hook(page, "request")).robots;
+    const at = () => page.evaluate((robot) => window.fleetplan.screenOf(robot), id);
+    const box = await page.locator("#scene").boundingBox();
+    const fitted = await at();
+    await page.mouse.move(box.x + fitted.x, box.y + fitted.y);
+    await page.mouse.wheel(0, -300);
+    await page.waitForFunction(
+      ([robot, radius]) => window.fleetplan.screenOf(robot).radius > radius * 1.2,
+      [id, fitted.radius],
+    );
+    const zoomed = await at();
+    assert.ok(Math.hypot(zoomed.x - fitted.x, zoomed.y - fitted.y) < 1, "the point under the pointer stays");
+    await page.mouse.down();
+    await page.mouse.move(box.x + fitted.x + 80, box.y + fitted.y + 30, { steps: 4 });
+    await page.mouse.up();
+    const dragged = await at();
+    assert.ok(Math.hypot(dragged.x - zoomed.x, dragged.y - zoomed.y) > 5);
+    await page.keyboard.press("f");
+    assert.deepEqual(await at(), fitted);
+  });
+});
+
+test("a robot is selected from the list and from the scene", async () => {
+  await onPage(async (page) => {
+    const [first, second] = (await hook(page, "request")).robots;
+    const row = (id) => page.locator(`.robot[data-robot="${id}"]`);
+    await row(first.id).click();
+    assert.equal(await row(first.id).getAttribute("aria-pressed"), "true");
+    assert.match(await text(page, "#readout"), new RegExp(`^${first.id}: ready at`));
+    const box = await page.locator("#scene").boundingBox();
+    const { x, y } = await page.evaluate((id) => window.fleetplan.screenOf(id), second.id);
+    await page.mouse.click(box.x + x, box.y + y);
+    assert.equal(await row(first.id).getAttribute("aria-pressed"), "false");
+    assert.equal(await row(second.id).getAttribute("aria-pressed"), "true");
+    await page.keyboard.press("Escape");
+    assert.equal(await row(second.id).getAttribute("aria-pressed"), "false");
+  });
+});
+
+test("an invalid request shows each error's pointer and detail", async () => {
+  await onPage(
+    async (page) => {
+      await paste(page, {
+        ...TINY,
+        robots: [{ ...TINY.robots[0], radius: -1, start: { x: "left", y: 0.5 } }],
+      });
+      await page.click("#plan");
+      await page.waitForSelector("#problem:not([hidden])");
+      const told = await page.evaluate(async () => {
+        const body = JSON.stringify(window.fleetplan.request);
+        const headers = { "Content-Type": "application/json" };
+        return (await fetch("v1/plan", { method: "POST", headers, body })).json();
+      });
+      const shown = await text(page, "#problem");
+      assert.equal(told.status, 422);
+      assert.ok(told.errors.some(({ pointer }) => pointer === "/robots/0/start/x"));
+      assert.ok(shown.includes(told.title));
+      for (const { pointer, detail } of told.errors) {
+        assert.ok(shown.includes(pointer), pointer);
+        assert.ok(shown.includes(detail), detail);
+      }
+    },
+    { allowed: /status of 422/ }, // Chromium itself notes every answer of 400 and above
+  );
+});
+
+test("text that is not JSON is refused on the spot", async () => {
+  await onPage(async (page) => {
+    await paste(page, "{ not json");
+    assert.match(await text(page, "#problem"), /not JSON/);
+  });
+});
+
+test("robots without a plan are listed with their reason", async () => {
+  await onPage(async (page) => {
+    await choose(page, "partly-solvable");
+    const answer = await pressPlan(page);
+    assert.equal(answer.status, "partial");
+    const shown = await text(page, "#unplanned");
+    for (const { robot, detail, blocked_by } of answer.unplanned) {
+      for (const part of [robot, detail, ...blocked_by]) assert.ok(shown.includes(part), part);
+      assert.match(await text(page, `.robot[data-robot="${robot}"]`), /unplanned/);
+    }
+    assert.match(await text(page, "#summary"), /Partly solved/);
+  });
+});
+
+test("the figures are those of the answer", async () => {
+  await onPage(async (page) => {
+    await choose(page, "corridor-swap");
+    const answer = await pressPlan(page);
+    const shown = await text(page, "#summary");
+    for (const part of ["Solved", "Verified", answer.flowtime.toFixed(2), answer.makespan.toFixed(2)]) {
+      assert.ok(shown.includes(part), part);
+    }
+  });
+});
+
+test("a file can be opened, and dropped on the page", async () => {
+  const opens = (page) => page.waitForFunction(() => window.fleetplan.request.robots[0].id === "solo");
+  await onPage(async (page) => {
+    const file = {
+      name: "tiny.json",
+      mimeType: "application/json",
+      buffer: Buffer.from(JSON.stringify(TINY)),
+    };
+    await page.setInputFiles("#file", file);
+    await opens(page);
+    assert.deepEqual(await hook(page, "request"), TINY);
+    assert.equal((await pressPlan(page)).status, "solved");
+  });
+  await onPage(async (page) => {
+    await page.evaluate((content) => {
+      const dataTransfer = new DataTransfer();
+      dataTransfer.items.add(new File([content], "tiny.json", { type: "application/json" }));
+      document.body.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
+    }, JSON.stringify(TINY));
+    await opens(page);
+  });
+});
+
+test("request and answer are saved as they went and came", async () => {
+  await onPage(async (page) => {
+    const save = async (selector) => {
+      const [download] = await Promise.all([page.waitForEvent("download"), page.click(selector)]);
+      return {
+        name: download.suggestedFilename(),
+        value: JSON.parse(await readFile(await download.path(), "utf8")),
+      };
+    };
+    const request = await choose(page, "corridor-swap");
+    const answer = await pressPlan(page);
+    assert.deepEqual(await save("#save-request"), { name: "corridor-swap.json", value: request });
+    assert.deepEqual(await save("#save-answer"), { name: "corridor-swap.plan.json", value: answer });
+  });
+});
+
+test("planning can be cancelled and shows that it goes on", async () => {
+  await onPage(async (page) => {
+    const robots = ["a", "b"].map((id, at) => ({
+      ...TINY.robots[0],
+      id,
+      start: { x: 0.5 + 4 * at, y: 0.5 },
+      goal: { x: 4.5 - 4 * at, y: 0.5 },
+    }));
+    await paste(page, { ...TINY, robots, options: { mode: "anytime", time_budget_ms: 60_000 } });
+    await page.click("#plan");
+    await page.waitForFunction(() =>
+      /Planning 0\.[3-9]/.test(document.getElementById("elapsed").textContent),
+    );
+    await page.click("#cancel");
+    await page.waitForSelector("#cancel", { state: "hidden" });
+    assert.equal(await hook(page, "answer"), null);
+    assert.equal(await page.isEnabled("#plan"), true);
+  });
+});
+
+test("a service that is gone or busy is told in words", async () => {
+  await onPage(
+    async (page) => {
+      await page.route("**/v1/plan", (route) => route.abort());
+      await page.click("#plan");
+      await page.waitForSelector("#problem:not([hidden])");
+      assert.match(await text(page, "#problem"), /No answer from the service/);
+      await page.unroute("**/v1/plan");
+      await page.route("**/v1/plan", (route) =>
+        route.fulfill({
+          status: 503,
+          contentType: "application/problem+json",
+          headers: { "Retry-After": "2" },
+          body: JSON.stringify({
+            title: "Overloaded",
+            detail: "The queue is full.",
+            status: 503,
+            code: "overloaded",
+          }),
+        }),
+      );
+      await page.click("#plan");
+      await page.waitForFunction(() => document.getElementById("problem").innerText.includes("Overloaded"));
+      assert.match(await text(page, "#problem"), /The queue is full\.\s+Try again in 2 seconds\./);
+    },
+    { allowed: /status of 503|ERR_FAILED/ },
+  );
+});
+
+test("with reduced motion a plan waits to be played", async () => {
+  await onPage(
+    async (page) => {
+      await pressPlan(page);
+      assert.deepEqual([await hook(page, "playing"), await hook(page, "time")], [false, 0]);
+      assert.equal(await page.isEnabled("#play"), true);
+    },
+    { options: { reducedMotion: "reduce" } },
+  );
+});
+
+test("every control has a name and is reached with the keyboard", async () => {
+  await onPage(async (page) => {
+    await pressPlan(page);
+    const controls = await page.evaluate(() =>
+      [...document.querySelectorAll("button, select, input, textarea, summary, canvas")]
+        .filter((control) => control.checkVisibility() && !control.disabled)
+        .map((control) => ({
+          id: control.id || control.dataset.robot || control.textContent,
+          named: Boolean(control.ariaLabel || control.labels?.length || control.textContent.trim()),
+          reached: control.tabIndex >= 0,
+        })),
+    );
+    assert.ok(controls.length > 15);
+    for (const control of controls) assert.ok(control.named && control.reached, JSON.stringify(control));
+  });
+});
+
+test("a phone shows the page without scrolling sideways", async () => {
+  await onPage(
+    async (page) => {
+      await choose(page, "partly-solvable");
+      await pressPlan(page);
+      const widths = await page.evaluate(() => [document.documentElement.scrollWidth, window.innerWidth]);
+      assert.deepEqual(widths, [390, 390]);
+      const play = await page.locator("#play").boundingBox();
+      assert.ok(play.y + play.height <= 844, "the playback bar is in sight");
+    },
+    { options: { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true } },
+  );
+});
