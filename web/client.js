@@ -11,12 +11,14 @@ export class ProblemError extends Error {
 
 /** The examples: [{name, title, description, robots, columns, rows}]. */
 export async function listExamples() {
-  return JSON.parse(await ask("v1/examples")).examples;
+  return parseAnswer(await ask("v1/examples")).examples;
 }
 
 /** The text of an example's request. */
-export function fetchExample(name) {
-  return ask(`v1/examples/${encodeURIComponent(name)}`);
+export async function fetchExample(name) {
+  const text = await ask(`v1/examples/${encodeURIComponent(name)}`);
+  parseAnswer(text);
+  return text;
 }
 
 /** Plans the request, a JSON text. The answer, parsed and as it came; rejects with AbortError when aborted. */
@@ -27,7 +29,7 @@ export async function plan(requestText, signal) {
     body: requestText,
     signal,
   });
-  return { answer: JSON.parse(text), text };
+  return { answer: parseAnswer(text), text };
 }
 
 async function ask(address, init) {
@@ -58,6 +60,15 @@ function readProblem(response, text) {
     errors: Array.isArray(problem.errors) ? problem.errors : [],
     ...(after > 0 ? { retry_after: after } : {}),
   };
+}
+
+function parseAnswer(text) {
+  const answer = parseObject(text);
+  if (answer !== null) return answer;
+  throw new ProblemError({
+    title: "Not an answer of the service",
+    detail: "Something else answered in its place, perhaps a proxy on the way.",
+  });
 }
 
 function parseObject(text) {

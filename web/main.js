@@ -38,6 +38,7 @@ const stage = new Stage({ hover, select });
 const list = new RobotList({ hover, select });
 const setup = new Setup({
   example: chooseExample,
+  file: chooseFile,
   text: chooseText,
   plan: startPlanning,
   cancel: cancelPlanning,
@@ -47,32 +48,49 @@ const setup = new Setup({
 
 async function chooseExample(name) {
   const turn = (loading += 1);
-  cancelPlanning();
   try {
     const text = await fetchExample(name);
     if (turn !== loading) return;
     adopt({ name, example: name, text, parsed: JSON.parse(text) });
   } catch (error) {
-    if (turn === loading) fail(error);
+    if (turn !== loading) return;
+    setup.setChosen(chosen.name, chosen.example === null);
+    fail(error);
   }
 }
 
-function chooseText(name, text) {
-  loading += 1;
-  cancelPlanning();
+async function chooseFile(file) {
+  let text;
   try {
-    adopt({ name, example: null, text, parsed: JSON.parse(text) });
+    text = await file.text();
   } catch (error) {
-    if (!(error instanceof SyntaxError)) throw error;
-    fail(new ProblemError({ title: "That is not JSON", detail: `${name}: ${error.message}` }));
+    fail(new ProblemError({ title: "The file cannot be read", detail: `${file.name}: ${error.message}` }));
+    return;
   }
+  chooseText(file.name, text);
+}
+
+/** Whether the text is JSON and now chosen. */
+function chooseText(name, text) {
+  let parsed;
+  try {
+    parsed = JSON.parse(text);
+  } catch (error) {
+    fail(new ProblemError({ title: "That is not JSON", detail: `${name}: ${error.message}` }));
+    return false;
+  }
+  loading += 1;
+  adopt({ name, example: null, text, parsed });
+  return true;
 }
 
 function adopt(choice) {
+  cancelPlanning();
   chosen = choice;
   scene = readScene(choice.parsed);
   selected = hovered = null;
   setup.setChosen(choice.name, choice.example === null);
+  history.replaceState(null, "", choice.example === null ? location.pathname : `#${choice.example}`);
   const listed = examples.find(({ name }) => name === choice.example);
   const { grid, robots } = scene;
   const size = grid ? `${grid.columns} × ${grid.rows} cells` : "no map";
@@ -89,7 +107,7 @@ function adoptAnswer(result) {
   tracks = readTracks(scene, result?.answer ?? null);
   player.reset(Math.max(0, ...(result?.answer.plans ?? []).map(({ cost }) => cost)));
   stage.show(scene, tracks);
-  list.show(scene, tracks, (index) => robotColour(index, readTheme().robotLightness));
+  showList();
   showSummary(result?.answer ?? null);
   showUnplanned(result?.answer.unplanned ?? [], select);
   byId("save-request").disabled = byId("copy-curl").disabled = chosen.text === "";
@@ -136,9 +154,8 @@ function cancelPlanning() {
 
 function fail(error) {
   if (!(error instanceof ProblemError)) throw error;
-  showProblem(error.problem, (index) =>
-    select(scene.robots.find((robot) => robot.index === index)?.id ?? null),
-  );
+  const idAt = (index) => scene.robots.find((robot) => robot.index === index)?.id ?? null;
+  showProblem(error.problem, idAt, select);
 }
 
 function announce(text) {
@@ -195,6 +212,11 @@ function onFrame(milliseconds) {
   requestAnimationFrame(onFrame);
 }
 
+function showList() {
+  const { robotLightness } = readTheme();
+  list.show(scene, tracks, (index) => robotColour(index, robotLightness));
+}
+
 function refreshList() {
   list.update(stateOf, hovered, selected);
   listedAt = performance.now() / 1000;
@@ -240,8 +262,15 @@ watchShortcuts({
 });
 
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
-  list.show(scene, tracks, (index) => robotColour(index, readTheme().robotLightness));
+  showList();
   refresh();
+});
+
+document.addEventListener("visibilitychange", () => player.skip());
+
+addEventListener("hashchange", () => {
+  const named = namedExample();
+  if (named && named.name !== chosen.example) chooseExample(named.name);
 });
 
 window.fleetplan = Object.freeze({
@@ -270,6 +299,10 @@ window.fleetplan = Object.freeze({
 
 // The first example stands ready when the page has loaded, or the one that the address names (#name)
 
+function namedExample() {
+  return examples.find(({ name }) => `#${name}` === location.hash);
+}
+
 async function begin() {
   try {
     examples = await listExamples();
@@ -279,8 +312,7 @@ async function begin() {
     return;
   }
   setup.setExamples(examples);
-  const wanted = decodeURIComponent(location.hash.slice(1));
-  const first = examples.find(({ name }) => name === wanted) ?? examples[0];
+  const first = namedExample() ?? examples[0];
   if (first && loading === 0) await chooseExample(first.name);
 }
 

@@ -29,8 +29,11 @@ export function summarize(answer) {
   return `${outcome}: ${planned}${failed}, flowtime ${seconds(answer.flowtime)}.`;
 }
 
-/** Shows a problem (RFC 9457), or none. `select` is called with the index of a robot that an error points to. */
-export function showProblem(problem, select) {
+/**
+ * Shows a problem (RFC 9457), or none. `idAt` gives the id of the robot at an index of the request, or null;
+ * `select` is called with the id of a robot that an error points to.
+ */
+export function showProblem(problem, idAt, select) {
   const box = byId("problem");
   box.hidden = problem === null;
   box.replaceChildren();
@@ -40,27 +43,30 @@ export function showProblem(problem, select) {
   if (problem.retry_after) {
     box.append(element("p", { textContent: `Try again in ${count(problem.retry_after, "second")}.` }));
   }
-  if (problem.errors?.length > 0) box.append(errorList(problem.errors, select));
+  if (problem.errors?.length > 0) box.append(errorList(problem.errors, idAt, select));
   if (problem.request_id) {
     box.append(element("p", { class: "request-id", textContent: `Request ${problem.request_id}` }));
   }
 }
 
-function errorList(errors, select) {
+function errorList(errors, idAt, select) {
   const list = element("dl");
   for (const { pointer, detail } of errors) {
     const code = element("code", { textContent: pointer || "(whole request)" });
-    const robot = /^\/robots\/(\d+)/.exec(pointer ?? "");
+    const index = /^\/robots\/(\d+)/.exec(pointer ?? "");
+    const id = index && idAt(Number(index[1]));
     const term = element("dt", {}, code);
-    if (robot) {
-      const show = element("button", { type: "button", class: "chip", textContent: "Show" });
-      show.setAttribute("aria-label", `Show the robot of ${pointer}`);
-      show.addEventListener("click", () => select(Number(robot[1])));
-      term.append(" ", show);
-    }
+    if (id !== null) term.append(" ", chip(id, select));
     list.append(element("div", {}, term, element("dd", { textContent: detail })));
   }
   return list;
+}
+
+/** A button that names a robot and selects it. */
+function chip(id, select) {
+  const button = element("button", { type: "button", class: "chip", textContent: id });
+  button.addEventListener("click", () => select(id));
+  return button;
 }
 
 /** Shows the figures of an answer, or none. */
@@ -141,11 +147,6 @@ export function showUnplanned(unplanned, select) {
   box.hidden = unplanned.length === 0;
   box.replaceChildren();
   if (unplanned.length === 0) return;
-  const chip = (id) => {
-    const button = element("button", { type: "button", class: "chip", textContent: id });
-    button.addEventListener("click", () => select(id));
-    return button;
-  };
   const entries = unplanned.map(({ robot, reason, detail, blocked_by }) =>
     element(
       "li",
@@ -153,12 +154,12 @@ export function showUnplanned(unplanned, select) {
       element(
         "div",
         { class: "chips" },
-        chip(robot),
+        chip(robot, select),
         element("span", { class: "reason", textContent: REASONS[reason] ?? reason }),
       ),
       detail ? element("p", { textContent: detail }) : null,
       blocked_by?.length > 0
-        ? element("div", { class: "chips" }, "In the way:", ...blocked_by.map(chip))
+        ? element("div", { class: "chips" }, "In the way:", ...blocked_by.map((id) => chip(id, select)))
         : null,
     ),
   );

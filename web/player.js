@@ -34,6 +34,11 @@ export class Player {
     else this.play();
   }
 
+  /** Forgets what the wall clock showed: time that goes by unseen does not count. */
+  skip() {
+    this.#last = null;
+  }
+
   seek(time) {
     this.time = Math.min(this.duration, Math.max(0, time));
   }

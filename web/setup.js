@@ -15,25 +15,27 @@ export class Setup {
   #elapsed = byId("elapsed");
   #timer = null;
 
-  /** `told` has example(name), text(name, text), plan() and cancel(). */
+  /** `told` has example(name), file(file), text(name, text) (whether it is JSON), plan() and cancel(). */
   constructor(told) {
     this.#select.addEventListener("change", () => {
       if (this.#select.value !== "") told.example(this.#select.value);
     });
     byId("open").addEventListener("click", () => this.#file.click());
-    this.#file.addEventListener("change", async () => {
+    this.#file.addEventListener("change", () => {
       const [file] = this.#file.files;
-      if (file) told.text(file.name, await file.text());
+      if (file) told.file(file);
       this.#file.value = "";
     });
     this.#paste.addEventListener("click", () => this.#showForm(this.#form.hidden));
     this.#form.addEventListener("submit", (event) => {
       event.preventDefault();
-      told.text("pasted request", this.#text.value);
+      if (!told.text("pasted request", this.#text.value)) return;
+      this.#showForm(false);
+      this.#plan.focus();
     });
     this.#plan.addEventListener("click", () => told.plan());
     this.#cancel.addEventListener("click", () => told.cancel());
-    watchDrops(told.text);
+    watchDrops(told.file);
   }
 
   setExamples(examples) {
@@ -107,11 +109,11 @@ function watchDrops(open) {
   addEventListener("dragleave", (event) => {
     if (event.relatedTarget === null) hint.hidden = true;
   });
-  addEventListener("drop", async (event) => {
+  addEventListener("drop", (event) => {
     if (!carriesFile(event)) return;
     event.preventDefault();
     hint.hidden = true;
     const [file] = event.dataTransfer.files;
-    if (file) open(file.name, await file.text());
+    if (file) open(file);
   });
 }

@@ -17,7 +17,6 @@ export class Stage {
   #canvas = byId("scene");
   #painter = new Painter(this.#canvas);
   #viewport = { width: 0, height: 0 };
-  #ratio = 1;
   #camera = { x: 0, y: 0, scale: 1 };
   #fitted = true; // the camera follows the viewport until someone moves it
   #scene = { grid: null, robots: [] };
@@ -92,7 +91,6 @@ export class Stage {
     const box = this.#canvas.getBoundingClientRect();
     const before = toWorld(this.#camera, this.#viewport, this.#middle());
     this.#viewport = { width: box.width, height: box.height };
-    this.#ratio = window.devicePixelRatio || 1;
     if (this.#fitted) this.fit();
     else this.#move({ ...this.#camera, ...before });
     this.#paint();
@@ -158,7 +156,7 @@ export class Stage {
     this.#painter.paint({
       camera: this.#camera,
       viewport: this.#viewport,
-      ratio: this.#ratio,
+      ratio: window.devicePixelRatio || 1,
       time: this.#time,
       marked: this.#marked,
     });

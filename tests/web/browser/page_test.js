@@ -264,6 +264,24 @@ test("an invalid request shows each error's pointer and detail", async () => {
   );
 });
 
+test("an error that points to a robot selects it", async () => {
+  await onPage(
+    async (page) => {
+      await paste(page, { ...TINY, robots: [{ ...TINY.robots[0], goal: { x: 40, y: 1.5 } }] });
+      await page.click("#plan");
+      await page.click("#problem .chip");
+      assert.equal(await page.getAttribute('.robot[data-robot="solo"]', "aria-pressed"), "true");
+    },
+    { allowed: /status of 422/ },
+  );
+});
+
+test("an address can name an example", async () => {
+  const { page, close } = await openPage(browser, `${service.url}#partly-solvable`);
+  assert.equal(await page.inputValue("#example"), "partly-solvable");
+  await close();
+});
+
 test("text that is not JSON is refused on the spot", async () => {
   await onPage(async (page) => {
     await paste(page, "{ not json");

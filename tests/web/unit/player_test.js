@@ -53,6 +53,15 @@ test("a pause does not count", () => {
   assert.equal(player.time, 2);
 });
 
+test("time that goes by unseen does not count", () => {
+  const player = playing(60);
+  player.tick(101);
+  player.skip();
+  player.tick(150);
+  player.tick(151);
+  assert.equal(player.time, 2);
+});
+
 test("seeking stays within the plan", () => {
   const player = playing(10);
   player.seek(99);
