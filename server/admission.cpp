@@ -1,0 +1,63 @@
+#include "server/admission.h"
+
+#include "server/negotiation.h"
+#include "server/text.h"
+
+namespace fleetplan::server {
+
+namespace {
+
+using api::ErrorCode;
+
+std::optional<Refusal> job_fault(const RequestHead& head, const Route& route, std::uint64_t max_body) {
+  if (auto fault = content_type_fault(head.field("content-type"))) {
+    return Refusal{ErrorCode::unsupported_media_type, *fault};
+  }
+  if (content_coding(head.field("content-encoding")) == ContentCoding::unknown) {
+    return Refusal{ErrorCode::unsupported_media_type,
+                   std::string("The body's Content-Encoding is ") +
+                       in_quotes(head.field("content-encoding")) + ": send it plain or with gzip.",
+                   {{"Accept-Encoding", "gzip"}}};
+  }
+  if (route.endpoint == Endpoint::plan && !accepts_json(head.field("accept"))) {
+    return Refusal{ErrorCode::not_acceptable, std::string("Plans are application/json, which Accept: ") +
+                                                  in_quotes(head.field("accept")) +
+                                                  " excludes: add application/json or leave the header out."};
+  }
+  if (head.content_length && *head.content_length > max_body) {
+    return Refusal{ErrorCode::body_too_large, "The body has " + std::to_string(*head.content_length) +
+                                                  " bytes; the limit is " + std::to_string(max_body) + "."};
+  }
+  return std::nullopt;
+}
+
+std::optional<Route> route_of(const RequestHead& head, const StaticFiles& files) {
+  if (auto route = find_route(head.path)) return route;
+  if (files.contains(head.path)) return Route{Endpoint::page, head.path};
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::variant<Route, Refusal> admit(const RequestHead& head, const StaticFiles& files, std::uint64_t max_body,
+                                   bool draining) {
+  auto route = route_of(head, files);
+  if (!route)
+    return Refusal{ErrorCode::not_found, std::string("There is nothing at ") + in_quotes(head.path) + '.'};
+  if (!is_allowed(route->endpoint, head.method)) {
+    const std::string allowed(allowed_methods(route->endpoint));
+    return Refusal{ErrorCode::method_not_allowed,
+                   in_quotes(head.path) + " takes " + allowed + ", not " + in_quotes(head.method) + '.',
+                   {{"Allow", allowed}}};
+  }
+  if (head.method == "POST") {
+    if (auto fault = job_fault(head, *route, max_body)) return *fault;
+    if (draining) {
+      return Refusal{
+          ErrorCode::draining, "The service is shutting down: ask another one.", {{"Retry-After", "1"}}};
+    }
+  }
+  return *route;
+}
+
+}  // namespace fleetplan::server

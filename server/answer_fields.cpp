@@ -1,0 +1,15 @@
+#include "server/answer_fields.h"
+
+namespace fleetplan::server {
+
+HeaderFields common_fields(const Exchange& exchange) {
+  HeaderFields fields{{"X-Request-Id", exchange.request_id}, {"X-Content-Type-Options", "nosniff"}};
+  if (exchange.close) {
+    fields.emplace_back("Connection", "close");
+  } else if (exchange.head.http_1_0) {
+    fields.emplace_back("Connection", "keep-alive");
+  }
+  return fields;
+}
+
+}  // namespace fleetplan::server

@@ -1,0 +1,117 @@
+#include "server/body_reader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+namespace fleetplan::server {
+
+namespace {
+
+constexpr std::size_t kMaxChunkLine = 4096;
+constexpr std::size_t kMaxTrailerLines = 100;
+
+BodyFault malformed(std::string detail) { return {BodyFault::Kind::malformed, std::move(detail)}; }
+
+/// Input of one body from a socket, against a slow client.
+class Source {
+ public:
+  Source(Socket& socket, std::string& input, std::chrono::milliseconds patience)
+      : socket_(socket), input_(input), patience_(patience), begin_(Socket::Clock::now()) {}
+
+  /// False when no more is to come, or not in time.
+  bool more() {
+    const std::size_t before = input_.size();
+    const auto deadline = begin_ + patience_ + std::chrono::milliseconds(received_);
+    if (socket_.read_some(input_, deadline) != Socket::Read::some) return false;
+    received_ += input_.size() - before;
+    return true;
+  }
+
+  /// Moves `count` bytes to `body`; false when they do not come.
+  bool take(std::uint64_t count, std::string& body) {
+    while (count > 0) {
+      if (input_.empty() && !more()) return false;
+      const auto part = std::min<std::uint64_t>(count, input_.size());
+      body.append(input_, 0, part);
+      input_.erase(0, part);
+      count -= part;
+    }
+    return true;
+  }
+
+  /// A line without its CR LF; none when it does not come or is too long.
+  std::optional<std::string> take_line() {
+    std::size_t end = 0;
+    while ((end = input_.find("\r\n")) == std::string::npos) {
+      if (input_.size() > kMaxChunkLine || !more()) return std::nullopt;
+    }
+    std::string line = input_.substr(0, end);
+    input_.erase(0, end + 2);
+    return line;
+  }
+
+ private:
+  Socket& socket_;
+  std::string& input_;
+  std::chrono::milliseconds patience_;
+  Socket::Clock::time_point begin_;
+  std::size_t received_ = 0;  // bytes; each extends the deadline by a millisecond
+};
+
+BodyFault incomplete() {
+  return {BodyFault::Kind::incomplete, "The body ended early or did not come in time."};
+}
+
+std::optional<std::uint64_t> parse_chunk_size(const std::string& line) {
+  std::uint64_t size = 0;
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), size, 16);
+  if (error != std::errc{}) return std::nullopt;
+  const bool at_end = end == line.data() + line.size() || *end == ';' || *end == ' ' || *end == '\t';
+  return at_end ? std::optional(size) : std::nullopt;
+}
+
+std::variant<std::string, BodyFault> read_chunked(Source& source, std::uint64_t limit) {
+  std::string body;
+  while (true) {
+    const auto line = source.take_line();
+    if (!line) return incomplete();
+    const auto size = parse_chunk_size(*line);
+    if (!size) return malformed("A chunk does not begin with its size in hexadecimal.");
+    if (*size == 0) break;
+    if (*size > limit - body.size()) {
+      return BodyFault{BodyFault::Kind::too_large, "The body has at least " + std::to_string(body.size()) +
+                                                       " + " + std::to_string(*size) +
+                                                       " bytes; the limit is " + std::to_string(limit) + "."};
+    }
+    if (!source.take(*size, body)) return incomplete();
+    const auto rest = source.take_line();
+    if (!rest) return incomplete();
+    if (!rest->empty()) return malformed("A chunk is longer than its size says.");
+  }
+  for (std::size_t lines = 0; lines <= kMaxTrailerLines; ++lines) {
+    const auto line = source.take_line();
+    if (!line) return incomplete();
+    if (line->empty()) return body;
+  }
+  return malformed("The body has too many trailers.");
+}
+
+}  // namespace
+
+std::variant<std::string, BodyFault> read_body(Socket& socket, std::string& input, const RequestHead& head,
+                                               std::uint64_t limit, std::chrono::milliseconds patience) {
+  Source source(socket, input, patience);
+  if (head.chunked) return read_chunked(source, limit);
+  const std::uint64_t length = head.content_length.value_or(0);
+  if (length > limit) {
+    return BodyFault{BodyFault::Kind::too_large, "The body has " + std::to_string(length) +
+                                                     " bytes; the limit is " + std::to_string(limit) + "."};
+  }
+  std::string body;
+  body.reserve(std::min<std::uint64_t>(length, 1 << 20));  // a promise alone buys no memory
+  if (!source.take(length, body)) return incomplete();
+  return body;
+}
+
+}  // namespace fleetplan::server

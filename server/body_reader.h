@@ -1,0 +1,29 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "server/request_head.h"
+#include "server/socket.h"
+
+namespace fleetplan::server {
+
+/// Why there is no body.
+struct BodyFault {
+  enum class Kind { malformed, too_large, incomplete };
+  Kind kind;
+  std::string detail;
+};
+
+/// Reads the body of a request as it was sent, still content-coded, by Content-Length or chunked. Strict
+/// about the framing; chunk extensions and trailers are read and dropped.
+///
+/// `input` holds what was read beyond the head; what follows the body stays in it. `limit`: bytes of body.
+/// The client may pause for `patience` and must send at least 1 kB/s beyond that.
+std::variant<std::string, BodyFault> read_body(Socket& socket, std::string& input, const RequestHead& head,
+                                               std::uint64_t limit, std::chrono::milliseconds patience);
+
+}  // namespace fleetplan::server

@@ -1,0 +1,220 @@
+#include "server/connection.h"
+
+#include <utility>
+
+#include "server/answer_fields.h"
+#include "server/body_reader.h"
+#include "server/request_id.h"
+#include "server/text.h"
+
+namespace fleetplan::server {
+
+namespace {
+
+using api::ErrorCode;
+using Clock = Socket::Clock;
+
+/// A refused body up to this size is read and dropped to keep the connection; a larger one costs it.
+constexpr std::uint64_t kMaxDropped = 1 << 20;
+
+/// Counts an exchange as under way.
+class Active {
+ public:
+  explicit Active(std::atomic<int>& count) : count_(count) { ++count_; }
+  ~Active() { --count_; }
+  Active(const Active&) = delete;
+  Active& operator=(const Active&) = delete;
+
+ private:
+  std::atomic<int>& count_;
+};
+
+std::string_view reason_phrase(int status) {
+  switch (status) {
+    case 400:
+      return "Bad Request";
+    case 404:
+      return "Not Found";
+    case 405:
+      return "Method Not Allowed";
+    case 406:
+      return "Not Acceptable";
+    case 413:
+      return "Content Too Large";
+    case 415:
+      return "Unsupported Media Type";
+    case 503:
+      return "Service Unavailable";
+    default:
+      return "Error";
+  }
+}
+
+std::string response_text(const Exchange& exchange, const api::Reply& reply, const HeaderFields& further) {
+  std::string text = "HTTP/1.1 " + std::to_string(reply.status) + ' ';
+  text += reason_phrase(reply.status);
+  text += "\r\n";
+  const auto add = [&](const std::string& name, const std::string& value) {
+    text += name + ": " + value + "\r\n";
+  };
+  for (const auto& [name, value] : common_fields(exchange)) add(name, value);
+  for (const auto& [name, value] : further) add(name, value);
+  add("Content-Type", reply.content_type);
+  add("Content-Length", std::to_string(reply.body.size()));
+  text += "\r\n";
+  if (exchange.head.method != "HEAD") text += reply.body;
+  return text;
+}
+
+bool has_body(const RequestHead& head) { return head.chunked || head.content_length.value_or(0) > 0; }
+
+bool expects_continue(const RequestHead& head) {
+  return !head.http_1_0 && lower_case(head.field("expect")) == "100-continue";
+}
+
+double ms_between(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+}  // namespace
+
+Connection::Connection(int fd, ConnectionContext context)
+    : context_(std::move(context)), socket_(fd, context_.stop_fd) {}
+
+void Connection::serve() {
+  while (open_ && await_request()) {
+    const Active active(context_.active);
+    Exchange exchange;
+    exchange.socket = &socket_;
+    exchange.begun_at = Clock::now();
+    serve_exchange(exchange);
+    open_ = open_ && !exchange.close;
+  }
+  if (unread_) socket_.linger();
+}
+
+bool Connection::await_request() {
+  return !input_.empty() ||
+         socket_.read_some(input_, Clock::now() + context_.settings.idle_timeout) == Socket::Read::some;
+}
+
+void Connection::serve_exchange(Exchange& exchange) {
+  std::uint64_t bytes_out = 0;
+  if (const auto refusal = read_request(exchange)) {
+    bytes_out = refuse(exchange, *refusal);
+  } else if (open_) {
+    ExchangeStream stream(exchange);
+    const bool usable = context_.answer(exchange, stream);
+    open_ = stream.flush() && usable;
+    bytes_out = stream.written();
+  } else {
+    return;  // it left before it asked for anything
+  }
+  if (exchange.abandoned) exchange.status = 499;
+  log(exchange, bytes_out);
+}
+
+std::optional<Refusal> Connection::read_request(Exchange& exchange) {
+  if (auto refusal = read_head(exchange)) {
+    exchange.close = true;
+    unread_ = true;
+    return refusal;
+  }
+  if (!open_) return std::nullopt;
+  const RequestHead& head = exchange.head;
+  exchange.close = !head.wants_keep_alive();
+  auto admitted = admit(head, context_.files, context_.settings.limits.max_body, context_.draining);
+  if (auto* refusal = std::get_if<Refusal>(&admitted)) {
+    const bool droppable = !head.chunked && head.content_length.value_or(0) <= kMaxDropped;
+    if (has_body(head) && (!droppable || expects_continue(head))) exchange.close = unread_ = true;
+    return std::move(*refusal);
+  }
+  exchange.route = std::get<Route>(std::move(admitted));
+  auto refusal = read_content(exchange);
+  exchange.received_at = Clock::now();
+  return refusal;
+}
+
+std::optional<Refusal> Connection::read_head(Exchange& exchange) {
+  const auto deadline = exchange.begun_at + context_.settings.read_timeout;
+  // Empty lines before a request are to be ignored (RFC 9112, 2.2).
+  const auto skip_empty_lines = [&] {
+    input_.erase(0, std::min(input_.find_first_not_of("\r\n"), input_.size()));
+  };
+  skip_empty_lines();
+  HeadScanner scanner;
+  HeadScanner::State state{};
+  while ((state = scanner.scan(input_)) == HeadScanner::State::incomplete) {
+    if (input_.size() > kMaxHeadBytes) break;
+    const auto read = socket_.read_some(input_, deadline);
+    if (read == Socket::Read::timeout && !input_.empty()) break;
+    if (read != Socket::Read::some) {
+      open_ = false;
+      return std::nullopt;
+    }
+    if (scanner.size() == 0) skip_empty_lines();
+  }
+  exchange.request_id = make_request_id();
+  if (state == HeadScanner::State::malformed) {
+    return Refusal{ErrorCode::malformed_request, "The lines of a request's head end in CR LF."};
+  }
+  if (state == HeadScanner::State::incomplete || scanner.size() > kMaxHeadBytes) {
+    return Refusal{ErrorCode::malformed_request,
+                   "The request's head is not complete within " + std::to_string(kMaxHeadBytes) +
+                       " bytes and " + std::to_string(context_.settings.read_timeout.count()) + " ms."};
+  }
+  auto parsed = parse_request_head(std::string_view(input_).substr(0, scanner.size()));
+  input_.erase(0, scanner.size());
+  if (const auto* bad = std::get_if<BadHead>(&parsed)) {
+    return Refusal{ErrorCode::malformed_request, bad->detail};
+  }
+  exchange.head = std::get<RequestHead>(std::move(parsed));
+  const std::string sent_id = exchange.head.field("x-request-id");
+  if (is_well_formed_request_id(sent_id)) exchange.request_id = sent_id;
+  return std::nullopt;
+}
+
+std::optional<Refusal> Connection::read_content(Exchange& exchange) {
+  const RequestHead& head = exchange.head;
+  if (!has_body(head)) return std::nullopt;
+  if (expects_continue(head) && input_.empty()) open_ = socket_.write_all("HTTP/1.1 100 Continue\r\n\r\n");
+  auto read =
+      read_body(socket_, input_, head, context_.settings.limits.max_body, context_.settings.read_timeout);
+  if (auto* fault = std::get_if<BodyFault>(&read)) {
+    exchange.close = unread_ = true;
+    const bool too_large = fault->kind == BodyFault::Kind::too_large;
+    return Refusal{too_large ? ErrorCode::body_too_large : ErrorCode::malformed_request, fault->detail};
+  }
+  exchange.body = std::get<std::string>(std::move(read));
+  return std::nullopt;
+}
+
+std::uint64_t Connection::refuse(Exchange& exchange, const Refusal& refusal) {
+  if (context_.draining) exchange.close = true;
+  const auto reply = api::problem_reply(refusal.code, refusal.detail, exchange.request_id);
+  exchange.status = reply.status;
+  const std::string text = response_text(exchange, reply, refusal.fields);
+  open_ = socket_.write_all(text) && open_;
+  if (open_ && !exchange.close && exchange.body.empty() && has_body(exchange.head)) drop_body(exchange);
+  return text.size();
+}
+
+void Connection::drop_body(Exchange& exchange) {
+  const auto read = read_body(socket_, input_, exchange.head, kMaxDropped, context_.settings.read_timeout);
+  if (std::holds_alternative<BodyFault>(read)) exchange.close = unread_ = true;
+}
+
+void Connection::log(const Exchange& exchange, std::uint64_t bytes_out) const {
+  RequestRecord record;
+  record.id = exchange.request_id;
+  record.method = exchange.head.method;
+  record.path = exchange.head.raw_path;
+  record.status = exchange.status;
+  record.bytes_in = exchange.body.size();
+  record.bytes_out = bytes_out;
+  record.ms = ms_between(exchange.begun_at, Clock::now());
+  record.queue_ms = exchange.queue_ms;
+  context_.log.request(record);
+}
+
+}  // namespace fleetplan::server

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+
+#include "server/admission.h"
+#include "server/exchange.h"
+#include "server/exchange_stream.h"
+#include "server/request_log.h"
+#include "server/settings.h"
+#include "server/static_files.h"
+
+namespace fleetplan::server {
+
+/// What all connections share.
+struct ConnectionContext {
+  const Settings& settings;
+  const StaticFiles& files;
+  const RequestLog& log;
+  const std::atomic<bool>& draining;
+  std::atomic<int>& active;                                // exchanges under way
+  int stop_fd;                                             // see Socket
+  std::function<bool(Exchange&, ExchangeStream&)> answer;  // false: the connection is of no more use
+};
+
+/// One client's connection: reads its requests, refuses the bad ones, has the others answered, and logs each.
+class Connection {
+ public:
+  /// Takes the socket over.
+  Connection(int fd, ConnectionContext context);
+
+  /// Until the client leaves, is idle for too long, or the server stops.
+  void serve();
+
+ private:
+  bool await_request();
+  void serve_exchange(Exchange& exchange);
+  std::optional<Refusal> read_request(Exchange& exchange);
+  std::optional<Refusal> read_head(Exchange& exchange);
+  std::optional<Refusal> read_content(Exchange& exchange);
+  std::uint64_t refuse(Exchange& exchange, const Refusal& refusal);
+  void drop_body(Exchange& exchange);
+  void log(const Exchange& exchange, std::uint64_t bytes_out) const;
+
+  ConnectionContext context_;
+  Socket socket_;
+  std::string input_;  // read and not used yet
+  bool open_ = true;
+  bool unread_ = false;  // the client may still be sending
+};
+
+}  // namespace fleetplan::server

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "server/request_head.h"
+#include "server/routes.h"
+#include "server/socket.h"
+
+namespace fleetplan::server {
+
+/// One request and its answer, on the connection's thread.
+struct Exchange {
+  using Clock = std::chrono::steady_clock;
+
+  Socket* socket = nullptr;
+  Clock::time_point begun_at;     // first byte in
+  Clock::time_point received_at;  // last byte of the body in
+  std::string request_id;
+  RequestHead head;
+  Route route{};
+  std::string body;  // as sent, perhaps gzip-coded
+
+  int status = 0;
+  bool close = false;      // the connection ends with this answer
+  bool abandoned = false;  // the client left: nobody reads an answer
+  std::optional<double> queue_ms = std::nullopt;
+};
+
+}  // namespace fleetplan::server

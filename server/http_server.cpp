@@ -1,0 +1,278 @@
+#include "server/http_server.h"
+
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <exception>
+#include <utility>
+
+#include "api/error.h"
+#include "server/answer_fields.h"
+#include "server/connection_threads.h"
+#include "server/info_endpoints.h"
+#include "server/negotiation.h"
+
+namespace fleetplan::server {
+
+namespace {
+
+using api::ErrorCode;
+
+constexpr int kListenBacklog = 511;
+/// How often a client that waits for its plan is looked at: a plan nobody waits for stops within 100 ms.
+constexpr std::chrono::milliseconds kPeerCheck{25};
+
+constexpr const char* kContentSecurityPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src "
+    "'self'; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// The library's default would add SO_REUSEPORT, with which a second instance silently shares the port.
+void set_listening_options(int fd) {
+  const int yes = 1;
+  ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+}
+
+void disable_nagle(int fd) {
+  const int yes = 1;
+  ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+}
+
+void fill(httplib::Response& response, api::Reply reply) {
+  response.status = reply.status;
+  response.body = std::move(reply.body);
+  response.set_header("Content-Type", reply.content_type);
+}
+
+}  // namespace
+
+HttpServer::HttpServer(const Settings& settings, Service service)
+    : settings_(settings),
+      service_(std::move(service)),
+      log_(settings.log_level),
+      files_(settings.web_root),
+      pool_(settings.workers, settings.queue) {
+  new_task_queue = [this] { return new ConnectionThreads(settings_.connections); };
+  set_socket_options(set_listening_options);
+  install_handlers();
+}
+
+HttpServer::~HttpServer() {
+  if (listening_fd_ >= 0) ::close(listening_fd_);
+}
+
+std::optional<std::string> HttpServer::bind() {
+  errno = 0;
+  port_ = settings_.port;
+  if (settings_.port == 0) {
+    port_ = bind_to_any_port(settings_.host);
+  } else if (!bind_to_port(settings_.host, settings_.port)) {
+    port_ = -1;
+  }
+  if (port_ <= 0) {
+    const std::string reason = errno != 0 ? std::strerror(errno) : "no such address";
+    return "cannot listen on " + settings_.host + ':' + std::to_string(settings_.port) + ": " + reason;
+  }
+  listening_fd_ = svr_sock_.load();
+  ::listen(listening_fd_, kListenBacklog);  // again: the library's backlog of 5 refuses bursts
+  return std::nullopt;
+}
+
+void HttpServer::run() { listen_after_bind(); }
+
+void HttpServer::stop() {
+  stop_signal_.raise();
+  // Shut down, so that accept() returns, but not closed: the number may not serve another socket before run()
+  // has ended.
+  svr_sock_ = INVALID_SOCKET;
+  ::shutdown(listening_fd_, SHUT_RDWR);
+}
+
+bool HttpServer::process_and_close_socket(socket_t fd) {
+  disable_nagle(fd);
+  Connection connection(
+      fd, {settings_, files_, log_, draining_, active_, stop_signal_.fd(),
+           [this](Exchange& exchange, ExchangeStream& stream) { return answer(exchange, stream); }});
+  connection.serve();
+  return true;
+}
+
+bool HttpServer::answer(Exchange& exchange, ExchangeStream& stream) {
+  const httplib::Request* key = nullptr;
+  const auto setup = [&](httplib::Request& request) {
+    const std::lock_guard lock(exchanges_mutex_);
+    key = &request;
+    exchanges_[key] = &exchange;
+  };
+  bool closed = false;
+  const auto process = [&](auto& self) {
+    // The addresses came in with a later version of the library.
+    if constexpr (requires { self.process_request(stream, false, closed, setup); }) {
+      return self.process_request(stream, false, closed, setup);
+    } else {
+      return self.process_request(stream, "", 0, "", 0, false, closed, setup);
+    }
+  };
+  const bool written = process(*this);
+  const std::lock_guard lock(exchanges_mutex_);
+  exchanges_.erase(key);
+  return written;
+}
+
+Exchange* HttpServer::exchange_of(const httplib::Request& request) {
+  const std::lock_guard lock(exchanges_mutex_);
+  const auto found = exchanges_.find(&request);
+  return found == exchanges_.end() ? nullptr : found->second;
+}
+
+void HttpServer::install_handlers() {
+  // All requests are shown to the library as one path, see ExchangeStream.
+  Get("/", [this](const httplib::Request& request, httplib::Response& response) {
+    answer_get(*exchange_of(request), response);
+  });
+  Post("/",
+       [this](const httplib::Request& request, httplib::Response& response,
+              const httplib::ContentReader& reader) { answer_job(*exchange_of(request), reader, response); });
+  set_exception_handler(
+      [this](const httplib::Request& request, httplib::Response& response, std::exception_ptr failure) {
+        if (const Exchange* exchange = exchange_of(request)) {
+          fill(response, guarded(*exchange, [&]() -> api::Reply { std::rethrow_exception(failure); }));
+        }
+      });
+  set_post_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+    Exchange* exchange = exchange_of(request);
+    if (exchange == nullptr) return;
+    exchange->status = response.status;
+    if (draining_) exchange->close = true;
+    for (const char* name : {"Keep-Alive", "Accept-Ranges", "Connection"}) response.headers.erase(name);
+    if (response.status == 304) response.headers.erase("Content-Length");
+    for (const auto& [name, value] : common_fields(*exchange)) response.set_header(name, value);
+  });
+}
+
+void HttpServer::answer_get(const Exchange& exchange, httplib::Response& response) {
+  const Route& route = exchange.route;
+  if (route.endpoint == Endpoint::page) return answer_page(exchange, response);
+  fill(response, guarded(exchange, [&]() -> api::Reply {
+         switch (route.endpoint) {
+           case Endpoint::example_list:
+             return service_.example_list();
+           case Endpoint::example:
+             return example_reply(service_, route.parameter, exchange.request_id);
+           case Endpoint::limits:
+             return limits_reply(settings_);
+           case Endpoint::readyz:
+             return readiness_reply(draining_, exchange.request_id);
+           default:
+             return health_reply();
+         }
+       }));
+}
+
+void HttpServer::answer_page(const Exchange& exchange, httplib::Response& response) {
+  auto file = files_.read(exchange.route.parameter);
+  if (!file) {
+    const std::string detail = files_.has_root() ? "The page's folder has no such file."
+                                                 : "This server has no page: start it with --web-root.";
+    return fill(response, api::problem_reply(ErrorCode::not_found, detail, exchange.request_id));
+  }
+  response.set_header("ETag", file->etag);
+  response.set_header("Cache-Control", "no-cache");
+  response.set_header("Vary", "Accept-Encoding");
+  response.set_header("Content-Security-Policy", kContentSecurityPolicy);
+  response.set_header("Referrer-Policy", "no-referrer");
+  if (exchange.head.field("if-none-match").find(file->etag) != std::string::npos) {
+    response.status = 304;
+    return;
+  }
+  fill(response, {200, file->content_type, std::move(file->body)});
+}
+
+void HttpServer::answer_job(Exchange& exchange, const httplib::ContentReader& reader,
+                            httplib::Response& response) {
+  if (auto refusal = decode_body(exchange, reader)) return fill(response, std::move(*refusal));
+  run_job(exchange, response);
+}
+
+std::optional<api::Reply> HttpServer::decode_body(Exchange& exchange, const httplib::ContentReader& reader) {
+  if (content_coding(exchange.head.field("content-encoding")) == ContentCoding::identity) return std::nullopt;
+  const std::size_t limit = settings_.limits.max_body;
+  std::string decoded;
+  bool too_large = false;
+  const bool complete = reader([&](const char* data, std::size_t size) {
+    too_large = size > limit - decoded.size();
+    if (!too_large) decoded.append(data, size);
+    return !too_large;
+  });
+  if (too_large) {
+    return api::problem_reply(ErrorCode::body_too_large,
+                              "The body of " + std::to_string(exchange.body.size()) +
+                                  " bytes has more than " + std::to_string(limit) +
+                                  " bytes when decompressed, which is the limit.",
+                              exchange.request_id);
+  }
+  if (!complete) {
+    return api::problem_reply(ErrorCode::malformed_request, "The body is not in gzip, as it is declared.",
+                              exchange.request_id);
+  }
+  exchange.body = std::move(decoded);
+  return std::nullopt;
+}
+
+void HttpServer::run_job(Exchange& exchange, httplib::Response& response) {
+  std::stop_source stop;
+  const std::stop_callback cancel(cancel_all_.get_token(), [&stop] { stop.request_stop(); });
+  const auto& endpoint = exchange.route.endpoint == Endpoint::plan ? service_.plan : service_.validate;
+  api::RequestContext context;
+  context.request_id = exchange.request_id;
+  context.received_at = exchange.received_at;
+  context.stop = stop.get_token();
+  context.limits = settings_.limits;
+
+  api::Reply reply;
+  const auto ticket = pool_.submit([&] {
+    context.started_at = api::RequestContext::Clock::now();
+    reply = guarded(exchange, [&] { return endpoint(exchange.body, context); });
+  });
+  if (!ticket) {
+    response.set_header("Retry-After", std::to_string(pool_.retry_after_s()));
+    return fill(response, api::problem_reply(ErrorCode::overloaded,
+                                             "All workers are busy and the queue is full: try again later.",
+                                             exchange.request_id));
+  }
+  await_job(exchange, *ticket, stop);
+  const auto queued = context.started_at - context.received_at;
+  exchange.queue_ms = std::chrono::duration<double, std::milli>(queued).count();
+  if (exchange.abandoned) reply.status = 499;
+  fill(response, std::move(reply));
+}
+
+/// Returns when the job has finished or will never be started.
+void HttpServer::await_job(Exchange& exchange, const WorkerPool::Ticket& ticket, std::stop_source& stop) {
+  while (!pool_.wait_for(ticket, kPeerCheck)) {
+    if (exchange.abandoned || !exchange.socket->peer_gone()) continue;
+    exchange.abandoned = true;
+    stop.request_stop();
+    if (pool_.withdraw(ticket)) return;
+  }
+}
+
+/// The one place where an exception, which means a bug, becomes a 500. What it says is for the log only.
+api::Reply HttpServer::guarded(const Exchange& exchange, const std::function<api::Reply()>& work) const {
+  std::string what = "an exception of no known type";
+  try {
+    return work();
+  } catch (const std::exception& failure) {
+    what = failure.what();
+  } catch (...) {  // NOLINT(bugprone-empty-catch): reported below
+  }
+  log_.error(what, exchange.request_id);
+  return api::problem_reply(ErrorCode::internal_error,
+                            "A bug in the service; its log has more under this request_id.",
+                            exchange.request_id);
+}
+
+}  // namespace fleetplan::server

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <httplib.h>
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <unordered_map>
+
+#include "server/connection.h"
+#include "server/request_log.h"
+#include "server/service.h"
+#include "server/settings.h"
+#include "server/static_files.h"
+#include "server/stop_signal.h"
+#include "server/worker_pool.h"
+
+namespace fleetplan::server {
+
+/// The service on a socket. Construct, bind, run (in a thread of its own); to end: begin_drain, wait until
+/// idle, cancel_jobs if that takes too long, stop. All but bind and run may be called from any thread.
+class HttpServer final : private httplib::Server {
+ public:
+  HttpServer(const Settings& settings, Service service);
+  ~HttpServer() override;
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+
+  /// Takes the port; why not, otherwise.
+  std::optional<std::string> bind();
+
+  /// The bound one, also when any free port was asked for.
+  int port() const { return port_; }
+
+  /// Serves until stop(); after bind().
+  void run();
+
+  /// Not ready any more, no new jobs; what runs goes on.
+  void begin_drain() { draining_ = true; }
+
+  /// No request is being read, worked on or answered.
+  bool idle() const { return active_ == 0; }
+
+  /// Asks all jobs, now and later, to stop.
+  void cancel_jobs() { cancel_all_.request_stop(); }
+
+  /// Ends run() once requests under way are answered.
+  void stop();
+
+ private:
+  bool process_and_close_socket(socket_t fd) override;
+  void install_handlers();
+  bool answer(Exchange& exchange, ExchangeStream& stream);
+  void answer_get(const Exchange& exchange, httplib::Response& response);
+  void answer_page(const Exchange& exchange, httplib::Response& response);
+  void answer_job(Exchange& exchange, const httplib::ContentReader& reader, httplib::Response& response);
+  std::optional<api::Reply> decode_body(Exchange& exchange, const httplib::ContentReader& reader);
+  void run_job(Exchange& exchange, httplib::Response& response);
+  void await_job(Exchange& exchange, const WorkerPool::Ticket& ticket, std::stop_source& stop);
+  api::Reply guarded(const Exchange& exchange, const std::function<api::Reply()>& work) const;
+  Exchange* exchange_of(const httplib::Request& request);
+
+  const Settings settings_;
+  const Service service_;
+  const RequestLog log_;
+  const StaticFiles files_;
+  StopSignal stop_signal_;
+  std::atomic<bool> draining_{false};
+  std::atomic<int> active_{0};
+  std::stop_source cancel_all_;
+  int port_ = 0;
+  std::atomic<int> listening_fd_{-1};
+  std::mutex exchanges_mutex_;
+  std::unordered_map<const httplib::Request*, Exchange*> exchanges_;  // those in the library's hands
+  WorkerPool pool_;
+};
+
+}  // namespace fleetplan::server

@@ -1,0 +1,16 @@
+#include "api/examples.h"
+#include "api/plan_endpoint.h"
+#include "api/validate_endpoint.h"
+#include "server/service.h"
+
+namespace fleetplan::server {
+
+Service planning_service() {
+  Service service{api::plan_endpoint, api::validate_endpoint, api::examples_endpoint, {}};
+  for (const auto& example : api::examples()) {
+    service.examples.push_back({std::string(example.name), std::string(example.body)});
+  }
+  return service;
+}
+
+}  // namespace fleetplan::server

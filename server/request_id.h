@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace fleetplan::server {
+
+/// True for 1..128 characters of [A-Za-z0-9._-]: safe in a header, a log line and a file name.
+bool is_well_formed_request_id(std::string_view id);
+
+/// 128 random bits as 32 hexadecimal digits.
+std::string make_request_id();
+
+/// What the client sent if it is well-formed, a new one otherwise.
+std::string request_id_from(std::string_view sent);
+
+}  // namespace fleetplan::server

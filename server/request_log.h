@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace spdlog {
+class logger;
+}
+
+namespace fleetplan::server {
+
+/// One line of the log for each request.
+struct RequestRecord {
+  std::string id;
+  std::string method;
+  std::string path;                               // without query, as sent
+  int status = 0;                                 // 499: the client left before the answer
+  std::uint64_t bytes_in = 0;                     // of the body, as sent
+  std::uint64_t bytes_out = 0;                    // of the whole answer
+  double ms = 0.0;                                // first byte of the request to last byte of the answer
+  std::optional<double> queue_ms = std::nullopt;  // for planning jobs: in the queue
+};
+
+/// JSON lines to stderr. Thread-safe.
+class RequestLog {
+ public:
+  /// `level`: trace, debug, info, warn, error, critical or off.
+  explicit RequestLog(const std::string& level);
+
+  /// At level info, error for a status of 500 and more except 503.
+  void request(const RequestRecord& record) const;
+
+  /// An event of the server's life, or a bug: level info or error.
+  void info(std::string_view message) const;
+  void error(std::string_view message, std::string_view request_id = {}) const;
+
+ private:
+  std::shared_ptr<spdlog::logger> logger_;
+};
+
+}  // namespace fleetplan::server

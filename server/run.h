@@ -1,0 +1,12 @@
+#pragma once
+
+#include "server/service.h"
+#include "server/settings.h"
+
+namespace fleetplan::server {
+
+/// Serves until SIGTERM or SIGINT, then drains. The process's exit code: 0, or 1 when the port cannot be
+/// taken or jobs did not end.
+int run(const Settings& settings, Service service);
+
+}  // namespace fleetplan::server

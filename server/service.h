@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/reply.h"
+#include "api/request_context.h"
+
+namespace fleetplan::server {
+
+/// What the server serves. The server knows HTTP only; a test puts a stub here and needs no planner.
+struct Service {
+  using Endpoint = std::function<api::Reply(std::string_view body, const api::RequestContext&)>;
+  struct Example {
+    std::string name;
+    std::string body;  // JSON
+  };
+
+  Endpoint plan;                             // run by a planning worker
+  Endpoint validate;                         // run by a planning worker
+  std::function<api::Reply()> example_list;  // GET /v1/examples
+  std::vector<Example> examples;
+};
+
+/// The planner behind the api layer.
+Service planning_service();
+
+}  // namespace fleetplan::server

@@ -1,0 +1,72 @@
+#include "server/socket.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+
+namespace fleetplan::server {
+
+namespace {
+
+constexpr std::chrono::seconds kWriteTimeout{10};
+constexpr std::chrono::seconds kLinger{3};
+
+int milliseconds_until(Socket::Clock::time_point deadline) {
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Socket::Clock::now()).count();
+  return static_cast<int>(std::clamp<std::int64_t>(left, 0, 3'600'000));
+}
+
+}  // namespace
+
+Socket::~Socket() { ::close(fd_); }
+
+Socket::Read Socket::read_some(std::string& into, Clock::time_point deadline) {
+  std::array<char, 16 * 1024> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled by recv
+  while (true) {
+    const ssize_t got = ::recv(fd_, buffer.data(), buffer.size(), MSG_DONTWAIT);
+    if (got > 0) {
+      into.append(buffer.data(), static_cast<std::size_t>(got));
+      return Read::some;
+    }
+    if (got == 0) return Read::end;
+    if (errno == EINTR) continue;
+    if (errno != EAGAIN && errno != EWOULDBLOCK) return Read::end;
+    std::array<pollfd, 2> wanted{{{fd_, POLLIN, 0}, {stop_fd_, POLLIN, 0}}};
+    const int ready = ::poll(wanted.data(), wanted.size(), milliseconds_until(deadline));
+    if (ready == 0) return Read::timeout;
+    if (wanted[1].revents != 0) return Read::stopped;
+  }
+}
+
+bool Socket::write_all(std::string_view data) {
+  while (!data.empty()) {
+    const ssize_t sent = ::send(fd_, data.data(), data.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+    if (sent > 0) {
+      data.remove_prefix(static_cast<std::size_t>(sent));
+      continue;
+    }
+    if (errno == EINTR) continue;
+    if (errno != EAGAIN && errno != EWOULDBLOCK) return false;
+    pollfd writable{fd_, POLLOUT, 0};
+    if (::poll(&writable, 1, milliseconds_until(Clock::now() + kWriteTimeout)) == 0) return false;
+  }
+  return true;
+}
+
+bool Socket::peer_gone() const {
+  pollfd hangup{fd_, POLLRDHUP, 0};
+  return ::poll(&hangup, 1, 0) > 0;
+}
+
+void Socket::linger() {
+  ::shutdown(fd_, SHUT_WR);
+  const auto deadline = Clock::now() + kLinger;
+  std::string ignored;
+  while (Clock::now() < deadline && read_some(ignored, deadline) == Read::some) ignored.clear();
+}
+
+}  // namespace fleetplan::server

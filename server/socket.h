@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace fleetplan::server {
+
+/// A connected socket, closed at the end, with deadlines on everything that waits.
+class Socket {
+ public:
+  using Clock = std::chrono::steady_clock;
+  enum class Read { some, end, timeout, stopped };
+
+  /// `stop_fd`: reading gives up as soon as this descriptor becomes readable.
+  Socket(int fd, int stop_fd) : fd_(fd), stop_fd_(stop_fd) {}
+  ~Socket();
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+
+  /// Appends what arrives first.
+  Read read_some(std::string& into, Clock::time_point deadline);
+
+  /// False when the peer is gone or takes nothing for long.
+  bool write_all(std::string_view data);
+
+  /// True when the peer has closed its side.
+  bool peer_gone() const;
+
+  /// Says goodbye so that the last answer arrives: a close with unread input would reset the connection and
+  /// may destroy what is under way to the client.
+  void linger();
+
+  int fd() const { return fd_; }
+
+ private:
+  int fd_;
+  int stop_fd_;
+};
+
+}  // namespace fleetplan::server

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+namespace fleetplan::server {
+
+/// Threads that plan, with a bounded queue in front of them, so that load beyond it is refused at once rather
+/// than kept waiting. Jobs are taken in order. Thread-safe.
+class WorkerPool {
+ public:
+  using Job = std::function<void()>;  // must not throw
+  using Clock = std::chrono::steady_clock;
+
+  struct Entry;
+  using Ticket = std::shared_ptr<Entry>;
+
+  /// `workers` >= 1 threads; at most `queue` jobs wait beside the running ones (0: only idle workers take
+  /// any).
+  WorkerPool(int workers, std::size_t queue);
+
+  /// Finishes all jobs taken.
+  ~WorkerPool();
+
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+
+  /// Takes a job; none when the queue is full.
+  std::optional<Ticket> submit(Job job);
+
+  /// True when the job has finished, waiting for at most `patience`.
+  bool wait_for(const Ticket& ticket, std::chrono::milliseconds patience);
+
+  /// Takes a job back; false when it has been started already.
+  bool withdraw(const Ticket& ticket);
+
+  /// Seconds, at least 1, after which a refused job may find room: the work ahead by the mean job so far.
+  int retry_after_s() const;
+
+  /// Jobs that wait.
+  std::size_t queued() const;
+
+ private:
+  void work();
+
+  const std::size_t capacity_;
+  mutable std::mutex mutex_;
+  std::condition_variable work_available_;
+  std::list<Ticket> queue_;
+  std::size_t running_ = 0;
+  double mean_job_s_ = 0.0;
+  bool stopping_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace fleetplan::server
