@@ -1,0 +1,163 @@
+// Requests no HTTP client would send.
+
+#include <gtest/gtest.h>
+
+#include "tests/server/test_server.h"
+
+namespace fleetplan::server {
+namespace {
+
+class Framing : public testing::Test {
+ protected:
+  static Settings settings() {
+    Settings settings;
+    settings.limits.max_body = 1000;
+    return settings;
+  }
+
+  static std::string post(const std::string& fields, const std::string& body) {
+    return "POST /v1/plan HTTP/1.1\r\n" + fields + "\r\n" + body;
+  }
+
+  static std::string status_of(const std::string& answer) { return answer.substr(0, answer.find("\r\n")); }
+
+  /// Sends on a connection of its own; expects 400 with a problem, then the end of the connection.
+  void expect_400_and_close(const std::string& text) {
+    RawConnection raw(server.server.port());
+    raw.send(text);
+    const std::string answer = raw.receive();
+    EXPECT_EQ(status_of(answer), "HTTP/1.1 400 Bad Request") << text;
+    EXPECT_NE(answer.find("application/problem+json"), std::string::npos);
+    EXPECT_NE(answer.find("X-Request-Id: "), std::string::npos);
+    EXPECT_NE(answer.find("Connection: close"), std::string::npos);
+    EXPECT_NE(answer.find("malformed_request"), std::string::npos);
+    EXPECT_TRUE(raw.closed_by_server());
+  }
+
+  TestServer server{settings()};
+};
+
+TEST_F(Framing, ThatIsMalformedIs400AndEndsTheConnection) {
+  expect_400_and_close(post("Content-Length: -1\r\n", ""));
+  expect_400_and_close(post("Content-Length: ten\r\n", ""));
+  expect_400_and_close(post("Content-Length: 3\r\nTransfer-Encoding: chunked\r\n", "3\r\nabc\r\n0\r\n\r\n"));
+  expect_400_and_close(post("Transfer-Encoding: gzip\r\n", ""));
+  expect_400_and_close(post("Transfer-Encoding: chunked\r\n", "xyz\r\n"));
+  expect_400_and_close(post("Transfer-Encoding: chunked\r\n", "3\r\nabcd\r\n0\r\n\r\n"));
+  expect_400_and_close("GET / HTTP/1.1\n\n");
+  expect_400_and_close("PRI * HTTP/2.0\r\n\r\n");
+  expect_400_and_close("GET /" + std::string(40'000, 'a') + " HTTP/1.1\r\n\r\n");
+}
+
+TEST_F(Framing, ThatIsChunkedIsRead) {
+  RawConnection raw(server.server.port());
+  raw.send(
+      post("Transfer-Encoding: chunked\r\n", "3;ext=1\r\nabc\r\nA\r\n0123456789\r\n0\r\nTrailer: x\r\n\r\n"));
+  EXPECT_NE(raw.receive().find(R"({"size":13})"), std::string::npos);
+}
+
+TEST_F(Framing, ThatIsChunkedAndOverTheLimitIs413) {
+  RawConnection raw(server.server.port());
+  std::string body;
+  for (int i = 0; i < 20; ++i) body += "64\r\n" + std::string(100, ' ') + "\r\n";
+  raw.send(post("Transfer-Encoding: chunked\r\n", body));
+  const std::string answer = raw.receive();
+  EXPECT_EQ(status_of(answer), "HTTP/1.1 413 Content Too Large");
+  EXPECT_NE(answer.find("1000"), std::string::npos);
+}
+
+TEST_F(Framing, ThatPromisesAHugeChunkIs413BeforeItComes) {
+  RawConnection raw(server.server.port());
+  raw.send(post("Transfer-Encoding: chunked\r\n", "FFFFFFFFFFFFFFFE\r\n"));
+  EXPECT_EQ(status_of(raw.receive()), "HTTP/1.1 413 Content Too Large");
+}
+
+TEST_F(Framing, WithoutAnyBodyIsAnEmptyBody) {
+  RawConnection raw(server.server.port());
+  raw.send(post("", ""));
+  EXPECT_NE(raw.receive().find(R"({"size":0})"), std::string::npos);
+}
+
+TEST_F(Framing, OfPipelinedRequestsKeepsThemApart) {
+  RawConnection raw(server.server.port());
+  raw.send(post("Content-Length: 2\r\n", "ab") + "\r\n" + post("Content-Length: 3\r\n", "abc") +
+           "GET /healthz HTTP/1.1\r\nContent-Length: 5\r\n\r\nGET /" + post("Content-Length: 4\r\n", "abcd"));
+  EXPECT_NE(raw.receive().find(R"({"size":2})"), std::string::npos);
+  EXPECT_NE(raw.receive().find(R"({"size":3})"), std::string::npos);
+  EXPECT_NE(raw.receive().find("version"), std::string::npos);
+  EXPECT_NE(raw.receive().find(R"({"size":4})"), std::string::npos);
+}
+
+TEST_F(Framing, OfARefusedRequestsBodyIsKeptToo) {
+  RawConnection raw(server.server.port());
+  raw.send("POST /nowhere HTTP/1.1\r\nContent-Length: 4\r\n\r\nGET " + post("Content-Length: 1\r\n", "a"));
+  EXPECT_EQ(status_of(raw.receive()), "HTTP/1.1 404 Not Found");
+  EXPECT_NE(raw.receive().find(R"({"size":1})"), std::string::npos);
+}
+
+TEST_F(Framing, WithAnExpectationIsToldToGoOn) {
+  RawConnection raw(server.server.port());
+  raw.send(post("Content-Length: 2\r\nExpect: 100-continue\r\n", ""));
+  EXPECT_EQ(raw.receive(), "HTTP/1.1 100 Continue\r\n\r\n");
+  raw.send("ab");
+  EXPECT_NE(raw.receive().find(R"({"size":2})"), std::string::npos);
+}
+
+TEST_F(Framing, WithAnExpectationOfTooMuchIs413AtOnce) {
+  RawConnection raw(server.server.port());
+  raw.send(post("Content-Length: 1001\r\nExpect: 100-continue\r\n", ""));
+  EXPECT_EQ(status_of(raw.receive()), "HTTP/1.1 413 Content Too Large");
+}
+
+TEST_F(Framing, OfHttp10EndsTheConnectionUnlessAskedNotTo) {
+  RawConnection once(server.server.port());
+  once.send("GET /healthz HTTP/1.0\r\n\r\n");
+  EXPECT_EQ(status_of(once.receive()), "HTTP/1.1 200 OK");
+  EXPECT_TRUE(once.closed_by_server());
+  RawConnection kept(server.server.port());
+  for (int i = 0; i < 2; ++i) {
+    kept.send("GET /healthz HTTP/1.0\r\nConnection: keep-alive\r\n\r\n");
+    EXPECT_NE(kept.receive().find("Connection: keep-alive"), std::string::npos);
+  }
+}
+
+TEST_F(Framing, WithAnUnknownMethodIs405) {
+  RawConnection raw(server.server.port());
+  raw.send("BREW /v1/plan HTTP/1.1\r\n\r\n");
+  const std::string answer = raw.receive();
+  EXPECT_EQ(status_of(answer), "HTTP/1.1 405 Method Not Allowed");
+  EXPECT_NE(answer.find("Allow: POST\r\n"), std::string::npos);
+}
+
+TEST(SlowClient, IsGivenUpWhenItsHeadDoesNotCome) {
+  Settings settings;
+  settings.read_timeout = std::chrono::milliseconds(50);
+  const TestServer server(settings);
+  RawConnection raw(server.server.port());
+  raw.send("GET /healthz HTTP/1.1\r\nHost:");
+  EXPECT_NE(raw.receive().find("malformed_request"), std::string::npos);
+  EXPECT_TRUE(raw.closed_by_server());
+}
+
+TEST(SlowClient, IsGivenUpWhenItsBodyDoesNotCome) {
+  Settings settings;
+  settings.read_timeout = std::chrono::milliseconds(50);
+  const TestServer server(settings);
+  RawConnection raw(server.server.port());
+  raw.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 10\r\n\r\nabc");
+  EXPECT_NE(raw.receive().find("malformed_request"), std::string::npos);
+  EXPECT_TRUE(raw.closed_by_server());
+}
+
+TEST(SlowClient, ThatIsIdleIsLeft) {
+  Settings settings;
+  settings.idle_timeout = std::chrono::milliseconds(20);
+  const TestServer server(settings);
+  RawConnection raw(server.server.port());
+  raw.send("GET /healthz HTTP/1.1\r\n\r\n");
+  EXPECT_NE(raw.receive().find("200 OK"), std::string::npos);
+  EXPECT_TRUE(raw.closed_by_server());
+}
+
+}  // namespace
+}  // namespace fleetplan::server

@@ -1,0 +1,191 @@
+// Many clients, full queues, clients that leave, and the end of the server.
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "tests/server/test_server.h"
+
+namespace fleetplan::server {
+namespace {
+
+constexpr const char* kJsonType = "application/json";
+
+Settings with_workers(int workers, std::size_t queue) {
+  Settings settings;
+  settings.workers = workers;
+  settings.queue = queue;
+  return settings;
+}
+
+/// Sends a job that waits at the gate, from a thread of its own.
+class WaitingJob {
+ public:
+  explicit WaitingJob(const TestServer& server) : client_(server.client()) {
+    thread_ = std::thread([this] {
+      const auto result = client_.Post("/v1/plan", "gate", kJsonType);
+      status_ = result ? result->status : 0;
+    });
+  }
+  ~WaitingJob() {
+    if (thread_.joinable()) thread_.join();
+  }
+  WaitingJob(const WaitingJob&) = delete;
+  WaitingJob& operator=(const WaitingJob&) = delete;
+
+  int status() {
+    thread_.join();
+    return status_;
+  }
+
+ private:
+  httplib::Client client_;
+  std::thread thread_;
+  int status_ = 0;
+};
+
+TEST(Load, OfManyClientsIsServedAndNoAnswerIsMixedUp) {
+  const TestServer server(with_workers(2, 1000));
+  std::vector<std::thread> threads;
+  std::atomic<int> right{0};
+  for (int t = 0; t < 50; ++t) {
+    threads.emplace_back([&, t] {
+      auto client = server.client();
+      for (int i = 0; i < 4; ++i) {
+        const int size = t * 10 + i;
+        const std::string id = "id-" + std::to_string(size);
+        const auto result = client.Post("/v1/plan", httplib::Headers{{"X-Request-Id", id}},
+                                        std::string(static_cast<std::size_t>(size), ' '), kJsonType);
+        if (result && result->status == 200 && result->get_header_value("X-Request-Id") == id &&
+            result->body == R"({"size":)" + std::to_string(size) + "}") {
+          ++right;
+        }
+      }
+    });
+  }
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(right, 200);
+}
+
+TEST(Load, BeyondTheQueueIs503WithRetryAfterWhileHealthAnswers) {
+  TestServer server(with_workers(1, 0));
+  WaitingJob running(server);
+  server.stub.gate.await_waiting(1);
+  auto client = server.client();
+  const auto refused = client.Post("/v1/plan", "abc", kJsonType);
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->status, 503);
+  EXPECT_NE(refused->body.find("overloaded"), std::string::npos);
+  EXPECT_GE(std::stoi(refused->get_header_value("Retry-After")), 1);
+  const auto health = client.Get("/healthz");
+  ASSERT_TRUE(health);
+  EXPECT_EQ(health->status, 200);
+  server.stub.gate.open();
+  EXPECT_EQ(running.status(), 200);
+}
+
+TEST(Load, OfIdleConnectionsStarvesNobody) {
+  Settings settings = with_workers(2, 8);
+  settings.idle_timeout = std::chrono::minutes(10);
+  const TestServer server(settings);
+  std::vector<std::unique_ptr<RawConnection>> idle;
+  for (int i = 0; i < 64; ++i) {
+    idle.push_back(std::make_unique<RawConnection>(server.server.port()));
+    idle.back()->send("GET /healthz HTTP/1.1\r\n\r\n");
+    ASSERT_NE(idle.back()->receive().find("200 OK"), std::string::npos);
+  }
+  const auto result = server.client().Get("/healthz");
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->status, 200);
+}
+
+TEST(Load, BeyondTheConnectionsWaitsForOneToEnd) {
+  Settings settings = with_workers(1, 8);
+  settings.connections = 2;
+  settings.idle_timeout = std::chrono::milliseconds(50);
+  const TestServer server(settings);
+  std::vector<std::unique_ptr<RawConnection>> clients;
+  for (int i = 0; i < 6; ++i) {
+    clients.push_back(std::make_unique<RawConnection>(server.server.port()));
+    clients.back()->send("GET /healthz HTTP/1.1\r\n\r\n");
+  }
+  for (auto& client : clients) EXPECT_NE(client->receive().find("200 OK"), std::string::npos);
+}
+
+TEST(Leaving, StopsThePlanThatNobodyWaitsFor) {
+  TestServer server(with_workers(1, 1));
+  {
+    RawConnection client(server.server.port());
+    client.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 4\r\n\r\ngate");
+    server.stub.gate.await_waiting(1);
+  }
+  // The only worker is free again, though the gate never opened.
+  const auto result = server.client().Post("/v1/plan", "abc", kJsonType);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->status, 200);
+  EXPECT_EQ(server.stub.stopped, 1);
+}
+
+TEST(Draining, RefusesNewJobsButAnswersTheRunningOnes) {
+  TestServer server(with_workers(1, 4));
+  WaitingJob running(server);
+  server.stub.gate.await_waiting(1);
+  server.server.begin_drain();
+  EXPECT_FALSE(server.server.idle());
+
+  auto client = server.client();
+  const auto refused = client.Post("/v1/plan", "abc", kJsonType);
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->status, 503);
+  EXPECT_NE(refused->body.find("draining"), std::string::npos);
+  EXPECT_TRUE(refused->has_header("Retry-After"));
+  EXPECT_EQ(refused->get_header_value("Connection"), "close");
+  const auto ready = client.Get("/readyz");
+  ASSERT_TRUE(ready);
+  EXPECT_EQ(ready->status, 503);
+  const auto health = client.Get("/healthz");
+  ASSERT_TRUE(health);
+  EXPECT_EQ(health->status, 200);
+
+  server.stub.gate.open();
+  EXPECT_EQ(running.status(), 200);
+}
+
+TEST(Draining, AsksJobsThatTakeTooLongToStop) {
+  TestServer server(with_workers(1, 4));
+  WaitingJob running(server);
+  server.stub.gate.await_waiting(1);
+  server.server.begin_drain();
+  server.server.cancel_jobs();
+  EXPECT_EQ(running.status(), 200);
+  EXPECT_EQ(server.stub.stopped, 1);
+}
+
+TEST(Stopping, EndsIdleConnectionsAtOnce) {
+  Settings settings;
+  settings.idle_timeout = std::chrono::minutes(10);
+  TestServer server(settings);
+  RawConnection idle(server.server.port());
+  idle.send("GET /healthz HTTP/1.1\r\n\r\n");
+  EXPECT_NE(idle.receive().find("200 OK"), std::string::npos);
+  server.stop();
+  EXPECT_TRUE(idle.closed_by_server());
+}
+
+TEST(Binding, TwiceToOnePortFailsAndSaysWhy) {
+  const TestServer first;
+  Settings settings;
+  settings.port = first.server.port();
+  settings.log_level = "off";
+  StubService stub;
+  HttpServer second(settings, stub.service());
+  const auto fault = second.bind();
+  ASSERT_TRUE(fault);
+  EXPECT_NE(fault->find("127.0.0.1:" + std::to_string(settings.port)), std::string::npos) << *fault;
+  EXPECT_NE(fault->find("in use"), std::string::npos) << *fault;
+}
+
+}  // namespace
+}  // namespace fleetplan::server

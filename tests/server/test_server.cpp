@@ -1,0 +1,127 @@
+#include "tests/server/test_server.h"
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace fleetplan::server {
+
+namespace {
+
+Settings on_free_port(Settings settings) {
+  settings.port = 0;
+  settings.log_level = "off";
+  return settings;
+}
+
+}  // namespace
+
+bool Gate::pass(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  ++waiting_;
+  changed_.notify_all();
+  return changed_.wait(lock, stop, [&] { return open_; });
+}
+
+void Gate::open() {
+  const std::lock_guard lock(mutex_);
+  open_ = true;
+  changed_.notify_all();
+}
+
+void Gate::await_waiting(int jobs) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return waiting_ >= jobs; });
+}
+
+Service StubService::service() {
+  const auto endpoint = [this](std::string_view body, const api::RequestContext& context) {
+    return answer(body, context);
+  };
+  const auto list = [] { return api::Reply{200, api::kJson, R"({"examples":["tiny"]})"}; };
+  return {endpoint, endpoint, list, {{"tiny", R"({"robots":[]})"}, {"narrow-door", "{}"}}};
+}
+
+api::Reply StubService::answer(std::string_view body, const api::RequestContext& context) {
+  if (body == "throw") throw std::runtime_error("a secret of the house");
+  if (body == "gate" && !gate.pass(context.stop)) ++stopped;
+  if (body == "large") return {200, api::kJson, std::string(200'000, 'x')};
+  return {200, api::kJson, R"({"size":)" + std::to_string(body.size()) + "}"};
+}
+
+TestServer::TestServer(Settings settings) : server(on_free_port(std::move(settings)), stub.service()) {
+  if (const auto fault = server.bind()) throw std::runtime_error(*fault);
+  thread_ = std::thread([this] { server.run(); });
+}
+
+TestServer::~TestServer() { stop(); }
+
+void TestServer::stop() {
+  if (!thread_.joinable()) return;
+  stub.gate.open();
+  server.stop();
+  thread_.join();
+}
+
+httplib::Client TestServer::client() const {
+  httplib::Client client("127.0.0.1", server.port());
+  client.set_keep_alive(true);
+  client.set_tcp_nodelay(true);
+  client.set_read_timeout(60);
+  return client;
+}
+
+RawConnection::RawConnection(int port) : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (::connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    throw std::runtime_error("cannot connect");
+  }
+}
+
+RawConnection::~RawConnection() { reset(); }
+
+void RawConnection::reset() {
+  if (fd_ >= 0) ::close(fd_);
+  fd_ = -1;
+}
+
+void RawConnection::send(const std::string& text) const {
+  ::send(fd_, text.data(), text.size(), MSG_NOSIGNAL);
+}
+
+std::string RawConnection::receive() {
+  std::array<char, 4096> buffer{};
+  while (true) {
+    const auto head_end = input_.find("\r\n\r\n");
+    if (head_end != std::string::npos) {
+      const auto field = input_.find("Content-Length: ");
+      const std::size_t length = field < head_end ? std::stoul(input_.substr(field + 16)) : 0;
+      const std::size_t size = head_end + 4 + length;
+      if (input_.size() >= size) {
+        std::string answer = input_.substr(0, size);
+        input_.erase(0, size);
+        return answer;
+      }
+    }
+    const ssize_t got = ::recv(fd_, buffer.data(), buffer.size(), 0);
+    if (got <= 0) return {};
+    input_.append(buffer.data(), static_cast<std::size_t>(got));
+  }
+}
+
+bool RawConnection::closed_by_server() const {
+  std::array<char, 4096> buffer{};
+  ssize_t got = 0;
+  while ((got = ::recv(fd_, buffer.data(), buffer.size(), 0)) > 0) {
+  }
+  return got <= 0;
+}
+
+}  // namespace fleetplan::server
