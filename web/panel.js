@@ -7,6 +7,8 @@ const TICK = "M4.5 10.5 8.5 14.5 15.5 6";
 const CROSS = "M5 5 15 15M15 5 5 15";
 const PART = "M4.5 10h11";
 
+const MOST_ERRORS = 100; // to list; nobody reads more
+
 const OUTCOMES = {
   solved: { text: "Solved", tone: "good", path: TICK },
   partial: { text: "Partly solved", tone: "fair", path: PART },
@@ -51,7 +53,7 @@ export function showProblem(problem, idAt, select) {
 
 function errorList(errors, idAt, select) {
   const list = element("dl");
-  for (const { pointer, detail } of errors) {
+  for (const { pointer, detail } of errors.slice(0, MOST_ERRORS)) {
     const code = element("code", { textContent: pointer || "(whole request)" });
     const index = /^\/robots\/(\d+)/.exec(pointer ?? "");
     const id = index && idAt(Number(index[1]));
@@ -59,6 +61,9 @@ function errorList(errors, idAt, select) {
     if (id !== null) term.append(" ", chip(id, select));
     list.append(element("div", {}, term, element("dd", { textContent: detail })));
   }
+  const more = errors.length - MOST_ERRORS;
+  if (more > 0)
+    list.append(element("div", {}, element("dt", { textContent: `and ${count(more, "more", "more")}` })));
   return list;
 }
 
