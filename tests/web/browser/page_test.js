@@ -220,6 +220,30 @@ test("wheel, drag and the fit key move the camera", async () => {
   });
 });
 
+test("two fingers zoom the scene", async () => {
+  await onPage(
+    async (page) => {
+      const [{ id }] = (await hook(page, "request")).robots;
+      const radius = () => page.evaluate((robot) => window.fleetplan.screenOf(robot).radius, id);
+      const box = await page.locator("#scene").boundingBox();
+      const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+      const session = await page.context().newCDPSession(page);
+      const touch = (type, apart) =>
+        session.send("Input.dispatchTouchEvent", {
+          type,
+          touchPoints:
+            apart === null ? [] : [-apart, apart].map((offset, at) => ({ x: x + offset, y, id: at })),
+        });
+      const before = await radius();
+      await touch("touchStart", 40);
+      for (const apart of [50, 60, 70, 80]) await touch("touchMove", apart);
+      await touch("touchEnd", null);
+      assert.ok(Math.abs((await radius()) / before - 2) < 0.1, `${(await radius()) / before} is not about 2`);
+    },
+    { options: { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true } },
+  );
+});
+
 test("a robot is selected from the list and from the scene", async () => {
   await onPage(async (page) => {
     const [first, second] = (await hook(page, "request")).robots;
