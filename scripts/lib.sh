@@ -1,10 +1,11 @@
+# shellcheck shell=bash disable=SC2034
 # Shared by the scripts in this folder: packages, users, builds. Sourced by bash with `set -euo pipefail`.
 #
 # After sourcing: ROOT is the project's folder and the current directory. Everything here talks on stderr, so
 # that stdout belongs to what a script runs.
 
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
-cd "$ROOT"
+cd "$ROOT" || exit
 
 # What the server is built from; "package:command" is present too when the command comes from elsewhere.
 BUILD_PACKAGES=(g++:g++ cmake:cmake ninja-build:ninja pkgconf:pkg-config

@@ -1,0 +1,110 @@
+// The arrows server -> api -> core. All headers of the system sit in one folder, so linking cannot enforce
+// them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/architecture/source_rules.h"
+
+namespace fleetplan::architecture {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace fs = std::filesystem;
+
+/// Every C++ file of a folder by its path relative to the project root.
+std::map<std::string, std::string> sources_in(const std::string& folder) {
+  const fs::path root = FLEETPLAN_SOURCE_DIR;
+  std::map<std::string, std::string> sources;
+  for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+    const fs::path& path = entry.path();
+    const bool vendored = path.string().find("node_modules") != std::string::npos;
+    if (vendored || (path.extension() != ".h" && path.extension() != ".cpp")) continue;
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    sources[fs::relative(path, root).generic_string()] = text.str();
+  }
+  return sources;
+}
+
+class Layer : public testing::TestWithParam<std::string> {};
+
+TEST_P(Layer, KeepsToItsRules) {
+  const auto sources = sources_in(GetParam());
+  EXPECT_FALSE(sources.empty()) << "nothing was checked";
+  for (const auto& [path, text] : sources) EXPECT_THAT(violations(path, text), IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Layer, testing::Values("core", "api", "server", "tests"),
+                         [](const auto& layer) { return layer.param; });
+
+TEST(SourceRules, LetCoreIncludeItselfEigenAndTheStandardLibraryOnly) {
+  EXPECT_THAT(violations("core/a.cpp", "#include \"core/a.h\"\n#include <Eigen/Core>\n#include <vector>\n"),
+              IsEmpty());
+  EXPECT_THAT(violations("core/a.cpp", "#include \"api/error.h\"\n"),
+              ElementsAre("core/a.cpp must not include \"api/error.h\""));
+  EXPECT_THAT(violations("core/a.cpp", "  #  include <nlohmann/json.hpp>"),
+              ElementsAre(HasSubstr("<nlohmann/json.hpp>"), HasSubstr("use nlohmann")));
+  EXPECT_THAT(violations("core/a.cpp", "#include <unistd.h>\n"), ElementsAre(HasSubstr("<unistd.h>")));
+}
+
+TEST(SourceRules, LetApiIncludeCoreButNotTheServer) {
+  EXPECT_THAT(violations("api/a.cpp", "#include \"core/planner.h\"\n#include <nlohmann/json.hpp>\n"),
+              IsEmpty());
+  EXPECT_THAT(violations("api/a.cpp", "#include \"server/routes.h\"\n"),
+              ElementsAre(HasSubstr("\"server/routes.h\"")));
+  EXPECT_THAT(violations("api/a.cpp", "#include <sys/socket.h>\n"), ElementsAre(HasSubstr("<sys/socket.h>")));
+}
+
+TEST(SourceRules, LetTheServerIncludeAnythingButTests) {
+  EXPECT_THAT(violations("server/a.cpp", "#include \"api/reply.h\"\n#include <sys/socket.h>\n"), IsEmpty());
+  EXPECT_THAT(violations("server/a.cpp", "#include \"tests/support/x.h\"\n"),
+              ElementsAre(HasSubstr("\"tests/support/x.h\"")));
+}
+
+TEST(SourceRules, WantIncludesRootedAtTheProject) {
+  EXPECT_THAT(violations("core/map/a.cpp", "#include \"../model/robot.h\"\n"), ElementsAre(HasSubstr("../")));
+  EXPECT_THAT(violations("core/map/a.cpp", "#include \"core/../api/error.h\"\n"),
+              ElementsAre(HasSubstr("..")));
+  EXPECT_THAT(violations("core/map/a.cpp", "#include \"b.h\"\n"), ElementsAre(HasSubstr("\"b.h\"")));
+}
+
+TEST(SourceRules, KeepTheEnvironmentAndOutputOutOfCore) {
+  EXPECT_THAT(violations("core/a.cpp", "auto* home = std::getenv(\"HOME\");\n"),
+              ElementsAre("core/a.cpp must not use getenv"));
+  EXPECT_THAT(violations("core/a.cpp", "std::cerr << 1;\n"), ElementsAre(HasSubstr("cerr")));
+  EXPECT_THAT(violations("server/a.cpp", "std::getenv(\"HOME\");\n"), IsEmpty());
+}
+
+TEST(SourceRules, LookAtCodeAndNotAtCommentsOrStrings) {
+  EXPECT_THAT(violations("core/a.cpp",
+                         "// getenv\n/* cerr\n cout */ const char* s = \"getenv \\\" cerr\"; int my_exit;\n"),
+              IsEmpty());
+  EXPECT_THAT(violations("core/a.cpp", "/* a */ getenv(\"x\"); // b\n"), ElementsAre(HasSubstr("getenv")));
+  EXPECT_THAT(violations("core/a.cpp", "int n = 1'000; std::exit('\\'');\n"), ElementsAre(HasSubstr("exit")));
+}
+
+TEST(SourceRules, WantHeadersToBeginWithPragmaOnce) {
+  EXPECT_THAT(violations("core/a.h", "// A file.\n\n#pragma once\n"), IsEmpty());
+  EXPECT_THAT(violations("core/a.h", "#include <vector>\n#pragma once\n"),
+              ElementsAre("core/a.h does not begin with #pragma once"));
+  EXPECT_THAT(violations("tests/a.h", "#pragma once\nusing namespace std;\n"),
+              ElementsAre(HasSubstr("using namespace")));
+}
+
+TEST(SourceRules, KnowNoOtherFolder) {
+  EXPECT_THAT(violations("lib/a.cpp", ""), ElementsAre("lib/a.cpp belongs to no layer"));
+}
+
+}  // namespace
+}  // namespace fleetplan::architecture

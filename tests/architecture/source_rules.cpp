@@ -1,0 +1,166 @@
+#include "tests/architecture/source_rules.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+#include <span>
+
+namespace fleetplan::architecture {
+namespace {
+
+using std::string_view;
+
+/// What the files of one folder may include and may not name.
+struct Layer {
+  string_view folder;
+  std::vector<string_view> own;          // allowed beginnings of "quoted" includes
+  std::vector<string_view> third_party;  // allowed beginnings of <angle> includes beside the standard library
+  bool any_third_party = false;
+  std::vector<string_view> forbidden;  // identifiers
+};
+
+const std::vector<Layer>& layers() {
+  // Core talks to nobody: no environment, no output, no exit; and only seeded randomness and a steady clock,
+  // so that it computes the same plan everywhere.
+  static const std::vector<Layer> all = {
+      {"core/",
+       {"core/"},
+       {"Eigen/"},
+       false,
+       {"getenv", "cout", "cerr", "clog", "printf", "fprintf", "puts", "std::exit", "std::abort",
+        "system_clock", "random_device", "rand", "srand", "spdlog", "nlohmann", "httplib"}},
+      {"api/",
+       {"api/", "core/"},
+       {"nlohmann/"},
+       false,
+       {"getenv", "cout", "cerr", "clog", "printf", "std::exit", "spdlog", "httplib"}},
+      {"server/", {"server/", "api/", "core/"}, {}, true, {"random_device", "rand", "srand"}},
+      {"tests/", {"tests/", "server/", "api/", "core/"}, {}, true, {}},
+  };
+  return all;
+}
+
+bool starts_with_any(string_view text, std::span<const string_view> beginnings) {
+  return std::any_of(beginnings.begin(), beginnings.end(),
+                     [&](string_view beginning) { return text.starts_with(beginning); });
+}
+
+/// `<vector>` but not `<time.h>` or `<nlohmann/json.hpp>`.
+bool standard_header(string_view name) { return name.find_first_of("./") == string_view::npos; }
+
+bool identifier_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+/// The text with comments, and the contents of string and character literals, blanked out. Include lines keep
+/// their names. Raw strings end at the first )" as ours have no delimiters.
+std::string code_only(string_view text) {
+  std::string code(text);
+  const auto blank = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < std::min(to, code.size()); ++i) {
+      if (code[i] != '\n') code[i] = ' ';
+    }
+  };
+  const auto find_end = [&](string_view what, std::size_t from) {
+    const std::size_t at = text.find(what, from);
+    return at == string_view::npos ? text.size() : at + what.size();
+  };
+  for (std::size_t i = 0; i < text.size();) {
+    const string_view rest = text.substr(i);
+    std::size_t end = i + 1;
+    if (rest.starts_with("#include")) {
+      end = find_end("\n", i);
+    } else if (rest.starts_with("//")) {
+      end = find_end("\n", i);
+      blank(i, end);
+    } else if (rest.starts_with("/*")) {
+      end = find_end("*/", i + 2);
+      blank(i, end);
+    } else if (rest.starts_with("R\"(")) {
+      end = find_end(")\"", i + 3);
+      blank(i + 3, end - 2);
+    } else if (rest.front() == '"' ||
+               (rest.front() == '\'' && (i == 0 || !identifier_character(text[i - 1])))) {
+      while (end < text.size() && text[end] != rest.front()) end += text[end] == '\\' ? 2 : 1;
+      blank(i + 1, end);
+      end += 1;
+    }
+    i = end;
+  }
+  return code;
+}
+
+std::vector<string_view> lines_of(string_view text) {
+  std::vector<string_view> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size() - 1);
+    lines.push_back(text.substr(0, end + 1));
+    text.remove_prefix(end + 1);
+  }
+  return lines;
+}
+
+/// The `"name"` or `<name>` of an include line, with its delimiters.
+std::optional<string_view> included(string_view line) {
+  const std::size_t hash = line.find_first_not_of(" \t");
+  if (hash == string_view::npos || line[hash] != '#') return std::nullopt;
+  const std::size_t word = line.find_first_not_of(" \t", hash + 1);
+  if (word == string_view::npos || !line.substr(word).starts_with("include")) return std::nullopt;
+  const std::size_t open = line.find_first_of("\"<", word);
+  if (open == string_view::npos) return std::nullopt;
+  const std::size_t close = line.find_first_of("\">", open + 1);
+  if (close == string_view::npos) return std::nullopt;
+  return line.substr(open, close - open + 1);
+}
+
+bool include_allowed(const Layer& layer, string_view include) {
+  const string_view name = include.substr(1, include.size() - 2);
+  if (name.find("..") != string_view::npos) return false;
+  if (include.front() == '"') return starts_with_any(name, layer.own);
+  return layer.any_third_party || standard_header(name) || starts_with_any(name, layer.third_party);
+}
+
+bool names(string_view code, string_view identifier) {
+  for (std::size_t at = code.find(identifier); at != string_view::npos; at = code.find(identifier, at + 1)) {
+    const std::size_t end = at + identifier.size();
+    const bool whole = (at == 0 || !identifier_character(code[at - 1])) &&
+                       (end == code.size() || !identifier_character(code[end]));
+    if (whole) return true;
+  }
+  return false;
+}
+
+/// The first thing in a header that is neither blank nor a comment.
+bool begins_with_pragma_once(string_view code) {
+  const std::size_t first = code.find_first_not_of(" \t\r\n");
+  return first != string_view::npos && code.substr(first).starts_with("#pragma once");
+}
+
+}  // namespace
+
+std::vector<std::string> violations(string_view path, string_view text) {
+  std::vector<std::string> found;
+  const auto report = [&](string_view what, string_view which) {
+    found.push_back(std::string(path) + " " + std::string(what) + std::string(which));
+  };
+  const auto layer = std::find_if(layers().begin(), layers().end(),
+                                  [&](const Layer& each) { return path.starts_with(each.folder); });
+  if (layer == layers().end()) {
+    report("belongs to no layer", "");
+    return found;
+  }
+  const std::string code = code_only(text);
+  for (const string_view line : lines_of(code)) {
+    const auto include = included(line);
+    if (include && !include_allowed(*layer, *include)) report("must not include ", *include);
+  }
+  for (const string_view identifier : layer->forbidden) {
+    if (names(code, identifier)) report("must not use ", identifier);
+  }
+  if (path.ends_with(".h")) {
+    if (!begins_with_pragma_once(code)) report("does not begin with ", "#pragma once");
+    if (code.find("using namespace") != std::string::npos) report("must not say ", "using namespace");
+  }
+  return found;
+}
+
+}  // namespace fleetplan::architecture
