@@ -35,7 +35,7 @@ const std::vector<Layer>& layers() {
        {"nlohmann/"},
        false,
        {"getenv", "cout", "cerr", "clog", "printf", "std::exit", "spdlog", "httplib"}},
-      {"server/", {"server/", "api/", "core/"}, {}, true, {"random_device", "rand", "srand"}},
+      {"server/", {"server/", "api/", "core/"}, {}, true, {"rand", "srand"}},
       {"tests/", {"tests/", "server/", "api/", "core/"}, {}, true, {}},
   };
   return all;
