@@ -12,13 +12,14 @@ namespace fleetplan::core {
 /// or all blocked, and dropped when they lie too far away.
 class ObstacleField::Descent {
  public:
-  Descent(const ObstacleField& field, const Position& from, const Position& to, double reach)
+  /// Only what is nearer than `limit`, or as near and earlier, is found.
+  Descent(const ObstacleField& field, const Position& from, const Position& to, const NearestPoint& limit)
       : field_(field),
         from_(from),
         to_(to),
         low_(from.cwiseMin(to)),
         high_(from.cwiseMax(to)),
-        nearest_{reach, 1.0} {
+        nearest_(limit) {
     const double length = (to - from).norm();
     if (length > 0.0) normal_ = Position(from.y() - to.y(), to.x() - from.x()) / length;
   }
@@ -63,7 +64,7 @@ class ObstacleField::Descent {
 
   void consider(const NearestPoint& point) {
     const bool nearer = point.distance < nearest_.distance;
-    const bool earlier = found_ && point.distance == nearest_.distance && point.fraction < nearest_.fraction;
+    const bool earlier = point.distance == nearest_.distance && point.fraction < nearest_.fraction;
     if (!nearer && !earlier) return;
     nearest_ = point;
     found_ = true;
@@ -75,7 +76,7 @@ class ObstacleField::Descent {
   Position low_;
   Position high_;
   Position normal_{0.0, 0.0};  // to the segment, of length 1; none for a point
-  NearestPoint nearest_;       // so far; only what is nearer than the reach counts
+  NearestPoint nearest_;       // so far
   bool found_ = false;
 };
 
@@ -109,7 +110,10 @@ std::optional<NearestObstacle> ObstacleField::nearest(const Position& from, cons
   const Position leaves = inside.last < 1.0 ? Position(from + inside.last * (to - from)) : to;
   const Block around = block_around(enters, leaves, reach);
   if (blocked_in(around) == 0) return nearest;
-  Descent descent(*this, enters, leaves, nearest ? edge.distance : reach);
+  // A cell must be nearer than the edge, or as near at an earlier moment of the way within.
+  NearestPoint limit{reach, 0.0};
+  if (nearest) limit = {edge.distance, inside.last > 0.0 ? edge.fraction / inside.last : 0.0};
+  Descent descent(*this, enters, leaves, limit);
   descent.visit(around);
   if (const std::optional<NearestPoint> cell = descent.result()) {
     const double fraction = inside.first + cell->fraction * (inside.last - inside.first);

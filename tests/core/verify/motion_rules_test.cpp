@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "tests/core/verify/scene.h"
 
@@ -139,21 +140,60 @@ TEST(Discontinuity, TheCostIsWhenTheLastActionEnds) {
   EXPECT_THAT(kinds_of(standing.violations()), ElementsAre(Kind::discontinuity));
 }
 
+TEST(Discontinuity, AMoveThatEndsBeforeItStartsIsTooFastToo) {
+  Scene scene;
+  scene.add(robot_at(5, 5), [](PlanBuilder& plan) { plan.translate_to(8, 5); });
+  scene.action(0).t_end = scene.plans()[0].cost = -2.0;
+  const auto violations = scene.violations();
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::discontinuity, Kind::speed));
+  EXPECT_EQ(violations[1].distance, 0.0);
+  EXPECT_EQ(violations[1].required, 3.0);
+}
+
 TEST(Discontinuity, NumbersThatAreNoneLeaveTheRobotOutOfAllOtherChecks) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                            -std::numeric_limits<double>::infinity(), 1e300}) {
-    for (const bool in_time : {false, true}) {
-      Scene scene = valid_scene();
-      scene.stand(robot_at(8, 5)).stand(robot_at(1, 1));
-      EXPECT_THAT(kinds_of(scene.violations()), ElementsAre(Kind::robot_collision));
-      (in_time ? scene.action(1).t_end : scene.action(1).to.position.y()) = bad;
-      const auto report = scene.check();
-      ASSERT_THAT(kinds_of(report.violations), ElementsAre(Kind::discontinuity)) << bad;
-      EXPECT_THAT(report.violations[0].robots, ElementsAre(0));
-      EXPECT_EQ(report.violations[0].t, 3.0);
-      EXPECT_THAT(report.violations[0].detail, HasSubstr("actions[1] has a number that is not finite"));
-      EXPECT_NEAR(*report.min_clearance, std::hypot(7, 4) - 1.0, 1e-12);
-    }
+    Scene scene = valid_scene();
+    scene.stand(robot_at(8, 5)).stand(robot_at(1, 1)).stand(robot_at(1.75, 1));
+    EXPECT_THAT(kinds_of(scene.violations()), ElementsAre(Kind::robot_collision, Kind::robot_collision));
+    scene.action(1).t_end = bad;
+    const auto report = scene.check();
+    ASSERT_THAT(kinds_of(report.violations), ElementsAre(Kind::robot_collision, Kind::discontinuity)) << bad;
+    EXPECT_THAT(report.violations[0].robots, ElementsAre(2, 3));
+    EXPECT_THAT(report.violations[1].robots, ElementsAre(0));
+    EXPECT_EQ(report.violations[1].t, 3.0);
+    EXPECT_THAT(report.violations[1].detail, HasSubstr("actions[1] has a number that is not finite"));
+    EXPECT_NEAR(*report.min_clearance, -0.25, 1e-12);
+  }
+}
+
+TEST(Discontinuity, EveryNumberOfARobotAndItsPlanIsLookedAt) {
+  const std::vector<double* (*)(Scene&)> numbers = {
+      [](Scene& scene) { return &scene.action(2).t_start; },
+      [](Scene& scene) { return &scene.action(2).t_end; },
+      [](Scene& scene) { return &scene.action(2).from.position.x(); },
+      [](Scene& scene) { return &scene.action(2).from.position.y(); },
+      [](Scene& scene) { return &scene.action(2).from.theta; },
+      [](Scene& scene) { return &scene.action(2).to.position.x(); },
+      [](Scene& scene) { return &scene.action(2).to.position.y(); },
+      [](Scene& scene) { return &scene.action(2).to.theta; },
+      [](Scene& scene) { return &scene.plans()[0].cost; },
+      [](Scene& scene) { return &scene.robots()[0].radius; },
+      [](Scene& scene) { return &scene.robots()[0].linear_speed; },
+      [](Scene& scene) { return &scene.robots()[0].angular_speed; },
+      [](Scene& scene) { return &scene.robots()[0].start.position.x(); },
+      [](Scene& scene) { return &scene.robots()[0].start.position.y(); },
+      [](Scene& scene) { return &scene.robots()[0].start.theta; },
+      [](Scene& scene) { return &scene.robots()[0].goal->position.x(); },
+      [](Scene& scene) { return &scene.robots()[0].goal->position.y(); },
+      [](Scene& scene) { return &*scene.robots()[0].goal->theta; },
+  };
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    Scene scene = valid_scene();
+    *numbers[k](scene) = std::numeric_limits<double>::quiet_NaN();
+    const auto violations = scene.violations();
+    ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::discontinuity)) << k;
+    EXPECT_THAT(violations[0].detail, HasSubstr("left out of all other checks")) << k;
   }
 }
 

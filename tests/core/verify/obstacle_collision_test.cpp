@@ -159,6 +159,45 @@ TEST(ObstacleCollision, ActionsOfOneOverlapAreMergedAndOthersAreNot) {
   EXPECT_NEAR(violations[1].distance, 0.3, 1e-12);
 }
 
+TEST(ObstacleCollision, ThroughAndBackAreTwoAlthoughTheActionsFollowEachOther) {
+  Scene scene(map_with_a_block());
+  scene.add(robot_at(0.5, 2.5),
+            [](PlanBuilder& plan) { plan.translate_to(5.5, 2.5).translate_to(0.5, 2.5); });
+  const auto violations = scene.violations();
+  ASSERT_EQ(violations.size(), 2U);
+  EXPECT_NEAR(violations[0].t, 1.5, 1e-12);
+  EXPECT_NEAR(violations[1].t, 6.5, 1e-12);
+}
+
+TEST(ObstacleCollision, AJumpFromOneObstacleToAnotherIsTwo) {
+  Scene scene(map_with_a_block());
+  scene.add(robot_at(1.7, 2.5), [](PlanBuilder& plan) { plan.wait(1).wait(1).wait(1); });
+  EXPECT_EQ(scene.violations().size(), 1U);
+  const auto jump_to = [&scene](const Position& there) {
+    scene.action(1).from.position = scene.action(1).to.position = there;
+    std::vector<double> times;
+    for (const Violation& violation : scene.violations()) {
+      if (violation.kind == Kind::obstacle_collision) times.push_back(violation.t);
+    }
+    return times;
+  };
+  EXPECT_THAT(jump_to(Position(4.3, 2.5)), ElementsAre(0.0, 1.0, 2.0));
+  EXPECT_THAT(jump_to(Position(1.0, 1.0)), ElementsAre(0.0, 2.0));
+}
+
+TEST(ObstacleCollision, AlongAWallRoundingDoesNotDecideWhenTheOverlapIsDeepest) {
+  Scene scene(map_with_a_block());
+  const double lower = std::nextafter(std::nextafter(1.6, 1.0), 1.0);
+  scene.add(robot_at(2.2, 1.6), [lower](PlanBuilder& plan) { plan.translate_to(3.7, lower); });
+  const auto violations = scene.violations();
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_EQ(violations[0].t, 0.0);
+  Scene back(map_with_a_block());
+  back.add(robot_at(2.2, lower), [](PlanBuilder& plan) { plan.translate_to(3.7, 1.6); });
+  ASSERT_EQ(back.violations().size(), 1U);
+  EXPECT_EQ(back.violations()[0].t, 0.0);
+}
+
 TEST(ObstacleCollision, LeavingTheMapForFarAwayIsFoundAtTheEdge) {
   Scene scene(map_with_a_block());
   scene.add(robot_at(1, 1),

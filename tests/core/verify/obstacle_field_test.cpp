@@ -74,6 +74,26 @@ TEST(ObstacleField, TheFirstOfSeveralObstaclesEnteredCounts) {
   EXPECT_DOUBLE_EQ(back->point.fraction, 1.5 / 8.0);
 }
 
+TEST(ObstacleField, TheEdgeIsReachedWhereTheFirstSideIsCrossed) {
+  const ObstacleField field(ascii_map({"....", "...."}));
+  for (const Position& to : {Position(9, 5), Position(9, -3)}) {  // above or below after 1 m, right after 3 m
+    const auto nearest = field.nearest(Position(1, 1), to, kNoLimit);
+    EXPECT_EQ(nearest->point.distance, 0.0);
+    EXPECT_DOUBLE_EQ(nearest->point.fraction, 0.25);
+  }
+}
+
+TEST(ObstacleField, ACellOnTheWayOutOfTheMapCountsBeforeTheEdge) {
+  const ObstacleField field(ascii_map({"....", "..#.", "...."}));
+  const auto leaving = field.nearest(Position(1, 1.5), Position(9, 1.5), kNoLimit);
+  EXPECT_FALSE(leaving->is_edge);
+  EXPECT_EQ(leaving->point.distance, 0.0);
+  EXPECT_DOUBLE_EQ(leaving->point.fraction, 1.0 / 8.0);
+  const auto coming = field.nearest(Position(9, 1.5), Position(1, 1.5), kNoLimit);
+  EXPECT_TRUE(coming->is_edge);
+  EXPECT_EQ(coming->point.fraction, 0.0);
+}
+
 TEST(ObstacleField, AgreesWithBruteForceAtPoints) {
   std::mt19937 random(7);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same cases each time
   for (int round = 0; round < 300; ++round) {

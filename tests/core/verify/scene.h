@@ -83,6 +83,7 @@ class Scene {
 
 inline std::vector<Kind> kinds_of(const std::vector<Violation>& violations) {
   std::vector<Kind> kinds;
+  kinds.reserve(violations.size());
   for (const Violation& violation : violations) kinds.push_back(violation.kind);
   return kinds;
 }
