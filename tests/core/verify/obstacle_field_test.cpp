@@ -76,11 +76,15 @@ TEST(ObstacleField, TheFirstOfSeveralObstaclesEnteredCounts) {
 
 TEST(ObstacleField, TheEdgeIsReachedWhereTheFirstSideIsCrossed) {
   const ObstacleField field(ascii_map({"....", "...."}));
-  for (const Position& to : {Position(9, 5), Position(9, -3)}) {  // above or below after 1 m, right after 3 m
-    const auto nearest = field.nearest(Position(1, 1), to, kNoLimit);
+  const Position from(1, 1);
+  for (const Position& to : {Position(9, 5), Position(9, -3), Position(-3, 9), Position(-3, 1.5)}) {
+    const auto nearest = field.nearest(from, to, kNoLimit);
     EXPECT_EQ(nearest->point.distance, 0.0);
-    EXPECT_DOUBLE_EQ(nearest->point.fraction, 0.25);
+    const bool by_the_top = to == Position(-3, 9);  // after 1 of 8 m up; the others after 1 of 4 m
+    EXPECT_DOUBLE_EQ(nearest->point.fraction, by_the_top ? 0.125 : 0.25);
   }
+  EXPECT_DOUBLE_EQ(field.nearest(from, Position(9, 4), kNoLimit)->point.fraction, 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(field.nearest(from, Position(9, 2.5), kNoLimit)->point.fraction, 0.375);
 }
 
 TEST(ObstacleField, ACellOnTheWayOutOfTheMapCountsBeforeTheEdge) {
