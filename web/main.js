@@ -123,10 +123,10 @@ async function startPlanning() {
   showProblem(null);
   adoptAnswer(null);
   setup.setPlanning(true);
-  const watching = [byId("plan"), byId("cancel")].includes(document.activeElement);
   try {
     const result = await plan(chosen.text, control.signal);
     if (planning !== control) return;
+    const watching = document.activeElement === byId("cancel"); // which had the focus from Plan
     endPlanning();
     adoptAnswer(result);
     announce(summarize(result.answer));
