@@ -125,6 +125,30 @@ test("what is drawn of a deterministic plan is what the service answers anyone",
   });
 });
 
+/** The colours painted on the canvas at offsets from a robot's centre, in its radii, x right and y up. */
+async function coloursAround(page, id, offsets) {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  return page.evaluate(
+    ([robot, places]) => {
+      const canvas = document.getElementById("scene");
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      const scale = canvas.width / canvas.clientWidth;
+      const { x, y, radius } = window.fleetplan.screenOf(robot);
+      return places.map(([right, up]) => {
+        const column = Math.round((x + right * radius) * scale);
+        const row = Math.round((y - up * radius) * scale);
+        return data
+          .slice((row * canvas.width + column) * 4)
+          .slice(0, 3)
+          .join();
+      });
+    },
+    [id, offsets],
+  );
+}
+
+const FLOOR = "255,255,255";
+
 test("a robot is painted where its pose is", async () => {
   await onPage(async (page) => {
     await paste(page, TINY);
@@ -132,24 +156,39 @@ test("a robot is painted where its pose is", async () => {
     await page.keyboard.press("Space");
     await seek(page, 20);
     await hasTime(page, 20);
-    await page.evaluate(
-      () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
-    );
-    const painted = await page.evaluate(() => {
-      const canvas = document.getElementById("scene");
-      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-      const scale = canvas.width / canvas.clientWidth;
-      const { x, y, radius } = window.fleetplan.screenOf("solo");
-      const { theta } = window.fleetplan.poseOf("solo");
-      const beside = (radii) => {
-        const column = Math.round((x + Math.sin(theta) * radius * radii) * scale);
-        const row = Math.round((y + Math.cos(theta) * radius * radii) * scale);
-        return [...data.slice((row * canvas.width + column) * 4).slice(0, 3)];
-      };
-      return { inside: beside(0.8), outside: beside(1.3) };
+    const { theta } = await page.evaluate(() => window.fleetplan.poseOf("solo"));
+    const beside = (radii) => [-Math.sin(theta) * radii, Math.cos(theta) * radii];
+    const [inside, outside] = await coloursAround(page, "solo", [beside(0.8), beside(1.3)]);
+    assert.equal(outside, FLOOR);
+    assert.notEqual(inside, FLOOR);
+  });
+});
+
+test("a wide map's cells are painted where they are, top row first", async () => {
+  await onPage(async (page) => {
+    const row = (wall) => [...Array(4000)].map((_, column) => (column === wall ? "#" : ".")).join("");
+    const start = { x: 2047.5, y: 1.5 };
+    await paste(page, {
+      map: { rows: [row(2047), row(2048), row()] },
+      robots: [{ ...TINY.robots[0], radius: 0.25, start, goal: undefined }],
     });
-    assert.deepEqual(painted.outside, [255, 255, 255], "the bare floor");
-    assert.notDeepEqual(painted.inside, painted.outside);
+    const middle = await page.locator("#scene").boundingBox();
+    for (let turns = 0; turns < 40; turns += 1) {
+      const { x, y, radius } = await page.evaluate(() => window.fleetplan.screenOf("solo"));
+      if (radius > 8) break;
+      await page.mouse.move(middle.x + x, middle.y + y);
+      await page.mouse.wheel(0, -240);
+    }
+    const cells = [
+      [4, 0],
+      [0, 4],
+      [-4, 0],
+      [0, -4],
+    ];
+    const [right, above, left, below] = await coloursAround(page, "solo", cells);
+    assert.equal(right, above);
+    assert.notEqual(right, FLOOR);
+    assert.deepEqual([left, below], [FLOOR, FLOOR]);
   });
 });
 
