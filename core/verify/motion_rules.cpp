@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -117,7 +118,8 @@ class MotionCheck {
   void check_duration(std::size_t k, double amount, double top_speed, const char* unit) {
     const Action& action = plan_.actions[k];
     const double duration = std::max(0.0, action.t_end - action.t_start);
-    const double least = amount / top_speed;
+    const double least =
+        std::min(amount / top_speed, std::numeric_limits<double>::max());  // even if denormal
     if (duration >= least - tolerance_) return;
     const double speed = amount / duration;
     if (usable(speed)) {

@@ -243,6 +243,16 @@ TEST(Speed, AMoveInNoTimeIsToldInSeconds) {
   EXPECT_EQ(violations[0].detail, "actions[0] takes 0 s, but the robot needs at least 3 s");
 }
 
+TEST(Speed, OfARobotThatCanHardlyMoveIsToldInFiniteNumbers) {
+  Scene scene = valid_scene();
+  scene.robots()[0].linear_speed = std::numeric_limits<double>::denorm_min();
+  scene.action(0).t_end = 0.0;
+  shift(scene, 1, -3.0);
+  const auto violations = scene.violations();
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::speed, Kind::speed));
+  EXPECT_TRUE(std::isfinite(violations[0].required));
+}
+
 TEST(Speed, BackwardsIsFineAndSidewaysIsNot) {
   const auto drive_heading = [](double theta) {
     Scene scene;
