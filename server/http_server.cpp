@@ -197,7 +197,8 @@ void HttpServer::answer_job(Exchange& exchange, const httplib::ContentReader& re
   run_job(exchange, response);
 }
 
-std::optional<api::Reply> HttpServer::decode_body(Exchange& exchange, const httplib::ContentReader& reader) {
+std::optional<api::Reply> HttpServer::decode_body(Exchange& exchange,
+                                                  const httplib::ContentReader& reader) const {
   if (content_coding(exchange.head.field("content-encoding")) == ContentCoding::identity) return std::nullopt;
   const std::size_t limit = settings_.limits.max_body;
   std::string decoded;

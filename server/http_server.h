@@ -57,7 +57,7 @@ class HttpServer final : private httplib::Server {
   void answer_get(const Exchange& exchange, httplib::Response& response);
   void answer_page(const Exchange& exchange, httplib::Response& response);
   void answer_job(Exchange& exchange, const httplib::ContentReader& reader, httplib::Response& response);
-  std::optional<api::Reply> decode_body(Exchange& exchange, const httplib::ContentReader& reader);
+  std::optional<api::Reply> decode_body(Exchange& exchange, const httplib::ContentReader& reader) const;
   void run_job(Exchange& exchange, httplib::Response& response);
   void await_job(Exchange& exchange, const WorkerPool::Ticket& ticket, std::stop_source& stop);
   api::Reply guarded(const Exchange& exchange, const std::function<api::Reply()>& work) const;

@@ -18,7 +18,7 @@ class StopSignal {
   StopSignal(const StopSignal&) = delete;
   StopSignal& operator=(const StopSignal&) = delete;
 
-  void raise() { ::eventfd_write(fd_, 1); }
+  void raise() { ::eventfd_write(fd_, 1); }  // NOLINT(readability-make-member-function-const): it changes
   int fd() const { return fd_; }
 
  private:
