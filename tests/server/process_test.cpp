@@ -1,0 +1,191 @@
+// The executable as an operator meets it: its first line, its signals, its exit codes.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <httplib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace fleetplan::server {
+namespace {
+
+/// A running `fleetplan`, whose output and log can be read.
+class Process {
+ public:
+  explicit Process(const std::vector<std::string>& arguments) {
+    std::array<int, 2> out{};
+    std::array<int, 2> log{};
+    if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(log.data(), O_CLOEXEC) != 0) return;
+    pid_ = ::fork();
+    if (pid_ == 0) {
+      ::dup2(out[1], STDOUT_FILENO);
+      ::dup2(log[1], STDERR_FILENO);
+      std::vector<std::string> words{FLEETPLAN_EXECUTABLE};
+      words.insert(words.end(), arguments.begin(), arguments.end());
+      std::vector<char*> pointers;
+      for (auto& word : words) pointers.push_back(word.data());
+      pointers.push_back(nullptr);
+      ::execv(pointers[0], pointers.data());
+      ::_exit(127);
+    }
+    ::close(out[1]);
+    ::close(log[1]);
+    out_ = out[0];
+    log_ = log[0];
+  }
+  ~Process() {
+    if (pid_ > 0) {
+      ::kill(pid_, SIGKILL);
+      ::waitpid(pid_, nullptr, 0);
+    }
+    ::close(out_);
+    ::close(log_);
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  std::string output_line() const { return line_of(out_); }
+  std::string log_line() const { return line_of(log_); }
+
+  void signal(int number) const { ::kill(pid_, number); }
+
+  /// Waits for the end; the exit code, or minus the signal that ended it.
+  int exit_code() {
+    int status = 0;
+    ::waitpid(pid_, &status, 0);
+    pid_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+ private:
+  static std::string line_of(int fd) {
+    std::string line;
+    char c = 0;
+    while (::read(fd, &c, 1) == 1 && c != '\n') line += c;
+    return line;
+  }
+
+  pid_t pid_ = -1;
+  int out_ = -1;
+  int log_ = -1;
+};
+
+int port_in(const std::string& line) { return std::stoi(line.substr(line.rfind(':') + 1)); }
+
+const std::string kGreeting = "fleetplan " FLEETPLAN_VERSION " listening on http://127.0.0.1:";
+
+TEST(Process, SaysWhereItListensAndLogsRequestsAsJson) {
+  Process process({"--port", "0", "--workers", "1"});
+  const std::string line = process.output_line();
+  ASSERT_EQ(line.find(kGreeting), 0u) << line;
+  httplib::Client client("127.0.0.1", port_in(line));
+  const auto health = client.Get("/healthz?secret=1", httplib::Headers{{"X-Request-Id", "abc"}});
+  ASSERT_TRUE(health);
+  EXPECT_EQ(health->status, 200);
+  const std::string log = process.log_line();
+  for (const char* part : {R"("time":"2)", R"("level":"info")", R"("id":"abc")", R"("method":"GET")",
+                           R"("path":"/healthz")", R"("status":200)", R"("ms":)"}) {
+    EXPECT_NE(log.find(part), std::string::npos) << log;
+  }
+  EXPECT_EQ(log.find("secret"), std::string::npos) << log;
+}
+
+TEST(Process, EndsWell) {
+  for (const int number : {SIGTERM, SIGINT}) {
+    Process process({"--port", "0", "--workers", "1"});
+    process.output_line();
+    process.signal(number);
+    EXPECT_EQ(process.exit_code(), 0);
+  }
+}
+
+TEST(Process, FailsOnATakenPort) {
+  Process first({"--port", "0", "--workers", "1"});
+  const std::string port = std::to_string(port_in(first.output_line()));
+  Process second({"--port", port, "--workers", "1"});
+  EXPECT_EQ(second.log_line(), "fleetplan: cannot listen on 127.0.0.1:" + port + ": Address already in use");
+  EXPECT_EQ(second.exit_code(), 1);
+}
+
+TEST(Process, FailsOnABadValueAndExplainsItself) {
+  Process bad({"--port", "70000"});
+  EXPECT_NE(bad.log_line().find("--port"), std::string::npos);
+  EXPECT_EQ(bad.exit_code(), 2);
+  Process version({"--version"});
+  EXPECT_EQ(version.output_line(), "fleetplan " FLEETPLAN_VERSION);
+  EXPECT_EQ(version.exit_code(), 0);
+}
+
+/// A plan that takes its whole budget: one robot that improves for two minutes.
+std::string long_request() {
+  return R"({"map":{"rows":["..........",".........."]},"robots":[
+    {"id":"a","radius":0.3,"linear_speed":1,"angular_speed":1,"start":{"x":0.5,"y":0.5},"goal":{"x":9.5,"y":0.5}},
+    {"id":"b","radius":0.3,"linear_speed":1,"angular_speed":1,"start":{"x":9.5,"y":0.5},"goal":{"x":0.5,"y":0.5}}],
+    "options":{"mode":"anytime","time_budget_ms":120000}})";
+}
+
+/// Sends the long request from a thread of its own and waits until the server works on it.
+class LongRequest {
+ public:
+  explicit LongRequest(int port) : client_("127.0.0.1", port) {
+    client_.set_read_timeout(150);
+    thread_ = std::thread([this] {
+      bool overloaded = true;  // as long as the probe below is in the way
+      while (overloaded) {
+        const auto result = client_.Post("/v1/plan", long_request(), "application/json");
+        status_ = result ? result->status : 0;
+        overloaded = result && result->body.find("overloaded") != std::string::npos;
+      }
+      ended_ = true;
+    });
+    // With one worker and no queue, another job is refused as soon as the long one has begun.
+    httplib::Client probe("127.0.0.1", port);
+    while (!ended_) {
+      const auto result = probe.Post("/v1/validate", "{}", "application/json");
+      if (!result || result->status == 503) break;
+    }
+  }
+  ~LongRequest() {
+    if (thread_.joinable()) thread_.join();
+  }
+  LongRequest(const LongRequest&) = delete;
+  LongRequest& operator=(const LongRequest&) = delete;
+
+  int status() {
+    thread_.join();
+    return status_;
+  }
+
+ private:
+  httplib::Client client_;
+  std::thread thread_;
+  int status_ = 0;
+  std::atomic<bool> ended_{false};
+};
+
+TEST(Process, CutsPlansShortWhenTheDrainTakesTooLong) {
+  Process process({"--port", "0", "--workers", "1", "--queue", "0", "--drain-ms", "100"});
+  LongRequest request(port_in(process.output_line()));
+  process.signal(SIGTERM);
+  EXPECT_EQ(request.status(), 200);
+  EXPECT_EQ(process.exit_code(), 0);
+}
+
+TEST(Process, EndsAtOnceOnASecondInterrupt) {
+  Process process({"--port", "0", "--workers", "1", "--queue", "0", "--drain-ms", "120000"});
+  LongRequest request(port_in(process.output_line()));
+  process.signal(SIGTERM);
+  process.signal(SIGINT);
+  EXPECT_EQ(process.exit_code(), 128 + SIGINT);
+  EXPECT_EQ(request.status(), 0);
+}
+
+}  // namespace
+}  // namespace fleetplan::server
