@@ -85,8 +85,9 @@ UnsafeInterval forbidden_departures(const Position& from, const Position& veloci
   if (const auto s = near_zero(q, velocity, duration, reach); !s.empty()) {  // u = 0
     extent.add(-s.end);
     extent.add(-s.begin);
+    if (length == kForever) extent.add(kForever);  // a wait without end: whoever departs later meets it, too
   }
-  if (length == kForever) return extent.shifted(b.t_start);  // a wait without end: no fourth edge, no ellipse
+  if (length == kForever) return extent.shifted(b.t_start);  // no fourth edge, no ellipse
   const Position ended = q - b.velocity * length;
   if (const auto s = near_zero(ended, velocity, duration, reach); !s.empty()) {  // u = L
     extent.add(length - s.end);
