@@ -1,0 +1,39 @@
+#include "core/geometry/interval.h"
+
+#include <gtest/gtest.h>
+
+namespace fleetplan::core {
+namespace {
+
+TEST(SafeInterval, ContainsItsEnds) {
+  const SafeInterval interval{1.0, 2.0};
+  EXPECT_TRUE(interval.contains(1.0));
+  EXPECT_TRUE(interval.contains(1.5));
+  EXPECT_TRUE(interval.contains(2.0));
+  EXPECT_FALSE(interval.contains(0.999));
+  EXPECT_FALSE(interval.contains(2.001));
+}
+
+TEST(SafeInterval, IsAllTimeByDefault) {
+  EXPECT_TRUE(SafeInterval{}.contains(0.0));
+  EXPECT_TRUE(SafeInterval{}.contains(1e300));
+  EXPECT_FALSE(SafeInterval{}.contains(-1e-300));
+}
+
+TEST(UnsafeInterval, LeavesItsEndsOut) {
+  const UnsafeInterval interval{1.0, 2.0};
+  EXPECT_FALSE(interval.contains(1.0));
+  EXPECT_TRUE(interval.contains(1.5));
+  EXPECT_FALSE(interval.contains(2.0));
+}
+
+TEST(UnsafeInterval, IsEmptyUnlessItBeginsBeforeItEnds) {
+  EXPECT_TRUE(UnsafeInterval{}.empty());
+  EXPECT_TRUE((UnsafeInterval{1.0, 1.0}.empty()));
+  EXPECT_TRUE((UnsafeInterval{2.0, 1.0}.empty()));
+  EXPECT_TRUE((UnsafeInterval{kForever, -kForever}.empty()));
+  EXPECT_FALSE((UnsafeInterval{1.0, kForever}.empty()));
+}
+
+}  // namespace
+}  // namespace fleetplan::core

@@ -1,0 +1,120 @@
+#include "core/map/line_of_sight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/core/map/distances.h"
+#include "tests/support/ascii_map.h"
+#include "tests/support/random_problem.h"
+
+namespace fleetplan::core {
+namespace {
+
+constexpr double kOverlap = 1e-6;  // metres; more than contact
+
+/// Asks in both directions, which must not matter.
+bool sees(const OccupancyGrid& grid, const Position& from, const Position& to, double radius) {
+  const LineOfSight sight(grid);
+  const bool there = sight.may_sweep(from, to, radius);
+  EXPECT_EQ(sight.may_sweep(to, from, radius), there);
+  return there;
+}
+
+TEST(LineOfSight, OfADiskThatJustFitsAGap) {
+  const OccupancyGrid grid = support::ascii_map({"##.##",  //
+                                                 ".....",  //
+                                                 "##.##"});
+  EXPECT_TRUE(sees(grid, {0.5, 1.5}, {4.5, 1.5}, 0.5)) << "a corridor as wide as the disk";
+  EXPECT_FALSE(sees(grid, {0.5, 1.5}, {4.5, 1.5}, 0.5 + kOverlap));
+  EXPECT_FALSE(sees(grid, {0.5, 1.5 + kOverlap}, {4.5, 1.5 + kOverlap}, 0.5));
+  EXPECT_TRUE(sees(grid, {2.5, 0.5}, {2.5, 2.5}, 0.5)) << "vertical";
+  EXPECT_FALSE(sees(grid, {2.5 - kOverlap, 0.5}, {2.5 - kOverlap, 2.5}, 0.5));
+}
+
+TEST(LineOfSight, PastACornerKeepsTheRadius) {
+  const OccupancyGrid grid = support::ascii_map({".....",  //
+                                                 ".....",  //
+                                                 "..#..",  //
+                                                 ".....",  //
+                                                 "....."});
+  // The diagonal (1, 3)-(2, 4) passes the corner (2, 3) at a distance of sqrt(1/2).
+  const double clearance = std::sqrt(0.5);
+  EXPECT_TRUE(sees(grid, {1, 3}, {2, 4}, clearance));
+  EXPECT_FALSE(sees(grid, {1, 3}, {2, 4}, clearance + kOverlap));
+  EXPECT_FALSE(sees(grid, {0.5, 2.5}, {4.5, 2.5}, 0.01)) << "through the block";
+  EXPECT_FALSE(sees(grid, {1, 1}, {4, 4}, 0.01)) << "through it diagonally";
+}
+
+TEST(LineOfSight, BetweenTwoBlocksThatTouchAtACornerIsNone) {
+  const OccupancyGrid grid = support::ascii_map({".#",  //
+                                                 "#."});
+  EXPECT_FALSE(sees(grid, {0.5, 1.5}, {1.5, 0.5}, 0.01));
+}
+
+TEST(LineOfSight, EndsAtTheMapsEdge) {
+  const OccupancyGrid grid(4, 3, 0.5);  // 2 m x 1.5 m
+  EXPECT_TRUE(sees(grid, {0.2, 0.2}, {1.8, 1.3}, 0.2));
+  EXPECT_TRUE(sees(grid, {0.2, 0.2}, {0.2, 1.3}, 0.2));
+  EXPECT_FALSE(sees(grid, {0.2 - kOverlap, 0.2}, {1.8, 1.3}, 0.2));
+  EXPECT_FALSE(sees(grid, {0.2, 0.2 - kOverlap}, {1.8, 1.3}, 0.2));
+  EXPECT_FALSE(sees(grid, {0.2, 0.2}, {1.8 + kOverlap, 1.3}, 0.2));
+  EXPECT_FALSE(sees(grid, {0.2, 0.2}, {1.8, 1.3 + kOverlap}, 0.2));
+  EXPECT_FALSE(sees(grid, {1.0, 1.0}, {1.0, 9.0}, 0.2));
+}
+
+TEST(LineOfSight, OfADiskThatStandsIsWhetherItFits) {
+  const OccupancyGrid grid = support::ascii_map({"...",  //
+                                                 "..#",  //
+                                                 "..."});
+  const LineOfSight sight(grid);
+  EXPECT_TRUE(sight.disk_fits({1.0, 1.5}, 1.0));
+  EXPECT_FALSE(sight.disk_fits({1.0 + kOverlap, 1.5}, 1.0));
+  EXPECT_TRUE(sight.disk_fits({1.5, 2.5}, 0.5));
+  EXPECT_FALSE(sight.disk_fits({2.5, 1.5}, 0.01)) << "inside a block";
+}
+
+class LineOfSightOnRandomMaps : public testing::TestWithParam<double> {};
+
+TEST_P(LineOfSightOnRandomMaps, AgreesWithTheDistanceToEveryBlockedSquare) {
+  const double resolution = GetParam();
+  const std::uint64_t seed = 7;
+  support::Dice dice(seed);
+  int seen = 0;
+  int blocked = 0;
+  for (int map = 0; map < 40; ++map) {
+    OccupancyGrid grid(1 + dice.below(30), 1 + dice.below(30), resolution);
+    const double density = dice.between(0.0, 0.15);
+    for (int i = 0; i < grid.columns() * grid.rows(); ++i) {
+      if (dice.chance(density)) grid.block({i % grid.columns(), i / grid.columns()});
+    }
+    const LineOfSight sight(grid);
+    const auto place = [&] {
+      Position p(dice.between(0, grid.width()), dice.between(0, grid.height()));
+      if (dice.chance(0.3)) p = grid.center(grid.cell_at(p));
+      return p;
+    };
+    for (int k = 0; k < 250; ++k) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << map << ", capsule " << k);
+      const Position from = place();
+      Position to = dice.chance(0.1) ? from : place();
+      if (dice.chance(0.15)) to.x() = from.x();
+      if (dice.chance(0.15)) to.y() = from.y();
+      const double radius = resolution * dice.between(0.05, dice.chance(0.5) ? 1.0 : 3.0);
+      const double distance = obstacle_distance_of(grid, from, to);
+      const bool sees = sight.may_sweep(from, to, radius);
+      ASSERT_EQ(sight.may_sweep(to, from, radius), sees) << "backwards";
+      if (std::abs(distance - radius) < 1e-8) continue;  // in contact, as in the tests above
+      ASSERT_EQ(sees, distance > radius) << "from " << from.transpose() << " to " << to.transpose()
+                                         << ", radius " << radius << ", distance " << distance;
+      ++(sees ? seen : blocked);
+    }
+  }
+  EXPECT_GT(seen, 1000);
+  EXPECT_GT(blocked, 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Resolutions, LineOfSightOnRandomMaps, testing::Values(0.05, 0.5, 1.0, 2.0));
+
+}  // namespace
+}  // namespace fleetplan::core

@@ -1,0 +1,116 @@
+#include "core/reservation/reservation_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/model/trajectory.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Robots of radius 0.5 m on a map of 20 m x 20 m.
+ReservationTable table_of(std::size_t robots) { return {20.0, 20.0, 1.0, std::vector<double>(robots, 0.5)}; }
+
+std::vector<TimedSegment> drive(const Position& from, const Position& to, double t_start, double t_end) {
+  return timed_segments({from, {{{from, to}, t_start, t_end}}, t_end});
+}
+
+std::vector<TimedSegment> stand(const Position& at) { return timed_segments({at, {}, 0.0}); }
+
+using Robots = std::vector<std::size_t>;
+
+TEST(ReservationTable, LetsARobotStandAnywhereWhenItIsEmpty) {
+  const ReservationTable table = table_of(1);
+  const auto safe = table.safe_intervals(0, {5, 5});
+  ASSERT_EQ(safe.size(), 1u);
+  EXPECT_EQ(safe[0].begin, 0.0);
+  EXPECT_EQ(safe[0].end, kForever);
+  EXPECT_EQ(table.earliest_departure(0, {{1, 1}, {9, 9}}, 8.0, 3.0, kForever), 3.0);
+  EXPECT_TRUE(table.robots_hit(0, stand({5, 5})).empty());
+}
+
+TEST(ReservationTable, CutsSafeTimeWhereARobotPasses) {
+  ReservationTable table = table_of(2);
+  table.commit(1, drive({0.5, 5}, {19.5, 5}, 2.0, 21.0));  // at x = 5 when t = 6.5
+  const auto safe = table.safe_intervals(0, {5, 5});
+  ASSERT_EQ(safe.size(), 2u);
+  EXPECT_EQ(safe[0].begin, 0.0);
+  EXPECT_NEAR(safe[0].end, 5.5, 1e-8);
+  EXPECT_NEAR(safe[1].begin, 7.5, 1e-8);
+  EXPECT_EQ(safe[1].end, kForever);
+  EXPECT_EQ(table.safe_intervals(0, {5, 6}).size(), 1u) << "in contact beside the path";
+}
+
+TEST(ReservationTable, HasNoSafeTimeWhereARobotStands) {
+  ReservationTable table = table_of(2);
+  table.commit(1, stand({5, 5}));
+  EXPECT_TRUE(table.safe_intervals(0, {5.9, 5}).empty());
+  EXPECT_EQ(table.safe_intervals(0, {6, 5}).size(), 1u) << "in contact";
+}
+
+TEST(ReservationTable, JoinsNeighbouringSegmentsToOneUnsafeTime) {
+  ReservationTable table = table_of(2);
+  const Position middle(5, 5);
+  table.commit(1,
+               timed_segments({{1, 5}, {{{{1, 5}, middle}, 0.0, 4.0}, {{middle, {5, 9}}, 6.0, 10.0}}, 10.0}));
+  const auto safe = table.safe_intervals(0, middle);
+  ASSERT_EQ(safe.size(), 2u);
+  EXPECT_NEAR(safe[0].end, 3.0, 1e-8);
+  EXPECT_NEAR(safe[1].begin, 7.0, 1e-8);
+}
+
+TEST(ReservationTable, DelaysADepartureUntilThePassingRobotIsJustTouched) {
+  ReservationTable table = table_of(2);
+  table.commit(1, drive({10, 0.5}, {10, 19.5}, 0.0, 19.0));  // crosses y = 10 at t = 9.5
+  const Segment path{{2, 10}, {18, 10}};                     // x = 10 after 8 s
+  const auto departure = table.earliest_departure(0, path, 16.0, 1.0, kForever);
+  ASSERT_TRUE(departure);
+  EXPECT_NEAR(*departure, 1.5 + std::sqrt(2.0), 1e-8);
+  EXPECT_EQ(table.earliest_departure(0, path, 16.0, 0.0, kForever), 0.0) << "ahead of it";
+  EXPECT_FALSE(table.earliest_departure(0, path, 16.0, 1.0, 2.9)) << "too late";
+}
+
+TEST(ReservationTable, NeverDepartsThroughARobotThatStays) {
+  ReservationTable table = table_of(2);
+  table.commit(1, drive({10, 2}, {10, 10}, 5.0, 13.0));  // and stays
+  const Segment path{{2, 10}, {18, 10}};
+  EXPECT_TRUE(table.earliest_departure(0, path, 16.0, 0.0, kForever)) << "before it comes";
+  EXPECT_FALSE(table.earliest_departure(0, path, 16.0, 5.5, kForever));
+}
+
+TEST(ReservationTable, KnowsWhomATrajectoryHits) {
+  ReservationTable table = table_of(4);
+  table.commit(1, stand({5, 5}));
+  table.commit(2, drive({10, 1}, {10, 9}, 0.0, 8.0));  // at y = 5 when t = 4
+  table.commit(3, stand({15, 6}));
+  EXPECT_EQ(table.robots_hit(0, drive({1, 5}, {18, 5}, 0.0, 17.0)), (Robots{1}));
+  EXPECT_EQ(table.robots_hit(0, drive({1, 5}, {18, 5}, 0.0, 7.0)), (Robots{1, 2}));
+  EXPECT_EQ(table.robots_hit(0, drive({1, 5}, {18, 5.1}, 0.0, 17.0)), (Robots{1, 3}));
+  EXPECT_EQ(table.robots_hit(0, stand({10, 9.9})), (Robots{2})) << "it comes to stay";
+  EXPECT_TRUE(table.robots_hit(2, stand({10, 9.9})).empty()) << "itself does not count";
+}
+
+TEST(ReservationTable, IsAsBeforeAfterARobotIsRemoved) {
+  ReservationTable table = table_of(3);
+  table.commit(1, drive({0.5, 5}, {19.5, 5}, 2.0, 21.0));
+  table.commit(2, stand({5, 5}));
+  table.remove(2);
+  table.remove(2);  // no effect
+  EXPECT_EQ(table.safe_intervals(0, {5, 5}).size(), 2u);
+  table.remove(1);
+  EXPECT_EQ(table.safe_intervals(0, {5, 5}).size(), 1u);
+  table.commit(1, stand({7, 7}));
+  EXPECT_TRUE(table.safe_intervals(0, {7, 7}).empty());
+}
+
+TEST(ReservationTable, BlocksForAWhileOnly) {
+  ReservationTable table = table_of(2);
+  table.commit(1, {{{{5, 5}, {5, 5}}, 0.0, 3.0}});
+  const auto safe = table.safe_intervals(0, {5, 5});
+  ASSERT_EQ(safe.size(), 1u);
+  EXPECT_EQ(safe[0].begin, 3.0);
+}
+
+}  // namespace
+}  // namespace fleetplan::core
