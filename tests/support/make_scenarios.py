@@ -66,7 +66,7 @@ class Map:
 def pose(x, y, theta=None):
     made = {"x": round(x, 4), "y": round(y, 4)}
     if theta is not None:
-        made["theta"] = round(theta, 6)
+        made["theta"] = theta
     return made
 
 
@@ -87,7 +87,7 @@ class Places:
         return int(self.random.random() * limit)
 
     def heading(self):
-        return (self.random.random() * 2.0 - 1.0) * PI
+        return round((self.random.random() * 2.0 - 1.0) * PI, 4)
 
     def fits(self, x, y, radius):
         apart = all(math.hypot(x - ox, y - oy) >= radius + other for ox, oy, other in self.taken)
