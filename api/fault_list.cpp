@@ -1,0 +1,41 @@
+#include "api/fault_list.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace fleetplan::api {
+
+namespace {
+
+// Enough to answer with the first hundred in order; a hostile body must not make us hoard millions.
+constexpr std::size_t kMostKept = 10'000;
+
+}  // namespace
+
+void FaultList::add(const JsonValue& value, const JsonPath& path, const char* code, std::string detail) {
+  add(value.begins(), Fault{path.pointer(), code, std::move(detail)});
+}
+
+void FaultList::add_missing(const JsonValue& object, const JsonPath& member, std::string detail) {
+  add(object.ends(), Fault{member.pointer(), fault::kMissing, std::move(detail)});
+}
+
+void FaultList::add(std::uint32_t place, Fault fault) {
+  ++count_;
+  if (placed_.size() < kMostKept) placed_.push_back({place, std::move(fault)});
+}
+
+std::vector<Fault> FaultList::first(std::size_t most) const {
+  std::vector<const Placed*> order;
+  order.reserve(placed_.size());
+  for (const Placed& placed : placed_) order.push_back(&placed);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Placed* left, const Placed* right) { return left->place < right->place; });
+  std::vector<Fault> faults;
+  for (std::size_t index = 0; index < std::min(most, order.size()); ++index) {
+    faults.push_back(order[index]->fault);
+  }
+  return faults;
+}
+
+}  // namespace fleetplan::api
