@@ -36,7 +36,8 @@ std::string reason(std::string_view body, std::size_t start, std::size_t stop) {
     return rest.starts_with('"') ? "this string is not valid UTF-8"
                                  : "a character that JSON allows in strings only, or invalid UTF-8";
   }
-  if (last < 0x20 && rest.starts_with('"')) return "a raw control character in a string; escape it as \\u00XX";
+  if (last < 0x20 && rest.starts_with('"'))
+    return "a raw control character in a string; escape it as \\u00XX";
   if (last < 0x20 && last != '\n' && last != '\r' && last != '\t') return "a control character";
   if (rest.starts_with('\'')) return "strings and keys want double quotes, not single ones";
   if (rest.starts_with("//") || rest.starts_with("/*") || rest.starts_with('#')) {
@@ -46,7 +47,7 @@ std::string reason(std::string_view body, std::size_t start, std::size_t stop) {
   if (token.starts_with('"') && token.find('\\') != std::string_view::npos && !token.ends_with('"')) {
     return "a bad escape in a string";
   }
-  return is_ascii_printable(token) ? "unexpected " + quoted(token) : "unexpected text";
+  return is_ascii_printable(token) ? "unexpected " + in_quotes(token) : "unexpected text";
 }
 
 }  // namespace
@@ -55,16 +56,17 @@ std::string explain_malformed(std::string_view body, std::size_t position, std::
   const std::size_t stop = std::min(position, body.size());
   // Past the last byte the parser counts the end of the input as one more.
   if (stop == 0 || (position > body.size() && !starts_non_finite(token))) {
-    return "not JSON: the text ends too early, at " + place(body, body.size());
+    return "Not JSON: the text ends too early, at " + place(body, body.size()) + ".";
   }
   std::size_t start = stop - 1;
   if (token.size() <= stop && !token.empty() && body.substr(stop - token.size(), token.size()) == token) {
     start = stop - token.size();
-  } else if (const std::size_t quote = token.starts_with('"') ? body.rfind('"', start) : std::string_view::npos;
+  } else if (const std::size_t quote =
+                 token.starts_with('"') ? body.rfind('"', start) : std::string_view::npos;
              quote != std::string_view::npos) {
     start = quote;
   }
-  return "not JSON at " + place(body, start) + ": " + reason(body, start, stop);
+  return "Not JSON at " + place(body, start) + ": " + reason(body, start, stop) + ".";
 }
 
 }  // namespace fleetplan::api

@@ -17,11 +17,8 @@ std::string pointer_step(std::string_view key) {
 }
 
 std::string JsonPath::pointer() const {
-  std::string pointer;
-  for (const JsonPath* step = this; step->parent_ != nullptr; step = step->parent_) {
-    pointer.insert(0, step->index_ == kNoIndex ? pointer_step(step->key_) : "/" + std::to_string(step->index_));
-  }
-  return pointer;
+  if (parent_ == nullptr) return "";
+  return parent_->pointer() + pointer_step(index_ == kNoIndex ? key_ : std::to_string(index_));
 }
 
 std::string JsonPath::name() const {

@@ -141,8 +141,8 @@ bool Builder::key(Json::string_t& key) {
   frame.members.keys.push_back(std::move(key));
   if (duplicate) {
     faults_.add(clock_, {pointer(), fault::kDuplicate,
-                         "the key " + quoted(frame.members.keys.back()) +
-                             " is there twice in this object; keep one of them"});
+                         "The key " + in_quotes(frame.members.keys.back()) +
+                             " is there twice in this object; keep one of them."});
   }
   return true;
 }
@@ -157,8 +157,7 @@ bool Builder::came_before(Frame& frame, const std::string& key) {
 std::string Builder::pointer() const {
   std::string pointer;
   for (const Frame& frame : frames_) {
-    pointer += frame.is_object ? pointer_step(frame.members.keys.back())
-                               : "/" + std::to_string(frame.items.size());
+    pointer += pointer_step(frame.is_object ? frame.members.keys.back() : std::to_string(frame.items.size()));
   }
   return pointer;
 }
@@ -194,12 +193,12 @@ Tamed tame_overflowing(std::string_view body) {
 
 JsonError error_of(const Builder& builder, std::string_view body, int max_depth) {
   if (builder.too_deep()) {
-    return {ErrorCode::too_deep,
-            "the JSON nests arrays and objects deeper than the limit of " + std::to_string(max_depth)};
+    return {ErrorCode::too_deep, "The JSON nests arrays and objects deeper than the limit of " +
+                                     std::to_string(max_depth) + " levels."};
   }
   if (builder.too_many()) {
     return {ErrorCode::invalid_request,
-            "the JSON holds more than " + std::to_string(kMostValues) + " values, which no request needs"};
+            "The JSON holds more than " + std::to_string(kMostValues) + " values, which no request needs."};
   }
   return {ErrorCode::malformed_json,
           explain_malformed(body, builder.error_position(), builder.error_token())};
@@ -209,7 +208,7 @@ JsonError error_of(const Builder& builder, std::string_view body, int max_depth)
 
 std::variant<JsonDocument, JsonError> read_json(std::string_view body, int max_depth) {
   if (body.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-    return JsonError{ErrorCode::malformed_json, "the body is empty; send the request as a JSON object"};
+    return JsonError{ErrorCode::malformed_json, "The body is empty; send the request as a JSON object."};
   }
   // The parser takes a NUL for the end of the input and would not see what follows.
   if (const std::size_t nul = body.find('\0'); nul != std::string_view::npos) {

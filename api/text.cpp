@@ -42,11 +42,14 @@ std::size_t edit_distance(std::string_view left, std::string_view right) {
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
-  if (text.size() <= kLongestQuote) return '"' + std::string(text) + '"';
-  std::size_t end = kLongestQuote;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-  return '"' + std::string(text.substr(0, end)) + "…\"";
+std::string in_quotes(std::string_view text) {
+  std::size_t end = std::min(text.size(), kLongestQuote);
+  const auto inside_character = [&] { return (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U; };
+  while (end > 0 && end < text.size() && inside_character()) --end;
+  std::string quote = "\"";
+  quote += text.substr(0, end);
+  quote += end < text.size() ? "…\"" : "\"";
+  return quote;
 }
 
 std::string number_text(double number) {
@@ -61,7 +64,7 @@ std::string described(const JsonValue& value) {
   if (const bool* boolean = value.boolean()) return *boolean ? "true" : "false";
   if (const auto natural = value.natural()) return std::to_string(*natural);
   if (const auto number = value.number()) return number_text(*number);
-  if (const std::string* string = value.string()) return "the string " + quoted(*string);
+  if (const std::string* string = value.string()) return "the string " + in_quotes(*string);
   return value.array() != nullptr ? "an array" : "an object";
 }
 
@@ -69,7 +72,7 @@ std::string alternatives(std::span<const std::string_view> words) {
   std::string text;
   for (std::size_t index = 0; index < words.size(); ++index) {
     if (index > 0) text += index + 1 == words.size() ? " or " : ", ";
-    text += quoted(words[index]);
+    text += in_quotes(words[index]);
   }
   return text;
 }
@@ -89,7 +92,11 @@ std::string suggestion(std::string_view text, std::span<const std::string_view> 
       best = word;
     }
   }
-  return best.empty() ? "" : "; did you mean " + quoted(best) + "?";
+  if (best.empty()) return "";
+  std::string meant = "; did you mean ";
+  meant += in_quotes(best);
+  meant += '?';
+  return meant;
 }
 
 }  // namespace fleetplan::api

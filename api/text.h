@@ -11,7 +11,7 @@
 namespace fleetplan::api {
 
 /// The text in double quotes, cut to a length that one can read (at a character of UTF-8).
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// The shortest decimal text that reads back as the same double.
 std::string number_text(double number);

@@ -1,0 +1,43 @@
+# Writes a .cpp with the request files of a folder as byte arrays; string literals would be limited to 64 KiB by
+# some compilers. Usage: cmake -DFOLDER=... -DOUTPUT=... -P embed_examples.cmake
+
+cmake_minimum_required(VERSION 3.25)
+
+file(GLOB files "${FOLDER}/*.json")
+list(SORT files)
+
+set(arrays "")
+set(table "")
+set(index "{}")
+set(count 0)
+foreach(file IN LISTS files)
+  get_filename_component(name "${file}" NAME_WE)
+  file(READ "${file}" bytes HEX)
+  string(REGEX REPLACE "(..)" "'\\\\x\\1'," bytes "${bytes}")
+  string(REPLACE "'\\x0a'," "'\\x0a',\n" bytes "${bytes}")
+  if(name STREQUAL "index")
+    string(APPEND arrays "constexpr char kIndex[] = {\n${bytes}};\n")
+    set(index "{kIndex, sizeof(kIndex)}")
+  else()
+    string(APPEND arrays "constexpr char kBody${count}[] = {\n${bytes}};\n")
+    string(APPEND table "    Example{\"${name}\", {kBody${count}, sizeof(kBody${count})}},\n")
+    math(EXPR count "${count} + 1")
+  endif()
+endforeach()
+
+file(WRITE "${OUTPUT}" "// Made by api/embed_examples.cmake from the request files; do not edit.
+#include \"api/embedded_examples.h\"
+
+#include <array>
+
+namespace fleetplan::api {
+namespace {
+${arrays}
+constexpr std::array<Example, ${count}> kExamples{
+${table}};
+}  // namespace
+
+std::span<const Example> embedded_examples() { return kExamples; }
+std::string_view embedded_index() { return ${index}; }
+}  // namespace fleetplan::api
+")

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace fleetplan::api {
+
+/// Writes JSON text from front to back, without a tree in memory; commas come by themselves. Numbers are the
+/// shortest that read back the same, never -0.0; what is not finite is null.
+class JsonWriter {
+ public:
+  JsonWriter& begin_object();
+  JsonWriter& end_object();
+  JsonWriter& begin_array();
+  JsonWriter& end_array();
+  JsonWriter& key(std::string_view name);
+
+  JsonWriter& value(double number);
+  JsonWriter& value(const std::optional<double>& number);
+  JsonWriter& value(std::string_view text);
+  JsonWriter& value(const char* text) { return value(std::string_view(text)); }
+  template <std::same_as<bool> Boolean>
+  JsonWriter& value(Boolean boolean) {
+    return raw(boolean ? "true" : "false");
+  }
+  template <std::integral Integer>
+  requires(!std::same_as<Integer, bool>) JsonWriter& value(Integer number) {
+    return raw(std::to_string(number));
+  }
+
+  /// A member: its key and its value.
+  template <typename Value>
+  JsonWriter& member(std::string_view name, const Value& held) {
+    return key(name).value(held);
+  }
+
+  void reserve(std::size_t bytes) { text_.reserve(bytes); }
+  /// The text so far; leaves the writer empty.
+  std::string take() { return std::move(text_); }
+
+ private:
+  JsonWriter& raw(std::string_view text);
+  void separate();
+  void append_string(std::string_view text);
+
+  std::string text_;
+};
+
+}  // namespace fleetplan::api

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/fault_list.h"
+#include "api/json_path.h"
+#include "api/json_value.h"
+#include "core/planner.h"
+
+namespace fleetplan::api {
+
+/// The member `options` of a request.
+struct ReadOptions {
+  core::PlanOptions plan;
+  std::optional<double> budget_ms;    // as the request wants it, >= 1
+  std::vector<std::string> warnings;  // what was accepted but will not have the effect that it seems to have
+};
+
+/// Reads `options`; what is left out has its default.
+ReadOptions parse_options(const JsonValue& value, const JsonPath& path, FaultList& faults);
+
+}  // namespace fleetplan::api

@@ -1,0 +1,88 @@
+#include "api/plan_endpoint.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "api/error.h"
+#include "api/parse_request.h"
+#include "api/write_response.h"
+#include "core/geometry/tolerance.h"
+#include "core/verify/verify.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+using Clock = RequestContext::Clock;
+
+/// How far off a plan may be: twice the contact that is allowed, as the search and the checker round in their
+/// own ways, and what doubles lose in coordinates of the map's size and times as long as the plan's (64 ulp,
+/// as both add up many numbers).
+double check_tolerance(const core::Problem& problem, const core::Plan& plan) {
+  double fastest = 0.0;
+  for (const core::Robot& robot : problem.robots()) {
+    fastest = std::max({fastest, robot.linear_speed, robot.angular_speed});
+  }
+  const double extent = std::max(problem.grid().width(), problem.grid().height());
+  const double horizon = plan.objectives.makespan * std::max(1.0, fastest);
+  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+  return 2.0 * core::kContactTolerance + kRounding * std::max(extent, horizon);
+}
+
+/// The answer when nothing is left of the budget: only the parked robots have plans.
+core::Plan nothing_planned(const core::Problem& problem) {
+  core::Plan plan;
+  plan.deterministic = false;
+  for (std::size_t index = 0; index < problem.robots().size(); ++index) {
+    if (!problem.robots()[index].goal) {
+      plan.plans.push_back({index, 0.0, {}});
+    } else {
+      plan.unplanned.push_back({index,
+                                core::Unplanned::Reason::budget_exhausted,
+                                "The time budget was spent before planning could begin.",
+                                {}});
+    }
+  }
+  return plan;
+}
+
+}  // namespace
+
+Reply plan_endpoint(std::string_view body, const RequestContext& context) {
+  return plan_with(core::plan, body, context);
+}
+
+Reply plan_with(const Planner& planner, std::string_view body, const RequestContext& context) {
+  Stages stages{context.received_at, context.started_at, {}, {}, {}};
+  auto parsed = parse_request(body, context.limits);
+  if (const auto* error = std::get_if<RequestError>(&parsed)) {
+    return problem_reply(error->code, error->detail, context.request_id, error->faults);
+  }
+  const PlanRequest request = std::get<PlanRequest>(std::move(parsed));
+  stages.parsed = Clock::now();
+
+  const core::StopCondition stop(context.received_at + request.budget, context.stop);
+  const core::Plan plan =
+      stop.met() ? nothing_planned(request.problem) : planner(request.problem, request.options, stop);
+  stages.planned = Clock::now();
+
+  const auto& robots = request.problem.robots();
+  const auto report =
+      core::verify(request.problem.grid(), robots, plan.plans, check_tolerance(request.problem, plan));
+  stages.verified = Clock::now();
+  if (!report.valid()) {
+    return problem_reply(ErrorCode::internal_error,
+                         "The planner made a plan that the checker refuses (" +
+                             report.violations.front().detail +
+                             "), so it is not returned. This is a bug of the service, not of the request.",
+                         context.request_id);
+  }
+  return {
+      200, kJson,
+      write_response({plan, report, robots, request.frame, request.warnings}, context.request_id, stages)};
+}
+
+}  // namespace fleetplan::api
