@@ -27,12 +27,34 @@ bool starts_non_finite(std::string_view rest) {
          rest.starts_with("inf");
 }
 
+bool in_word(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '+' || c == '-' ||
+         c == '.' || c == '_';
+}
+
+/// Where the string, word or sign begins that the byte at `offset` belongs to.
+std::size_t token_start(std::string_view body, std::size_t offset) {
+  std::size_t at = 0;
+  while (at <= offset) {
+    const std::size_t start = at++;
+    if (body[start] == '"') {
+      while (at < body.size() && body[at] != '"') at += body[at] == '\\' ? 2 : 1;
+      ++at;
+    } else if (in_word(body[start])) {
+      while (at < body.size() && in_word(body[at])) ++at;
+    }
+    if (at > offset) return start;
+  }
+  return offset;
+}
+
 /// What is wrong where the parser stopped. `start` to `stop`: the bytes that could not be placed.
 std::string reason(std::string_view body, std::size_t start, std::size_t stop) {
   const std::string_view rest = body.substr(start);
   const auto last = static_cast<unsigned char>(body[stop - 1]);
+  const auto before = stop - start >= 2 ? static_cast<unsigned char>(body[stop - 2]) : 0U;
   if (starts_non_finite(rest)) return "NaN and infinities are not JSON; give a finite number";
-  if (last >= 0x80) {
+  if (last >= 0x80 || (before >= 0x80 && last != '"' && last >= 0x20)) {
     return rest.starts_with('"') ? "this string is not valid UTF-8"
                                  : "a character that JSON allows in strings only, or invalid UTF-8";
   }
@@ -52,21 +74,13 @@ std::string reason(std::string_view body, std::size_t start, std::size_t stop) {
 
 }  // namespace
 
-std::string explain_malformed(std::string_view body, std::size_t position, std::string_view token) {
-  const std::size_t stop = std::min(position, body.size());
+std::string explain_malformed(std::string_view body, std::size_t position) {
   // Past the last byte the parser counts the end of the input as one more.
-  if (stop == 0 || (position > body.size() && !starts_non_finite(token))) {
+  if (position == 0 || position > body.size()) {
     return "Not JSON: the text ends too early, at " + place(body, body.size()) + ".";
   }
-  std::size_t start = stop - 1;
-  if (token.size() <= stop && !token.empty() && body.substr(stop - token.size(), token.size()) == token) {
-    start = stop - token.size();
-  } else if (const std::size_t quote =
-                 token.starts_with('"') ? body.rfind('"', start) : std::string_view::npos;
-             quote != std::string_view::npos) {
-    start = quote;
-  }
-  return "Not JSON at " + place(body, start) + ": " + reason(body, start, stop) + ".";
+  const std::size_t start = token_start(body, position - 1);
+  return "Not JSON at " + place(body, start) + ": " + reason(body, start, position) + ".";
 }
 
 }  // namespace fleetplan::api

@@ -54,9 +54,8 @@ class Builder {
   bool end_array() { return close(); }
   bool key(Json::string_t& key);
 
-  bool parse_error(std::size_t position, const std::string& token, const Json::exception& error) {
+  bool parse_error(std::size_t position, const std::string& /*token*/, const Json::exception& error) {
     error_position_ = position;
-    error_token_ = token;
     overflowed_ = dynamic_cast<const Json::out_of_range*>(&error) != nullptr;
     return false;
   }
@@ -65,7 +64,6 @@ class Builder {
   bool too_many() const { return clock_ >= kMostValues; }
   bool overflowed() const { return overflowed_; }
   std::size_t error_position() const { return error_position_; }
-  const std::string& error_token() const { return error_token_; }
   JsonDocument take() { return {std::move(root_), std::move(faults_)}; }
 
  private:
@@ -92,7 +90,6 @@ class Builder {
   std::uint32_t clock_ = 0;
   std::size_t numbers_ = 0;
   std::size_t error_position_ = 0;
-  std::string error_token_;
   bool too_deep_ = false;
   bool overflowed_ = false;
 };
@@ -200,8 +197,7 @@ JsonError error_of(const Builder& builder, std::string_view body, int max_depth)
     return {ErrorCode::invalid_request,
             "The JSON holds more than " + std::to_string(kMostValues) + " values, which no request needs."};
   }
-  return {ErrorCode::malformed_json,
-          explain_malformed(body, builder.error_position(), builder.error_token())};
+  return {ErrorCode::malformed_json, explain_malformed(body, builder.error_position())};
 }
 
 }  // namespace
@@ -212,7 +208,7 @@ std::variant<JsonDocument, JsonError> read_json(std::string_view body, int max_d
   }
   // The parser takes a NUL for the end of the input and would not see what follows.
   if (const std::size_t nul = body.find('\0'); nul != std::string_view::npos) {
-    return JsonError{ErrorCode::malformed_json, explain_malformed(body, nul + 1, "")};
+    return JsonError{ErrorCode::malformed_json, explain_malformed(body, nul + 1)};
   }
   Builder builder(max_depth, {});
   if (nlohmann::json::sax_parse(body.begin(), body.end(), &builder)) return builder.take();
