@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <utility>
 
 namespace fleetplan::server {
@@ -12,6 +13,11 @@ constexpr std::size_t kMaxChunkLine = 4096;
 constexpr std::size_t kMaxTrailerLines = 100;
 
 BodyFault malformed(std::string detail) { return {BodyFault::Kind::malformed, std::move(detail)}; }
+
+BodyFault too_large(const std::string& size, std::uint64_t limit) {
+  return {BodyFault::Kind::too_large,
+          std::string("The body has ") + size + " bytes; the limit is " + std::to_string(limit) + "."};
+}
 
 /// Input of one body from a socket, against a slow client.
 class Source {
@@ -80,9 +86,9 @@ std::variant<std::string, BodyFault> read_chunked(Source& source, std::uint64_t 
     if (!size) return malformed("A chunk does not begin with its size in hexadecimal.");
     if (*size == 0) break;
     if (*size > limit - body.size()) {
-      return BodyFault{BodyFault::Kind::too_large, "The body has at least " + std::to_string(body.size()) +
-                                                       " + " + std::to_string(*size) +
-                                                       " bytes; the limit is " + std::to_string(limit) + "."};
+      const auto read = static_cast<std::uint64_t>(body.size());
+      const auto at_least = read + std::min(*size, std::numeric_limits<std::uint64_t>::max() - read);
+      return too_large("at least " + std::to_string(at_least), limit);
     }
     if (!source.take(*size, body)) return incomplete();
     const auto rest = source.take_line();
@@ -104,10 +110,7 @@ std::variant<std::string, BodyFault> read_body(Socket& socket, std::string& inpu
   Source source(socket, input, patience);
   if (head.chunked) return read_chunked(source, limit);
   const std::uint64_t length = head.content_length.value_or(0);
-  if (length > limit) {
-    return BodyFault{BodyFault::Kind::too_large, "The body has " + std::to_string(length) +
-                                                     " bytes; the limit is " + std::to_string(limit) + "."};
-  }
+  if (length > limit) return too_large(std::to_string(length), limit);
   std::string body;
   body.reserve(std::min<std::uint64_t>(length, 1 << 20));  // a promise alone buys no memory
   if (!source.take(length, body)) return incomplete();

@@ -148,6 +148,7 @@ void HttpServer::install_handlers() {
     exchange->status = response.status;
     if (draining_) exchange->close = true;
     for (const char* name : {"Keep-Alive", "Accept-Ranges", "Connection"}) response.headers.erase(name);
+    response.set_header("Vary", "Accept-Encoding");
     if (response.status == 304) response.headers.erase("Content-Length");
     for (const auto& [name, value] : common_fields(*exchange)) response.set_header(name, value);
   });
@@ -181,7 +182,6 @@ void HttpServer::answer_page(const Exchange& exchange, httplib::Response& respon
   }
   response.set_header("ETag", file->etag);
   response.set_header("Cache-Control", "no-cache");
-  response.set_header("Vary", "Accept-Encoding");
   response.set_header("Content-Security-Policy", kContentSecurityPolicy);
   response.set_header("Referrer-Policy", "no-referrer");
   if (exchange.head.field("if-none-match").find(file->etag) != std::string::npos) {
