@@ -46,13 +46,12 @@ class RobotBuilder {
 
 inline RobotBuilder robot_at(double x, double y, double theta = 0.0) { return {x, y, theta}; }
 
-/// The problem; throws std::invalid_argument if it has faults, with their number.
+/// The problem; throws std::invalid_argument if it has faults.
 inline core::Problem make_problem(core::OccupancyGrid grid, std::vector<core::Robot> robots) {
-  for (std::size_t i = 0; i < robots.size(); ++i) robots[i].id = "r" + std::to_string(i);
+  for (std::size_t i = 0; i < robots.size(); ++i) robots[i].id = std::to_string(i);
   auto problem = core::Problem::create(std::move(grid), std::move(robots));
   if (auto* valid = std::get_if<core::Problem>(&problem)) return std::move(*valid);
-  const auto& faults = std::get<std::vector<core::ProblemFault>>(problem);
-  throw std::invalid_argument("the problem has " + std::to_string(faults.size()) + " faults");
+  throw std::invalid_argument("the robots and the map make no problem");
 }
 
 }  // namespace fleetplan::support

@@ -57,7 +57,7 @@ inline std::vector<core::Robot> random_robots(Dice& dice, const core::OccupancyG
   };
   for (int i = 0; i < count; ++i) {
     core::Robot robot;
-    robot.id = "r" + std::to_string(i);
+    robot.id = std::to_string(i);
     robot.radius = grid.resolution() * (dice.chance(0.2) ? dice.between(1.0, 3.0) : dice.between(0.1, 1.0));
     robot.linear_speed = grid.resolution() * std::pow(20.0, dice.between(-0.5, 0.5));
     robot.angular_speed = dice.chance(0.1) ? 1000.0 : std::pow(20.0, dice.between(-0.5, 0.5));

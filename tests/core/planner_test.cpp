@@ -1,0 +1,231 @@
+#include "core/planner.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/search/stop_condition.h"
+#include "tests/core/search/planning.h"
+#include "tests/support/ascii_map.h"
+#include "tests/support/expect_safe.h"
+#include "tests/support/problem_builder.h"
+
+namespace fleetplan::core {
+namespace {
+
+using support::expect_safe;
+using support::robot_at;
+using Mode = PlanOptions::Mode;
+using Reason = Unplanned::Reason;
+using Robots = std::vector<std::size_t>;
+
+constexpr double kPi = std::numbers::pi;
+
+/// The plan, after the checker accepted it, with every robot in it once.
+Plan checked_plan(const Problem& problem, const PlanOptions& options = {}, const StopCondition& stop = {}) {
+  Plan plan = core::plan(problem, options, stop);
+  expect_safe(problem, plan, options.inflation);
+  EXPECT_EQ(plan.plans.size() + plan.unplanned.size(), problem.robots().size());
+  EXPECT_GE(plan.objectives.flowtime, plan.lower_bound.flowtime - 1e-9);
+  EXPECT_GE(plan.objectives.makespan, plan.lower_bound.makespan - 1e-9);
+  return plan;
+}
+
+void expect_unplanned(const Plan& plan, std::size_t index, Reason reason, const Robots& blocked_by) {
+  for (const Unplanned& robot : plan.unplanned) {
+    if (robot.robot != index) continue;
+    EXPECT_EQ(static_cast<int>(robot.reason), static_cast<int>(reason)) << robot.detail;
+    EXPECT_EQ(robot.blocked_by, blocked_by);
+    return;
+  }
+  ADD_FAILURE() << "robot " << index << " has a plan";
+}
+
+TEST(Planner, CostsALoneRobotTheStraightLineAndItsTurns) {
+  const Problem problem = support::make_problem(OccupancyGrid(10, 10, 1.0),
+                                                {robot_at(1.5, 1.5).to(4.5, 5.5, kPi).speeds(2.0, kPi / 4)});
+  const Plan plan = checked_plan(problem);
+  ASSERT_EQ(plan.plans.size(), 1u);
+  EXPECT_NEAR(plan.plans[0].cost, 2.5 + 4.0, 1e-9) << "5 m and half a turn in all";
+  EXPECT_NEAR(plan.lower_bound.flowtime, plan.plans[0].cost, 1e-9);
+  EXPECT_EQ(plan.objectives.flowtime, plan.plans[0].cost);
+  EXPECT_EQ(plan.objectives.makespan, plan.plans[0].cost);
+  EXPECT_TRUE(plan.deterministic);
+  EXPECT_EQ(plan.search.attempts, 1);
+  EXPECT_EQ(plan.search.improvements, 0);
+}
+
+/// Two robots that want to change places. The bay is nearer to the second one, which has time to get into it.
+Problem swap_with_bay() {
+  return support::make_problem(support::ascii_map({"######.##",  //
+                                                   "........."}),
+                               {robot_at(0.5, 0.5).to(8.5, 0.5), robot_at(8.5, 0.5, kPi).to(0.5, 0.5)});
+}
+
+TEST(Planner, SwapsTwoRobotsInACorridorWithAPassingBay) {
+  const Plan plan = checked_plan(swap_with_bay());
+  EXPECT_TRUE(plan.unplanned.empty());
+  EXPECT_GT(plan.objectives.makespan, 9.0);
+  EXPECT_LE(plan.objectives.makespan, 6.0 + 2.0 + 2.0 + 6.0) << "meet, come out of the bay, turn, go on";
+}
+
+TEST(Planner, PlansOneOfTwoRobotsInACorridorWithoutABay) {
+  const Problem problem = support::make_problem(
+      OccupancyGrid(9, 1, 1.0), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(3.5, 0.5).to(1.5, 0.5)});
+  const Plan plan = checked_plan(problem);
+  ASSERT_EQ(plan.unplanned.size(), 1u);
+  const std::size_t left_out = plan.unplanned[0].robot;
+  expect_unplanned(plan, left_out, Reason::blocked_by_robots, {1 - left_out});
+  EXPECT_TRUE(plan.deterministic);
+}
+
+TEST(Planner, LeavesParkedRobotsAloneAndGoesRoundThem) {
+  const Problem problem = support::make_problem(
+      OccupancyGrid(9, 5, 1.0), {robot_at(4.5, 2.5), robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(4.5, 4.5)});
+  const Plan plan = checked_plan(problem);
+  ASSERT_EQ(plan.plans.size(), 3u);
+  EXPECT_TRUE(plan.plans[0].actions.empty());
+  EXPECT_EQ(plan.plans[0].cost, 0.0);
+  EXPECT_GT(plan.plans[1].cost, 8.0);
+  EXPECT_EQ(plan.objectives.flowtime, plan.plans[1].cost);
+}
+
+TEST(Planner, BlamesTheParkedRobotThatShutsTheOnlyWay) {
+  const Problem problem =
+      support::make_problem(OccupancyGrid(9, 1, 1.0), {robot_at(4.5, 0.5), robot_at(0.5, 0.5).to(8.5, 0.5)});
+  expect_unplanned(checked_plan(problem), 1, Reason::blocked_by_robots, {0});
+}
+
+TEST(Planner, ReportsPlansInTheOrderOfTheRobotsAndTheRestAside) {
+  const Problem problem = support::make_problem(
+      support::ascii_map({".........",  //
+                          ".........",  //
+                          "########.",  //
+                          "........."}),
+      {robot_at(8.5, 3.5).to(0.5, 3.5), robot_at(0.6, 0.5).to(8.5, 2.5).radius(0.5), robot_at(0.5, 2.5)});
+  PlanOptions options;
+  options.inflation = 0.05;
+  const Plan plan = checked_plan(problem, options);
+  ASSERT_EQ(plan.plans.size(), 2u);
+  EXPECT_EQ(plan.plans[0].robot, 0u);
+  EXPECT_EQ(plan.plans[1].robot, 2u);
+  expect_unplanned(plan, 1, Reason::start_blocked, {});
+}
+
+/// Large and small, slow and quick ones that all cross each other's ways.
+Problem crossing_fleet() {
+  return support::make_problem(
+      OccupancyGrid(16, 16, 1.0),
+      {robot_at(2, 8).to(14, 8, 0.0).radius(1.3).speeds(0.5, 0.3),
+       robot_at(8, 2, kPi / 2).to(8, 14).radius(0.9), robot_at(8, 14).to(8, 2).radius(0.2).speeds(3.0, 6.0),
+       robot_at(14, 8, 1.0).to(2, 8).radius(0.5).speeds(1.5, 2.0), robot_at(2, 2).to(14, 14, kPi).radius(0.7),
+       robot_at(13.3, 13.9).to(2.2, 2.7).radius(0.35).speeds(2.0, 1.0), robot_at(8, 8).to(8, 8, 2.0)});
+}
+
+TEST(Planner, LetsAFleetOfMixedSizesAndSpeedsCross) {
+  const Plan plan = checked_plan(crossing_fleet());
+  EXPECT_TRUE(plan.unplanned.empty());
+  EXPECT_TRUE(plan.deterministic);
+}
+
+TEST(Planner, PlansTheSameTwiceToTheLastBit) {
+  for (const Mode mode : {Mode::first, Mode::anytime}) {
+    PlanOptions options;
+    options.mode = mode;
+    options.max_iterations = 20;
+    options.priority = PlanOptions::Priority::random;
+    options.seed = 42;
+    EXPECT_EQ(support::exact_text(checked_plan(crossing_fleet(), options)),
+              support::exact_text(checked_plan(crossing_fleet(), options)));
+  }
+}
+
+TEST(Planner, ImprovesTheFirstPlanOrKeepsItInAnytimeMode) {
+  PlanOptions options;
+  const Plan first = checked_plan(crossing_fleet(), options);
+  options.mode = Mode::anytime;
+  options.max_iterations = 40;
+  const Plan improved = checked_plan(crossing_fleet(), options);
+  EXPECT_LE(improved.objectives.flowtime, first.objectives.flowtime);
+  EXPECT_TRUE(improved.deterministic);
+  EXPECT_EQ(improved.objectives.flowtime<first.objectives.flowtime, improved.search.improvements> 0);
+  options.objective = PlanOptions::Objective::makespan;
+  EXPECT_LE(checked_plan(crossing_fleet(), options).objectives.makespan, first.objectives.makespan);
+}
+
+TEST(Planner, KeepsInflatedRobotsClearOfEachOtherAndOfWalls) {
+  PlanOptions options;
+  options.inflation = 0.09;
+  EXPECT_TRUE(checked_plan(swap_with_bay(), options).unplanned.empty()) << "0.49 m fit into the corridor";
+  options.inflation = 0.11;
+  const Plan plan = checked_plan(swap_with_bay(), options);
+  expect_unplanned(plan, 0, Reason::start_blocked, {});
+  expect_unplanned(plan, 1, Reason::start_blocked, {});
+}
+
+TEST(Planner, WaitsBeforeEveryMoveWhenAsked) {
+  PlanOptions options;
+  options.wait_before_move = 0.7;
+  const Plan plan = checked_plan(swap_with_bay(), options);
+  EXPECT_TRUE(plan.unplanned.empty());
+  for (const RobotPlan& robot : plan.plans) {
+    for (std::size_t i = 0; i < robot.actions.size(); ++i) {
+      if (robot.actions[i].type != Action::Type::translate) continue;
+      ASSERT_GT(i, 0u);
+      EXPECT_EQ(robot.actions[i - 1].type, Action::Type::wait);
+      EXPECT_GE(robot.actions[i - 1].t_end - robot.actions[i - 1].t_start, 0.7 - 1e-9);
+    }
+  }
+}
+
+TEST(Planner, PlansOnAFineMapWithRobotsOfSixCells) {
+  // A room of 3 m x 2 m at 5 cm, divided by a wall with an opening of 40 cm; the robots are 30 cm wide.
+  OccupancyGrid lab(60, 40, 0.05);
+  for (int row = 0; row < 40; ++row) {
+    if (row >= 16 && row < 24) continue;
+    lab.block({29, row});
+    lab.block({30, row});
+  }
+  const Problem problem = support::make_problem(
+      std::move(lab), {robot_at(0.3, 0.3).to(2.7, 1.7).radius(0.15).speeds(0.5, 1.5),
+                       robot_at(2.7, 1.7).to(0.3, 0.3).radius(0.15).speeds(0.5, 1.5),
+                       robot_at(0.31, 1.62, 1.0).to(2.66, 0.41, -2.0).radius(0.15).speeds(0.5, 1.5)});
+  const Plan plan = checked_plan(problem);
+  EXPECT_TRUE(plan.unplanned.empty());
+}
+
+/// No robot finds its way at a glance.
+Problem maze_fleet() {
+  return support::make_problem(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5), robot_at(27.5, 8.5).to(0.5, 0.5),
+                                        robot_at(13.5, 7.5).to(13.5, 1.5)});
+}
+
+TEST(Planner, LeavesEverybodyStandingWhenItIsCancelledBeforeItStarts) {
+  PlanOptions options;
+  options.mode = Mode::anytime;  // would go on for ever
+  const Plan plan = checked_plan(maze_fleet(), options, met());
+  EXPECT_FALSE(plan.deterministic);
+  EXPECT_TRUE(plan.plans.empty());
+  for (std::size_t i = 0; i < 3; ++i) expect_unplanned(plan, i, Reason::budget_exhausted, {});
+}
+
+TEST(Planner, LeavesEverybodyStandingWhenTheDeadlineHasPassed) {
+  const StopCondition late(StopCondition::Clock::now() - std::chrono::seconds(1));
+  const Plan plan = checked_plan(maze_fleet(), {}, late);
+  EXPECT_FALSE(plan.deterministic);
+  EXPECT_TRUE(plan.plans.empty());
+  EXPECT_EQ(plan.objectives.flowtime, 0.0);
+}
+
+TEST(Planner, NeedsNoClockToEndWhereNobodyCanMove) {
+  const Problem problem = support::make_problem(
+      OccupancyGrid(5, 1, 1.0), {robot_at(0.5, 0.5).to(4.5, 0.5), robot_at(4.5, 0.5).to(0.5, 0.5),
+                                 robot_at(2.5, 0.5).to(2.5, 0.5, kPi)});
+  const Plan plan = checked_plan(problem);
+  EXPECT_TRUE(plan.deterministic);
+  EXPECT_GE(plan.plans.size(), 1u) << "one can at least turn round";
+}
+
+}  // namespace
+}  // namespace fleetplan::core

@@ -1,0 +1,57 @@
+#pragma once
+
+// Every plan in a test goes through the independent checker.
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "core/actions.h"
+#include "core/model/plan.h"
+#include "core/model/problem.h"
+#include "core/search/fleet_state.h"
+#include "core/verify/verify.h"
+#include "tests/support/summary.h"
+
+namespace fleetplan::support {
+
+/// What the service promises of contact, and room for the rounding of times and positions.
+inline constexpr double kSafeTolerance = 2e-9;
+
+/// The plans keep clear of each other, of robots without a plan and of the map.
+inline void expect_safe(const core::Problem& problem, const std::vector<core::RobotPlan>& plans) {
+  const core::VerifyReport report = core::verify(problem.grid(), problem.robots(), plans, kSafeTolerance);
+  EXPECT_TRUE(report.valid()) << text(report);
+}
+
+/// So they do with disks larger by `inflation`; only those that do not fit at their start keep their size.
+inline void expect_safe(const core::Problem& problem, const core::Plan& plan, double inflation = 0.0) {
+  expect_safe(problem, plan.plans);
+  if (inflation == 0.0) return;
+  std::vector<core::Robot> robots = problem.robots();
+  for (core::Robot& robot : robots) robot.radius += inflation;
+  for (const core::Unplanned& robot : plan.unplanned) {
+    if (robot.reason == core::Unplanned::Reason::start_blocked) robots[robot.robot].radius -= inflation;
+  }
+  const core::VerifyReport report = core::verify(problem.grid(), robots, plan.plans, kSafeTolerance);
+  EXPECT_TRUE(report.valid()) << "inflated by " << inflation << ": " << text(report);
+}
+
+/// The trajectories that robots follow at the moment, as plans. Robots without one stand.
+inline std::vector<core::RobotPlan> plans_of(const core::FleetState& state) {
+  std::vector<core::RobotPlan> plans;
+  for (std::size_t i = 0; i < state.fleet().size(); ++i) {
+    const auto& trajectory = state.trajectory(i);
+    if (!trajectory) continue;
+    plans.push_back({i, trajectory->cost, core::to_actions(state.fleet().robot(i), *trajectory)});
+  }
+  return plans;
+}
+
+inline void expect_safe(const core::FleetState& state) {
+  expect_safe(state.fleet().problem(), plans_of(state));
+}
+
+}  // namespace fleetplan::support
