@@ -1,7 +1,6 @@
 #include "api/error.h"
 
 #include <array>
-#include <utility>
 
 #include "api/json_writer.h"
 
@@ -49,14 +48,14 @@ int status_of(ErrorCode code) { return row_of(code).status; }
 
 std::string_view name_of(ErrorCode code) { return row_of(code).name; }
 
-Reply problem_reply(ErrorCode code, std::string detail, const std::string& request_id,
+Reply problem_reply(ErrorCode code, const std::string& detail, const std::string& request_id,
                     const std::vector<Fault>& faults) {
   const Row& row = row_of(code);
   JsonWriter json;
   json.begin_object();
   // A name, not an address: there is no page behind it.
   json.member("type", "urn:fleetplan:problem:" + std::string(row.name));
-  json.member("title", row.title).member("status", row.status).member("detail", std::move(detail));
+  json.member("title", row.title).member("status", row.status).member("detail", detail);
   json.member("code", row.name).member("request_id", request_id);
   json.key("errors").begin_array();
   for (const Fault& fault : faults) {

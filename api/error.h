@@ -38,7 +38,7 @@ int status_of(ErrorCode code);
 std::string_view name_of(ErrorCode code);
 
 /// The error as application/problem+json.
-Reply problem_reply(ErrorCode code, std::string detail, const std::string& request_id,
+Reply problem_reply(ErrorCode code, const std::string& detail, const std::string& request_id,
                     const std::vector<Fault>& faults = {});
 
 }  // namespace fleetplan::api

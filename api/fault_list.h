@@ -47,7 +47,7 @@ class FaultList {
 
  private:
   struct Placed {
-    std::uint32_t place;
+    std::uint32_t place = 0;
     Fault fault;
   };
   std::vector<Placed> placed_;

@@ -20,7 +20,7 @@ struct JsonDocument {
 
 /// Why a body is not a document: malformed_json, with line, column and byte, or too_deep.
 struct JsonError {
-  ErrorCode code;
+  ErrorCode code = ErrorCode::malformed_json;
   std::string detail;
 };
 

@@ -31,7 +31,7 @@ struct ValidateRequest {
   core::OccupancyGrid grid;
   std::vector<core::Robot> robots;
   std::vector<core::RobotPlan> plans;
-  double tolerance;
+  double tolerance = kDefaultTolerance;
 };
 
 std::variant<ValidateRequest, RequestError> parse_validate_request(std::string_view body,
