@@ -59,12 +59,11 @@ StaticMoves::StaticMoves(const Lattice& lattice, const LineOfSight& sight, doubl
     : lattice_(lattice),
       sight_(sight),
       radius_(radius),
-      masks_(static_cast<std::size_t>(lattice.vertex_count()), 0),
-      known_(static_cast<std::size_t>(lattice.vertex_count()), false) {}
+      masks_(static_cast<std::size_t>(lattice.vertex_count())) {}
 
 std::uint32_t StaticMoves::from(int vertex) {
-  const auto index = static_cast<std::size_t>(vertex);
-  if (known_[index]) return masks_[index];
+  Mask& cached = masks_[static_cast<std::size_t>(vertex)];
+  if (cached.known) return cached.steps;
   const int column = vertex % lattice_.columns();
   const int row = vertex / lattice_.columns();
   const Position here = lattice_.position(vertex);
@@ -76,8 +75,7 @@ std::uint32_t StaticMoves::from(int vertex) {
     if (c < 0 || c >= lattice_.columns() || r < 0 || r >= lattice_.rows()) continue;
     if (sight_.may_sweep(here, lattice_.position(lattice_.vertex({c, r})), radius_)) mask |= 1u << k;
   }
-  known_[index] = true;
-  masks_[index] = mask;
+  cached = {mask, true};
   return mask;
 }
 

@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "core/map/line_of_sight.h"
 #include "core/map/occupancy_grid.h"
+#include "core/map/paged_array.h"
 
 namespace fleetplan::core {
 
@@ -57,11 +57,15 @@ class StaticMoves {
   std::uint32_t from(int vertex);
 
  private:
+  struct Mask {
+    std::uint32_t steps = 0;
+    bool known = false;
+  };
+
   const Lattice& lattice_;
   const LineOfSight& sight_;
   double radius_;
-  std::vector<std::uint32_t> masks_;
-  std::vector<bool> known_;
+  PagedArray<Mask> masks_;
 };
 
 }  // namespace fleetplan::core

@@ -31,7 +31,7 @@ SearchResult AaSipp::run(std::size_t robot, const Vertices& vertices, CostToGo& 
   expansions_ = 0;
   place_of_vertex_.resize(std::max(place_of_vertex_.size(), static_cast<std::size_t>(vertices.count())), -1);
   Outcome outcome = search(false);
-  if (outcome == Outcome::pruned) outcome = search(true);
+  if (outcome == Outcome::pruned && limits.thorough) outcome = search(true);
   SearchResult result;
   result.expansions = expansions_;
   result.complete = outcome != Outcome::stopped;
@@ -92,7 +92,9 @@ void AaSipp::add_start() {
   const int interval = places_[static_cast<std::size_t>(place)].first_interval;
   if (places_[static_cast<std::size_t>(place)].interval_count == 0) return;
   if (!intervals_[static_cast<std::size_t>(interval)].contains(0.0)) return;
-  push({0.0, 0.0, fleet_.robot(robot_).start.theta, -1, -1, place, interval, Kind::timed, false, false});
+  const double heading = fleet_.robot(robot_).start.theta;
+  const Candidate start{0.0, 0.0, heading, -1, -1, place, interval, Kind::timed, false, false};
+  push(start, rank(start));
 }
 
 double AaSipp::to_go(int place, double heading) const {
@@ -104,12 +106,15 @@ double AaSipp::to_go(int place, double heading) const {
   return estimate.seconds + motion_->rotation_time(heading, estimate.heading);
 }
 
-void AaSipp::push(const Candidate& candidate) {
+AaSipp::Rank AaSipp::rank(const Candidate& candidate) const {
   const double h = to_go(candidate.place, candidate.heading);
-  const double f = std::max(candidate.arrival + h, release_);
-  if (!(f < limits_.bound)) return;
+  return {std::max(candidate.arrival + h, release_), h};
+}
+
+void AaSipp::push(const Candidate& candidate, const Rank& rank) {
+  if (!(rank.f < limits_.bound)) return;
   candidates_.push_back(candidate);
-  open_.push_back({f, h, static_cast<int>(candidates_.size()) - 1});
+  open_.push_back({rank, static_cast<int>(candidates_.size()) - 1});
   std::push_heap(open_.begin(), open_.end(), std::greater<>());
 }
 
@@ -121,7 +126,7 @@ double AaSipp::duration(const Candidate& candidate) const {
 }
 
 void AaSipp::process(int index) {
-  const double f = open_.front().f;
+  const double f = open_.front().rank.f;
   std::pop_heap(open_.begin(), open_.end(), std::greater<>());
   open_.pop_back();
   Candidate candidate = candidates_[static_cast<std::size_t>(index)];
@@ -136,7 +141,7 @@ void AaSipp::process(int index) {
   const auto [via, place, interval] = std::tuple(candidate.via, candidate.place, candidate.interval);
   if (candidate.leads) follow(via, place, interval + 1, candidate.blocked || !seen);  // later intervals
   // A label that dominates the optimistic arrival also dominates the way through the expanded label.
-  if (dominated(interval, candidate.arrival, candidate.heading)) return;
+  if (redundant(interval, candidate.arrival, candidate.heading, f)) return;
   const std::optional<double> departure = seen ? time_move(candidate) : std::nullopt;
   const double optimistic = candidate.arrival;
   if (departure) {
@@ -147,19 +152,26 @@ void AaSipp::process(int index) {
   }
   if (from_parent) offer(Kind::local, via, place, interval, false, true);
   if (!departure) return;
-  const double f_timed = std::max(candidate.arrival + to_go(place, candidate.heading), release_);
-  if (is_final(place, interval) && f_timed <= (1.0 + limits_.suboptimality) * f && f_timed < limits_.bound) {
-    return settle(candidate, f_timed);
+  const Rank timed = rank(candidate);
+  if (is_final(place, interval) && timed.f <= (1.0 + limits_.suboptimality) * f && timed.f < limits_.bound) {
+    return settle(candidate, timed.f);
   }
-  push(candidate);
+  push(candidate, timed);
 }
 
 bool AaSipp::is_final(int place, int interval) const {
   return place == goal_place_ && intervals_[static_cast<std::size_t>(interval)].end == kForever;
 }
 
-bool AaSipp::dominated(int interval, double arrival, double heading) const {
-  for (int l = labels_of_interval_[static_cast<std::size_t>(interval)]; l >= 0;) {
+/// Is a label there that makes this one needless, or good enough? `f` is the candidate's.
+bool AaSipp::redundant(int interval, double arrival, double heading, double f) {
+  const int first = labels_of_interval_[static_cast<std::size_t>(interval)];
+  if (first < 0) return false;
+  if (!thorough_ && f <= release_) {  // while the goal is not even free, one label for each interval will do
+    pruned_ = true;
+    return true;
+  }
+  for (int l = first; l >= 0;) {
     const Label& label = labels_[static_cast<std::size_t>(l)];
     if (label.arrival + motion_->rotation_time(label.heading, heading) <= arrival + kSameTime) return true;
     l = label.next;
@@ -169,12 +181,7 @@ bool AaSipp::dominated(int interval, double arrival, double heading) const {
 
 void AaSipp::settle(const Candidate& candidate, double f) {
   int& first = labels_of_interval_[static_cast<std::size_t>(candidate.interval)];
-  if (dominated(candidate.interval, candidate.arrival, candidate.heading)) return;
-  // While the goal is not even free, one label for each interval will do in a first search.
-  if (!thorough_ && first >= 0 && f <= release_) {
-    pruned_ = true;
-    return;
-  }
+  if (redundant(candidate.interval, candidate.arrival, candidate.heading, f)) return;
   const int label = static_cast<int>(labels_.size());
   labels_.push_back({candidate.arrival, candidate.heading, candidate.departure, candidate.from,
                      candidate.place, candidate.interval, first});
@@ -235,15 +242,18 @@ AaSipp::Offer AaSipp::offer(Kind kind, int via, int place, int interval, bool le
   const auto window = departure_window(label, heading, seconds, target);
   if (!window) return Offer::useless;
   const double arrival = window->begin + seconds;
-  if (dominated(interval, arrival, heading)) return Offer::useless;
-  push({arrival, window->begin, heading, from, via, place, interval, kind, leads, blocked});
+  const Candidate candidate{arrival, window->begin, heading, from,  via,
+                            place,   interval,      kind,    leads, blocked};
+  const Rank ranked = rank(candidate);
+  if (redundant(interval, arrival, heading, ranked.f)) return Offer::useless;
+  push(candidate, ranked);
   return Offer::made;
 }
 
 /// May the robot go on in the direction it came in, without the added wait, as one translation?
 bool AaSipp::passes_through(const Label& from, double heading) const {
   return from.parent >= 0 && motion_->wait_before_move > 0.0 &&
-         std::abs(rotation_between(from.heading, heading)) <= kSameHeading;
+         angle_between(from.heading, heading) <= kSameHeading;
 }
 
 /// When a move from a label may depart so that it leaves within the label's safe interval and arrives within
@@ -290,7 +300,7 @@ Trajectory AaSipp::extract() const {
   for (std::size_t i = 1; i < way.size(); ++i) {
     const Position& to = places_[static_cast<std::size_t>(way[i]->place)].position;
     const bool goes_on = i > 1 && way[i]->departure == way[i - 1]->arrival &&
-                         std::abs(rotation_between(way[i - 1]->heading, way[i]->heading)) <= kSameHeading;
+                         angle_between(way[i - 1]->heading, way[i]->heading) <= kSameHeading;
     if (goes_on) {
       trajectory.moves.back().path.to = to;
       trajectory.moves.back().t_end = way[i]->arrival;

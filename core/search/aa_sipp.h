@@ -27,6 +27,9 @@ struct SearchResult {
 struct SearchLimits {
   double bound = kForever;      // seconds; only costs below it count
   double suboptimality = 0.01;  // a goal label within this fraction of the smallest f is taken at once
+  /// Search again, completely, when the quick search that keeps one label for each interval while the goal is
+  /// not yet free found nothing.
+  bool thorough = true;
 };
 
 /// One robot among reservations: any-angle safe-interval path planning with headings (paper, section
@@ -79,13 +82,16 @@ class AaSipp {
     bool leads;    // the next interval of the place follows when this one comes first
     bool blocked;  // the parent is known not to see the place
   };
-  struct Open {
+  struct Rank {
     double f;
     double h;
+  };
+  struct Open {
+    Rank rank;
     int candidate;
     bool operator>(const Open& other) const {
-      if (f != other.f) return f > other.f;
-      if (h != other.h) return h > other.h;
+      if (rank.f != other.rank.f) return rank.f > other.rank.f;
+      if (rank.h != other.rank.h) return rank.h > other.rank.h;
       return candidate > other.candidate;
     }
   };
@@ -106,12 +112,13 @@ class AaSipp {
   void shoot_at_goal(int label);
   void follow(int via, int place, int interval, bool blocked);
   Offer offer(Kind kind, int via, int place, int interval, bool leads, bool blocked);
-  void push(const Candidate& candidate);
+  Rank rank(const Candidate& candidate) const;
+  void push(const Candidate& candidate, const Rank& rank);
   std::optional<double> time_move(const Candidate& candidate) const;
   std::optional<Window> departure_window(const Label& from, double heading, double duration,
                                          const SafeInterval& target) const;
   bool passes_through(const Label& from, double heading) const;
-  bool dominated(int interval, double arrival, double heading) const;
+  bool redundant(int interval, double arrival, double heading, double f);
   bool is_final(int place, int interval) const;
   double to_go(int place, double heading) const;
   double duration(const Candidate& candidate) const;

@@ -19,20 +19,10 @@ CostToGo::CostToGo(const Fleet& fleet, std::size_t robot, const Vertices& vertic
       motion_(fleet.motion(robot)),
       vertices_(vertices),
       start_(fleet.robot(robot).start.position),
-      pages_((static_cast<std::size_t>(vertices.count()) >> kPageBits) + 1) {
+      nodes_(static_cast<std::size_t>(vertices.count())) {
   Node& goal = node(vertices_.goal());
   goal.state = State::closed;
   vertices_.for_each_neighbour(vertices_.goal(), [&](int vertex) { relax(vertex, vertices_.goal()); });
-}
-
-CostToGo::Node& CostToGo::node(int vertex) {
-  const auto index = static_cast<std::size_t>(vertex);
-  auto& page = pages_[index >> kPageBits];
-  if (!page) {
-    page = std::make_unique<Page>();
-    ++pages_in_use_;
-  }
-  return (*page)[index & ((std::size_t{1} << kPageBits) - 1)];
 }
 
 CostToGo::Estimate CostToGo::via(int vertex, int next) {

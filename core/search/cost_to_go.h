@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <queue>
 #include <vector>
 
+#include "core/map/paged_array.h"
 #include "core/search/fleet.h"
 #include "core/search/stop_condition.h"
 #include "core/search/vertices.h"
@@ -32,10 +32,9 @@ class CostToGo {
   Estimate from(int vertex, const StopCondition& stop);
 
   /// Roughly the memory in use, bytes.
-  std::size_t bytes() const { return pages_in_use_ * sizeof(Page) + pages_.size() * sizeof(pages_[0]); }
+  std::size_t bytes() const { return nodes_.bytes(); }
 
  private:
-  static constexpr int kPageBits = 6;
   enum class State : std::uint8_t { unseen, open, closed };
   struct Node {
     double seconds = 0.0;
@@ -45,7 +44,6 @@ class CostToGo {
     bool sight_known = false;
     bool in_sight = false;
   };
-  using Page = std::array<Node, std::size_t{1} << kPageBits>;
   struct Open {
     double key;
     double seconds;
@@ -55,7 +53,7 @@ class CostToGo {
     }
   };
 
-  Node& node(int vertex);
+  Node& node(int vertex) { return nodes_[static_cast<std::size_t>(vertex)]; }
   /// The cost from `vertex` when it first translates straight to `next`, which is closed or the goal.
   Estimate via(int vertex, int next);
   bool goal_in_sight(int vertex);
@@ -68,8 +66,7 @@ class CostToGo {
   const Motion& motion_;
   const Vertices& vertices_;
   Position start_;
-  std::vector<std::unique_ptr<Page>> pages_;
-  std::size_t pages_in_use_ = 0;
+  PagedArray<Node> nodes_;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
 };
 

@@ -1,14 +1,6 @@
 #include "core/search/fleet.h"
 
-#include <cmath>
-
-#include "core/geometry/angle.h"
-
 namespace fleetplan::core {
-
-double Motion::rotation_time(double from, double to) const {
-  return std::abs(rotation_between(from, to)) / angular_speed;
-}
 
 Fleet::Fleet(const Problem& problem, const PlanOptions& options)
     : problem_(problem),

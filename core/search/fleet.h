@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/geometry/angle.h"
 #include "core/map/lattice.h"
 #include "core/map/line_of_sight.h"
 #include "core/model/problem.h"
@@ -20,8 +21,8 @@ struct Motion {
   double wait_before_move = 0.0;  // seconds
 
   double translation_time(double distance) const { return distance / linear_speed; }
-  /// Seconds to turn from one heading to another, the shorter way.
-  double rotation_time(double from, double to) const;
+  /// Seconds to turn from one normalised heading to another, the shorter way.
+  double rotation_time(double from, double to) const { return angle_between(from, to) / angular_speed; }
 };
 
 /// What stays the same while one request is planned: problem, options, lattice, static feasibility. Not
