@@ -43,7 +43,8 @@ ReservationTable::ReservationTable(double width, double height, double cell_size
     : radii_(std::move(radii)),
       grid_(width, height, bucket_size(width, height, cell_size, radii_)),
       layer_of_(radii_.size()),
-      held_(radii_.size()) {
+      held_(radii_.size()),
+      ignored_(radii_.size(), 0) {
   const std::vector<double> classes = class_radii(radii_);
   for (const double radius : classes) layers_.push_back({radius, std::vector<Bucket>(grid_.count())});
   for (std::size_t i = 0; i < radii_.size(); ++i) {
@@ -110,8 +111,9 @@ double ReservationTable::reach(std::size_t robot, const Occupant& other) const {
 
 template <class Visit>
 bool ReservationTable::visit_bucket(const Bucket& bucket, double t_begin, double t_end, Visit&& visit) const {
+  const auto pass = [&](const Occupant& occupant) { return ignored_[occupant.robot] || visit(occupant); };
   for (const DiskId id : bucket.resting) {
-    if (occupants_[id].disk.t_start < t_end && !visit(occupants_[id])) return false;
+    if (occupants_[id].disk.t_start < t_end && !pass(occupants_[id])) return false;
   }
   auto entry = bucket.passing.begin();
   if (bucket.passing.size() > kShortList) {
@@ -119,7 +121,7 @@ bool ReservationTable::visit_bucket(const Bucket& bucket, double t_begin, double
                              [](const Entry& e, double t) { return e.t_begin < t; });
   }
   for (; entry != bucket.passing.end() && entry->t_begin < t_end; ++entry) {
-    if (entry->t_end > t_begin && !visit(occupants_[entry->id])) return false;
+    if (entry->t_end > t_begin && !pass(occupants_[entry->id])) return false;
   }
   return true;
 }

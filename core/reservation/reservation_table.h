@@ -30,6 +30,9 @@ class ReservationTable {
   /// Takes the robot's reservation back; no effect if it has none.
   void remove(std::size_t robot);
 
+  /// Queries pass over the reservations of an ignored robot.
+  void ignore(std::size_t robot, bool ignored) { ignored_[robot] = ignored; }
+
   /// When the robot may stand at `position`, by time; without intervals too short to matter.
   std::vector<SafeInterval> safe_intervals(std::size_t robot, const Position& position) const;
 
@@ -39,7 +42,7 @@ class ReservationTable {
   std::optional<double> earliest_departure(std::size_t robot, const Segment& path, double duration,
                                            double t_min, double t_max) const;
 
-  /// The robots whose reservations overlap these segments of `robot`, ascending.
+  /// The robots whose reservations overlap these segments of `robot` by more than kContactTolerance, ascending.
   std::vector<std::size_t> robots_hit(std::size_t robot, const std::vector<TimedSegment>& segments) const;
 
  private:
@@ -79,6 +82,7 @@ class ReservationTable {
   std::vector<Occupant> occupants_;    // by DiskId
   std::vector<DiskId> vacant_;
   std::vector<std::vector<DiskId>> held_;  // by robot
+  std::vector<char> ignored_;              // by robot; not bool, for speed
 };
 
 }  // namespace fleetplan::core

@@ -75,6 +75,14 @@ SearchResult FleetState::plan(std::size_t robot, const SearchLimits& limits, con
   return result;
 }
 
+SearchResult FleetState::plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,
+                                       const SearchLimits& limits, const StopCondition& stop) {
+  for (const std::size_t other : ignored) table_.ignore(other, true);
+  SearchResult result = plan(robot, limits, stop);
+  for (const std::size_t other : ignored) table_.ignore(other, false);
+  return result;
+}
+
 bool FleetState::goal_reachable(std::size_t robot, const StopCondition& stop) {
   Guide& g = guide(robot);
   return g.vertices.start() == g.vertices.goal() ||

@@ -35,6 +35,9 @@ class FleetState {
 
   /// Plans a robot (with a goal) that has left; changes nobody's reservation.
   SearchResult plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
+  /// The same as if the robots of `ignored` were not there.
+  SearchResult plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,
+                             const SearchLimits& limits, const StopCondition& stop);
 
   /// May the robot reach its goal on the static map? True when `stop` was met before that was known.
   bool goal_reachable(std::size_t robot, const StopCondition& stop);

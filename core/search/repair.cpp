@@ -1,0 +1,129 @@
+#include "core/search/repair.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace fleetplan::core {
+namespace {
+
+/// A robot that failed more often than this may be in a cycle of robots that raise each other.
+constexpr int kPatience = 3;
+/// At most so many uninvolved robots are taken back along with a cycle.
+constexpr int kMostExtra = 12;
+
+class Repair {
+ public:
+  Repair(FleetState& state, const PriorityOrder& order, Random& random, const StopCondition& stop)
+      : state_(state),
+        order_(order),
+        random_(random),
+        stop_(stop),
+        rank_(state.fleet().size(), 0),
+        failures_(state.fleet().size(), 0) {
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      rank_[order[k]] = static_cast<std::int64_t>(k);
+      take_back(order[k]);
+    }
+  }
+
+  RepairResult run() {
+    while (!pending_.empty()) {
+      const std::size_t robot = pending_.begin()->second;
+      pending_.erase(pending_.begin());
+      state_.leave(robot);
+      SearchResult result = state_.plan(robot, kQuick, stop_);
+      if (result.trajectory) {
+        state_.follow(robot, std::move(*result.trajectory));
+        continue;
+      }
+      if (result.complete) result = after_failure(robot);
+      if (result.trajectory) {
+        settle(robot, std::move(*result.trajectory));
+      } else if (result.complete) {
+        give_up(robot);
+      } else {
+        take_back(robot);
+        break;
+      }
+    }
+    for (const auto& [rank, robot] : pending_) result_.unsolved.push_back(robot);
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr SearchLimits kQuick{kForever, 0.01, false};
+
+  void take_back(std::size_t robot) {
+    state_.block_start(robot, state_.fleet().options().start_safe_interval);
+    pending_.insert({rank_[robot], robot});
+  }
+
+  /// Follows the trajectory and takes back whatever it crosses.
+  void settle(std::size_t robot, Trajectory trajectory) {
+    std::vector<std::size_t> crossed = state_.in_the_way(robot, trajectory);
+    state_.follow(robot, std::move(trajectory));
+    std::erase_if(crossed, [&](std::size_t other) { return !state_.trajectory(other); });
+    if (!crossed.empty() && failures_[robot] > kPatience) shuffle_ranks(robot, crossed);
+    for (const std::size_t other : crossed) take_back(other);
+  }
+
+  /// Plans a robot that found no way among all others: among the higher ranked, or else at the top.
+  SearchResult after_failure(std::size_t robot) {
+    ++result_.attempts;
+    ++failures_[robot];
+    std::vector<std::size_t> lower;
+    std::vector<std::size_t> all;
+    for (const std::size_t other : order_) {
+      if (!state_.trajectory(other)) continue;
+      all.push_back(other);
+      if (rank_[other] > rank_[robot]) lower.push_back(other);
+    }
+    if (!lower.empty()) {
+      SearchResult result = state_.plan_ignoring(lower, robot, kQuick, stop_);
+      if (result.trajectory || !result.complete) return result;
+    }
+    rank_[robot] = --top_;
+    return state_.plan_ignoring(all, robot, {}, stop_);
+  }
+
+  /// Breaks a cycle: the robots involved, and some others the longer it lasts, exchange their ranks at
+  /// random.
+  void shuffle_ranks(std::size_t robot, std::vector<std::size_t>& crossed) {
+    for (int extra = std::min(failures_[robot] - kPatience, kMostExtra); extra > 0; --extra) {
+      const std::size_t other = order_[random_.below(order_.size())];
+      const bool known = std::find(crossed.begin(), crossed.end(), other) != crossed.end();
+      if (!known && other != robot && state_.trajectory(other)) crossed.push_back(other);
+    }
+    for (std::size_t i = crossed.size(); i > 1; --i) {
+      std::swap(rank_[crossed[i - 1]], rank_[crossed[random_.below(i)]]);
+    }
+  }
+
+  void give_up(std::size_t robot) {
+    result_.hopeless.push_back(robot);
+    state_.stand_for_ever(robot);
+    for (const std::size_t other : state_.in_the_way_of_standing(robot)) {
+      if (state_.trajectory(other)) take_back(other);
+    }
+  }
+
+  FleetState& state_;
+  const PriorityOrder& order_;
+  Random& random_;
+  const StopCondition& stop_;
+  std::vector<std::int64_t> rank_;  // by robot; smaller is higher
+  std::int64_t top_ = 0;
+  std::vector<int> failures_;                               // by robot
+  std::set<std::pair<std::int64_t, std::size_t>> pending_;  // rank, robot
+  RepairResult result_;
+};
+
+}  // namespace
+
+RepairResult plan_with_repair(FleetState& state, const PriorityOrder& order, Random& random,
+                              const StopCondition& stop) {
+  return Repair(state, order, random, stop).run();
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/search/fleet_state.h"
+#include "core/search/priority_order.h"
+#include "core/search/random.h"
+#include "core/search/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// How a repair ended. Robots of `unsolved` have no trajectory.
+struct RepairResult {
+  std::vector<std::size_t> hopeless;  // found no way among those that stay, and stand for ever now
+  std::vector<std::size_t> unsolved;  // by priority; not empty only if it was cut off
+  std::int64_t attempts = 1;          // one more for every robot that found no way
+};
+
+/// Plans all robots of `order`, which hold nothing yet, and raises the priority of those that fail as the
+/// paper does, but repairs instead of starting again: the failed robot is planned among the higher ranked
+/// alone or, if that fails too, at the top among nobody but those that stay; only the trajectories that it
+/// crosses there are taken back and planned again. Where robots keep raising each other, the priorities of
+/// those involved are shuffled.
+RepairResult plan_with_repair(FleetState& state, const PriorityOrder& order, Random& random,
+                              const StopCondition& stop);
+
+}  // namespace fleetplan::core

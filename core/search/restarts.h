@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/search/fleet_state.h"
+#include "core/search/priority_order.h"
+#include "core/search/random.h"
+#include "core/search/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// How restarts ended. The state is that of the attempt that got farthest; robots of `unsolved` have no
+/// trajectory.
+struct RestartsResult {
+  std::vector<std::size_t> hopeless;  // found no way among those that stay, and stand for ever now
+  std::vector<std::size_t> unsolved;  // by priority
+  std::int64_t attempts = 0;
+  bool cut_off = false;  // false with robots unsolved: no order is left to try
+};
+
+/// Plans all robots of `order`, and from the start again in another order whenever one finds no way, until
+/// all have a trajectory, all orders have failed, or `stop` is met.
+RestartsResult plan_with_restarts(FleetState& state, PriorityOrder order, Random& random,
+                                  const StopCondition& stop);
+
+}  // namespace fleetplan::core
