@@ -14,15 +14,15 @@
 namespace fleetplan::core {
 namespace {
 
-/// Of the time left, so much goes into attempts to plan everybody; the rest makes the best one into a safe
-/// partial plan.
-constexpr double kAttemptsShare = 0.8;
+/// Of the time left, so much goes into planning everybody; the rest is for a safe partial plan where that
+/// failed.
+constexpr double kPatienceShare = 0.6;
 
-StopCondition attempts_stop(const StopCondition& stop) {
+StopCondition until_patience_ends(const StopCondition& stop) {
   using Clock = StopCondition::Clock;
   if (stop.deadline() == Clock::time_point::max()) return stop;
   const auto now = Clock::now();
-  const auto left = std::chrono::duration_cast<Clock::duration>((stop.deadline() - now) * kAttemptsShare);
+  const auto left = std::chrono::duration_cast<Clock::duration>((stop.deadline() - now) * kPatienceShare);
   return StopCondition(now + left, stop.stop_token());
 }
 
@@ -65,7 +65,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   for (std::size_t i = 0; i < fleet.size(); ++i) {
     if (fleet.robot(i).goal && !unplanned[i]) movers.push_back(i);
   }
-  PrioritizedResult prioritized = plan_prioritized(state, movers, random, attempts_stop(stop), stop);
+  PrioritizedResult prioritized = plan_prioritized(state, movers, random, until_patience_ends(stop), stop);
   for (Unplanned& robot : prioritized.unplanned) unplanned[robot.robot] = std::move(robot);
   Improvement improvement;
   if (options.mode == PlanOptions::Mode::anytime) improvement = improve(state, movers, random, stop);

@@ -42,7 +42,8 @@ class ReservationTable {
   std::optional<double> earliest_departure(std::size_t robot, const Segment& path, double duration,
                                            double t_min, double t_max) const;
 
-  /// The robots whose reservations overlap these segments of `robot` by more than kContactTolerance, ascending.
+  /// The robots whose reservations overlap these segments of `robot` by more than kContactTolerance,
+  /// ascending.
   std::vector<std::size_t> robots_hit(std::size_t robot, const std::vector<TimedSegment>& segments) const;
 
  private:

@@ -1,37 +1,52 @@
 #include "core/search/complete.h"
 
 #include <algorithm>
-#include <deque>
 #include <utility>
 
 namespace fleetplan::core {
 namespace {
 
+using Reason = Unplanned::Reason;
+
 class Completing {
  public:
-  Completing(FleetState& state, const StopCondition& stop) : state_(state), stop_(stop) {}
+  Completing(FleetState& state, const StopCondition& stop)
+      : state_(state), stop_(stop), no_way_(state.fleet().size(), false) {}
 
-  Completion run(const PriorityOrder& order, const std::vector<std::size_t>& hopeless) {
-    for (const std::size_t robot : order) {
-      if (!state_.trajectory(robot)) enqueue(robot);
+  Completion run(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
+    standing_ = given_up;
+    for (const std::size_t robot : unsolved) stand(robot);
+    stop_crossing_ones();
+    while (plan_some()) {
     }
-    while (!pending_.empty()) {
-      const std::size_t robot = pending_.front();
-      pending_.pop_front();
-      state_.leave(robot);
-      if (!try_plan(robot)) give_up(robot);
-    }
-    given_up_.insert(given_up_.end(), hopeless.begin(), hopeless.end());
-    std::sort(given_up_.begin(), given_up_.end());
-    retry();
-    for (const std::size_t robot : given_up_) explain(robot);
+    std::sort(standing_.begin(), standing_.end());
+    for (const std::size_t robot : standing_) completion_.unplanned.push_back(explain(robot));
     return std::move(completion_);
   }
 
  private:
-  void enqueue(std::size_t robot) {
-    pending_.push_back(robot);
-    state_.block_start(robot, state_.fleet().options().start_safe_interval);
+  void stand(std::size_t robot) {
+    state_.stand_for_ever(robot);
+    standing_.push_back(robot);
+  }
+
+  void stop_crossing_ones() {
+    for (std::size_t k = 0; k < standing_.size(); ++k) {  // standing_ grows
+      for (const std::size_t crossing : state_.in_the_way_of_standing(standing_[k])) {
+        if (state_.trajectory(crossing)) stand(crossing);
+      }
+    }
+  }
+
+  /// One round; true if it is worth another one.
+  bool plan_some() {
+    std::vector<std::size_t> still;
+    for (const std::size_t robot : standing_) {
+      if (!try_plan(robot)) still.push_back(robot);
+    }
+    const bool progress = still.size() < standing_.size() && !still.empty();
+    standing_ = std::move(still);
+    return progress && !completion_.cut_off;
   }
 
   bool try_plan(std::size_t robot) {
@@ -39,56 +54,40 @@ class Completing {
       completion_.cut_off = true;
       return false;
     }
+    state_.leave(robot);
     SearchResult result = state_.plan(robot, {}, stop_);
-    if (!result.complete) completion_.cut_off = true;
-    if (!result.trajectory) return false;
-    state_.follow(robot, std::move(*result.trajectory));
-    return true;
-  }
-
-  void give_up(std::size_t robot) {
-    given_up_.push_back(robot);
+    if (result.trajectory) {
+      state_.follow(robot, std::move(*result.trajectory));
+      return true;
+    }
     state_.stand_for_ever(robot);
-    for (const std::size_t crossing : state_.in_the_way_of_standing(robot)) {
-      if (state_.trajectory(crossing)) enqueue(crossing);
-    }
+    no_way_[robot] = result.complete;
+    completion_.cut_off = completion_.cut_off || !result.complete;
+    return false;
   }
 
-  /// Others were given up since, so there may be a way now.
-  void retry() {
-    std::vector<std::size_t> still;
-    for (const std::size_t robot : given_up_) {
-      state_.leave(robot);
-      if (try_plan(robot)) continue;
-      state_.stand_for_ever(robot);
-      still.push_back(robot);
+  Unplanned explain(std::size_t robot) {
+    if (!no_way_[robot]) {
+      return {robot, Reason::budget_exhausted, "The time budget ended before a way was found.", {}};
     }
-    given_up_ = std::move(still);
-  }
-
-  void explain(std::size_t robot) {
-    if (stop_.met()) {
-      completion_.unplanned.push_back(
-          {robot, Unplanned::Reason::budget_exhausted, "the time budget ended before a way was found", {}});
-      return;
-    }
-    completion_.unplanned.push_back({robot, Unplanned::Reason::blocked_by_robots,
-                                     "no way was found that keeps clear of the other robots",
-                                     state_.in_the_way(robot, state_.alone(robot, stop_))});
+    std::vector<std::size_t> blocked_by;
+    if (!stop_.met()) blocked_by = state_.in_the_way(robot, state_.alone(robot, stop_));
+    return {robot, Reason::blocked_by_robots, "No way was found that keeps clear of the other robots.",
+            std::move(blocked_by)};
   }
 
   FleetState& state_;
   const StopCondition& stop_;
-  std::deque<std::size_t> pending_;
-  std::vector<std::size_t> given_up_;
+  std::vector<bool> no_way_;  // by robot: its last search ended without one
+  std::vector<std::size_t> standing_;
   Completion completion_;
 };
 
 }  // namespace
 
-Completion complete(FleetState& state, const PriorityOrder& order, const std::vector<std::size_t>& hopeless,
-                    const StopCondition& stop) {
-  return Completing(state, stop).run(order, hopeless);
+Completion complete(FleetState& state, const std::vector<std::size_t>& unsolved,
+                    const std::vector<std::size_t>& given_up, const StopCondition& stop) {
+  return Completing(state, stop).run(unsolved, given_up);
 }
 
 }  // namespace fleetplan::core

@@ -5,7 +5,6 @@
 
 #include "core/model/plan.h"
 #include "core/search/fleet_state.h"
-#include "core/search/priority_order.h"
 #include "core/search/stop_condition.h"
 
 namespace fleetplan::core {
@@ -15,11 +14,12 @@ struct Completion {
   bool cut_off = false;
 };
 
-/// Makes a safe partial plan: plans each robot of `order` that has no trajectory yet, once. One that finds no
-/// way is given up and stands at its start for ever; those whose trajectories cross it there are planned
-/// again, and given up as well if that fails, until nothing changes. `hopeless` robots stand already. Once
-/// `stop` is met, nothing is searched any more.
-Completion complete(FleetState& state, const PriorityOrder& order, const std::vector<std::size_t>& hopeless,
-                    const StopCondition& stop);
+/// Makes a safe partial plan. Robots of `unsolved` have no trajectory, those of `given_up` stand at their
+/// starts for ever already. At first all of them stand for ever, and so do robots whose trajectories cross a
+/// standing one; then they are planned again one after the other among everybody, standing robots included,
+/// as long as that gets anybody a trajectory. So the plan is safe at any moment; once `stop` is met, nothing
+/// is searched any more.
+Completion complete(FleetState& state, const std::vector<std::size_t>& unsolved,
+                    const std::vector<std::size_t>& given_up, const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -13,37 +13,60 @@ namespace {
 /// solution.
 constexpr std::size_t kFewRobots = 4;
 
-/// Robots without a trajectory, and those among them that have no way even alone with the robots that stay.
+/// Robots without a trajectory: those to plan once more, and those that stand at their starts for ever
+/// already.
 struct Rest {
   std::vector<std::size_t> unsolved;
-  std::vector<std::size_t> hopeless;
+  std::vector<std::size_t> given_up;
 };
 
-Rest solve(FleetState& state, const PriorityOrder& order, Random& random, const StopCondition& stop,
+/// Plans every robot once, in this order; returns those that found no way.
+std::vector<std::size_t> plan_each_once(FleetState& state, const PriorityOrder& order,
+                                        const StopCondition& stop) {
+  const double blocked = state.fleet().options().start_safe_interval;
+  std::vector<std::size_t> unsolved;
+  for (const std::size_t robot : order) state.block_start(robot, blocked);
+  for (const std::size_t robot : order) {
+    state.leave(robot);
+    SearchResult result = state.plan(robot, {}, stop);
+    if (result.trajectory) {
+      state.follow(robot, std::move(*result.trajectory));
+    } else {
+      state.block_start(robot, blocked);
+      unsolved.push_back(robot);
+    }
+  }
+  return unsolved;
+}
+
+Rest solve(FleetState& state, const PriorityOrder& order, Random& random, const StopCondition& patience,
            PrioritizedResult& result) {
   const auto reordering = state.fleet().options().reordering;
-  if (reordering == PlanOptions::Reordering::none) return {order, {}};
+  if (reordering == PlanOptions::Reordering::none) {
+    result.attempts = 1;
+    return {plan_each_once(state, order, patience), {}};
+  }
   if (reordering == PlanOptions::Reordering::random || order.size() <= kFewRobots) {
-    RestartsResult restarts = plan_with_restarts(state, order, random, stop);
+    RestartsResult restarts = plan_with_restarts(state, order, random, patience);
     result.attempts = restarts.attempts;
     result.cut_off = restarts.cut_off;
-    return {std::move(restarts.unsolved), std::move(restarts.hopeless)};
+    return {std::move(restarts.unsolved), std::move(restarts.given_up)};
   }
-  RepairResult repair = plan_with_repair(state, order, random, stop);
+  RepairResult repair = plan_with_repair(state, order, random, patience);
   result.attempts = repair.attempts;
   result.cut_off = !repair.unsolved.empty();
-  return {std::move(repair.unsolved), std::move(repair.hopeless)};
+  return {std::move(repair.unsolved), std::move(repair.given_up)};
 }
 
 }  // namespace
 
 PrioritizedResult plan_prioritized(FleetState& state, const std::vector<std::size_t>& movers, Random& random,
-                                   const StopCondition& attempts_stop, const StopCondition& stop) {
+                                   const StopCondition& patience, const StopCondition& stop) {
   PrioritizedResult result;
-  const Rest rest = solve(state, initial_order(state.fleet(), movers, random), random, attempts_stop, result);
-  if (rest.unsolved.empty() && rest.hopeless.empty()) return result;
+  const Rest rest = solve(state, initial_order(state.fleet(), movers, random), random, patience, result);
+  if (rest.unsolved.empty() && rest.given_up.empty()) return result;
   ++result.attempts;
-  Completion completion = complete(state, rest.unsolved, rest.hopeless, stop);
+  Completion completion = complete(state, rest.unsolved, rest.given_up, stop);
   result.cut_off = result.cut_off || completion.cut_off;
   result.unplanned = std::move(completion.unplanned);
   return result;

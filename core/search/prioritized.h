@@ -21,10 +21,10 @@ struct PrioritizedResult {
 };
 
 /// Prioritized planning of `movers` (ascending): one after the other in the order of their priorities, each
-/// among the trajectories of those before it; after a failure again in another order (paper, section
-/// Prioritized planning), until `attempts_stop` is met. What could not be solved in full is then completed as
-/// far as possible, until `stop` is met.
+/// among the trajectories of those before it; after a failure again with other priorities, as the options'
+/// reordering says (paper, section Prioritized planning). Until `patience` is met it tries to plan them all;
+/// from then until `stop` is met it makes what it has into a safe partial plan of as many as possible.
 PrioritizedResult plan_prioritized(FleetState& state, const std::vector<std::size_t>& movers, Random& random,
-                                   const StopCondition& attempts_stop, const StopCondition& stop);
+                                   const StopCondition& patience, const StopCondition& stop);
 
 }  // namespace fleetplan::core

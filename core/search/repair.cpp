@@ -101,7 +101,7 @@ class Repair {
   }
 
   void give_up(std::size_t robot) {
-    result_.hopeless.push_back(robot);
+    result_.given_up.push_back(robot);
     state_.stand_for_ever(robot);
     for (const std::size_t other : state_.in_the_way_of_standing(robot)) {
       if (state_.trajectory(other)) take_back(other);

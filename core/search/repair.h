@@ -11,10 +11,10 @@
 
 namespace fleetplan::core {
 
-/// How a repair ended. Robots of `unsolved` have no trajectory.
+/// How a repair ended.
 struct RepairResult {
-  std::vector<std::size_t> hopeless;  // found no way among those that stay, and stand for ever now
-  std::vector<std::size_t> unsolved;  // by priority; not empty only if it was cut off
+  std::vector<std::size_t> given_up;  // found no way among those that stay, and stand for ever now
+  std::vector<std::size_t> unsolved;  // without a trajectory, by priority; not empty only if `stop` was met
   std::int64_t attempts = 1;          // one more for every robot that found no way
 };
 

@@ -54,7 +54,7 @@ RestartsResult plan_with_restarts(FleetState& state, PriorityOrder order, Random
     if (attempt.trajectories.size() >= best.trajectories.size()) best = std::move(attempt);
     if (!failed) break;
     if (first_failed) {  // not even alone with those that stay: it stays as well
-      result.hopeless.push_back(*failed);
+      result.given_up.push_back(*failed);
       orders.drop(*failed);
       state.stand_for_ever(*failed);
       best = {orders.current(), {}, std::nullopt};

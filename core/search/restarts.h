@@ -14,7 +14,7 @@ namespace fleetplan::core {
 /// How restarts ended. The state is that of the attempt that got farthest; robots of `unsolved` have no
 /// trajectory.
 struct RestartsResult {
-  std::vector<std::size_t> hopeless;  // found no way among those that stay, and stand for ever now
+  std::vector<std::size_t> given_up;  // found no way among those that stay, and stand for ever now
   std::vector<std::size_t> unsolved;  // by priority
   std::int64_t attempts = 0;
   bool cut_off = false;  // false with robots unsolved: no order is left to try

@@ -61,12 +61,12 @@ class Triage {
     const Position& start = fleet_.robot(i).start.position;
     if (!fleet_.sight().disk_fits(start, fleet_.motion(i).radius)) {
       return give_up(i, Reason::start_blocked,
-                     "the inflated robot does not fit between the obstacles at its start");
+                     "The inflated robot does not fit between the obstacles at its start.");
     }
     auto near =
         others(i, [&](std::size_t j) { return overlap(i, start, j, fleet_.robot(j).start.position); });
     if (near.empty()) return;
-    give_up(i, Reason::start_blocked, "the inflated robot overlaps another one at its start",
+    give_up(i, Reason::start_blocked, "The inflated robot overlaps another one at its start.",
             std::move(near));
   }
 
@@ -75,21 +75,21 @@ class Triage {
     const Position& goal = fleet_.robot(i).goal->position;
     if (!fleet_.sight().disk_fits(goal, fleet_.motion(i).radius)) {
       return give_up(i, Reason::goal_blocked,
-                     "the inflated robot does not fit between the obstacles at its goal");
+                     "The inflated robot does not fit between the obstacles at its goal.");
     }
     // Of two inflated goals that overlap, the one listed first is served.
     auto near = others(i, [&](std::size_t j) {
       return j < i && !stays_[j] && overlap(i, goal, j, fleet_.robot(j).goal->position);
     });
     if (near.empty()) return;
-    give_up(i, Reason::goal_blocked, "the inflated robot overlaps another one's goal at its goal",
+    give_up(i, Reason::goal_blocked, "The inflated robot overlaps another one's goal at its goal.",
             std::move(near));
   }
 
   void check_way(std::size_t i) {
     if (stays_[i] || state_.goal_reachable(i, stop_)) return;
     give_up(i, Reason::goal_unreachable,
-            "no way leads from the start to the goal that is wide enough for the robot");
+            "No way leads from the start to the goal that is wide enough for the robot.");
   }
 
   bool check_standing_on_goal(std::size_t i) {
@@ -98,7 +98,7 @@ class Triage {
     auto near = others(
         i, [&](std::size_t j) { return stays_[j] && overlap(i, goal, j, fleet_.robot(j).start.position); });
     if (near.empty()) return false;
-    give_up(i, Reason::goal_blocked, "a robot that stays where it is stands in the way at the goal",
+    give_up(i, Reason::goal_blocked, "A robot that stays where it is stands in the way at the goal.",
             std::move(near));
     return true;
   }
