@@ -91,9 +91,11 @@ void AaSipp::add_start() {
   const int place = place_of(vertices_->start());
   const int interval = places_[static_cast<std::size_t>(place)].first_interval;
   if (places_[static_cast<std::size_t>(place)].interval_count == 0) return;
-  if (!intervals_[static_cast<std::size_t>(interval)].contains(0.0)) return;
+  if (intervals_[static_cast<std::size_t>(interval)].begin > 0.0) return;
+  if (!intervals_[static_cast<std::size_t>(interval)].contains(limits_.hold)) return;
   const double heading = fleet_.robot(robot_).start.theta;
-  const Candidate start{0.0, 0.0, heading, -1, -1, place, interval, Kind::timed, false, false};
+  const Candidate start{limits_.hold, limits_.hold, heading,     -1,    -1,
+                        place,        interval,     Kind::timed, false, false};
   push(start, rank(start));
 }
 

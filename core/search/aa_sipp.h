@@ -27,6 +27,7 @@ struct SearchResult {
 struct SearchLimits {
   double bound = kForever;      // seconds; only costs below it count
   double suboptimality = 0.01;  // a goal label within this fraction of the smallest f is taken at once
+  double hold = 0.0;            // seconds, >= 0; the robot stays at its start at least so long
   /// Search again, completely, when the quick search that keeps one label for each interval while the goal is
   /// not yet free found nothing.
   bool thorough = true;

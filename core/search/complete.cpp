@@ -15,7 +15,9 @@ class Completing {
 
   Completion run(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
     standing_ = given_up;
-    for (const std::size_t robot : unsolved) stand(robot);
+    for (const std::size_t robot : unsolved) {
+      if (!state_.trajectory(robot)) stand(robot);
+    }
     stop_crossing_ones();
     while (plan_some()) {
     }
@@ -71,7 +73,11 @@ class Completing {
       return {robot, Reason::budget_exhausted, "The time budget ended before a way was found.", {}};
     }
     std::vector<std::size_t> blocked_by;
-    if (!stop_.met()) blocked_by = state_.in_the_way(robot, state_.alone(robot, stop_));
+    if (stop_.met()) {
+      completion_.cut_off = true;
+    } else {
+      blocked_by = state_.in_the_way(robot, state_.alone(robot, stop_));
+    }
     return {robot, Reason::blocked_by_robots, "No way was found that keeps clear of the other robots.",
             std::move(blocked_by)};
   }

@@ -14,11 +14,11 @@ struct Completion {
   bool cut_off = false;
 };
 
-/// Makes a safe partial plan. Robots of `unsolved` have no trajectory, those of `given_up` stand at their
-/// starts for ever already. At first all of them stand for ever, and so do robots whose trajectories cross a
-/// standing one; then they are planned again one after the other among everybody, standing robots included,
-/// as long as that gets anybody a trajectory. So the plan is safe at any moment; once `stop` is met, nothing
-/// is searched any more.
+/// Makes a safe partial plan. Robots of `unsolved` may have a trajectory, those of `given_up` stand at
+/// their starts already. At first all without a trajectory stand for ever, and so do robots whose
+/// trajectories cross a standing one; then they are planned again one after the other among everybody,
+/// standing robots included, as long as that gets anybody a trajectory. So the plan is safe at any moment;
+/// once `stop` is met, nothing is searched any more.
 Completion complete(FleetState& state, const std::vector<std::size_t>& unsolved,
                     const std::vector<std::size_t>& given_up, const StopCondition& stop);
 

@@ -42,6 +42,7 @@ class Improving {
       }
       if (try_neighbourhood(choose_neighbourhood())) ++result.improvements;
     }
+    result.cut_off = stop_.met();  // perhaps in the last neighbourhood
     return result;
   }
 
@@ -118,7 +119,7 @@ class Improving {
     for (const std::size_t robot : robots) {
       least -= bound_[robot];
       const double bound = makespan_first_ ? makespan + kLeastGain : budget - least;
-      SearchResult result = state_.plan(robot, {bound, 0.0}, stop_);
+      SearchResult result = state_.plan(robot, {.bound = bound, .suboptimality = 0.0}, stop_);
       if (!result.trajectory) return false;
       budget -= result.trajectory->cost;
       state_.follow(robot, std::move(*result.trajectory));

@@ -27,8 +27,9 @@ std::vector<std::size_t> plan_each_once(FleetState& state, const PriorityOrder& 
   std::vector<std::size_t> unsolved;
   for (const std::size_t robot : order) state.block_start(robot, blocked);
   for (const std::size_t robot : order) {
+    SearchResult result;
     state.leave(robot);
-    SearchResult result = state.plan(robot, {}, stop);
+    if (!stop.met()) result = state.plan(robot, {}, stop);
     if (result.trajectory) {
       state.follow(robot, std::move(*result.trajectory));
     } else {
@@ -44,7 +45,9 @@ Rest solve(FleetState& state, const PriorityOrder& order, Random& random, const 
   const auto reordering = state.fleet().options().reordering;
   if (reordering == PlanOptions::Reordering::none) {
     result.attempts = 1;
-    return {plan_each_once(state, order, patience), {}};
+    Rest rest{plan_each_once(state, order, patience), {}};
+    result.cut_off = patience.met();
+    return rest;
   }
   if (reordering == PlanOptions::Reordering::random || order.size() <= kFewRobots) {
     RestartsResult restarts = plan_with_restarts(state, order, random, patience);
@@ -65,7 +68,6 @@ PrioritizedResult plan_prioritized(FleetState& state, const std::vector<std::siz
   PrioritizedResult result;
   const Rest rest = solve(state, initial_order(state.fleet(), movers, random), random, patience, result);
   if (rest.unsolved.empty() && rest.given_up.empty()) return result;
-  ++result.attempts;
   Completion completion = complete(state, rest.unsolved, rest.given_up, stop);
   result.cut_off = result.cut_off || completion.cut_off;
   result.unplanned = std::move(completion.unplanned);

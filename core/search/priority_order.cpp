@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/search/lower_bound.h"
+
 namespace fleetplan::core {
 namespace {
 
@@ -35,6 +37,11 @@ PriorityOrder initial_order(const Fleet& fleet, std::vector<std::size_t> robots,
       break;
   }
   return robots;
+}
+
+double random_hold(const Fleet& fleet, const PriorityOrder& order, Random& random) {
+  const std::size_t other = order[random.below(order.size())];
+  return random.unit() * lower_bound(fleet.robot(other), fleet.motion(other));
 }
 
 OrderSequence::OrderSequence(PlanOptions::Reordering reordering, PriorityOrder first, Random& random)

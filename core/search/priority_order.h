@@ -16,6 +16,10 @@ using PriorityOrder = std::vector<std::size_t>;
 /// options say; ties as listed.
 PriorityOrder initial_order(const Fleet& fleet, std::vector<std::size_t> robots, Random& random);
 
+/// A time for a robot to hold at its start until others have got out of its way, seconds: up to what a robot
+/// of the order, drawn at random, needs to its goal at least.
+double random_hold(const Fleet& fleet, const PriorityOrder& order, Random& random);
+
 /// The orders to try one after the other, none of them twice.
 class OrderSequence {
  public:
@@ -27,6 +31,9 @@ class OrderSequence {
   /// planning) or shuffles. Where raising leads back to an order that failed already, shuffles as well. False
   /// if all orders have been tried.
   bool advance(std::size_t failed);
+
+  /// Goes on to any order, tried or not.
+  void shuffle() { random_.shuffle(current_); }
 
   /// Leaves a robot out from now on.
   void drop(std::size_t robot);

@@ -9,6 +9,8 @@ namespace {
 
 /// A robot that failed more often than this may be in a cycle of robots that raise each other.
 constexpr int kPatience = 3;
+/// For a first look: there are other ways out when it fails.
+constexpr SearchLimits kQuick{.thorough = false};
 /// At most so many uninvolved robots are taken back along with a cycle.
 constexpr int kMostExtra = 12;
 
@@ -28,7 +30,7 @@ class Repair {
   }
 
   RepairResult run() {
-    while (!pending_.empty()) {
+    while (!pending_.empty() && !stop_.met()) {
       const std::size_t robot = pending_.begin()->second;
       pending_.erase(pending_.begin());
       state_.leave(robot);
@@ -52,8 +54,6 @@ class Repair {
   }
 
  private:
-  static constexpr SearchLimits kQuick{kForever, 0.01, false};
-
   void take_back(std::size_t robot) {
     state_.block_start(robot, state_.fleet().options().start_safe_interval);
     pending_.insert({rank_[robot], robot});
@@ -84,6 +84,12 @@ class Repair {
       if (result.trajectory || !result.complete) return result;
     }
     rank_[robot] = --top_;
+    SearchResult result;
+    if (failures_[robot] > kPatience) {  // those in its way may need time to get out of it
+      result =
+          state_.plan_ignoring(all, robot, {.hold = random_hold(state_.fleet(), order_, random_)}, stop_);
+      if (result.trajectory || !result.complete) return result;
+    }
     return state_.plan_ignoring(all, robot, {}, stop_);
   }
 

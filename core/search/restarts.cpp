@@ -15,12 +15,14 @@ struct Attempt {
   bool solved() const { return trajectories.size() == order.size(); }
 };
 
-Attempt try_order(FleetState& state, const PriorityOrder& order, const StopCondition& stop) {
+/// Plans in this order until a robot finds no way; the first robot holds for a while at its start.
+Attempt try_order(FleetState& state, const PriorityOrder& order, double hold, const StopCondition& stop) {
   for (const std::size_t robot : order) state.block_start(robot, state.fleet().options().start_safe_interval);
   Attempt attempt{order, {}, std::nullopt};
   for (const std::size_t robot : order) {
+    if (stop.met()) break;
     state.leave(robot);
-    SearchResult result = state.plan(robot, {}, stop);
+    SearchResult result = state.plan(robot, {.hold = robot == order.front() ? hold : 0.0}, stop);
     if (!result.trajectory) {
       if (result.complete) attempt.failed = robot;
       break;
@@ -38,32 +40,62 @@ std::vector<std::size_t> restore(FleetState& state, Attempt best) {
   return {best.order.begin() + static_cast<std::ptrdiff_t>(planned), best.order.end()};
 }
 
+class Restarts {
+ public:
+  Restarts(FleetState& state, PriorityOrder order, Random& random, const StopCondition& stop)
+      : state_(state),
+        random_(random),
+        stop_(stop),
+        orders_(state.fleet().options().reordering, std::move(order), random),
+        best_{orders_.current(), {}, std::nullopt} {}
+
+  RestartsResult run() {
+    bool left = true;
+    while (left) left = attempt(0.0) && orders_.advance(*failed_);
+    // No order works. Perhaps the first robot is only too fast for the others to get out of its way.
+    for (int k = 0; failed_ && k < kHolds; ++k) {
+      orders_.shuffle();
+      if (!attempt(random_hold(state_.fleet(), orders_.current(), random_))) break;
+    }
+    result_.unsolved = restore(state_, std::move(best_));
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr int kHolds = 40;
+
+  /// True if a robot failed, and all may be tried again.
+  bool attempt(double hold) {
+    ++result_.attempts;
+    Attempt attempt = try_order(state_, orders_.current(), hold, stop_);
+    const bool first_failed = attempt.failed && attempt.trajectories.empty() && hold == 0.0;
+    failed_ = attempt.failed;
+    result_.cut_off = !failed_ && !attempt.solved();
+    if (first_failed) {  // not even alone with those that stay: it stays as well
+      result_.given_up.push_back(*failed_);
+      orders_.drop(*failed_);
+      state_.stand_for_ever(*failed_);
+      best_ = {orders_.current(), {}, std::nullopt};
+      return this->attempt(0.0);
+    }
+    if (attempt.trajectories.size() >= best_.trajectories.size()) best_ = std::move(attempt);
+    return failed_.has_value();
+  }
+
+  FleetState& state_;
+  Random& random_;
+  const StopCondition& stop_;
+  OrderSequence orders_;
+  Attempt best_;
+  std::optional<std::size_t> failed_;
+  RestartsResult result_;
+};
+
 }  // namespace
 
 RestartsResult plan_with_restarts(FleetState& state, PriorityOrder order, Random& random,
                                   const StopCondition& stop) {
-  RestartsResult result;
-  OrderSequence orders(state.fleet().options().reordering, std::move(order), random);
-  Attempt best{orders.current(), {}, std::nullopt};
-  while (true) {
-    ++result.attempts;
-    Attempt attempt = try_order(state, orders.current(), stop);
-    const std::optional<std::size_t> failed = attempt.failed;
-    const bool first_failed = failed && attempt.trajectories.empty();
-    result.cut_off = !failed && !attempt.solved();
-    if (attempt.trajectories.size() >= best.trajectories.size()) best = std::move(attempt);
-    if (!failed) break;
-    if (first_failed) {  // not even alone with those that stay: it stays as well
-      result.given_up.push_back(*failed);
-      orders.drop(*failed);
-      state.stand_for_ever(*failed);
-      best = {orders.current(), {}, std::nullopt};
-    } else if (!orders.advance(*failed)) {
-      break;
-    }
-  }
-  result.unsolved = restore(state, std::move(best));
-  return result;
+  return Restarts(state, std::move(order), random, stop).run();
 }
 
 }  // namespace fleetplan::core

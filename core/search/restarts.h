@@ -17,7 +17,8 @@ struct RestartsResult {
   std::vector<std::size_t> given_up;  // found no way among those that stay, and stand for ever now
   std::vector<std::size_t> unsolved;  // by priority
   std::int64_t attempts = 0;
-  bool cut_off = false;  // false with robots unsolved: no order is left to try
+  bool cut_off = false;  // false with robots unsolved: no order is left to try, and holding the first robot
+                         // back did not help
 };
 
 /// Plans all robots of `order`, and from the start again in another order whenever one finds no way, until

@@ -70,6 +70,17 @@ TEST(Planner, SwapsTwoRobotsInACorridorWithAPassingBay) {
   EXPECT_LE(plan.objectives.makespan, 6.0 + 2.0 + 2.0 + 6.0) << "meet, come out of the bay, turn, go on";
 }
 
+TEST(Planner, HoldsOneRobotBackWhereTheOtherIsTooLateForTheBay) {
+  // Whoever is planned first and leaves at once is at the bay no later than the other.
+  const Problem problem =
+      support::make_problem(support::ascii_map({"####.####",  //
+                                                "........."}),
+                            {robot_at(0.5, 0.5).to(8.5, 0.5), robot_at(8.5, 0.5, kPi).to(0.5, 0.5)});
+  const Plan plan = checked_plan(problem);
+  EXPECT_TRUE(plan.unplanned.empty());
+  EXPECT_TRUE(plan.deterministic);
+}
+
 TEST(Planner, PlansOneOfTwoRobotsInACorridorWithoutABay) {
   const Problem problem = support::make_problem(
       OccupancyGrid(9, 1, 1.0), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(3.5, 0.5).to(1.5, 0.5)});
