@@ -1,9 +1,11 @@
 #include "api/write_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "api/json_writer.h"
+#include "core/geometry/tolerance.h"
 
 namespace fleetplan::api {
 
@@ -31,6 +33,11 @@ std::string_view name_of(core::Violation::Kind kind) {
 
 }  // namespace
 
+std::optional<double> told_clearance(const core::VerifyReport& report) {
+  const bool contact = report.min_clearance && std::abs(*report.min_clearance) <= core::kContactTolerance;
+  return contact ? 0.0 : report.min_clearance;
+}
+
 std::string write_report(const core::VerifyReport& report, const std::vector<core::Robot>& robots) {
   const std::size_t written = std::min(report.violations.size(), kMostWritten);
   JsonWriter json;
@@ -49,7 +56,7 @@ std::string write_report(const core::VerifyReport& report, const std::vector<cor
     json.end_object();
   }
   json.end_array();
-  json.member("min_clearance", report.min_clearance);
+  json.member("min_clearance", told_clearance(report));
   if (written < report.violations.size()) json.member("truncated", true);
   json.end_object();
   return json.take();

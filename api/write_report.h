@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,10 @@
 #include "core/verify/verify.h"
 
 namespace fleetplan::api {
+
+/// The smallest clearance as it is told, metres: contact, which the search leaves to within
+/// kContactTolerance, is 0.
+std::optional<double> told_clearance(const core::VerifyReport& report);
 
 /// The answer of POST /v1/validate. Of very many violations only the first thousand are written, and
 /// `"truncated": true` says so.

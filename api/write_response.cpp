@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "api/json_writer.h"
+#include "api/write_report.h"
 #include "core/geometry/angle.h"
 
 namespace fleetplan::api {
@@ -100,7 +101,7 @@ void write_summary(JsonWriter& json, const VerifiedPlan& verified) {
   json.member("flowtime", plan.lower_bound.flowtime).member("makespan", plan.lower_bound.makespan);
   json.end_object();
   json.member("verified", verified.report.valid());
-  json.member("min_clearance", verified.report.min_clearance);
+  json.member("min_clearance", told_clearance(verified.report));
   json.member("deterministic", plan.deterministic);
   json.key("search").begin_object();
   json.member("attempts", plan.search.attempts).member("expansions", plan.search.expansions);

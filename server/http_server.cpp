@@ -22,6 +22,8 @@ namespace {
 using api::ErrorCode;
 
 constexpr int kListenBacklog = 511;
+/// So many times the queue may wait while the jobs are short.
+constexpr std::size_t kBurst = 7;
 /// How often a client that waits for its plan is looked at: a plan nobody waits for stops within 100 ms.
 constexpr std::chrono::milliseconds kPeerCheck{25};
 
@@ -54,7 +56,7 @@ HttpServer::HttpServer(const Settings& settings, Service service)
       service_(std::move(service)),
       log_(settings.log_level),
       files_(settings.web_root),
-      pool_(settings.workers, settings.queue) {
+      pool_(settings.workers, settings.queue, kBurst * settings.queue) {
   new_task_queue = [this] { return new ConnectionThreads(settings_.connections); };
   set_socket_options(set_listening_options);
   install_handlers();

@@ -20,9 +20,10 @@ struct WorkerPool::Entry {
   std::condition_variable finished;
 };
 
-WorkerPool::WorkerPool(int workers, std::size_t queue) : capacity_(queue) {
-  threads_.reserve(static_cast<std::size_t>(workers));
-  for (int i = 0; i < workers; ++i) threads_.emplace_back([this] { work(); });
+WorkerPool::WorkerPool(int workers, std::size_t queue, std::size_t burst)
+    : capacity_(queue), burst_(burst), busy_since_(static_cast<std::size_t>(workers)) {
+  threads_.reserve(busy_since_.size());
+  for (std::size_t i = 0; i < busy_since_.size(); ++i) threads_.emplace_back([this, i] { work(i); });
 }
 
 WorkerPool::~WorkerPool() {
@@ -39,12 +40,29 @@ std::optional<WorkerPool::Ticket> WorkerPool::submit(Job job) {
   ticket->job = std::move(job);
   {
     const std::lock_guard lock(mutex_);
-    // Idle workers are about to empty the queue, so they count as room.
-    if (queue_.size() + running_ >= capacity_ + threads_.size()) return std::nullopt;
+    if (!has_room()) return std::nullopt;
     queue_.push_back(ticket);
   }
   work_available_.notify_one();
   return ticket;
+}
+
+bool WorkerPool::has_room() const {
+  // Idle workers are about to empty the queue, so they count as room.
+  const std::size_t beyond = queue_.size() + running_ + 1;
+  const std::size_t room = capacity_ + busy_since_.size();
+  if (beyond <= room) return true;
+  return beyond <= room + burst_ && expected_wait_s() <= std::chrono::duration<double>(kShortWait).count();
+}
+
+/// All the work ahead, by the mean job so far or the longest running one if that is longer.
+double WorkerPool::expected_wait_s() const {
+  double job_s = mean_job_s_;
+  const auto now = Clock::now();
+  for (const auto& since : busy_since_) {
+    if (since) job_s = std::max(job_s, std::chrono::duration<double>(now - *since).count());
+  }
+  return static_cast<double>(queue_.size() + running_) * job_s / static_cast<double>(busy_since_.size());
 }
 
 bool WorkerPool::wait_for(const Ticket& ticket, std::chrono::milliseconds patience) {
@@ -59,9 +77,7 @@ bool WorkerPool::withdraw(const Ticket& ticket) {
 
 int WorkerPool::retry_after_s() const {
   const std::lock_guard lock(mutex_);
-  const double ahead = static_cast<double>(queue_.size() + running_);
-  const double seconds = std::ceil(ahead * mean_job_s_ / static_cast<double>(threads_.size()));
-  return static_cast<int>(std::clamp(seconds, 1.0, kMaxRetryAfterS));
+  return static_cast<int>(std::clamp(std::ceil(expected_wait_s()), 1.0, kMaxRetryAfterS));
 }
 
 std::size_t WorkerPool::queued() const {
@@ -69,7 +85,7 @@ std::size_t WorkerPool::queued() const {
   return queue_.size();
 }
 
-void WorkerPool::work() {
+void WorkerPool::work(std::size_t worker) {
   std::unique_lock lock(mutex_);
   while (true) {
     work_available_.wait(lock, [&] { return stopping_ || !queue_.empty(); });
@@ -77,15 +93,17 @@ void WorkerPool::work() {
     const Ticket ticket = std::move(queue_.front());
     queue_.pop_front();
     ++running_;
+    const auto begin = Clock::now();
+    busy_since_[worker] = begin;
     lock.unlock();
 
-    const auto begin = Clock::now();
     ticket->job();
     ticket->job = nullptr;
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
 
     lock.lock();
     --running_;
+    busy_since_[worker].reset();
     mean_job_s_ = mean_job_s_ == 0.0 ? seconds : mean_job_s_ + kNewestWeight * (seconds - mean_job_s_);
     ticket->done = true;
     ticket->finished.notify_all();

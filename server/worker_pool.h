@@ -20,12 +20,15 @@ class WorkerPool {
   using Job = std::function<void()>;  // must not throw
   using Clock = std::chrono::steady_clock;
 
+  static constexpr std::chrono::milliseconds kShortWait{250};
+
   struct Entry;
   using Ticket = std::shared_ptr<Entry>;
 
   /// `workers` >= 1 threads; at most `queue` jobs wait beside the running ones (0: only idle workers take
-  /// any).
-  WorkerPool(int workers, std::size_t queue);
+  /// any). Up to `burst` more may wait as long as the last one's turn is expected within kShortWait, so that
+  /// many small requests at once are not refused for their number alone.
+  WorkerPool(int workers, std::size_t queue, std::size_t burst = 0);
 
   /// Finishes all jobs taken.
   ~WorkerPool();
@@ -49,13 +52,17 @@ class WorkerPool {
   std::size_t queued() const;
 
  private:
-  void work();
+  void work(std::size_t worker);
+  bool has_room() const;
+  double expected_wait_s() const;
 
   const std::size_t capacity_;
+  const std::size_t burst_;
   mutable std::mutex mutex_;
   std::condition_variable work_available_;
   std::list<Ticket> queue_;
   std::size_t running_ = 0;
+  std::vector<std::optional<Clock::time_point>> busy_since_;  // by worker
   double mean_job_s_ = 0.0;
   bool stopping_ = false;
   std::vector<std::thread> threads_;

@@ -17,11 +17,10 @@ struct ProblemFault {
     starts_overlap,     // the starts of `robot` and `other` (< robot) overlap
     goals_overlap,      // the goals of `robot` and `other` (< robot) overlap
   };
-  Kind kind;
+  Kind kind = Kind::start_in_obstacle;
   std::size_t robot = 0;
   std::size_t other = 0;  // pairs only
-  double gap =
-      0.0;  // metres, negative: how far the disks (or the disk and the nearest blocked point) overlap
+  double gap = 0.0;       // metres, negative: the overlap of the disks, or of the disk and the obstacle
 };
 
 /// A map and robots that can be planned for. A problem that exists is valid: radii and speeds are positive

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <future>
+#include <thread>
 #include <vector>
 
 namespace fleetplan::server {
@@ -53,6 +54,29 @@ TEST(WorkerPool, RefusesAJobBeyondItsQueue) {
   EXPECT_FALSE(pool.submit([] {}));
   EXPECT_EQ(pool.queued(), 2u);
   EXPECT_GE(pool.retry_after_s(), 1);
+  blocker.release();
+}
+
+TEST(WorkerPool, RefusesABurstWhileJobsAreLong) {
+  Blocker blocker;
+  WorkerPool pool(1, 1, 100);
+  ASSERT_TRUE(pool.submit(blocker.job()));
+  blocker.await_running();
+  EXPECT_TRUE(pool.submit([] {}));
+  std::this_thread::sleep_for(WorkerPool::kShortWait);
+  EXPECT_FALSE(pool.submit([] {})) << "the running job has taken longer than a short wait";
+  blocker.release();
+}
+
+TEST(WorkerPool, BoundsABurstHoweverShortTheJobs) {
+  Blocker blocker;
+  WorkerPool pool(1, 1, 3);
+  ASSERT_TRUE(pool.submit(blocker.job()));
+  blocker.await_running();
+  int taken = 0;
+  while (pool.submit([] {})) ++taken;
+  EXPECT_GE(taken, 1);
+  EXPECT_LE(taken, 1 + 3);
   blocker.release();
 }
 
