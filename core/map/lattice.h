@@ -32,7 +32,9 @@ class Lattice {
   std::span<const Step> steps() const { return steps_; }
 
   Position position(int vertex) const {
-    return {(vertex % columns_ + 0.5) * spacing_, (vertex / columns_ + 0.5) * spacing_};
+    const int column = vertex % columns_;
+    const int row = vertex / columns_;
+    return {(column + 0.5) * spacing_, (row + 0.5) * spacing_};
   }
   int vertex(Cell cell) const { return cell.row * columns_ + cell.column; }
   /// The vertex that a position coincides with (to kContactTolerance), or -1.

@@ -107,7 +107,7 @@ class AaSipp {
   void reset();
   int place_of(int vertex);
   void add_start();
-  void process(int candidate);
+  void process(int index);
   void settle(const Candidate& candidate, double f);
   void expand(int label);
   void shoot_at_goal(int label);
