@@ -9,6 +9,9 @@
 
 namespace fleetplan::api {
 
+template <typename T>
+concept WholeNumber = std::integral<T> && !std::same_as<T, bool>;
+
 /// Writes JSON text from front to back, without a tree in memory; commas come by themselves. Numbers are the
 /// shortest that read back the same, never -0.0; what is not finite is null.
 class JsonWriter {
@@ -27,8 +30,8 @@ class JsonWriter {
   JsonWriter& value(Boolean boolean) {
     return raw(boolean ? "true" : "false");
   }
-  template <std::integral Integer>
-  requires(!std::same_as<Integer, bool>) JsonWriter& value(Integer number) {
+  template <WholeNumber Integer>
+  JsonWriter& value(Integer number) {
     return raw(std::to_string(number));
   }
 

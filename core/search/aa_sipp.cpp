@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <tuple>
 
 #include "core/geometry/angle.h"
 
@@ -11,12 +12,8 @@ namespace {
 
 /// Arrivals and departures that differ by less are the same (seconds): rounding of sums of durations.
 constexpr double kSameTime = 1e-11;
-/// Directions that differ by less are the same (radians): far above rounding, far below a visible bend.
-constexpr double kSameHeading = 1e-12;
 /// Candidates between two looks at the clock.
 constexpr int kStopStride = 32;
-
-double heading_of(const Position& d) { return std::atan2(d.y(), d.x()); }
 
 }  // namespace
 
@@ -24,6 +21,7 @@ SearchResult AaSipp::run(std::size_t robot, const Vertices& vertices, CostToGo& 
                          const SearchLimits& limits, const StopCondition& stop) {
   robot_ = robot;
   motion_ = &fleet_.motion(robot);
+  timing_.emplace(*motion_, table_, robot);
   vertices_ = &vertices;
   cost_to_go_ = &cost_to_go;
   stop_ = &stop;
@@ -120,11 +118,21 @@ void AaSipp::push(const Candidate& candidate, const Rank& rank) {
   std::push_heap(open_.begin(), open_.end(), std::greater<>());
 }
 
-double AaSipp::duration(const Candidate& candidate) const {
-  const Label& from = labels_[static_cast<std::size_t>(candidate.from)];
-  const Position d = places_[static_cast<std::size_t>(candidate.place)].position -
-                     places_[static_cast<std::size_t>(from.place)].position;
-  return motion_->translation_time(d.norm());
+Standing AaSipp::standing_at(int label) const {
+  const Label& l = labels_[static_cast<std::size_t>(label)];
+  return {l.arrival, l.heading, l.parent >= 0, intervals_[static_cast<std::size_t>(l.interval)]};
+}
+
+Move AaSipp::move_to(int label, int place, int interval) const {
+  const int from = labels_[static_cast<std::size_t>(label)].place;
+  Move move;
+  move.path = {places_[static_cast<std::size_t>(from)].position,
+               places_[static_cast<std::size_t>(place)].position};
+  const Position d = move.path.to - move.path.from;
+  move.heading = std::atan2(d.y(), d.x());
+  move.duration = motion_->translation_time(d.norm());
+  move.target = intervals_[static_cast<std::size_t>(interval)];
+  return move;
 }
 
 void AaSipp::process(int index) {
@@ -134,21 +142,18 @@ void AaSipp::process(int index) {
   Candidate candidate = candidates_[static_cast<std::size_t>(index)];
   if (candidate.kind == Kind::timed) return settle(candidate, f);
 
-  const Label& from = labels_[static_cast<std::size_t>(candidate.from)];
+  const Move move = move_to(candidate.from, candidate.place, candidate.interval);
   const bool from_parent = candidate.kind == Kind::from_parent;
-  const bool seen =
-      !from_parent ||
-      fleet_.sight().may_sweep(places_[static_cast<std::size_t>(from.place)].position,
-                               places_[static_cast<std::size_t>(candidate.place)].position, motion_->radius);
+  const bool seen = !from_parent || fleet_.sight().may_sweep(move.path.from, move.path.to, motion_->radius);
   const auto [via, place, interval] = std::tuple(candidate.via, candidate.place, candidate.interval);
   if (candidate.leads) follow(via, place, interval + 1, candidate.blocked || !seen);  // later intervals
   // A label that dominates the optimistic arrival also dominates the way through the expanded label.
   if (redundant(interval, candidate.arrival, candidate.heading, f)) return;
-  const std::optional<double> departure = seen ? time_move(candidate) : std::nullopt;
+  const auto departure = seen ? timing_->earliest(standing_at(candidate.from), move) : std::nullopt;
   const double optimistic = candidate.arrival;
   if (departure) {
     candidate.departure = *departure;
-    candidate.arrival = *departure + duration(candidate);
+    candidate.arrival = *departure + move.duration;
     candidate.kind = Kind::timed;
     if (candidate.arrival <= optimistic + kSameTime) return settle(candidate, f);
   }
@@ -232,63 +237,19 @@ void AaSipp::follow(int via, int place, int interval, bool blocked) {
 /// dominated; too late if that holds for all later intervals as well.
 AaSipp::Offer AaSipp::offer(Kind kind, int via, int place, int interval, bool leads, bool blocked) {
   const int from = kind == Kind::from_parent ? labels_[static_cast<std::size_t>(via)].parent : via;
-  const Label& label = labels_[static_cast<std::size_t>(from)];
-  if (label.place == place) return Offer::too_late;
-  const Position d = places_[static_cast<std::size_t>(place)].position -
-                     places_[static_cast<std::size_t>(label.place)].position;
-  const double seconds = motion_->translation_time(d.norm());
-  const double heading = heading_of(d);
-  const SafeInterval& source = intervals_[static_cast<std::size_t>(label.interval)];
-  const SafeInterval& target = intervals_[static_cast<std::size_t>(interval)];
-  if (target.begin - seconds > source.end) return Offer::too_late;
-  const auto window = departure_window(label, heading, seconds, target);
-  if (!window) return Offer::useless;
-  const double arrival = window->begin + seconds;
-  const Candidate candidate{arrival, window->begin, heading, from,  via,
-                            place,   interval,      kind,    leads, blocked};
+  if (labels_[static_cast<std::size_t>(from)].place == place) return Offer::too_late;
+  const Standing standing = standing_at(from);
+  const Move move = move_to(from, place, interval);
+  if (move.target.begin - move.duration > standing.interval.end) return Offer::too_late;
+  const auto departure = timing_->optimistic(standing, move);
+  if (!departure) return Offer::useless;
+  const double arrival = *departure + move.duration;
+  const Candidate candidate{arrival, *departure, move.heading, from,  via,
+                            place,   interval,   kind,         leads, blocked};
   const Rank ranked = rank(candidate);
-  if (redundant(interval, arrival, heading, ranked.f)) return Offer::useless;
+  if (redundant(interval, arrival, move.heading, ranked.f)) return Offer::useless;
   push(candidate, ranked);
   return Offer::made;
-}
-
-/// May the robot go on in the direction it came in, without the added wait, as one translation?
-bool AaSipp::passes_through(const Label& from, double heading) const {
-  return from.parent >= 0 && motion_->wait_before_move > 0.0 &&
-         angle_between(from.heading, heading) <= kSameHeading;
-}
-
-/// When a move from a label may depart so that it leaves within the label's safe interval and arrives within
-/// `target`.
-std::optional<AaSipp::Window> AaSipp::departure_window(const Label& from, double heading, double duration,
-                                                       const SafeInterval& target) const {
-  const double end = std::min(intervals_[static_cast<std::size_t>(from.interval)].end, target.end - duration);
-  if (passes_through(from, heading) && from.arrival + duration >= target.begin && from.arrival <= end) {
-    return Window{from.arrival, end};
-  }
-  const double ready =
-      from.arrival + motion_->rotation_time(from.heading, heading) + motion_->wait_before_move;
-  const double begin = std::max(ready, target.begin - duration);
-  if (begin > end) return std::nullopt;
-  return Window{begin, end};
-}
-
-std::optional<double> AaSipp::time_move(const Candidate& candidate) const {
-  const Label& from = labels_[static_cast<std::size_t>(candidate.from)];
-  const Segment path{places_[static_cast<std::size_t>(from.place)].position,
-                     places_[static_cast<std::size_t>(candidate.place)].position};
-  const double seconds = duration(candidate);
-  const auto window = departure_window(from, candidate.heading, seconds,
-                                       intervals_[static_cast<std::size_t>(candidate.interval)]);
-  if (!window) return std::nullopt;
-  if (!passes_through(from, candidate.heading) || window->begin > from.arrival) {
-    return table_.earliest_departure(robot_, path, seconds, window->begin, window->end);
-  }
-  const auto at_once = table_.earliest_departure(robot_, path, seconds, from.arrival, from.arrival);
-  if (at_once) return at_once;
-  const double rested = from.arrival + motion_->wait_before_move;
-  if (rested > window->end) return std::nullopt;
-  return table_.earliest_departure(robot_, path, seconds, rested, window->end);
 }
 
 Trajectory AaSipp::extract() const {

@@ -10,6 +10,7 @@
 #include "core/reservation/reservation_table.h"
 #include "core/search/cost_to_go.h"
 #include "core/search/fleet.h"
+#include "core/search/move_timing.h"
 #include "core/search/stop_condition.h"
 #include "core/search/vertices.h"
 
@@ -96,10 +97,6 @@ class AaSipp {
       return candidate > other.candidate;
     }
   };
-  struct Window {
-    double begin;
-    double end;
-  };
   enum class Offer : std::uint8_t { made, useless, too_late };
   enum class Outcome : std::uint8_t { found, exhausted, pruned, stopped };
 
@@ -115,14 +112,11 @@ class AaSipp {
   Offer offer(Kind kind, int via, int place, int interval, bool leads, bool blocked);
   Rank rank(const Candidate& candidate) const;
   void push(const Candidate& candidate, const Rank& rank);
-  std::optional<double> time_move(const Candidate& candidate) const;
-  std::optional<Window> departure_window(const Label& from, double heading, double duration,
-                                         const SafeInterval& target) const;
-  bool passes_through(const Label& from, double heading) const;
+  Standing standing_at(int label) const;
+  Move move_to(int label, int place, int interval) const;
   bool redundant(int interval, double arrival, double heading, double f);
   bool is_final(int place, int interval) const;
   double to_go(int place, double heading) const;
-  double duration(const Candidate& candidate) const;
   Trajectory extract() const;
 
   const Fleet& fleet_;
@@ -131,6 +125,7 @@ class AaSipp {
   // Of the search at hand; kept between searches for their memory.
   std::size_t robot_ = 0;
   const Motion* motion_ = nullptr;
+  std::optional<MoveTiming> timing_;
   const Vertices* vertices_ = nullptr;
   CostToGo* cost_to_go_ = nullptr;
   const StopCondition* stop_ = nullptr;

@@ -40,6 +40,9 @@ TEST_P(OneFault, IsToldWhereItIs) {
   }
 }
 
+Json at(double x, double y) { return {{"x", x}, {"y", y}}; }
+Json only_x(double x) { return {{"x", x}}; }
+
 INSTANTIATE_TEST_SUITE_P(OfTheDocument, OneFault,
                          testing::Values(Case{"Array", [](Json& r) { r = Json::array(); }, "", "wrong_type",
                                               "must be an object, not an array"},
@@ -72,16 +75,10 @@ INSTANTIATE_TEST_SUITE_P(
              "out_of_range", "from 1e-09 to 1e+09 metres, not 0"},
         Case{"ResolutionIsText", [](Json& r) { r["map"]["resolution"] = "1"; }, "/map/resolution",
              "wrong_type", "must be a number"},
-        Case{"OriginLacksY",
-             [](Json& r) {
-               r["map"]["origin"] = {{"x", 1}};
-             },
-             "/map/origin/y", "missing", "y"},
-        Case{"OriginIsFar",
-             [](Json& r) {
-               r["map"]["origin"] = {{"x", 1e10}, {"y", 0}};
-             },
-             "/map/origin/x", "out_of_range", "metres"},
+        Case{"OriginLacksY", [](Json& r) { r["map"]["origin"] = only_x(1); }, "/map/origin/y", "missing",
+             "y"},
+        Case{"OriginIsFar", [](Json& r) { r["map"]["origin"] = at(1e10, 0); }, "/map/origin/x",
+             "out_of_range", "metres"},
         Case{"UnknownKey", [](Json& r) { r["map"]["row"] = 1; }, "/map/row", "unknown_key", "\"rows\""}),
     [](const auto& one) { return one.param.name; });
 
@@ -114,23 +111,14 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     OfTheGeometry, OneFault,
-    testing::Values(Case{"StartInAWall",
-                         [](Json& r) {
-                           robot(r, 0)["start"] = {{"x", 4.5}, {"y", 1.5}};
-                         },
+    testing::Values(Case{"StartInAWall", [](Json& r) { robot(r, 0)["start"] = at(4.5, 1.5); },
                          "/robots/0/start", "start_in_obstacle", "robot \"a\" does not fit"},
                     Case{"GoalOutsideTheMap", [](Json& r) { robot(r, 1)["goal"]["x"] = -3; },
                          "/robots/1/goal", "goal_in_obstacle", "robot \"b\" does not fit"},
-                    Case{"StartsOverlap",
-                         [](Json& r) {
-                           robot(r, 1)["start"] = {{"x", 0.5}, {"y", 2.0}};
-                         },
+                    Case{"StartsOverlap", [](Json& r) { robot(r, 1)["start"] = at(0.5, 2.0); },
                          "/robots/1/start", "starts_overlap",
                          "\"a\" and \"b\" overlap: the gap between their disks is -0.1 m"},
-                    Case{"GoalsOverlap",
-                         [](Json& r) {
-                           robot(r, 1)["goal"] = {{"x", 8.5}, {"y", 2.0}};
-                         },
+                    Case{"GoalsOverlap", [](Json& r) { robot(r, 1)["goal"] = at(8.5, 2.0); },
                          "/robots/1/goal", "goals_overlap", "-0.1 m"}),
     [](const auto& one) { return one.param.name; });
 
@@ -217,7 +205,7 @@ TEST(Faults, AreToldAllAtOnceInTheOrderOfTheDocument) {
 TEST(Faults, OfOneRobotDoNotHideThoseOfOthers) {
   Json request = swap_request();
   robot(request, 0)["start"] = {{"x", "left"}, {"y", 1}};
-  robot(request, 1)["goal"] = {{"x", 4.5}, {"y", 1.5}};
+  robot(request, 1)["goal"] = at(4.5, 1.5);
   request["robots"].push_back(
       Json::parse(R"({"start": {"x": 8.5, "y": 2.0}, "goal": {"x": 2.5, "y": 2.5}, "linear_speed": -1})"));
   const auto faults = faults_of(request.dump());
@@ -249,7 +237,7 @@ TEST(Faults, NameRobotsInAnyLanguage) {
 
 TEST(Faults, AllowContact) {
   Json request = swap_request();
-  robot(request, 1)["start"] = {{"x", 0.5}, {"y", 2.1}};
+  robot(request, 1)["start"] = at(0.5, 2.1);
   EXPECT_THAT(brief_faults_of(request), IsEmpty());
 }
 

@@ -160,7 +160,8 @@ TEST(Planner, ImprovesTheFirstPlanOrKeepsItInAnytimeMode) {
   const Plan improved = checked_plan(crossing_fleet(), options);
   EXPECT_LE(improved.objectives.flowtime, first.objectives.flowtime);
   EXPECT_TRUE(improved.deterministic);
-  EXPECT_EQ(improved.objectives.flowtime<first.objectives.flowtime, improved.search.improvements> 0);
+  const bool cheaper = improved.objectives.flowtime < first.objectives.flowtime;
+  EXPECT_EQ(cheaper, improved.search.improvements > 0);
   options.objective = PlanOptions::Objective::makespan;
   EXPECT_LE(checked_plan(crossing_fleet(), options).objectives.makespan, first.objectives.makespan);
 }
