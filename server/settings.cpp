@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 
 #include "server/cpu_count.h"
@@ -44,10 +46,23 @@ class Flags {
       const int code = app_.exit(error, text, text);
       return SettingsExit{code == 0 ? 0 : 2, text.str()};
     }
+    if (const auto ignored = ignored_environment()) return bad(*ignored);
     return finish();
   }
 
  private:
+  /// Newer versions of CLI11 pass over a bad value from the environment without a word; what that says, if
+  /// so.
+  std::optional<std::string> ignored_environment() const {
+    for (const CLI::Option* option : app_.get_options()) {
+      const char* value =
+          option->get_envname().empty() ? nullptr : std::getenv(option->get_envname().c_str());
+      if (value == nullptr || *value == '\0' || option->count() > 0) continue;
+      return option->get_envname() + ": '" + value + "' is no value for " + option->get_name();
+    }
+    return std::nullopt;
+  }
+
   template <typename T>
   CLI::Option* add(const std::string& flag, T& value, const std::string& description) {
     return app_.add_option("--" + flag, value, description)
