@@ -10,6 +10,7 @@ constexpr std::size_t kMaxGuideBytes = std::size_t{384} << 20;
 
 std::vector<double> radii(const Fleet& fleet) {
   std::vector<double> radii;
+  radii.reserve(fleet.size());
   for (std::size_t i = 0; i < fleet.size(); ++i) radii.push_back(fleet.motion(i).radius);
   return radii;
 }
