@@ -47,6 +47,8 @@ void AaSipp::reset() {
   candidates_.clear();
   open_.clear();
   goal_label_ = -1;
+  best_goal_ = -1;
+  best_goal_cost_ = kForever;
   pruned_ = false;
 }
 
@@ -64,8 +66,11 @@ AaSipp::Outcome AaSipp::search(bool thorough) {
   for (int step = 1; goal_label_ < 0; ++step) {
     if (open_.empty()) return pruned_ ? Outcome::pruned : Outcome::exhausted;
     if (step % kStopStride == 0 && stop_->met()) return Outcome::stopped;
-    const int candidate = open_.front().candidate;
-    process(candidate);
+    if (best_goal_will_do()) {
+      settle(candidates_[static_cast<std::size_t>(best_goal_)], best_goal_cost_);
+    } else {
+      process(open_.front().candidate);
+    }
   }
   return Outcome::found;
 }
@@ -108,13 +113,22 @@ double AaSipp::to_go(int place, double heading) const {
 
 AaSipp::Rank AaSipp::rank(const Candidate& candidate) const {
   const double h = to_go(candidate.place, candidate.heading);
-  return {std::max(candidate.arrival + h, release_), h};
+  const double cost = std::max(candidate.arrival + h, release_);
+  // At the goal, good enough is first: the order is flat while it is not free, and would leave it for last.
+  if (is_final(candidate.place, candidate.interval)) return {cost / (1.0 + limits_.suboptimality), h, cost};
+  return {std::max(candidate.arrival + limits_.greed * h, release_), h, cost};
 }
 
 void AaSipp::push(const Candidate& candidate, const Rank& rank) {
-  if (!(rank.f < limits_.bound)) return;
+  if (!(rank.cost < limits_.bound)) return;
   candidates_.push_back(candidate);
-  open_.push_back({rank, static_cast<int>(candidates_.size()) - 1});
+  const int index = static_cast<int>(candidates_.size()) - 1;
+  if (candidate.kind == Kind::timed && rank.cost < best_goal_cost_ &&
+      is_final(candidate.place, candidate.interval)) {
+    best_goal_ = index;
+    best_goal_cost_ = rank.cost;
+  }
+  open_.push_back({rank.key, rank.h, index});
   std::push_heap(open_.begin(), open_.end(), std::greater<>());
 }
 
@@ -135,12 +149,18 @@ Move AaSipp::move_to(int label, int place, int interval) const {
   return move;
 }
 
+/// Is the best known way to the goal good enough by now?
+bool AaSipp::best_goal_will_do() const {
+  const double tolerated = limits_.suboptimality + limits_.impatience * static_cast<double>(expansions_);
+  return best_goal_ >= 0 && best_goal_cost_ <= (1.0 + tolerated) * open_.front().key;
+}
+
 void AaSipp::process(int index) {
-  const double f = open_.front().rank.f;
+  const double key = open_.front().key;
   std::pop_heap(open_.begin(), open_.end(), std::greater<>());
   open_.pop_back();
   Candidate candidate = candidates_[static_cast<std::size_t>(index)];
-  if (candidate.kind == Kind::timed) return settle(candidate, f);
+  if (candidate.kind == Kind::timed) return settle(candidate, key);
 
   const Move move = move_to(candidate.from, candidate.place, candidate.interval);
   const bool from_parent = candidate.kind == Kind::from_parent;
@@ -148,33 +168,30 @@ void AaSipp::process(int index) {
   const auto [via, place, interval] = std::tuple(candidate.via, candidate.place, candidate.interval);
   if (candidate.leads) follow(via, place, interval + 1, candidate.blocked || !seen);  // later intervals
   // A label that dominates the optimistic arrival also dominates the way through the expanded label.
-  if (redundant(interval, candidate.arrival, candidate.heading, f)) return;
+  if (redundant(interval, candidate.arrival, candidate.heading, key)) return;
   const auto departure = seen ? timing_->earliest(standing_at(candidate.from), move) : std::nullopt;
   const double optimistic = candidate.arrival;
   if (departure) {
     candidate.departure = *departure;
     candidate.arrival = *departure + move.duration;
     candidate.kind = Kind::timed;
-    if (candidate.arrival <= optimistic + kSameTime) return settle(candidate, f);
+    if (candidate.arrival <= optimistic + kSameTime) return settle(candidate, key);
   }
   if (from_parent) offer(Kind::local, via, place, interval, false, true);
   if (!departure) return;
-  const Rank timed = rank(candidate);
-  if (is_final(place, interval) && timed.f <= (1.0 + limits_.suboptimality) * f && timed.f < limits_.bound) {
-    return settle(candidate, timed.f);
-  }
-  push(candidate, timed);
+  push(candidate, rank(candidate));
 }
 
 bool AaSipp::is_final(int place, int interval) const {
   return place == goal_place_ && intervals_[static_cast<std::size_t>(interval)].end == kForever;
 }
 
-/// Is a label there that makes this one needless, or good enough? `f` is the candidate's.
-bool AaSipp::redundant(int interval, double arrival, double heading, double f) {
+/// Is a label there that makes this one needless, or good enough?
+bool AaSipp::redundant(int interval, double arrival, double heading, double key) {
   const int first = labels_of_interval_[static_cast<std::size_t>(interval)];
   if (first < 0) return false;
-  if (!thorough_ && f <= release_) {  // while the goal is not even free, one label for each interval will do
+  if (!thorough_ &&
+      key <= release_) {  // while the goal is not even free, one label for each interval will do
     pruned_ = true;
     return true;
   }
@@ -186,9 +203,9 @@ bool AaSipp::redundant(int interval, double arrival, double heading, double f) {
   return false;
 }
 
-void AaSipp::settle(const Candidate& candidate, double f) {
+void AaSipp::settle(const Candidate& candidate, double key) {
   int& first = labels_of_interval_[static_cast<std::size_t>(candidate.interval)];
-  if (redundant(candidate.interval, candidate.arrival, candidate.heading, f)) return;
+  if (redundant(candidate.interval, candidate.arrival, candidate.heading, key)) return;
   const int label = static_cast<int>(labels_.size());
   labels_.push_back({candidate.arrival, candidate.heading, candidate.departure, candidate.from,
                      candidate.place, candidate.interval, first});
@@ -247,7 +264,7 @@ AaSipp::Offer AaSipp::offer(Kind kind, int via, int place, int interval, bool le
   const Candidate candidate{arrival, *departure, move.heading, from,  via,
                             place,   interval,   kind,         leads, blocked};
   const Rank ranked = rank(candidate);
-  if (redundant(interval, arrival, move.heading, ranked.f)) return Offer::useless;
+  if (redundant(interval, arrival, move.heading, ranked.key)) return Offer::useless;
   push(candidate, ranked);
   return Offer::made;
 }

@@ -27,7 +27,9 @@ struct SearchResult {
 /// What a search may settle for.
 struct SearchLimits {
   double bound = kForever;      // seconds; only costs below it count
-  double suboptimality = 0.01;  // a goal label within this fraction of the smallest f is taken at once
+  double greed = 1.2;           // >= 1; weight of what is still to go (weighted A*; Pohl, 1970)
+  double suboptimality = 0.01;  // a way to the goal within this fraction of the smallest key is taken at once
+  double impatience = 1e-4;     // the fraction grows by so much with every expansion
   double hold = 0.0;            // seconds, >= 0; the robot stays at its start at least so long
   /// Search again, completely, when the quick search that keeps one label for each interval while the goal is
   /// not yet free found nothing.
@@ -85,15 +87,17 @@ class AaSipp {
     bool blocked;  // the parent is known not to see the place
   };
   struct Rank {
-    double f;
+    double key;
     double h;
+    double cost;  // estimate for the whole way
   };
   struct Open {
-    Rank rank;
+    double key;
+    double h;
     int candidate;
     bool operator>(const Open& other) const {
-      if (rank.f != other.rank.f) return rank.f > other.rank.f;
-      if (rank.h != other.rank.h) return rank.h > other.rank.h;
+      if (key != other.key) return key > other.key;
+      if (h != other.h) return h > other.h;
       return candidate > other.candidate;
     }
   };
@@ -104,8 +108,9 @@ class AaSipp {
   void reset();
   int place_of(int vertex);
   void add_start();
+  bool best_goal_will_do() const;
   void process(int index);
-  void settle(const Candidate& candidate, double f);
+  void settle(const Candidate& candidate, double key);
   void expand(int label);
   void shoot_at_goal(int label);
   void follow(int via, int place, int interval, bool blocked);
@@ -114,7 +119,7 @@ class AaSipp {
   void push(const Candidate& candidate, const Rank& rank);
   Standing standing_at(int label) const;
   Move move_to(int label, int place, int interval) const;
-  bool redundant(int interval, double arrival, double heading, double f);
+  bool redundant(int interval, double arrival, double heading, double key);
   bool is_final(int place, int interval) const;
   double to_go(int place, double heading) const;
   Trajectory extract() const;
@@ -135,6 +140,8 @@ class AaSipp {
   bool pruned_ = false;
   int goal_place_ = -1;
   int goal_label_ = -1;
+  int best_goal_ = -1;  // the cheapest timed candidate that reaches the goal for good
+  double best_goal_cost_ = kForever;
   std::int64_t expansions_ = 0;
   std::vector<int> place_of_vertex_;
   std::vector<Place> places_;
