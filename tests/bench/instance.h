@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/bench/workload.h"
+
+namespace fleetplan::bench {
+
+/// A request that can be made with only its first robots.
+class Instance {
+ public:
+  /// `request` is a body of POST /v1/plan with an array of robots. `name` is the `file` of the results.
+  Instance(std::string name, nlohmann::json request) : name_(std::move(name)), request_(std::move(request)) {}
+
+  const std::string& name() const { return name_; }
+  std::size_t robots() const { return request_.at("robots").size(); }
+
+  /// The body with the first `robots` robots (at most all), its options overridden by those of `options`.
+  std::string body(std::size_t robots, const nlohmann::json& options) const;
+
+ private:
+  std::string name_;
+  nlohmann::json request_;
+};
+
+/// The request that a workload makes.
+Instance make_instance(std::string name, const Workload& workload);
+
+/// Reads a request file; throws std::runtime_error, naming the file, when it cannot be read or is no request.
+Instance read_instance(std::string name, const std::filesystem::path& file);
+
+/// The request files that are meant: each file itself, and of a folder all .json files at any depth that hold
+/// a request, by name. Throws std::runtime_error for what does not exist.
+std::vector<std::filesystem::path> request_files(const std::vector<std::string>& paths);
+
+}  // namespace fleetplan::bench

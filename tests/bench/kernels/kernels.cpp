@@ -1,0 +1,181 @@
+// The inner loops of planning, each alone: Google Benchmark's flags, such as --benchmark_filter=Departure.
+//
+// What moves is the fleet of the paper's halls: the questions are asked among the robots of a real plan.
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/disk_motion.h"
+#include "core/map/line_of_sight.h"
+#include "core/model/problem.h"
+#include "core/planner.h"
+#include "core/reservation/reservation_table.h"
+#include "core/search/random.h"
+#include "tests/bench/workload.h"
+
+namespace fleetplan::bench {
+namespace {
+
+using core::Position;
+using core::Segment;
+using core::TimedSegment;
+
+/// Inputs of a kernel are drawn beforehand, so many that branches cannot be learnt by heart.
+constexpr std::size_t kInputs = 4096;
+
+/// The robots' numbers in the crowd that moves.
+constexpr std::size_t kCrowd = 150;
+
+Position random_center(const core::OccupancyGrid& grid, core::Random& random) {
+  const auto column = random.below(static_cast<std::size_t>(grid.columns()));
+  const auto row = random.below(static_cast<std::size_t>(grid.rows()));
+  return grid.center({static_cast<int>(column), static_cast<int>(row)});
+}
+
+/// The centre of a cell at most `cells` columns and rows away, and not the same.
+Position random_center_near(const core::OccupancyGrid& grid, const Position& position, int cells,
+                            core::Random& random) {
+  const core::Cell at = grid.cell_at(position);
+  const auto around = [&](int center, int count) {
+    const int low = std::max(0, center - cells);
+    const int high = std::min(count - 1, center + cells);
+    return low + static_cast<int>(random.below(static_cast<std::size_t>(high - low + 1)));
+  };
+  core::Cell other = at;
+  while (other == at) other = {around(at.column, grid.columns()), around(at.row, grid.rows())};
+  return grid.center(other);
+}
+
+std::vector<Segment> random_segments(const core::OccupancyGrid& grid, int cells) {
+  core::Random random(1);
+  std::vector<Segment> segments;
+  for (std::size_t i = 0; i < kInputs; ++i) {
+    const Position from = random_center(grid, random);
+    segments.push_back({from, random_center_near(grid, from, cells, random)});
+  }
+  return segments;
+}
+
+/// May a disk sweep a segment between cells up to so many apart, among the paper's rectangles?
+void BM_LineOfSight(benchmark::State& state) {
+  const core::OccupancyGrid grid = generate(hall_with_rectangles(), 1).grid;
+  const core::LineOfSight sight(grid);
+  const auto segments = random_segments(grid, static_cast<int>(state.range(0)));
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const Segment& segment = segments[next++ % kInputs];
+    benchmark::DoNotOptimize(sight.may_sweep(segment.from, segment.to, 0.5));
+  }
+}
+BENCHMARK(BM_LineOfSight)->ArgName("cells")->Arg(1)->Arg(8)->Arg(63);
+
+/// The window of departures that one timed segment forbids to a move to a neighbouring cell.
+void BM_ForbiddenDepartures(benchmark::State& state) {
+  const core::OccupancyGrid grid(64, 64, 1.0);
+  const auto mine = random_segments(grid, 1);
+  core::Random random(2);
+  std::vector<core::MovingDisk> others;
+  for (const Segment& segment : mine) {
+    const Position from = random_center_near(grid, segment.from, 3, random);
+    const Segment path{from, random_center_near(grid, from, 3, random)};
+    const double begin = 10.0 * random.unit();
+    others.emplace_back(TimedSegment{path, begin, begin + path.length() / 1.5});
+  }
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const std::size_t i = next++ % kInputs;
+    const Position move = mine[i].to - mine[i].from;
+    benchmark::DoNotOptimize(
+        core::forbidden_departures(mine[i].from, move.normalized(), move.norm(), others[i], 0.8));
+  }
+}
+BENCHMARK(BM_ForbiddenDepartures);
+
+/// The reservations of a planned hall, but for the last robots, which ask.
+class Crowd {
+ public:
+  explicit Crowd(const Recipe& recipe) : workload_(generate(recipe, 1)), table_(table_of(workload_)) {
+    std::vector<core::Robot> robots(workload_.robots.begin(), workload_.robots.begin() + kCrowd);
+    const auto made = core::Problem::create(workload_.grid, robots);
+    const core::Plan plan = core::plan(std::get<core::Problem>(made), {}, {});
+    for (const core::RobotPlan& robot : plan.plans)
+      table_.commit(robot.robot, reservations(workload_.robots[robot.robot], robot));
+  }
+
+  const core::OccupancyGrid& grid() const { return workload_.grid; }
+  const core::ReservationTable& table() const { return table_; }
+  const core::Robot& robot(std::size_t index) const { return workload_.robots[index]; }
+
+ private:
+  static core::ReservationTable table_of(const Workload& workload) {
+    std::vector<double> radii;
+    for (const core::Robot& robot : workload.robots) radii.push_back(robot.radius);
+    return {workload.grid.width(), workload.grid.height(), workload.grid.resolution(), std::move(radii)};
+  }
+
+  /// From t = 0 to for ever, rotations and waits as standing.
+  static std::vector<TimedSegment> reservations(const core::Robot& robot, const core::RobotPlan& plan) {
+    std::vector<TimedSegment> segments;
+    Position at = robot.start.position;
+    double now = 0.0;
+    for (const core::Action& action : plan.actions) {
+      if (action.t_end > now)
+        segments.push_back({{action.from.position, action.to.position}, now, action.t_end});
+      at = action.to.position;
+      now = action.t_end;
+    }
+    segments.push_back({{at, at}, now, core::kForever});
+    return segments;
+  }
+
+  Workload workload_;
+  core::ReservationTable table_;
+};
+
+/// A question that a robot which is not in the crowd asks of it.
+struct Question {
+  std::size_t robot;
+  Segment path;
+  double t_min;
+};
+
+std::vector<Question> questions(const Crowd& crowd, int cells) {
+  constexpr double kUntil = 60.0;  // seconds; by then half of the crowd has arrived
+  core::Random random(3);
+  std::vector<Question> asked;
+  for (const Segment& segment : random_segments(crowd.grid(), cells))
+    asked.push_back({kCrowd + random.below(3), segment, kUntil * random.unit()});
+  return asked;
+}
+
+/// When a robot may stand somewhere.
+void BM_SafeIntervals(benchmark::State& state) {
+  const Crowd crowd(hall_with_rectangles());
+  const auto asked = questions(crowd, 1);
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const Question& question = asked[next++ % kInputs];
+    benchmark::DoNotOptimize(crowd.table().safe_intervals(question.robot, question.path.from));
+  }
+}
+BENCHMARK(BM_SafeIntervals);
+
+/// When a robot may make a move between cells up to so many apart at the earliest.
+void BM_EarliestDeparture(benchmark::State& state) {
+  const Crowd crowd(hall_with_rectangles());
+  const auto asked = questions(crowd, static_cast<int>(state.range(0)));
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const Question& question = asked[next++ % kInputs];
+    const double duration = question.path.length() / crowd.robot(question.robot).linear_speed;
+    benchmark::DoNotOptimize(crowd.table().earliest_departure(question.robot, question.path, duration,
+                                                              question.t_min, core::kForever));
+  }
+}
+BENCHMARK(BM_EarliestDeparture)->ArgName("cells")->Arg(1)->Arg(8)->Arg(32);
+
+}  // namespace
+}  // namespace fleetplan::bench

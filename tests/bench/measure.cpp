@@ -1,0 +1,94 @@
+#include "tests/bench/measure.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "api/plan_endpoint.h"
+#include "api/validate_endpoint.h"
+#include "tests/bench/statistics.h"
+
+namespace fleetplan::bench {
+namespace {
+
+using nlohmann::json;
+using Clock = api::RequestContext::Clock;
+
+api::RequestContext context(const MeasureOptions& options) {
+  api::RequestContext made;
+  made.request_id = "bench";
+  made.limits.max_budget_ms = static_cast<std::int64_t>(std::ceil(options.budget * 1000.0));
+  // The scaling table goes beyond what the service takes unless told otherwise.
+  made.limits.max_robots = 1'000'000;
+  made.limits.max_cells = 1'000'000'000;
+  return made;
+}
+
+/// What the checker says against an answer of POST /v1/plan; empty when nothing.
+std::string fault_of(const std::string& body, const json& answer, const MeasureOptions& options) {
+  json both = json::parse(body);
+  both.update(answer);
+  const api::Reply reply = api::validate_endpoint(both.dump(), context(options));
+  const json report = json::parse(reply.body);
+  if (reply.status != 200) return report.value("detail", "the check failed");
+  if (report.at("valid").get<bool>()) return {};
+  return report.at("violations").at(0).at("detail");
+}
+
+Measurement read_answer(const std::string& name, std::size_t robots, const json& answer) {
+  Measurement made;
+  made.result.file = name;
+  made.result.robots = robots;
+  made.result.solved = answer.at("status") == "solved";
+  made.result.attempts = answer.at("search").at("attempts");
+  made.planned = answer.at("plans").size();
+  made.expansions = answer.at("search").at("expansions");
+  made.improvements = answer.at("search").at("improvements");
+  made.deterministic = answer.at("deterministic");
+  if (made.result.solved) {
+    made.result.flowtime = answer.at("flowtime").get<double>();
+    made.result.makespan = answer.at("makespan").get<double>();
+    made.lower_bound = answer.at("lower_bound").at("flowtime").get<double>();
+  }
+  return made;
+}
+
+}  // namespace
+
+Measurement measure(const std::string& name, std::size_t robots, const std::string& body,
+                    const MeasureOptions& options) {
+  std::vector<double> seconds;
+  api::Reply reply;
+  for (int run = 0; run < options.repeats; ++run) {
+    const api::RequestContext now = context(options);
+    const auto began = Clock::now();
+    reply = api::plan_endpoint(body, now);
+    seconds.push_back(std::chrono::duration<double>(Clock::now() - began).count());
+  }
+  const json answer = json::parse(reply.body);
+  Measurement made;
+  if (reply.status == 200) {
+    made = read_answer(name, robots, answer);
+    made.fault = fault_of(body, answer, options);
+  } else {
+    made.result.file = name;
+    made.result.robots = robots;
+    made.fault = answer.value("detail", "no plan");
+    for (const json& fault : answer.value("errors", json::array())) {
+      made.fault += " " + fault.value("pointer", "") + ": " + fault.value("detail", "");
+    }
+  }
+  made.result.seconds = median(seconds).value_or(0.0);
+  return made;
+}
+
+std::size_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+}  // namespace fleetplan::bench
