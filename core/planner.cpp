@@ -7,8 +7,8 @@
 #include "core/search/fleet.h"
 #include "core/search/fleet_state.h"
 #include "core/search/improve.h"
-#include "core/search/lower_bound.h"
 #include "core/search/prioritized.h"
+#include "core/search/taut_bounds.h"
 #include "core/search/triage.h"
 
 namespace fleetplan::core {
@@ -18,11 +18,14 @@ namespace {
 /// failed.
 constexpr double kPatienceShare = 0.6;
 
-StopCondition until_patience_ends(const StopCondition& stop) {
+/// Of the time left for improving, so much may go into lower bounds first.
+constexpr double kBoundsShare = 0.2;
+
+StopCondition until_share_ends(const StopCondition& stop, double share) {
   using Clock = StopCondition::Clock;
   if (stop.deadline() == Clock::time_point::max()) return stop;
   const auto now = Clock::now();
-  const auto left = std::chrono::duration_cast<Clock::duration>((stop.deadline() - now) * kPatienceShare);
+  const auto left = std::chrono::duration_cast<Clock::duration>((stop.deadline() - now) * share);
   return StopCondition(now + left, stop.stop_token());
 }
 
@@ -38,17 +41,17 @@ RobotPlan robot_plan(const FleetState& state, std::size_t index) {
 }
 
 /// Puts the plans together: a robot that is not in `unplanned` follows its trajectory or is parked.
-Plan collect(const FleetState& state, std::vector<std::optional<Unplanned>> unplanned) {
+Plan collect(const FleetState& state, std::vector<std::optional<Unplanned>> unplanned,
+             const TautBounds& bounds) {
   Plan plan;
   for (std::size_t i = 0; i < state.fleet().size(); ++i) {
     if (unplanned[i]) {
       plan.unplanned.push_back(std::move(*unplanned[i]));
       continue;
     }
-    const Robot& robot = state.fleet().robot(i);
     plan.plans.push_back(robot_plan(state, i));
     add(plan.objectives, plan.plans.back().cost);
-    add(plan.lower_bound, robot.goal ? lower_bound(robot, state.fleet().motion(i)) : 0.0);
+    add(plan.lower_bound, bounds[i]);
   }
   return plan;
 }
@@ -65,13 +68,17 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   for (std::size_t i = 0; i < fleet.size(); ++i) {
     if (fleet.robot(i).goal && !unplanned[i]) movers.push_back(i);
   }
-  PrioritizedResult prioritized = plan_prioritized(state, movers, random, until_patience_ends(stop), stop);
+  PrioritizedResult prioritized =
+      plan_prioritized(state, movers, random, until_share_ends(stop, kPatienceShare), stop);
   for (Unplanned& robot : prioritized.unplanned) unplanned[robot.robot] = std::move(robot);
+  std::erase_if(movers, [&](std::size_t robot) { return !state.trajectory(robot); });
+  const bool anytime = options.mode == PlanOptions::Mode::anytime;
+  const TautBounds bounds(fleet, movers, anytime ? until_share_ends(stop, kBoundsShare) : stop);
   Improvement improvement;
-  if (options.mode == PlanOptions::Mode::anytime) improvement = improve(state, movers, random, stop);
+  if (anytime) improvement = improve(state, movers, bounds, random, stop);
 
-  Plan plan = collect(state, std::move(unplanned));
-  plan.deterministic = !prioritized.cut_off && !improvement.cut_off && !stop.cancelled();
+  Plan plan = collect(state, std::move(unplanned), bounds);
+  plan.deterministic = !prioritized.cut_off && !bounds.cut_off() && !improvement.cut_off && !stop.cancelled();
   plan.search = {prioritized.attempts, state.expansions(), improvement.improvements};
   return plan;
 }

@@ -4,8 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/search/lower_bound.h"
-
 namespace fleetplan::core {
 namespace {
 
@@ -20,17 +18,14 @@ struct Value {
 
 class Improving {
  public:
-  Improving(FleetState& state, std::vector<std::size_t> planned, Random& random, const StopCondition& stop)
+  Improving(FleetState& state, std::vector<std::size_t> planned, const TautBounds& bounds, Random& random,
+            const StopCondition& stop)
       : state_(state),
         makespan_first_(state.fleet().options().objective == PlanOptions::Objective::makespan),
         planned_(std::move(planned)),
         random_(random),
         stop_(stop),
-        bound_(state.fleet().size(), 0.0) {
-    for (const std::size_t robot : planned_) {
-      bound_[robot] = lower_bound(state.fleet().robot(robot), state.fleet().motion(robot));
-    }
-  }
+        bound_(bounds) {}
 
   Improvement run(std::optional<std::int64_t> max_iterations) {
     Improvement result;
@@ -139,18 +134,19 @@ class Improving {
   std::vector<std::size_t> planned_;
   Random& random_;
   const StopCondition& stop_;
-  std::vector<double> bound_;
+  const TautBounds& bound_;
 };
 
 }  // namespace
 
-Improvement improve(FleetState& state, const std::vector<std::size_t>& movers, Random& random,
-                    const StopCondition& stop) {
+Improvement improve(FleetState& state, const std::vector<std::size_t>& movers, const TautBounds& bounds,
+                    Random& random, const StopCondition& stop) {
   std::vector<std::size_t> planned;
   for (const std::size_t robot : movers) {
     if (state.trajectory(robot)) planned.push_back(robot);
   }
-  return Improving(state, std::move(planned), random, stop).run(state.fleet().options().max_iterations);
+  return Improving(state, std::move(planned), bounds, random, stop)
+      .run(state.fleet().options().max_iterations);
 }
 
 }  // namespace fleetplan::core

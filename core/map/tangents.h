@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/position.h"
+#include "core/map/corner_sight.h"
+#include "core/map/line_of_sight.h"
+
+namespace fleetplan::core {
+
+/// A way around a corner: of the circle of the disk's radius around it, the quarter that faces away from the
+/// blocked cell, passed with the corner on the left or on the right. Places on it are told by the angle
+/// passed, `bend`, which grows from -pi/4 to pi/4.
+struct Bend {
+  int corner = 0;
+  bool left = false;  // the corner is on the left
+};
+
+/// A straight move that touches the circles of the corners that it links, or ends at a given point.
+struct Tangent {
+  Bend to;              // meaningless where the move ends at a point
+  double leave = 0.0;   // the place on the bend that it starts from; 0 from a point
+  double arrive = 0.0;  // the place on `to`; 0 at a point
+  double length = 0.0;  // metres
+  double heading = 0.0;
+  Position end{0.0, 0.0};
+};
+
+/// The taut paths of a disk of one radius: a path that cannot be made shorter by pulling follows straight
+/// moves and arcs of the disk's radius around convex corners. Left out are those through a gap of an even
+/// number of cells that the disk just fits: it would have to move along a grid line there, where a robot that
+/// starts, stops and turns on cell centres never is. Computed when first asked for; not
+/// thread-safe. What is told of sight and arcs allows for kShrink, so that no taut path of a disk that is in
+/// contact with obstacles is missed.
+class Tangents {
+ public:
+  /// Metres by which the disk is smaller than the robot; a hundred times what plans may overlap obstacles, so
+  /// that neither that nor rounding makes a path of the robot impossible for the disk.
+  static constexpr double kShrink = 1e-7;
+
+  /// `radius` > 2 kShrink is the robot's, metres.
+  Tangents(CornerSight& corners, const LineOfSight& sight, double radius);
+
+  double radius() const { return radius_; }
+  int bend_count() const { return 2 * corners_.count(); }
+  static int index(const Bend& bend) { return 2 * bend.corner + (bend.left ? 1 : 0); }
+
+  /// All from a bend to others.
+  const std::vector<Tangent>& from(const Bend& bend);
+  /// Not yet known to be free of obstacles: ask `is_free`.
+  std::optional<Tangent> from_point(const Position& point, const Bend& to) const;
+  std::optional<Tangent> to_point(const Bend& from, const Position& point) const;
+  bool is_free(const Tangent& tangent) const;
+  /// May the disk follow the arc? True too where obstacles reach less than a piece of 5.6 degrees into it.
+  bool may_bend(const Bend& bend, double from, double to);
+
+ private:
+  struct Side {  // an end of a tangent
+    Position center;
+    double offset;         // of the circle's centre to the left of the move, metres; 0: a point
+    const Corner* corner;  // null: a point
+  };
+  struct Arc {
+    std::uint32_t blocked = 0;  // a bit for each piece, counter-clockwise
+    bool known = false;
+  };
+
+  Side side(const Bend& bend) const;
+  static Side side(const Position& point) { return {point, 0.0, nullptr}; }
+  static std::optional<double> place(const Side& side, const Position& left_normal);
+  std::optional<Tangent> tangent(const Side& from, const Side& to) const;
+  bool squeezes_through(const Tangent& tangent, const Position& along) const;
+  bool gap_at(int line, int cell, bool upright) const;
+  const Arc& arc(int corner);
+
+  CornerSight& corners_;
+  const LineOfSight& sight_;
+  double radius_;
+  int tight_gap_;  // cells, even; 0 for none
+  std::vector<std::optional<std::vector<Tangent>>> from_;
+  std::vector<Arc> arcs_;
+};
+
+}  // namespace fleetplan::core

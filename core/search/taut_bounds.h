@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/search/fleet.h"
+#include "core/search/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// For robots each alone on the static map, what no plan of theirs can cost less than, seconds: the straight
+/// line and the turns where that is free, the cheapest taut path elsewhere (see TautSearch).
+class TautBounds {
+ public:
+  /// Of `robots`, all with goals. Where the work for a robot grows too large, and for all when `stop` is met,
+  /// the bounds are weaker.
+  TautBounds(const Fleet& fleet, const std::vector<std::size_t>& robots, const StopCondition& stop);
+
+  /// 0 for a robot that was not among `robots`.
+  double operator[](std::size_t robot) const { return seconds_[robot]; }
+  /// Did `stop` weaken a bound?
+  bool cut_off() const { return cut_off_; }
+
+ private:
+  std::vector<double> seconds_;
+  bool cut_off_ = false;
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/map/corner_sight.h"
+#include "core/map/tangents.h"
+#include "core/model/robot.h"
+#include "core/search/fleet.h"
+#include "core/search/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// What a search for the cheapest taut path found out: no path costs less. `cut_off`: stopped by the clock.
+struct TautResult {
+  double seconds = 0.0;
+  bool cut_off = false;
+};
+
+/// The cheapest taut path of a robot that is alone on the static map and may turn anywhere, arcs included: a
+/// lower bound of the cost of its plans. A* over tangents (after Hart, Nilsson and Raphael, 1968, and the
+/// tangent graph of Liu and Arimoto, IJRR 1992), with the straight cost as the estimate of what is left.
+///
+/// Why no plan costs less. Obstacles grown by the radius leave the centre a region, whose paths from start to
+/// goal fall into classes of those that can be deformed into each other. (1) Length and turning: put a
+/// tight convex chain of the triangle a, b, c around what lies in it in place of a corner a-b-c of a path.
+/// The path gets no longer. Its headings stay on the shorter arc between those of ab and bc, in order, so by
+/// the triangle inequality it turns no more, the turns from the start heading and to the goal heading
+/// included. Repeated, this leads to the taut path of the class, which therefore has the least length and
+/// the least turning of its class at once (in the limit of polygons that fill the grown obstacles; total
+/// turning is lower semicontinuous). (2) Translations, each of which may need a wait: prolong a straight
+/// piece of the taut path between bends of opposite sense, which touches obstacles at u on one side and v on
+/// the other, to a chord of the region. All paths of the class cross the chord before u and beyond v in one
+/// sense, so between u and v in the other, or run along it there: with a translation of its own, since the
+/// taut path is the only taut one between any two of its points. By the same reason it is neither the first
+/// nor the last one. So there are at least two translations more than such pieces, if the path bends at all.
+class TautSearch {
+ public:
+  /// For robots of one radius.
+  TautSearch(CornerSight& corners, const LineOfSight& sight, double radius)
+      : corners_(corners), tangents_(corners, sight, radius) {}
+
+  /// `motion` has the radius, and the robot a goal, which it does not see. After `most_steps` tangents that
+  /// were looked at, or when `stop` is met, the bound is what is known by then; the former is the same for
+  /// all orders in which robots are asked for.
+  TautResult run(const Robot& robot, const Motion& motion, std::int64_t most_steps,
+                 const StopCondition& stop);
+
+ private:
+  struct Arrival {
+    double seconds;
+    double place;  // on the bend
+    Bend bend;
+    Tangent by;
+    bool tested;  // by is known to be free
+    bool at_goal;
+  };
+  struct Open {
+    double f;
+    int arrival;
+    bool operator>(const Open& other) const { return f != other.f ? f > other.f : arrival > other.arrival; }
+  };
+  struct Passed {  // an arrival that was expanded
+    double place;
+    double seconds;
+    int next;  // another one at the same bend, or -1
+  };
+
+  void reset();
+  void leave_start();
+  void expand(const Arrival& arrival);
+  void leave(const Arrival& arrival, const Tangent& tangent, bool at_goal);
+  void push(const Arrival& arrival, double to_go);
+  bool passed(const Bend& bend, double place, double seconds) const;
+
+  CornerSight& corners_;
+  Tangents tangents_;
+
+  // Of the search at hand; kept between searches for their memory.
+  const Robot* robot_ = nullptr;
+  const Motion* motion_ = nullptr;
+  double bend_time_ = 0.0;  // seconds for a radian of an arc
+  std::int64_t steps_ = 0;
+  std::vector<int> sees_goal_;  // corners, ascending
+  std::vector<Arrival> arrivals_;
+  std::vector<Open> open_;
+  std::vector<Passed> passed_;
+  std::vector<int> passed_at_;  // by bend, the last of its list
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,162 @@
+#include "core/map/tangents.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "tests/core/map/distances.h"
+#include "tests/support/ascii_map.h"
+#include "tests/support/random_problem.h"
+
+namespace fleetplan::core {
+namespace {
+
+using support::ascii_map;
+
+constexpr double kPi = std::numbers::pi;
+/// What the smaller disk makes of lengths and angles.
+constexpr double kShrunk = 1e-6;
+
+struct World {
+  World(OccupancyGrid told, double radius)
+      : grid(std::move(told)), sight(grid), corners(grid), tangents(corners, sight, radius) {}
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  OccupancyGrid grid;
+  LineOfSight sight;
+  CornerSight corners;
+  Tangents tangents;
+};
+
+/// A blocked cell with its corners at (2, 2), (3, 2), (2, 3) and (3, 3).
+OccupancyGrid block() {
+  return ascii_map({".....",  //
+                    ".....",  //
+                    "..#..",  //
+                    ".....",  //
+                    "....."});
+}
+
+TEST(Tangents, FromAPointTouchTheCircleAroundTheCorner) {
+  World w(block(), 0.5);
+  const auto level = w.tangents.from_point({0.5, 1.5}, {0, true});
+  ASSERT_TRUE(level);
+  EXPECT_NEAR(level->heading, 0.0, kShrunk) << "the corner (2, 2) is on the left";
+  EXPECT_NEAR(level->length, 1.5, kShrunk);
+  EXPECT_NEAR((level->end - Position(2.0, 1.5)).norm(), 0.0, kShrunk);
+  EXPECT_NEAR(level->arrive, 0.25 * kPi, kShrunk) << "where the quarter ends";
+  EXPECT_TRUE(w.tangents.is_free(*level));
+  EXPECT_FALSE(w.tangents.from_point({4.5, 4.5}, {0, true})) << "it would touch the circle inside the block";
+}
+
+TEST(Tangents, BetweenCornersOfOneSideRunAlongTheWall) {
+  World w(block(), 0.5);
+  const auto& from = w.tangents.from({0, true});
+  ASSERT_EQ(from.size(), 1u);
+  EXPECT_EQ(from[0].to.corner, 1);
+  EXPECT_TRUE(from[0].to.left);
+  EXPECT_NEAR(from[0].length, 1.0, kShrunk);
+  EXPECT_NEAR(from[0].leave, 0.25 * kPi, kShrunk);
+  EXPECT_NEAR(from[0].arrive, -0.25 * kPi, kShrunk);
+}
+
+TEST(Tangents, CrossBetweenCornersOnDifferentSides) {
+  World w(ascii_map({".....",  //
+                     ".....",  //
+                     "...#.",  //
+                     ".#.#.",  //
+                     ".#..."}),
+          0.25);
+  // Over (2, 2), then under (3, 1).
+  int crossing = 0;
+  for (int corner = 0; corner < w.corners.count(); ++corner) {
+    if (w.corners.position(corner) != Position(2.0, 2.0)) continue;
+    for (const Tangent& tangent : w.tangents.from({corner, false})) {
+      if (w.corners.position(tangent.to.corner) != Position(3.0, 1.0)) continue;
+      ++crossing;
+      EXPECT_TRUE(tangent.to.left);
+      EXPECT_NEAR(tangent.length, std::sqrt(2.0 - 0.25), kShrunk);
+      EXPECT_NEAR(tangent.heading, -0.25 * kPi - std::asin(0.5 / std::sqrt(2.0)), kShrunk);
+    }
+  }
+  EXPECT_EQ(crossing, 1);
+}
+
+TEST(Tangents, ArcsEndAtOtherObstacles) {
+  World w(ascii_map({".....",  //
+                     "...#.",  //
+                     ".....",  //
+                     ".#...",  //
+                     "....."}),
+          0.8);
+  World smaller(w.grid, 0.7);
+  for (int corner = 0; corner < w.corners.count(); ++corner) {
+    if ((w.corners.position(corner) - Position(2.0, 2.0)).norm() > 1e-9) continue;
+    for (const bool left : {false, true}) {
+      EXPECT_FALSE(w.tangents.may_bend({corner, left}, -0.25 * kPi, 0.25 * kPi))
+          << "1.6 m in a gap of 1.41 m";
+      EXPECT_TRUE(w.tangents.may_bend({corner, left}, -0.25 * kPi, -0.2 * kPi));
+      EXPECT_TRUE(smaller.tangents.may_bend({corner, left}, -0.25 * kPi, 0.25 * kPi));
+    }
+  }
+}
+
+/// Two walls with a gap of two cells, from (4, 2) to (6, 4).
+OccupancyGrid gap_of_two() {
+  return ascii_map({"..........",  //
+                    "..........",  //
+                    "####..####",  //
+                    "####..####",  //
+                    "..........",  //
+                    ".........."});
+}
+
+TEST(Tangents, DoNotRunBetweenCellCentresThroughAGapThatJustFits) {
+  const auto through_gap = [](double radius) {
+    World w(gap_of_two(), radius);
+    EXPECT_EQ(w.corners.position(0), Position(4.0, 2.0));
+    int upwards = 0;
+    for (const bool left : {false, true}) {
+      for (const Tangent& tangent : w.tangents.from({0, left})) upwards += tangent.end.y() > 3.9 ? 1 : 0;
+    }
+    return upwards;
+  };
+  EXPECT_EQ(through_gap(1.0), 0);
+  EXPECT_GT(through_gap(0.99), 0) << "a slanting move fits";
+  EXPECT_GT(through_gap(0.5), 0);
+}
+
+TEST(Tangents, AreAsLongAsTheyLookAndFreeForTheDiskOnRandomMaps) {
+  const std::uint64_t seed = 43;
+  support::Dice dice(seed);
+  int count = 0;
+  for (int k = 0; k < 60; ++k) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << k);
+    const OccupancyGrid grid = support::random_map(dice);
+    const double radius = grid.resolution() * dice.between(0.1, 1.5);
+    World w(grid, radius);
+    for (int b = 0; b < w.tangents.bend_count(); b += 3) {
+      const Bend bend{b / 2, b % 2 == 1};
+      const Position center = w.corners.position(bend.corner);
+      for (const Tangent& tangent : w.tangents.from(bend)) {
+        ++count;
+        const Position along(std::cos(tangent.heading), std::sin(tangent.heading));
+        const Position begin = tangent.end - tangent.length * along;
+        ASSERT_NEAR((begin - center).norm(), w.tangents.radius(), 1e-9);
+        ASSERT_NEAR((tangent.end - w.corners.position(tangent.to.corner)).norm(), w.tangents.radius(), 1e-9);
+        ASSERT_NEAR((begin - center).dot(along), 0.0, 1e-9);
+        ASSERT_GE(obstacle_distance_of(grid, begin, tangent.end), radius - 3.0 * Tangents::kShrink);
+        ASSERT_LE(std::abs(tangent.leave), 0.25 * kPi + 1e-6);
+        ASSERT_LE(std::abs(tangent.arrive), 0.25 * kPi + 1e-6);
+      }
+    }
+  }
+  EXPECT_GT(count, 1000);
+}
+
+}  // namespace
+}  // namespace fleetplan::core
