@@ -29,7 +29,21 @@ Lattice::Lattice(const OccupancyGrid& grid, int connectivity)
     : columns_(grid.columns()),
       rows_(grid.rows()),
       spacing_(grid.resolution()),
-      steps_(neighbourhood(connectivity)) {}
+      steps_(neighbourhood(connectivity)) {
+  first_quadrant_.reserve(std::size_t{kTableSize} * kTableSize);
+  for (int row = 0; row < kTableSize; ++row) {
+    for (int column = 0; column < kTableSize; ++column) first_quadrant_.push_back(displacement(column, row));
+  }
+}
+
+Displacement Displacement::between(const Position& from, const Position& to) {
+  const Position d = to - from;
+  return {std::atan2(d.y(), d.x()), d.norm()};
+}
+
+Displacement Lattice::displacement(int columns, int rows) const {
+  return Displacement::between({0.0, 0.0}, {columns * spacing_, rows * spacing_});
+}
 
 int Lattice::vertex_at(const Position& position) const {
   const int column = static_cast<int>(std::floor(position.x() / spacing_));

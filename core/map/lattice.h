@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -10,6 +12,15 @@
 #include "core/map/paged_array.h"
 
 namespace fleetplan::core {
+
+/// Which way and how far (metres) to go from one place to another; of length 0, heading 0.
+struct Displacement {
+  double heading = 0.0;
+  double length = 0.0;
+
+  /// For any two positions.
+  static Displacement between(const Position& from, const Position& to);
+};
 
 /// Where robots may stop: a vertex is the centre of a cell, numbered row by row from the bottom. Kept apart
 /// from what is blocked (LineOfSight).
@@ -37,16 +48,34 @@ class Lattice {
     return {(column + 0.5) * spacing_, (row + 0.5) * spacing_};
   }
   int vertex(Cell cell) const { return cell.row * columns_ + cell.column; }
+  /// From one vertex to another.
+  Displacement between(int from, int to) const {
+    const int columns = to % columns_ - from % columns_;
+    const int rows = to / columns_ - from / columns_;
+    const int c = std::abs(columns);
+    const int r = std::abs(rows);
+    if (c >= kTableSize || r >= kTableSize) return displacement(columns, rows);
+    Displacement d = first_quadrant_[static_cast<std::size_t>(r * kTableSize + c)];
+    if (columns < 0) d.heading = std::numbers::pi - d.heading;
+    if (rows < 0) d.heading = -d.heading;
+    return d;
+  }
   /// The vertex that a position coincides with (to kContactTolerance), or -1.
   int vertex_at(const Position& position) const;
   /// Vertices within `distance` metres of a position, ascending.
   std::vector<int> vertices_near(const Position& position, double distance) const;
 
  private:
+  /// Of displacements with fewer columns and rows than this, heading and length are kept.
+  static constexpr int kTableSize = 128;
+
+  Displacement displacement(int columns, int rows) const;
+
   int columns_;
   int rows_;
   double spacing_;
   std::vector<Step> steps_;
+  std::vector<Displacement> first_quadrant_;  // by row, then column
 };
 
 /// Which lattice moves a disk of one radius may make on the static map; computed when first asked for. Not

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <tuple>
 
 #include "core/geometry/angle.h"
 
@@ -42,8 +41,10 @@ void AaSipp::reset() {
   for (const Place& place : places_) place_of_vertex_[static_cast<std::size_t>(place.vertex)] = -1;
   places_.clear();
   intervals_.clear();
-  labels_of_interval_.clear();
+  arrivals_of_interval_.clear();
+  arrivals_.clear();
   labels_.clear();
+  ways_.clear();
   candidates_.clear();
   open_.clear();
   goal_label_ = -1;
@@ -67,7 +68,7 @@ AaSipp::Outcome AaSipp::search(bool thorough) {
     if (open_.empty()) return pruned_ ? Outcome::pruned : Outcome::exhausted;
     if (step % kStopStride == 0 && stop_->met()) return Outcome::stopped;
     if (best_goal_will_do()) {
-      settle(candidates_[static_cast<std::size_t>(best_goal_)], best_goal_cost_);
+      settle(candidates_[static_cast<std::size_t>(best_goal_)]);
     } else {
       process(open_.front().candidate);
     }
@@ -86,7 +87,7 @@ int AaSipp::place_of(int vertex) {
   places_.push_back(
       {vertex, position, estimate, static_cast<int>(intervals_.size()), static_cast<int>(safe.size())});
   intervals_.insert(intervals_.end(), safe.begin(), safe.end());
-  labels_of_interval_.resize(intervals_.size(), -1);
+  arrivals_of_interval_.resize(intervals_.size(), -1);
   return known;
 }
 
@@ -97,9 +98,13 @@ void AaSipp::add_start() {
   if (intervals_[static_cast<std::size_t>(interval)].begin > 0.0) return;
   if (!intervals_[static_cast<std::size_t>(interval)].contains(limits_.hold)) return;
   const double heading = fleet_.robot(robot_).start.theta;
-  const Candidate start{limits_.hold, limits_.hold, heading,     -1,    -1,
-                        place,        interval,     Kind::timed, false, false};
-  push(start, rank(start));
+  enter(interval, limits_.hold, heading);
+  labels_.push_back({limits_.hold, heading, limits_.hold, -1, place, interval});
+  if (!is_final(place, interval)) {
+    expand(0);
+  } else if (rank(place, interval, limits_.hold, heading).cost < limits_.bound) {
+    goal_label_ = 0;
+  }
 }
 
 double AaSipp::to_go(int place, double heading) const {
@@ -111,23 +116,17 @@ double AaSipp::to_go(int place, double heading) const {
   return estimate.seconds + motion_->rotation_time(heading, estimate.heading);
 }
 
-AaSipp::Rank AaSipp::rank(const Candidate& candidate) const {
-  const double h = to_go(candidate.place, candidate.heading);
-  const double cost = std::max(candidate.arrival + h, release_);
+AaSipp::Rank AaSipp::rank(int place, int interval, double arrival, double heading) const {
+  const double h = to_go(place, heading);
+  const double cost = std::max(arrival + h, release_);
   // At the goal, good enough is first: the order is flat while it is not free, and would leave it for last.
-  if (is_final(candidate.place, candidate.interval)) return {cost / (1.0 + limits_.suboptimality), h, cost};
-  return {std::max(candidate.arrival + limits_.greed * h, release_), h, cost};
+  if (is_final(place, interval)) return {cost / (1.0 + limits_.suboptimality), h, cost};
+  return {std::max(arrival + limits_.greed * h, release_), h, cost};
 }
 
 void AaSipp::push(const Candidate& candidate, const Rank& rank) {
-  if (!(rank.cost < limits_.bound)) return;
+  const int index = static_cast<int>(candidates_.size());
   candidates_.push_back(candidate);
-  const int index = static_cast<int>(candidates_.size()) - 1;
-  if (candidate.kind == Kind::timed && rank.cost < best_goal_cost_ &&
-      is_final(candidate.place, candidate.interval)) {
-    best_goal_ = index;
-    best_goal_cost_ = rank.cost;
-  }
   open_.push_back({rank.key, rank.h, index});
   std::push_heap(open_.begin(), open_.end(), std::greater<>());
 }
@@ -137,16 +136,12 @@ Standing AaSipp::standing_at(int label) const {
   return {l.arrival, l.heading, l.parent >= 0, intervals_[static_cast<std::size_t>(l.interval)]};
 }
 
-Move AaSipp::move_to(int label, int place, int interval) const {
-  const int from = labels_[static_cast<std::size_t>(label)].place;
-  Move move;
-  move.path = {places_[static_cast<std::size_t>(from)].position,
-               places_[static_cast<std::size_t>(place)].position};
-  const Position d = move.path.to - move.path.from;
-  move.heading = std::atan2(d.y(), d.x());
-  move.duration = motion_->translation_time(d.norm());
-  move.target = intervals_[static_cast<std::size_t>(interval)];
-  return move;
+Position AaSipp::position_of(int label) const {
+  return places_[static_cast<std::size_t>(labels_[static_cast<std::size_t>(label)].place)].position;
+}
+
+bool AaSipp::is_final(int place, int interval) const {
+  return place == goal_place_ && intervals_[static_cast<std::size_t>(interval)].end == kForever;
 }
 
 /// Is the best known way to the goal good enough by now?
@@ -159,71 +154,121 @@ void AaSipp::process(int index) {
   const double key = open_.front().key;
   std::pop_heap(open_.begin(), open_.end(), std::greater<>());
   open_.pop_back();
-  Candidate candidate = candidates_[static_cast<std::size_t>(index)];
-  if (candidate.kind == Kind::timed) return settle(candidate, key);
+  const Candidate candidate = candidates_[static_cast<std::size_t>(index)];
+  if (candidate.entry < 0) {
+    time_move(candidate, key);
+  } else if (!arrivals_[static_cast<std::size_t>(candidate.entry)].dominated) {
+    settle(candidate);
+  }
+}
 
-  const Move move = move_to(candidate.from, candidate.place, candidate.interval);
-  const bool from_parent = candidate.kind == Kind::from_parent;
-  const bool seen = !from_parent || fleet_.sight().may_sweep(move.path.from, move.path.to, motion_->radius);
-  const auto [via, place, interval] = std::tuple(candidate.via, candidate.place, candidate.interval);
-  if (candidate.leads) follow(via, place, interval + 1, candidate.blocked || !seen);  // later intervals
-  // A label that dominates the optimistic arrival also dominates the way through the expanded label.
-  if (redundant(interval, candidate.arrival, candidate.heading, key)) return;
-  const auto departure = seen ? timing_->earliest(standing_at(candidate.from), move) : std::nullopt;
+void AaSipp::time_move(Candidate candidate, double key) {
+  Way& way = ways_[static_cast<std::size_t>(candidate.way)];
+  const bool shortcut = candidate.kind == Kind::shortcut;
+  const bool seen = !shortcut || sees(way);
+  const Move move = shortcut ? way.shortcut : way.local;
+  const int place = way.place;
+  const int interval = candidate.interval;
+  const Label& via = labels_[static_cast<std::size_t>(way.via)];
+  const Segment path{shortcut ? position_of(via.parent) : position_of(way.via),
+                     places_[static_cast<std::size_t>(place)].position};
+  if (candidate.leads) follow(candidate.way, interval + 1);
+  // An arrival that dominates the optimistic one also dominates the way through the expanded label.
+  if (redundant(interval, candidate.arrival, move.heading, key)) return;
+  SafeInterval target = intervals_[static_cast<std::size_t>(interval)];
+  target.end = std::min(target.end, dominated_from(interval, move.heading));
+  const auto departure = seen ? timing_->earliest(move, path, target) : std::nullopt;
   const double optimistic = candidate.arrival;
   if (departure) {
     candidate.departure = *departure;
     candidate.arrival = *departure + move.duration;
-    candidate.kind = Kind::timed;
-    if (candidate.arrival <= optimistic + kSameTime) return settle(candidate, key);
+    if (candidate.arrival <= optimistic + kSameTime) {
+      enter(interval, candidate.arrival, move.heading);
+      return settle(candidate);
+    }
   }
-  if (from_parent) offer(Kind::local, via, place, interval, false, true);
-  if (!departure) return;
-  push(candidate, rank(candidate));
+  if (shortcut) offer(candidate.way, Kind::local, interval, false);
+  if (!departure || redundant(interval, candidate.arrival, move.heading, key)) return;
+  const Rank ranked = rank(place, interval, candidate.arrival, move.heading);
+  if (!(ranked.cost < limits_.bound)) return;
+  candidate.entry = static_cast<int>(arrivals_.size());
+  enter(interval, candidate.arrival, move.heading);
+  push(candidate, ranked);
+  if (is_final(place, interval) && ranked.cost < best_goal_cost_) {
+    best_goal_ = static_cast<int>(candidates_.size()) - 1;
+    best_goal_cost_ = ranked.cost;
+  }
 }
 
-bool AaSipp::is_final(int place, int interval) const {
-  return place == goal_place_ && intervals_[static_cast<std::size_t>(interval)].end == kForever;
-}
-
-/// Is a label there that makes this one needless, or good enough?
+/// Is an arrival there that makes this one needless, or good enough?
 bool AaSipp::redundant(int interval, double arrival, double heading, double key) {
-  const int first = labels_of_interval_[static_cast<std::size_t>(interval)];
+  const int first = arrivals_of_interval_[static_cast<std::size_t>(interval)];
   if (first < 0) return false;
   if (!thorough_ &&
       key <= release_) {  // while the goal is not even free, one label for each interval will do
     pruned_ = true;
     return true;
   }
-  for (int l = first; l >= 0;) {
-    const Label& label = labels_[static_cast<std::size_t>(l)];
-    if (label.arrival + motion_->rotation_time(label.heading, heading) <= arrival + kSameTime) return true;
-    l = label.next;
-  }
-  return false;
+  return dominated_from(interval, heading) <= arrival + kSameTime;
 }
 
-void AaSipp::settle(const Candidate& candidate, double key) {
-  int& first = labels_of_interval_[static_cast<std::size_t>(candidate.interval)];
-  if (redundant(candidate.interval, candidate.arrival, candidate.heading, key)) return;
-  const int label = static_cast<int>(labels_.size());
-  labels_.push_back({candidate.arrival, candidate.heading, candidate.departure, candidate.from,
-                     candidate.place, candidate.interval, first});
-  first = label;
-  if (is_final(candidate.place, candidate.interval)) {
-    goal_label_ = label;
-    return;
+/// Arrivals with this heading are dominated from then on.
+double AaSipp::dominated_from(int interval, double heading) const {
+  double from = kForever;
+  for (int e = arrivals_of_interval_[static_cast<std::size_t>(interval)]; e >= 0;) {
+    const Arrival& entry = arrivals_[static_cast<std::size_t>(e)];
+    from = std::min(from, entry.time + motion_->rotation_time(entry.heading, heading));
+    e = entry.next;
   }
-  expand(label);
+  return from;
+}
+
+/// Adds an arrival that is not redundant, and strikes out those that it dominates.
+void AaSipp::enter(int interval, double time, double heading) {
+  int* link = &arrivals_of_interval_[static_cast<std::size_t>(interval)];
+  while (*link >= 0) {
+    Arrival& entry = arrivals_[static_cast<std::size_t>(*link)];
+    if (time + motion_->rotation_time(heading, entry.heading) <= entry.time) {
+      entry.dominated = true;
+      *link = entry.next;
+    } else {
+      link = &entry.next;
+    }
+  }
+  *link = static_cast<int>(arrivals_.size());
+  arrivals_.push_back({time, heading, -1, false});
+}
+
+void AaSipp::settle(const Candidate& candidate) {
+  const Way& way = ways_[static_cast<std::size_t>(candidate.way)];
+  const bool shortcut = candidate.kind == Kind::shortcut;
+  const int parent = shortcut ? labels_[static_cast<std::size_t>(way.via)].parent : way.via;
+  const int label = static_cast<int>(labels_.size());
+  const double heading = (shortcut ? way.shortcut : way.local).heading;
+  const int place = way.place;
+  labels_.push_back({candidate.arrival, heading, candidate.departure, parent, place, candidate.interval});
+  if (is_final(place, candidate.interval)) {
+    goal_label_ = label;
+  } else {
+    expand(label);
+  }
 }
 
 void AaSipp::expand(int label) {
   ++expansions_;
-  const int place = labels_[static_cast<std::size_t>(label)].place;
-  if (fleet_.options().any_angle) shoot_at_goal(label);
-  vertices_->for_each_neighbour(places_[static_cast<std::size_t>(place)].vertex, [&](int vertex) {
-    const int target = place_of(vertex);
-    follow(label, target, places_[static_cast<std::size_t>(target)].first_interval, false);
+  const Label l = labels_[static_cast<std::size_t>(label)];
+  const int vertex = places_[static_cast<std::size_t>(l.place)].vertex;
+  const bool any_angle = fleet_.options().any_angle;
+  if (any_angle) shoot_at_goal(label);
+  const int before =
+      l.parent < 0
+          ? -1
+          : places_[static_cast<std::size_t>(labels_[static_cast<std::size_t>(l.parent)].place)].vertex;
+  vertices_->for_each_neighbour(vertex, [&](int neighbour) {
+    const int place = place_of(neighbour);
+    if (places_[static_cast<std::size_t>(place)].interval_count == 0) return;
+    const bool with_shortcut = any_angle && l.parent >= 0 && neighbour != before;
+    follow(add_way(label, place, with_shortcut), places_[static_cast<std::size_t>(place)].first_interval);
   });
 }
 
@@ -232,41 +277,61 @@ void AaSipp::shoot_at_goal(int label) {
   const int from = labels_[static_cast<std::size_t>(label)].place;
   if (from == goal_place_ || !places_[static_cast<std::size_t>(from)].estimate.straight) return;
   const Place& goal = places_[static_cast<std::size_t>(goal_place_)];
-  offer(Kind::local, label, goal_place_, goal.first_interval + goal.interval_count - 1, false, true);
+  offer(add_way(label, goal_place_, false), Kind::local, goal.first_interval + goal.interval_count - 1,
+        false);
 }
 
-/// Puts the first way into `interval` of the place, or a later one, on the open list.
-void AaSipp::follow(int via, int place, int interval, bool blocked) {
-  const Place& target = places_[static_cast<std::size_t>(place)];
-  const int end = target.first_interval + target.interval_count;
-  const bool parent =
-      fleet_.options().any_angle && !blocked && labels_[static_cast<std::size_t>(via)].parent >= 0;
-  for (; interval < end; ++interval) {
-    const Offer shortcut =
-        parent ? offer(Kind::from_parent, via, place, interval, true, blocked) : Offer::too_late;
-    if (shortcut == Offer::made) return;
-    const Offer local = offer(Kind::local, via, place, interval, true, blocked);
-    if (local == Offer::made || (local == Offer::too_late && shortcut == Offer::too_late)) return;
+int AaSipp::add_way(int via, int place, bool with_shortcut) {
+  const auto move_from = [&](int label) {
+    const int from = places_[static_cast<std::size_t>(labels_[static_cast<std::size_t>(label)].place)].vertex;
+    const Displacement d = vertices_->between(from, places_[static_cast<std::size_t>(place)].vertex);
+    return timing_->move(standing_at(label), d.heading, d.length);
+  };
+  const int parent = labels_[static_cast<std::size_t>(via)].parent;
+  ways_.push_back({move_from(via), with_shortcut ? move_from(parent) : Move{}, via, place,
+                   with_shortcut ? Sight::unknown : Sight::blocked});
+  return static_cast<int>(ways_.size()) - 1;
+}
+
+/// Is the shortcut free of obstacles?
+bool AaSipp::sees(Way& way) {
+  if (way.sight == Sight::unknown) {
+    const int parent = labels_[static_cast<std::size_t>(way.via)].parent;
+    const bool free = fleet_.sight().may_sweep(
+        position_of(parent), places_[static_cast<std::size_t>(way.place)].position, motion_->radius);
+    way.sight = free ? Sight::free : Sight::blocked;
+  }
+  return way.sight == Sight::free;
+}
+
+/// Puts the first move into `interval` of the way's place, or a later one, on the open list.
+void AaSipp::follow(int index, int interval) {
+  const Way& way = ways_[static_cast<std::size_t>(index)];
+  const Place& place = places_[static_cast<std::size_t>(way.place)];
+  const int end = place.first_interval + place.interval_count;
+  const bool shortcut = way.sight != Sight::blocked;
+  const double local_latest = way.local.latest + way.local.duration;
+  const double latest =
+      shortcut ? std::max(local_latest, way.shortcut.latest + way.shortcut.duration) : local_latest;
+  for (; interval < end && intervals_[static_cast<std::size_t>(interval)].begin <= latest; ++interval) {
+    if (shortcut && offer(index, Kind::shortcut, interval, true)) return;
+    if (offer(index, Kind::local, interval, true)) return;
   }
 }
 
-/// Puts a move on the open list with the earliest arrival it could have, unless it is impossible or
-/// dominated; too late if that holds for all later intervals as well.
-AaSipp::Offer AaSipp::offer(Kind kind, int via, int place, int interval, bool leads, bool blocked) {
-  const int from = kind == Kind::from_parent ? labels_[static_cast<std::size_t>(via)].parent : via;
-  if (labels_[static_cast<std::size_t>(from)].place == place) return Offer::too_late;
-  const Standing standing = standing_at(from);
-  const Move move = move_to(from, place, interval);
-  if (move.target.begin - move.duration > standing.interval.end) return Offer::too_late;
-  const auto departure = timing_->optimistic(standing, move);
-  if (!departure) return Offer::useless;
-  const double arrival = *departure + move.duration;
-  const Candidate candidate{arrival, *departure, move.heading, from,  via,
-                            place,   interval,   kind,         leads, blocked};
-  const Rank ranked = rank(candidate);
-  if (redundant(interval, arrival, move.heading, ranked.key)) return Offer::useless;
-  push(candidate, ranked);
-  return Offer::made;
+/// Puts a move on the open list with the earliest arrival it could have, unless it is impossible, too
+/// expensive or dominated.
+bool AaSipp::offer(int index, Kind kind, int interval, bool leads) {
+  const Way& way = ways_[static_cast<std::size_t>(index)];
+  const Move& move = kind == Kind::shortcut ? way.shortcut : way.local;
+  const double departure = MoveTiming::optimistic(move, intervals_[static_cast<std::size_t>(interval)]);
+  if (departure == kForever) return false;
+  const double arrival = departure + move.duration;
+  const Rank ranked = rank(way.place, interval, arrival, move.heading);
+  if (!(ranked.cost < limits_.bound)) return false;
+  if (redundant(interval, arrival, move.heading, ranked.key)) return false;
+  push({arrival, departure, index, interval, -1, kind, leads}, ranked);
+  return true;
 }
 
 Trajectory AaSipp::extract() const {

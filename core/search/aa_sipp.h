@@ -43,7 +43,8 @@ struct SearchLimits {
 /// the same interval if a's arrival plus the rotation from a's heading to b's is no later than b's arrival.
 /// Moves start from the label or, any-angle, from its parent. They are put on the open list with an
 /// optimistic arrival and timed against the reservations only when they come first (after Lazy Theta*); the
-/// next safe interval of the same vertex follows only then.
+/// next safe interval of the same vertex follows only then. A timed move that cannot be had at its optimistic
+/// arrival waits on the open list, and dominates others from there as if it were a label already.
 class AaSipp {
  public:
   AaSipp(const Fleet& fleet, const ReservationTable& table) : fleet_(fleet), table_(table) {}
@@ -53,11 +54,6 @@ class AaSipp {
                    const SearchLimits& limits, const StopCondition& stop);
 
  private:
-  enum class Kind : std::uint8_t {
-    from_parent,  // any-angle, not yet timed
-    local,        // from the label itself, not yet timed
-    timed         // arrival is exact
-  };
   struct Place {  // a vertex that was looked at
     int vertex;
     Position position;
@@ -72,19 +68,32 @@ class AaSipp {
     int parent;        // label, or -1
     int place;
     int interval;
-    int next;  // the next label of the same interval, or -1
   };
+  /// An arrival in an interval that others are measured by; those of one interval form a list.
+  struct Arrival {
+    double time;
+    double heading;
+    int next;        // in the list, or -1
+    bool dominated;  // by a later entry
+  };
+  enum class Sight : std::uint8_t { unknown, free, blocked };
+  /// How a place may be reached by way of a label: from the label itself or, any-angle, from its parent.
+  struct Way {
+    Move local;
+    Move shortcut;
+    int via;
+    int place;
+    Sight sight;  // of the shortcut; blocked where there is none
+  };
+  enum class Kind : std::uint8_t { local, shortcut };
   struct Candidate {
     double arrival;
     double departure;
-    double heading;
-    int from;  // the label that the move starts from
-    int via;   // the label that was expanded
-    int place;
+    int way;
     int interval;
+    int entry;  // into arrivals_, or -1 while the move is not timed and its arrival optimistic
     Kind kind;
-    bool leads;    // the next interval of the place follows when this one comes first
-    bool blocked;  // the parent is known not to see the place
+    bool leads;  // the next interval of the place follows when this one comes first
   };
   struct Rank {
     double key;
@@ -101,7 +110,6 @@ class AaSipp {
       return candidate > other.candidate;
     }
   };
-  enum class Offer : std::uint8_t { made, useless, too_late };
   enum class Outcome : std::uint8_t { found, exhausted, pruned, stopped };
 
   Outcome search(bool thorough);
@@ -110,16 +118,21 @@ class AaSipp {
   void add_start();
   bool best_goal_will_do() const;
   void process(int index);
-  void settle(const Candidate& candidate, double key);
+  void time_move(Candidate candidate, double key);
+  void settle(const Candidate& candidate);
   void expand(int label);
   void shoot_at_goal(int label);
-  void follow(int via, int place, int interval, bool blocked);
-  Offer offer(Kind kind, int via, int place, int interval, bool leads, bool blocked);
-  Rank rank(const Candidate& candidate) const;
+  int add_way(int via, int place, bool with_shortcut);
+  bool sees(Way& way);
+  void follow(int way, int interval);
+  bool offer(int way, Kind kind, int interval, bool leads);
+  Rank rank(int place, int interval, double arrival, double heading) const;
   void push(const Candidate& candidate, const Rank& rank);
-  Standing standing_at(int label) const;
-  Move move_to(int label, int place, int interval) const;
+  double dominated_from(int interval, double heading) const;
+  void enter(int interval, double time, double heading);
   bool redundant(int interval, double arrival, double heading, double key);
+  Standing standing_at(int label) const;
+  Position position_of(int label) const;
   bool is_final(int place, int interval) const;
   double to_go(int place, double heading) const;
   Trajectory extract() const;
@@ -146,8 +159,10 @@ class AaSipp {
   std::vector<int> place_of_vertex_;
   std::vector<Place> places_;
   std::vector<SafeInterval> intervals_;
-  std::vector<int> labels_of_interval_;
+  std::vector<int> arrivals_of_interval_;
+  std::vector<Arrival> arrivals_;
   std::vector<Label> labels_;
+  std::vector<Way> ways_;
   std::vector<Candidate> candidates_;
   std::vector<Open> open_;
 };

@@ -1,7 +1,5 @@
 #include "core/search/cost_to_go.h"
 
-#include <cmath>
-
 #include "core/geometry/angle.h"
 #include "core/geometry/segment.h"
 
@@ -26,10 +24,10 @@ CostToGo::CostToGo(const Fleet& fleet, std::size_t robot, const Vertices& vertic
 }
 
 CostToGo::Estimate CostToGo::via(int vertex, int next) {
-  const Position d = vertices_.position(next) - vertices_.position(vertex);
+  const Displacement d = vertices_.between(vertex, next);
   Estimate estimate;
-  estimate.heading = std::atan2(d.y(), d.x());
-  estimate.seconds = motion_.translation_time(d.norm()) + motion_.wait_before_move;
+  estimate.heading = d.heading;
+  estimate.seconds = motion_.translation_time(d.length) + motion_.wait_before_move;
   if (next != vertices_.goal()) {
     const Node& onward = node(next);
     estimate.seconds += onward.seconds + motion_.rotation_time(estimate.heading, onward.heading);

@@ -21,6 +21,12 @@ class Vertices {
     return is_own(vertex) ? own_[own_index(vertex)].position : lattice_.position(vertex);
   }
 
+  /// From one vertex to another.
+  Displacement between(int from, int to) const {
+    if (is_own(from) || is_own(to)) return Displacement::between(position(from), position(to));
+    return lattice_.between(from, to);
+  }
+
   /// Calls visit(vertex) for everything that one static move reaches from `vertex`.
   template <class Visit>
   void for_each_neighbour(int vertex, Visit&& visit) const {
