@@ -56,6 +56,8 @@ void AaSipp::reset() {
 AaSipp::Outcome AaSipp::search(bool thorough) {
   reset();
   thorough_ = thorough;
+  coarse_ = !thorough && limits_.coarseness > 0.0;
+  slack_ = coarse_ ? motion_->translation_time(limits_.coarseness * fleet_.lattice().spacing()) : 0.0;
   goal_place_ = place_of(vertices_->goal());
   const Place& goal = places_[static_cast<std::size_t>(goal_place_)];
   if (goal.interval_count == 0) return Outcome::exhausted;
@@ -176,7 +178,11 @@ void AaSipp::time_move(Candidate candidate, double key) {
   // An arrival that dominates the optimistic one also dominates the way through the expanded label.
   if (redundant(interval, candidate.arrival, move.heading, key)) return;
   SafeInterval target = intervals_[static_cast<std::size_t>(interval)];
-  target.end = std::min(target.end, dominated_from(interval, move.heading));
+  const double useful_until = dominated_from(interval, move.heading);
+  if (useful_until < target.end) {
+    target.end = useful_until;
+    pruned_ = pruned_ || coarse_;
+  }
   const auto departure = seen ? timing_->earliest(move, path, target) : std::nullopt;
   const double optimistic = candidate.arrival;
   if (departure) {
@@ -202,22 +208,20 @@ void AaSipp::time_move(Candidate candidate, double key) {
 
 /// Is an arrival there that makes this one needless, or good enough?
 bool AaSipp::redundant(int interval, double arrival, double heading, double key) {
-  const int first = arrivals_of_interval_[static_cast<std::size_t>(interval)];
-  if (first < 0) return false;
-  if (!thorough_ &&
-      key <= release_) {  // while the goal is not even free, one label for each interval will do
-    pruned_ = true;
-    return true;
-  }
-  return dominated_from(interval, heading) <= arrival + kSameTime;
+  if (arrivals_of_interval_[static_cast<std::size_t>(interval)] < 0) return false;
+  const bool waiting = !thorough_ && key <= release_;  // while the goal is not even free, one label will do
+  if (!waiting && dominated_from(interval, heading) > arrival + kSameTime) return false;
+  pruned_ = pruned_ || waiting || coarse_;
+  return true;
 }
 
-/// Arrivals with this heading are dominated from then on.
+/// Arrivals with this heading are no better from then on.
 double AaSipp::dominated_from(int interval, double heading) const {
   double from = kForever;
   for (int e = arrivals_of_interval_[static_cast<std::size_t>(interval)]; e >= 0;) {
     const Arrival& entry = arrivals_[static_cast<std::size_t>(e)];
-    from = std::min(from, entry.time + motion_->rotation_time(entry.heading, heading));
+    const double turned = coarse_ ? -slack_ : motion_->rotation_time(entry.heading, heading);
+    from = std::min(from, entry.time + turned);
     e = entry.next;
   }
   return from;

@@ -30,9 +30,12 @@ struct SearchLimits {
   double greed = 1.2;           // >= 1; weight of what is still to go (weighted A*; Pohl, 1970)
   double suboptimality = 0.01;  // a way to the goal within this fraction of the smallest key is taken at once
   double impatience = 1e-4;     // the fraction grows by so much with every expansion
-  double hold = 0.0;            // seconds, >= 0; the robot stays at its start at least so long
-  /// Search again, completely, when the quick search that keeps one label for each interval while the goal is
-  /// not yet free found nothing.
+  // Of arrivals in one safe interval that differ by less than it takes to translate by so many lattice
+  // spacings, the later one counts as no better, whatever its heading; 0: only if it is dominated.
+  double coarseness = 0.5;
+  double hold = 0.0;  // seconds, >= 0; the robot stays at its start at least so long
+  /// Search again, completely, when the quick search found nothing that is coarse and keeps one label for
+  /// each interval while the goal is not yet free.
   bool thorough = true;
 };
 
@@ -150,6 +153,8 @@ class AaSipp {
   SearchLimits limits_;
   double release_ = 0.0;  // the goal's last safe interval begins here
   bool thorough_ = false;
+  bool coarse_ = false;
+  double slack_ = 0.0;  // seconds by which an earlier arrival is no better while coarse
   bool pruned_ = false;
   int goal_place_ = -1;
   int goal_label_ = -1;

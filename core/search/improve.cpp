@@ -114,8 +114,9 @@ class Improving {
     for (const std::size_t robot : robots) {
       least -= bound_[robot];
       const double bound = makespan_first_ ? makespan + kLeastGain : budget - least;
-      SearchResult result =
-          state_.plan(robot, {.bound = bound, .greed = 1.0, .suboptimality = 0.0, .impatience = 0.0}, stop_);
+      SearchResult result = state_.plan(
+          robot, {.bound = bound, .greed = 1.0, .suboptimality = 0.0, .impatience = 0.0, .coarseness = 0.0},
+          stop_);
       if (!result.trajectory) return false;
       budget -= result.trajectory->cost;
       state_.follow(robot, std::move(*result.trajectory));
