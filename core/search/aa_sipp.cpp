@@ -100,12 +100,13 @@ void AaSipp::add_start() {
   if (intervals_[static_cast<std::size_t>(interval)].begin > 0.0) return;
   if (!intervals_[static_cast<std::size_t>(interval)].contains(limits_.hold)) return;
   const double heading = fleet_.robot(robot_).start.theta;
+  if (!(rank(place, interval, limits_.hold, heading).cost < limits_.bound)) return;
   enter(interval, limits_.hold, heading);
   labels_.push_back({limits_.hold, heading, limits_.hold, -1, place, interval});
-  if (!is_final(place, interval)) {
-    expand(0);
-  } else if (rank(place, interval, limits_.hold, heading).cost < limits_.bound) {
+  if (is_final(place, interval)) {
     goal_label_ = 0;
+  } else {
+    expand(0);
   }
 }
 
