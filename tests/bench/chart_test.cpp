@@ -5,10 +5,6 @@
 
 #include <limits>
 
-#include "tests/bench/markdown.h"
-#include "tests/bench/paper_claims.h"
-#include "tests/bench/report.h"
-
 namespace fleetplan::bench {
 namespace {
 
@@ -71,57 +67,6 @@ TEST(Chart, NamesALineOnceInTheLegend) {
   const std::string chart = svg_chart("t", "x", {{"a", false, {}, {line, line}}, {"b", false, {}, {line}}});
   EXPECT_EQ(occurrences(chart, ">twice<"), 1u);
   EXPECT_EQ(occurrences(chart, "<polyline"), 3u);
-}
-
-TEST(MarkdownTable, IsAligned) {
-  EXPECT_EQ(markdown_table({"name", "s"}, {{"a", "1.25"}, {"longer", "-"}}),
-            "| name   |    s |\n"
-            "|--------|-----:|\n"
-            "| a      | 1.25 |\n"
-            "| longer |    - |\n");
-}
-
-TEST(Numbers, InTablesHaveAsManyDecimalsAsTheyNeed) {
-  EXPECT_EQ(decimal(1.005, 2), "1.00");
-  EXPECT_EQ(decimal({}, 2), "-");
-  EXPECT_EQ(seconds_text(0.00123), "0.0012");
-  EXPECT_EQ(seconds_text(0.1234), "0.123");
-  EXPECT_EQ(seconds_text(1.234), "1.23");
-  EXPECT_EQ(seconds_text(12.34), "12.3");
-  EXPECT_EQ(seconds_text({}), "-");
-}
-
-TEST(PaperClaims, AreThoseOfTheTextForTheEmptyHallOnly) {
-  EXPECT_EQ(claimed_success("empty", 210), "100 %");
-  EXPECT_EQ(claimed_success("empty", 225), "-");
-  EXPECT_EQ(claimed_success("empty", 285), "< 10 %");
-  EXPECT_EQ(claimed_success("rects", 15), "-");
-}
-
-Summary summary_of(std::size_t robots, std::size_t solved) {
-  Summary summary;
-  summary.robots = robots;
-  summary.runs = 4;
-  summary.solved = solved;
-  summary.median_seconds = 0.5;
-  summary.percentile_90_seconds = 2.0;
-  summary.largest_seconds = 3.0;
-  if (solved > 0) summary.flowtime_by_bound = 1.25;
-  return summary;
-}
-
-TEST(HallReport, TellsTheSuccessRateBesideThePapers) {
-  const std::string table = hall_table({"empty", {summary_of(15, 3), summary_of(300, 0)}});
-  EXPECT_THAT(table, HasSubstr("| 15            |   75 % |  100 % |"));
-  EXPECT_THAT(table, HasSubstr("| 300           |    0 % | < 10 % |"));
-}
-
-TEST(HallReport, DrawsSuccessTimeAndCostOfEveryHall) {
-  const std::string chart =
-      hall_chart({{"empty", {summary_of(15, 4), summary_of(300, 0)}}, {"rects", {summary_of(15, 4)}}});
-  EXPECT_EQ(occurrences(chart, "font-weight=\"bold\">"), 4u) << "a title and three panels";
-  // Two halls in each panel, the 90 % lines, and the paper's line in two pieces.
-  EXPECT_EQ(occurrences(chart, "<polyline"), 2u * 3u + 2u + 2u);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -17,7 +18,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 Instance small_instance() {
   Recipe recipe;
@@ -117,6 +117,7 @@ TEST(Jobs, WithoutFilesAreTheHallsSeedBySeed) {
   options.robots = {15, 30};
   const auto jobs = jobs_of(options, {});
   std::vector<std::string> names;
+  names.reserve(jobs.size());
   for (const Job& job : jobs) names.push_back(job.name);
   EXPECT_THAT(names, ElementsAre("empty/4", "rects/4", "empty/5", "rects/5"));
   EXPECT_THAT(jobs[0].robots, ElementsAre(15, 30));

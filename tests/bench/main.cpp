@@ -116,9 +116,7 @@ int run(const Options& options) {
       report_halls(bench.runs(), options);
     }
   }
-  std::cout << bench.runs().size() << " instances, " << bench.faults()
-            << " answers at fault; every plan was checked in continuous time. Peak resident memory "
-            << peak_memory() / (1024 * 1024) << " MiB.\n";
+  std::cout << closing_lines(bench.runs());
   return bench.faults() == 0 ? 0 : 1;
 }
 

@@ -58,4 +58,9 @@ std::string seconds_text(const std::optional<double>& value) {
   return decimal(value, decimals);
 }
 
+std::string mebibytes(std::size_t bytes) {
+  constexpr std::size_t kMebibyte = 1u << 20;
+  return std::to_string((bytes + kMebibyte - 1) / kMebibyte);
+}
+
 }  // namespace fleetplan::bench

@@ -1,7 +1,6 @@
 #include "tests/bench/measure.h"
 
-#include <sys/resource.h>
-
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 
 #include "api/plan_endpoint.h"
 #include "api/validate_endpoint.h"
+#include "tests/bench/process.h"
 #include "tests/bench/statistics.h"
 
 namespace fleetplan::bench {
@@ -61,12 +61,17 @@ Measurement read_answer(const std::string& name, std::size_t robots, const json&
 Measurement measure(const std::string& name, std::size_t robots, const std::string& body,
                     const MeasureOptions& options) {
   std::vector<double> seconds;
+  std::vector<double> cpu_seconds_used;
+  std::size_t memory = 0;
   api::Reply reply;
   for (int run = 0; run < options.repeats; ++run) {
-    const api::RequestContext now = context(options);
+    forget_peak_memory();
+    const double cpu_began = thread_cpu_seconds();
     const auto began = Clock::now();
-    reply = api::plan_endpoint(body, now);
+    reply = api::plan_endpoint(body, context(options));
     seconds.push_back(std::chrono::duration<double>(Clock::now() - began).count());
+    cpu_seconds_used.push_back(thread_cpu_seconds() - cpu_began);
+    memory = std::max(memory, peak_memory());
   }
   const json answer = json::parse(reply.body);
   Measurement made;
@@ -82,13 +87,9 @@ Measurement measure(const std::string& name, std::size_t robots, const std::stri
     }
   }
   made.result.seconds = median(seconds).value_or(0.0);
+  made.cpu_seconds = median(cpu_seconds_used).value_or(0.0);
+  made.peak_memory = memory;
   return made;
-}
-
-std::size_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
 }  // namespace fleetplan::bench

@@ -13,13 +13,14 @@ inline constexpr std::string_view kPaperClaims =
     "What the paper says (ECMR 2019, 100 meta-instances, limit 60 s):\n"
     "- empty: AA-SIPP(m) solved all instances with up to 210 robots, almost always had to re-schedule above "
     "240\n"
-    "  robots, and solved less than 10 % with 285 or 300. ORCA failed from 45 robots on and solved about "
-    "50-60 %\n"
-    "  with 285 or 300. ORCA's flowtime was 10-15 % worse with few robots and more than 50 % with 150, its\n"
+    "  robots, and solved less than 10 % with 285 or 300. ORCA failed some already with 45 robots and solved "
+    "about\n"
+    "  50-60 % with 285 or 300. ORCA's flowtime was 10-15 % worse with few robots and more than 50 % with "
+    "150, its\n"
     "  makespan about 4 % worse on average.\n"
     "- rects: ORCA did not solve all even with 15 robots; above 60 robots its flowtime was up to about 2 "
     "times\n"
-    "  and its makespan almost 40 % worse than AA-SIPP(m)'s.\n"
+    "  and its makespan up to almost 40 % above AA-SIPP(m)'s.\n"
     "- Runtimes are only in its charts; ORCA's were lower than AA-SIPP(m)'s.\n";
 
 /// The success rate that the text gives for a hall ("empty" or "rects") and a number of robots.

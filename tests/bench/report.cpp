@@ -1,5 +1,6 @@
 #include "tests/bench/report.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <sstream>
@@ -11,6 +12,9 @@
 
 namespace fleetplan::bench {
 namespace {
+
+/// Below this share of CPU time in wall time other work has disturbed the times.
+constexpr double kIdleShare = 0.95;
 
 std::string percent(double share) { return decimal(100.0 * share, 0) + " %"; }
 
@@ -61,10 +65,10 @@ std::string hall_table(const HallSummary& hall) {
                     claimed_success(hall.name, summary.robots), seconds_text(summary.median_seconds),
                     seconds_text(summary.percentile_90_seconds), seconds_text(summary.largest_seconds),
                     decimal(summary.flowtime, 0), decimal(summary.flowtime_by_bound, 3),
-                    decimal(summary.makespan, 1)});
+                    decimal(summary.makespan, 1), mebibytes(summary.peak_memory)});
   }
   return markdown_table({hall.name + ": robots", "solved", "paper", "median s", "90 % s", "max s", "flowtime",
-                         "/ bound", "makespan"},
+                         "/ bound", "makespan", "MiB"},
                         rows);
 }
 
@@ -96,11 +100,12 @@ std::string run_table(const std::vector<Measurement>& runs) {
     const Result& result = run.result;
     rows.push_back({result.file, std::to_string(result.robots), std::to_string(run.planned),
                     seconds_text(result.seconds), std::to_string(result.attempts),
-                    std::to_string(run.expansions), decimal(result.flowtime, 1), decimal(by_bound(run), 3),
-                    decimal(result.makespan, 1)});
+                    std::to_string(run.expansions), mebibytes(run.peak_memory), decimal(result.flowtime, 1),
+                    decimal(by_bound(run), 3), decimal(result.makespan, 1)});
   }
   return markdown_table(
-      {"file", "robots", "planned", "s", "attempts", "expansions", "flowtime", "/ bound", "makespan"}, rows);
+      {"file", "robots", "planned", "s", "attempts", "expansions", "MiB", "flowtime", "/ bound", "makespan"},
+      rows);
 }
 
 std::string comparison_report(const Comparison& comparison) {
@@ -124,6 +129,25 @@ std::string comparison_report(const Comparison& comparison) {
        << times(comparison.smallest_speedup) << "\nflowtime ratio: mean "
        << decimal(comparison.mean_flowtime_ratio, 3) << ", largest "
        << decimal(comparison.largest_flowtime_ratio, 3) << "\n";
+  return text.str();
+}
+
+std::string closing_lines(const std::vector<Measurement>& runs) {
+  std::size_t faults = 0;
+  std::size_t memory = 0;
+  double wall = 0.0;
+  double cpu = 0.0;
+  for (const Measurement& run : runs) {
+    faults += run.fault.empty() ? 0 : 1;
+    memory = std::max(memory, run.peak_memory);
+    wall += run.result.seconds;
+    cpu += run.cpu_seconds;
+  }
+  std::ostringstream text;
+  text << "Plans: " << runs.size() << ", all checked in continuous time; at fault: " << faults << ".\n"
+       << "Peak resident memory " << mebibytes(memory) << " MiB. Wall time " << seconds_text(wall)
+       << " s, CPU time " << seconds_text(cpu) << " s";
+  text << (cpu < kIdleShare * wall ? ": the machine was busy, and an idle one is faster.\n" : ".\n");
   return text.str();
 }
 

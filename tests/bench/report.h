@@ -34,4 +34,7 @@ std::string run_table(const std::vector<Measurement>& runs);
 /// A table with a row for each run beside the reference's, and what they come to.
 std::string comparison_report(const Comparison& comparison);
 
+/// What all runs come to: how many answers were at fault, how busy the machine was, and the memory.
+std::string closing_lines(const std::vector<Measurement>& runs);
+
 }  // namespace fleetplan::bench

@@ -21,6 +21,8 @@ struct Result {
 /// What Fleetplan did.
 struct Measurement {
   Result result;
+  double cpu_seconds = 0.0;           // of the same; far below when the machine was busy
+  std::size_t peak_memory = 0;        // bytes of this process, so above what the request took
   std::size_t planned = 0;            // robots with a plan
   std::optional<double> lower_bound;  // of the flowtime
   std::int64_t expansions = 0;

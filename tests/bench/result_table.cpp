@@ -71,7 +71,8 @@ std::string text(const std::optional<double>& value) {
 }  // namespace
 
 std::string csv_header() {
-  return "file,robots,solved,attempts,seconds,flowtime,makespan,planned,lower_bound,expansions,improvements,"
+  return "file,robots,solved,attempts,seconds,flowtime,makespan,cpu_seconds,peak_memory,planned,lower_bound,"
+         "expansions,improvements,"
          "deterministic,valid\n";
 }
 
@@ -80,9 +81,9 @@ std::string csv_row(const Measurement& measurement) {
   std::ostringstream row;
   row << result.file << ',' << result.robots << ',' << result.solved << ',' << result.attempts << ','
       << text(result.seconds) << ',' << text(result.flowtime) << ',' << text(result.makespan) << ','
-      << measurement.planned << ',' << text(measurement.lower_bound) << ',' << measurement.expansions << ','
-      << measurement.improvements << ',' << measurement.deterministic << ',' << measurement.fault.empty()
-      << '\n';
+      << text(measurement.cpu_seconds) << ',' << measurement.peak_memory << ',' << measurement.planned << ','
+      << text(measurement.lower_bound) << ',' << measurement.expansions << ',' << measurement.improvements
+      << ',' << measurement.deterministic << ',' << measurement.fault.empty() << '\n';
   return row.str();
 }
 

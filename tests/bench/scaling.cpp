@@ -48,13 +48,15 @@ TableRow row(std::vector<std::string> cells, int side, std::size_t robots, const
     cells.push_back(std::to_string(summary.solved) + " of " + std::to_string(summary.runs));
     cells.push_back(seconds_text(summary.median_seconds));
     cells.push_back(decimal(summary.flowtime_by_bound, 3));
+    cells.push_back(mebibytes(summary.peak_memory));
   }
   return cells;
 }
 
 TableRow head(std::vector<std::string> first) {
   for (const std::string hall : {"empty", "rects"}) {
-    for (const std::string column : {" solved", " median s", " / bound"}) first.push_back(hall + column);
+    for (const std::string column : {" solved", " median s", " / bound", " MiB"})
+      first.push_back(hall + column);
   }
   return first;
 }
@@ -65,11 +67,14 @@ std::string size_text(int side) { return std::to_string(side) + " x " + std::to_
 
 std::string scaling_report(const Options& options, const Measure& measure) {
   std::vector<TableRow> by_robots;
+  by_robots.reserve(kRobots.size());
   for (const std::size_t robots : kRobots)
     by_robots.push_back(row({std::to_string(robots)}, kPaperSide, robots, options, measure));
   std::vector<TableRow> by_side;
+  by_side.reserve(kSides.size());
   for (const int side : kSides) by_side.push_back(row({size_text(side)}, side, kFewRobots, options, measure));
   std::vector<TableRow> by_dense_side;
+  by_dense_side.reserve(kDenseSides.size());
   for (const int side : kDenseSides) {
     const std::size_t robots = kDensity * static_cast<std::size_t>(side * side) / (kPaperSide * kPaperSide);
     by_dense_side.push_back(row({size_text(side), std::to_string(robots)}, side, robots, options, measure));

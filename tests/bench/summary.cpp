@@ -1,5 +1,6 @@
 #include "tests/bench/summary.h"
 
+#include <algorithm>
 #include <map>
 
 #include "tests/bench/statistics.h"
@@ -17,6 +18,7 @@ Summary summary_of(std::size_t robots, const std::vector<const Measurement*>& ru
   std::vector<double> by_bound;
   for (const Measurement* run : runs) {
     seconds.push_back(run->result.seconds);
+    summary.peak_memory = std::max(summary.peak_memory, run->peak_memory);
     if (!run->result.solved) continue;
     ++summary.solved;
     flowtimes.push_back(run->result.flowtime.value());

@@ -17,6 +17,7 @@ struct Summary {
   std::optional<double> median_seconds;
   std::optional<double> percentile_90_seconds;
   std::optional<double> largest_seconds;
+  std::size_t peak_memory = 0;  // bytes, of all runs
   // Means of what was solved.
   std::optional<double> flowtime;
   std::optional<double> makespan;

@@ -29,7 +29,8 @@ void add_rectangle(core::OccupancyGrid& grid, Random& random) {
   int rows = kRectangleWidth;
   if (random.below(2) == 1) std::swap(columns, rows);
   const auto first = [&](int cells, int length) {
-    return static_cast<int>(random.below(static_cast<std::size_t>(cells - length + 1)));
+    const int places = cells - length + 1;
+    return static_cast<int>(random.below(static_cast<std::size_t>(places)));
   };
   const int left = first(grid.columns(), columns);
   const int bottom = first(grid.rows(), rows);
@@ -121,6 +122,7 @@ Workload generate(const Recipe& recipe, std::uint64_t seed) {
   for (int i = 0; i < recipe.rectangles; ++i) add_rectangle(workload.grid, random);
 
   std::vector<Room> rooms;
+  rooms.reserve(kTypes.size());
   for (const RobotType& type : kTypes) rooms.emplace_back(workload.grid, type.radius);
   Disks starts;
   Disks goals;

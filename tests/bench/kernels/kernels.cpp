@@ -41,8 +41,8 @@ Position random_center_near(const core::OccupancyGrid& grid, const Position& pos
   const core::Cell at = grid.cell_at(position);
   const auto around = [&](int center, int count) {
     const int low = std::max(0, center - cells);
-    const int high = std::min(count - 1, center + cells);
-    return low + static_cast<int>(random.below(static_cast<std::size_t>(high - low + 1)));
+    const int places = std::min(count - 1, center + cells) - low + 1;
+    return low + static_cast<int>(random.below(static_cast<std::size_t>(places)));
   };
   core::Cell other = at;
   while (other == at) other = {around(at.column, grid.columns()), around(at.row, grid.rows())};
