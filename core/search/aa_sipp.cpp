@@ -69,6 +69,7 @@ AaSipp::Outcome AaSipp::search(bool thorough) {
   for (int step = 1; goal_label_ < 0; ++step) {
     if (open_.empty()) return pruned_ ? Outcome::pruned : Outcome::exhausted;
     if (step % kStopStride == 0 && stop_->met()) return Outcome::stopped;
+    if (expansions_ >= limits_.max_expansions) return Outcome::stopped;
     if (best_goal_will_do()) {
       settle(candidates_[static_cast<std::size_t>(best_goal_)]);
     } else {

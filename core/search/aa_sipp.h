@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -37,6 +38,8 @@ struct SearchLimits {
   /// Search again, completely, when the quick search found nothing that is coarse and keeps one label for
   /// each interval while the goal is not yet free.
   bool thorough = true;
+  /// Of both together; a search that would need more counts as cut off.
+  std::int64_t max_expansions = std::numeric_limits<std::int64_t>::max();
 };
 
 /// One robot among reservations: any-angle safe-interval path planning with headings (paper, section

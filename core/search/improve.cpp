@@ -1,31 +1,45 @@
 #include "core/search/improve.h"
 
 #include <algorithm>
-#include <optional>
+#include <array>
 #include <utility>
+
+#include "core/search/adaptive_choice.h"
+#include "core/search/neighbourhood.h"
+#include "core/search/reroute.h"
 
 namespace fleetplan::core {
 namespace {
 
-constexpr std::size_t kLargestNeighbourhood = 8;
-/// A gain below this is rounding, seconds.
-constexpr double kLeastGain = 1e-9;
-
-struct Value {
-  double flowtime = 0.0;
-  double makespan = 0.0;
-};
+/// A delay below this is rounding, seconds.
+constexpr double kLeastDelay = 1e-9;
+constexpr std::array<std::size_t, 5> kSizes{1, 2, 4, 8, 16};
+/// How hard to search. Greedy searches with few expansions find most of what can be found, and fail soon;
+/// the others are for what is left.
+constexpr std::array<SearchLimits, 3> kEfforts{{
+    {.greed = 1.5, .thorough = false, .max_expansions = 400},
+    {.greed = 1.5, .thorough = false, .max_expansions = 8'000},
+    {.greed = 1.0,
+     .suboptimality = 0.0,
+     .impatience = 0.0,
+     .coarseness = 0.0,
+     .thorough = false,
+     .max_expansions = 40'000},
+}};
+/// What a search costs before its first expansion, in expansions.
+constexpr double kSearchEffort = 20.0;
 
 class Improving {
  public:
   Improving(FleetState& state, std::vector<std::size_t> planned, const TautBounds& bounds, Random& random,
             const StopCondition& stop)
       : state_(state),
-        makespan_first_(state.fleet().options().objective == PlanOptions::Objective::makespan),
+        for_makespan_(state.fleet().options().objective == PlanOptions::Objective::makespan),
         planned_(std::move(planned)),
+        bounds_(bounds),
         random_(random),
         stop_(stop),
-        bound_(bounds) {}
+        neighbourhoods_(state, planned_, stop) {}
 
   Improvement run(std::optional<std::int64_t> max_iterations) {
     Improvement result;
@@ -35,38 +49,37 @@ class Improving {
         result.cut_off = true;
         return result;
       }
-      if (try_neighbourhood(choose_neighbourhood())) ++result.improvements;
+      if (iterate()) ++result.improvements;
     }
-    result.cut_off = stop_.met();  // perhaps in the last neighbourhood
+    result.cut_off = stop_.met();  // perhaps in the last iteration
     return result;
   }
 
  private:
   double cost(std::size_t robot) const { return state_.trajectory(robot)->cost; }
-  double delay(std::size_t robot) const { return cost(robot) - bound_[robot]; }
+  double delay(std::size_t robot) const { return std::max(0.0, cost(robot) - bounds_[robot]); }
 
   bool at_lower_bound() const {
-    return std::all_of(planned_.begin(), planned_.end(),
-                       [&](std::size_t robot) { return delay(robot) <= kLeastGain; });
-  }
-
-  Value value() const {
-    Value value;
-    for (const std::size_t robot : planned_) {
-      value.flowtime += cost(robot);
-      value.makespan = std::max(value.makespan, cost(robot));
+    if (planned_.empty()) return true;
+    if (for_makespan_) {
+      const auto by_bound = [&](std::size_t a, std::size_t b) { return bounds_[a] < bounds_[b]; };
+      const std::size_t last = *std::max_element(planned_.begin(), planned_.end(), by_bound);
+      return cost(last_to_arrive()) <= bounds_[last] + kLeastDelay;
     }
-    return value;
+    return std::all_of(planned_.begin(), planned_.end(),
+                       [&](std::size_t robot) { return delay(robot) <= kLeastDelay; });
   }
 
-  /// A delayed robot, more likely the more delayed it is; for the makespan, often the last one to arrive.
+  std::size_t last_to_arrive() const {
+    return *std::max_element(planned_.begin(), planned_.end(),
+                             [&](std::size_t a, std::size_t b) { return cost(a) < cost(b); });
+  }
+
+  /// A delayed robot, more likely the more delayed it is.
   std::size_t choose_delayed() {
-    const auto by_cost = [&](std::size_t a, std::size_t b) { return cost(a) < cost(b); };
-    if (makespan_first_ && random_.below(2) == 0)
-      return *std::max_element(planned_.begin(), planned_.end(), by_cost);
-    double total = 0.0;
-    for (const std::size_t robot : planned_) total += delay(robot);
-    double left = random_.unit() * total;
+    double left = 0.0;
+    for (const std::size_t robot : planned_) left += delay(robot);
+    left *= random_.unit();
     for (const std::size_t robot : planned_) {
       left -= delay(robot);
       if (left < 0.0) return robot;
@@ -74,68 +87,49 @@ class Improving {
     return planned_.back();
   }
 
-  /// A delayed robot, those in the way of the path it would take alone, and some at random.
-  std::vector<std::size_t> choose_neighbourhood() {
-    const std::size_t size = std::min(planned_.size(), 2 + random_.below(kLargestNeighbourhood - 1));
-    std::vector<std::size_t> chosen{choose_delayed()};
-    std::vector<std::size_t> in_the_way =
-        state_.in_the_way(chosen.front(), state_.alone(chosen.front(), stop_));
-    random_.shuffle(in_the_way);
-    for (const std::size_t robot : in_the_way) {
-      if (chosen.size() < size && state_.trajectory(robot)) chosen.push_back(robot);
+  /// True if the plan became better.
+  bool iterate() {
+    const std::size_t kind = kinds_.choose(random_);
+    const std::size_t size = sizes_.choose(random_);
+    const std::size_t effort = efforts_.choose(random_);
+    Aim aim{Aim::Gain::sum, kForever, kEfforts[effort]};
+    std::size_t first = 0;
+    if (for_makespan_) {
+      first = last_to_arrive();
+      aim.ceiling = cost(first);
+      if (random_.below(2) == 0) {
+        aim.gain = Aim::Gain::first;
+      } else {
+        first = choose_delayed();
+      }
+    } else {
+      first = choose_delayed();
     }
-    while (chosen.size() < size) {
-      const std::size_t robot = planned_[random_.below(planned_.size())];
-      if (std::find(chosen.begin(), chosen.end(), robot) == chosen.end()) chosen.push_back(robot);
-    }
-    return chosen;
-  }
-
-  bool try_neighbourhood(std::vector<std::size_t> robots) {
-    const Value before = value();
-    std::vector<std::pair<std::size_t, Trajectory>> old;
-    double old_cost = 0.0;
-    double least_cost = 0.0;
-    for (const std::size_t robot : robots) {
-      old_cost += cost(robot);
-      least_cost += bound_[robot];
-      old.emplace_back(robot, *state_.trajectory(robot));
-      state_.leave(robot);
-    }
-    random_.shuffle(robots);
-    if (replan(robots, old_cost, least_cost, before.makespan) && better(value(), before)) return true;
-    for (const std::size_t robot : robots) state_.leave(robot);
-    for (auto& [robot, trajectory] : old) state_.follow(robot, std::move(trajectory));
-    return false;
-  }
-
-  /// Plans the robots again in this order; false as soon as it is clear that nothing is gained.
-  bool replan(const std::vector<std::size_t>& robots, double budget, double least, double makespan) {
-    for (const std::size_t robot : robots) {
-      least -= bound_[robot];
-      const double bound = makespan_first_ ? makespan + kLeastGain : budget - least;
-      SearchResult result = state_.plan(
-          robot, {.bound = bound, .greed = 1.0, .suboptimality = 0.0, .impatience = 0.0, .coarseness = 0.0},
-          stop_);
-      if (!result.trajectory) return false;
-      budget -= result.trajectory->cost;
-      state_.follow(robot, std::move(*result.trajectory));
-    }
+    const std::vector<std::size_t> robots =
+        neighbourhoods_.around(first, static_cast<Neighbourhood>(kind), kSizes[size], random_);
+    const std::int64_t before = state_.expansions();
+    Rerouting rerouting = reroute(state_, robots, bounds_, aim, stop_);
+    const double gain = rerouting.change ? rerouting.change->gain : 0.0;
+    const double spent = static_cast<double>(state_.expansions() - before) +
+                         kSearchEffort * static_cast<double>(rerouting.searches);
+    kinds_.learn(kind, gain, spent);
+    sizes_.learn(size, gain, spent);
+    efforts_.learn(effort, gain, spent);
+    if (!rerouting.change) return false;
+    apply(state_, std::move(*rerouting.change));
     return true;
   }
 
-  bool better(const Value& a, const Value& b) const {
-    if (!makespan_first_) return a.flowtime < b.flowtime - kLeastGain;
-    if (a.makespan < b.makespan - kLeastGain) return true;
-    return a.makespan <= b.makespan && a.flowtime < b.flowtime - kLeastGain;
-  }
-
   FleetState& state_;
-  bool makespan_first_;
+  bool for_makespan_;
   std::vector<std::size_t> planned_;
+  const TautBounds& bounds_;
   Random& random_;
   const StopCondition& stop_;
-  const TautBounds& bound_;
+  Neighbourhoods neighbourhoods_;
+  AdaptiveChoice kinds_{kNeighbourhoods};
+  AdaptiveChoice sizes_{kSizes.size()};
+  AdaptiveChoice efforts_{kEfforts.size()};
 };
 
 }  // namespace

@@ -16,10 +16,12 @@ struct Improvement {
   bool cut_off = false;           // the clock ended it
 };
 
-/// Makes the plan better by large neighbourhood search (Li et al., MAPF-LNS, IJCAI 2021): takes the
-/// trajectories of a few robots back, plans them again in another order, and keeps the result only if the
-/// objective of the options fell. Ends when `stop` is met, after the options' max_iterations, or when every
-/// robot costs its lower bound, of which `bounds` has those of the movers that have a trajectory.
+/// Makes the plan better by adaptive large neighbourhood search (Li et al., MAPF-LNS, IJCAI 2021): chooses a
+/// delayed robot and some others, reroutes it at their expense, and keeps the result if the objective of the
+/// options fell: the flowtime; or the makespan, or the flowtime without a longer makespan. Which robots, how
+/// many, and how hard to search follows from what paid off lately by expansions, not by the clock. Ends when
+/// `stop` is met, after the options' max_iterations, or when the objective is at its lower bound; `bounds`
+/// has those of the movers that have a trajectory.
 Improvement improve(FleetState& state, const std::vector<std::size_t>& movers, const TautBounds& bounds,
                     Random& random, const StopCondition& stop);
 

@@ -1,0 +1,95 @@
+#include "core/search/reroute.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace fleetplan::core {
+namespace {
+
+/// A gain below this is rounding, seconds.
+constexpr double kLeastGain = 1e-9;
+
+class Reroute {
+ public:
+  Reroute(FleetState& state, const std::vector<std::size_t>& robots, const TautBounds& bounds, const Aim& aim,
+          const StopCondition& stop)
+      : state_(state), bounds_(bounds), aim_(aim), stop_(stop), free_(robots), queue_{robots.front()} {}
+
+  Rerouting run() {
+    const bool found = plan_queue();
+    for (const Change::Part& part : before_) state_.leave(part.robot);
+    for (Change::Part& part : before_) state_.follow(part.robot, std::move(part.trajectory));
+    if (!found) return {std::nullopt, searches_};
+    return {std::move(change_), searches_};
+  }
+
+ private:
+  double cost(std::size_t robot) const { return state_.trajectory(robot)->cost; }
+
+  bool plan_queue() {
+    for (std::size_t k = 0; k < queue_.size(); ++k) {  // the queue grows
+      const std::size_t robot = queue_[k];
+      SearchLimits limits = aim_.limits;
+      limits.bound = std::min(aim_.ceiling, most(k));
+      ++searches_;
+      SearchResult result = state_.plan_ignoring(free_, robot, limits, stop_);
+      if (!result.trajectory) return false;
+      const double gained = cost(robot) - result.trajectory->cost;
+      if (k == 0 || aim_.gain == Aim::Gain::sum) change_.gain += gained;
+      std::erase(free_, robot);
+      enqueue_hit(robot, *result.trajectory);
+      change_.parts.push_back({robot, std::move(*result.trajectory)});
+      if (k + 1 < queue_.size()) try_out(change_.parts.back());
+    }
+    return change_.gain > kLeastGain;
+  }
+
+  /// The least cost that would spoil the change for the robot of this place in the queue.
+  double most(std::size_t place) const {
+    const double now = cost(queue_[place]);
+    if (place == 0) return now - kLeastGain;  // otherwise why begin with it
+    if (aim_.gain == Aim::Gain::first) return kForever;
+    double hope = 0.0;
+    for (std::size_t k = place + 1; k < queue_.size(); ++k) {
+      hope += std::max(0.0, cost(queue_[k]) - bounds_[queue_[k]]);
+    }
+    return now + change_.gain + hope - kLeastGain;
+  }
+
+  void enqueue_hit(std::size_t robot, const Trajectory& trajectory) {
+    if (free_.empty()) return;
+    for (const std::size_t hit : state_.in_the_way(robot, trajectory)) {
+      const bool free = std::find(free_.begin(), free_.end(), hit) != free_.end();
+      if (free && std::find(queue_.begin(), queue_.end(), hit) == queue_.end()) queue_.push_back(hit);
+    }
+  }
+
+  void try_out(const Change::Part& part) {
+    before_.push_back({part.robot, *state_.trajectory(part.robot)});
+    state_.follow(part.robot, part.trajectory);
+  }
+
+  FleetState& state_;
+  const TautBounds& bounds_;
+  const Aim& aim_;
+  const StopCondition& stop_;
+  std::vector<std::size_t> free_;   // may still be hit
+  std::vector<std::size_t> queue_;  // robots to plan, and those planned already
+  std::vector<Change::Part> before_;
+  Change change_;
+  std::int64_t searches_ = 0;
+};
+
+}  // namespace
+
+Rerouting reroute(FleetState& state, const std::vector<std::size_t>& robots, const TautBounds& bounds,
+                  const Aim& aim, const StopCondition& stop) {
+  return Reroute(state, robots, bounds, aim, stop).run();
+}
+
+void apply(FleetState& state, Change change) {
+  for (const Change::Part& part : change.parts) state.leave(part.robot);
+  for (Change::Part& part : change.parts) state.follow(part.robot, std::move(part.trajectory));
+}
+
+}  // namespace fleetplan::core
