@@ -8,6 +8,9 @@
 namespace fleetplan::core {
 namespace {
 
+/// Moves are rarely longer, and the table fits into a processor's cache.
+constexpr int kMaxTableSize = 96;
+
 /// The moves in angular order; each doubling inserts the sum of every two neighbours.
 std::vector<Lattice::Step> neighbourhood(int connectivity) {
   std::vector<Lattice::Step> steps{{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
@@ -29,10 +32,14 @@ Lattice::Lattice(const OccupancyGrid& grid, int connectivity)
     : columns_(grid.columns()),
       rows_(grid.rows()),
       spacing_(grid.resolution()),
-      steps_(neighbourhood(connectivity)) {
-  first_quadrant_.reserve(std::size_t{kTableSize} * kTableSize);
-  for (int row = 0; row < kTableSize; ++row) {
-    for (int column = 0; column < kTableSize; ++column) first_quadrant_.push_back(displacement(column, row));
+      steps_(neighbourhood(connectivity)),
+      table_columns_(std::min(columns_, kMaxTableSize)),
+      table_rows_(std::min(rows_, kMaxTableSize)) {
+  first_quadrant_.reserve(static_cast<std::size_t>(table_columns_) * static_cast<std::size_t>(table_rows_));
+  for (int row = 0; row < table_rows_; ++row) {
+    for (int column = 0; column < table_columns_; ++column) {
+      first_quadrant_.push_back(displacement(column, row));
+    }
   }
 }
 

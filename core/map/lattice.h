@@ -54,8 +54,8 @@ class Lattice {
     const int rows = to / columns_ - from / columns_;
     const int c = std::abs(columns);
     const int r = std::abs(rows);
-    if (c >= kTableSize || r >= kTableSize) return displacement(columns, rows);
-    Displacement d = first_quadrant_[static_cast<std::size_t>(r * kTableSize + c)];
+    if (c >= table_columns_ || r >= table_rows_) return displacement(columns, rows);
+    Displacement d = first_quadrant_[static_cast<std::size_t>(r * table_columns_ + c)];
     if (columns < 0) d.heading = std::numbers::pi - d.heading;
     if (rows < 0) d.heading = -d.heading;
     return d;
@@ -66,16 +66,16 @@ class Lattice {
   std::vector<int> vertices_near(const Position& position, double distance) const;
 
  private:
-  /// Of displacements with fewer columns and rows than this, heading and length are kept.
-  static constexpr int kTableSize = 128;
-
   Displacement displacement(int columns, int rows) const;
 
   int columns_;
   int rows_;
   double spacing_;
   std::vector<Step> steps_;
-  std::vector<Displacement> first_quadrant_;  // by row, then column
+  // Heading and length of displacements by fewer columns and rows than these; by row, then column.
+  int table_columns_;
+  int table_rows_;
+  std::vector<Displacement> first_quadrant_;
 };
 
 /// Which lattice moves a disk of one radius may make on the static map; computed when first asked for. Not

@@ -68,29 +68,42 @@ class Repair {
     for (const std::size_t other : crossed) take_back(other);
   }
 
-  /// Plans a robot that found no way among all others: among the higher ranked, or else at the top.
+  /// Plans a robot that found no way among all others: among the higher ranked; or else raised to the top,
+  /// among the larger ones of them, since the smaller more easily find another way; or else among nobody.
   SearchResult after_failure(std::size_t robot) {
     ++result_.attempts;
     ++failures_[robot];
-    std::vector<std::size_t> lower;
-    std::vector<std::size_t> all;
-    for (const std::size_t other : order_) {
-      if (!state_.trajectory(other)) continue;
-      all.push_back(other);
-      if (rank_[other] > rank_[robot]) lower.push_back(other);
-    }
+    const double radius = state_.fleet().motion(robot).radius;
+    const auto is_lower = [&](std::size_t other) { return rank_[other] > rank_[robot]; };
+    const auto lower = followers(is_lower);
+    const auto yielding = followers(
+        [&](std::size_t other) { return is_lower(other) || state_.fleet().motion(other).radius < radius; });
+    const auto all = followers([](std::size_t) { return true; });
     if (!lower.empty()) {
       SearchResult result = state_.plan_ignoring(lower, robot, kQuick, stop_);
       if (result.trajectory || !result.complete) return result;
     }
     rank_[robot] = --top_;
-    SearchResult result;
+    if (yielding.size() > lower.size() && yielding.size() < all.size()) {
+      SearchResult result = state_.plan_ignoring(yielding, robot, kQuick, stop_);
+      if (result.trajectory || !result.complete) return result;
+    }
     if (failures_[robot] > kPatience) {  // those in its way may need time to get out of it
-      result =
+      SearchResult result =
           state_.plan_ignoring(all, robot, {.hold = random_hold(state_.fleet(), order_, random_)}, stop_);
       if (result.trajectory || !result.complete) return result;
     }
     return state_.plan_ignoring(all, robot, {}, stop_);
+  }
+
+  /// The robots with a trajectory that fulfil the condition, by order.
+  template <class Condition>
+  std::vector<std::size_t> followers(Condition&& condition) const {
+    std::vector<std::size_t> found;
+    for (const std::size_t other : order_) {
+      if (state_.trajectory(other) && condition(other)) found.push_back(other);
+    }
+    return found;
   }
 
   /// Breaks a cycle: the robots involved, and some others the longer it lasts, exchange their ranks at

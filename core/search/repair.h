@@ -20,9 +20,9 @@ struct RepairResult {
 
 /// Plans all robots of `order`, which hold nothing yet, and raises the priority of those that fail as the
 /// paper does, but repairs instead of starting again: the failed robot is planned among the higher ranked
-/// alone or, if that fails too, at the top among nobody but those that stay; only the trajectories that it
-/// crosses there are taken back and planned again. Where robots keep raising each other, the priorities of
-/// those involved are shuffled.
+/// alone; if that fails too it is raised to the top, and planned among the larger of the others and, as a
+/// last resort, among nobody but those that stay. Only the trajectories that it crosses there are taken back
+/// and planned again. Where robots keep raising each other, the priorities of those involved are shuffled.
 RepairResult plan_with_repair(FleetState& state, const PriorityOrder& order, Random& random,
                               const StopCondition& stop);
 
