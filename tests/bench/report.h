@@ -20,7 +20,7 @@ struct HallSummary {
 /// What the columns of a hall's table are.
 inline constexpr const char* kHallTableNotes =
     "Seconds are of all runs, parsing to writing; flowtime and makespan are means of the solved ones.\n"
-    "/ bound is flowtime by its lower bound, which is no more than every robot alone on the map would cost.\n";
+    "/ bound is flowtime by its lower bound, at most what every robot would cost alone on the map.\n";
 
 /// A table of a hall: success rate beside the paper's, times and costs against the number of robots.
 std::string hall_table(const HallSummary& hall);
