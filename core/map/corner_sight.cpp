@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace fleetplan::core {
 namespace {
@@ -12,6 +13,13 @@ constexpr int kFar = 1 << 28;
 constexpr double kSteepest = 1e18;
 /// Rounding of places where lines of sight cross a row, in cells; generous, as too much sight does no harm.
 constexpr double kBlur = 1e-7;
+
+/// The test for fans that are too narrow begins at so many radii from the viewpoint; asin(2 / kRadiiAhead) is
+/// at most kAsin times its argument.
+constexpr double kRadiiAhead = 4.0;
+constexpr double kAsin = 1.05;
+/// Room for disks a little smaller than told, and for rounding.
+constexpr double kSnug = 0.99;
 
 std::optional<Corner> convex_corner(const OccupancyGrid& grid, int x, int line) {
   std::optional<Corner> corner;
@@ -28,17 +36,127 @@ std::optional<Corner> convex_corner(const OccupancyGrid& grid, int x, int line) 
 
 }  // namespace
 
-CornerSight::CornerSight(const OccupancyGrid& grid) : grid_(grid) {
-  for (int line = 0; line <= grid.rows(); ++line) {
-    lines_.push_back(count());
-    for (int x = 0; x <= grid.columns(); ++x) {
-      const auto corner = convex_corner(grid, x, line);
-      if (!corner) continue;
-      corners_.push_back(*corner);
-      abscissae_.push_back(x);
+/// What is seen from one point, row by row: the directions that nothing hides so far are fans.
+class CornerSight::View {
+ public:
+  View(const CornerSight& sight, double x, double y) : sight_(sight), x_(x), y_(y) {}
+
+  std::vector<int> corners() {
+    scan(true);
+    scan(false);
+    const double line = std::round(y_);
+    if (std::abs(y_ - line) <= kBlur) look_along(static_cast<int>(line));
+    std::sort(found_.begin(), found_.end());
+    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+    return std::move(found_);
+  }
+  std::int64_t fans_followed() const { return fans_followed_; }
+
+ private:
+  struct Fan {  // directions dx / dy, closed
+    double left;
+    double right;
+  };
+
+  /// Rows above (`up`) or below.
+  void scan(bool up) {
+    const int step = up ? 1 : -1;
+    fans_ = {{-kSteepest, kSteepest}};
+    int row = static_cast<int>(up ? std::floor(y_) : std::ceil(y_) - 1.0);
+    for (; row >= 0 && row < sight_.grid_.rows() && !fans_.empty(); row += step) {
+      const double near = std::max(0.0, up ? row - y_ : y_ - (row + 1));
+      const double far = up ? row + 1 - y_ : y_ - row;
+      pass_row(row, near, far);
+      find_on_line(up ? row + 1 : row, far);
     }
   }
-  lines_.push_back(count());
+
+  /// Takes from the fans what the blocked runs of a row, between `near` and `far` from the viewpoint, hide.
+  void pass_row(int row, double near, double far) {
+    fans_followed_ += static_cast<std::int64_t>(fans_.size());
+    left_over_.clear();
+    const auto last = sight_.runs_.begin() + sight_.rows_[static_cast<std::size_t>(row) + 1];
+    auto first = sight_.runs_.begin() + sight_.rows_[static_cast<std::size_t>(row)];
+    for (const Fan& fan : fans_) {
+      double open = fan.left;
+      const double leftmost = x_ + std::min(fan.left * near, fan.left * far) - kBlur;
+      while (first + 1 != last && first->end < leftmost) ++first;
+      for (auto run = first; run != last && open <= fan.right; ++run) {
+        const double a = run->begin - x_;
+        const double b = run->end - x_;
+        const double hidden_from = a >= 0.0 ? a / far : (near > 0.0 ? a / near : -kSteepest);
+        const double hidden_to = b <= 0.0 ? b / far : (near > 0.0 ? b / near : kSteepest);
+        if (hidden_from > fan.right) break;
+        keep({open, hidden_from}, far);
+        open = std::max(open, hidden_to);
+      }
+      keep({open, fan.right}, far);
+    }
+    std::swap(fans_, left_over_);
+  }
+
+  void keep(const Fan& fan, double distance) {
+    if (fan.left < fan.right && !too_narrow(fan, distance)) left_over_.push_back(fan);
+  }
+
+  /// Is the fan at this distance (rows) from the viewpoint too narrow for any move to a corner in it, there
+  /// or farther on? What the disk covers on its way is convex, so on no grid line between its ends does it
+  /// cover less than on one of theirs, and there at least a chord of the disk: 2 r sin(phi), if it moves at
+  /// an angle phi to the lines. The line to the corner differs from that by no more than asin(2 r / d), d its
+  /// length.
+  bool too_narrow(const Fan& fan, double distance) const {
+    const double radius = sight_.radius_;
+    if (distance < kRadiiAhead * radius) return false;
+    const double slope = std::max(std::abs(fan.left), std::abs(fan.right));
+    const double chord = 2.0 * radius / std::sqrt(1.0 + slope * slope);
+    return (fan.right - fan.left) * distance < kSnug * chord * (1.0 - kAsin * 2.0 * radius / distance);
+  }
+
+  void find_on_line(int line, double distance) {
+    const int last = sight_.first_corner(0, line + 1);
+    int next = 0;
+    for (const Fan& fan : fans_) {
+      const double leftmost = std::ceil(x_ + fan.left * distance - kBlur);
+      if (leftmost > sight_.grid_.columns()) return;
+      const double rightmost = x_ + fan.right * distance + kBlur;
+      next = std::max(next, sight_.first_corner(static_cast<int>(std::max(0.0, leftmost)), line));
+      for (; next != last && sight_.corner(next).x <= rightmost; ++next) found_.push_back(next);
+    }
+  }
+
+  /// Along the grid line on which the viewpoint lies.
+  void look_along(int line) {
+    const OccupancyGrid& grid = sight_.grid_;
+    const auto open = [&](int column) {
+      return !grid.blocked({column, line}) || !grid.blocked({column, line - 1});
+    };
+    const auto take = [&](int x) {
+      const int first = sight_.first_corner(x, line);
+      if (first != sight_.first_corner(x + 1, line)) found_.push_back(first);
+    };
+    for (int column = static_cast<int>(std::floor(x_)); open(column); ++column) take(column + 1);
+    for (int column = static_cast<int>(std::ceil(x_)) - 1; open(column); --column) take(column);
+  }
+
+  const CornerSight& sight_;
+  double x_;  // in cells
+  double y_;
+  std::vector<Fan> fans_;
+  std::vector<Fan> left_over_;
+  std::vector<int> found_;
+  std::int64_t fans_followed_ = 0;
+};
+
+CornerSight::CornerSight(const OccupancyGrid& grid, double radius)
+    : grid_(grid), radius_(radius / grid.resolution()) {
+  for (int line = 0; line <= grid.rows(); ++line) {
+    for (int x = 0; x <= grid.columns(); ++x) {
+      before_.push_back(count());
+      const auto corner = convex_corner(grid, x, line);
+      if (corner) corners_.push_back(*corner);
+    }
+  }
+  before_.push_back(count());
   for (int row = 0; row < grid.rows(); ++row) {
     rows_.push_back(static_cast<int>(runs_.size()));
     runs_.push_back({-kFar, 0});
@@ -64,7 +182,7 @@ Position CornerSight::position(int index) const {
   return grid_.resolution() * Position(corner(index).x, corner(index).y);
 }
 
-std::vector<int> CornerSight::seen_from(const Position& position) const {
+std::vector<int> CornerSight::seen_from(const Position& position) {
   return seen(position.x() / grid_.resolution(), position.y() / grid_.resolution());
 }
 
@@ -74,83 +192,16 @@ const std::vector<int>& CornerSight::seen_from_corner(int index) {
   return *known;
 }
 
-std::vector<int> CornerSight::seen(double x, double y) const {
-  std::vector<int> found;
-  scan(x, y, true, found);
-  scan(x, y, false, found);
-  const double line = std::round(y);
-  if (std::abs(y - line) <= kBlur) look_along(x, static_cast<int>(line), found);
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
+std::vector<int> CornerSight::seen(double x, double y) {
+  View view(*this, x, y);
+  std::vector<int> corners = view.corners();
+  work_ += view.fans_followed() + static_cast<std::int64_t>(corners.size());
+  return corners;
 }
 
-void CornerSight::scan(double x, double y, bool up, std::vector<int>& found) const {
-  std::vector<Fan> fans{{-kSteepest, kSteepest}};
-  const int step = up ? 1 : -1;
-  int row = static_cast<int>(up ? std::floor(y) : std::ceil(y) - 1.0);
-  for (; row >= 0 && row < grid_.rows() && !fans.empty(); row += step) {
-    const double near = std::max(0.0, up ? row - y : y - (row + 1));
-    const double far = up ? row + 1 - y : y - row;
-    fans = through_row(fans, x, row, near, far);
-    find_on_line(fans, x, up ? row + 1 : row, far, found);
-  }
-}
-
-/// What the blocked runs of a row, between `near` and `far` from the viewpoint, leave of the fans.
-std::vector<CornerSight::Fan> CornerSight::through_row(const std::vector<Fan>& fans, double x, int row,
-                                                       double near, double far) const {
-  const auto first = runs_.begin() + rows_[static_cast<std::size_t>(row)];
-  const auto last = runs_.begin() + rows_[static_cast<std::size_t>(row) + 1];
-  std::vector<Fan> left_over;
-  for (const Fan& fan : fans) {
-    double open = fan.left;
-    const double leftmost = x + std::min(fan.left * near, fan.left * far) - kBlur;
-    auto run = std::lower_bound(
-        first, last, leftmost, [](const Run& r, double value) { return static_cast<double>(r.end) < value; });
-    for (; run != last && open <= fan.right; ++run) {
-      const double a = run->begin - x;
-      const double b = run->end - x;
-      const double hidden_from = a >= 0.0 ? a / far : (near > 0.0 ? a / near : -kSteepest);
-      const double hidden_to = b <= 0.0 ? b / far : (near > 0.0 ? b / near : kSteepest);
-      if (hidden_from > fan.right) break;
-      if (hidden_from >= open) left_over.push_back({open, hidden_from});
-      open = std::max(open, hidden_to);
-    }
-    if (open <= fan.right) left_over.push_back({open, fan.right});
-  }
-  return left_over;
-}
-
-void CornerSight::find_on_line(const std::vector<Fan>& fans, double x, int line, double distance,
-                               std::vector<int>& found) const {
-  const auto begin = abscissae_.begin();
-  const auto last = begin + lines_[static_cast<std::size_t>(line) + 1];
-  auto next = begin + lines_[static_cast<std::size_t>(line)];
-  for (const Fan& fan : fans) {
-    next = std::lower_bound(next, last, x + fan.left * distance - kBlur);
-    const double rightmost = x + fan.right * distance + kBlur;
-    for (; next != last && *next <= rightmost; ++next) found.push_back(static_cast<int>(next - begin));
-  }
-}
-
-void CornerSight::look_along(double x, int line, std::vector<int>& found) const {
-  const auto open = [&](int column) {
-    return !grid_.blocked({column, line}) || !grid_.blocked({column, line - 1});
-  };
-  const auto take = [&](int abscissa) {
-    if (const auto corner = corner_at(abscissa, line)) found.push_back(*corner);
-  };
-  for (int column = static_cast<int>(std::floor(x)); open(column); ++column) take(column + 1);
-  for (int column = static_cast<int>(std::ceil(x)) - 1; open(column); --column) take(column);
-}
-
-std::optional<int> CornerSight::corner_at(int x, int line) const {
-  const auto first = abscissae_.begin() + lines_[static_cast<std::size_t>(line)];
-  const auto last = abscissae_.begin() + lines_[static_cast<std::size_t>(line) + 1];
-  const auto at = std::lower_bound(first, last, x);
-  if (at == last || *at != x) return std::nullopt;
-  return static_cast<int>(at - abscissae_.begin());
+int CornerSight::first_corner(int x, int line) const {
+  const auto columns = static_cast<std::size_t>(grid_.columns()) + 1;
+  return before_[static_cast<std::size_t>(line) * columns + static_cast<std::size_t>(x)];
 }
 
 }  // namespace fleetplan::core

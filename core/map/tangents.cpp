@@ -17,6 +17,9 @@ constexpr double kBlur = 1e-7;
 constexpr int kPieces = 16;
 constexpr double kPiece = 0.5 * kPi / kPieces;
 
+/// Work for a tangent that is computed, and for a sweep that is tested against obstacles; measured.
+constexpr int kTangentWork = 3;
+constexpr int kSweepWork = 30;
 /// A gap is tight if a straight move through a third of one cell of it stays on the grid line, up to three
 /// times this, in cells, from one end of the map to the other; so both of its ends would be off all cell
 /// centres. (The third: a robot may stop in the gap at its own start and goal. With both at the ends of one
@@ -67,7 +70,8 @@ std::optional<double> Tangents::place(const Side& side, const Position& left_nor
   return handed * (std::atan2(along_y, along_x) - 0.25 * kPi);
 }
 
-std::optional<Tangent> Tangents::tangent(const Side& from, const Side& to) const {
+std::optional<Tangent> Tangents::tangent(const Side& from, const Side& to) {
+  work_ += kTangentWork;
   const Position d = to.center - from.center;
   const double distance = d.norm();
   const double across = to.offset - from.offset;
@@ -89,17 +93,18 @@ std::optional<Tangent> Tangents::tangent(const Side& from, const Side& to) const
   return tangent;
 }
 
-std::optional<Tangent> Tangents::from_point(const Position& point, const Bend& to) const {
+std::optional<Tangent> Tangents::from_point(const Position& point, const Bend& to) {
   auto found = tangent(side(point), side(to));
   if (found) found->to = to;
   return found;
 }
 
-std::optional<Tangent> Tangents::to_point(const Bend& from, const Position& point) const {
+std::optional<Tangent> Tangents::to_point(const Bend& from, const Position& point) {
   return tangent(side(from), side(point));
 }
 
-bool Tangents::is_free(const Tangent& tangent) const {
+bool Tangents::is_free(const Tangent& tangent) {
+  work_ += kSweepWork;
   const Position along(std::cos(tangent.heading), std::sin(tangent.heading));
   return sight_.may_sweep(tangent.end - tangent.length * along, tangent.end, radius_ - kShrink) &&
          !squeezes_through(tangent, along);
@@ -141,6 +146,8 @@ const std::vector<Tangent>& Tangents::from(const Bend& bend) {
       known->push_back(*found);
     }
   }
+  std::stable_sort(known->begin(), known->end(),
+                   [](const Tangent& a, const Tangent& b) { return a.leave > b.leave; });
   return *known;
 }
 
@@ -148,6 +155,7 @@ const Tangents::Arc& Tangents::arc(int corner) {
   Arc& arc = arcs_[static_cast<std::size_t>(corner)];
   if (arc.known) return arc;
   arc.known = true;
+  work_ += kPieces * kSweepWork;
   const double first = axis(corners_.corner(corner)) - 0.25 * kPi;
   const Position center = corners_.position(corner);
   const auto at = [&](int k) {

@@ -12,8 +12,8 @@ namespace fleetplan::core {
 /// line and the turns where that is free, the cheapest taut path elsewhere (see TautSearch).
 class TautBounds {
  public:
-  /// Of `robots`, all with goals. Where the work for a robot grows too large, and for all when `stop` is met,
-  /// the bounds are weaker.
+  /// Of `robots`, all with goals. Where that would take more than about half a second, on large maps full of
+  /// corners, or when `stop` is met, bounds are weaker, down to the straight line.
   TautBounds(const Fleet& fleet, const std::vector<std::size_t>& robots, const StopCondition& stop);
 
   /// 0 for a robot that was not among `robots`.

@@ -16,11 +16,12 @@ constexpr int kStopStride = 16;
 
 }  // namespace
 
-TautResult TautSearch::run(const Robot& robot, const Motion& motion, std::int64_t most_steps,
+TautResult TautSearch::run(const Robot& robot, const Motion& motion, std::int64_t most_work,
                            const StopCondition& stop) {
   robot_ = &robot;
   motion_ = &motion;
   bend_time_ = motion.translation_time(tangents_.radius()) + 1.0 / motion.angular_speed;
+  const std::int64_t last_work = work() + most_work;
   reset();
   const double straight = lower_bound(robot, motion);
   sees_goal_ = corners_.seen_from(robot.goal->position);
@@ -29,26 +30,23 @@ TautResult TautSearch::run(const Robot& robot, const Motion& motion, std::int64_
   for (int expansion = 1; !open_.empty(); ++expansion) {
     const Open best = open_.front();
     result.seconds = std::max(straight, best.f);
-    const Arrival arrival = arrivals_[static_cast<std::size_t>(best.arrival)];
-    if (arrival.at_goal) return result;
-    if (steps_ > most_steps) return result;
+    if (arrivals_[static_cast<std::size_t>(best.arrival)].at_goal) return result;
+    if (work() > last_work) return result;
     if (expansion % kStopStride == 0 && stop.met()) {
       result.cut_off = true;
       return result;
     }
     std::pop_heap(open_.begin(), open_.end(), std::greater<>());
     open_.pop_back();
-    expand(arrival);
+    expand(best.arrival);
   }
   return {straight, false};
 }
 
 void TautSearch::reset() {
-  steps_ = 0;
   arrivals_.clear();
   open_.clear();
-  passed_.clear();
-  passed_at_.assign(static_cast<std::size_t>(tangents_.bend_count()), -1);
+  arrivals_at_.assign(static_cast<std::size_t>(tangents_.bend_count()), -1);
 }
 
 void TautSearch::leave_start() {
@@ -61,52 +59,65 @@ void TautSearch::leave_start() {
       if (!tangent) continue;
       const double seconds = motion_->rotation_time(start.theta, tangent->heading) +
                              motion_->translation_time(tangent->length) + 2.0 * motion_->wait_before_move;
-      push({seconds, tangent->arrive, bend, *tangent, false, false},
-           straight_cost({tangent->end, tangent->heading}, *robot_->goal, *motion_));
+      push({seconds, tangent->arrive, bend, *tangent, false, false, -1});
     }
   }
 }
 
-void TautSearch::expand(const Arrival& arrival) {
-  if (passed(arrival.bend, arrival.place, arrival.seconds)) return;
-  if (!arrival.tested && !tangents_.is_free(arrival.by)) return;
-  int& last = passed_at_[static_cast<std::size_t>(Tangents::index(arrival.bend))];
-  passed_.push_back({arrival.place, arrival.seconds, last});
-  last = static_cast<int>(passed_.size()) - 1;
-
-  for (const Tangent& tangent : tangents_.from(arrival.bend)) leave(arrival, tangent, false);
-  if (!std::binary_search(sees_goal_.begin(), sees_goal_.end(), arrival.bend.corner)) return;
-  const auto last_one = tangents_.to_point(arrival.bend, robot_->goal->position);
-  if (last_one && tangents_.is_free(*last_one)) leave(arrival, *last_one, true);
+void TautSearch::expand(int index) {
+  Arrival& arrival = arrivals_[static_cast<std::size_t>(index)];
+  const Bend bend = arrival.bend;
+  if (better_known(bend, arrival.place, arrival.seconds, index)) return;
+  if (!arrival.tested) {
+    if (!tangents_.is_free(arrival.by)) return;
+    enlist(index);
+  }
+  const double place = arrival.place;
+  for (const Tangent& tangent : tangents_.from(bend)) {
+    if (tangent.leave < place - kSamePlace) break;  // the rest leaves before the robot arrives
+    leave(index, tangent, false);
+  }
+  if (!std::binary_search(sees_goal_.begin(), sees_goal_.end(), bend.corner)) return;
+  const auto last = tangents_.to_point(bend, robot_->goal->position);
+  if (last && last->leave >= place - kSamePlace && tangents_.is_free(*last)) leave(index, *last, true);
 }
 
 /// Puts the way along the bend and then along the tangent on the open list.
-void TautSearch::leave(const Arrival& arrival, const Tangent& tangent, bool at_goal) {
+void TautSearch::leave(int index, const Tangent& tangent, bool at_goal) {
   ++steps_;
-  if (tangent.leave < arrival.place - kSamePlace) return;
+  const Arrival& arrival = arrivals_[static_cast<std::size_t>(index)];
   const double turn = std::max(0.0, tangent.leave - arrival.place);
   double seconds = arrival.seconds + turn * bend_time_ + motion_->translation_time(tangent.length);
   if (!at_goal) {
     if (tangent.to.left != arrival.bend.left) seconds += motion_->wait_before_move;
-    if (passed(tangent.to, tangent.arrive, seconds)) return;
+    if (better_known(tangent.to, tangent.arrive, seconds, -1)) return;
   }
   if (!tangents_.may_bend(arrival.bend, arrival.place, tangent.leave)) return;
-  push({seconds, tangent.arrive, tangent.to, tangent, true, at_goal},
-       straight_cost({tangent.end, tangent.heading}, *robot_->goal, *motion_));
+  push({seconds, tangent.arrive, tangent.to, tangent, true, at_goal, -1});
+  if (!at_goal) enlist(static_cast<int>(arrivals_.size()) - 1);
 }
 
-void TautSearch::push(const Arrival& arrival, double to_go) {
+void TautSearch::push(const Arrival& arrival) {
+  const double to_go = straight_cost({arrival.by.end, arrival.by.heading}, *robot_->goal, *motion_);
   arrivals_.push_back(arrival);
   open_.push_back({arrival.seconds + to_go, static_cast<int>(arrivals_.size()) - 1});
   std::push_heap(open_.begin(), open_.end(), std::greater<>());
 }
 
-/// Was the bend passed at this place at no greater cost?
-bool TautSearch::passed(const Bend& bend, double place, double seconds) const {
-  for (int p = passed_at_[static_cast<std::size_t>(Tangents::index(bend))]; p >= 0;) {
-    const Passed& other = passed_[static_cast<std::size_t>(p)];
-    if (other.place <= place && other.seconds + (place - other.place) * bend_time_ <= seconds) return true;
-    p = other.next;
+void TautSearch::enlist(int index) {
+  Arrival& arrival = arrivals_[static_cast<std::size_t>(index)];
+  int& last = arrivals_at_[static_cast<std::size_t>(Tangents::index(arrival.bend))];
+  arrival.next = last;
+  last = index;
+}
+
+/// Is an arrival known, other than `except`, that is at this place of the bend at no greater cost?
+bool TautSearch::better_known(const Bend& bend, double place, double seconds, int except) const {
+  for (int a = arrivals_at_[static_cast<std::size_t>(Tangents::index(bend))]; a >= 0;) {
+    const Arrival& other = arrivals_[static_cast<std::size_t>(a)];
+    const bool before = other.place <= place;
+    if (before && a != except && other.seconds + (place - other.place) * bend_time_ <= seconds) return true;
+    a = other.next;
   }
   return false;
 }

@@ -40,13 +40,16 @@ class TautSearch {
   TautSearch(CornerSight& corners, const LineOfSight& sight, double radius)
       : corners_(corners), tangents_(corners, sight, radius) {}
 
-  /// `motion` has the radius, and the robot a goal, which it does not see. After `most_steps` tangents that
-  /// were looked at, or when `stop` is met, the bound is what is known by then; the former is the same for
-  /// all orders in which robots are asked for.
-  TautResult run(const Robot& robot, const Motion& motion, std::int64_t most_steps,
-                 const StopCondition& stop);
+  /// `motion` has the radius, and the robot a goal, which it does not see. After `most_work`, or when
+  /// `stop` is met, the bound is what is known by then.
+  TautResult run(const Robot& robot, const Motion& motion, std::int64_t most_work, const StopCondition& stop);
+
+  /// The work done so far by this and by `corners`, a step taking 10 to 20 ns.
+  std::int64_t work() const { return steps_ * kStepWork + tangents_.work() + corners_.work(); }
 
  private:
+  static constexpr int kStepWork = 4;  // to look at a tangent; measured
+
   struct Arrival {
     double seconds;
     double place;  // on the bend
@@ -54,38 +57,34 @@ class TautSearch {
     Tangent by;
     bool tested;  // by is known to be free
     bool at_goal;
+    int next;  // another arrival at the same bend that was put on the open list and is tested, or -1
   };
   struct Open {
     double f;
     int arrival;
     bool operator>(const Open& other) const { return f != other.f ? f > other.f : arrival > other.arrival; }
   };
-  struct Passed {  // an arrival that was expanded
-    double place;
-    double seconds;
-    int next;  // another one at the same bend, or -1
-  };
 
   void reset();
   void leave_start();
-  void expand(const Arrival& arrival);
-  void leave(const Arrival& arrival, const Tangent& tangent, bool at_goal);
-  void push(const Arrival& arrival, double to_go);
-  bool passed(const Bend& bend, double place, double seconds) const;
+  void expand(int index);
+  void leave(int index, const Tangent& tangent, bool at_goal);
+  void push(const Arrival& arrival);
+  void enlist(int index);
+  bool better_known(const Bend& bend, double place, double seconds, int except) const;
 
   CornerSight& corners_;
   Tangents tangents_;
+  std::int64_t steps_ = 0;  // tangents that were looked at
 
   // Of the search at hand; kept between searches for their memory.
   const Robot* robot_ = nullptr;
   const Motion* motion_ = nullptr;
-  double bend_time_ = 0.0;  // seconds for a radian of an arc
-  std::int64_t steps_ = 0;
+  double bend_time_ = 0.0;      // seconds for a radian of an arc
   std::vector<int> sees_goal_;  // corners, ascending
   std::vector<Arrival> arrivals_;
   std::vector<Open> open_;
-  std::vector<Passed> passed_;
-  std::vector<int> passed_at_;  // by bend, the last of its list
+  std::vector<int> arrivals_at_;  // by bend, the last of its list
 };
 
 }  // namespace fleetplan::core

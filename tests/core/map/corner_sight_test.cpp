@@ -36,7 +36,7 @@ TEST(CornerSight, HasTheConvexCornersOnly) {
                                         "..#..",  //
                                         "....."},
                                        0.5);
-  const CornerSight sight(grid);
+  CornerSight sight(grid, 0.0);
   EXPECT_THAT(places(sight, all(sight)),
               ElementsAre(std::pair(1.0, 0.5), std::pair(1.5, 0.5), std::pair(2.0, 1.0), std::pair(0.5, 1.5),
                           std::pair(1.0, 1.5), std::pair(2.0, 1.5)));
@@ -48,7 +48,7 @@ TEST(CornerSight, HasNoneAtTheEdgeOrWhereCellsTouchDiagonally) {
   const OccupancyGrid grid = ascii_map({".#.",  //
                                         "#..",  //
                                         "..."});
-  const CornerSight sight(grid);
+  CornerSight sight(grid, 0.0);
   EXPECT_THAT(places(sight, all(sight)), ElementsAre(std::pair(1.0, 1.0), std::pair(2.0, 2.0)));
 }
 
@@ -56,7 +56,7 @@ TEST(CornerSight, SeesAlongWallsAndNotThroughThem) {
   const OccupancyGrid grid = ascii_map({".......",  //
                                         ".##.##.",  //
                                         "......."});
-  CornerSight sight(grid);
+  CornerSight sight(grid, 0.0);
   EXPECT_THAT(places(sight, sight.seen_from({0.5, 0.5})),
               ElementsAre(std::pair(1.0, 1.0), std::pair(3.0, 1.0), std::pair(4.0, 1.0), std::pair(6.0, 1.0),
                           std::pair(1.0, 2.0)));
@@ -68,7 +68,7 @@ TEST(CornerSight, SeesAlongWallsAndNotThroughThem) {
 
 TEST(CornerSight, OfAFreeMapIsEmpty) {
   const OccupancyGrid grid(4, 3, 1.0);
-  const CornerSight sight(grid);
+  CornerSight sight(grid, 0.0);
   EXPECT_EQ(sight.count(), 0);
   EXPECT_THAT(sight.seen_from({2.0, 1.5}), IsEmpty());
 }
@@ -92,7 +92,7 @@ bool has_room(const OccupancyGrid& grid, const Position& a, const Position& b) {
   const Position along = (b - a).normalized() * grid.resolution();
   const Position aside(-along.y(), along.x());
   for (const double side : {1e-4, -1e-4}) {
-    if (!blocked(grid, a + side * aside + 1e-3 * along, b + side * aside - 1e-3 * along, 0.0)) return true;
+    if (!blocked(grid, a + side * aside - 1e-5 * along, b + side * aside + 1e-5 * along, 0.0)) return true;
   }
   return false;
 }
@@ -105,7 +105,7 @@ TEST(CornerSight, MissesNoCornerThatAThinStripReachesAndPassesThroughNoCell) {
   for (int k = 0; k < 120; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << k);
     const OccupancyGrid grid = support::random_map(dice);
-    CornerSight sight(grid);
+    CornerSight sight(grid, 0.0);
     if (sight.count() == 0) continue;
     for (int view = 0; view < 6; ++view) {
       const int from_corner = dice.below(sight.count());

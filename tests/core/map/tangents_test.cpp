@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -21,8 +22,10 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kShrunk = 1e-6;
 
 struct World {
-  World(OccupancyGrid told, double radius)
-      : grid(std::move(told)), sight(grid), corners(grid), tangents(corners, sight, radius) {}
+  World(OccupancyGrid told, double radius) : World(std::move(told), radius, radius) {}
+  /// `least`: the radius down to which corners are looked for.
+  World(OccupancyGrid told, double radius, double least)
+      : grid(std::move(told)), sight(grid), corners(grid, least), tangents(corners, sight, radius) {}
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
@@ -156,6 +159,45 @@ TEST(Tangents, AreAsLongAsTheyLookAndFreeForTheDiskOnRandomMaps) {
     }
   }
   EXPECT_GT(count, 1000);
+}
+
+TEST(Tangents, AreNotMissedWhereOnlySightOfTheDisksWidthIsLookedFor) {
+  const std::uint64_t seed = 47;
+  support::Dice dice(seed);
+  int count = 0;
+  int spared = 0;
+  for (int k = 0; k < 150; ++k) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << k);
+    OccupancyGrid grid(30 + dice.below(60), 30 + dice.below(60), 0.5);
+    const double density = dice.between(0.001, 0.15);
+    for (int row = 0; row < grid.rows(); ++row) {
+      for (int column = 0; column < grid.columns(); ++column) {
+        if (dice.chance(density)) grid.block({column, row});
+      }
+    }
+    const double radius = 0.5 * (dice.chance(0.3) ? 0.5 * (1 + dice.below(3)) : dice.between(0.1, 1.5));
+    World all(grid, radius, 0.0);
+    World wide(grid, radius);
+    for (int b = dice.below(17); b < all.tangents.bend_count(); b += 17) {
+      const Bend bend{b / 2, b % 2 == 1};
+      ASSERT_EQ(all.tangents.from(bend).size(), wide.tangents.from(bend).size());
+      count += static_cast<int>(wide.tangents.from(bend).size());
+      spared += static_cast<int>(all.corners.seen_from_corner(bend.corner).size()) -
+                static_cast<int>(wide.corners.seen_from_corner(bend.corner).size());
+    }
+    const Position point(dice.between(0.0, grid.width()), dice.between(0.0, grid.height()));
+    if (!all.sight.disk_fits(point, radius)) continue;
+    const std::vector<int> seen = wide.corners.seen_from(point);
+    for (int b = 0; b < all.tangents.bend_count(); ++b) {
+      const Bend bend{b / 2, b % 2 == 1};
+      const auto tangent = all.tangents.from_point(point, bend);
+      if (!tangent || !all.tangents.is_free(*tangent)) continue;
+      ASSERT_TRUE(std::binary_search(seen.begin(), seen.end(), bend.corner));
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 10000);
+  EXPECT_GT(spared, 1000);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -288,17 +289,46 @@ TEST(TautBounds, AreZeroForRobotsThatWereNotAskedFor) {
   EXPECT_EQ(TautBounds(fleet, {0}, StopCondition())[1], 0.0);
 }
 
-TEST(TautSearch, KnowsLessAfterFewerSteps) {
+TEST(TautBounds, OfManyRobotsOnALargeMapFullOfCornersTakeLimitedWork) {
+  support::Dice dice(67);
+  OccupancyGrid grid(400, 400, 1.0);
+  for (int k = 0; k < 16000; ++k) grid.block({dice.below(400), dice.below(400)});
+  std::vector<Robot> robots;
+  for (int row = 1; row < 399; row += 10) {
+    const Cell from{2, row};
+    const Cell to{397, 398 - row};
+    if (grid.blocked(from) || grid.blocked(to)) continue;
+    const Position a = grid.center(from);
+    const Position b = grid.center(to);
+    robots.push_back(robot_at(a.x(), a.y()).to(b.x(), b.y()).radius(0.3 + 1e-3 * row / 10));
+  }
+  const Problem problem = make_problem(grid, robots);
+  const Fleet fleet(problem, {});
+  std::vector<std::size_t> all(fleet.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const TautBounds bounds(fleet, all, StopCondition());
+  EXPECT_FALSE(bounds.cut_off());
+  CornerSight corners(grid, 0.3);
+  for (const std::size_t robot : {std::size_t{0}, all.back()}) {
+    TautSearch search(corners, fleet.sight(), fleet.motion(robot).radius);
+    const double whole =
+        search.run(fleet.robot(robot), fleet.motion(robot), 1'000'000'000, StopCondition()).seconds;
+    EXPECT_LT(bounds[robot], whole - 1e-3);
+    EXPECT_GE(bounds[robot], lower_bound(fleet.robot(robot), fleet.motion(robot)));
+  }
+}
+
+TEST(TautSearch, KnowsLessAfterLessWork) {
   const Problem problem = make_problem(maze(), {robot_at(1.5, 0.5).to(1.5, 8.5)});
   const Fleet fleet(problem, {});
-  CornerSight corners(problem.grid());
-  TautSearch search(corners, fleet.sight(), fleet.motion(0).radius);
   double before = lower_bound(fleet.robot(0), fleet.motion(0));
   const double first = before;
-  for (const std::int64_t steps : {0, 20, 60, 100000}) {
-    const TautResult result = search.run(fleet.robot(0), fleet.motion(0), steps, StopCondition());
+  for (const std::int64_t work : {0, 400, 1200, 1000000}) {
+    CornerSight corners(problem.grid(), fleet.motion(0).radius);
+    TautSearch search(corners, fleet.sight(), fleet.motion(0).radius);
+    const TautResult result = search.run(fleet.robot(0), fleet.motion(0), work, StopCondition());
     EXPECT_FALSE(result.cut_off);
-    EXPECT_GE(result.seconds, before);
+    EXPECT_GT(result.seconds, before);
     before = result.seconds;
   }
   EXPECT_GT(before, 3.0 * first);
