@@ -51,13 +51,13 @@ class TautSearch {
   static constexpr int kStepWork = 4;  // to look at a tangent; measured
 
   struct Arrival {
-    double seconds;
-    double place;  // on the bend
+    double seconds = 0.0;
+    double place = 0.0;  // on the bend
     Bend bend;
     Tangent by;
-    bool tested;  // by is known to be free
-    bool at_goal;
-    int next;  // another arrival at the same bend that was put on the open list and is tested, or -1
+    bool tested = false;  // `by` is known to be free
+    bool at_goal = false;
+    int next = -1;  // another one at the same bend that was put on the open list and is tested, or -1
   };
   struct Open {
     double f;

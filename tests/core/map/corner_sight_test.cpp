@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -20,13 +21,14 @@ using testing::IsEmpty;
 
 std::vector<std::pair<double, double>> places(const CornerSight& sight, const std::vector<int>& corners) {
   std::vector<std::pair<double, double>> found;
+  found.reserve(corners.size());
   for (const int corner : corners) found.emplace_back(sight.position(corner).x(), sight.position(corner).y());
   return found;
 }
 
 std::vector<int> all(const CornerSight& sight) {
-  std::vector<int> corners;
-  for (int corner = 0; corner < sight.count(); ++corner) corners.push_back(corner);
+  std::vector<int> corners(static_cast<std::size_t>(sight.count()));
+  std::iota(corners.begin(), corners.end(), 0);
   return corners;
 }
 

@@ -125,8 +125,10 @@ std::string rooms_row(int row) {
 
 TEST(TautBounds, AreWithinAFewPercentOfALoneRobotsCost) {
   std::vector<std::string> rooms;
+  rooms.reserve(16);
   for (int row = 0; row < 16; ++row) rooms.push_back(rooms_row(row));
   std::vector<std::string> shelves;
+  shelves.reserve(19);
   for (int row = 0; row < 19; ++row) {
     shelves.emplace_back(row % 3 == 0 ? ".............................." : "..##########...##########.....");
   }
