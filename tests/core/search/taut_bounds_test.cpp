@@ -106,6 +106,19 @@ TEST(TautBounds, DoNotUseAGapThatJustFitsBetweenCellCentres) {
   EXPECT_LT(bound(0.99), 10.0);
 }
 
+TEST(TautBounds, UseAGapThatJustFitsAroundCellCentres) {
+  const OccupancyGrid grid = ascii_map({"...............",  //
+                                        "...............",  //
+                                        "##.#########...",  //
+                                        "...............",  //
+                                        "..............."});
+  const Problem problem = make_problem(grid, {robot_at(2.5, 0.5).to(3.5, 4.5).radius(0.5)});
+  const auto cost = cost_alone(problem);
+  ASSERT_TRUE(cost);
+  EXPECT_LT(*cost, 10.0);
+  EXPECT_LE(bound_of(problem), *cost);
+}
+
 TEST(TautBounds, UseAGapThatJustFitsFromAStartWithinIt) {
   const OccupancyGrid grid = ascii_map({".......",  //
                                         ".......",  //
