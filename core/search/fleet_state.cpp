@@ -85,6 +85,7 @@ SearchResult FleetState::plan_ignoring(const std::vector<std::size_t>& ignored, 
 }
 
 bool FleetState::goal_reachable(std::size_t robot, const StopCondition& stop) {
+  if (stop.met()) return true;  // not known
   Guide& g = guide(robot);
   return g.vertices.start() == g.vertices.goal() ||
          g.cost_to_go.from(g.vertices.start(), stop).seconds < kForever;
