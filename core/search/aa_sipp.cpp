@@ -212,21 +212,34 @@ void AaSipp::time_move(Candidate candidate, double key) {
 bool AaSipp::redundant(int interval, double arrival, double heading, double key) {
   if (arrivals_of_interval_[static_cast<std::size_t>(interval)] < 0) return false;
   const bool waiting = !thorough_ && key <= release_;  // while the goal is not even free, one label will do
-  if (!waiting && dominated_from(interval, heading) > arrival + kSameTime) return false;
-  pruned_ = pruned_ || waiting || coarse_;
-  return true;
+  const bool dominated = waiting || dominated_from(interval, heading) <= arrival + kSameTime ||
+                         (motion_->wait_before_move > 0.0 && known(interval, arrival, heading));
+  pruned_ = pruned_ || (dominated && (waiting || coarse_));
+  return dominated;
 }
 
-/// Arrivals with this heading are no better from then on.
+/// Arrivals with this heading are no better from then on. Who arrives earlier may have to make the added wait
+/// that a later one, which passes on, does without.
 double AaSipp::dominated_from(int interval, double heading) const {
   double from = kForever;
   for (int e = arrivals_of_interval_[static_cast<std::size_t>(interval)]; e >= 0;) {
     const Arrival& entry = arrivals_[static_cast<std::size_t>(e)];
-    const double turned = coarse_ ? -slack_ : motion_->rotation_time(entry.heading, heading);
-    from = std::min(from, entry.time + turned);
+    const double ready = motion_->rotation_time(entry.heading, heading) + motion_->wait_before_move;
+    from = std::min(from, entry.time + (coarse_ ? -slack_ : ready));
     e = entry.next;
   }
   return from;
+}
+
+/// Is the same arrival there already?
+bool AaSipp::known(int interval, double arrival, double heading) const {
+  for (int e = arrivals_of_interval_[static_cast<std::size_t>(interval)]; e >= 0;) {
+    const Arrival& entry = arrivals_[static_cast<std::size_t>(e)];
+    if (std::abs(entry.time - arrival) <= kSameTime && angle_between(entry.heading, heading) <= kSameHeading)
+      return true;
+    e = entry.next;
+  }
+  return false;
 }
 
 /// Adds an arrival that is not redundant, and strikes out those that it dominates.
@@ -234,7 +247,8 @@ void AaSipp::enter(int interval, double time, double heading) {
   int* link = &arrivals_of_interval_[static_cast<std::size_t>(interval)];
   while (*link >= 0) {
     Arrival& entry = arrivals_[static_cast<std::size_t>(*link)];
-    if (time + motion_->rotation_time(heading, entry.heading) <= entry.time) {
+    const double ready = motion_->rotation_time(heading, entry.heading) + motion_->wait_before_move;
+    if (time + ready <= entry.time) {
       entry.dominated = true;
       *link = entry.next;
     } else {

@@ -46,7 +46,8 @@ struct SearchLimits {
 /// Individual planner; Phillips and Likhachev, ICRA 2011; Yakovlev and Andreychuk, ICAPS 2017).
 ///
 /// A label is a vertex, a safe interval, the heading and the earliest arrival there. Label a dominates b of
-/// the same interval if a's arrival plus the rotation from a's heading to b's is no later than b's arrival.
+/// the same interval if a's arrival plus the rotation from a's heading to b's, and the added wait if there is
+/// one, is no later than b's arrival.
 /// Moves start from the label or, any-angle, from its parent. They are put on the open list with an
 /// optimistic arrival and timed against the reservations only when they come first (after Lazy Theta*); the
 /// next safe interval of the same vertex follows only then. A timed move that cannot be had at its optimistic
@@ -135,6 +136,7 @@ class AaSipp {
   Rank rank(int place, int interval, double arrival, double heading) const;
   void push(const Candidate& candidate, const Rank& rank);
   double dominated_from(int interval, double heading) const;
+  bool known(int interval, double arrival, double heading) const;
   void enter(int interval, double time, double heading);
   bool redundant(int interval, double arrival, double heading, double key);
   Standing standing_at(int label) const;

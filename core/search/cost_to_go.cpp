@@ -2,6 +2,7 @@
 
 #include "core/geometry/angle.h"
 #include "core/geometry/segment.h"
+#include "core/search/move_timing.h"
 
 namespace fleetplan::core {
 namespace {
@@ -31,6 +32,8 @@ CostToGo::Estimate CostToGo::via(int vertex, int next) {
   if (next != vertices_.goal()) {
     const Node& onward = node(next);
     estimate.seconds += onward.seconds + motion_.rotation_time(estimate.heading, onward.heading);
+    const bool goes_on = angle_between(estimate.heading, onward.heading) <= kSameHeading;
+    if (goes_on) estimate.seconds -= motion_.wait_before_move;  // both are one translation
   } else if (const auto& goal = *fleet_.robot(robot_).goal; goal.theta) {
     estimate.seconds += motion_.rotation_time(estimate.heading, *goal.theta);
   }

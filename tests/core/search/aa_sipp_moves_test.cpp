@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "core/geometry/angle.h"
 #include "core/search/aa_sipp.h"
@@ -134,6 +136,33 @@ TEST(AaSippMoves, CountAWaitForAnotherRobotAsTheirOwn) {
              options);
   p.state.follow(1, through({{1.5, 0.5}, {9.5, 0.5}}, 7.0));
   EXPECT_NEAR(plan_first(p).cost, 11.8, 1e-8) << "0.2 m behind the other one, which leaves at t = 7";
+}
+
+/// Robot 0 goes from x = 1.5 to x = 5.5 through a stream of others, of radius 0.3 like itself, that cross its
+/// way upwards: each at the given x and time.
+Planning through_a_stream(const std::vector<std::pair<double, double>>& crossings,
+                          const PlanOptions& options) {
+  constexpr double kRow = 30.5;
+  std::vector<Robot> robots{robot_at(1.5, kRow).to(5.5, kRow).radius(0.3)};
+  for (const auto& [x, t] : crossings) {
+    robots.push_back(robot_at(x, kRow - t, kPi / 2.0).to(x, kRow - t + 30.0).radius(0.3));
+  }
+  return Planning(OccupancyGrid(8, 62, 1.0), robots, options);
+}
+
+TEST(AaSippMoves, GoOnAtOnceWhereWhoCameEarlierWouldHaveToWait) {
+  PlanOptions options = lattice_only(4);
+  options.wait_before_move = 10.0;
+  // Beyond x = 3.5 the way is free for who leaves it at about 15.35 s, and then only after 22 s. Who is there
+  // at 12 s and stops for its wait is too late.
+  const std::vector<std::pair<double, double>> crossings{{2.5, 13.5}, {4.2, 12.2}, {4.2, 13.65}, {4.2, 15.05},
+                                                         {4.2, 17.1}, {4.2, 18.7}, {4.2, 20.3},  {4.2, 21.9}};
+  Planning p = through_a_stream(crossings, options);
+  for (std::size_t k = 1; k < p.fleet.size(); ++k) {
+    const auto& robot = p.fleet.robot(k);
+    p.state.follow(k, through({robot.start.position, robot.goal->position}));
+  }
+  EXPECT_NEAR(plan_first(p).cost, 13.5 + 0.6 * std::sqrt(2.0) + 3.0, 1e-6) << "close behind the first one";
 }
 
 TEST(AaSippMoves, AreSpreadOverTimeBySlowTurns) {
