@@ -9,6 +9,9 @@ namespace {
 
 /// A robot that failed more often than this may be in a cycle of robots that raise each other.
 constexpr int kPatience = 3;
+/// A robot that failed more often than this is given up. In the paper's halls with 300 robots none failed
+/// more than 5 times.
+constexpr int kHopeless = 40;
 /// For a first look: there are other ways out when it fails.
 constexpr SearchLimits kQuick{.thorough = false};
 /// At most so many uninvolved robots are taken back along with a cycle.
@@ -72,7 +75,7 @@ class Repair {
   /// among the larger ones of them, since the smaller more easily find another way; or else among nobody.
   SearchResult after_failure(std::size_t robot) {
     ++result_.attempts;
-    ++failures_[robot];
+    if (++failures_[robot] > kHopeless) return {};
     const double radius = state_.fleet().motion(robot).radius;
     const auto is_lower = [&](std::size_t other) { return rank_[other] > rank_[robot]; };
     const auto lower = followers(is_lower);

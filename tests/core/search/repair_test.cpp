@@ -61,6 +61,22 @@ TEST(Repair, BreaksACycleOfRobotsThatRaiseEachOtherByHoldingOneBack) {
   expect_safe(p.state);
 }
 
+TEST(Repair, GivesUpARobotThatKeepsFailingAndPlansTheOthers) {
+  // Robots 0 and 1 cannot change places.
+  Planning p(
+      support::ascii_map({".......##",  //
+                          "#########",  //
+                          "........."}),
+      {robot_at(0.5, 2.5).to(6.5, 2.5), robot_at(6.5, 2.5, 3.0).to(0.5, 2.5), robot_at(0.5, 0.5).to(4.5, 0.5),
+       robot_at(1.5, 0.5).to(6.5, 0.5), robot_at(3.5, 0.5).to(8.5, 0.5)});
+  Random random = dice();
+  const RepairResult result = plan_with_repair(p.state, {0, 1, 2, 3, 4}, random, p.never);
+  EXPECT_TRUE(result.unsolved.empty());
+  EXPECT_EQ(result.given_up, (Robots{1, 0})) << "each stands in the way of the other";
+  for (const std::size_t robot : {2u, 3u, 4u}) EXPECT_TRUE(p.state.trajectory(robot));
+  expect_safe(p.state);
+}
+
 TEST(Repair, ReturnsTheRobotsWithoutATrajectoryByPriorityWhenItIsStopped) {
   Planning p = mouth();
   Random random = dice();
