@@ -56,6 +56,18 @@ TEST(Complete, GivesARobotUpAndNamesThoseInItsWay) {
   expect_safe(p.state);
 }
 
+TEST(Complete, DoesNotNameRobotsThatCouldStay) {
+  // Robot 2 crosses the way of robot 0 to the closet that robot 1 shuts.
+  Planning p(hall(), {robot_at(3.5, 3.5).to(5.5, 0.5), robot_at(5.5, 1.5), robot_at(2.5, 2.5).to(6.5, 2.5)});
+  p.state.stand_for_ever(1);
+  p.state.follow(2, through({{2.5, 2.5}, {6.5, 2.5}}));
+  ASSERT_EQ(p.state.in_the_way(0, p.state.alone(0, p.never)), (Robots{1, 2}));
+  const Completion completion = complete(p.state, {0}, {}, p.never);
+  ASSERT_EQ(robots_of(completion), Robots{0});
+  EXPECT_EQ(completion.unplanned[0].blocked_by, Robots{1});
+  expect_safe(p.state);
+}
+
 TEST(Complete, PlansThoseAgainThatCrossedTheStartOfARobotGivenUp) {
   // Robot 0 drives straight over the start of 1, which then turns out to stay there.
   Planning p(hall(), {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(3.5, 3.5).to(5.5, 0.5), robot_at(5.5, 1.5)},
