@@ -60,7 +60,13 @@ core::Plan nothing_planned(const core::Problem& problem) {
 }  // namespace
 
 Reply plan_endpoint(std::string_view body, const RequestContext& context) {
-  return plan_with(core::plan, body, context);
+  core::CallersThread callers_thread;
+  core::Executor& executor = context.executor != nullptr ? *context.executor : callers_thread;
+  const auto planner = [&](const core::Problem& problem, const core::PlanOptions& options,
+                           const core::StopCondition& stop) {
+    return core::plan(problem, options, stop, executor);
+  };
+  return plan_with(planner, body, context);
 }
 
 Reply plan_with(const Planner& planner, std::string_view body, const RequestContext& context) {

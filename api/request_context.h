@@ -5,6 +5,7 @@
 #include <string>
 
 #include "api/limits.h"
+#include "core/parallel/executor.h"
 
 namespace fleetplan::api {
 
@@ -17,6 +18,7 @@ struct RequestContext {
   Clock::time_point started_at = Clock::now();   // taken from the queue
   std::stop_token stop;                          // the client is gone or the server drains
   Limits limits;
+  core::Executor* executor = nullptr;  // of more threads than the caller's, if there are any
 };
 
 }  // namespace fleetplan::api

@@ -59,6 +59,11 @@ Plan collect(const FleetState& state, std::vector<std::optional<Unplanned>> unpl
 }  // namespace
 
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop) {
+  CallersThread executor;
+  return plan(problem, options, stop, executor);
+}
+
+Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop, Executor& executor) {
   const Fleet fleet(problem, options);
   FleetState state(fleet);
   Random random(options.seed);
@@ -74,12 +79,13 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   std::erase_if(movers, [&](std::size_t robot) { return !state.trajectory(robot); });
   const bool anytime = options.mode == PlanOptions::Mode::anytime;
   const TautBounds bounds(fleet, movers, anytime ? until_share_ends(stop, kBoundsShare) : stop);
+  const std::int64_t expansions = state.expansions();
   Improvement improvement;
-  if (anytime) improvement = improve(state, movers, bounds, random, stop);
+  if (anytime) improvement = improve(state, movers, bounds, random, executor, stop);
 
   Plan plan = collect(state, std::move(unplanned), bounds);
   plan.deterministic = !prioritized.cut_off && !bounds.cut_off() && !improvement.cut_off && !stop.cancelled();
-  plan.search = {prioritized.attempts, state.expansions(), improvement.improvements};
+  plan.search = {prioritized.attempts, expansions + improvement.expansions, improvement.improvements};
   return plan;
 }
 

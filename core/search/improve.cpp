@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <memory>
 #include <utility>
 
 #include "core/search/adaptive_choice.h"
 #include "core/search/neighbourhood.h"
+#include "core/search/replicas.h"
 #include "core/search/reroute.h"
 
 namespace fleetplan::core {
@@ -13,6 +16,8 @@ namespace {
 
 /// A delay below this is rounding, seconds.
 constexpr double kLeastDelay = 1e-9;
+/// Iterations in a round: enough to keep several threads busy, few enough that what they find seldom clashes.
+constexpr std::int64_t kRound = 16;
 constexpr std::array<std::size_t, 5> kSizes{1, 2, 4, 8, 16};
 /// How hard to search. Greedy searches with few expansions find most of what can be found, and fail soon;
 /// the others are for what is left.
@@ -29,119 +34,172 @@ constexpr std::array<SearchLimits, 3> kEfforts{{
 /// What a search costs before its first expansion, in expansions.
 constexpr double kSearchEffort = 20.0;
 
+/// One try, and what came of it.
+struct Iteration {
+  std::size_t kind;
+  std::size_t size;
+  std::size_t effort;
+  std::size_t first;  // the robot to become cheaper
+  Aim aim;
+  std::uint64_t seed;
+  Rerouting rerouting;
+};
+
 class Improving {
  public:
   Improving(FleetState& state, std::vector<std::size_t> planned, const TautBounds& bounds, Random& random,
-            const StopCondition& stop)
-      : state_(state),
-        for_makespan_(state.fleet().options().objective == PlanOptions::Objective::makespan),
-        planned_(std::move(planned)),
+            Executor& executor, const StopCondition& stop)
+      : for_makespan_(state.fleet().options().objective == PlanOptions::Objective::makespan),
+        incumbent_(state, std::move(planned)),
+        replicas_(state, incumbent_, stop),
         bounds_(bounds),
         random_(random),
-        stop_(stop),
-        neighbourhoods_(state, planned_, stop) {}
+        executor_(executor),
+        stop_(stop) {}
 
-  Improvement run(std::optional<std::int64_t> max_iterations) {
-    Improvement result;
-    for (std::int64_t i = 0; !max_iterations || i < *max_iterations; ++i) {
-      if (at_lower_bound()) return result;
-      if (stop_.met()) {
-        result.cut_off = true;
-        return result;
-      }
-      if (iterate()) ++result.improvements;
+  Improvement run(std::int64_t max_iterations) {
+    while (max_iterations > 0 && !at_lower_bound() && !result_.cut_off) {
+      const std::int64_t count = std::min(kRound, max_iterations);
+      max_iterations -= count;
+      if (!stop_.met()) round(static_cast<std::size_t>(count));
+      result_.cut_off = stop_.met();
     }
-    result.cut_off = stop_.met();  // perhaps in the last iteration
-    return result;
+    replicas_.catch_up();
+    return result_;
   }
 
  private:
-  double cost(std::size_t robot) const { return state_.trajectory(robot)->cost; }
+  const std::vector<std::size_t>& planned() const { return incumbent_.planned(); }
+  double cost(std::size_t robot) const { return incumbent_.cost(robot); }
   double delay(std::size_t robot) const { return std::max(0.0, cost(robot) - bounds_[robot]); }
 
   bool at_lower_bound() const {
-    if (planned_.empty()) return true;
+    if (planned().empty()) return true;
     if (for_makespan_) {
-      const auto by_bound = [&](std::size_t a, std::size_t b) { return bounds_[a] < bounds_[b]; };
-      const std::size_t last = *std::max_element(planned_.begin(), planned_.end(), by_bound);
-      return cost(last_to_arrive()) <= bounds_[last] + kLeastDelay;
+      double bound = 0.0;
+      for (const std::size_t robot : planned()) bound = std::max(bound, bounds_[robot]);
+      return cost(last_to_arrive()) <= bound + kLeastDelay;
     }
-    return std::all_of(planned_.begin(), planned_.end(),
+    return std::all_of(planned().begin(), planned().end(),
                        [&](std::size_t robot) { return delay(robot) <= kLeastDelay; });
   }
 
   std::size_t last_to_arrive() const {
-    return *std::max_element(planned_.begin(), planned_.end(),
+    return *std::max_element(planned().begin(), planned().end(),
                              [&](std::size_t a, std::size_t b) { return cost(a) < cost(b); });
   }
 
   /// A delayed robot, more likely the more delayed it is.
   std::size_t choose_delayed() {
     double left = 0.0;
-    for (const std::size_t robot : planned_) left += delay(robot);
+    for (const std::size_t robot : planned()) left += delay(robot);
     left *= random_.unit();
-    for (const std::size_t robot : planned_) {
+    for (const std::size_t robot : planned()) {
       left -= delay(robot);
       if (left < 0.0) return robot;
     }
-    return planned_.back();
+    return planned().back();
   }
 
-  /// True if the plan became better.
-  bool iterate() {
-    const std::size_t kind = kinds_.choose(random_);
-    const std::size_t size = sizes_.choose(random_);
-    const std::size_t effort = efforts_.choose(random_);
-    Aim aim{Aim::Gain::sum, kForever, kEfforts[effort]};
-    std::size_t first = 0;
-    if (for_makespan_) {
-      first = last_to_arrive();
-      aim.ceiling = cost(first);
-      if (random_.below(2) == 0) {
-        aim.gain = Aim::Gain::first;
-      } else {
-        first = choose_delayed();
+  void round(std::size_t count) {
+    std::vector<Iteration> iterations;
+    for (std::size_t k = 0; k < count; ++k) iterations.push_back(choose());
+    executor_.run(count, [&](std::size_t k) { search(iterations[k]); });
+    std::vector<std::size_t> changed;
+    for (Iteration& iteration : iterations) {
+      learn(iteration);
+      if (!iteration.rerouting.change || clashes(*iteration.rerouting.change, changed)) continue;
+      ++result_.improvements;
+      for (Change::Part& part : iteration.rerouting.change->parts) {
+        changed.push_back(part.robot);
+        incumbent_.replace(part.robot, std::move(part.trajectory));
       }
-    } else {
-      first = choose_delayed();
     }
-    const std::vector<std::size_t> robots =
-        neighbourhoods_.around(first, static_cast<Neighbourhood>(kind), kSizes[size], random_);
-    const std::int64_t before = state_.expansions();
-    Rerouting rerouting = reroute(state_, robots, bounds_, aim, stop_);
-    const double gain = rerouting.change ? rerouting.change->gain : 0.0;
-    const double spent = static_cast<double>(state_.expansions() - before) +
-                         kSearchEffort * static_cast<double>(rerouting.searches);
-    kinds_.learn(kind, gain, spent);
-    sizes_.learn(size, gain, spent);
-    efforts_.learn(effort, gain, spent);
-    if (!rerouting.change) return false;
-    apply(state_, std::move(*rerouting.change));
-    return true;
   }
 
-  FleetState& state_;
-  bool for_makespan_;
-  std::vector<std::size_t> planned_;
+  Iteration choose() {
+    Iteration iteration{};
+    iteration.kind = kinds_.choose(random_);
+    iteration.size = sizes_.choose(random_);
+    iteration.effort = efforts_.choose(random_);
+    iteration.aim.limits = kEfforts[iteration.effort];
+    iteration.seed = random_.seed();
+    if (for_makespan_) iteration.aim.ceiling = cost(last_to_arrive());
+    if (for_makespan_ && random_.below(2) == 0) {
+      iteration.aim.gain = Aim::Gain::first;
+      iteration.first = last_to_arrive();
+    } else {
+      iteration.first = choose_delayed();
+    }
+    return iteration;
+  }
+
+  /// On any thread.
+  void search(Iteration& iteration) {
+    std::unique_ptr<Replica> replica = replicas_.take();
+    Random random(iteration.seed);
+    const auto robots = replica->neighbourhoods().around(
+        iteration.first, static_cast<Neighbourhood>(iteration.kind), kSizes[iteration.size], random);
+    iteration.rerouting = reroute(replica->state(), robots, bounds_, iteration.aim, stop_);
+    replicas_.give_back(std::move(replica));
+  }
+
+  void learn(const Iteration& iteration) {
+    const Rerouting& rerouting = iteration.rerouting;
+    const double gain = rerouting.change ? rerouting.change->gain : 0.0;
+    const double effort =
+        static_cast<double>(rerouting.expansions) + kSearchEffort * static_cast<double>(rerouting.searches);
+    result_.expansions += rerouting.expansions;
+    kinds_.learn(iteration.kind, gain, effort);
+    sizes_.learn(iteration.size, gain, effort);
+    efforts_.learn(iteration.effort, gain, effort);
+  }
+
+  /// May the change no longer be made, as these robots have changed since?
+  bool clashes(const Change& change, const std::vector<std::size_t>& changed) {
+    if (changed.empty()) return false;
+    const double makespan = cost(last_to_arrive());
+    const auto is_part = [&](std::size_t robot) {
+      return std::any_of(change.parts.begin(), change.parts.end(),
+                         [&](const Change::Part& part) { return part.robot == robot; });
+    };
+    if (std::any_of(changed.begin(), changed.end(), is_part)) return true;
+    std::unique_ptr<Replica> replica = replicas_.take();
+    bool clash = false;
+    for (const Change::Part& part : change.parts) {
+      if (for_makespan_ && part.trajectory.cost > makespan) clash = true;
+      for (const std::size_t hit : replica->state().in_the_way(part.robot, part.trajectory)) {
+        clash = clash || !is_part(hit);
+      }
+    }
+    replicas_.give_back(std::move(replica));
+    return clash;
+  }
+
+  const bool for_makespan_;
+  Incumbent incumbent_;
+  Replicas replicas_;
   const TautBounds& bounds_;
   Random& random_;
+  Executor& executor_;
   const StopCondition& stop_;
-  Neighbourhoods neighbourhoods_;
   AdaptiveChoice kinds_{kNeighbourhoods};
   AdaptiveChoice sizes_{kSizes.size()};
   AdaptiveChoice efforts_{kEfforts.size()};
+  Improvement result_;
 };
 
 }  // namespace
 
 Improvement improve(FleetState& state, const std::vector<std::size_t>& movers, const TautBounds& bounds,
-                    Random& random, const StopCondition& stop) {
+                    Random& random, Executor& executor, const StopCondition& stop) {
   std::vector<std::size_t> planned;
   for (const std::size_t robot : movers) {
     if (state.trajectory(robot)) planned.push_back(robot);
   }
-  return Improving(state, std::move(planned), bounds, random, stop)
-      .run(state.fleet().options().max_iterations);
+  constexpr auto kEndless = std::numeric_limits<std::int64_t>::max();
+  return Improving(state, std::move(planned), bounds, random, executor, stop)
+      .run(state.fleet().options().max_iterations.value_or(kEndless));
 }
 
 }  // namespace fleetplan::core

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/parallel/executor.h"
 #include "core/search/fleet_state.h"
 #include "core/search/random.h"
 #include "core/search/stop_condition.h"
@@ -13,6 +14,7 @@ namespace fleetplan::core {
 
 struct Improvement {
   std::int64_t improvements = 0;  // how often the plan became better
+  std::int64_t expansions = 0;    // labels expanded
   bool cut_off = false;           // the clock ended it
 };
 
@@ -21,8 +23,12 @@ struct Improvement {
 /// options fell: the flowtime; or the makespan, or the flowtime without a longer makespan. Which robots, how
 /// many, and how hard to search follows from what paid off lately by expansions, not by the clock. Ends when
 /// `stop` is met, after the options' max_iterations, or when the objective is at its lower bound; `bounds`
-/// has those of the movers that have a trajectory.
+/// has those of the movers that have a trajectory; all other robots stand at their starts for ever.
+///
+/// Works in rounds of a fixed number of iterations that all begin with the same plan and may run on several
+/// threads of the executor; what they found is adopted in their order, unless it clashes with what was
+/// adopted before in the round. So the number of threads changes nothing but the speed.
 Improvement improve(FleetState& state, const std::vector<std::size_t>& movers, const TautBounds& bounds,
-                    Random& random, const StopCondition& stop);
+                    Random& random, Executor& executor, const StopCondition& stop);
 
 }  // namespace fleetplan::core

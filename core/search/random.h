@@ -16,6 +16,8 @@ class Random {
 
   /// Uniform in [0, count), count >= 1; the bias is below count / 2^64.
   std::size_t below(std::size_t count) { return static_cast<std::size_t>(engine_() % count); }
+  /// For another Random.
+  std::uint64_t seed() { return engine_(); }
   /// Uniform in [0, 1).
   double unit() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
 

@@ -19,8 +19,9 @@ class Reroute {
     const bool found = plan_queue();
     for (const Change::Part& part : before_) state_.leave(part.robot);
     for (Change::Part& part : before_) state_.follow(part.robot, std::move(part.trajectory));
-    if (!found) return {std::nullopt, searches_};
-    return {std::move(change_), searches_};
+    Rerouting result{std::nullopt, searches_, expansions_};
+    if (found) result.change = std::move(change_);
+    return result;
   }
 
  private:
@@ -33,6 +34,7 @@ class Reroute {
       limits.bound = std::min(aim_.ceiling, most(k));
       ++searches_;
       SearchResult result = state_.plan_ignoring(free_, robot, limits, stop_);
+      expansions_ += result.expansions;
       if (!result.trajectory) return false;
       const double gained = cost(robot) - result.trajectory->cost;
       if (k == 0 || aim_.gain == Aim::Gain::sum) change_.gain += gained;
@@ -78,6 +80,7 @@ class Reroute {
   std::vector<Change::Part> before_;
   Change change_;
   std::int64_t searches_ = 0;
+  std::int64_t expansions_ = 0;
 };
 
 }  // namespace
@@ -85,11 +88,6 @@ class Reroute {
 Rerouting reroute(FleetState& state, const std::vector<std::size_t>& robots, const TautBounds& bounds,
                   const Aim& aim, const StopCondition& stop) {
   return Reroute(state, robots, bounds, aim, stop).run();
-}
-
-void apply(FleetState& state, Change change) {
-  for (const Change::Part& part : change.parts) state.leave(part.robot);
-  for (Change::Part& part : change.parts) state.follow(part.robot, std::move(part.trajectory));
 }
 
 }  // namespace fleetplan::core

@@ -35,6 +35,7 @@ struct Aim {
 struct Rerouting {
   std::optional<Change> change;
   std::int64_t searches = 0;
+  std::int64_t expansions = 0;
 };
 
 /// Looks for a change that makes robots.front() cheaper: plans it as if the others of `robots` were not
@@ -42,8 +43,5 @@ struct Rerouting {
 /// aim stays in reach. All of `robots` have trajectories and bounds. The state is afterwards as it was.
 Rerouting reroute(FleetState& state, const std::vector<std::size_t>& robots, const TautBounds& bounds,
                   const Aim& aim, const StopCondition& stop);
-
-/// Lets the robots follow their new trajectories.
-void apply(FleetState& state, Change change);
 
 }  // namespace fleetplan::core

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/parallel/executor.h"
 #include "core/search/fleet.h"
 #include "core/search/fleet_state.h"
 #include "core/search/random.h"
@@ -38,6 +39,7 @@ struct Planning {
   FleetState state;
   Random random;
   StopCondition never;
+  CallersThread callers_thread;
 };
 
 /// A stop condition that is met already.

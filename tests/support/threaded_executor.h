@@ -1,0 +1,31 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+#include "core/parallel/executor.h"
+
+namespace fleetplan::support {
+
+/// Real threads, started anew for every run.
+class ThreadedExecutor : public core::Executor {
+ public:
+  explicit ThreadedExecutor(std::size_t threads) : threads_(threads) {}
+
+  void run(std::size_t count, const Task& task) override {
+    std::atomic<std::size_t> next{0};
+    std::vector<std::jthread> threads;
+    for (std::size_t t = 0; t < threads_; ++t) {
+      threads.emplace_back([&] {
+        for (std::size_t k = next++; k < count; k = next++) task(k);
+      });
+    }
+  }
+
+ private:
+  std::size_t threads_;
+};
+
+}  // namespace fleetplan::support
