@@ -17,7 +17,7 @@ namespace {
 /// A delay below this is rounding, seconds.
 constexpr double kLeastDelay = 1e-9;
 /// Iterations in a round: enough to keep several threads busy, few enough that what they find seldom clashes.
-constexpr std::int64_t kRound = 16;
+constexpr std::int64_t kRound = 4;
 constexpr std::array<std::size_t, 5> kSizes{1, 2, 4, 8, 16};
 /// How hard to search. Greedy searches with few expansions find most of what can be found, and fail soon;
 /// the others are for what is left.
