@@ -40,6 +40,15 @@ RobotPlan robot_plan(const FleetState& state, std::size_t index) {
   return {index, trajectory->cost, to_actions(state.fleet().robot(index), *trajectory)};
 }
 
+/// Of the robots' trajectories; infinite where there is none.
+std::vector<double> costs(const FleetState& state) {
+  std::vector<double> costs(state.fleet().size(), kForever);
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    if (const auto& trajectory = state.trajectory(i)) costs[i] = trajectory->cost;
+  }
+  return costs;
+}
+
 /// Puts the plans together: a robot that is not in `unplanned` follows its trajectory or is parked.
 Plan collect(const FleetState& state, std::vector<std::optional<Unplanned>> unplanned,
              const TautBounds& bounds) {
@@ -78,7 +87,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   for (Unplanned& robot : prioritized.unplanned) unplanned[robot.robot] = std::move(robot);
   std::erase_if(movers, [&](std::size_t robot) { return !state.trajectory(robot); });
   const bool anytime = options.mode == PlanOptions::Mode::anytime;
-  const TautBounds bounds(fleet, movers, anytime ? until_share_ends(stop, kBoundsShare) : stop);
+  const TautBounds bounds(fleet, movers, costs(state), anytime ? until_share_ends(stop, kBoundsShare) : stop);
   const std::int64_t expansions = state.expansions();
   Improvement improvement;
   if (anytime) improvement = improve(state, movers, bounds, random, executor, stop);

@@ -21,6 +21,9 @@ constexpr double kAsin = 1.05;
 /// Room for disks a little smaller than told, and for rounding.
 constexpr double kSnug = 0.99;
 
+/// Work to follow a fan through a row; measured.
+constexpr int kFanWork = 2;
+
 std::optional<Corner> convex_corner(const OccupancyGrid& grid, int x, int line) {
   std::optional<Corner> corner;
   for (const int away_x : {1, -1}) {
@@ -41,9 +44,11 @@ class CornerSight::View {
  public:
   View(const CornerSight& sight, double x, double y) : sight_(sight), x_(x), y_(y) {}
 
-  std::vector<int> corners() {
-    scan(true);
-    scan(false);
+  /// All of them, or all that tangents lead to from bends around this corner (where the viewpoint is).
+  std::vector<int> corners(const Corner* bend) {
+    const int right_above = bend == nullptr ? 0 : -bend->away_x * bend->away_y;
+    scan(true, right_above);
+    scan(false, -right_above);
     const double line = std::round(y_);
     if (std::abs(y_ - line) <= kBlur) look_along(static_cast<int>(line));
     std::sort(found_.begin(), found_.end());
@@ -58,16 +63,31 @@ class CornerSight::View {
     double right;
   };
 
-  /// Rows above (`up`) or below.
-  void scan(bool up) {
+  /// Rows above (`up`) or below. `side`: 1 to look for tangents that lead to the right, -1 to the left, 0 for
+  /// all corners. The places that a tangent touches are up to a diameter nearer together, in either
+  /// direction, than the corners.
+  void scan(bool up, int side) {
+    const double diameter = 2.0 * sight_.most_ + kBlur;
     const int step = up ? 1 : -1;
     fans_ = {{-kSteepest, kSteepest}};
     int row = static_cast<int>(up ? std::floor(y_) : std::ceil(y_) - 1.0);
     for (; row >= 0 && row < sight_.grid_.rows() && !fans_.empty(); row += step) {
       const double near = std::max(0.0, up ? row - y_ : y_ - (row + 1));
       const double far = up ? row + 1 - y_ : y_ - row;
+      if (side != 0 && far > diameter) look_aside(side, diameter / far);
       pass_row(row, near, far);
       find_on_line(up ? row + 1 : row, far);
+    }
+  }
+
+  /// Takes from the fans all but one side, with a margin.
+  void look_aside(int side, double margin) {
+    for (Fan& fan : fans_) {
+      if (side > 0) {
+        fan.left = std::max(fan.left, -margin);
+      } else {
+        fan.right = std::min(fan.right, margin);
+      }
     }
   }
 
@@ -105,7 +125,7 @@ class CornerSight::View {
   /// an angle phi to the lines. The line to the corner differs from that by no more than asin(2 r / d), d its
   /// length.
   bool too_narrow(const Fan& fan, double distance) const {
-    const double radius = sight_.radius_;
+    const double radius = sight_.least_;
     if (distance < kRadiiAhead * radius) return false;
     const double slope = std::max(std::abs(fan.left), std::abs(fan.right));
     const double chord = 2.0 * radius / std::sqrt(1.0 + slope * slope);
@@ -147,8 +167,8 @@ class CornerSight::View {
   std::int64_t fans_followed_ = 0;
 };
 
-CornerSight::CornerSight(const OccupancyGrid& grid, double radius)
-    : grid_(grid), radius_(radius / grid.resolution()) {
+CornerSight::CornerSight(const OccupancyGrid& grid, double least, double most)
+    : grid_(grid), least_(least / grid.resolution()), most_(most / grid.resolution()) {
   for (int line = 0; line <= grid.rows(); ++line) {
     for (int x = 0; x <= grid.columns(); ++x) {
       before_.push_back(count());
@@ -178,24 +198,20 @@ CornerSight::CornerSight(const OccupancyGrid& grid, double radius)
   from_corner_.resize(corners_.size());
 }
 
-Position CornerSight::position(int index) const {
-  return grid_.resolution() * Position(corner(index).x, corner(index).y);
-}
-
 std::vector<int> CornerSight::seen_from(const Position& position) {
-  return seen(position.x() / grid_.resolution(), position.y() / grid_.resolution());
+  return seen(position.x() / grid_.resolution(), position.y() / grid_.resolution(), nullptr);
 }
 
-const std::vector<int>& CornerSight::seen_from_corner(int index) {
+const std::vector<int>& CornerSight::bends_from(int index) {
   auto& known = from_corner_[static_cast<std::size_t>(index)];
-  if (!known) known = seen(corner(index).x, corner(index).y);
+  if (!known) known = seen(corner(index).x, corner(index).y, &corner(index));
   return *known;
 }
 
-std::vector<int> CornerSight::seen(double x, double y) {
+std::vector<int> CornerSight::seen(double x, double y, const Corner* bend) {
   View view(*this, x, y);
-  std::vector<int> corners = view.corners();
-  work_ += view.fans_followed() + static_cast<std::int64_t>(corners.size());
+  std::vector<int> corners = view.corners(bend);
+  work_ += kFanWork * view.fans_followed() + static_cast<std::int64_t>(corners.size());
   return corners;
 }
 

@@ -1,9 +1,11 @@
 #include "core/map/tangents.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {
@@ -12,13 +14,17 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 /// Rounding of the direction of a tangent that crosses between two circles that nearly touch (radians).
 constexpr double kBlur = 1e-7;
+/// Rounding of headings along an axis (radians): a move grazes a quarter within this of its end.
+constexpr double kGrazing = 1e-12;
 /// An arc is tested in so many pieces, few enough for the bits of a number; each is then within 0.12 % of the
 /// radius from its chord.
 constexpr int kPieces = 16;
 constexpr double kPiece = 0.5 * kPi / kPieces;
 
-/// Work for a tangent that is computed, and for a sweep that is tested against obstacles; measured.
+/// Work for a tangent that is computed, and for a sweep that is tested against obstacles; so many corners
+/// that prove to lie the wrong way are a step of work. Measured.
 constexpr int kTangentWork = 3;
+constexpr int kGlances = 4;
 constexpr int kSweepWork = 30;
 /// A gap is tight if a straight move through a third of one cell of it stays on the grid line, up to three
 /// times this, in cells, from one end of the map to the other; so both of its ends would be off all cell
@@ -41,6 +47,12 @@ int tight_gap(const OccupancyGrid& grid, double radius) {
   return play * std::max(grid.columns(), grid.rows()) <= kOffLine ? cells : 0;
 }
 
+/// How far from its own a component of the vector `d` between two centres may be between the places where a
+/// tangent touches their circles, `across` being how much farther to its left the second centre is.
+double slack(const Position& d, double across) {
+  return across + kBlur * (std::abs(d.x()) + std::abs(d.y()));
+}
+
 /// The direction away from the blocked cell.
 double axis(const Corner& corner) { return std::atan2(corner.away_y, corner.away_x); }
 
@@ -54,41 +66,59 @@ Tangents::Tangents(CornerSight& corners, const LineOfSight& sight, double radius
       from_(2 * static_cast<std::size_t>(corners.count())),
       arcs_(static_cast<std::size_t>(corners.count())) {}
 
-Tangents::Side Tangents::side(const Bend& bend) const {
-  return {corners_.position(bend.corner), bend.left ? radius_ : -radius_, &corners_.corner(bend.corner)};
+const Tangents::Quadrant& Tangents::quadrant(const Corner& corner, bool left) {
+  static constexpr std::array<Quadrant, 4> kQuadrants = {Quadrant{-1.0, -1.0, -0.75 * kPi},
+                                                         {1.0, -1.0, -0.25 * kPi},
+                                                         {-1.0, 1.0, 0.75 * kPi},
+                                                         {1.0, 1.0, 0.25 * kPi}};
+  // With the corner on the left, the way away from the blocked cell is to the right.
+  const bool east = left ? corner.away_y < 0 : corner.away_y > 0;
+  const bool north = left ? corner.away_x > 0 : corner.away_x < 0;
+  return kQuadrants[(north ? 2U : 0U) + (east ? 1U : 0U)];
 }
 
-/// Where a move with this unit vector to its left touches the circle of `side`; none outside the quarter.
-std::optional<double> Tangents::place(const Side& side, const Position& left_normal) {
-  if (side.corner == nullptr) return 0.0;
-  const double sign = side.offset > 0.0 ? 1.0 : -1.0;
-  const Position outward = -sign * left_normal;
-  const double along_x = outward.x() * side.corner->away_x;
-  const double along_y = outward.y() * side.corner->away_y;
-  if (along_x < -kBlur || along_y < -kBlur) return std::nullopt;
-  const double handed = side.corner->away_x * side.corner->away_y * sign;
-  return handed * (std::atan2(along_y, along_x) - 0.25 * kPi);
+Tangents::Side Tangents::side(const Bend& bend) const {
+  return {corners_.position(bend.corner), bend.left ? radius_ : -radius_,
+          &quadrant(corners_.corner(bend.corner), bend.left)};
+}
+
+/// Has a disk that moves along this vector a heading that it can have on the bend? To within `slack`, of the
+/// vector's unit.
+bool Tangents::may_head(const Side& side, const Position& direction, double slack) {
+  return side.quadrant == nullptr ||
+         (direction.x() * side.quadrant->x >= -slack && direction.y() * side.quadrant->y >= -slack);
+}
+
+/// Where a move of this heading touches the circle of `side`.
+double Tangents::place(const Side& side, double heading) {
+  if (side.quadrant == nullptr) return 0.0;
+  const double turned = rotation_between(side.quadrant->middle, heading);
+  return side.offset > 0.0 ? turned : -turned;
 }
 
 std::optional<Tangent> Tangents::tangent(const Side& from, const Side& to) {
-  work_ += kTangentWork;
+  ++work_;
   const Position d = to.center - from.center;
-  const double distance = d.norm();
   const double across = to.offset - from.offset;
+  const double most = slack(d, std::abs(across));
+  if (!may_head(from, d, most) || !may_head(to, d, most)) return std::nullopt;
+  work_ += kTangentWork;
+  const double distance = d.norm();
   if (!(distance > std::abs(across))) return std::nullopt;
   const double sine = across / distance;
   const double cosine = std::sqrt(1.0 - sine * sine);
   const Position along = Position(d.x() * cosine + d.y() * sine, d.y() * cosine - d.x() * sine) / distance;
-  const Position left(-along.y(), along.x());
-  const auto leave = place(from, left);
-  if (!leave) return std::nullopt;
-  const auto arrive = place(to, left);
-  if (!arrive) return std::nullopt;
+  if (!may_head(from, along, kBlur) || !may_head(to, along, kBlur)) return std::nullopt;
   Tangent tangent;
-  tangent.leave = *leave;
-  tangent.arrive = *arrive;
-  tangent.length = distance * cosine;
   tangent.heading = std::atan2(along.y(), along.x());
+  tangent.leave = place(from, tangent.heading);
+  tangent.arrive = place(to, tangent.heading);
+  const bool grazes_first = std::abs(tangent.leave + 0.25 * kPi) < kGrazing;
+  const bool grazes_last = std::abs(tangent.arrive - 0.25 * kPi) < kGrazing;
+  if (grazes_first || grazes_last) return std::nullopt;
+  tangent.length = distance * cosine;
+  const Position left(-along.y(), along.x());
+  tangent.begin = from.center - from.offset * left;
   tangent.end = to.center - to.offset * left;
   return tangent;
 }
@@ -105,21 +135,21 @@ std::optional<Tangent> Tangents::to_point(const Bend& from, const Position& poin
 
 bool Tangents::is_free(const Tangent& tangent) {
   work_ += kSweepWork;
-  const Position along(std::cos(tangent.heading), std::sin(tangent.heading));
-  return sight_.may_sweep(tangent.end - tangent.length * along, tangent.end, radius_ - kShrink) &&
-         !squeezes_through(tangent, along);
+  return sight_.may_sweep(tangent.begin, tangent.end, radius_ - kShrink) && !squeezes_through(tangent);
 }
 
-bool Tangents::squeezes_through(const Tangent& tangent, const Position& along) const {
-  if (tight_gap_ == 0 || std::min(std::abs(along.x()), std::abs(along.y())) > kOnLine) return false;
-  const int axis = std::abs(along.y()) > std::abs(along.x()) ? 1 : 0;
+bool Tangents::squeezes_through(const Tangent& tangent) const {
+  if (tight_gap_ == 0) return false;
+  const Position d = tangent.end - tangent.begin;
+  const int axis = std::abs(d.y()) > std::abs(d.x()) ? 1 : 0;
+  if (std::abs(d[1 - axis]) > kOnLine * tangent.length) return false;
+  const Position begin = tangent.begin / corners_.grid().resolution();
   const Position end = tangent.end / corners_.grid().resolution();
-  const double length = tangent.length / corners_.grid().resolution();
   const double line = std::round(end[1 - axis]);
   if (std::abs(end[1 - axis] - line) > kOnLine) return false;
-  const double begin = end[axis] - (along[axis] > 0.0 ? length : -length);
-  const int last = static_cast<int>(std::floor(std::max(begin, end[axis]) + kOnLine));
-  for (int cell = static_cast<int>(std::ceil(std::min(begin, end[axis]) - kOnLine)); cell < last; ++cell) {
+  const auto [low, high] = std::minmax(begin[axis], end[axis]);
+  const int last = static_cast<int>(std::floor(high + kOnLine));
+  for (int cell = static_cast<int>(std::ceil(low - kOnLine)); cell < last; ++cell) {
     if (gap_at(static_cast<int>(line), cell, axis == 1)) return true;
   }
   return false;
@@ -134,21 +164,40 @@ bool Tangents::gap_at(int line, int cell, bool upright) const {
                  : grid.blocked({cell, low}) && grid.blocked({cell, high});
 }
 
-const std::vector<Tangent>& Tangents::from(const Bend& bend) {
-  auto& known = from_[static_cast<std::size_t>(index(bend))];
-  if (known) return *known;
-  known.emplace();
-  for (const int corner : corners_.seen_from_corner(bend.corner)) {
+std::span<const Tangent> Tangents::from(const Bend& bend) {
+  Links& links = from_[static_cast<std::size_t>(index(bend))];
+  if (links.begin < 0) links = link(bend);
+  return std::span(tangents_).subspan(static_cast<std::size_t>(links.begin),
+                                      static_cast<std::size_t>(links.end - links.begin));
+}
+
+Tangents::Links Tangents::link(const Bend& bend) {
+  const auto begin = static_cast<std::ptrdiff_t>(tangents_.size());
+  const Side here = side(bend);
+  const std::vector<int>& corners = corners_.bends_from(bend.corner);
+  work_ += static_cast<std::int64_t>(corners.size()) / kGlances;
+  for (const int corner : corners) {
+    const Position d = corners_.position(corner) - here.center;
+    if (!may_head(here, d, slack(d, 2.0 * radius_))) continue;
     for (const bool left : {false, true}) {
-      auto found = tangent(side(bend), side(Bend{corner, left}));
-      if (!found || !is_free(*found)) continue;
-      found->to = {corner, left};
-      known->push_back(*found);
+      const Bend to{corner, left};
+      const auto found = tangent(here, side(to));
+      if (!found) continue;
+      tangents_.push_back(*found);
+      tangents_.back().to = to;
     }
   }
-  std::stable_sort(known->begin(), known->end(),
+  freedom_.resize(tangents_.size(), Freedom::unknown);
+  std::stable_sort(tangents_.begin() + begin, tangents_.end(),
                    [](const Tangent& a, const Tangent& b) { return a.leave > b.leave; });
-  return *known;
+  return {static_cast<int>(begin), static_cast<int>(tangents_.size())};
+}
+
+bool Tangents::is_free(const Bend& bend, std::size_t k) {
+  const auto link = static_cast<std::size_t>(from_[static_cast<std::size_t>(index(bend))].begin) + k;
+  Freedom& freedom = freedom_[link];
+  if (freedom == Freedom::unknown) freedom = is_free(tangents_[link]) ? Freedom::free : Freedom::blocked;
+  return freedom == Freedom::free;
 }
 
 const Tangents::Arc& Tangents::arc(int corner) {

@@ -25,7 +25,8 @@ bool sees_goal(const Fleet& fleet, std::size_t robot, double radius) {
 
 }  // namespace
 
-TautBounds::TautBounds(const Fleet& fleet, const std::vector<std::size_t>& robots, const StopCondition& stop)
+TautBounds::TautBounds(const Fleet& fleet, const std::vector<std::size_t>& robots,
+                       const std::vector<double>& costs, const StopCondition& stop)
     : seconds_(fleet.size(), 0.0) {
   std::map<double, std::vector<std::size_t>> out_of_sight;  // by radius, so that tangents are shared
   for (const std::size_t robot : robots) {
@@ -36,7 +37,7 @@ TautBounds::TautBounds(const Fleet& fleet, const std::vector<std::size_t>& robot
   }
   if (out_of_sight.empty()) return;
   std::int64_t work = kMostWork;
-  CornerSight corners(fleet.problem().grid(), out_of_sight.begin()->first);
+  CornerSight corners(fleet.problem().grid(), out_of_sight.begin()->first, out_of_sight.rbegin()->first);
   for (const auto& [radius, group] : out_of_sight) {
     TautSearch search(corners, fleet.sight(), radius);
     work -= corners.count();  // the memory that it sets up
@@ -47,7 +48,8 @@ TautBounds::TautBounds(const Fleet& fleet, const std::vector<std::size_t>& robot
       }
       if (work <= 0) return;
       const std::int64_t before = search.work();
-      const TautResult result = search.run(fleet.robot(robot), fleet.motion(robot), work / kShare, stop);
+      const TautResult result =
+          search.run(fleet.robot(robot), fleet.motion(robot), costs[robot], work / kShare, stop);
       work -= search.work() - before;
       seconds_[robot] = result.seconds;
       cut_off_ = cut_off_ || result.cut_off;

@@ -12,9 +12,11 @@ namespace fleetplan::core {
 /// line and the turns where that is free, the cheapest taut path elsewhere (see TautSearch).
 class TautBounds {
  public:
-  /// Of `robots`, all with goals. Where that would take more than about half a second, on large maps full of
-  /// corners, or when `stop` is met, bounds are weaker, down to the straight line.
-  TautBounds(const Fleet& fleet, const std::vector<std::size_t>& robots, const StopCondition& stop);
+  /// Of `robots`, all with goals; `costs`, by robot: of a plan that is known, infinite for none. Where that
+  /// would take more than about half a second, on large maps full of corners, or when `stop` is met, bounds
+  /// are weaker, down to the straight line.
+  TautBounds(const Fleet& fleet, const std::vector<std::size_t>& robots, const std::vector<double>& costs,
+             const StopCondition& stop);
 
   /// 0 for a robot that was not among `robots`.
   double operator[](std::size_t robot) const { return seconds_[robot]; }

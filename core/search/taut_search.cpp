@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <span>
 
 #include "core/search/lower_bound.h"
 
@@ -11,20 +12,25 @@ namespace {
 /// Rounding of a place on a bend (radians): where two tangents touch it at the same place, one leads on to
 /// the other.
 constexpr double kSamePlace = 1e-6;
+/// What rounding may add to the cost of a path, as a part of it and in seconds.
+constexpr double kRounding = 1e-9;
 /// Expansions between two looks at the clock.
 constexpr int kStopStride = 16;
 
 }  // namespace
 
-TautResult TautSearch::run(const Robot& robot, const Motion& motion, std::int64_t most_work,
+TautResult TautSearch::run(const Robot& robot, const Motion& motion, double at_most, std::int64_t most_work,
                            const StopCondition& stop) {
   robot_ = &robot;
   motion_ = &motion;
   bend_time_ = motion.translation_time(tangents_.radius()) + 1.0 / motion.angular_speed;
+  limit_ = at_most * (1.0 + kRounding) + kRounding;
   const std::int64_t last_work = work() + most_work;
   reset();
   const double straight = lower_bound(robot, motion);
-  sees_goal_ = corners_.seen_from(robot.goal->position);
+  for (const int corner : corners_.seen_from(robot.goal->position)) {
+    sees_goal_[static_cast<std::size_t>(corner)] = 1;
+  }
   leave_start();
   TautResult result{straight, false};
   for (int expansion = 1; !open_.empty(); ++expansion) {
@@ -46,62 +52,87 @@ TautResult TautSearch::run(const Robot& robot, const Motion& motion, std::int64_
 void TautSearch::reset() {
   arrivals_.clear();
   open_.clear();
+  from_start_.clear();
   arrivals_at_.assign(static_cast<std::size_t>(tangents_.bend_count()), -1);
+  sees_goal_.assign(static_cast<std::size_t>(corners_.count()), 0);
 }
 
 void TautSearch::leave_start() {
   const Pose& start = robot_->start;
   for (const int corner : corners_.seen_from(start.position)) {
     for (const bool left : {false, true}) {
-      ++steps_;
       const Bend bend{corner, left};
       const auto tangent = tangents_.from_point(start.position, bend);
       if (!tangent) continue;
+      ++steps_;
       const double seconds = motion_->rotation_time(start.theta, tangent->heading) +
                              motion_->translation_time(tangent->length) + 2.0 * motion_->wait_before_move;
-      push({seconds, tangent->arrive, bend, *tangent, false, false, -1});
+      const int number = static_cast<int>(from_start_.size());
+      if (!push({seconds, tangent->arrive, bend, number, -1, false}, *tangent)) continue;
+      from_start_.push_back(*tangent);
     }
   }
 }
 
 void TautSearch::expand(int index) {
-  Arrival& arrival = arrivals_[static_cast<std::size_t>(index)];
-  const Bend bend = arrival.bend;
-  if (better_known(bend, arrival.place, arrival.seconds, index)) return;
-  if (!arrival.tested) {
-    if (!tangents_.is_free(arrival.by)) return;
+  const Arrival arrival = arrivals_[static_cast<std::size_t>(index)];
+  if (better_known(arrival.bend, arrival.place, arrival.seconds, index)) return;
+  if (arrival.untested >= 0) {
+    if (!tangents_.is_free(from_start_[static_cast<std::size_t>(arrival.untested)])) return;
     enlist(index);
   }
-  const double place = arrival.place;
-  for (const Tangent& tangent : tangents_.from(bend)) {
-    if (tangent.leave < place - kSamePlace) break;  // the rest leaves before the robot arrives
-    leave(index, tangent, false);
-  }
-  if (!std::binary_search(sees_goal_.begin(), sees_goal_.end(), bend.corner)) return;
-  const auto last = tangents_.to_point(bend, robot_->goal->position);
-  if (last && last->leave >= place - kSamePlace && tangents_.is_free(*last)) leave(index, *last, true);
+  go_on(arrival);
+  if (sees_goal_[static_cast<std::size_t>(arrival.bend.corner)] != 0) reach_goal(arrival);
 }
 
-/// Puts the way along the bend and then along the tangent on the open list.
-void TautSearch::leave(int index, const Tangent& tangent, bool at_goal) {
-  ++steps_;
-  const Arrival& arrival = arrivals_[static_cast<std::size_t>(index)];
-  const double turn = std::max(0.0, tangent.leave - arrival.place);
-  double seconds = arrival.seconds + turn * bend_time_ + motion_->translation_time(tangent.length);
-  if (!at_goal) {
+/// Puts what can be reached by a tangent from the bend on the open list.
+void TautSearch::go_on(const Arrival& arrival) {
+  const std::span<const Tangent> tangents = tangents_.from(arrival.bend);
+  for (std::size_t k = 0; k < tangents.size(); ++k) {
+    const Tangent& tangent = tangents[k];
+    if (tangent.leave < arrival.place - kSamePlace) break;  // the rest leaves before the robot arrives
+    ++steps_;
+    double seconds = seconds_after(arrival, tangent);
     if (tangent.to.left != arrival.bend.left) seconds += motion_->wait_before_move;
-    if (better_known(tangent.to, tangent.arrive, seconds, -1)) return;
+    if (too_far(seconds, tangent.end) || better_known(tangent.to, tangent.arrive, seconds, -1)) continue;
+    if (!tangents_.may_bend(arrival.bend, arrival.place, tangent.leave)) continue;
+    if (!tangents_.is_free(arrival.bend, k)) continue;
+    if (push({seconds, tangent.arrive, tangent.to, -1, -1, false}, tangent)) {
+      enlist(static_cast<int>(arrivals_.size()) - 1);
+    }
   }
-  if (!tangents_.may_bend(arrival.bend, arrival.place, tangent.leave)) return;
-  push({seconds, tangent.arrive, tangent.to, tangent, true, at_goal, -1});
-  if (!at_goal) enlist(static_cast<int>(arrivals_.size()) - 1);
 }
 
-void TautSearch::push(const Arrival& arrival) {
-  const double to_go = straight_cost({arrival.by.end, arrival.by.heading}, *robot_->goal, *motion_);
+/// Puts the goal on the open list.
+void TautSearch::reach_goal(const Arrival& arrival) {
+  const auto tangent = tangents_.to_point(arrival.bend, robot_->goal->position);
+  if (!tangent || tangent->leave < arrival.place - kSamePlace) return;
+  ++steps_;
+  const double seconds = seconds_after(arrival, *tangent);
+  if (!tangents_.may_bend(arrival.bend, arrival.place, tangent->leave)) return;
+  if (tangents_.is_free(*tangent)) push({seconds, 0.0, {}, -1, -1, true}, *tangent);
+}
+
+/// Along the bend and then along the tangent.
+double TautSearch::seconds_after(const Arrival& arrival, const Tangent& tangent) const {
+  const double turn = std::max(0.0, tangent.leave - arrival.place);
+  return arrival.seconds + turn * bend_time_ + motion_->translation_time(tangent.length);
+}
+
+/// Is the goal too far from `end` to be reached within the limit, turns left out?
+bool TautSearch::too_far(double seconds, const Position& end) const {
+  const double left = (limit_ - seconds) * motion_->linear_speed;
+  return left < 0.0 || (robot_->goal->position - end).squaredNorm() > left * left;
+}
+
+/// Puts an arrival on the open list, unless the goal is too far from there, turns included.
+bool TautSearch::push(const Arrival& arrival, const Tangent& by) {
+  const double f = arrival.seconds + straight_cost({by.end, by.heading}, *robot_->goal, *motion_);
+  if (f > limit_) return false;
   arrivals_.push_back(arrival);
-  open_.push_back({arrival.seconds + to_go, static_cast<int>(arrivals_.size()) - 1});
+  open_.push_back({f, static_cast<int>(arrivals_.size()) - 1});
   std::push_heap(open_.begin(), open_.end(), std::greater<>());
+  return true;
 }
 
 void TautSearch::enlist(int index) {

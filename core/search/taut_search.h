@@ -40,24 +40,25 @@ class TautSearch {
   TautSearch(CornerSight& corners, const LineOfSight& sight, double radius)
       : corners_(corners), tangents_(corners, sight, radius) {}
 
-  /// `motion` has the radius, and the robot a goal, which it does not see. After `most_work`, or when
-  /// `stop` is met, the bound is what is known by then.
-  TautResult run(const Robot& robot, const Motion& motion, std::int64_t most_work, const StopCondition& stop);
+  /// `motion` has the radius, and the robot a goal, which it does not see. `at_most`: the cost of a plan,
+  /// seconds, beyond which nobody looks; infinite if none is known. After `most_work`, or when `stop` is
+  /// met, the bound is what is known by then.
+  TautResult run(const Robot& robot, const Motion& motion, double at_most, std::int64_t most_work,
+                 const StopCondition& stop);
 
   /// The work done so far by this and by `corners`, a step taking 10 to 20 ns.
   std::int64_t work() const { return steps_ * kStepWork + tangents_.work() + corners_.work(); }
 
  private:
-  static constexpr int kStepWork = 4;  // to look at a tangent; measured
+  static constexpr int kStepWork = 3;  // to look at a tangent; measured
 
   struct Arrival {
     double seconds = 0.0;
     double place = 0.0;  // on the bend
     Bend bend;
-    Tangent by;
-    bool tested = false;  // `by` is known to be free
+    int untested = -1;  // in from_start_: the move by which it arrives, if that is not known to be free
+    int next = -1;      // another one at the same bend that was put on the open list and is tested, or -1
     bool at_goal = false;
-    int next = -1;  // another one at the same bend that was put on the open list and is tested, or -1
   };
   struct Open {
     double f;
@@ -68,8 +69,11 @@ class TautSearch {
   void reset();
   void leave_start();
   void expand(int index);
-  void leave(int index, const Tangent& tangent, bool at_goal);
-  void push(const Arrival& arrival);
+  void go_on(const Arrival& arrival);
+  void reach_goal(const Arrival& arrival);
+  double seconds_after(const Arrival& arrival, const Tangent& tangent) const;
+  bool too_far(double seconds, const Position& end) const;
+  bool push(const Arrival& arrival, const Tangent& by);
   void enlist(int index);
   bool better_known(const Bend& bend, double place, double seconds, int except) const;
 
@@ -80,8 +84,10 @@ class TautSearch {
   // Of the search at hand; kept between searches for their memory.
   const Robot* robot_ = nullptr;
   const Motion* motion_ = nullptr;
-  double bend_time_ = 0.0;      // seconds for a radian of an arc
-  std::vector<int> sees_goal_;  // corners, ascending
+  double bend_time_ = 0.0;       // seconds for a radian of an arc
+  double limit_ = 0.0;           // seconds; what costs more is not looked at
+  std::vector<char> sees_goal_;  // by corner
+  std::vector<Tangent> from_start_;
   std::vector<Arrival> arrivals_;
   std::vector<Open> open_;
   std::vector<int> arrivals_at_;  // by bend, the last of its list

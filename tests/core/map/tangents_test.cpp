@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -22,12 +23,21 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kShrunk = 1e-6;
 
 struct World {
-  World(OccupancyGrid told, double radius) : World(std::move(told), radius, radius) {}
-  /// `least`: the radius down to which corners are looked for.
-  World(OccupancyGrid told, double radius, double least)
-      : grid(std::move(told)), sight(grid), corners(grid, least), tangents(corners, sight, radius) {}
+  World(OccupancyGrid told, double radius) : World(std::move(told), radius, radius, radius) {}
+  /// `least` and `most`: the radii for which corners are looked for.
+  World(OccupancyGrid told, double radius, double least, double most)
+      : grid(std::move(told)), sight(grid), corners(grid, least, most), tangents(corners, sight, radius) {}
   World(const World&) = delete;
   World& operator=(const World&) = delete;
+
+  std::vector<Tangent> free_from(const Bend& bend) {
+    const std::span<const Tangent> all = tangents.from(bend);
+    std::vector<Tangent> free;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (tangents.is_free(bend, k)) free.push_back(all[k]);
+    }
+    return free;
+  }
 
   OccupancyGrid grid;
   LineOfSight sight;
@@ -46,25 +56,41 @@ OccupancyGrid block() {
 
 TEST(Tangents, FromAPointTouchTheCircleAroundTheCorner) {
   World w(block(), 0.5);
-  const auto level = w.tangents.from_point({0.5, 1.5}, {0, true});
+  const auto level = w.tangents.from_point({0.5, 1.5}, {1, true});
   ASSERT_TRUE(level);
-  EXPECT_NEAR(level->heading, 0.0, kShrunk) << "the corner (2, 2) is on the left";
-  EXPECT_NEAR(level->length, 1.5, kShrunk);
-  EXPECT_NEAR((level->end - Position(2.0, 1.5)).norm(), 0.0, kShrunk);
-  EXPECT_NEAR(level->arrive, 0.25 * kPi, kShrunk) << "where the quarter ends";
+  EXPECT_NEAR(level->heading, 0.0, kShrunk) << "the corner (3, 2) is on the left";
+  EXPECT_NEAR(level->length, 2.5, kShrunk);
+  EXPECT_NEAR((level->begin - Position(0.5, 1.5)).norm(), 0.0, kShrunk);
+  EXPECT_NEAR((level->end - Position(3.0, 1.5)).norm(), 0.0, kShrunk);
+  EXPECT_NEAR(level->arrive, -0.25 * kPi, kShrunk) << "where the quarter begins";
   EXPECT_TRUE(w.tangents.is_free(*level));
   EXPECT_FALSE(w.tangents.from_point({4.5, 4.5}, {0, true})) << "it would touch the circle inside the block";
 }
 
 TEST(Tangents, BetweenCornersOfOneSideRunAlongTheWall) {
   World w(block(), 0.5);
-  const auto& from = w.tangents.from({0, true});
+  const auto from = w.free_from({0, true});
   ASSERT_EQ(from.size(), 1u);
   EXPECT_EQ(from[0].to.corner, 1);
   EXPECT_TRUE(from[0].to.left);
   EXPECT_NEAR(from[0].length, 1.0, kShrunk);
   EXPECT_NEAR(from[0].leave, 0.25 * kPi, kShrunk);
   EXPECT_NEAR(from[0].arrive, -0.25 * kPi, kShrunk);
+}
+
+TEST(Tangents, DoNotEndOrBeginWhereAWallIsOnlyGrazed) {
+  World w(ascii_map({".......",  //
+                     ".#.#.#.",  //
+                     "......."}),
+          0.5);
+  // The corners below the cells are 0 to 5, from the left. Past them all leads but one move.
+  EXPECT_EQ(w.corners.position(5), Position(6.0, 1.0));
+  std::vector<int> level;
+  for (const Tangent& tangent : w.free_from({0, true})) {
+    if (std::abs(tangent.heading) < kShrunk) level.push_back(tangent.to.corner);
+  }
+  EXPECT_EQ(level, (std::vector{1, 3, 5})) << "the far sides of the cells, where a path may turn left";
+  for (const Tangent& tangent : w.free_from({1, true})) EXPECT_GT(std::abs(tangent.heading), kShrunk);
 }
 
 TEST(Tangents, CrossBetweenCornersOnDifferentSides) {
@@ -78,7 +104,7 @@ TEST(Tangents, CrossBetweenCornersOnDifferentSides) {
   int crossing = 0;
   for (int corner = 0; corner < w.corners.count(); ++corner) {
     if (w.corners.position(corner) != Position(2.0, 2.0)) continue;
-    for (const Tangent& tangent : w.tangents.from({corner, false})) {
+    for (const Tangent& tangent : w.free_from({corner, false})) {
       if (w.corners.position(tangent.to.corner) != Position(3.0, 1.0)) continue;
       ++crossing;
       EXPECT_TRUE(tangent.to.left);
@@ -124,7 +150,7 @@ TEST(Tangents, DoNotRunBetweenCellCentresThroughAGapThatJustFits) {
     EXPECT_EQ(w.corners.position(0), Position(4.0, 2.0));
     int upwards = 0;
     for (const bool left : {false, true}) {
-      for (const Tangent& tangent : w.tangents.from({0, left})) upwards += tangent.end.y() > 3.9 ? 1 : 0;
+      for (const Tangent& tangent : w.free_from({0, left})) upwards += tangent.end.y() > 3.9 ? 1 : 0;
     }
     return upwards;
   };
@@ -145,10 +171,11 @@ TEST(Tangents, AreAsLongAsTheyLookAndFreeForTheDiskOnRandomMaps) {
     for (int b = 0; b < w.tangents.bend_count(); b += 3) {
       const Bend bend{b / 2, b % 2 == 1};
       const Position center = w.corners.position(bend.corner);
-      for (const Tangent& tangent : w.tangents.from(bend)) {
+      for (const Tangent& tangent : w.free_from(bend)) {
         ++count;
         const Position along(std::cos(tangent.heading), std::sin(tangent.heading));
         const Position begin = tangent.end - tangent.length * along;
+        ASSERT_NEAR((tangent.begin - begin).norm(), 0.0, 1e-9);
         ASSERT_NEAR((begin - center).norm(), w.tangents.radius(), 1e-9);
         ASSERT_NEAR((tangent.end - w.corners.position(tangent.to.corner)).norm(), w.tangents.radius(), 1e-9);
         ASSERT_NEAR((begin - center).dot(along), 0.0, 1e-9);
@@ -161,7 +188,7 @@ TEST(Tangents, AreAsLongAsTheyLookAndFreeForTheDiskOnRandomMaps) {
   EXPECT_GT(count, 1000);
 }
 
-TEST(Tangents, AreNotMissedWhereOnlySightOfTheDisksWidthIsLookedFor) {
+TEST(Tangents, AreNotMissedWhereOnlySightOfTheDisksWidthBesideTheCellsIsLookedFor) {
   const std::uint64_t seed = 47;
   support::Dice dice(seed);
   int count = 0;
@@ -176,14 +203,14 @@ TEST(Tangents, AreNotMissedWhereOnlySightOfTheDisksWidthIsLookedFor) {
       }
     }
     const double radius = 0.5 * (dice.chance(0.3) ? 0.5 * (1 + dice.below(3)) : dice.between(0.1, 1.5));
-    World all(grid, radius, 0.0);
+    World all(grid, radius, 0.0, grid.width() + grid.height());
     World wide(grid, radius);
     for (int b = dice.below(17); b < all.tangents.bend_count(); b += 17) {
       const Bend bend{b / 2, b % 2 == 1};
-      ASSERT_EQ(all.tangents.from(bend).size(), wide.tangents.from(bend).size());
-      count += static_cast<int>(wide.tangents.from(bend).size());
-      spared += static_cast<int>(all.corners.seen_from_corner(bend.corner).size()) -
-                static_cast<int>(wide.corners.seen_from_corner(bend.corner).size());
+      ASSERT_EQ(all.free_from(bend).size(), wide.free_from(bend).size());
+      count += static_cast<int>(wide.free_from(bend).size());
+      spared += static_cast<int>(all.corners.bends_from(bend.corner).size()) -
+                static_cast<int>(wide.corners.bends_from(bend.corner).size());
     }
     const Position point(dice.between(0.0, grid.width()), dice.between(0.0, grid.height()));
     if (!all.sight.disk_fits(point, radius)) continue;

@@ -40,7 +40,9 @@ std::vector<std::size_t> plan_first_solution(Planning& p) {
   return movers;
 }
 
-TautBounds bounds_of(const Planning& p) { return {p.fleet, p.movers(), p.never}; }
+TautBounds bounds_of(const Planning& p) {
+  return {p.fleet, p.movers(), std::vector<double>(p.fleet.size(), kForever), p.never};
+}
 
 PlanOptions iterations(std::int64_t count, Objective objective = Objective::flowtime) {
   PlanOptions options;

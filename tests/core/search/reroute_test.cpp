@@ -19,7 +19,7 @@ struct Crossing : Planning {
       : Planning(OccupancyGrid(9, 9, 1.0),
                  {robot_at(0.5, 4.5).to(8.5, 4.5), robot_at(4.5, 0.5, kUp).to(4.5, 8.5),
                   robot_at(8.5, 8.5, -kUp).to(8.5, 7.5)}),
-        bounds(fleet, movers(), never) {
+        bounds(fleet, movers(), std::vector<double>(fleet.size(), kForever), never) {
     state.follow(0, through({{0.5, 4.5}, {8.5, 4.5}}, 6.0));
     state.follow(1, through({{4.5, 0.5}, {4.5, 8.5}}, 1.0));
     state.follow(2, through({{8.5, 8.5}, {8.5, 7.5}}));

@@ -28,9 +28,10 @@ constexpr double kPi = std::numbers::pi;
 /// What the smaller disk of TautSearch makes of times.
 constexpr double kShrunk = 1e-5;
 
-double bound_of(const Problem& problem, const PlanOptions& options = {}) {
+/// `cost`: of a plan that is known.
+double bound_of(const Problem& problem, const PlanOptions& options = {}, double cost = kForever) {
   const Fleet fleet(problem, options);
-  const TautBounds bounds(fleet, {0}, StopCondition());
+  const TautBounds bounds(fleet, {0}, {cost}, StopCondition());
   EXPECT_FALSE(bounds.cut_off());
   return bounds[0];
 }
@@ -226,6 +227,8 @@ TEST_P(TautBoundsOfRandomProblems, AreNeverAboveTheCostOfTheRobotAloneNorBelowTh
     const double straight = lower_bound(fleet.robot(0), fleet.motion(0));
     ASSERT_LE(bound, *cost * (1.0 + 1e-12) + 1e-9);
     ASSERT_GE(bound, straight);
+    ASSERT_DOUBLE_EQ(bound_of(*problem, options, *cost), bound) << "told the cost";
+    ASSERT_DOUBLE_EQ(bound_of(*problem, options, bound), bound) << "as if a plan were as cheap as that";
     better += bound > 1.01 * straight ? 1 : 0;
     close += *cost < 1.02 * bound && bound > 1.01 * straight ? 1 : 0;
   }
@@ -292,16 +295,16 @@ TEST(TautBounds, OfAMetStopConditionAreStraightAndSaySo) {
   const Problem problem =
       make_problem(wall(), {robot_at(1.5, 1.5).to(5.5, 1.5), robot_at(0.5, 3.5).to(5.5, 3.5)});
   const Fleet fleet(problem, {});
-  const TautBounds bounds(fleet, {0, 1}, met());
+  const TautBounds bounds(fleet, {0, 1}, {kForever, kForever}, met());
   EXPECT_TRUE(bounds.cut_off());
   EXPECT_EQ(bounds[0], lower_bound(fleet.robot(0), fleet.motion(0)));
-  EXPECT_FALSE(TautBounds(fleet, {1}, met()).cut_off()) << "its goal is in sight";
+  EXPECT_FALSE(TautBounds(fleet, {1}, {kForever, kForever}, met()).cut_off()) << "its goal is in sight";
 }
 
 TEST(TautBounds, AreZeroForRobotsThatWereNotAskedFor) {
   const Problem problem = make_problem(wall(), {robot_at(1.5, 1.5).to(5.5, 1.5), robot_at(0.5, 3.5)});
   const Fleet fleet(problem, {});
-  EXPECT_EQ(TautBounds(fleet, {0}, StopCondition())[1], 0.0);
+  EXPECT_EQ(TautBounds(fleet, {0}, {kForever, kForever}, StopCondition())[1], 0.0);
 }
 
 TEST(TautBounds, OfManyRobotsOnALargeMapFullOfCornersTakeLimitedWork) {
@@ -321,13 +324,13 @@ TEST(TautBounds, OfManyRobotsOnALargeMapFullOfCornersTakeLimitedWork) {
   const Fleet fleet(problem, {});
   std::vector<std::size_t> all(fleet.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const TautBounds bounds(fleet, all, StopCondition());
+  const TautBounds bounds(fleet, all, std::vector<double>(fleet.size(), kForever), StopCondition());
   EXPECT_FALSE(bounds.cut_off());
-  CornerSight corners(grid, 0.3);
+  CornerSight corners(grid, 0.3, 0.4);
   for (const std::size_t robot : {std::size_t{0}, all.back()}) {
     TautSearch search(corners, fleet.sight(), fleet.motion(robot).radius);
     const double whole =
-        search.run(fleet.robot(robot), fleet.motion(robot), 1'000'000'000, StopCondition()).seconds;
+        search.run(fleet.robot(robot), fleet.motion(robot), kForever, 1'000'000'000, StopCondition()).seconds;
     EXPECT_LT(bounds[robot], whole - 1e-3);
     EXPECT_GE(bounds[robot], lower_bound(fleet.robot(robot), fleet.motion(robot)));
   }
@@ -339,15 +342,28 @@ TEST(TautSearch, KnowsLessAfterLessWork) {
   double before = lower_bound(fleet.robot(0), fleet.motion(0));
   const double first = before;
   for (const std::int64_t work : {0, 400, 1200, 1000000}) {
-    CornerSight corners(problem.grid(), fleet.motion(0).radius);
+    CornerSight corners(problem.grid(), fleet.motion(0).radius, fleet.motion(0).radius);
     TautSearch search(corners, fleet.sight(), fleet.motion(0).radius);
-    const TautResult result = search.run(fleet.robot(0), fleet.motion(0), work, StopCondition());
+    const TautResult result = search.run(fleet.robot(0), fleet.motion(0), kForever, work, StopCondition());
     EXPECT_FALSE(result.cut_off);
     EXPECT_GT(result.seconds, before);
     before = result.seconds;
   }
   EXPECT_GT(before, 3.0 * first);
   EXPECT_NEAR(before, *cost_alone(problem), 0.05 * before);
+}
+
+TEST(TautSearch, SparesWorkWhereAPlanIsKnown) {
+  const Problem problem = make_problem(maze(), {robot_at(1.5, 0.5).to(1.5, 4.5)});
+  const Fleet fleet(problem, {});
+  const double radius = fleet.motion(0).radius;
+  const auto work = [&](double at_most) {
+    CornerSight corners(problem.grid(), radius, radius);
+    TautSearch search(corners, fleet.sight(), radius);
+    search.run(fleet.robot(0), fleet.motion(0), at_most, 1'000'000, StopCondition());
+    return search.work();
+  };
+  EXPECT_LT(work(*cost_alone(problem)), work(kForever));
 }
 
 }  // namespace
