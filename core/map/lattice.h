@@ -55,7 +55,8 @@ class Lattice {
     const int c = std::abs(columns);
     const int r = std::abs(rows);
     if (c >= table_columns_ || r >= table_rows_) return displacement(columns, rows);
-    Displacement d = first_quadrant_[static_cast<std::size_t>(r * table_columns_ + c)];
+    const auto row_begin = static_cast<std::size_t>(r) * static_cast<std::size_t>(table_columns_);
+    Displacement d = first_quadrant_[row_begin + static_cast<std::size_t>(c)];
     if (columns < 0) d.heading = std::numbers::pi - d.heading;
     if (rows < 0) d.heading = -d.heading;
     return d;

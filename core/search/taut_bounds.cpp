@@ -12,7 +12,7 @@
 namespace fleetplan::core {
 namespace {
 
-/// Work for all robots of a request together (see TautSearch::work), 0.3 to 0.6 s.
+/// Work for all robots of a request together (see TautSearch::work), 0.3 to 0.5 s.
 constexpr std::int64_t kMostWork = 30'000'000;
 /// One robot may take so much of the work that is left, since the first ones also compute what they share
 /// with those that follow.
