@@ -1,5 +1,6 @@
 // Benchmarks of the planner; see --help, or scripts/bench, which builds and runs this.
 
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -19,6 +20,8 @@ namespace fleetplan::bench {
 namespace {
 
 std::ofstream open_output(const std::string& file) {
+  const auto folder = std::filesystem::path(file).parent_path();
+  if (!folder.empty()) std::filesystem::create_directories(folder);
   std::ofstream stream(file);
   if (!stream) throw std::runtime_error("cannot write " + file);
   return stream;
