@@ -1,12 +1,17 @@
 #include "core/search/priority_order.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/search/lower_bound.h"
 
 namespace fleetplan::core {
 namespace {
+
+/// How far the way's duration counts for its length: 0 for the distance alone, 1 for the time that it takes.
+/// In the paper's halls a quarter gave the cheapest first solutions; the time fails more often in crowds.
+constexpr double kSpeedWeight = 0.25;
 
 /// The number of orders of `count` robots, or `limit` if that is less.
 std::size_t permutations(std::size_t count, std::size_t limit) {
@@ -18,17 +23,16 @@ std::size_t permutations(std::size_t count, std::size_t limit) {
 }  // namespace
 
 PriorityOrder initial_order(const Fleet& fleet, std::vector<std::size_t> robots, Random& random) {
-  const auto distance = [&](std::size_t i) {
-    return (fleet.robot(i).goal->position - fleet.robot(i).start.position).squaredNorm();
+  const auto length = [&](std::size_t i) {
+    const double distance = (fleet.robot(i).goal->position - fleet.robot(i).start.position).norm();
+    return distance / std::pow(fleet.motion(i).linear_speed, kSpeedWeight);
   };
   switch (fleet.options().priority) {
     case PlanOptions::Priority::shortest_first:
-      std::stable_sort(robots.begin(), robots.end(),
-                       [&](auto a, auto b) { return distance(a) < distance(b); });
+      std::stable_sort(robots.begin(), robots.end(), [&](auto a, auto b) { return length(a) < length(b); });
       break;
     case PlanOptions::Priority::longest_first:
-      std::stable_sort(robots.begin(), robots.end(),
-                       [&](auto a, auto b) { return distance(a) > distance(b); });
+      std::stable_sort(robots.begin(), robots.end(), [&](auto a, auto b) { return length(a) > length(b); });
       break;
     case PlanOptions::Priority::random:
       random.shuffle(robots);

@@ -12,8 +12,8 @@ namespace fleetplan::core {
 /// Robots by index, the highest priority first.
 using PriorityOrder = std::vector<std::size_t>;
 
-/// The first order of these robots (ascending, with goals), by straight distance from start to goal or as the
-/// options say; ties as listed.
+/// The first order of these robots (ascending, with goals), as the options say: by straight distance from
+/// start to goal, where a faster robot counts as a little nearer, as listed, or at random; ties as listed.
 PriorityOrder initial_order(const Fleet& fleet, std::vector<std::size_t> robots, Random& random);
 
 /// A time for a robot to hold at its start until others have got out of its way, seconds: up to what a robot

@@ -77,6 +77,27 @@ TEST(Repair, GivesUpARobotThatKeepsFailingAndPlansTheOthers) {
   expect_safe(p.state);
 }
 
+TEST(Repair, BeginsAgainWithTheLargerOnesWhereManyFail) {
+  // Robots 0 and 1 cannot change places; 2, the smallest, and 3 would meet in the middle of the hall.
+  Planning p(
+      support::ascii_map({".......##",  //
+                          "#########",  //
+                          ".........",  //
+                          ".........",  //
+                          ".........",  //
+                          ".........",  //
+                          "........."}),
+      {robot_at(0.5, 6.5).to(6.5, 6.5), robot_at(6.5, 6.5, 3.0).to(0.5, 6.5),
+       robot_at(2.5, 2.5).to(8.5, 2.5).radius(0.2), robot_at(4.5, 4.5, -1.5707963267948966).to(4.5, 0.5)});
+  Random random = dice();
+  const RepairResult result = plan_with_repair(p.state, {0, 1, 2, 3}, random, p.never);
+  EXPECT_EQ(result.given_up.size(), 2u);
+  ASSERT_TRUE(p.state.trajectory(2) && p.state.trajectory(3));
+  EXPECT_NEAR(p.state.trajectory(3)->cost, 4.0, 1e-9);
+  EXPECT_GT(p.state.trajectory(2)->cost, 6.1) << "planned later, although listed before";
+  expect_safe(p.state);
+}
+
 TEST(Repair, ReturnsTheRobotsWithoutATrajectoryByPriorityWhenItIsStopped) {
   Planning p = mouth();
   Random random = dice();
