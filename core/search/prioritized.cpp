@@ -61,11 +61,24 @@ Rest solve(FleetState& state, const PriorityOrder& order, Random& random, const 
   return {std::move(repair.unsolved), std::move(repair.given_up)};
 }
 
+PrioritizedResult all_unplanned(const std::vector<std::size_t>& movers) {
+  PrioritizedResult result;
+  result.cut_off = true;
+  for (const std::size_t robot : movers) {
+    result.unplanned.push_back({robot,
+                                Unplanned::Reason::budget_exhausted,
+                                "The time budget ended before planning could begin.",
+                                {}});
+  }
+  return result;
+}
+
 }  // namespace
 
 PrioritizedResult plan_prioritized(FleetState& state, const std::vector<std::size_t>& movers, Random& random,
                                    const StopCondition& patience, const StopCondition& stop) {
   PrioritizedResult result;
+  if (stop.met()) return all_unplanned(movers);
   const Rest rest = solve(state, initial_order(state.fleet(), movers, random), random, patience, result);
   if (rest.unsolved.empty() && rest.given_up.empty()) return result;
   Completion completion = complete(state, rest.unsolved, rest.given_up, stop);

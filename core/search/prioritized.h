@@ -13,7 +13,7 @@
 namespace fleetplan::core {
 
 /// How planning all robots went. The trajectories are in the FleetState; robots without one stand at their
-/// starts for ever.
+/// starts for ever (unless time was up before the first was planned).
 struct PrioritizedResult {
   std::vector<Unplanned> unplanned;  // ascending
   std::int64_t attempts = 0;

@@ -1,6 +1,5 @@
 #include "core/search/triage.h"
 
-#include <functional>
 #include <utility>
 
 #include "core/geometry/tolerance.h"
@@ -45,10 +44,11 @@ class Triage {
     stay(robot);
   }
   bool overlap(std::size_t a, const Position& p, std::size_t b, const Position& q) const {
-    return (p - q).norm() < fleet_.motion(a).radius + fleet_.motion(b).radius - kContactTolerance;
+    const double reach = fleet_.motion(a).radius + fleet_.motion(b).radius - kContactTolerance;
+    return (p - q).squaredNorm() < reach * reach;
   }
-  std::vector<std::size_t> others(std::size_t robot,
-                                  const std::function<bool(std::size_t)>& in_the_way) const {
+  template <class InTheWay>
+  std::vector<std::size_t> others(std::size_t robot, InTheWay&& in_the_way) const {
     std::vector<std::size_t> found;
     for (std::size_t j = 0; j < fleet_.size(); ++j) {
       if (j != robot && in_the_way(j)) found.push_back(j);
