@@ -81,6 +81,27 @@ TEST(Planner, HoldsOneRobotBackWhereTheOtherIsTooLateForTheBay) {
   EXPECT_TRUE(plan.deterministic);
 }
 
+/// Robots 0 and 1 are at their goals already, in the only way of the others; each has a bay beside it.
+Problem at_goals_in_the_way(bool both_ways) {
+  std::vector<Robot> robots{robot_at(4.5, 0.5).to(4.5, 0.5, 0.0), robot_at(8.5, 0.5).to(8.5, 0.5, 0.0)};
+  for (const double x : {0.5, 1.5, 2.5}) robots.push_back(robot_at(x, 0.5).to(x + 9.5, 0.5));
+  if (both_ways) robots.push_back(robot_at(12.5, 1.5, kPi).to(0.5, 1.5));
+  return support::make_problem(support::ascii_map({".###.###.####",  //
+                                                   ".###.###.###.",  //
+                                                   "............."}),
+                               robots);
+}
+
+TEST(Planner, LetsRobotsLeaveTheirGoalsForOthersToPass) {
+  for (const bool both_ways : {false, true}) {
+    const Plan plan = checked_plan(at_goals_in_the_way(both_ways));
+    ASSERT_TRUE(plan.unplanned.empty()) << both_ways;
+    for (const std::size_t robot : {0u, 1u})
+      EXPECT_GT(plan.plans[robot].cost, 2.0) << "into its bay and back";
+    EXPECT_TRUE(plan.deterministic);
+  }
+}
+
 TEST(Planner, PlansOneOfTwoRobotsInACorridorWithoutABay) {
   const Problem problem = support::make_problem(
       OccupancyGrid(9, 1, 1.0), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(3.5, 0.5).to(1.5, 0.5)});
