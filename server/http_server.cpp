@@ -234,6 +234,7 @@ void HttpServer::run_job(Exchange& exchange, httplib::Response& response) {
   context.received_at = exchange.received_at;
   context.stop = stop.get_token();
   context.limits = settings_.limits;
+  context.executor = &pool_;
 
   api::Reply reply;
   const auto ticket = pool_.submit([&] {

@@ -79,7 +79,8 @@ class Flags {
   void add_serving() {
     add("host", settings_.host, "Address to listen on");
     add_number("port", settings_.port, 0, 65535, "Port to listen on, 0 for any free one");
-    add_number("workers", settings_.workers, 1, 1024, "Planning threads, by default the CPUs granted");
+    add_number("workers", settings_.workers, 1, 1024,
+               "Planning threads, by default the CPUs granted; idle ones help with anytime plans");
     queue_ = add_number<std::size_t>("queue", settings_.queue, 0, 100'000, "Jobs that may wait for a worker")
                  ->default_str("4 for each worker");
     add_number<std::size_t>("connections", settings_.connections, 1, 65'536, "Connections served at a time");

@@ -11,11 +11,14 @@
 #include <thread>
 #include <vector>
 
+#include "core/parallel/executor.h"
+
 namespace fleetplan::server {
 
 /// Threads that plan, with a bounded queue in front of them, so that load beyond it is refused at once rather
-/// than kept waiting. Jobs are taken in order. Thread-safe.
-class WorkerPool {
+/// than kept waiting. Jobs are taken in order; workers that find none help with the tasks of those that run.
+/// Thread-safe.
+class WorkerPool : public core::Executor {
  public:
   using Job = std::function<void()>;  // must not throw
   using Clock = std::chrono::steady_clock;
@@ -31,10 +34,7 @@ class WorkerPool {
   WorkerPool(int workers, std::size_t queue, std::size_t burst = 0);
 
   /// Finishes all jobs taken.
-  ~WorkerPool();
-
-  WorkerPool(const WorkerPool&) = delete;
-  WorkerPool& operator=(const WorkerPool&) = delete;
+  ~WorkerPool() override;
 
   /// Takes a job; none when the queue is full.
   std::optional<Ticket> submit(Job job);
@@ -51,8 +51,18 @@ class WorkerPool {
   /// Jobs that wait.
   std::size_t queued() const;
 
+  /// For jobs: the caller does the tasks, and workers as long as they have no job. Waits for no task that has
+  /// not begun, so it needs no worker to be idle. A job never waits for more than the task at hand, and a
+  /// worker that helps still counts as idle.
+  void run(std::size_t count, const Task& task) override;
+
  private:
+  struct Tasks;
+
   void work(std::size_t worker);
+  void do_next_job(std::size_t worker, std::unique_lock<std::mutex>& lock);
+  Tasks* tasks_to_do() const;
+  static void do_next(Tasks& tasks, std::unique_lock<std::mutex>& lock);
   bool has_room() const;
   double expected_wait_s() const;
 
@@ -61,6 +71,7 @@ class WorkerPool {
   mutable std::mutex mutex_;
   std::condition_variable work_available_;
   std::list<Ticket> queue_;
+  std::list<Tasks*> shared_;  // of the jobs that are in run()
   std::size_t running_ = 0;
   std::vector<std::optional<Clock::time_point>> busy_since_;  // by worker
   double mean_job_s_ = 0.0;

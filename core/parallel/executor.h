@@ -9,7 +9,7 @@ namespace fleetplan::core {
 /// the plan is the same with any number of them.
 class Executor {
  public:
-  using Task = std::function<void(std::size_t)>;  // must not throw
+  using Task = std::function<void(std::size_t)>;
 
   Executor() = default;
   Executor(const Executor&) = delete;
@@ -17,7 +17,8 @@ class Executor {
   virtual ~Executor() = default;
 
   /// Calls task(0) ... task(count - 1), in any order and perhaps at the same time on several threads, and
-  /// returns when all of them have returned.
+  /// returns when all of them have returned. If one throws, no more need be called, and the exception is
+  /// thrown again here when none runs any more; the first one, if there are several.
   virtual void run(std::size_t count, const Task& task) = 0;
 };
 

@@ -54,6 +54,15 @@ api::Reply StubService::answer(std::string_view body, const api::RequestContext&
 }
 
 TestServer::TestServer(Settings settings) : server(on_free_port(std::move(settings)), stub.service()) {
+  start();
+}
+
+TestServer::TestServer(Settings settings, Service service)
+    : server(on_free_port(std::move(settings)), std::move(service)) {
+  start();
+}
+
+void TestServer::start() {
   if (const auto fault = server.bind()) throw std::runtime_error(*fault);
   thread_ = std::thread([this] { server.run(); });
 }

@@ -46,6 +46,8 @@ class TestServer {
  public:
   /// Port and log level of `settings` are ignored.
   explicit TestServer(Settings settings = {});
+  /// With another service than the stub.
+  TestServer(Settings settings, Service service);
   ~TestServer();
   TestServer(const TestServer&) = delete;
   TestServer& operator=(const TestServer&) = delete;
@@ -59,6 +61,8 @@ class TestServer {
   HttpServer server;
 
  private:
+  void start();
+
   std::thread thread_;
 };
 
