@@ -88,9 +88,9 @@ class AaSipp {
   struct Way {
     Move local;
     Move shortcut;
-    int via;
-    int place;
-    Sight sight;  // of the shortcut; blocked where there is none
+    int via = -1;
+    int place = -1;
+    Sight sight = Sight::blocked;  // of the shortcut; blocked where there is none
   };
   enum class Kind : std::uint8_t { local, shortcut };
   struct Candidate {
