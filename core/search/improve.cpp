@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/search/adaptive_choice.h"
+#include "core/search/delayed_choice.h"
 #include "core/search/neighbourhood.h"
 #include "core/search/replicas.h"
 #include "core/search/reroute.h"
@@ -31,6 +32,10 @@ constexpr std::array<SearchLimits, 3> kEfforts{{
      .thorough = false,
      .max_expansions = 40'000},
 }};
+/// What share of its delay the first robot has to lose in most tries: the more is asked, the sooner a search
+/// fails. But small gains are gains, too, so one try in so many asks for nothing.
+constexpr double kAmbition = 0.15;
+constexpr std::size_t kModestTries = 4;
 /// What a search costs before its first expansion, in expansions.
 constexpr double kSearchEffort = 20.0;
 
@@ -55,7 +60,8 @@ class Improving {
         bounds_(bounds),
         random_(random),
         executor_(executor),
-        stop_(stop) {}
+        stop_(stop),
+        firsts_(state.fleet().size()) {}
 
   Improvement run(std::int64_t max_iterations) {
     while (max_iterations > 0 && !at_lower_bound() && !result_.cut_off) {
@@ -89,16 +95,11 @@ class Improving {
                              [&](std::size_t a, std::size_t b) { return cost(a) < cost(b); });
   }
 
-  /// A delayed robot, more likely the more delayed it is.
   std::size_t choose_delayed() {
-    double left = 0.0;
-    for (const std::size_t robot : planned()) left += delay(robot);
-    left *= random_.unit();
-    for (const std::size_t robot : planned()) {
-      left -= delay(robot);
-      if (left < 0.0) return robot;
-    }
-    return planned().back();
+    std::vector<double> delays;
+    delays.reserve(planned().size());
+    for (const std::size_t robot : planned()) delays.push_back(delay(robot));
+    return firsts_.choose(planned(), delays, random_);
   }
 
   void round(std::size_t count) {
@@ -122,6 +123,7 @@ class Improving {
     iteration.kind = kinds_.choose(random_);
     iteration.size = sizes_.choose(random_);
     iteration.effort = efforts_.choose(random_);
+    iteration.aim.ambition = random_.below(kModestTries) == 0 ? 0.0 : kAmbition;
     iteration.aim.limits = kEfforts[iteration.effort];
     iteration.seed = random_.seed();
     if (for_makespan_) iteration.aim.ceiling = cost(last_to_arrive());
@@ -153,6 +155,7 @@ class Improving {
     kinds_.learn(iteration.kind, gain, effort);
     sizes_.learn(iteration.size, gain, effort);
     efforts_.learn(iteration.effort, gain, effort);
+    firsts_.learn(iteration.first, rerouting.change.has_value());
   }
 
   /// May the change no longer be made, as these robots have changed since?
@@ -186,6 +189,7 @@ class Improving {
   AdaptiveChoice kinds_{kNeighbourhoods};
   AdaptiveChoice sizes_{kSizes.size()};
   AdaptiveChoice efforts_{kEfforts.size()};
+  DelayedChoice firsts_;
   Improvement result_;
 };
 

@@ -30,11 +30,7 @@ class Reroute {
   bool plan_queue() {
     for (std::size_t k = 0; k < queue_.size(); ++k) {  // the queue grows
       const std::size_t robot = queue_[k];
-      SearchLimits limits = aim_.limits;
-      limits.bound = std::min(aim_.ceiling, most(k));
-      ++searches_;
-      SearchResult result = state_.plan_ignoring(free_, robot, limits, stop_);
-      expansions_ += result.expansions;
+      SearchResult result = search(k);
       if (!result.trajectory) return false;
       const double gained = cost(robot) - result.trajectory->cost;
       if (k == 0 || aim_.gain == Aim::Gain::sum) change_.gain += gained;
@@ -46,10 +42,32 @@ class Reroute {
     return change_.gain > kLeastGain;
   }
 
+  SearchResult search(std::size_t place) {
+    SearchLimits limits = aim_.limits;
+    limits.bound = std::min(aim_.ceiling, most(place));
+    if (place > 0) {
+      const auto waiting = queue_.begin() + static_cast<std::ptrdiff_t>(place);
+      SearchResult result = search({waiting, queue_.end()}, queue_[place], limits);
+      const bool all_wait = queue_.size() - place == free_.size();
+      if (result.trajectory || all_wait) return result;
+    }
+    return search(free_, queue_[place], limits);
+  }
+
+  SearchResult search(const std::vector<std::size_t>& ignored, std::size_t robot,
+                      const SearchLimits& limits) {
+    SearchResult result = state_.plan_ignoring(ignored, robot, limits, stop_);
+    ++searches_;
+    expansions_ += result.expansions;
+    return result;
+  }
+
   /// The least cost that would spoil the change for the robot of this place in the queue.
   double most(std::size_t place) const {
     const double now = cost(queue_[place]);
-    if (place == 0) return now - kLeastGain;  // otherwise why begin with it
+    if (place == 0) {  // if it gains nothing, why begin with it
+      return now - std::max(kLeastGain, aim_.ambition * (now - bounds_[queue_[place]]));
+    }
     if (aim_.gain == Aim::Gain::first) return kForever;
     double hope = 0.0;
     for (std::size_t k = place + 1; k < queue_.size(); ++k) {

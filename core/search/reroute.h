@@ -29,6 +29,7 @@ struct Aim {
   };
   Gain gain = Gain::sum;
   double ceiling = kForever;  // seconds; all costs must be below it
+  double ambition = 0.0;      // [0, 1); the share of its delay that the first robot has to lose at least
   SearchLimits limits;        // for every search; the bound follows from the rest
 };
 
@@ -39,8 +40,9 @@ struct Rerouting {
 };
 
 /// Looks for a change that makes robots.front() cheaper: plans it as if the others of `robots` were not
-/// there, then those of them that it hits, which may hit others in turn; each may lose only so much that the
-/// aim stays in reach. All of `robots` have trajectories and bounds. The state is afterwards as it was.
+/// there, then those of them that it hits. These hit others in turn only if there is no other way for them.
+/// Each may lose only so much that the aim stays in reach. All of `robots` have trajectories and bounds. The
+/// state is afterwards as it was.
 Rerouting reroute(FleetState& state, const std::vector<std::size_t>& robots, const TautBounds& bounds,
                   const Aim& aim, const StopCondition& stop);
 

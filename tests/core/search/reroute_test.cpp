@@ -73,6 +73,15 @@ TEST(Reroute, GainsNothingForARobotAtItsBest) {
   EXPECT_FALSE(p.reroute_all({2, 0, 1}).change);
 }
 
+TEST(Reroute, MakesNoChangeThatFallsShortOfTheAmbition) {
+  Crossing p;
+  Aim aim;
+  aim.ambition = 0.8;
+  EXPECT_TRUE(p.reroute_all({0}, aim).change);
+  aim.ambition = 0.99;  // robot 1 is in the way
+  EXPECT_FALSE(p.reroute_all({0}, aim).change);
+}
+
 TEST(Reroute, KeepsEverybodyBelowTheCeiling) {
   Crossing p;
   Aim aim;
