@@ -131,8 +131,8 @@ class AaSipp {
   void shoot_at_goal(int label);
   int add_way(int via, int place, bool with_shortcut);
   bool sees(Way& way);
-  void follow(int way, int interval);
-  bool offer(int way, Kind kind, int interval, bool leads);
+  void follow(int index, int interval);
+  bool offer(int index, Kind kind, int interval, bool leads);
   Rank rank(int place, int interval, double arrival, double heading) const;
   void push(const Candidate& candidate, const Rank& rank);
   double dominated_from(int interval, double heading) const;
