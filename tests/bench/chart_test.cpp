@@ -5,17 +5,13 @@
 
 #include <limits>
 
+#include "tests/bench/occurrences.h"
+
 namespace fleetplan::bench {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-std::size_t occurrences(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
 
 std::string chart_of(std::vector<ChartPoint> points, bool logarithmic = false) {
   return svg_chart("title", "x", {{"y", logarithmic, {}, {{"line", "#123456", false, std::move(points)}}}});

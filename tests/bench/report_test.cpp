@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/bench/markdown.h"
+#include "tests/bench/occurrences.h"
 #include "tests/bench/paper_claims.h"
 
 namespace fleetplan::bench {
@@ -11,12 +12,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-std::size_t occurrences(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
 
 TEST(MarkdownTable, IsAligned) {
   EXPECT_EQ(markdown_table({"name", "s"}, {{"a", "1.25"}, {"longer", "-"}}),
