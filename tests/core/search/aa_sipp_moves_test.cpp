@@ -19,7 +19,6 @@ using support::expect_safe;
 using support::robot_at;
 
 constexpr double kPi = std::numbers::pi;
-constexpr SearchLimits kExact{.greed = 1.0, .suboptimality = 0.0, .impatience = 0.0, .coarseness = 0.0};
 
 PlanOptions lattice_only(int connectivity) {
   PlanOptions options;

@@ -17,7 +17,6 @@ using support::expect_safe;
 using support::robot_at;
 
 constexpr double kPi = std::numbers::pi;
-constexpr SearchLimits kExact{.greed = 1.0, .suboptimality = 0.0, .impatience = 0.0, .coarseness = 0.0};
 /// Seconds: the search keeps distances to within half of the contact tolerance.
 constexpr double kTime = 1e-8;
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/parallel/executor.h"
+#include "core/search/aa_sipp.h"
 #include "core/search/fleet.h"
 #include "core/search/fleet_state.h"
 #include "core/search/random.h"
@@ -16,6 +17,10 @@
 #include "tests/support/problem_builder.h"
 
 namespace fleetplan::core {
+
+/// A search that settles for nothing dearer than it has to.
+inline constexpr SearchLimits kExact{
+    .greed = 1.0, .suboptimality = 0.0, .impatience = 0.0, .coarseness = 0.0};
 
 struct Planning {
   explicit Planning(Problem told, const PlanOptions& options = {})
