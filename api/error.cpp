@@ -16,7 +16,7 @@ struct Row {
 };
 
 // In the order of ErrorCode.
-constexpr std::array<Row, 13> kTable{{
+constexpr std::array<Row, 16> kTable{{
     {ErrorCode::malformed_json, 400, "malformed_json", "The body is not JSON"},
     {ErrorCode::too_deep, 400, "too_deep", "The JSON is nested too deep"},
     {ErrorCode::malformed_request, 400, "malformed_request", "The HTTP request is malformed"},
@@ -24,9 +24,12 @@ constexpr std::array<Row, 13> kTable{{
     {ErrorCode::not_found, 404, "not_found", "There is nothing here"},
     {ErrorCode::method_not_allowed, 405, "method_not_allowed", "This resource has other methods"},
     {ErrorCode::not_acceptable, 406, "not_acceptable", "No acceptable form of the answer"},
+    {ErrorCode::request_timeout, 408, "request_timeout", "The request did not come in time"},
     {ErrorCode::body_too_large, 413, "body_too_large", "The body is too large"},
+    {ErrorCode::target_too_long, 414, "target_too_long", "The request target is too long"},
     {ErrorCode::unsupported_media_type, 415, "unsupported_media_type", "The body is of another media type"},
     {ErrorCode::invalid_request, 422, "invalid_request", "The request is not valid"},
+    {ErrorCode::head_too_large, 431, "head_too_large", "The header fields are too large"},
     {ErrorCode::internal_error, 500, "internal_error", "The service has a fault"},
     {ErrorCode::overloaded, 503, "overloaded", "The service has too much to do"},
     {ErrorCode::draining, 503, "draining", "The service is shutting down"},

@@ -19,9 +19,12 @@ enum class ErrorCode {
   not_found,               // 404
   method_not_allowed,      // 405
   not_acceptable,          // 406
+  request_timeout,         // 408, head or body not complete in time
   body_too_large,          // 413
+  target_too_long,         // 414, request target
   unsupported_media_type,  // 415
   invalid_request,         // 422, with one entry in `errors` for each fault
+  head_too_large,          // 431, header fields by size or number
   internal_error,          // 500
   overloaded,              // 503, queue full
   draining,                // 503, shutting down

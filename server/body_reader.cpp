@@ -29,7 +29,8 @@ class Source {
   bool more() {
     const std::size_t before = input_.size();
     const auto deadline = begin_ + patience_ + std::chrono::milliseconds(received_);
-    if (socket_.read_some(input_, deadline) != Socket::Read::some) return false;
+    last_ = socket_.read_some(input_, deadline);
+    if (last_ != Socket::Read::some) return false;
     received_ += input_.size() - before;
     return true;
   }
@@ -57,17 +58,31 @@ class Source {
     return line;
   }
 
+  /// Why something could not be taken.
+  BodyFault fault() const {
+    switch (last_) {
+      case Socket::Read::timeout:
+        return {BodyFault::Kind::too_slow, "The body did not come in time: after " +
+                                               std::to_string(patience_.count()) +
+                                               " ms, 1 kB a second is the least."};
+      case Socket::Read::stopped:
+        return {BodyFault::Kind::stopped, "The service is shutting down: ask another one."};
+      case Socket::Read::end:
+        return malformed("The body ended early.");
+      case Socket::Read::some:
+        break;
+    }
+    return malformed("A line between two chunks is too long.");
+  }
+
  private:
   Socket& socket_;
   std::string& input_;
   std::chrono::milliseconds patience_;
   Socket::Clock::time_point begin_;
+  Socket::Read last_ = Socket::Read::some;
   std::size_t received_ = 0;  // bytes; each extends the deadline by a millisecond
 };
-
-BodyFault incomplete() {
-  return {BodyFault::Kind::incomplete, "The body ended early or did not come in time."};
-}
 
 std::optional<std::uint64_t> parse_chunk_size(const std::string& line) {
   std::uint64_t size = 0;
@@ -81,7 +96,7 @@ std::variant<std::string, BodyFault> read_chunked(Source& source, std::uint64_t 
   std::string body;
   while (true) {
     const auto line = source.take_line();
-    if (!line) return incomplete();
+    if (!line) return source.fault();
     const auto size = parse_chunk_size(*line);
     if (!size) return malformed("A chunk does not begin with its size in hexadecimal.");
     if (*size == 0) break;
@@ -90,14 +105,14 @@ std::variant<std::string, BodyFault> read_chunked(Source& source, std::uint64_t 
       const auto at_least = read + std::min(*size, std::numeric_limits<std::uint64_t>::max() - read);
       return too_large("at least " + std::to_string(at_least), limit);
     }
-    if (!source.take(*size, body)) return incomplete();
+    if (!source.take(*size, body)) return source.fault();
     const auto rest = source.take_line();
-    if (!rest) return incomplete();
+    if (!rest) return source.fault();
     if (!rest->empty()) return malformed("A chunk is longer than its size says.");
   }
   for (std::size_t lines = 0; lines <= kMaxTrailerLines; ++lines) {
     const auto line = source.take_line();
-    if (!line) return incomplete();
+    if (!line) return source.fault();
     if (line->empty()) return body;
   }
   return malformed("The body has too many trailers.");
@@ -113,7 +128,7 @@ std::variant<std::string, BodyFault> read_body(Socket& socket, std::string& inpu
   if (length > limit) return too_large(std::to_string(length), limit);
   std::string body;
   body.reserve(std::min<std::uint64_t>(length, 1 << 20));  // a promise alone buys no memory
-  if (!source.take(length, body)) return incomplete();
+  if (!source.take(length, body)) return source.fault();
   return body;
 }
 

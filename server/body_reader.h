@@ -13,7 +13,7 @@ namespace fleetplan::server {
 
 /// Why there is no body.
 struct BodyFault {
-  enum class Kind { malformed, too_large, incomplete };
+  enum class Kind { malformed, too_large, too_slow, stopped };
   Kind kind;
   std::string detail;
 };

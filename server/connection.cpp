@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "server/answer_fields.h"
+#include "server/answer_text.h"
 #include "server/body_reader.h"
 #include "server/request_id.h"
 #include "server/text.h"
@@ -29,41 +29,28 @@ class Active {
   std::atomic<int>& count_;
 };
 
-std::string_view reason_phrase(int status) {
-  switch (status) {
-    case 400:
-      return "Bad Request";
-    case 404:
-      return "Not Found";
-    case 405:
-      return "Method Not Allowed";
-    case 406:
-      return "Not Acceptable";
-    case 413:
-      return "Content Too Large";
-    case 415:
-      return "Unsupported Media Type";
-    case 503:
-      return "Service Unavailable";
+ErrorCode code_of(BadHead::Kind kind) {
+  switch (kind) {
+    case BadHead::Kind::target_too_long:
+      return ErrorCode::target_too_long;
+    case BadHead::Kind::too_large:
+      return ErrorCode::head_too_large;
     default:
-      return "Error";
+      return ErrorCode::malformed_request;
   }
 }
 
-std::string response_text(const Exchange& exchange, const api::Reply& reply, const HeaderFields& further) {
-  std::string text = "HTTP/1.1 " + std::to_string(reply.status) + ' ';
-  text += reason_phrase(reply.status);
-  text += "\r\n";
-  const auto add = [&](const std::string& name, const std::string& value) {
-    text += name + ": " + value + "\r\n";
-  };
-  for (const auto& [name, value] : common_fields(exchange)) add(name, value);
-  for (const auto& [name, value] : further) add(name, value);
-  add("Content-Type", reply.content_type);
-  add("Content-Length", std::to_string(reply.body.size()));
-  text += "\r\n";
-  if (exchange.head.method != "HEAD") text += reply.body;
-  return text;
+ErrorCode code_of(BodyFault::Kind kind) {
+  switch (kind) {
+    case BodyFault::Kind::too_large:
+      return ErrorCode::body_too_large;
+    case BodyFault::Kind::too_slow:
+      return ErrorCode::request_timeout;
+    case BodyFault::Kind::stopped:
+      return ErrorCode::draining;
+    default:
+      return ErrorCode::malformed_request;
+  }
 }
 
 bool has_body(const RequestHead& head) { return head.chunked || head.content_length.value_or(0) > 0; }
@@ -158,15 +145,20 @@ std::optional<Refusal> Connection::read_head(Exchange& exchange) {
   if (state == HeadScanner::State::malformed) {
     return Refusal{ErrorCode::malformed_request, "The lines of a request's head end in CR LF."};
   }
-  if (state == HeadScanner::State::incomplete || scanner.size() > kMaxHeadBytes) {
-    return Refusal{ErrorCode::malformed_request,
-                   "The request's head is not complete within " + std::to_string(kMaxHeadBytes) +
-                       " bytes and " + std::to_string(context_.settings.read_timeout.count()) + " ms."};
+  if (input_.size() > kMaxHeadBytes &&
+      (state != HeadScanner::State::complete || scanner.size() > kMaxHeadBytes)) {
+    const BadHead bad = too_large_head(input_);
+    return Refusal{code_of(bad.kind), bad.detail};
+  }
+  if (state == HeadScanner::State::incomplete) {
+    return Refusal{ErrorCode::request_timeout, "The request's head did not come within " +
+                                                   std::to_string(context_.settings.read_timeout.count()) +
+                                                   " ms."};
   }
   auto parsed = parse_request_head(std::string_view(input_).substr(0, scanner.size()));
   input_.erase(0, scanner.size());
   if (const auto* bad = std::get_if<BadHead>(&parsed)) {
-    return Refusal{ErrorCode::malformed_request, bad->detail};
+    return Refusal{code_of(bad->kind), bad->detail};
   }
   exchange.head = std::get<RequestHead>(std::move(parsed));
   const std::string sent_id = exchange.head.field("x-request-id");
@@ -182,8 +174,7 @@ std::optional<Refusal> Connection::read_content(Exchange& exchange) {
       read_body(socket_, input_, head, context_.settings.limits.max_body, context_.settings.read_timeout);
   if (auto* fault = std::get_if<BodyFault>(&read)) {
     exchange.close = unread_ = true;
-    const bool too_large = fault->kind == BodyFault::Kind::too_large;
-    return Refusal{too_large ? ErrorCode::body_too_large : ErrorCode::malformed_request, fault->detail};
+    return Refusal{code_of(fault->kind), fault->detail};
   }
   exchange.body = std::get<std::string>(std::move(read));
   return std::nullopt;
@@ -193,7 +184,7 @@ std::uint64_t Connection::refuse(Exchange& exchange, const Refusal& refusal) {
   if (context_.draining) exchange.close = true;
   const auto reply = api::problem_reply(refusal.code, refusal.detail, exchange.request_id);
   exchange.status = reply.status;
-  const std::string text = response_text(exchange, reply, refusal.fields);
+  const std::string text = answer_text(exchange, reply, refusal.fields);
   open_ = socket_.write_all(text) && open_;
   if (open_ && !exchange.close && exchange.body.empty() && has_body(exchange.head)) drop_body(exchange);
   return text.size();

@@ -46,6 +46,11 @@ std::string_view path_of_target(std::string_view target) {
   return target.substr(0, target.find_first_of("?#"));
 }
 
+BadHead target_too_long() {
+  return {"The request target is longer than " + std::to_string(kMaxTargetBytes) + " bytes.",
+          BadHead::Kind::target_too_long};
+}
+
 std::optional<BadHead> parse_request_line(std::string_view line, RequestHead& head) {
   const auto first = line.find(' ');
   const auto last = line.rfind(' ');
@@ -56,6 +61,7 @@ std::optional<BadHead> parse_request_line(std::string_view line, RequestHead& he
   if (version != "HTTP/1.1" && version != "HTTP/1.0") {
     return BadHead{"This server speaks HTTP/1.1 and HTTP/1.0."};
   }
+  if (target.size() > kMaxTargetBytes) return target_too_long();
   head.method = line.substr(0, first);
   head.http_1_0 = version == "HTTP/1.0";
   head.raw_path = path_of_target(target);
@@ -159,11 +165,20 @@ Parsed parse_request_head(std::string_view text) {
   while (!text.empty()) {
     const auto line = take_line(text);
     if (line.empty()) break;
-    if (head.fields.size() == kMaxHeaderFields) return BadHead{"The request has too many header fields."};
+    if (head.fields.size() == kMaxHeaderFields) {
+      return BadHead{"There are more than " + std::to_string(kMaxHeaderFields) + " header fields.",
+                     BadHead::Kind::too_large};
+    }
     if (auto bad = parse_field(line, head)) return *bad;
   }
   if (auto bad = parse_framing(head)) return *bad;
   return head;
+}
+
+BadHead too_large_head(std::string_view begun) {
+  if (begun.substr(0, kMaxTargetBytes).find("\r\n") == std::string_view::npos) return target_too_long();
+  return {"The request's head is longer than " + std::to_string(kMaxHeadBytes) + " bytes.",
+          BadHead::Kind::too_large};
 }
 
 HeadScanner::State HeadScanner::scan(std::string_view buffer) {

@@ -15,6 +15,7 @@
 namespace fleetplan::server {
 
 inline constexpr std::size_t kMaxHeadBytes = 32 * 1024;
+inline constexpr std::size_t kMaxTargetBytes = 8 * 1024;
 inline constexpr std::size_t kMaxHeaderFields = 100;
 
 struct RequestHead {
@@ -34,10 +35,15 @@ struct RequestHead {
   bool wants_keep_alive() const;
 };
 
-/// Why a head is not a proper one: a detail for the client.
+/// Why a head is not taken.
 struct BadHead {
+  enum class Kind { malformed, target_too_long, too_large };
   std::string detail;
+  Kind kind = Kind::malformed;
 };
+
+/// Of a head of which more than kMaxHeadBytes have come: what is too long, its target or its fields.
+BadHead too_large_head(std::string_view begun);
 
 /// `text`: everything from the request line to the empty line, which is included.
 std::variant<RequestHead, BadHead> parse_request_head(std::string_view text);

@@ -21,16 +21,21 @@ class Framing : public testing::Test {
 
   static std::string status_of(const std::string& answer) { return answer.substr(0, answer.find("\r\n")); }
 
-  /// Sends on a connection of its own; expects 400 with a problem, then the end of the connection.
   void expect_400_and_close(const std::string& text) {
+    expect_refused_and_closed(text, "400 Bad Request", "malformed_request");
+  }
+
+  /// Sends on a connection of its own; expects a problem, then the end of the connection.
+  void expect_refused_and_closed(const std::string& text, const std::string& status,
+                                 const std::string& code) {
     RawConnection raw(server.server.port());
     raw.send(text);
     const std::string answer = raw.receive();
-    EXPECT_EQ(status_of(answer), "HTTP/1.1 400 Bad Request") << text;
+    EXPECT_EQ(status_of(answer), "HTTP/1.1 " + status) << text.substr(0, 100);
     EXPECT_NE(answer.find("application/problem+json"), std::string::npos);
     EXPECT_NE(answer.find("X-Request-Id: "), std::string::npos);
     EXPECT_NE(answer.find("Connection: close"), std::string::npos);
-    EXPECT_NE(answer.find("malformed_request"), std::string::npos);
+    EXPECT_NE(answer.find(code), std::string::npos) << answer;
     EXPECT_TRUE(raw.closed_by_server());
   }
 
@@ -46,7 +51,39 @@ TEST_F(Framing, ThatIsMalformedIs400AndEndsTheConnection) {
   expect_400_and_close(post("Transfer-Encoding: chunked\r\n", "3\r\nabcd\r\n0\r\n\r\n"));
   expect_400_and_close("GET / HTTP/1.1\n\n");
   expect_400_and_close("PRI * HTTP/2.0\r\n\r\n");
-  expect_400_and_close("GET /" + std::string(40'000, 'a') + " HTTP/1.1\r\n\r\n");
+}
+
+TEST_F(Framing, WithATooLongTargetIs414) {
+  const auto get = [](std::size_t length) {
+    return "GET /healthz?" + std::string(length - 9, 'a') + " HTTP/1.1\r\n\r\n";
+  };
+  expect_refused_and_closed(get(kMaxTargetBytes + 1), "414 URI Too Long", "target_too_long");
+  expect_refused_and_closed(get(40'000), "414 URI Too Long", "target_too_long");
+  expect_refused_and_closed("GET /" + std::string(40'000, 'a'), "414 URI Too Long", "target_too_long");
+  RawConnection raw(server.server.port());
+  raw.send(get(kMaxTargetBytes));
+  EXPECT_EQ(status_of(raw.receive()), "HTTP/1.1 200 OK");
+}
+
+TEST_F(Framing, WithTooManyOrTooLargeHeaderFieldsIs431) {
+  const auto get = [](std::size_t fields, const std::string& value) {
+    std::string text = "GET /healthz HTTP/1.1\r\n";
+    for (std::size_t i = 0; i < fields; ++i) text += "X-" + std::to_string(i) + ": " + value + "\r\n";
+    return text + "\r\n";
+  };
+  const std::string status = "431 Request Header Fields Too Large";
+  expect_refused_and_closed(get(kMaxHeaderFields + 1, "a"), status, "head_too_large");
+  expect_refused_and_closed(get(1, std::string(kMaxHeadBytes, 'a')), status, "head_too_large");
+  RawConnection raw(server.server.port());
+  raw.send(get(kMaxHeaderFields, "a"));
+  EXPECT_EQ(status_of(raw.receive()), "HTTP/1.1 200 OK");
+}
+
+TEST_F(Framing, WhoseBodyEndsEarlyIs400) {
+  RawConnection raw(server.server.port());
+  raw.send(post("Content-Length: 10\r\n", "abc"));
+  raw.end_of_sending();
+  EXPECT_EQ(status_of(raw.receive()), "HTTP/1.1 400 Bad Request");
 }
 
 TEST_F(Framing, ThatIsChunkedIsRead) {
@@ -135,7 +172,9 @@ TEST(SlowClient, IsGivenUpWhenItsHeadDoesNotCome) {
   const TestServer server(settings);
   RawConnection raw(server.server.port());
   raw.send("GET /healthz HTTP/1.1\r\nHost:");
-  EXPECT_NE(raw.receive().find("malformed_request"), std::string::npos);
+  const std::string answer = raw.receive();
+  EXPECT_EQ(answer.find("HTTP/1.1 408 Request Timeout\r\n"), 0u) << answer;
+  EXPECT_NE(answer.find("request_timeout"), std::string::npos) << answer;
   EXPECT_TRUE(raw.closed_by_server());
 }
 
@@ -145,7 +184,9 @@ TEST(SlowClient, IsGivenUpWhenItsBodyDoesNotCome) {
   const TestServer server(settings);
   RawConnection raw(server.server.port());
   raw.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 10\r\n\r\nabc");
-  EXPECT_NE(raw.receive().find("malformed_request"), std::string::npos);
+  const std::string answer = raw.receive();
+  EXPECT_EQ(answer.find("HTTP/1.1 408 Request Timeout\r\n"), 0u) << answer;
+  EXPECT_NE(answer.find("request_timeout"), std::string::npos) << answer;
   EXPECT_TRUE(raw.closed_by_server());
 }
 

@@ -105,6 +105,8 @@ void RawConnection::send(const std::string& text) const {
   ::send(fd_, text.data(), text.size(), MSG_NOSIGNAL);
 }
 
+void RawConnection::end_of_sending() const { ::shutdown(fd_, SHUT_WR); }
+
 std::string RawConnection::receive() {
   std::array<char, 4096> buffer{};
   while (true) {

@@ -76,6 +76,9 @@ class RawConnection {
 
   void send(const std::string& text) const;
 
+  /// Closes this side, half of the connection.
+  void end_of_sending() const;
+
   /// Reads an answer with its Content-Length; empty when the server closes instead.
   std::string receive();
 

@@ -1,0 +1,56 @@
+#include "server/answer_text.h"
+
+#include <string_view>
+
+namespace fleetplan::server {
+
+namespace {
+
+std::string_view reason_phrase(int status) {
+  switch (status) {
+    case 400:
+      return "Bad Request";
+    case 401:
+      return "Unauthorized";
+    case 404:
+      return "Not Found";
+    case 405:
+      return "Method Not Allowed";
+    case 406:
+      return "Not Acceptable";
+    case 408:
+      return "Request Timeout";
+    case 413:
+      return "Content Too Large";
+    case 414:
+      return "URI Too Long";
+    case 415:
+      return "Unsupported Media Type";
+    case 431:
+      return "Request Header Fields Too Large";
+    case 503:
+      return "Service Unavailable";
+    default:
+      return "Error";
+  }
+}
+
+}  // namespace
+
+std::string answer_text(const Exchange& exchange, const api::Reply& reply, const HeaderFields& further) {
+  std::string text = "HTTP/1.1 " + std::to_string(reply.status) + ' ';
+  text += reason_phrase(reply.status);
+  text += "\r\n";
+  const auto add = [&](const std::string& name, const std::string& value) {
+    text += name + ": " + value + "\r\n";
+  };
+  for (const auto& [name, value] : common_fields(exchange)) add(name, value);
+  for (const auto& [name, value] : further) add(name, value);
+  add("Content-Type", reply.content_type);
+  add("Content-Length", std::to_string(reply.body.size()));
+  text += "\r\n";
+  if (exchange.head.method != "HEAD") text += reply.body;
+  return text;
+}
+
+}  // namespace fleetplan::server
