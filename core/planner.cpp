@@ -1,6 +1,7 @@
 #include "core/planner.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "core/actions.h"
@@ -8,6 +9,7 @@
 #include "core/search/fleet_state.h"
 #include "core/search/improve.h"
 #include "core/search/prioritized.h"
+#include "core/search/progress_report.h"
 #include "core/search/taut_bounds.h"
 #include "core/search/triage.h"
 
@@ -49,13 +51,21 @@ std::vector<double> costs(const FleetState& state) {
   return costs;
 }
 
+Objectives objectives(const FleetState& state) {
+  Objectives total;
+  for (std::size_t i = 0; i < state.fleet().size(); ++i) {
+    if (const auto& trajectory = state.trajectory(i)) add(total, trajectory->cost);
+  }
+  return total;
+}
+
 /// Puts the plans together: a robot that is not in `unplanned` follows its trajectory or is parked.
-Plan collect(const FleetState& state, std::vector<std::optional<Unplanned>> unplanned,
+Plan collect(const FleetState& state, const std::vector<std::optional<Unplanned>>& unplanned,
              const TautBounds& bounds) {
   Plan plan;
   for (std::size_t i = 0; i < state.fleet().size(); ++i) {
     if (unplanned[i]) {
-      plan.unplanned.push_back(std::move(*unplanned[i]));
+      plan.unplanned.push_back(*unplanned[i]);
       continue;
     }
     plan.plans.push_back(robot_plan(state, i));
@@ -65,6 +75,32 @@ Plan collect(const FleetState& state, std::vector<std::optional<Unplanned>> unpl
   return plan;
 }
 
+/// Tells the observer how far improving has got, and shows it the plan when it wants that.
+class Showing {
+ public:
+  using PlanSoFar = std::function<Plan(const Improvement&)>;
+
+  Showing(const FleetState& state, ProgressReport& progress, PlanSoFar plan_so_far)
+      : state_(state), progress_(progress), plan_so_far_(std::move(plan_so_far)) {}
+
+  void operator()(const Improvement& so_far) {
+    if (so_far.improvements > told_) progress_.found(objectives(state_));
+    told_ = so_far.improvements;
+    if (so_far.improvements == shown_ || !progress_.observer()->wants_plan()) return;
+    shown_ = so_far.improvements;
+    Plan plan = plan_so_far_(so_far);
+    plan.deterministic = false;
+    progress_.observer()->show(plan);
+  }
+
+ private:
+  const FleetState& state_;
+  ProgressReport& progress_;
+  const PlanSoFar plan_so_far_;
+  std::int64_t told_ = 0;  // improvements
+  std::int64_t shown_ = -1;
+};
+
 }  // namespace
 
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop) {
@@ -72,9 +108,11 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   return plan(problem, options, stop, executor);
 }
 
-Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop, Executor& executor) {
+Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop, Executor& executor,
+          Observer* observer) {
   const Fleet fleet(problem, options);
   FleetState state(fleet);
+  ProgressReport progress(state, observer);
   Random random(options.seed);
 
   std::vector<std::optional<Unplanned>> unplanned = triage(state, stop);
@@ -83,18 +121,28 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
     if (fleet.robot(i).goal && !unplanned[i]) movers.push_back(i);
   }
   PrioritizedResult prioritized =
-      plan_prioritized(state, movers, random, until_share_ends(stop, kPatienceShare), stop);
+      plan_prioritized(state, movers, random, until_share_ends(stop, kPatienceShare), stop, progress);
   for (Unplanned& robot : prioritized.unplanned) unplanned[robot.robot] = std::move(robot);
   std::erase_if(movers, [&](std::size_t robot) { return !state.trajectory(robot); });
+  progress.found(objectives(state));
   const bool anytime = options.mode == PlanOptions::Mode::anytime;
   const TautBounds bounds(fleet, movers, costs(state), anytime ? until_share_ends(stop, kBoundsShare) : stop);
   const std::int64_t expansions = state.expansions();
+  const auto plan_so_far = [&](const Improvement& improvement) {
+    Plan plan = collect(state, unplanned, bounds);
+    plan.search = {prioritized.attempts, expansions + improvement.expansions, improvement.improvements};
+    return plan;
+  };
   Improvement improvement;
-  if (anytime) improvement = improve(state, movers, bounds, random, executor, stop);
+  if (anytime) {
+    BeforeRound before_round;
+    if (observer != nullptr) before_round = Showing(state, progress, plan_so_far);
+    improvement = improve(state, movers, bounds, random, executor, stop, before_round);
+  }
 
-  Plan plan = collect(state, std::move(unplanned), bounds);
+  Plan plan = plan_so_far(improvement);
+  progress.found(plan.objectives);
   plan.deterministic = !prioritized.cut_off && !bounds.cut_off() && !improvement.cut_off && !stop.cancelled();
-  plan.search = {prioritized.attempts, expansions + improvement.expansions, improvement.improvements};
   return plan;
 }
 

@@ -13,8 +13,8 @@ constexpr std::int64_t kMostReductionExpansions = 20'000;
 
 class Completing {
  public:
-  Completing(FleetState& state, const StopCondition& stop)
-      : state_(state), stop_(stop), no_way_(state.fleet().size(), false) {}
+  Completing(FleetState& state, const StopCondition& stop, ProgressReport& progress)
+      : state_(state), stop_(stop), progress_(progress), no_way_(state.fleet().size(), false) {}
 
   Completion run(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
     standing_ = given_up;
@@ -22,6 +22,7 @@ class Completing {
       if (!state_.trajectory(robot)) stand(robot);
     }
     stop_crossing_ones();
+    progress_.update();
     while (plan_some()) {
     }
     std::sort(standing_.begin(), standing_.end());
@@ -63,6 +64,7 @@ class Completing {
     SearchResult result = state_.plan(robot, {}, stop_);
     if (result.trajectory) {
       state_.follow(robot, std::move(*result.trajectory));
+      progress_.update();
       return true;
     }
     state_.stand_for_ever(robot);
@@ -107,6 +109,7 @@ class Completing {
 
   FleetState& state_;
   const StopCondition& stop_;
+  ProgressReport& progress_;
   std::vector<bool> no_way_;               // by robot: its last search ended without one
   std::int64_t reduction_expansions_ = 0;  // spent on finding out who is in whose way
   std::vector<std::size_t> standing_;
@@ -116,8 +119,9 @@ class Completing {
 }  // namespace
 
 Completion complete(FleetState& state, const std::vector<std::size_t>& unsolved,
-                    const std::vector<std::size_t>& given_up, const StopCondition& stop) {
-  return Completing(state, stop).run(unsolved, given_up);
+                    const std::vector<std::size_t>& given_up, const StopCondition& stop,
+                    ProgressReport& progress) {
+  return Completing(state, stop, progress).run(unsolved, given_up);
 }
 
 }  // namespace fleetplan::core

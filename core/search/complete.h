@@ -5,6 +5,7 @@
 
 #include "core/model/plan.h"
 #include "core/search/fleet_state.h"
+#include "core/search/progress_report.h"
 #include "core/search/stop_condition.h"
 
 namespace fleetplan::core {
@@ -20,6 +21,7 @@ struct Completion {
 /// standing robots included, as long as that gets anybody a trajectory. So the plan is safe at any moment;
 /// once `stop` is met, nothing is searched any more.
 Completion complete(FleetState& state, const std::vector<std::size_t>& unsolved,
-                    const std::vector<std::size_t>& given_up, const StopCondition& stop);
+                    const std::vector<std::size_t>& given_up, const StopCondition& stop,
+                    ProgressReport& progress);
 
 }  // namespace fleetplan::core

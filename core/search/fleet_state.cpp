@@ -36,12 +36,14 @@ void FleetState::reserve(std::size_t robot, const std::vector<TimedSegment>& seg
 
 void FleetState::leave(std::size_t robot) {
   table_.remove(robot);
+  if (trajectories_[robot]) --following_;
   trajectories_[robot].reset();
 }
 
 void FleetState::follow(std::size_t robot, Trajectory trajectory) {
   reserve(robot, timed_segments(trajectory));
   trajectories_[robot] = std::move(trajectory);
+  ++following_;
 }
 
 void FleetState::stand_for_ever(std::size_t robot) { reserve(robot, timed_segments(standing(robot))); }

@@ -33,6 +33,9 @@ class FleetState {
   /// The trajectory that the robot follows, if it does.
   const std::optional<Trajectory>& trajectory(std::size_t robot) const { return trajectories_[robot]; }
 
+  /// How many robots follow a trajectory.
+  std::size_t following() const { return following_; }
+
   /// Plans a robot (with a goal) that has left; changes nobody's reservation.
   SearchResult plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
   /// The same as if the robots of `ignored` were not there.
@@ -67,6 +70,7 @@ class FleetState {
   ReservationTable table_;
   AaSipp search_;
   std::vector<std::optional<Trajectory>> trajectories_;
+  std::size_t following_ = 0;
   std::vector<std::unique_ptr<Guide>> guides_;
   std::int64_t expansions_ = 0;
 };

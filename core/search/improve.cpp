@@ -63,10 +63,14 @@ class Improving {
         stop_(stop),
         firsts_(state.fleet().size()) {}
 
-  Improvement run(std::int64_t max_iterations) {
+  Improvement run(std::int64_t max_iterations, const BeforeRound& before_round) {
     while (max_iterations > 0 && !at_lower_bound() && !result_.cut_off) {
       const std::int64_t count = std::min(kRound, max_iterations);
       max_iterations -= count;
+      if (before_round && !stop_.met()) {
+        replicas_.catch_up();
+        before_round(result_);
+      }
       if (!stop_.met()) round(static_cast<std::size_t>(count));
       result_.cut_off = stop_.met();
     }
@@ -196,14 +200,15 @@ class Improving {
 }  // namespace
 
 Improvement improve(FleetState& state, const std::vector<std::size_t>& movers, const TautBounds& bounds,
-                    Random& random, Executor& executor, const StopCondition& stop) {
+                    Random& random, Executor& executor, const StopCondition& stop,
+                    const BeforeRound& before_round) {
   std::vector<std::size_t> planned;
   for (const std::size_t robot : movers) {
     if (state.trajectory(robot)) planned.push_back(robot);
   }
   constexpr auto kEndless = std::numeric_limits<std::int64_t>::max();
   return Improving(state, std::move(planned), bounds, random, executor, stop)
-      .run(state.fleet().options().max_iterations.value_or(kEndless));
+      .run(state.fleet().options().max_iterations.value_or(kEndless), before_round);
 }
 
 }  // namespace fleetplan::core

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/parallel/executor.h"
@@ -18,6 +19,9 @@ struct Improvement {
   bool cut_off = false;           // the clock ended it
 };
 
+/// Called by the caller's thread before every round: the state follows what was found so far.
+using BeforeRound = std::function<void(const Improvement& so_far)>;
+
 /// Makes the plan better by adaptive large neighbourhood search (Li et al., MAPF-LNS, IJCAI 2021): chooses a
 /// delayed robot and some others, reroutes it at their expense, and keeps the result if the objective of the
 /// options fell: the flowtime; or the makespan, or the flowtime without a longer makespan. Which robots, how
@@ -29,6 +33,7 @@ struct Improvement {
 /// threads of the executor; what they found is adopted in their order, unless it clashes with what was
 /// adopted before in the round. So the number of threads changes nothing but the speed.
 Improvement improve(FleetState& state, const std::vector<std::size_t>& movers, const TautBounds& bounds,
-                    Random& random, Executor& executor, const StopCondition& stop);
+                    Random& random, Executor& executor, const StopCondition& stop,
+                    const BeforeRound& before_round = nullptr);
 
 }  // namespace fleetplan::core

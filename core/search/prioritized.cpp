@@ -22,7 +22,8 @@ struct Rest {
 
 /// Plans every robot once, in this order; returns those that found no way.
 std::vector<std::size_t> plan_each_once(FleetState& state, const PriorityOrder& order,
-                                        const StopCondition& stop) {
+                                        const StopCondition& stop, ProgressReport& progress) {
+  progress.next_attempt();
   const double blocked = state.fleet().options().start_safe_interval;
   std::vector<std::size_t> unsolved;
   for (const std::size_t robot : order) state.block_start(robot, blocked);
@@ -32,6 +33,7 @@ std::vector<std::size_t> plan_each_once(FleetState& state, const PriorityOrder& 
     if (!stop.met()) result = state.plan(robot, {}, stop);
     if (result.trajectory) {
       state.follow(robot, std::move(*result.trajectory));
+      progress.update();
     } else {
       state.block_start(robot, blocked);
       unsolved.push_back(robot);
@@ -41,21 +43,21 @@ std::vector<std::size_t> plan_each_once(FleetState& state, const PriorityOrder& 
 }
 
 Rest solve(FleetState& state, const PriorityOrder& order, Random& random, const StopCondition& patience,
-           PrioritizedResult& result) {
+           ProgressReport& progress, PrioritizedResult& result) {
   const auto reordering = state.fleet().options().reordering;
   if (reordering == PlanOptions::Reordering::none) {
     result.attempts = 1;
-    Rest rest{plan_each_once(state, order, patience), {}};
+    Rest rest{plan_each_once(state, order, patience, progress), {}};
     result.cut_off = patience.met();
     return rest;
   }
   if (reordering == PlanOptions::Reordering::random || order.size() <= kFewRobots) {
-    RestartsResult restarts = plan_with_restarts(state, order, random, patience);
+    RestartsResult restarts = plan_with_restarts(state, order, random, patience, progress);
     result.attempts = restarts.attempts;
     result.cut_off = restarts.cut_off;
     return {std::move(restarts.unsolved), std::move(restarts.given_up)};
   }
-  RepairResult repair = plan_with_repair(state, order, random, patience);
+  RepairResult repair = plan_with_repair(state, order, random, patience, progress);
   result.attempts = repair.attempts;
   result.cut_off = !repair.unsolved.empty();
   return {std::move(repair.unsolved), std::move(repair.given_up)};
@@ -76,12 +78,14 @@ PrioritizedResult all_unplanned(const std::vector<std::size_t>& movers) {
 }  // namespace
 
 PrioritizedResult plan_prioritized(FleetState& state, const std::vector<std::size_t>& movers, Random& random,
-                                   const StopCondition& patience, const StopCondition& stop) {
+                                   const StopCondition& patience, const StopCondition& stop,
+                                   ProgressReport& progress) {
   PrioritizedResult result;
   if (stop.met()) return all_unplanned(movers);
-  const Rest rest = solve(state, initial_order(state.fleet(), movers, random), random, patience, result);
+  const Rest rest =
+      solve(state, initial_order(state.fleet(), movers, random), random, patience, progress, result);
   if (rest.unsolved.empty() && rest.given_up.empty()) return result;
-  Completion completion = complete(state, rest.unsolved, rest.given_up, stop);
+  Completion completion = complete(state, rest.unsolved, rest.given_up, stop, progress);
   result.cut_off = result.cut_off || completion.cut_off;
   result.unplanned = std::move(completion.unplanned);
   return result;

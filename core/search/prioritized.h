@@ -8,6 +8,7 @@
 #include "core/model/plan.h"
 #include "core/search/fleet_state.h"
 #include "core/search/priority_order.h"
+#include "core/search/progress_report.h"
 #include "core/search/stop_condition.h"
 
 namespace fleetplan::core {
@@ -25,6 +26,7 @@ struct PrioritizedResult {
 /// reordering says (paper, section Prioritized planning). Until `patience` is met it tries to plan them all;
 /// from then until `stop` is met it makes what it has into a safe partial plan of as many as possible.
 PrioritizedResult plan_prioritized(FleetState& state, const std::vector<std::size_t>& movers, Random& random,
-                                   const StopCondition& patience, const StopCondition& stop);
+                                   const StopCondition& patience, const StopCondition& stop,
+                                   ProgressReport& progress);
 
 }  // namespace fleetplan::core

@@ -24,11 +24,13 @@ constexpr int kMostExtra = 12;
 
 class Repair {
  public:
-  Repair(FleetState& state, PriorityOrder order, Random& random, const StopCondition& stop)
+  Repair(FleetState& state, PriorityOrder order, Random& random, const StopCondition& stop,
+         ProgressReport& progress)
       : state_(state),
         order_(std::move(order)),
         random_(random),
         stop_(stop),
+        progress_(progress),
         rank_(state.fleet().size(), 0),
         failures_(state.fleet().size(), 0) {
     for (std::size_t k = 0; k < order_.size(); ++k) {
@@ -41,6 +43,7 @@ class Repair {
   std::optional<RepairResult> run(std::int64_t most_failures) {
     while (!pending_.empty() && !stop_.met()) {
       if (result_.attempts > most_failures) return std::nullopt;
+      progress_.update();
       const std::size_t robot = pending_.begin()->second;
       pending_.erase(pending_.begin());
       state_.leave(robot);
@@ -82,6 +85,7 @@ class Repair {
   /// among the larger ones of them, since the smaller more easily find another way; or else among nobody.
   SearchResult after_failure(std::size_t robot) {
     ++result_.attempts;
+    progress_.next_attempt();
     if (++failures_[robot] > kHopeless) return {};
     const double radius = state_.fleet().motion(robot).radius;
     const auto is_lower = [&](std::size_t other) { return rank_[other] > rank_[robot]; };
@@ -141,6 +145,7 @@ class Repair {
   const PriorityOrder order_;
   Random& random_;
   const StopCondition& stop_;
+  ProgressReport& progress_;
   std::vector<std::int64_t> rank_;  // by robot; smaller is higher
   std::int64_t top_ = 0;
   std::vector<int> failures_;                               // by robot
@@ -164,11 +169,16 @@ PriorityOrder larger_first(const Fleet& fleet, PriorityOrder order) {
 }  // namespace
 
 RepairResult plan_with_repair(FleetState& state, const PriorityOrder& order, Random& random,
-                              const StopCondition& stop) {
+                              const StopCondition& stop, ProgressReport& progress) {
   constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
-  if (!differ_in_size(state.fleet(), order)) return *Repair(state, order, random, stop).run(kAnyNumber);
-  if (auto result = Repair(state, order, random, stop).run(kMostFailures)) return std::move(*result);
-  RepairResult result = *Repair(state, larger_first(state.fleet(), order), random, stop).run(kAnyNumber);
+  progress.next_attempt();
+  if (!differ_in_size(state.fleet(), order)) {
+    return *Repair(state, order, random, stop, progress).run(kAnyNumber);
+  }
+  if (auto result = Repair(state, order, random, stop, progress).run(kMostFailures))
+    return std::move(*result);
+  RepairResult result =
+      *Repair(state, larger_first(state.fleet(), order), random, stop, progress).run(kAnyNumber);
   result.attempts += kMostFailures;
   return result;
 }

@@ -6,6 +6,7 @@
 
 #include "core/search/fleet_state.h"
 #include "core/search/priority_order.h"
+#include "core/search/progress_report.h"
 #include "core/search/random.h"
 #include "core/search/stop_condition.h"
 
@@ -24,6 +25,6 @@ struct RepairResult {
 /// last resort, among nobody but those that stay. Only the trajectories that it crosses there are taken back
 /// and planned again. Where robots keep raising each other, the priorities of those involved are shuffled.
 RepairResult plan_with_repair(FleetState& state, const PriorityOrder& order, Random& random,
-                              const StopCondition& stop);
+                              const StopCondition& stop, ProgressReport& progress);
 
 }  // namespace fleetplan::core

@@ -16,8 +16,10 @@ struct Attempt {
 };
 
 /// Plans in this order until a robot finds no way; the first robot holds for a while at its start.
-Attempt try_order(FleetState& state, const PriorityOrder& order, double hold, const StopCondition& stop) {
+Attempt try_order(FleetState& state, const PriorityOrder& order, double hold, const StopCondition& stop,
+                  ProgressReport& progress) {
   for (const std::size_t robot : order) state.block_start(robot, state.fleet().options().start_safe_interval);
+  progress.next_attempt();
   Attempt attempt{order, {}, std::nullopt};
   for (const std::size_t robot : order) {
     if (stop.met()) break;
@@ -29,6 +31,7 @@ Attempt try_order(FleetState& state, const PriorityOrder& order, double hold, co
     }
     attempt.trajectories.push_back(*result.trajectory);
     state.follow(robot, std::move(*result.trajectory));
+    progress.update();
   }
   return attempt;
 }
@@ -42,10 +45,12 @@ std::vector<std::size_t> restore(FleetState& state, Attempt best) {
 
 class Restarts {
  public:
-  Restarts(FleetState& state, PriorityOrder order, Random& random, const StopCondition& stop)
+  Restarts(FleetState& state, PriorityOrder order, Random& random, const StopCondition& stop,
+           ProgressReport& progress)
       : state_(state),
         random_(random),
         stop_(stop),
+        progress_(progress),
         orders_(state.fleet().options().reordering, std::move(order), random),
         best_{orders_.current(), {}, std::nullopt} {}
 
@@ -67,7 +72,7 @@ class Restarts {
   /// True if a robot failed, and all may be tried again.
   bool attempt(double hold) {
     ++result_.attempts;
-    Attempt attempt = try_order(state_, orders_.current(), hold, stop_);
+    Attempt attempt = try_order(state_, orders_.current(), hold, stop_, progress_);
     const bool first_failed = attempt.failed && attempt.trajectories.empty() && hold == 0.0;
     failed_ = attempt.failed;
     result_.cut_off = !failed_ && !attempt.solved();
@@ -85,6 +90,7 @@ class Restarts {
   FleetState& state_;
   Random& random_;
   const StopCondition& stop_;
+  ProgressReport& progress_;
   OrderSequence orders_;
   Attempt best_;
   std::optional<std::size_t> failed_;
@@ -94,8 +100,8 @@ class Restarts {
 }  // namespace
 
 RestartsResult plan_with_restarts(FleetState& state, PriorityOrder order, Random& random,
-                                  const StopCondition& stop) {
-  return Restarts(state, std::move(order), random, stop).run();
+                                  const StopCondition& stop, ProgressReport& progress) {
+  return Restarts(state, std::move(order), random, stop, progress).run();
 }
 
 }  // namespace fleetplan::core

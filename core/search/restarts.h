@@ -6,6 +6,7 @@
 
 #include "core/search/fleet_state.h"
 #include "core/search/priority_order.h"
+#include "core/search/progress_report.h"
 #include "core/search/random.h"
 #include "core/search/stop_condition.h"
 
@@ -24,6 +25,6 @@ struct RestartsResult {
 /// Plans all robots of `order`, and from the start again in another order whenever one finds no way, until
 /// all have a trajectory, all orders have failed, or `stop` is met.
 RestartsResult plan_with_restarts(FleetState& state, PriorityOrder order, Random& random,
-                                  const StopCondition& stop);
+                                  const StopCondition& stop, ProgressReport& progress);
 
 }  // namespace fleetplan::core

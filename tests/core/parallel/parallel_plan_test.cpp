@@ -8,6 +8,7 @@
 #include "tests/support/expect_safe.h"
 #include "tests/support/problem_builder.h"
 #include "tests/support/random_problem.h"
+#include "tests/support/recorder.h"
 #include "tests/support/summary.h"
 #include "tests/support/threaded_executor.h"
 
@@ -72,6 +73,27 @@ TEST_P(PlanInParallel, IsTheSamePlanForRandomFleets) {
     support::ThreadedExecutor executor(4);
     ASSERT_EQ(support::exact_text(plan(problem, options, {}, executor)),
               support::exact_text(plan(problem, options, {})));
+  }
+}
+
+TEST_P(PlanInParallel, IsTheSamePlanWhenItIsWatchedAndShowsTheSame) {
+  const Problem problem = roundabout();
+  const PlanOptions options = anytime(200, GetParam());
+  support::Recorder by_one;
+  CallersThread callers_thread;
+  const Plan alone = plan(problem, options, {}, callers_thread, &by_one);
+  EXPECT_EQ(support::exact_text(alone), support::exact_text(plan(problem, options, {})));
+  ASSERT_GT(by_one.shown.size(), 1u);
+  for (const std::size_t threads : {2, 8}) {
+    support::ThreadedExecutor executor(threads);
+    support::Recorder by_many;
+    const Plan together = plan(problem, options, {}, executor, &by_many);
+    EXPECT_EQ(support::exact_text(together), support::exact_text(alone)) << threads << " threads";
+    EXPECT_EQ(by_many.told.size(), by_one.told.size());
+    ASSERT_EQ(by_many.shown.size(), by_one.shown.size());
+    for (std::size_t k = 0; k < by_many.shown.size(); ++k) {
+      ASSERT_EQ(support::exact_text(by_many.shown[k]), support::exact_text(by_one.shown[k]));
+    }
   }
 }
 

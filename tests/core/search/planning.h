@@ -10,6 +10,7 @@
 #include "core/search/aa_sipp.h"
 #include "core/search/fleet.h"
 #include "core/search/fleet_state.h"
+#include "core/search/progress_report.h"
 #include "core/search/random.h"
 #include "core/search/stop_condition.h"
 #include "tests/support/ascii_map.h"
@@ -45,6 +46,7 @@ struct Planning {
   Random random;
   StopCondition never;
   CallersThread callers_thread;
+  ProgressReport progress{state, nullptr};  // nobody watches
 };
 
 /// A stop condition that is met already.

@@ -25,7 +25,7 @@ Planning mouth() {
 TEST(Repair, RaisesARobotThatFoundNoWayAndTakesBackOnlyWhatItCrosses) {
   Planning p = mouth();
   Random random = dice();
-  const RepairResult result = plan_with_repair(p.state, {2, 0, 1}, random, p.never);
+  const RepairResult result = plan_with_repair(p.state, {2, 0, 1}, random, p.never, p.progress);
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_TRUE(result.given_up.empty());
   EXPECT_EQ(result.attempts, 2) << "robot 1 failed once";
@@ -42,7 +42,7 @@ TEST(Repair, GivesUpARobotThatHasNoWayAmongThoseThatStayAndPlansTheOthers) {
              {robot_at(4.5, 1.5), robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(8.5, 0.5).to(5.5, 0.5)});
   p.state.stand_for_ever(0);
   Random random = dice();
-  const RepairResult result = plan_with_repair(p.state, {1, 2}, random, p.never);
+  const RepairResult result = plan_with_repair(p.state, {1, 2}, random, p.never, p.progress);
   EXPECT_EQ(result.given_up, Robots{1});
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_TRUE(p.state.trajectory(2));
@@ -55,7 +55,7 @@ TEST(Repair, BreaksACycleOfRobotsThatRaiseEachOtherByHoldingOneBack) {
                                  "........."}),
              {robot_at(0.5, 0.5).to(8.5, 0.5), robot_at(8.5, 0.5, 3.0).to(0.5, 0.5)});
   Random random = dice();
-  const RepairResult result = plan_with_repair(p.state, {0, 1}, random, p.never);
+  const RepairResult result = plan_with_repair(p.state, {0, 1}, random, p.never, p.progress);
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_GT(result.attempts, 4) << "patience comes first";
   expect_safe(p.state);
@@ -70,7 +70,7 @@ TEST(Repair, GivesUpARobotThatKeepsFailingAndPlansTheOthers) {
       {robot_at(0.5, 2.5).to(6.5, 2.5), robot_at(6.5, 2.5, 3.0).to(0.5, 2.5), robot_at(0.5, 0.5).to(4.5, 0.5),
        robot_at(1.5, 0.5).to(6.5, 0.5), robot_at(3.5, 0.5).to(8.5, 0.5)});
   Random random = dice();
-  const RepairResult result = plan_with_repair(p.state, {0, 1, 2, 3, 4}, random, p.never);
+  const RepairResult result = plan_with_repair(p.state, {0, 1, 2, 3, 4}, random, p.never, p.progress);
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_EQ(result.given_up, (Robots{1, 0})) << "each stands in the way of the other";
   for (const std::size_t robot : {2u, 3u, 4u}) EXPECT_TRUE(p.state.trajectory(robot));
@@ -90,7 +90,7 @@ TEST(Repair, BeginsAgainWithTheLargerOnesWhereManyFail) {
       {robot_at(0.5, 6.5).to(6.5, 6.5), robot_at(6.5, 6.5, 3.0).to(0.5, 6.5),
        robot_at(2.5, 2.5).to(8.5, 2.5).radius(0.2), robot_at(4.5, 4.5, -1.5707963267948966).to(4.5, 0.5)});
   Random random = dice();
-  const RepairResult result = plan_with_repair(p.state, {0, 1, 2, 3}, random, p.never);
+  const RepairResult result = plan_with_repair(p.state, {0, 1, 2, 3}, random, p.never, p.progress);
   EXPECT_EQ(result.given_up.size(), 2u);
   ASSERT_TRUE(p.state.trajectory(2) && p.state.trajectory(3));
   EXPECT_NEAR(p.state.trajectory(3)->cost, 4.0, 1e-9);
@@ -101,7 +101,7 @@ TEST(Repair, BeginsAgainWithTheLargerOnesWhereManyFail) {
 TEST(Repair, ReturnsTheRobotsWithoutATrajectoryByPriorityWhenItIsStopped) {
   Planning p = mouth();
   Random random = dice();
-  const RepairResult result = plan_with_repair(p.state, {2, 0, 1}, random, met());
+  const RepairResult result = plan_with_repair(p.state, {2, 0, 1}, random, met(), p.progress);
   EXPECT_EQ(result.unsolved, (Robots{2, 0, 1}));
 }
 
