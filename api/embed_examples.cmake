@@ -1,7 +1,8 @@
-# Writes a .cpp with the request files of a folder as byte arrays; string literals would be limited to 64 KiB by
-# some compilers. Usage: cmake -DFOLDER=... -DOUTPUT=... -P embed_examples.cmake
+# Writes a .cpp with the request files of a folder as byte arrays.
+# Usage: cmake -DFOLDER=... -DOUTPUT=... -P embed_examples.cmake
 
 cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/char_array.cmake)
 
 file(GLOB files "${FOLDER}/*.json")
 list(SORT files)
@@ -13,16 +14,15 @@ set(count 0)
 foreach(file IN LISTS files)
   get_filename_component(name "${file}" NAME_WE)
   file(READ "${file}" bytes HEX)
-  string(REGEX REPLACE "(..)" "'\\\\x\\1'," bytes "${bytes}")
-  string(REPLACE "'\\x0a'," "'\\x0a',\n" bytes "${bytes}")
   if(name STREQUAL "index")
-    string(APPEND arrays "constexpr char kIndex[] = {\n${bytes}};\n")
+    char_array(kIndex "${bytes}" array)
     set(index "{kIndex, sizeof(kIndex)}")
   else()
-    string(APPEND arrays "constexpr char kBody${count}[] = {\n${bytes}};\n")
+    char_array(kBody${count} "${bytes}" array)
     string(APPEND table "    Example{\"${name}\", {kBody${count}, sizeof(kBody${count})}},\n")
     math(EXPR count "${count} + 1")
   endif()
+  string(APPEND arrays "${array}")
 endforeach()
 
 file(WRITE "${OUTPUT}" "// Made by api/embed_examples.cmake from the request files; do not edit.

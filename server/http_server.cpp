@@ -167,6 +167,8 @@ void HttpServer::answer_get(const Exchange& exchange, httplib::Response& respons
              return example_reply(service_, route.parameter, exchange.request_id);
            case Endpoint::limits:
              return limits_reply(settings_);
+           case Endpoint::openapi:
+             return service_.openapi();
            case Endpoint::readyz:
              return readiness_reply(draining_, exchange.request_id);
            default:

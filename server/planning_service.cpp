@@ -1,4 +1,5 @@
 #include "api/examples.h"
+#include "api/openapi.h"
 #include "api/plan_endpoint.h"
 #include "api/validate_endpoint.h"
 #include "server/service.h"
@@ -6,7 +7,8 @@
 namespace fleetplan::server {
 
 Service planning_service() {
-  Service service{api::plan_endpoint, api::validate_endpoint, api::examples_endpoint, {}};
+  Service service{
+      api::plan_endpoint, api::validate_endpoint, api::examples_endpoint, api::openapi_endpoint, {}};
   for (const auto& example : api::examples()) {
     service.examples.push_back({std::string(example.name), std::string(example.body)});
   }

@@ -6,11 +6,12 @@
 namespace fleetplan::server {
 
 std::optional<Route> find_route(std::string_view path) {
-  constexpr std::array<std::pair<std::string_view, Endpoint>, 7> kPaths{{
+  constexpr std::array<std::pair<std::string_view, Endpoint>, 8> kPaths{{
       {"/v1/plan", Endpoint::plan},
       {"/v1/validate", Endpoint::validate},
       {"/v1/examples", Endpoint::example_list},
       {"/v1/limits", Endpoint::limits},
+      {"/v1/openapi.json", Endpoint::openapi},
       {"/healthz", Endpoint::healthz},
       {"/readyz", Endpoint::readyz},
       {"/", Endpoint::page},

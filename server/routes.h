@@ -6,7 +6,7 @@
 
 namespace fleetplan::server {
 
-enum class Endpoint { plan, validate, example_list, example, limits, healthz, readyz, page };
+enum class Endpoint { plan, validate, example_list, example, limits, openapi, healthz, readyz, page };
 
 struct Route {
   Endpoint endpoint;

@@ -77,7 +77,7 @@ TEST_F(HttpAnswers, HealthReadinessLimitsAndExamplesAreJson) {
 }
 
 TEST_F(HttpAnswers, HeadHasTheFieldsOfGetAndNoBody) {
-  for (const char* path : {"/healthz", "/v1/limits", "/v1/examples/tiny", "/readyz"}) {
+  for (const char* path : {"/healthz", "/v1/limits", "/v1/openapi.json", "/v1/examples/tiny", "/readyz"}) {
     const httplib::Headers plain{{"Accept-Encoding", "identity"}};
     const auto get = client.Get(path, plain);
     const auto head = client.Head(path, plain);

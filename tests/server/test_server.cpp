@@ -43,7 +43,8 @@ Service StubService::service() {
     return answer(body, context);
   };
   const auto list = [] { return api::Reply{200, api::kJson, R"({"examples":["tiny"]})"}; };
-  return {endpoint, endpoint, list, {{"tiny", R"({"robots":[]})"}, {"narrow-door", "{}"}}};
+  const auto openapi = [] { return api::Reply{200, api::kJson, R"({"openapi":"3.1.0"})"}; };
+  return {endpoint, endpoint, list, openapi, {{"tiny", R"({"robots":[]})"}, {"narrow-door", "{}"}}};
 }
 
 api::Reply StubService::answer(std::string_view body, const api::RequestContext& context) {

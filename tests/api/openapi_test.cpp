@@ -1,0 +1,80 @@
+#include "api/openapi.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "api/error.h"
+#include "tests/api/requests.h"
+
+namespace fleetplan::api {
+namespace {
+
+using testing::IsEmpty;
+
+Json document() { return Json::parse(openapi_document()); }
+
+/// The problems of the document's responses, by code.
+std::map<std::string, Json> documented_problems(const Json& openapi) {
+  std::map<std::string, Json> problems;
+  for (const auto& response : openapi["components"]["responses"]) {
+    for (const auto& [code, example] : response["content"][kProblemJson]["examples"].items()) {
+      EXPECT_TRUE(problems.emplace(code, example["value"]).second) << code << " is documented twice";
+    }
+  }
+  return problems;
+}
+
+/// Every `"$ref"` below a value.
+std::set<std::string> references(const Json& value) {
+  std::set<std::string> found;
+  for (const auto& [key, member] : value.items()) {
+    if (key == "$ref") {
+      found.insert(member.get<std::string>());
+    } else if (member.is_structured()) {
+      found.merge(references(member));
+    }
+  }
+  return found;
+}
+
+TEST(OpenApi, IsOneCompleteDocumentOfThisVersion) {
+  const Json openapi = document();
+  EXPECT_EQ(openapi["openapi"], "3.1.0");
+  EXPECT_EQ(openapi["info"]["version"], FLEETPLAN_VERSION);
+  EXPECT_EQ(openapi_document().find("\"@"), std::string_view::npos) << "a part is not filled in";
+  for (const std::string& reference : references(openapi)) {
+    ASSERT_TRUE(reference.starts_with("#/")) << reference;
+    EXPECT_TRUE(openapi.contains(Json::json_pointer(reference.substr(1)))) << reference;
+  }
+}
+
+TEST(OpenApi, HasAnEntryForEachRowOfTheTableOfErrors) {
+  auto documented = documented_problems(document());
+  for (int row = 0; row <= static_cast<int>(ErrorCode::draining); ++row) {
+    const auto code = static_cast<ErrorCode>(row);
+    const std::string name(name_of(code));
+    ASSERT_TRUE(documented.contains(name)) << name;
+    const Json told = documented[name];
+    const auto real = problem_reply(code, told["detail"], told["request_id"]);
+    Json expected = json_of(real);
+    expected["errors"] = told["errors"];
+    EXPECT_EQ(told, expected) << name;
+    documented.erase(name);
+  }
+  EXPECT_THAT(documented, IsEmpty()) << "these are not in the table";
+}
+
+TEST(OpenApi, IsAnsweredAsJson) {
+  const Reply reply = openapi_endpoint();
+  EXPECT_EQ(reply.status, 200);
+  EXPECT_EQ(reply.content_type, kJson);
+  EXPECT_EQ(reply.body, openapi_document());
+}
+
+}  // namespace
+}  // namespace fleetplan::api

@@ -1,0 +1,80 @@
+// The ready requests and the document's examples are what the schemas say, and so are the answers to them.
+
+import assert from "node:assert/strict";
+import { readdirSync, readFileSync } from "node:fs";
+import { test } from "node:test";
+
+import { openSession } from "./support/session.js";
+
+const SCENARIOS = new URL("../scenarios/", import.meta.url);
+const scenarios = readdirSync(SCENARIOS)
+  .filter((file) => file.endsWith(".json") && file !== "index.json")
+  .map((file) => file.replace(".json", ""));
+
+const { document, client } = await openSession();
+const { paths } = document.root;
+
+/** An answer without what differs from run to run or with every change of the search. */
+function lasting({ timings_ms, request_id, search, ...rest }) {
+  return rest;
+}
+
+test("every scenario is a ready request and listed", async () => {
+  const list = await client.get("/v1/examples");
+  assert.deepEqual(list.json.examples.map(({ name }) => name).sort(), scenarios.sort());
+  for (const name of scenarios) {
+    const { json } = await client.get(`/v1/examples/${name}`);
+    assert.deepEqual(json, JSON.parse(readFileSync(new URL(`${name}.json`, SCENARIOS), "utf8")));
+  }
+});
+
+for (const name of scenarios) {
+  test(`${name}: request, answer, and both together for validation are what the schemas say`, async () => {
+    const request = JSON.parse(readFileSync(new URL(`${name}.json`, SCENARIOS), "utf8"));
+    assert.deepEqual(document.faultsOfComponent("PlanRequest", request), []);
+    const answer = await client.post("/v1/plan", request);
+    assert.equal(answer.status, 200);
+    const both = { ...request, ...answer.json };
+    assert.deepEqual(document.faultsOfComponent("ValidateRequest", both), []);
+    const verdict = await client.post("/v1/validate", both);
+    assert.equal(verdict.status, 200);
+    assert.equal(verdict.json.valid, true, JSON.stringify(verdict.json.violations));
+  });
+}
+
+for (const path of ["/v1/plan", "/v1/validate"]) {
+  test(`the document's examples for ${path} are answered as it says`, async () => {
+    const { requestBody, responses } = paths[path].post;
+    const requests = requestBody.content["application/json"].examples;
+    const answers = responses["200"].content["application/json"].examples;
+    assert.ok(Object.keys(answers).length > 0);
+    for (const name of Object.keys(answers)) assert.ok(requests[name], `${name} is no request`);
+    for (const [name, { value }] of Object.entries(requests)) {
+      const { status, json } = await client.post(path, value);
+      assert.equal(status, 200, name);
+      if (answers[name]) assert.deepEqual(lasting(json), lasting(answers[name].value), name);
+    }
+  });
+}
+
+test("every path that is read with GET answers GET and HEAD as documented", async () => {
+  for (const [template, { get }] of Object.entries(paths)) {
+    if (get === undefined) continue;
+    const path = template.replace("{name}", "corridor-swap");
+    const answer = await client.get(path, { "X-Request-Id": "a.b_c-1" });
+    assert.equal(answer.status, 200, path);
+    assert.equal(answer.headers["x-request-id"], "a.b_c-1");
+    assert.equal((await client.send("HEAD", path)).status, 200, path);
+  }
+});
+
+test("defaults of the options are those of the service", async () => {
+  const request = (await client.get("/v1/examples/corridor-swap")).json;
+  const { properties } = document.root.components.schemas.PlanOptions;
+  const given = Object.entries(properties).filter(([, option]) => option.default !== undefined);
+  const options = Object.fromEntries(given.map(([name, option]) => [name, option.default]));
+  assert.equal(given.length, Object.keys(properties).length - 1, "all but the time budget");
+  const bare = await client.post("/v1/plan", request);
+  const full = await client.post("/v1/plan", { ...request, options });
+  assert.deepEqual(lasting(full.json), lasting(bare.json));
+});

@@ -1,0 +1,112 @@
+// Requests to the service, as bytes when need be, and answers held to the document.
+
+import assert from "node:assert/strict";
+import { Agent, request } from "node:http";
+import { connect } from "node:net";
+
+const PATIENCE_MS = 30_000;
+/** Header fields with a meaning for programs: not to be sent where they are not documented. */
+const TELLING = ["allow", "retry-after", "www-authenticate", "accept-encoding"];
+
+/** A client of the service at `url`, whose answers the document has to have: anything else is a failed assertion. */
+export class Client {
+  #agent = new Agent({ keepAlive: true });
+  #url;
+  #document;
+
+  constructor(url, document) {
+    this.#url = new URL(url);
+    this.#document = document;
+  }
+
+  /** {method, path, status, headers, body, json}. */
+  async send(method, path, { body, headers = {} } = {}) {
+    const sent = await this.#exchange(method, path, body, headers);
+    return checked(this.#document, { method, path, ...sent });
+  }
+
+  post(path, body, headers = {}) {
+    const bytes = typeof body === "string" || body instanceof Uint8Array ? body : JSON.stringify(body);
+    return this.send("POST", path, { body: bytes, headers: { "Content-Type": "application/json", ...headers } });
+  }
+
+  get(path, headers = {}) {
+    return this.send("GET", path, { headers });
+  }
+
+  /** Sends these bytes on a connection of their own and reads until the server closes it. */
+  async sendRaw(method, path, text) {
+    const { hostname, port } = this.#url;
+    const socket = connect({ host: hostname, port: Number(port) });
+    socket.setTimeout(PATIENCE_MS, () => socket.destroy(new Error("no answer in time")));
+    socket.write(text);
+    const parts = [];
+    for await (const part of socket) parts.push(part);
+    const whole = Buffer.concat(parts).toString("utf8");
+    const end = whole.indexOf("\r\n\r\n");
+    const [line, ...fields] = whole.slice(0, end).split("\r\n");
+    const headers = Object.fromEntries(
+      fields.map((field) => {
+        const [name, ...value] = field.split(": ");
+        return [name.toLowerCase(), value.join(": ")];
+      }),
+    );
+    const body = whole.slice(end + 4);
+    return checked(this.#document, { method, path, status: Number(line.split(" ")[1]), headers, body });
+  }
+
+  close() {
+    this.#agent.destroy();
+  }
+
+  #exchange(method, path, body, headers) {
+    return new Promise((resolve, reject) => {
+      const { hostname: host, port } = this.#url;
+      const length = body === undefined ? {} : { "Content-Length": Buffer.byteLength(body) };
+      const options = { host, port, method, path, agent: this.#agent, headers: { ...length, ...headers } };
+      const sent = request(options, async (answer) => {
+        try {
+          const parts = [];
+          for await (const part of answer) parts.push(part);
+          const text = Buffer.concat(parts).toString("utf8");
+          resolve({ status: answer.statusCode, headers: answer.headers, body: text });
+        } catch (error) {
+          reject(error);
+        }
+      });
+      sent.setTimeout(PATIENCE_MS, () => sent.destroy(new Error("no answer in time")));
+      sent.on("error", reject);
+      sent.end(body);
+    });
+  }
+}
+
+function checked(document, answer) {
+  const { method, path, status, headers } = answer;
+  const asked = `${method} ${path} answered ${status}: ${answer.body.slice(0, 400)}`;
+  const documented = document.responseTo(method, path, status);
+  assert.ok(documented, `not documented: ${asked}`);
+
+  const header = (name) => document.at([...documented.steps, "headers", name]);
+  for (const name of Object.keys(documented.value.headers)) {
+    const value = headers[name.toLowerCase()];
+    const told = header(name);
+    if (value === undefined) {
+      assert.ok(!told.value.required, `no ${name}: ${asked}`);
+    } else {
+      assert.deepEqual(document.faultsOf([...told.steps, "schema"], value), [], `${name} of ${asked}`);
+    }
+  }
+  const names = Object.keys(documented.value.headers).map((name) => name.toLowerCase());
+  for (const name of TELLING) assert.ok(!headers[name] || names.includes(name), `${name} is not documented: ${asked}`);
+
+  const type = headers["content-type"];
+  const media = document.at([...documented.steps, "content", type]);
+  assert.ok(media.value, `content type ${type} is not documented: ${asked}`);
+  if (method === "HEAD") return answer;
+  const json = JSON.parse(answer.body);
+  assert.deepEqual(document.faultsOf([...media.steps, "schema"], json), [], asked);
+  if (status >= 400) assert.equal(json.status, status, asked);
+  if (json.request_id !== undefined) assert.equal(json.request_id, headers["x-request-id"], asked);
+  return { ...answer, json };
+}

@@ -1,0 +1,98 @@
+// The OpenAPI document of a running service, and what it says about answers and requests.
+
+import Ajv2020 from "ajv/dist/2020.js";
+import addFormats from "ajv-formats";
+
+const METHODS = ["get", "post"];
+
+/** The document of the service at `url`. */
+export async function fetchDocument(url) {
+  const answer = await fetch(new URL("/v1/openapi.json", url));
+  if (answer.status !== 200) throw new Error(`no document: ${answer.status} ${await answer.text()}`);
+  return answer.json();
+}
+
+/** Answers may get more members later, so their schemas are open; but what the tests see has to be told. */
+function closed(schema) {
+  if (Array.isArray(schema)) return schema.map(closed);
+  if (schema === null || typeof schema !== "object") return schema;
+  const copy = Object.fromEntries(Object.entries(schema).map(([key, value]) => [key, closed(value)]));
+  const open = schema.type === "object" && schema.properties && schema.additionalProperties === undefined;
+  return open ? { ...copy, additionalProperties: false } : copy;
+}
+
+export class Document {
+  #ajv = new Ajv2020({ allErrors: true, allowUnionTypes: true });
+  #validators = new Map();
+
+  constructor(root) {
+    this.root = root;
+    addFormats(this.#ajv);
+    this.#ajv.addVocabulary(Object.keys(root)); // which are no keywords of schemas
+    this.#ajv.addSchema(closed(root), "document");
+  }
+
+  /** The value at these steps below the root, and the steps to it with references followed. */
+  at(steps) {
+    let value = this.root;
+    let place = [];
+    for (const step of steps) {
+      value = value?.[step];
+      place.push(step);
+      while (value?.$ref !== undefined) {
+        place = value.$ref.slice(2).split("/");
+        value = place.reduce((outer, inner) => outer[inner], this.root);
+      }
+    }
+    return { value, steps: place };
+  }
+
+  /** How a value breaks the schema at these steps; [] when it does not. */
+  faultsOf(steps, value) {
+    const pointer = steps.map((step) => "/" + step.replaceAll("~", "~0").replaceAll("/", "~1")).join("");
+    if (!this.#validators.has(pointer)) {
+      this.#validators.set(pointer, this.#ajv.compile({ $ref: `document#${encodeURI(pointer)}` }));
+    }
+    const validate = this.#validators.get(pointer);
+    return validate(value) ? [] : validate.errors.map((error) => `${error.instancePath} ${error.message}`);
+  }
+
+  /** How a value breaks a component's schema. */
+  faultsOfComponent(name, value) {
+    return this.faultsOf(["components", "schemas", name], value);
+  }
+
+  /** The path of the document that a request's path is one of, or undefined. */
+  pathOf(target) {
+    const path = target.split("?")[0];
+    return Object.keys(this.root.paths).find((template) =>
+      new RegExp(`^${template.replaceAll(".", "\\.").replaceAll(/\{\w+\}/g, "[^/]+")}$`).test(path),
+    );
+  }
+
+  /**
+   * The answer that is documented for this request and status, {value, steps}, or undefined. An unknown path has
+   * the answers of the component NotFound, an unknown method those of the path's others.
+   */
+  responseTo(method, target, status) {
+    const path = this.pathOf(target);
+    if (path === undefined) {
+      return status === 404 ? this.at(["components", "responses", "NotFound"]) : undefined;
+    }
+    const asked = method === "HEAD" ? "get" : method.toLowerCase();
+    const methods = this.root.paths[path][asked] ? [asked] : METHODS;
+    return methods
+      .map((one) => this.at(["paths", path, one, "responses", String(status)]))
+      .find(({ value }) => value !== undefined);
+  }
+
+  /** The codes of all problems, each with the status of its answer. */
+  problemCodes() {
+    const codes = new Map();
+    for (const response of Object.values(this.root.components.responses)) {
+      const { examples } = response.content["application/problem+json"];
+      for (const [code, { value }] of Object.entries(examples)) codes.set(code, value.status);
+    }
+    return codes;
+  }
+}
