@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "api/error.h"
 #include "api/parse_request.h"
+#include "api/plan_watch.h"
 #include "api/write_response.h"
 #include "core/geometry/tolerance.h"
 #include "core/verify/verify.h"
@@ -57,14 +59,33 @@ core::Plan nothing_planned(const core::Problem& problem) {
   return plan;
 }
 
+/// The answer with a plan that the checker accepts; a 500 otherwise. Of the stages, the first ones are known.
+Reply checked_answer(const core::Plan& plan, const PlanRequest& request, const std::string& request_id,
+                     Stages stages) {
+  stages.planned = Clock::now();
+  const auto& robots = request.problem.robots();
+  const auto report =
+      core::verify(request.problem.grid(), robots, plan.plans, check_tolerance(request.problem, plan));
+  stages.verified = Clock::now();
+  if (!report.valid()) {
+    return problem_reply(ErrorCode::internal_error,
+                         "The planner made a plan that the checker refuses (" +
+                             report.violations.front().detail +
+                             "), so it is not returned. This is a bug of the service, not of the request.",
+                         request_id);
+  }
+  return {200, kJson,
+          write_response({plan, report, robots, request.frame, request.warnings}, request_id, stages)};
+}
+
 }  // namespace
 
 Reply plan_endpoint(std::string_view body, const RequestContext& context) {
   core::CallersThread callers_thread;
   core::Executor& executor = context.executor != nullptr ? *context.executor : callers_thread;
   const auto planner = [&](const core::Problem& problem, const core::PlanOptions& options,
-                           const core::StopCondition& stop) {
-    return core::plan(problem, options, stop, executor);
+                           const core::StopCondition& stop, core::Observer* observer) {
+    return core::plan(problem, options, stop, executor, observer);
   };
   return plan_with(planner, body, context);
 }
@@ -79,24 +100,19 @@ Reply plan_with(const Planner& planner, std::string_view body, const RequestCont
   stages.parsed = Clock::now();
 
   const core::StopCondition stop(planning_deadline(context, request.budget), context.stop);
-  const core::Plan plan =
-      stop.met() ? nothing_planned(request.problem) : planner(request.problem, request.options, stop);
-  stages.planned = Clock::now();
-
-  const auto& robots = request.problem.robots();
-  const auto report =
-      core::verify(request.problem.grid(), robots, plan.plans, check_tolerance(request.problem, plan));
-  stages.verified = Clock::now();
-  if (!report.valid()) {
-    return problem_reply(ErrorCode::internal_error,
-                         "The planner made a plan that the checker refuses (" +
-                             report.violations.front().detail +
-                             "), so it is not returned. This is a bug of the service, not of the request.",
-                         context.request_id);
+  const auto answer = [&](const core::Plan& plan) {
+    return checked_answer(plan, request, context.request_id, stages);
+  };
+  std::optional<PlanWatch> watch;
+  if (context.events != nullptr) {
+    const std::size_t robots = request.problem.robots().size();
+    context.events->begin({robots});
+    watch.emplace(*context.events, robots, stop.deadline(), answer);
   }
-  return {
-      200, kJson,
-      write_response({plan, report, robots, request.frame, request.warnings}, context.request_id, stages)};
+  const core::Plan plan = stop.met()
+                              ? nothing_planned(request.problem)
+                              : planner(request.problem, request.options, stop, watch ? &*watch : nullptr);
+  return watch && watch->refusal() ? *watch->refusal() : answer(plan);
 }
 
 }  // namespace fleetplan::api

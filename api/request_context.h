@@ -5,6 +5,7 @@
 #include <string>
 
 #include "api/limits.h"
+#include "api/plan_events.h"
 #include "core/parallel/executor.h"
 
 namespace fleetplan::api {
@@ -19,6 +20,7 @@ struct RequestContext {
   std::stop_token stop;                          // the client is gone or the server drains
   Limits limits;
   core::Executor* executor = nullptr;  // of more threads than the caller's, if there are any
+  PlanEvents* events = nullptr;        // who wants to hear how a plan gets on, if anybody
 };
 
 }  // namespace fleetplan::api

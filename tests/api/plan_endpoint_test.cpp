@@ -126,7 +126,7 @@ TEST(PlanEndpoint, DoesNotPlanWhenTheBudgetIsSpentInTheQueue) {
   request["robots"].push_back(Json::parse(R"({"id": "parked", "start": {"x": 4.5, "y": 0.5}})"));
   RequestContext late = context();
   late.received_at -= std::chrono::milliseconds(11);
-  const Planner never = [](const auto&, const auto&, const auto&) -> core::Plan {
+  const Planner never = [](const auto&, const auto&, const auto&, auto*) -> core::Plan {
     ADD_FAILURE() << "was asked to plan";
     return {};
   };
@@ -145,7 +145,7 @@ TEST(PlanEndpoint, GivesThePlannerWhatIsLeftOfTheBudget) {
   request["options"] = {{"time_budget_ms", 60'000}, {"seed", 42}};
   const RequestContext now = context();
   const Planner planner = [&](const core::Problem& problem, const core::PlanOptions& options,
-                              const core::StopCondition& stop) {
+                              const core::StopCondition& stop, auto*) {
     EXPECT_EQ(stop.deadline(), now.received_at + std::chrono::milliseconds(60'000 - 25))
         << "time for the answer";
     EXPECT_EQ(options.seed, 42U);
@@ -161,7 +161,7 @@ TEST(PlanEndpoint, TellsOfAClampedBudget) {
 }
 
 TEST(PlanEndpoint, NeverReturnsAPlanThatTheCheckerRefuses) {
-  const Planner through_the_wall = [](const core::Problem& problem, const auto&, const auto&) {
+  const Planner through_the_wall = [](const core::Problem& problem, const auto&, const auto&, auto*) {
     const core::Pose start = problem.robots()[0].start;
     const core::Pose goal{problem.robots()[0].goal->position, 0.0};
     core::Plan plan;
@@ -183,7 +183,7 @@ TEST(PlanEndpoint, RefusesAPlanThatCrossesAnUnplannedRobot) {
   request["robots"][0]["goal"]["y"] = 0.5;
   request["robots"][1]["start"] = {{"x", 4.5}, {"y", 0.5}};
   request["robots"][1]["goal"] = {{"x", 0.5}, {"y", 0.5}};
-  const Planner across = [](const core::Problem& problem, const auto&, const auto&) {
+  const Planner across = [](const core::Problem& problem, const auto&, const auto&, auto*) {
     const core::Pose goal{problem.robots()[0].goal->position, 0.0};
     core::Plan plan;
     plan.plans.push_back(
