@@ -31,33 +31,43 @@ std::optional<Refusal> job_fault(const RequestHead& head, const Route& route, st
   return std::nullopt;
 }
 
-std::optional<Route> route_of(const RequestHead& head, const StaticFiles& files) {
-  if (auto route = find_route(head.path)) return route;
-  if (files.contains(head.path)) return Route{Endpoint::page, head.path};
-  return std::nullopt;
+/// Programs show the token as Bearer; Basic is what browsers can ask a person for.
+std::optional<Refusal> token_fault(const RequestHead& head, const Route& route, const Settings& settings) {
+  const bool open = route.endpoint == Endpoint::healthz || route.endpoint == Endpoint::readyz;
+  if (!settings.token || open || settings.token->admits(head.field("authorization"))) return std::nullopt;
+  return Refusal{ErrorCode::unauthorized,
+                 "Send the service's token as 'Authorization: Bearer ...', or as the password of Basic.",
+                 {{"WWW-Authenticate", R"(Bearer realm="fleetplan")"},
+                  {"WWW-Authenticate", R"(Basic realm="fleetplan", charset="UTF-8")"}}};
 }
 
 }  // namespace
 
-std::variant<Route, Refusal> admit(const RequestHead& head, const StaticFiles& files, std::uint64_t max_body,
-                                   bool draining) {
-  auto route = route_of(head, files);
-  if (!route)
+Route route_of(const RequestHead& head, Port port, const StaticFiles& files) {
+  Route route = find_route(head.path, port);
+  const bool is_file = port == Port::main && route.endpoint == Endpoint::unknown && files.contains(head.path);
+  return is_file ? Route{Endpoint::page, head.path} : route;
+}
+
+std::optional<Refusal> admission_fault(const RequestHead& head, const Route& route, const Settings& settings,
+                                       bool draining) {
+  if (auto fault = token_fault(head, route, settings)) return fault;
+  if (route.endpoint == Endpoint::unknown)
     return Refusal{ErrorCode::not_found, std::string("There is nothing at ") + in_quotes(head.path) + '.'};
-  if (!is_allowed(route->endpoint, head.method)) {
-    const std::string allowed(allowed_methods(route->endpoint));
+  if (!is_allowed(route.endpoint, head.method)) {
+    const std::string allowed(allowed_methods(route.endpoint));
     return Refusal{ErrorCode::method_not_allowed,
                    in_quotes(head.path) + " takes " + allowed + ", not " + in_quotes(head.method) + '.',
                    {{"Allow", allowed}}};
   }
   if (head.method == "POST") {
-    if (auto fault = job_fault(head, *route, max_body)) return *fault;
+    if (auto fault = job_fault(head, route, settings.limits.max_body)) return fault;
     if (draining) {
       return Refusal{
           ErrorCode::draining, "The service is shutting down: ask another one.", {{"Retry-After", "1"}}};
     }
   }
-  return *route;
+  return std::nullopt;
 }
 
 }  // namespace fleetplan::server

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
-#include <variant>
-#include <vector>
 
 #include "api/error.h"
+#include "server/answer_fields.h"
 #include "server/request_head.h"
 #include "server/routes.h"
+#include "server/settings.h"
 #include "server/static_files.h"
 
 namespace fleetplan::server {
@@ -18,12 +16,15 @@ namespace fleetplan::server {
 struct Refusal {
   api::ErrorCode code;
   std::string detail;
-  std::vector<std::pair<std::string, std::string>> fields = {};  // further header fields
+  HeaderFields fields = {};  // further header fields
 };
 
-/// Everything that can be decided by the head alone, before a byte of the body is read: 404, 405, 406, 413,
-/// 415 and 503 while draining.
-std::variant<Route, Refusal> admit(const RequestHead& head, const StaticFiles& files, std::uint64_t max_body,
-                                   bool draining);
+/// Where a request goes; unknown when there is nothing.
+Route route_of(const RequestHead& head, Port port, const StaticFiles& files);
+
+/// Everything for which a request is refused by its head alone, before a byte of the body is read: 401, 404,
+/// 405, 406, 413, 415 and 503 while draining. None: it is admitted.
+std::optional<Refusal> admission_fault(const RequestHead& head, const Route& route, const Settings& settings,
+                                       bool draining);
 
 }  // namespace fleetplan::server

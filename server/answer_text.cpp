@@ -8,6 +8,8 @@ namespace {
 
 std::string_view reason_phrase(int status) {
   switch (status) {
+    case 204:
+      return "No Content";
     case 400:
       return "Bad Request";
     case 401:
@@ -46,8 +48,10 @@ std::string answer_text(const Exchange& exchange, const api::Reply& reply, const
   };
   for (const auto& [name, value] : common_fields(exchange)) add(name, value);
   for (const auto& [name, value] : further) add(name, value);
-  add("Content-Type", reply.content_type);
-  add("Content-Length", std::to_string(reply.body.size()));
+  if (reply.status != 204) {
+    add("Content-Type", reply.content_type);
+    add("Content-Length", std::to_string(reply.body.size()));
+  }
   text += "\r\n";
   if (exchange.head.method != "HEAD") text += reply.body;
   return text;

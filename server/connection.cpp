@@ -59,6 +59,10 @@ bool expects_continue(const RequestHead& head) {
   return !head.http_1_0 && lower_case(head.field("expect")) == "100-continue";
 }
 
+DirectAnswer problem(const Exchange& exchange, const Refusal& refusal) {
+  return {api::problem_reply(refusal.code, refusal.detail, exchange.request_id), refusal.fields};
+}
+
 double ms_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::milli>(to - from).count();
 }
@@ -87,8 +91,8 @@ bool Connection::await_request() {
 
 void Connection::serve_exchange(Exchange& exchange) {
   std::uint64_t bytes_out = 0;
-  if (const auto refusal = read_request(exchange)) {
-    bytes_out = refuse(exchange, *refusal);
+  if (const auto answer = read_request(exchange)) {
+    bytes_out = write(exchange, *answer);
   } else if (open_) {
     ExchangeStream stream(exchange);
     const bool usable = context_.answer(exchange, stream);
@@ -101,25 +105,36 @@ void Connection::serve_exchange(Exchange& exchange) {
   log(exchange, bytes_out);
 }
 
-std::optional<Refusal> Connection::read_request(Exchange& exchange) {
-  if (auto refusal = read_head(exchange)) {
-    exchange.close = true;
-    unread_ = true;
-    return refusal;
+std::optional<DirectAnswer> Connection::read_request(Exchange& exchange) {
+  if (const auto refusal = read_head(exchange)) {
+    exchange.close = unread_ = true;
+    return problem(exchange, *refusal);
   }
   if (!open_) return std::nullopt;
   const RequestHead& head = exchange.head;
   exchange.close = !head.wants_keep_alive();
-  auto admitted = admit(head, context_.files, context_.settings.limits.max_body, context_.draining);
-  if (auto* refusal = std::get_if<Refusal>(&admitted)) {
+  exchange.fields = context_.cross_origin.answer_fields(head);
+  exchange.route = route_of(head, context_.port, context_.files);
+  if (auto answer = answer_to_head(exchange)) {
     const bool droppable = !head.chunked && head.content_length.value_or(0) <= kMaxDropped;
     if (has_body(head) && (!droppable || expects_continue(head))) exchange.close = unread_ = true;
-    return std::move(*refusal);
+    return answer;
   }
-  exchange.route = std::get<Route>(std::move(admitted));
-  auto refusal = read_content(exchange);
+  const auto refusal = read_content(exchange);
   exchange.received_at = Clock::now();
-  return refusal;
+  if (refusal) return problem(exchange, *refusal);
+  return std::nullopt;
+}
+
+/// What can be answered before a byte of the body is read.
+std::optional<DirectAnswer> Connection::answer_to_head(const Exchange& exchange) const {
+  const Route& route = exchange.route;
+  if (route.endpoint != Endpoint::unknown && context_.cross_origin.is_preflight(exchange.head)) {
+    return DirectAnswer{{204, "", ""}, CrossOrigin::preflight_fields(allowed_methods(route.endpoint))};
+  }
+  const auto refusal = admission_fault(exchange.head, route, context_.settings, context_.draining);
+  if (refusal) return problem(exchange, *refusal);
+  return std::nullopt;
 }
 
 std::optional<Refusal> Connection::read_head(Exchange& exchange) {
@@ -180,11 +195,10 @@ std::optional<Refusal> Connection::read_content(Exchange& exchange) {
   return std::nullopt;
 }
 
-std::uint64_t Connection::refuse(Exchange& exchange, const Refusal& refusal) {
+std::uint64_t Connection::write(Exchange& exchange, const DirectAnswer& answer) {
   if (context_.draining) exchange.close = true;
-  const auto reply = api::problem_reply(refusal.code, refusal.detail, exchange.request_id);
-  exchange.status = reply.status;
-  const std::string text = answer_text(exchange, reply, refusal.fields);
+  exchange.status = answer.reply.status;
+  const std::string text = answer_text(exchange, answer.reply, answer.fields);
   open_ = socket_.write_all(text) && open_;
   if (open_ && !exchange.close && exchange.body.empty() && has_body(exchange.head)) drop_body(exchange);
   return text.size();
@@ -205,6 +219,7 @@ void Connection::log(const Exchange& exchange, std::uint64_t bytes_out) const {
   record.bytes_out = bytes_out;
   record.ms = ms_between(exchange.begun_at, Clock::now());
   record.queue_ms = exchange.queue_ms;
+  record.admin = context_.port == Port::admin;
   context_.log.request(record);
 }
 

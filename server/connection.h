@@ -5,6 +5,7 @@
 #include <string>
 
 #include "server/admission.h"
+#include "server/cors.h"
 #include "server/exchange.h"
 #include "server/exchange_stream.h"
 #include "server/request_log.h"
@@ -16,12 +17,20 @@ namespace fleetplan::server {
 /// What all connections share.
 struct ConnectionContext {
   const Settings& settings;
+  Port port;
   const StaticFiles& files;
+  const CrossOrigin& cross_origin;
   const RequestLog& log;
   const std::atomic<bool>& draining;
   std::atomic<int>& active;                                // exchanges under way
   int stop_fd;                                             // see Socket
   std::function<bool(Exchange&, ExchangeStream&)> answer;  // false: the connection is of no more use
+};
+
+/// An answer that no endpoint makes: a refusal, or what a browser is told before it asks.
+struct DirectAnswer {
+  api::Reply reply;
+  HeaderFields fields = {};  // further header fields
 };
 
 /// One client's connection: reads its requests, refuses the bad ones, has the others answered, and logs each.
@@ -36,10 +45,11 @@ class Connection {
  private:
   bool await_request();
   void serve_exchange(Exchange& exchange);
-  std::optional<Refusal> read_request(Exchange& exchange);
+  std::optional<DirectAnswer> read_request(Exchange& exchange);
   std::optional<Refusal> read_head(Exchange& exchange);
+  std::optional<DirectAnswer> answer_to_head(const Exchange& exchange) const;
   std::optional<Refusal> read_content(Exchange& exchange);
-  std::uint64_t refuse(Exchange& exchange, const Refusal& refusal);
+  std::uint64_t write(Exchange& exchange, const DirectAnswer& answer);
   void drop_body(Exchange& exchange);
   void log(const Exchange& exchange, std::uint64_t bytes_out) const;
 

@@ -3,12 +3,16 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "server/request_head.h"
 #include "server/routes.h"
 #include "server/socket.h"
 
 namespace fleetplan::server {
+
+using HeaderFields = std::vector<std::pair<std::string, std::string>>;
 
 /// One request and its answer, on the connection's thread.
 struct Exchange {
@@ -19,9 +23,10 @@ struct Exchange {
   Clock::time_point received_at;  // last byte of the body in
   std::string request_id;
   RequestHead head;
-  Route route{};
+  Route route;
   std::string body;  // as sent, perhaps gzip-coded
 
+  HeaderFields fields;  // of the answer, by what the request's head says
   int status = 0;
   bool close = false;      // the connection ends with this answer
   bool abandoned = false;  // the client left: nobody reads an answer

@@ -1,17 +1,12 @@
 #include "server/http_server.h"
 
-#include <netinet/tcp.h>
-#include <sys/socket.h>
-
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <exception>
+#include <thread>
 #include <utility>
 
 #include "api/error.h"
 #include "server/answer_fields.h"
-#include "server/connection_threads.h"
 #include "server/info_endpoints.h"
 #include "server/negotiation.h"
 
@@ -21,7 +16,8 @@ namespace {
 
 using api::ErrorCode;
 
-constexpr int kListenBacklog = 511;
+/// Of the admin port: enough for probes and scrapers, and for a few that hang.
+constexpr std::size_t kAdminConnections = 64;
 /// So many times the queue may wait while the jobs are short.
 constexpr std::size_t kBurst = 7;
 /// How often a client that waits for its plan is looked at: a plan nobody waits for stops within 100 ms.
@@ -31,17 +27,6 @@ constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src "
     "'self'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-
-/// The library's default would add SO_REUSEPORT, with which a second instance silently shares the port.
-void set_listening_options(int fd) {
-  const int yes = 1;
-  ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-}
-
-void disable_nagle(int fd) {
-  const int yes = 1;
-  ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-}
 
 void fill(httplib::Response& response, api::Reply reply) {
   response.status = reply.status;
@@ -56,50 +41,52 @@ HttpServer::HttpServer(const Settings& settings, Service service)
       service_(std::move(service)),
       log_(settings.log_level),
       files_(settings.web_root),
+      cross_origin_(settings.cors_origins),
+      main_(settings.host, settings.port, settings.connections, [this](int fd) { serve(fd, Port::main); }),
       pool_(settings.workers, settings.queue, kBurst * settings.queue) {
-  new_task_queue = [this] { return new ConnectionThreads(settings_.connections); };
-  set_socket_options(set_listening_options);
+  if (settings_.admin_port) {
+    admin_.emplace(settings_.host, *settings_.admin_port, kAdminConnections,
+                   [this](int fd) { serve(fd, Port::admin); });
+  }
   install_handlers();
 }
 
-HttpServer::~HttpServer() {
-  if (listening_fd_ >= 0) ::close(listening_fd_);
-}
-
 std::optional<std::string> HttpServer::bind() {
-  errno = 0;
-  port_ = settings_.port;
-  if (settings_.port == 0) {
-    port_ = bind_to_any_port(settings_.host);
-  } else if (!bind_to_port(settings_.host, settings_.port)) {
-    port_ = -1;
-  }
-  if (port_ <= 0) {
-    const std::string reason = errno != 0 ? std::strerror(errno) : "no such address";
-    return "cannot listen on " + settings_.host + ':' + std::to_string(settings_.port) + ": " + reason;
-  }
-  listening_fd_ = svr_sock_.load();
-  ::listen(listening_fd_, kListenBacklog);  // again: the library's backlog of 5 refuses bursts
-  return std::nullopt;
+  if (auto fault = main_.bind()) return fault;
+  if (!admin_) return std::nullopt;
+  auto fault = admin_->bind();
+  if (fault) *fault += " (--admin-port)";
+  return fault;
 }
 
-void HttpServer::run() { listen_after_bind(); }
+std::optional<int> HttpServer::admin_port() const {
+  return admin_ ? std::optional(admin_->port()) : std::nullopt;
+}
+
+void HttpServer::run() {
+  std::thread admin;
+  if (admin_) admin = std::thread([this] { admin_->run(); });
+  main_.run();
+  if (admin.joinable()) admin.join();
+}
+
+void HttpServer::cancel_jobs() {
+  cancel_all_.request_stop();
+  stop_signal_.raise();
+}
 
 void HttpServer::stop() {
   stop_signal_.raise();
-  // Shut down, so that accept() returns, but not closed: the number may not serve another socket before run()
-  // has ended.
-  svr_sock_ = INVALID_SOCKET;
-  ::shutdown(listening_fd_, SHUT_RDWR);
+  main_.stop();
+  if (admin_) admin_->stop();
 }
 
-bool HttpServer::process_and_close_socket(socket_t fd) {
-  disable_nagle(fd);
+void HttpServer::serve(int fd, Port port) {
   Connection connection(
-      fd, {settings_, files_, log_, draining_, active_, stop_signal_.fd(),
+      fd, {settings_, port, files_, cross_origin_, log_, draining_,
+           port == Port::main ? active_ : admin_active_, stop_signal_.fd(),
            [this](Exchange& exchange, ExchangeStream& stream) { return answer(exchange, stream); }});
   connection.serve();
-  return true;
 }
 
 bool HttpServer::answer(Exchange& exchange, ExchangeStream& stream) {
@@ -170,7 +157,7 @@ void HttpServer::answer_get(const Exchange& exchange, httplib::Response& respons
            case Endpoint::openapi:
              return service_.openapi();
            case Endpoint::readyz:
-             return readiness_reply(draining_, exchange.request_id);
+             return readiness_reply(ready_, exchange.request_id);
            default:
              return health_reply();
          }
@@ -188,6 +175,8 @@ void HttpServer::answer_page(const Exchange& exchange, httplib::Response& respon
   response.set_header("Cache-Control", "no-cache");
   response.set_header("Content-Security-Policy", kContentSecurityPolicy);
   response.set_header("Referrer-Policy", "no-referrer");
+  response.set_header("Cross-Origin-Opener-Policy", "same-origin");
+  response.set_header("Cross-Origin-Resource-Policy", "same-origin");
   if (exchange.head.field("if-none-match").find(file->etag) != std::string::npos) {
     response.status = 304;
     return;

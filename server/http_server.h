@@ -11,6 +11,8 @@
 #include <unordered_map>
 
 #include "server/connection.h"
+#include "server/cors.h"
+#include "server/listener.h"
 #include "server/request_log.h"
 #include "server/service.h"
 #include "server/settings.h"
@@ -20,38 +22,47 @@
 
 namespace fleetplan::server {
 
-/// The service on a socket. Construct, bind, run (in a thread of its own); to end: begin_drain, wait until
-/// idle, cancel_jobs if that takes too long, stop. All but bind and run may be called from any thread.
+/// The service on a port, and health, readiness and metrics on another if one is set, whose connections have
+/// their own threads. Construct, bind, run (in a thread of its own); to end: announce_end and begin_drain,
+/// wait until idle, cancel_jobs if that takes too long, stop. All but bind and run may be called from any
+/// thread.
 class HttpServer final : private httplib::Server {
  public:
   HttpServer(const Settings& settings, Service service);
-  ~HttpServer() override;
+  ~HttpServer() override = default;
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  /// Takes the port; why not, otherwise.
+  /// Takes the ports; why not, otherwise.
   std::optional<std::string> bind();
 
   /// The bound one, also when any free port was asked for.
-  int port() const { return port_; }
+  int port() const { return main_.port(); }
+  std::optional<int> admin_port() const;
 
   /// Serves until stop(); after bind().
   void run();
 
-  /// Not ready any more, no new jobs; what runs goes on.
-  void begin_drain() { draining_ = true; }
+  /// Says that it is not ready any more, but serves everything on.
+  void announce_end() { ready_ = false; }
 
-  /// No request is being read, worked on or answered.
+  /// Not ready any more, no new jobs; what runs goes on.
+  void begin_drain() {
+    ready_ = false;
+    draining_ = true;
+  }
+
+  /// No request is being read, worked on or answered, but for those of the admin port.
   bool idle() const { return active_ == 0; }
 
-  /// Asks all jobs, now and later, to stop.
-  void cancel_jobs() { cancel_all_.request_stop(); }
+  /// Asks all jobs, now and later, to stop, and waits for no more of requests that are still being sent.
+  void cancel_jobs();
 
   /// Ends run() once requests under way are answered.
   void stop();
 
  private:
-  bool process_and_close_socket(socket_t fd) override;
+  void serve(int fd, Port port);
   void install_handlers();
   bool answer(Exchange& exchange, ExchangeStream& stream);
   void answer_get(const Exchange& exchange, httplib::Response& response);
@@ -67,14 +78,17 @@ class HttpServer final : private httplib::Server {
   const Service service_;
   const RequestLog log_;
   const StaticFiles files_;
+  const CrossOrigin cross_origin_;
   StopSignal stop_signal_;
+  std::atomic<bool> ready_{true};
   std::atomic<bool> draining_{false};
   std::atomic<int> active_{0};
+  std::atomic<int> admin_active_{0};
   std::stop_source cancel_all_;
-  int port_ = 0;
-  std::atomic<int> listening_fd_{-1};
   std::mutex exchanges_mutex_;
   std::unordered_map<const httplib::Request*, Exchange*> exchanges_;  // those in the library's hands
+  Listener main_;
+  std::optional<Listener> admin_;
   WorkerPool pool_;
 };
 

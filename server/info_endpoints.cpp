@@ -18,8 +18,8 @@ api::Reply json_reply(const Json& json) { return {200, api::kJson, json.dump()};
 
 api::Reply health_reply() { return json_reply({{"status", "ok"}, {"version", kVersion}}); }
 
-api::Reply readiness_reply(bool draining, const std::string& request_id) {
-  if (!draining) return json_reply({{"status", "ready"}});
+api::Reply readiness_reply(bool ready, const std::string& request_id) {
+  if (ready) return json_reply({{"status", "ready"}});
   return api::problem_reply(api::ErrorCode::draining, "The service is shutting down.", request_id);
 }
 

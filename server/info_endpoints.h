@@ -12,8 +12,8 @@ namespace fleetplan::server {
 
 api::Reply health_reply();
 
-/// 200, or 503 while draining.
-api::Reply readiness_reply(bool draining, const std::string& request_id);
+/// 200, or 503 when the server is about to end.
+api::Reply readiness_reply(bool ready, const std::string& request_id);
 
 /// What a request may ask for, under the names of the settings.
 api::Reply limits_reply(const Settings& settings);

@@ -34,7 +34,9 @@ RequestLog::RequestLog(const std::string& level)
 }
 
 void RequestLog::request(const RequestRecord& record) const {
-  const auto level = record.status >= 500 && record.status != 503 ? spdlog::level::err : spdlog::level::info;
+  const auto level = record.status >= 500 && record.status != 503 ? spdlog::level::err
+                     : record.admin                               ? spdlog::level::debug
+                                                                  : spdlog::level::info;
   if (!logger_->should_log(level)) return;
   Line line;
   line["id"] = record.id;

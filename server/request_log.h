@@ -22,6 +22,7 @@ struct RequestRecord {
   std::uint64_t bytes_out = 0;                    // of the whole answer
   double ms = 0.0;                                // first byte of the request to last byte of the answer
   std::optional<double> queue_ms = std::nullopt;  // for planning jobs: in the queue
+  bool admin = false;                             // on the admin port
 };
 
 /// JSON lines to stderr. Thread-safe.
@@ -30,7 +31,7 @@ class RequestLog {
   /// `level`: trace, debug, info, warn, error, critical or off.
   explicit RequestLog(const std::string& level);
 
-  /// At level info, error for a status of 500 and more except 503.
+  /// At level info, error for a status of 500 and more except 503, debug for what the admin port answers.
   void request(const RequestRecord& record) const;
 
   /// An event of the server's life, or a bug: level info or error.

@@ -5,7 +5,13 @@
 
 namespace fleetplan::server {
 
-std::optional<Route> find_route(std::string_view path) {
+namespace {
+
+bool is_on_admin_port(Endpoint endpoint) {
+  return endpoint == Endpoint::healthz || endpoint == Endpoint::readyz;
+}
+
+Route find_route(std::string_view path) {
   constexpr std::array<std::pair<std::string_view, Endpoint>, 8> kPaths{{
       {"/v1/plan", Endpoint::plan},
       {"/v1/validate", Endpoint::validate},
@@ -23,7 +29,14 @@ std::optional<Route> find_route(std::string_view path) {
   if (path.starts_with(kExamples)) {
     return Route{Endpoint::example, std::string(path.substr(kExamples.size()))};
   }
-  return std::nullopt;
+  return {};
+}
+
+}  // namespace
+
+Route find_route(std::string_view path, Port port) {
+  Route route = find_route(path);
+  return port == Port::main || is_on_admin_port(route.endpoint) ? route : Route{};
 }
 
 std::string_view allowed_methods(Endpoint endpoint) {

@@ -37,9 +37,14 @@ class EndSignals {
     }
   }
 
-  bool interrupted_within(std::chrono::nanoseconds patience) const {
-    const timespec time{0, static_cast<long>(patience.count())};
-    return sigtimedwait(&set_, nullptr, &time) == SIGINT;
+  /// Lets the time pass. A SIGINT, which is not the first signal any more, ends the process.
+  void linger(std::chrono::milliseconds patience) const {
+    const auto end = Clock::now() + patience;
+    for (auto left = Clock::duration(patience); left.count() > 0; left = end - Clock::now()) {
+      const auto seconds = std::chrono::floor<std::chrono::seconds>(left);
+      const timespec time{seconds.count(), std::chrono::nanoseconds(left - seconds).count()};
+      if (sigtimedwait(&set_, nullptr, &time) == SIGINT) std::_Exit(128 + SIGINT);
+    }
   }
 
  private:
@@ -54,11 +59,11 @@ void raise_descriptor_limit() {
   setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-/// True when all requests were answered by the deadline. A second SIGINT ends the process.
+/// True when all requests were answered by the deadline.
 bool await_idle(const HttpServer& server, const EndSignals& signals, Clock::time_point deadline) {
   while (!server.idle()) {
     if (Clock::now() >= deadline) return false;
-    if (signals.interrupted_within(kDrainCheck)) std::_Exit(128 + SIGINT);
+    signals.linger(kDrainCheck);
   }
   return true;
 }
@@ -80,8 +85,14 @@ int run(const Settings& settings, Service service) {
   }
   std::thread serving([&] { server.run(); });
   std::cout << "fleetplan " << kVersion << " listening on " << url_of(settings, server.port()) << std::endl;
+  if (const auto port = server.admin_port()) {
+    std::cout << "fleetplan " << kVersion << " health and metrics on " << url_of(settings, *port)
+              << std::endl;
+  }
 
   signals.wait();
+  server.announce_end();
+  signals.linger(settings.drain_delay);
   server.begin_drain();
   if (!await_idle(server, signals, Clock::now() + settings.drain)) {
     server.cancel_jobs();

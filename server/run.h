@@ -5,7 +5,7 @@
 
 namespace fleetplan::server {
 
-/// Serves until SIGTERM or SIGINT, then drains. The process's exit code: 0, or 1 when the port cannot be
+/// Serves until SIGTERM or SIGINT, then drains. The process's exit code: 0, or 1 when a port cannot be
 /// taken or jobs did not end.
 int run(const Settings& settings, Service service);
 

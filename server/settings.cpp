@@ -8,6 +8,8 @@
 #include <optional>
 #include <sstream>
 
+#include "server/config_file.h"
+#include "server/cors.h"
 #include "server/cpu_count.h"
 #include "server/static_files.h"
 #include "server/version.h"
@@ -33,8 +35,11 @@ class Flags {
     settings_.workers = cpus_granted();
     settings_.web_root = default_web_root().string();
     add_serving();
+    add_access();
     add_limits();
     add_times();
+    add("config", config_, "File of 'flag = value' lines, for what neither flag nor environment says")
+        ->configurable(false);
   }
 
   std::variant<Settings, SettingsExit> parse(std::vector<std::string> arguments) {
@@ -47,6 +52,9 @@ class Flags {
       return SettingsExit{code == 0 ? 0 : 2, text.str()};
     }
     if (const auto ignored = ignored_environment()) return bad(*ignored);
+    if (!config_.empty()) {
+      if (const auto fault = apply_config_file(app_, config_)) return bad(*fault);
+    }
     return finish();
   }
 
@@ -79,6 +87,9 @@ class Flags {
   void add_serving() {
     add("host", settings_.host, "Address to listen on");
     add_number("port", settings_.port, 0, 65535, "Port to listen on, 0 for any free one");
+    admin_ = add_number("admin-port", admin_port_, 0, 65535,
+                        "Port of health, readiness and metrics alone, 0 for any free one")
+                 ->default_str("off");
     add_number("workers", settings_.workers, 1, 1024,
                "Planning threads, by default the CPUs granted; idle ones help with anytime plans");
     queue_ = add_number<std::size_t>("queue", settings_.queue, 0, 100'000, "Jobs that may wait for a worker")
@@ -87,6 +98,16 @@ class Flags {
     add("log-level", settings_.log_level, "What to log")
         ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "critical", "off"}));
     add("web-root", settings_.web_root, "Folder of the page");
+  }
+
+  void add_access() {
+    add("auth-token-file", token_file_,
+        "File with the token that requests must show, but for health and readiness");
+    add("cors-origin", settings_.cors_origins,
+        "Origins whose pages may use the service from a browser, comma-separated or repeated; * for any")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->default_str("none");
   }
 
   void add_limits() {
@@ -110,6 +131,8 @@ class Flags {
     add_number<std::int64_t>("read-timeout-ms", read_timeout_ms_, 1, kMaxMs,
                              "A request must come within this, pauses of its body too");
     add_number<std::int64_t>("drain-ms", drain_ms_, 0, kMaxMs, "Time for running plans after SIGTERM");
+    add_number<std::int64_t>("drain-delay-ms", drain_delay_ms_, 0, kMaxMs,
+                             "Time before that, not ready but serving, for balancers to take notice");
   }
 
   std::variant<Settings, SettingsExit> finish() {
@@ -119,6 +142,7 @@ class Flags {
     if (!settings_.web_root.empty() && !std::filesystem::is_directory(settings_.web_root, ignored)) {
       return bad("--web-root: '" + settings_.web_root + "' is no folder");
     }
+    if (const auto fault = finish_access()) return bad(*fault);
     api::Limits& limits = settings_.limits;
     if (default_budget_->count() > 0 && limits.default_budget_ms > limits.max_budget_ms) {
       return bad("--default-budget-ms is greater than --max-budget-ms");
@@ -129,7 +153,22 @@ class Flags {
     settings_.idle_timeout = std::chrono::milliseconds(idle_timeout_ms_);
     settings_.read_timeout = std::chrono::milliseconds(read_timeout_ms_);
     settings_.drain = std::chrono::milliseconds(drain_ms_);
+    settings_.drain_delay = std::chrono::milliseconds(drain_delay_ms_);
+    if (admin_->count() > 0) settings_.admin_port = admin_port_;
     return settings_;
+  }
+
+  std::optional<std::string> finish_access() {
+    for (const std::string& origin : settings_.cors_origins) {
+      if (const auto fault = origin_fault(origin)) return "--cors-origin: " + *fault;
+    }
+    if (token_file_.empty()) return std::nullopt;
+    auto token = AccessToken::from_file(token_file_);
+    if (const auto* fault = std::get_if<std::string>(&token)) {
+      return "--auth-token-file: " + token_file_ + ": " + *fault;
+    }
+    settings_.token = std::get<AccessToken>(std::move(token));
+    return std::nullopt;
   }
 
   static SettingsExit bad(const std::string& message) {
@@ -142,6 +181,11 @@ class Flags {
   std::int64_t idle_timeout_ms_ = Settings{}.idle_timeout.count();
   std::int64_t read_timeout_ms_ = Settings{}.read_timeout.count();
   std::int64_t drain_ms_ = Settings{}.drain.count();
+  std::int64_t drain_delay_ms_ = Settings{}.drain_delay.count();
+  int admin_port_ = 0;
+  std::string token_file_;
+  std::string config_;
+  CLI::Option* admin_ = nullptr;
   CLI::Option* queue_ = nullptr;
   CLI::Option* default_budget_ = nullptr;
 };

@@ -163,6 +163,33 @@ TEST(Draining, AsksJobsThatTakeTooLongToStop) {
   EXPECT_EQ(server.stub.stopped, 1);
 }
 
+TEST(Draining, IsAnnouncedBeforeAnythingIsRefused) {
+  TestServer server(with_workers(1, 4));
+  auto client = server.client();
+  server.server.announce_end();
+  const auto ready = client.Get("/readyz");
+  ASSERT_TRUE(ready);
+  EXPECT_EQ(ready->status, 503);
+  const auto served = client.Post("/v1/plan", "abc", kJsonType);
+  ASSERT_TRUE(served);
+  EXPECT_EQ(served->status, 200);
+}
+
+TEST(Draining, WaitsForNoBodyOnceJobsAreToStop) {
+  TestServer server(with_workers(1, 4));
+  RawConnection slow(server.server.port());
+  slow.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 10\r\nExpect: 100-continue\r\n\r\n");
+  EXPECT_EQ(slow.receive(), "HTTP/1.1 100 Continue\r\n\r\n");
+  slow.send("abc");
+  server.server.begin_drain();
+  server.server.cancel_jobs();
+  const std::string answer = slow.receive();
+  EXPECT_EQ(answer.find("HTTP/1.1 503 "), 0u) << answer;
+  EXPECT_NE(answer.find("draining"), std::string::npos) << answer;
+  EXPECT_TRUE(slow.closed_by_server());
+  while (!server.server.idle()) std::this_thread::yield();
+}
+
 TEST(Stopping, EndsIdleConnectionsAtOnce) {
   Settings settings;
   settings.idle_timeout = std::chrono::minutes(10);

@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/temporary_file.h"
+
 namespace fleetplan::server {
 namespace {
 
@@ -114,6 +116,33 @@ TEST(Process, FailsOnATakenPort) {
   EXPECT_EQ(second.exit_code(), 1);
 }
 
+TEST(Process, FailsOnATakenAdminPort) {
+  Process first({"--port", "0", "--workers", "1"});
+  const std::string port = std::to_string(port_in(first.output_line()));
+  Process second({"--port", "0", "--admin-port", port, "--workers", "1"});
+  EXPECT_EQ(second.log_line(),
+            "fleetplan: cannot listen on 127.0.0.1:" + port + ": Address already in use (--admin-port)");
+  EXPECT_EQ(second.exit_code(), 1);
+}
+
+TEST(Process, SaysWhereItsAdminPortIs) {
+  Process process({"--port", "0", "--admin-port", "0", "--workers", "1"});
+  const int main_port = port_in(process.output_line());
+  const std::string line = process.output_line();
+  EXPECT_EQ(line.find("fleetplan " FLEETPLAN_VERSION " health and metrics on http://127.0.0.1:"), 0u) << line;
+  ASSERT_NE(port_in(line), main_port);
+  const auto ready = httplib::Client("127.0.0.1", port_in(line)).Get("/readyz");
+  ASSERT_TRUE(ready);
+  EXPECT_EQ(ready->status, 200);
+}
+
+TEST(Process, FailsOnAnEmptyTokenFile) {
+  const support::TemporaryFile empty("\n");
+  Process process({"--port", "0", "--auth-token-file", empty.path()});
+  EXPECT_EQ(process.log_line(), "--auth-token-file: " + empty.path() + ": it is empty");
+  EXPECT_EQ(process.exit_code(), 2);
+}
+
 TEST(Process, FailsOnABadValueAndExplainsItself) {
   Process bad({"--port", "70000"});
   EXPECT_NE(bad.log_line().find("--port"), std::string::npos);
@@ -170,10 +199,58 @@ class LongRequest {
   std::atomic<bool> ended_{false};
 };
 
+void await_unready(int port) {
+  httplib::Client probe("127.0.0.1", port);
+  for (int status = 200; status == 200;) {
+    const auto ready = probe.Get("/readyz");
+    status = ready ? ready->status : 0;
+  }
+}
+
 TEST(Process, CutsPlansShortWhenTheDrainTakesTooLong) {
   Process process({"--port", "0", "--workers", "1", "--queue", "0", "--drain-ms", "100"});
   LongRequest request(port_in(process.output_line()));
   process.signal(SIGTERM);
+  EXPECT_EQ(request.status(), 200);
+  EXPECT_EQ(process.exit_code(), 0);
+}
+
+TEST(Process, ServesOnWhileItIsNotReadyAnyMoreUntilTheDelayIsOver) {
+  Process process({"--port", "0", "--workers", "1", "--drain-delay-ms", "120000"});
+  const int port = port_in(process.output_line());
+  process.signal(SIGTERM);
+  await_unready(port);
+  httplib::Client client("127.0.0.1", port);
+  const auto served = client.Post("/v1/validate", "{}", "application/json");
+  ASSERT_TRUE(served);
+  EXPECT_EQ(served->status, 422) << "not refused: " << served->body;
+  process.signal(SIGINT);
+  EXPECT_EQ(process.exit_code(), 128 + SIGINT);
+}
+
+TEST(Process, EndsWellAfterTheDelay) {
+  Process process({"--port", "0", "--workers", "1", "--drain-delay-ms", "50"});
+  process.output_line();
+  process.signal(SIGTERM);
+  EXPECT_EQ(process.exit_code(), 0);
+}
+
+TEST(Process, RefusesNewWorkWhileItFinishesThePlanAtHand) {
+  Process process({"--port", "0", "--workers", "1", "--queue", "0", "--drain-ms", "3000"});
+  const int port = port_in(process.output_line());
+  LongRequest request(port);
+  process.signal(SIGTERM);
+  await_unready(port);
+  httplib::Client client("127.0.0.1", port);
+  for (int status = 0; status != 503;) {  // readiness goes first
+    const auto refused = client.Post("/v1/validate", "{}", "application/json");
+    ASSERT_TRUE(refused);
+    status = refused->status;
+    if (status != 503) continue;
+    EXPECT_NE(refused->body.find("draining"), std::string::npos) << refused->body;
+    EXPECT_TRUE(refused->has_header("Retry-After"));
+    EXPECT_EQ(refused->get_header_value("Connection"), "close");
+  }
   EXPECT_EQ(request.status(), 200);
   EXPECT_EQ(process.exit_code(), 0);
 }
@@ -183,11 +260,7 @@ TEST(Process, EndsAtOnceOnASecondInterrupt) {
   const int port = port_in(process.output_line());
   LongRequest request(port);
   process.signal(SIGTERM);
-  httplib::Client probe("127.0.0.1", port);
-  for (int status = 200; status == 200;) {
-    const auto ready = probe.Get("/readyz");
-    status = ready ? ready->status : 0;
-  }
+  await_unready(port);
   process.signal(SIGINT);
   EXPECT_EQ(process.exit_code(), 128 + SIGINT);
   EXPECT_EQ(request.status(), 0);

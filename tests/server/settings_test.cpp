@@ -2,24 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "server/cpu_count.h"
+#include "tests/server/environment.h"
+#include "tests/support/temporary_file.h"
 
 namespace fleetplan::server {
 namespace {
-
-/// An environment variable for the length of a test.
-class Environment {
- public:
-  Environment(const char* name, const char* value) : name_(name) { ::setenv(name, value, 1); }
-  ~Environment() { ::unsetenv(name_); }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
-
- private:
-  const char* name_;
-};
 
 Settings settings_of(std::vector<std::string> arguments) {
   auto parsed = parse_settings(std::move(arguments));
@@ -46,6 +34,10 @@ TEST(Settings, HaveTheirDefaults) {
   EXPECT_EQ(settings.limits.max_budget_ms, 120'000);
   EXPECT_EQ(settings.drain, std::chrono::seconds(10));
   EXPECT_EQ(settings.log_level, "info");
+  EXPECT_EQ(settings.admin_port, std::nullopt);
+  EXPECT_FALSE(settings.token);
+  EXPECT_TRUE(settings.cors_origins.empty());
+  EXPECT_EQ(settings.drain_delay, std::chrono::milliseconds(0));
 }
 
 TEST(Settings, ComeFromFlags) {
@@ -56,6 +48,26 @@ TEST(Settings, ComeFromFlags) {
   EXPECT_EQ(settings.queue, 12u);
   EXPECT_EQ(settings.limits.max_body, 2u << 20);
   EXPECT_EQ(settings.idle_timeout, std::chrono::milliseconds(7));
+}
+
+TEST(Settings, HoldTheTokenOfAFile) {
+  const support::TemporaryFile file("open-sesame\n");
+  const auto settings = settings_of({"--auth-token-file", file.path()});
+  ASSERT_TRUE(settings.token);
+  EXPECT_TRUE(settings.token->admits("Bearer open-sesame"));
+  const support::TemporaryFile empty("\n");
+  const auto exit = exit_of({"--auth-token-file", empty.path()});
+  EXPECT_EQ(exit.code, 2);
+  EXPECT_EQ(exit.text.find("--auth-token-file: " + empty.path() + ": it is empty"), 0u) << exit.text;
+}
+
+TEST(Settings, TakeOriginsApartAndTogether) {
+  const std::vector<std::string> both{"https://a.example", "http://b.example:3000"};
+  EXPECT_EQ(settings_of({"--cors-origin", "https://a.example,http://b.example:3000"}).cors_origins, both);
+  EXPECT_EQ(settings_of({"--cors-origin", both[0], "--cors-origin", both[1]}).cors_origins, both);
+  const Environment origins("FLEETPLAN_CORS_ORIGIN", "https://a.example,http://b.example:3000");
+  EXPECT_EQ(settings_of({}).cors_origins, both);
+  EXPECT_EQ(settings_of({"--cors-origin", "*"}).cors_origins, std::vector<std::string>{"*"});
 }
 
 TEST(Settings, ComeFromTheEnvironmentWhichFlagsBeat) {
@@ -74,11 +86,31 @@ TEST(Settings, TreatAnEmptyEnvironmentValueAsNotSet) {
 }
 
 TEST(Settings, RefuseBadValuesNamingTheFlag) {
-  for (const char* argument :
-       {"--port=65536", "--port=x", "--workers=0", "--queue=-1", "--max-body=0", "--max-body=-5",
-        "--max-body=1XB", "--max-cells=0", "--max-robots=0", "--max-depth=0", "--default-budget-ms=0",
-        "--max-budget-ms=0", "--idle-timeout-ms=0", "--read-timeout-ms=0", "--drain-ms=-1",
-        "--log-level=loud", "--connections=0", "--web-root=/no/such/folder", "--default-budget-ms=200000"}) {
+  for (const char* argument : {"--port=65536",
+                               "--port=x",
+                               "--workers=0",
+                               "--queue=-1",
+                               "--max-body=0",
+                               "--max-body=-5",
+                               "--max-body=1XB",
+                               "--max-cells=0",
+                               "--max-robots=0",
+                               "--max-depth=0",
+                               "--default-budget-ms=0",
+                               "--max-budget-ms=0",
+                               "--idle-timeout-ms=0",
+                               "--read-timeout-ms=0",
+                               "--drain-ms=-1",
+                               "--log-level=loud",
+                               "--connections=0",
+                               "--web-root=/no/such/folder",
+                               "--default-budget-ms=200000",
+                               "--admin-port=-1",
+                               "--admin-port=off",
+                               "--auth-token-file=/no/such/file",
+                               "--cors-origin=a.example",
+                               "--drain-delay-ms=-1",
+                               "--config=/no/such/file"}) {
     const auto exit = exit_of({argument});
     const std::string flag(argument, std::string(argument).find('='));
     EXPECT_EQ(exit.code, 2) << argument;

@@ -57,6 +57,10 @@ TEST_F(Page, IsServedWithItsTypesAndStrictFields) {
     EXPECT_EQ(result->get_header_value("X-Content-Type-Options"), "nosniff");
     EXPECT_EQ(result->get_header_value("Cache-Control"), "no-cache");
     EXPECT_EQ(result->get_header_value("Content-Security-Policy").find("default-src 'none'"), 0u);
+    EXPECT_EQ(result->get_header_value("X-Content-Type-Options"), "nosniff");
+    EXPECT_EQ(result->get_header_value("Referrer-Policy"), "no-referrer");
+    EXPECT_EQ(result->get_header_value("Cross-Origin-Opener-Policy"), "same-origin");
+    EXPECT_EQ(result->get_header_value("Cross-Origin-Resource-Policy"), "same-origin");
   }
 }
 

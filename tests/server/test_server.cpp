@@ -85,6 +85,13 @@ httplib::Client TestServer::client() const {
   return client;
 }
 
+std::vector<std::string> values_of(const httplib::Result& answer, const std::string& field) {
+  std::vector<std::string> values;
+  const auto [begin, end] = answer->headers.equal_range(field);
+  for (auto entry = begin; entry != end; ++entry) values.push_back(entry->second);
+  return values;
+}
+
 RawConnection::RawConnection(int port) : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
   sockaddr_in address{};
   address.sin_family = AF_INET;

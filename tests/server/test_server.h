@@ -9,6 +9,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "server/http_server.h"
 
@@ -65,6 +66,9 @@ class TestServer {
 
   std::thread thread_;
 };
+
+/// All values of a header field, in their order.
+std::vector<std::string> values_of(const httplib::Result& answer, const std::string& field);
 
 /// A plain TCP connection to 127.0.0.1, for what no HTTP client would send.
 class RawConnection {
