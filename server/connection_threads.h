@@ -1,7 +1,5 @@
 #pragma once
 
-#include <httplib.h>
-
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -11,6 +9,8 @@
 #include <mutex>
 #include <thread>
 #include <utility>
+
+#include "server/http_library.h"
 
 namespace fleetplan::server {
 

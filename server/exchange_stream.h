@@ -1,11 +1,10 @@
 #pragma once
 
-#include <httplib.h>
-
 #include <cstdint>
 #include <string>
 
 #include "server/exchange.h"
+#include "server/http_library.h"
 
 namespace fleetplan::server {
 

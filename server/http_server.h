@@ -1,7 +1,5 @@
 #pragma once
 
-#include <httplib.h>
-
 #include <atomic>
 #include <functional>
 #include <mutex>
@@ -12,6 +10,7 @@
 
 #include "server/connection.h"
 #include "server/cors.h"
+#include "server/http_library.h"
 #include "server/listener.h"
 #include "server/request_log.h"
 #include "server/service.h"

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <httplib.h>
-
 #include <atomic>
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
+
+#include "server/http_library.h"
 
 namespace fleetplan::server {
 

@@ -1,11 +1,11 @@
 // The real service over a socket.
 
 #include <gtest/gtest.h>
-#include <httplib.h>
 
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "server/http_library.h"
 #include "server/http_server.h"
 
 namespace fleetplan::server {

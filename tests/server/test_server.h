@@ -2,8 +2,6 @@
 
 // A server on a free port of its own with a stub service, and ways to talk to it.
 
-#include <httplib.h>
-
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
@@ -11,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "server/http_library.h"
 #include "server/http_server.h"
 
 namespace fleetplan::server {
