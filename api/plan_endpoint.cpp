@@ -91,7 +91,7 @@ Reply plan_endpoint(std::string_view body, const RequestContext& context) {
 }
 
 Reply plan_with(const Planner& planner, std::string_view body, const RequestContext& context) {
-  Stages stages{context.received_at, context.started_at, {}, {}, {}};
+  Stages stages{context.received_at, {}, {}, {}, {}};
   auto parsed = parse_request(body, context.limits);
   if (const auto* error = std::get_if<RequestError>(&parsed)) {
     return problem_reply(error->code, error->detail, context.request_id, error->faults);
@@ -100,13 +100,15 @@ Reply plan_with(const Planner& planner, std::string_view body, const RequestCont
   stages.parsed = Clock::now();
 
   const core::StopCondition stop(planning_deadline(context, request.budget), context.stop);
+  if (context.events != nullptr) context.events->begin({request.problem.robots().size()});
+  if (context.await_turn) context.await_turn(stop);
+  stages.started = Clock::now();
   const auto answer = [&](const core::Plan& plan) {
     return checked_answer(plan, request, context.request_id, stages);
   };
   std::optional<PlanWatch> watch;
   if (context.events != nullptr) {
     const std::size_t robots = request.problem.robots().size();
-    context.events->begin({robots});
     watch.emplace(*context.events, robots, stop.deadline(), answer);
   }
   const core::Plan plan = stop.met()

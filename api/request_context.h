@@ -1,12 +1,14 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <stop_token>
 #include <string>
 
 #include "api/limits.h"
 #include "api/plan_events.h"
 #include "core/parallel/executor.h"
+#include "core/search/stop_condition.h"
 
 namespace fleetplan::api {
 
@@ -16,11 +18,14 @@ struct RequestContext {
 
   std::string request_id;
   Clock::time_point received_at = Clock::now();  // last byte of the body in
-  Clock::time_point started_at = Clock::now();   // taken from the queue
   std::stop_token stop;                          // the client is gone or the server drains
   Limits limits;
   core::Executor* executor = nullptr;  // of more threads than the caller's, if there are any
   PlanEvents* events = nullptr;        // who wants to hear how a plan gets on, if anybody
+
+  /// To be called once, when the request is known to be good: returns when computing may begin or `stop` is
+  /// met, whichever comes first. Empty: at once.
+  std::function<void(const core::StopCondition& stop)> await_turn;
 };
 
 }  // namespace fleetplan::api

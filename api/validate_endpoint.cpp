@@ -66,6 +66,11 @@ Reply validate_endpoint(std::string_view body, const RequestContext& context) {
     return problem_reply(error->code, error->detail, context.request_id, error->faults);
   }
   const auto& request = std::get<ValidateRequest>(parsed);
+  const core::StopCondition stop(core::StopCondition::Clock::time_point::max(), context.stop);
+  if (context.await_turn) context.await_turn(stop);
+  if (stop.met()) {
+    return problem_reply(ErrorCode::draining, "The service is shutting down.", context.request_id);
+  }
   const auto report = core::verify(request.grid, request.robots, request.plans, request.tolerance);
   return {200, kJson, write_report(report, request.robots)};
 }

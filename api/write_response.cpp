@@ -84,9 +84,9 @@ void write_timings(JsonWriter& json, const Stages& stages) {
   };
   const Stages::Time now = RequestContext::Clock::now();
   json.key("timings_ms").begin_object();
-  json.member("queue", milliseconds(stages.received, stages.started));
-  json.member("parse", milliseconds(stages.started, stages.parsed));
-  json.member("plan", milliseconds(stages.parsed, stages.planned));
+  json.member("queue", milliseconds(stages.parsed, stages.started));
+  json.member("parse", milliseconds(stages.received, stages.parsed));
+  json.member("plan", milliseconds(stages.started, stages.planned));
   json.member("verify", milliseconds(stages.planned, stages.verified));
   json.member("serialize", milliseconds(stages.verified, now));
   json.member("total", milliseconds(stages.received, now));

@@ -15,8 +15,8 @@ namespace fleetplan::api {
 struct Stages {
   using Time = RequestContext::Clock::time_point;
   Time received;  // last byte of the body in
-  Time started;   // taken from the queue
   Time parsed;
+  Time started;  // its turn among others had come
   Time planned;
   Time verified;
 };

@@ -7,6 +7,7 @@
 
 #include "api/error.h"
 #include "server/answer_fields.h"
+#include "server/guarded.h"
 #include "server/info_endpoints.h"
 #include "server/negotiation.h"
 
@@ -18,10 +19,6 @@ using api::ErrorCode;
 
 /// Of the admin port: enough for probes and scrapers, and for a few that hang.
 constexpr std::size_t kAdminConnections = 64;
-/// So many times the queue may wait while the jobs are short.
-constexpr std::size_t kBurst = 7;
-/// How often a client that waits for its plan is looked at: a plan nobody waits for stops within 100 ms.
-constexpr std::chrono::milliseconds kPeerCheck{25};
 
 constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src "
@@ -43,7 +40,7 @@ HttpServer::HttpServer(const Settings& settings, Service service)
       files_(settings.web_root),
       cross_origin_(settings.cors_origins),
       main_(settings.host, settings.port, settings.connections, [this](int fd) { serve(fd, Port::main); }),
-      pool_(settings.workers, settings.queue, kBurst * settings.queue) {
+      jobs_(settings_, log_) {
   if (settings_.admin_port) {
     admin_.emplace(settings_.host, *settings_.admin_port, kAdminConnections,
                    [this](int fd) { serve(fd, Port::admin); });
@@ -71,7 +68,7 @@ void HttpServer::run() {
 }
 
 void HttpServer::cancel_jobs() {
-  cancel_all_.request_stop();
+  jobs_.cancel_all();
   stop_signal_.raise();
 }
 
@@ -128,7 +125,8 @@ void HttpServer::install_handlers() {
   set_exception_handler(
       [this](const httplib::Request& request, httplib::Response& response, std::exception_ptr failure) {
         if (const Exchange* exchange = exchange_of(request)) {
-          fill(response, guarded(*exchange, [&]() -> api::Reply { std::rethrow_exception(failure); }));
+          fill(response,
+               guarded(log_, exchange->request_id, [&]() -> api::Reply { std::rethrow_exception(failure); }));
         }
       });
   set_post_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
@@ -146,7 +144,7 @@ void HttpServer::install_handlers() {
 void HttpServer::answer_get(const Exchange& exchange, httplib::Response& response) {
   const Route& route = exchange.route;
   if (route.endpoint == Endpoint::page) return answer_page(exchange, response);
-  fill(response, guarded(exchange, [&]() -> api::Reply {
+  fill(response, guarded(log_, exchange.request_id, [&]() -> api::Reply {
          switch (route.endpoint) {
            case Endpoint::example_list:
              return service_.example_list();
@@ -187,7 +185,10 @@ void HttpServer::answer_page(const Exchange& exchange, httplib::Response& respon
 void HttpServer::answer_job(Exchange& exchange, const httplib::ContentReader& reader,
                             httplib::Response& response) {
   if (auto refusal = decode_body(exchange, reader)) return fill(response, std::move(*refusal));
-  run_job(exchange, response);
+  const auto& endpoint = exchange.route.endpoint == Endpoint::plan ? service_.plan : service_.validate;
+  JobRunner::Outcome outcome = jobs_.run(exchange, endpoint);
+  for (const auto& [name, value] : outcome.fields) response.set_header(name, value);
+  fill(response, std::move(outcome.reply));
 }
 
 std::optional<api::Reply> HttpServer::decode_body(Exchange& exchange,
@@ -214,60 +215,6 @@ std::optional<api::Reply> HttpServer::decode_body(Exchange& exchange,
   }
   exchange.body = std::move(decoded);
   return std::nullopt;
-}
-
-void HttpServer::run_job(Exchange& exchange, httplib::Response& response) {
-  std::stop_source stop;
-  const std::stop_callback cancel(cancel_all_.get_token(), [&stop] { stop.request_stop(); });
-  const auto& endpoint = exchange.route.endpoint == Endpoint::plan ? service_.plan : service_.validate;
-  api::RequestContext context;
-  context.request_id = exchange.request_id;
-  context.received_at = exchange.received_at;
-  context.stop = stop.get_token();
-  context.limits = settings_.limits;
-  context.executor = &pool_;
-
-  api::Reply reply;
-  const auto ticket = pool_.submit([&] {
-    context.started_at = api::RequestContext::Clock::now();
-    reply = guarded(exchange, [&] { return endpoint(exchange.body, context); });
-  });
-  if (!ticket) {
-    response.set_header("Retry-After", std::to_string(pool_.retry_after_s()));
-    return fill(response, api::problem_reply(ErrorCode::overloaded,
-                                             "All workers are busy and the queue is full: try again later.",
-                                             exchange.request_id));
-  }
-  await_job(exchange, *ticket, stop);
-  const auto queued = context.started_at - context.received_at;
-  exchange.queue_ms = std::chrono::duration<double, std::milli>(queued).count();
-  if (exchange.abandoned) reply.status = 499;
-  fill(response, std::move(reply));
-}
-
-/// Returns when the job has finished or will never be started.
-void HttpServer::await_job(Exchange& exchange, const WorkerPool::Ticket& ticket, std::stop_source& stop) {
-  while (!pool_.wait_for(ticket, kPeerCheck)) {
-    if (exchange.abandoned || !exchange.socket->peer_gone()) continue;
-    exchange.abandoned = true;
-    stop.request_stop();
-    if (pool_.withdraw(ticket)) return;
-  }
-}
-
-/// The one place where an exception, which means a bug, becomes a 500. What it says is for the log only.
-api::Reply HttpServer::guarded(const Exchange& exchange, const std::function<api::Reply()>& work) const {
-  std::string what = "an exception of no known type";
-  try {
-    return work();
-  } catch (const std::exception& failure) {
-    what = failure.what();
-  } catch (...) {  // NOLINT(bugprone-empty-catch): reported below
-  }
-  log_.error(what, exchange.request_id);
-  return api::problem_reply(ErrorCode::internal_error,
-                            "A bug in the service; its log has more under this request_id.",
-                            exchange.request_id);
 }
 
 }  // namespace fleetplan::server

@@ -11,13 +11,13 @@
 #include "server/connection.h"
 #include "server/cors.h"
 #include "server/http_library.h"
+#include "server/job_runner.h"
 #include "server/listener.h"
 #include "server/request_log.h"
 #include "server/service.h"
 #include "server/settings.h"
 #include "server/static_files.h"
 #include "server/stop_signal.h"
-#include "server/worker_pool.h"
 
 namespace fleetplan::server {
 
@@ -68,9 +68,6 @@ class HttpServer final : private httplib::Server {
   void answer_page(const Exchange& exchange, httplib::Response& response);
   void answer_job(Exchange& exchange, const httplib::ContentReader& reader, httplib::Response& response);
   std::optional<api::Reply> decode_body(Exchange& exchange, const httplib::ContentReader& reader) const;
-  void run_job(Exchange& exchange, httplib::Response& response);
-  void await_job(Exchange& exchange, const WorkerPool::Ticket& ticket, std::stop_source& stop);
-  api::Reply guarded(const Exchange& exchange, const std::function<api::Reply()>& work) const;
   Exchange* exchange_of(const httplib::Request& request);
 
   const Settings settings_;
@@ -83,12 +80,11 @@ class HttpServer final : private httplib::Server {
   std::atomic<bool> draining_{false};
   std::atomic<int> active_{0};
   std::atomic<int> admin_active_{0};
-  std::stop_source cancel_all_;
   std::mutex exchanges_mutex_;
   std::unordered_map<const httplib::Request*, Exchange*> exchanges_;  // those in the library's hands
   Listener main_;
   std::optional<Listener> admin_;
-  WorkerPool pool_;
+  JobRunner jobs_;
 };
 
 }  // namespace fleetplan::server

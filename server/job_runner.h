@@ -1,0 +1,45 @@
+#pragma once
+
+#include <stop_token>
+
+#include "api/reply.h"
+#include "server/answer_fields.h"
+#include "server/exchange.h"
+#include "server/peer_watch.h"
+#include "server/request_log.h"
+#include "server/service.h"
+#include "server/settings.h"
+#include "server/workers.h"
+
+namespace fleetplan::server {
+
+/// Has the jobs done, which are what takes time: a plan, a check of one. Admits no more than the queue holds,
+/// and stops those whose client has left. Thread-safe.
+class JobRunner {
+ public:
+  /// The log has to outlive it.
+  JobRunner(const Settings& settings, const RequestLog& log);
+
+  struct Outcome {
+    api::Reply reply;
+    HeaderFields fields = {};  // further ones of the answer
+  };
+
+  /// The endpoint's answer to the exchange's body, computed in this thread when its turn has come. Notes the
+  /// time in the queue and whether the client left meanwhile in the exchange.
+  Outcome run(Exchange& exchange, const Service::Endpoint& endpoint);
+
+  /// Asks all jobs, now and later, to stop.
+  void cancel_all() { cancel_all_.request_stop(); }
+
+ private:
+  api::Reply compute(Exchange& exchange, const Service::Endpoint& endpoint, Workers::Job& job);
+
+  const api::Limits limits_;
+  const RequestLog& log_;
+  std::stop_source cancel_all_;
+  PeerWatch peers_;
+  Workers workers_;
+};
+
+}  // namespace fleetplan::server
