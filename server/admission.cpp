@@ -19,10 +19,11 @@ std::optional<Refusal> job_fault(const RequestHead& head, const Route& route, st
                        in_quotes(head.field("content-encoding")) + ": send it plain or with gzip.",
                    {{"Accept-Encoding", "gzip"}}};
   }
-  if (route.endpoint == Endpoint::plan && !accepts_json(head.field("accept"))) {
-    return Refusal{ErrorCode::not_acceptable, std::string("Plans are application/json, which Accept: ") +
-                                                  in_quotes(head.field("accept")) +
-                                                  " excludes: add application/json or leave the header out."};
+  if (route.endpoint == Endpoint::plan && !plan_form(head.field("accept"))) {
+    return Refusal{ErrorCode::not_acceptable,
+                   std::string("Plans are application/json or text/event-stream, which Accept: ") +
+                       in_quotes(head.field("accept")) +
+                       " excludes: add application/json or leave the header out."};
   }
   if (head.content_length && *head.content_length > max_body) {
     return Refusal{ErrorCode::body_too_large, "The body has " + std::to_string(*head.content_length) +

@@ -8,6 +8,8 @@ namespace {
 
 std::string_view reason_phrase(int status) {
   switch (status) {
+    case 200:
+      return "OK";
     case 204:
       return "No Content";
     case 400:
@@ -39,20 +41,25 @@ std::string_view reason_phrase(int status) {
 
 }  // namespace
 
-std::string answer_text(const Exchange& exchange, const api::Reply& reply, const HeaderFields& further) {
-  std::string text = "HTTP/1.1 " + std::to_string(reply.status) + ' ';
-  text += reason_phrase(reply.status);
+std::string answer_head(const Exchange& exchange, int status, const HeaderFields& further) {
+  std::string text = "HTTP/1.1 " + std::to_string(status) + ' ';
+  text += reason_phrase(status);
   text += "\r\n";
   const auto add = [&](const std::string& name, const std::string& value) {
     text += name + ": " + value + "\r\n";
   };
   for (const auto& [name, value] : common_fields(exchange)) add(name, value);
   for (const auto& [name, value] : further) add(name, value);
+  return text + "\r\n";
+}
+
+std::string answer_text(const Exchange& exchange, const api::Reply& reply, const HeaderFields& further) {
+  HeaderFields fields = further;
   if (reply.status != 204) {
-    add("Content-Type", reply.content_type);
-    add("Content-Length", std::to_string(reply.body.size()));
+    fields.emplace_back("Content-Type", reply.content_type);
+    fields.emplace_back("Content-Length", std::to_string(reply.body.size()));
   }
-  text += "\r\n";
+  std::string text = answer_head(exchange, reply.status, fields);
   if (exchange.head.method != "HEAD") text += reply.body;
   return text;
 }

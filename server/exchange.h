@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,8 +29,9 @@ struct Exchange {
 
   HeaderFields fields;  // of the answer, by what the request's head says
   int status = 0;
-  bool close = false;      // the connection ends with this answer
-  bool abandoned = false;  // the client left: nobody reads an answer
+  bool close = false;                                    // the connection ends with this answer
+  bool abandoned = false;                                // the client left: nobody reads an answer
+  std::optional<std::uint64_t> streamed = std::nullopt;  // bytes of an answer that went out as an EventStream
   std::optional<double> queue_ms = std::nullopt;
 };
 

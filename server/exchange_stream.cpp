@@ -35,6 +35,7 @@ ssize_t ExchangeStream::read(char* into, size_t size) {
 }
 
 ssize_t ExchangeStream::write(const char* data, size_t size) {
+  if (exchange_.streamed) return static_cast<ssize_t>(size);
   if (exchange_.abandoned) return -1;
   written_ += size;
   if (held_.size() + size <= kHoldBytes) {

@@ -13,7 +13,7 @@ namespace fleetplan::server {
 ///
 /// It is shown as `GET / HTTP/1.1` (or HEAD, or POST) with no more fields than it has to act upon, so its own
 /// parsing never meets what a client sent: no Range to cut an answer, no brotli, no patterns against long
-/// paths.
+/// paths. When the answer has gone out as an EventStream, what the library writes goes nowhere.
 class ExchangeStream final : public httplib::Stream {
  public:
   explicit ExchangeStream(Exchange& exchange);
@@ -29,7 +29,7 @@ class ExchangeStream final : public httplib::Stream {
   /// Sends what is held back; false when the client takes no more.
   bool flush();
 
-  std::uint64_t written() const { return written_; }
+  std::uint64_t written() const { return exchange_.streamed.value_or(written_); }
 
  private:
   Exchange& exchange_;

@@ -7,6 +7,7 @@
 
 #include "api/error.h"
 #include "server/answer_fields.h"
+#include "server/event_stream.h"
 #include "server/guarded.h"
 #include "server/info_endpoints.h"
 #include "server/negotiation.h"
@@ -186,7 +187,14 @@ void HttpServer::answer_job(Exchange& exchange, const httplib::ContentReader& re
                             httplib::Response& response) {
   if (auto refusal = decode_body(exchange, reader)) return fill(response, std::move(*refusal));
   const auto& endpoint = exchange.route.endpoint == Endpoint::plan ? service_.plan : service_.validate;
-  JobRunner::Outcome outcome = jobs_.run(exchange, endpoint);
+  std::optional<EventStream> events;
+  if (plan_form(exchange.head.field("accept")) == PlanForm::events) events.emplace(exchange);
+  JobRunner::Outcome outcome = jobs_.run(exchange, endpoint, events ? &*events : nullptr);
+  if (events && events->begun()) {
+    events->end(outcome.reply);
+    response.status = 200;
+    return;
+  }
   for (const auto& [name, value] : outcome.fields) response.set_header(name, value);
   fill(response, std::move(outcome.reply));
 }

@@ -20,7 +20,8 @@ JobRunner::JobRunner(const Settings& settings, const RequestLog& log)
       log_(log),
       workers_(settings.workers, settings.queue, kBurst * settings.queue) {}
 
-JobRunner::Outcome JobRunner::run(Exchange& exchange, const Service::Endpoint& endpoint) {
+JobRunner::Outcome JobRunner::run(Exchange& exchange, const Service::Endpoint& endpoint,
+                                  api::PlanEvents* events) {
   auto job = workers_.admit();
   if (!job) {
     return {api::problem_reply(api::ErrorCode::overloaded,
@@ -28,10 +29,11 @@ JobRunner::Outcome JobRunner::run(Exchange& exchange, const Service::Endpoint& e
                                exchange.request_id),
             {{"Retry-After", std::to_string(workers_.retry_after_s())}}};
   }
-  return {compute(exchange, endpoint, *job)};
+  return {compute(exchange, endpoint, events, *job)};
 }
 
-api::Reply JobRunner::compute(Exchange& exchange, const Service::Endpoint& endpoint, Workers::Job& job) {
+api::Reply JobRunner::compute(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events,
+                              Workers::Job& job) {
   std::stop_source stop;
   const std::stop_callback cancel(cancel_all_.get_token(), [&stop] { stop.request_stop(); });
   const PeerWatch::Watched watched(peers_, *exchange.socket, stop);
@@ -42,6 +44,7 @@ api::Reply JobRunner::compute(Exchange& exchange, const Service::Endpoint& endpo
   context.stop = stop.get_token();
   context.limits = limits_;
   context.executor = &workers_;
+  context.events = events;
   context.await_turn = [&](const core::StopCondition& patience) {
     const auto since = Workers::Clock::now();
     job.await_turn(patience);

@@ -2,6 +2,7 @@
 
 #include <stop_token>
 
+#include "api/plan_events.h"
 #include "api/reply.h"
 #include "server/answer_fields.h"
 #include "server/exchange.h"
@@ -26,14 +27,16 @@ class JobRunner {
   };
 
   /// The endpoint's answer to the exchange's body, computed in this thread when its turn has come. Notes the
-  /// time in the queue and whether the client left meanwhile in the exchange.
-  Outcome run(Exchange& exchange, const Service::Endpoint& endpoint);
+  /// time in the queue and whether the client left meanwhile in the exchange. `events`: who wants to hear how
+  /// a plan gets on, or null.
+  Outcome run(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events);
 
   /// Asks all jobs, now and later, to stop.
   void cancel_all() { cancel_all_.request_stop(); }
 
  private:
-  api::Reply compute(Exchange& exchange, const Service::Endpoint& endpoint, Workers::Job& job);
+  api::Reply compute(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events,
+                     Workers::Job& job);
 
   const api::Limits limits_;
   const RequestLog& log_;

@@ -1,5 +1,6 @@
 #include "server/negotiation.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "server/text.h"
@@ -10,47 +11,54 @@ namespace {
 
 struct Weighted {
   std::string name;  // lower case, without parameters
-  bool allowed;      // q > 0
+  double quality;    // 0 to 1
 };
 
 Weighted parse_weighted(std::string_view item) {
   const auto parts = split(item, ';');
-  Weighted weighted{parts.empty() ? std::string() : lower_case(parts.front()), true};
+  Weighted weighted{parts.empty() ? std::string() : lower_case(parts.front()), 1.0};
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const std::string parameter = lower_case(parts[i]);
-    if (parameter.starts_with("q=")) weighted.allowed = std::strtod(parameter.c_str() + 2, nullptr) > 0.0;
+    if (!parameter.starts_with("q=")) continue;
+    weighted.quality = std::clamp(std::strtod(parameter.c_str() + 2, nullptr), 0.0, 1.0);
   }
   return weighted;
 }
 
-}  // namespace
-
-bool accepts_json(std::string_view accept) {
-  if (trimmed(accept).empty()) return true;
+/// Of a media type, by the most specific range of an Accept field; 0 when there is none.
+double quality(std::string_view accept, std::string_view type) {
+  const std::string_view family = type.substr(0, type.find('/') + 1);
   int best_rank = 0;
-  bool allowed = false;
+  double quality = 0.0;
   for (const auto item : split(accept, ',')) {
     const Weighted range = parse_weighted(item);
-    const int rank = range.name == "application/json" ? 3
-                     : range.name == "application/*"  ? 2
-                     : range.name == "*/*"            ? 1
-                                                      : 0;
-    if (rank > best_rank) {
-      best_rank = rank;
-      allowed = range.allowed;
-    } else if (rank > 0 && rank == best_rank) {
-      allowed = allowed || range.allowed;
-    }
+    const int rank = range.name == type                        ? 3
+                     : range.name == std::string(family) + '*' ? 2
+                     : range.name == "*/*"                     ? 1
+                                                               : 0;
+    if (rank == 0 || rank < best_rank) continue;
+    quality = rank > best_rank ? range.quality : std::max(quality, range.quality);
+    best_rank = rank;
   }
-  return allowed;
+  return quality;
+}
+
+}  // namespace
+
+std::optional<PlanForm> plan_form(std::string_view accept) {
+  if (trimmed(accept).empty()) return PlanForm::json;
+  const double json = quality(accept, "application/json");
+  const double events = quality(accept, "text/event-stream");
+  if (json <= 0.0 && events <= 0.0) return std::nullopt;
+  return events > json ? PlanForm::events : PlanForm::json;
 }
 
 bool accepts_gzip(std::string_view accept_encoding) {
   bool by_star = false;
   for (const auto item : split(accept_encoding, ',')) {
     const Weighted coding = parse_weighted(item);
-    if (coding.name == "gzip" || coding.name == "x-gzip") return coding.allowed;
-    if (coding.name == "*") by_star = coding.allowed;
+    if (coding.name == "gzip" || coding.name == "x-gzip") return coding.quality > 0.0;
+    if (coding.name == "*") by_star = coding.quality > 0.0;
   }
   return by_star;
 }

@@ -8,9 +8,13 @@
 
 namespace fleetplan::server {
 
-/// True when an Accept field (empty: absent) allows application/json. The most specific range decides, q = 0
-/// excludes.
-bool accepts_json(std::string_view accept);
+/// Forms of the answer to POST /v1/plan.
+enum class PlanForm { json, events };
+
+/// The form that an Accept field (empty: absent) prefers: application/json, also when it likes
+/// text/event-stream as much; none when it allows neither. The most specific range decides about a form, q =
+/// 0 excludes it.
+std::optional<PlanForm> plan_form(std::string_view accept);
 
 /// True when an Accept-Encoding field (empty: absent) allows gzip.
 bool accepts_gzip(std::string_view accept_encoding);

@@ -62,6 +62,8 @@ bool Socket::peer_gone() const {
   return ::poll(&hangup, 1, 0) > 0;
 }
 
+void Socket::hang_up() { ::shutdown(fd_, SHUT_RDWR); }
+
 void Socket::linger() {
   ::shutdown(fd_, SHUT_WR);
   const auto deadline = Clock::now() + kLinger;

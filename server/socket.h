@@ -28,6 +28,9 @@ class Socket {
   /// True when the peer has closed its side.
   bool peer_gone() const;
 
+  /// Breaks the connection off: whoever looks at it finds the peer gone.
+  void hang_up();
+
   /// Says goodbye so that the last answer arrives: a close with unread input would reset the connection and
   /// may destroy what is under way to the client.
   void linger();

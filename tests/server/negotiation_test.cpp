@@ -5,17 +5,35 @@
 namespace fleetplan::server {
 namespace {
 
-TEST(Accept, AllowsJsonWhenAbsentNamedOrCoveredByARange) {
+TEST(Accept, TakesJsonWhenAbsentNamedOrCoveredByARange) {
   for (const char* accept : {"", "  ", "*/*", "application/json", "application/*", "text/html, */*;q=0.1",
                              "Application/JSON; charset=utf-8", "application/json;q=0.001"}) {
-    EXPECT_TRUE(accepts_json(accept)) << accept;
+    EXPECT_EQ(plan_form(accept), PlanForm::json) << accept;
   }
 }
 
-TEST(Accept, ExcludesJsonWhenAbsentFromTheListOrOfQualityZero) {
-  for (const char* accept : {"text/html", "text/event-stream", "application/json;q=0", "*/*; q=0.0",
-                             "application/json;q=0, */*", "application/xml, application/*;q=0"}) {
-    EXPECT_FALSE(accepts_json(accept)) << accept;
+TEST(Accept, TakesEventsWhenTheyAreLikedBetter) {
+  for (const char* accept :
+       {"text/event-stream", "text/*", "Text/Event-Stream;q=0.1", "text/event-stream, application/json;q=0.9",
+        "application/json;q=0, */*", "text/event-stream, */*;q=0.1", "application/*;q=0.5, text/*;q=0.6"}) {
+    EXPECT_EQ(plan_form(accept), PlanForm::events) << accept;
+  }
+}
+
+TEST(Accept, TakesJsonWhenItIsLikedAsMuchAsEvents) {
+  for (const char* accept :
+       {"text/event-stream, application/json", "text/event-stream, */*",
+        "text/event-stream;q=0.3, application/*;q=0.3",
+        "text/*, text/event-stream;q=0.2, application/json;q=0.2", "text/event-stream;q=0, */*"}) {
+    EXPECT_EQ(plan_form(accept), PlanForm::json) << accept;
+  }
+}
+
+TEST(Accept, ExcludesBothWhenAbsentFromTheListOrOfQualityZero) {
+  for (const char* accept :
+       {"text/html", "application/json;q=0", "*/*; q=0.0", "application/json;q=0, text/event-stream;q=0, */*",
+        "application/xml, application/*;q=0", "application/json;q=-1", "text/*;q=0, image/*"}) {
+    EXPECT_EQ(plan_form(accept), std::nullopt) << accept;
   }
 }
 

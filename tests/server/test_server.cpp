@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 namespace fleetplan::server {
 
@@ -117,7 +118,6 @@ void RawConnection::send(const std::string& text) const {
 void RawConnection::end_of_sending() const { ::shutdown(fd_, SHUT_WR); }
 
 std::string RawConnection::receive() {
-  std::array<char, 4096> buffer{};
   while (true) {
     const auto head_end = input_.find("\r\n\r\n");
     if (head_end != std::string::npos) {
@@ -130,10 +130,33 @@ std::string RawConnection::receive() {
         return answer;
       }
     }
-    const ssize_t got = ::recv(fd_, buffer.data(), buffer.size(), 0);
-    if (got <= 0) return {};
-    input_.append(buffer.data(), static_cast<std::size_t>(got));
+    if (!receive_more()) return {};
   }
+}
+
+bool RawConnection::receive_more() {
+  std::array<char, 65536> buffer{};
+  const ssize_t got = ::recv(fd_, buffer.data(), buffer.size(), 0);
+  if (got > 0) input_.append(buffer.data(), static_cast<std::size_t>(got));
+  return got > 0;
+}
+
+std::string RawConnection::receive_past(const std::string& text) {
+  std::size_t searched = 0;
+  std::size_t found = 0;
+  while ((found = input_.find(text, searched)) == std::string::npos) {
+    searched = input_.size() - std::min(input_.size(), text.size());
+    if (!receive_more()) return {};
+  }
+  std::string past = input_.substr(0, found + text.size());
+  input_.erase(0, past.size());
+  return past;
+}
+
+std::string RawConnection::receive_all() {
+  while (receive_more()) {
+  }
+  return std::exchange(input_, {});
 }
 
 bool RawConnection::closed_by_server() const {

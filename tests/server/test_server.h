@@ -85,12 +85,20 @@ class RawConnection {
   /// Reads an answer with its Content-Length; empty when the server closes instead.
   std::string receive();
 
+  /// Reads to the end of this text, which is part of the result; empty when the server closes before.
+  std::string receive_past(const std::string& text);
+
+  /// Reads until the server closes.
+  std::string receive_all();
+
   /// True when the server has closed, waiting for it.
   bool closed_by_server() const;
 
   void reset();
 
  private:
+  bool receive_more();
+
   int fd_;
   std::string input_;
 };
