@@ -1,7 +1,10 @@
 #include "server/request_id.h"
 
+#include <sys/random.h>
+
 #include <algorithm>
-#include <random>
+#include <array>
+#include <stdexcept>
 
 namespace fleetplan::server {
 
@@ -22,17 +25,17 @@ bool is_well_formed_request_id(std::string_view id) {
 
 std::string make_request_id() {
   constexpr char kDigits[] = "0123456789abcdef";
-  std::random_device device;
+  // std::random_device takes 20 microseconds on some machines, a tenth of a small request.
+  std::array<unsigned char, 16> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
+    throw std::runtime_error("getrandom gives no bytes");  // never for so few
+  }
   std::string id;
-  for (int word = 0; word < 4; ++word) {
-    std::uint32_t bits = device();
-    for (int digit = 0; digit < 8; ++digit, bits >>= 4) id += kDigits[bits & 0xf];
+  for (const unsigned char byte : bytes) {
+    id += kDigits[byte >> 4];
+    id += kDigits[byte & 0xf];
   }
   return id;
-}
-
-std::string request_id_from(std::string_view sent) {
-  return is_well_formed_request_id(sent) ? std::string(sent) : make_request_id();
 }
 
 }  // namespace fleetplan::server
