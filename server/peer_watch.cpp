@@ -21,9 +21,11 @@ void PeerWatch::watch() {
       std::unique_lock lock(mutex_);
       // Short jobs come and go between two looks without waking this thread.
       changed_.wait_for(lock, kPeriod, [&] { return stopping_; });
-      asleep_ = watched_.empty();
-      changed_.wait(lock, [&] { return stopping_ || !watched_.empty(); });
-      asleep_ = false;
+      // Said anew each time: whoever woke this thread may be gone already, and the next has to wake it again.
+      changed_.wait(lock, [&] {
+        asleep_ = !stopping_ && watched_.empty();
+        return !asleep_;
+      });
       if (stopping_) return;
     }
     for (std::stop_source& stop : take_leavers()) stop.request_stop();
