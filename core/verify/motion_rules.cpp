@@ -114,13 +114,15 @@ class MotionCheck {
     }
   }
 
-  /// An action that takes less time than it must. Infinite speeds are told as durations instead.
+  /// An action that takes less time than it must, or leads further than it can: what is off by no more than
+  /// the tolerance in one of the two is fine, as a slow robot's poses that are rounded mean much time.
+  /// Infinite speeds are told as durations instead.
   void check_duration(std::size_t k, double amount, double top_speed, const char* unit) {
     const Action& action = plan_.actions[k];
     const double duration = std::max(0.0, action.t_end - action.t_start);
     const double least =
         std::min(amount / top_speed, std::numeric_limits<double>::max());  // even if denormal
-    if (duration >= least - tolerance_) return;
+    if (duration >= least - tolerance_ || duration * top_speed >= amount - tolerance_) return;
     const double speed = amount / duration;
     if (usable(speed)) {
       report(Kind::speed, action.t_start, speed, top_speed,

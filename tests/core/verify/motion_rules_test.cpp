@@ -221,6 +221,19 @@ TEST(Speed, IsJudgedByTheSecondsMissing) {
   EXPECT_THAT(kinds_of(scene.violations()), ElementsAre(Kind::speed));
 }
 
+TEST(Speed, OfASlowRobotIsJudgedByTheMetresTooMany) {
+  const auto drive_too_far_by = [](double excess) {
+    Scene scene;
+    Robot slow = robot_at(5, 5);
+    slow.linear_speed = 1e-9;
+    scene.add(slow, [](PlanBuilder& plan) { plan.translate_to(8, 5); });
+    scene.action(0).to.position.x() += excess;
+    return scene.violations();
+  };
+  EXPECT_THAT(drive_too_far_by(0.5 * kTolerance), IsEmpty()) << "though 500 s are missing";
+  EXPECT_THAT(kinds_of(drive_too_far_by(2.0 * kTolerance)), testing::Contains(Kind::speed));
+}
+
 TEST(Speed, RotationsTakeTheShorterWay) {
   Scene scene;
   scene.add(robot_at(5, 5, 3.0), [](PlanBuilder& plan) { plan.rotate_to(-3.0); });
