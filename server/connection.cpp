@@ -189,7 +189,9 @@ std::optional<Refusal> Connection::read_content(Exchange& exchange) {
       read_body(socket_, input_, head, context_.settings.limits.max_body, context_.settings.read_timeout);
   if (auto* fault = std::get_if<BodyFault>(&read)) {
     exchange.close = unread_ = true;
-    return Refusal{code_of(fault->kind), fault->detail};
+    Refusal refusal{code_of(fault->kind), fault->detail};
+    if (refusal.code == ErrorCode::draining) refusal.fields = {{"Retry-After", kDrainingRetryAfterS}};
+    return refusal;
   }
   exchange.body = std::get<std::string>(std::move(read));
   return std::nullopt;

@@ -156,6 +156,7 @@ void HttpServer::answer_get(const Exchange& exchange, httplib::Response& respons
            case Endpoint::openapi:
              return service_.openapi();
            case Endpoint::readyz:
+             if (!ready_) response.set_header("Retry-After", kDrainingRetryAfterS);
              return readiness_reply(ready_, exchange.request_id);
            default:
              return health_reply();

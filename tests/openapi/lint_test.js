@@ -37,7 +37,8 @@ test("the document is lint-clean", () => {
 test("the linter finds an operation without a summary and an example that breaks its schema", () => {
   const broken = structuredClone(document.root);
   delete broken.paths["/v1/limits"].get.summary;
-  broken.components.responses.NotFound.content["application/problem+json"].examples.not_found.value.status = "404";
+  broken.components.responses.NotFound.content["application/problem+json"].examples.not_found.value.status =
+    "404";
   const { status, stdout } = lint(broken);
   assert.notEqual(status, 0);
   assert.match(stdout, /operation-summary/);

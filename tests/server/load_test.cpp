@@ -145,6 +145,7 @@ TEST(Draining, RefusesNewJobsButAnswersTheRunningOnes) {
   const auto ready = client.Get("/readyz");
   ASSERT_TRUE(ready);
   EXPECT_EQ(ready->status, 503);
+  EXPECT_TRUE(ready->has_header("Retry-After"));
   const auto health = client.Get("/healthz");
   ASSERT_TRUE(health);
   EXPECT_EQ(health->status, 200);
@@ -186,6 +187,7 @@ TEST(Draining, WaitsForNoBodyOnceJobsAreToStop) {
   const std::string answer = slow.receive();
   EXPECT_EQ(answer.find("HTTP/1.1 503 "), 0u) << answer;
   EXPECT_NE(answer.find("draining"), std::string::npos) << answer;
+  EXPECT_NE(answer.find("\r\nRetry-After: "), std::string::npos) << answer;
   EXPECT_TRUE(slow.closed_by_server());
   while (!server.server.idle()) std::this_thread::yield();
 }

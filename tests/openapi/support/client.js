@@ -27,7 +27,10 @@ export class Client {
 
   post(path, body, headers = {}) {
     const bytes = typeof body === "string" || body instanceof Uint8Array ? body : JSON.stringify(body);
-    return this.send("POST", path, { body: bytes, headers: { "Content-Type": "application/json", ...headers } });
+    return this.send("POST", path, {
+      body: bytes,
+      headers: { "Content-Type": "application/json", ...headers },
+    });
   }
 
   get(path, headers = {}) {
@@ -45,12 +48,11 @@ export class Client {
     const whole = Buffer.concat(parts).toString("utf8");
     const end = whole.indexOf("\r\n\r\n");
     const [line, ...fields] = whole.slice(0, end).split("\r\n");
-    const headers = Object.fromEntries(
-      fields.map((field) => {
-        const [name, ...value] = field.split(": ");
-        return [name.toLowerCase(), value.join(": ")];
-      }),
-    );
+    const headers = {};
+    for (const field of fields) {
+      const [name, value] = field.split(/: (.*)/);
+      headers[name.toLowerCase()] = value;
+    }
     const body = whole.slice(end + 4);
     return checked(this.#document, { method, path, status: Number(line.split(" ")[1]), headers, body });
   }
@@ -98,7 +100,8 @@ function checked(document, answer) {
     }
   }
   const names = Object.keys(documented.value.headers).map((name) => name.toLowerCase());
-  for (const name of TELLING) assert.ok(!headers[name] || names.includes(name), `${name} is not documented: ${asked}`);
+  for (const name of TELLING)
+    assert.ok(!headers[name] || names.includes(name), `${name} is not documented: ${asked}`);
 
   const type = headers["content-type"];
   const media = document.at([...documented.steps, "content", type]);

@@ -22,7 +22,8 @@ function closed(schema) {
 }
 
 export class Document {
-  #ajv = new Ajv2020({ allErrors: true, allowUnionTypes: true });
+  // Conditions say nothing of types: what is of another type is refused by the schema proper.
+  #ajv = new Ajv2020({ allErrors: true, allowUnionTypes: true, strictTypes: false });
   #validators = new Map();
 
   constructor(root) {

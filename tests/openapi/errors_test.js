@@ -1,0 +1,192 @@
+// Every error of the table, provoked: its status, code, header fields and body are what the document says.
+
+import assert from "node:assert/strict";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { gzipSync } from "node:zlib";
+
+import { startService } from "../web/support/service.js";
+import { Client } from "./support/client.js";
+import { openSession } from "./support/session.js";
+
+const MAX_BODY = 20_000;
+const { document, client } = await openSession(["--max-body", String(MAX_BODY), "--read-timeout-ms", "300"]);
+const POSTS = ["/v1/plan", "/v1/validate"];
+const seen = new Set();
+
+/** A problem of this status and code. */
+function expectProblem(answer, status, code) {
+  assert.deepEqual([answer.status, answer.json.code], [status, code], answer.body);
+  seen.add(code);
+}
+
+/** A request that is planned for as long as its budget lasts. */
+const BUSY = {
+  map: { rows: Array(12).fill(".".repeat(12)) },
+  robot_defaults: { radius: 0.4, linear_speed: 1, angular_speed: 1 },
+  robots: Array.from({ length: 10 }, (_, i) => ({
+    id: `r${i}`,
+    start: { x: 0.5, y: i + 0.5 },
+    goal: { x: 11.5, y: 10.5 - i },
+  })),
+  options: { mode: "anytime", time_budget_ms: 2000 },
+};
+
+test("404: no such path, no such example", async () => {
+  expectProblem(await client.get("/v1/nothing"), 404, "not_found");
+  expectProblem(await client.get("/v1/examples/nothing"), 404, "not_found");
+  expectProblem(await client.post("/v1/plans", {}), 404, "not_found");
+});
+
+test("405: every path has the methods that the document tells, and no others", async () => {
+  for (const [template, operations] of Object.entries(document.root.paths)) {
+    const path = template.replace("{name}", "crossing");
+    const allowed = operations.post ? ["POST"] : ["GET", "HEAD"];
+    for (const method of ["GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "BREW"]) {
+      if (allowed.includes(method) || method === "HEAD") continue;
+      const answer = await client.send(method, path);
+      expectProblem(answer, 405, "method_not_allowed");
+      assert.equal(answer.headers.allow, allowed.join(", "));
+    }
+  }
+});
+
+test("406: a plan in none of the forms there are", async () => {
+  for (const accept of ["text/html", "image/*, application/json;q=0", "application/xml"]) {
+    expectProblem(await client.post("/v1/plan", BUSY, { Accept: accept }), 406, "not_acceptable");
+  }
+});
+
+test("408: a head or a body that does not come", async () => {
+  const head = "POST /v1/plan HTTP/1.1\r\nHost: here\r\n";
+  expectProblem(await client.sendRaw("POST", "/v1/plan", head), 408, "request_timeout");
+  const body = `${head}Content-Length: 10\r\n\r\n{`;
+  expectProblem(await client.sendRaw("POST", "/v1/plan", body), 408, "request_timeout");
+});
+
+test("413: a body that is too large, declared, in chunks or after decompression", async () => {
+  const large = " ".repeat(MAX_BODY + 1);
+  for (const path of POSTS) {
+    expectProblem(await client.post(path, large), 413, "body_too_large");
+    const head = `POST ${path} HTTP/1.1\r\nHost: here\r\nConnection: close\r\nTransfer-Encoding: chunked\r\n\r\n`;
+    const chunk = `${large.length.toString(16)}\r\n${large}\r\n0\r\n\r\n`;
+    expectProblem(await client.sendRaw("POST", path, head + chunk), 413, "body_too_large");
+    const zipped = gzipSync(large);
+    expectProblem(await client.post(path, zipped, { "Content-Encoding": "gzip" }), 413, "body_too_large");
+  }
+});
+
+test("414: a target that is too long", async () => {
+  const query = "x".repeat(9000);
+  for (const path of ["/v1/limits", "/healthz"]) {
+    expectProblem(await client.get(`${path}?${query}`), 414, "target_too_long");
+  }
+});
+
+test("415: a body of another type or coding", async () => {
+  for (const path of POSTS) {
+    for (const type of [
+      "text/plain",
+      "application/x-www-form-urlencoded",
+      "application/json; charset=utf-16",
+    ]) {
+      expectProblem(await client.post(path, "{}", { "Content-Type": type }), 415, "unsupported_media_type");
+    }
+    const coded = await client.post(path, "{}", { "Content-Encoding": "br" });
+    expectProblem(coded, 415, "unsupported_media_type");
+    assert.equal(coded.headers["accept-encoding"], "gzip");
+  }
+});
+
+test("431: a head that is too large, by fields or by bytes", async () => {
+  const many = Object.fromEntries(Array.from({ length: 120 }, (_, i) => [`X-Field-${i}`, "1"]));
+  expectProblem(await client.get("/v1/limits", many), 431, "head_too_large");
+  const one = { "X-Long": "x".repeat(40_000) };
+  expectProblem(await client.get("/v1/limits", one), 431, "head_too_large");
+});
+
+test("400: not JSON, nested too deep, malformed framing, not in gzip", async () => {
+  for (const path of POSTS) {
+    for (const body of ["", "{", '{"a":NaN}', "{'a':1}", '{"a":1,}', "\u{feff}[1] 2", '"\\ud800"']) {
+      expectProblem(await client.post(path, body), 400, "malformed_json");
+    }
+    expectProblem(await client.post(path, Uint8Array.of(0x22, 0xff, 0x22)), 400, "malformed_json");
+    expectProblem(await client.post(path, "[".repeat(33) + "]".repeat(33)), 400, "too_deep");
+    expectProblem(await client.post(path, "[".repeat(10_000)), 400, "too_deep");
+    expectProblem(await client.post(path, "{}", { "Content-Encoding": "gzip" }), 400, "malformed_request");
+    const framing = "Host: here\r\nContent-Length: 2\r\nTransfer-Encoding: chunked";
+    const both = await client.sendRaw("POST", path, `POST ${path} HTTP/1.1\r\n${framing}\r\n\r\n0\r\n\r\n`);
+    expectProblem(both, 400, "malformed_request");
+  }
+  const version = await client.sendRaw("GET", "/v1/limits", "GET /v1/limits HTTP/3.0\r\n\r\n");
+  expectProblem(version, 400, "malformed_request");
+});
+
+test("422: a request that is not valid", async () => {
+  for (const path of POSTS) expectProblem(await client.post(path, {}), 422, "invalid_request");
+});
+
+/** A service of its own, which is stopped after the tests at the latest. */
+async function separateService(flags) {
+  const service = await startService(flags);
+  const own = new Client(service.url, document);
+  let stopped;
+  const stop = () => (stopped ??= service.stop());
+  after(async () => {
+    own.close();
+    await stop();
+  });
+  return { client: own, stop };
+}
+
+test("401: no token or another one, on every path but health and readiness", async () => {
+  const folder = mkdtempSync(join(tmpdir(), "openapi-"));
+  after(() => rmSync(folder, { recursive: true }));
+  const file = join(folder, "token");
+  writeFileSync(file, "open-sesame\n");
+  const { client: guest } = await separateService(["--auth-token-file", file]);
+  for (const [template, operations] of Object.entries(document.root.paths)) {
+    const path = template.replace("{name}", "crossing");
+    const method = operations.post ? "POST" : "GET";
+    const isOpen = operations[method.toLowerCase()].security?.length === 0;
+    for (const headers of [{}, { Authorization: "Bearer open-barley" }]) {
+      const answer = await guest.send(method, path, { headers });
+      if (isOpen) assert.equal(answer.status, 200, path);
+      else expectProblem(answer, 401, "unauthorized");
+    }
+    const basic = `Basic ${Buffer.from("ali:open-sesame").toString("base64")}`;
+    for (const Authorization of ["Bearer open-sesame", basic]) {
+      const answer = await guest.send(method, path, { headers: { Authorization } });
+      assert.notEqual(answer.status, 401, path);
+    }
+  }
+});
+
+test("503: the queue is full", async () => {
+  const { client: crowd } = await separateService(["--workers", "1", "--queue", "1"]);
+  const answers = await Promise.all(Array.from({ length: 24 }, () => crowd.post("/v1/plan", BUSY)));
+  const refused = answers.filter(({ status }) => status !== 200);
+  assert.ok(refused.length > 0 && refused.length < answers.length, `${refused.length} were refused`);
+  for (const answer of refused) expectProblem(answer, 503, "overloaded");
+});
+
+test("503: the service shuts down, while what it began is answered", async () => {
+  const { client: last, stop } = await separateService([]);
+  const running = last.post("/v1/plan", BUSY);
+  await new Promise((resolve) => setTimeout(resolve, 300));
+  const stopped = stop();
+  let ready = await last.get("/readyz");
+  while (ready.status === 200) ready = await last.get("/readyz");
+  expectProblem(ready, 503, "draining");
+  expectProblem(await last.post("/v1/plan", BUSY), 503, "draining");
+  expectProblem(await last.post("/v1/validate", {}), 503, "draining");
+  assert.equal((await running).status, 200);
+  await stopped;
+});
+
+test("every error of the table was provoked, but for the one that is a bug", () => {
+  const codes = [...document.problemCodes().keys()].filter((code) => code !== "internal_error");
+  assert.deepEqual([...seen].sort(), codes.sort());
+});

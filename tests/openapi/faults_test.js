@@ -1,0 +1,186 @@
+// Every code of a fault, provoked: 422 with the fault's code at the place that is wrong.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { misplaced } from "./support/pointer.js";
+import { openSession } from "./support/session.js";
+
+const { document, client } = await openSession(["--max-robots", "3", "--max-cells", "100"]);
+const seen = new Set();
+
+const POSE = { x: 0.5, y: 0.5, theta: 0 };
+const WAIT = { type: "wait", t_start: 0, t_end: 1, from: POSE, to: POSE };
+
+/** A good request; `change` spoils it. */
+function request(change) {
+  const good = {
+    map: { rows: ["....#", "....."], resolution: 1, origin: { x: 0, y: 0 } },
+    robot_defaults: { radius: 0.3, linear_speed: 1, angular_speed: 2 },
+    robots: [
+      { id: "a", start: { x: 0.5, y: 0.5 }, goal: { x: 3.5, y: 0.5 } },
+      { id: "b", start: { x: 0.5, y: 1.5 }, goal: { x: 3.5, y: 1.5, theta: 1 } },
+    ],
+    options: { mode: "first" },
+  };
+  change(good);
+  return good;
+}
+
+/** Of path, request and what is expected: pairs of pointer and code. */
+const CASES = {
+  "a document that is no object": ["/v1/plan", [], [["", "wrong_type"]]],
+  "an empty object": [
+    "/v1/plan",
+    {},
+    [
+      ["/map", "missing"],
+      ["/robots", "missing"],
+    ],
+  ],
+  "a number that is a string": [
+    "/v1/plan",
+    request((r) => (r.robots[1].start.x = "1")),
+    [["/robots/1/start/x", "wrong_type"]],
+  ],
+  "null where it has no meaning": [
+    "/v1/plan",
+    request((r) => (r.robots[0].goal = null)),
+    [["/robots/0/goal", "wrong_type"]],
+  ],
+  "a robot without start": [
+    "/v1/plan",
+    request((r) => delete r.robots[0].start),
+    [["/robots/0/start", "missing"]],
+  ],
+  "a speed that neither the robot nor the defaults have": [
+    "/v1/plan",
+    request((r) => delete r.robot_defaults.linear_speed),
+    [
+      ["/robots/0/linear_speed", "missing"],
+      ["/robots/1/linear_speed", "missing"],
+    ],
+  ],
+  "keys that need escapes in a pointer": [
+    "/v1/plan",
+    request((r) => Object.assign(r.options, { "a/b~c": 1, "": 2, "\u{1f916}": 3 })),
+    [
+      ["/options/a~1b~0c", "unknown_key"],
+      ["/options/", "unknown_key"],
+      ["/options/\u{1f916}", "unknown_key"],
+    ],
+  ],
+  "a word that is none": [
+    "/v1/plan",
+    request((r) => (r.options.mode = "frist")),
+    [["/options/mode", "unknown_value"]],
+  ],
+  "a radius of 0": [
+    "/v1/plan",
+    request((r) => (r.robots[0].radius = 0)),
+    [["/robots/0/radius", "out_of_range"]],
+  ],
+  "a connectivity of 5": [
+    "/v1/plan",
+    request((r) => (r.options.connectivity = 5)),
+    [["/options/connectivity", "out_of_range"]],
+  ],
+  "more robots than the service takes": [
+    "/v1/plan",
+    request((r) => r.robots.push(...["c", "d"].map((id) => ({ ...r.robots[0], id })))),
+    [["/robots", "out_of_range"]],
+  ],
+  "more cells than the service takes": [
+    "/v1/plan",
+    request((r) => (r.map.rows = Array(21).fill("....."))),
+    [["/map/rows", "out_of_range"]],
+  ],
+  "no robots": ["/v1/plan", request((r) => (r.robots = [])), [["/robots", "empty"]]],
+  "an empty id": ["/v1/plan", request((r) => (r.robots[1].id = "")), [["/robots/1/id", "empty"]]],
+  "a row without cells": ["/v1/plan", request((r) => (r.map.rows[1] = "")), [["/map/rows/1", "empty"]]],
+  "a row of another length": [
+    "/v1/plan",
+    request((r) => (r.map.rows[1] = "....")),
+    [["/map/rows/1", "bad_map_row"]],
+  ],
+  "a cell of no kind": [
+    "/v1/plan",
+    request((r) => (r.map.rows[0] = "..?.#")),
+    [["/map/rows/0", "bad_map_row"]],
+  ],
+  "two robots with one id": [
+    "/v1/plan",
+    request((r) => (r.robots[1].id = "a")),
+    [["/robots/1/id", "duplicate"]],
+  ],
+  "a key that comes twice": [
+    "/v1/plan",
+    JSON.stringify(request(() => {})).replace('"mode"', '"mode":"first","mode"'),
+    [["/options/mode", "duplicate"]],
+  ],
+  "a start in a wall": [
+    "/v1/plan",
+    request((r) => (r.robots[0].start = { x: 4.5, y: 1.5 })),
+    [["/robots/0/start", "start_in_obstacle"]],
+  ],
+  "a goal off the map": [
+    "/v1/plan",
+    request((r) => (r.robots[0].goal.y = -1)),
+    [["/robots/0/goal", "goal_in_obstacle"]],
+  ],
+  "starts that overlap": [
+    "/v1/plan",
+    request((r) => (r.robots[1].start.y = 1)),
+    [["/robots/1/start", "starts_overlap"]],
+  ],
+  "goals that overlap": [
+    "/v1/plan",
+    request((r) => (r.robots[1].goal.y = 1)),
+    [["/robots/1/goal", "goals_overlap"]],
+  ],
+  "a plan for nobody": [
+    "/v1/validate",
+    request((r) => (r.plans = [{ robot: "z", actions: [] }])),
+    [["/plans/0/robot", "unknown_robot"]],
+  ],
+  "two plans for one robot": [
+    "/v1/validate",
+    request((r) => (r.plans = ["a", "a"].map((robot) => ({ robot, actions: [WAIT] })))),
+    [["/plans/1/robot", "duplicate"]],
+  ],
+  "an action of no kind without its end": [
+    "/v1/validate",
+    request(
+      (r) => (r.plans = [{ robot: "a", actions: [{ type: "fly", t_start: 0, from: POSE, to: POSE }] }]),
+    ),
+    [
+      ["/plans/0/actions/0/type", "unknown_value"],
+      ["/plans/0/actions/0/t_end", "missing"],
+    ],
+  ],
+  "a tolerance below 0": [
+    "/v1/validate",
+    request((r) => Object.assign(r, { plans: [], tolerance: -1 })),
+    [["/tolerance", "out_of_range"]],
+  ],
+};
+
+for (const [name, [path, body, expected]] of Object.entries(CASES)) {
+  test(`${name} is told at its place`, async () => {
+    const { status, json } = await client.post(path, body);
+    assert.equal(status, 422);
+    assert.deepEqual(
+      json.errors.map(({ pointer, code }) => [pointer, code]),
+      expected,
+    );
+    const sent = typeof body === "string" ? JSON.parse(body) : body;
+    for (const fault of json.errors) {
+      assert.equal(misplaced(fault, sent), undefined);
+      seen.add(fault.code);
+    }
+  });
+}
+
+test("every code of a fault that is documented was provoked", () => {
+  assert.deepEqual([...seen].sort(), [...document.root.components.schemas.Fault.properties.code.enum].sort());
+});
