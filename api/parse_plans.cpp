@@ -26,7 +26,7 @@ constexpr std::pair<std::string_view, core::Action::Type> kTypes[] = {
     {"wait", core::Action::Type::wait}};
 
 // Any moment that is a number will do: a plan that begins before 0 is judged, not refused.
-constexpr Range kMoment{-1e12, 1e12, "seconds"};
+constexpr Range kMoment{-1e30, 1e30, "seconds"};
 
 core::Pose parse_pose(const ObjectReader& action, std::string_view key, const WorldFrame& frame,
                       FaultList& faults) {

@@ -26,7 +26,7 @@ inline constexpr std::size_t kMostCollisions = 10'000;
 /// - discontinuity: actions that do not follow each other in time or space, or do not do what their type
 /// says,
 ///   or a cost that is not the last t_end. A gap or jump and 0, or a time and what it had to be. Also a
-///   number that is not finite, or beyond 1e15: nothing else is then checked of that robot.
+///   number that is not finite, or beyond 1e30: nothing else is then checked of that robot.
 /// - speed: faster than the robot; the speed and the robot's, or for an action that takes no time the
 /// duration
 ///   and the least one, seconds. Or a translation that leads off the line of its heading (which may be

@@ -51,6 +51,18 @@ TEST(ValidateEndpoint, AcceptsAGoodPlan) {
   EXPECT_NEAR(answer["min_clearance"].get<double>(), 4.4, 1e-9);
 }
 
+TEST(ValidateEndpoint, AcceptsTheAnswerOfAPlanThatLastsForAges) {
+  Json request = Json::parse(R"({
+    "map": {"rows": ["....."], "resolution": 1e8},
+    "robots": [{"id": "a", "radius": 1.0, "linear_speed": 1e-9, "angular_speed": 1e-9,
+                "start": {"x": 1e8, "y": 5e7}, "goal": {"x": 4e8, "y": 5e7}}]})");
+  const Reply reply = plan_endpoint(request.dump(), {});
+  ASSERT_EQ(reply.status, 200) << reply.body;
+  request.update(json_of(reply));
+  EXPECT_GT(request["makespan"], 1e17);
+  EXPECT_EQ(validated(request)["violations"], Json::array());
+}
+
 TEST(ValidateEndpoint, AcceptsAWholeAnswerAddedToItsRequest) {
   Json request = swap_request();
   request["map"]["origin"] = {{"x", 10.0}, {"y", -5.0}};
