@@ -1,0 +1,112 @@
+// Requests made from the document's schemas, good ones and spoiled ones: no 500, no hang-up, no answer outside the
+// document, and never another judgement than the schemas'. FLEETPLAN_RUNS sets how many of each kind,
+// FLEETPLAN_SEED from which seed.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import fc from "fast-check";
+
+import { plausiblePlans, plausibleRequests, valuesOfComponent } from "./support/arbitraries.js";
+import { spoiledBytes, spoiledValues } from "./support/mutations.js";
+import { misplaced } from "./support/pointer.js";
+import { openSession } from "./support/session.js";
+import { parsed, textOf } from "./support/text.js";
+
+const RUNS = Number(process.env.FLEETPLAN_RUNS ?? 1200);
+const SEED = Number(process.env.FLEETPLAN_SEED ?? 2019);
+const MAX_DEPTH = 32;
+
+/** Faults that no schema can tell, with where they may be. */
+const BEYOND_SCHEMA = {
+  duplicate: /^/, // ids, plans for one robot; keys, which a schema never sees
+  unknown_robot: /^\/plans\/\d+\/robot$/,
+  bad_map_row: /^\/map\/rows\/\d+$/, // rows of different lengths
+  out_of_range: /^\/(map\/rows|robots)$/, // settings of the service
+  start_in_obstacle: /^\/robots\/\d+\/start$/,
+  goal_in_obstacle: /^\/robots\/\d+\/goal$/,
+  starts_overlap: /^\/robots\/\d+\/start$/,
+  goals_overlap: /^\/robots\/\d+\/goal$/,
+};
+
+const { document, client } = await openSession(["--default-budget-ms", "20", "--max-budget-ms", "50"]);
+
+const KINDS = {
+  "/v1/plan": { component: "PlanRequest", plausible: plausibleRequests(document) },
+  "/v1/validate": { component: "ValidateRequest", plausible: plausiblePlans(document) },
+};
+
+/** The status that the document promises for these bytes; and, for JSON, the value. */
+function expectation(component, bytes) {
+  const json = parsed(bytes);
+  if (json === undefined || json.depth > MAX_DEPTH) return { statuses: [400] };
+  const fits = document.faultsOfComponent(component, json.value).length === 0;
+  return { value: json.value, fits, statuses: fits ? [200, 422] : [422] };
+}
+
+function expectPlausibleFaults(errors, { value, fits }) {
+  assert.ok(errors.length > 0);
+  const repeated = errors.some(({ code, pointer }) => code === "duplicate" && !/\/(id|robot)$/.test(pointer));
+  for (const fault of errors) {
+    // Of members with one key the service reads the first, JSON.parse the last.
+    if (!repeated) assert.equal(misplaced(fault, value), undefined);
+    if (!fits) continue;
+    const places = BEYOND_SCHEMA[fault.code];
+    assert.ok(places?.test(fault.pointer), `the schema does not tell: ${JSON.stringify(fault)}`);
+  }
+}
+
+/** What doubles lose in a plan that lasts for years, where that is more than the default tolerance. */
+function rounding({ robots, robot_defaults }, { makespan }) {
+  const speeds = [robot_defaults ?? {}, ...robots].flatMap((one) => [one.linear_speed, one.angular_speed]);
+  const fastest = Math.max(1, ...speeds.filter((speed) => speed !== undefined));
+  const lost = 64 * Number.EPSILON * makespan * fastest;
+  return lost > 1e-6 ? { tolerance: Math.min(lost, 1e9) } : {};
+}
+
+/** A plan for a good request is complete, in order, and valid by /v1/validate. */
+async function expectSound(bytes, request, answer) {
+  const planned = answer.plans.map(({ robot }) => robot);
+  const all = request.robots.map(({ id }) => id);
+  const unplanned = answer.unplanned.map(({ robot }) => robot);
+  assert.deepEqual([...planned, ...unplanned].sort(), [...all].sort());
+  assert.deepEqual(
+    planned,
+    all.filter((id) => planned.includes(id)),
+  );
+  const rest = JSON.stringify({ ...answer, ...rounding(request, answer) }).slice(1);
+  const both = bytes.toString("utf8").trimEnd().slice(0, -1);
+  const verdict = await client.post("/v1/validate", `${both},${rest}`);
+  assert.deepEqual(verdict.json.violations, []);
+}
+
+/** Sends bytes and holds the answer, which the client has held to the document, to what was promised. */
+async function judged(path, bytes, counts) {
+  const promised = expectation(KINDS[path].component, bytes);
+  const { status, json } = await client.post(path, bytes);
+  counts.set(status, (counts.get(status) ?? 0) + 1);
+  assert.ok(
+    promised.statuses.includes(status),
+    `${status} instead of ${promised.statuses}: ${JSON.stringify(json)}`,
+  );
+  if (status === 422) expectPlausibleFaults(json.errors, promised);
+  if (status === 200 && path === "/v1/plan") await expectSound(bytes, promised.value, json);
+}
+
+/** Judges many requests; at least a tenth of them have to be answered with each of the statuses. */
+function property(name, path, requests, statuses) {
+  test(`${path}: ${name}`, async (t) => {
+    const counts = new Map();
+    const check = fc.asyncProperty(requests, (bytes) => judged(path, Buffer.from(bytes), counts));
+    await fc.assert(check, { numRuns: RUNS, seed: SEED, includeErrorInReport: true });
+    t.diagnostic(`seed ${SEED}, ${[...counts].map(([status, count]) => `${count} x ${status}`).join(", ")}`);
+    for (const status of statuses) assert.ok(counts.get(status) >= RUNS / 10, `too few answers ${status}`);
+  });
+}
+
+for (const [path, { component, plausible }] of Object.entries(KINDS)) {
+  const raw = valuesOfComponent(document, component);
+  property("plausible requests are served", path, plausible.map(textOf), [200]);
+  property("requests of any values that fit the schema are judged as it says", path, raw.map(textOf), [422]);
+  property("requests spoiled at one place are refused there", path, spoiledValues(plausible), [400, 422]);
+  property("requests with spoiled bytes are refused", path, spoiledBytes(plausible), [400]);
+}
