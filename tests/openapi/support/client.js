@@ -83,6 +83,23 @@ export class Client {
   }
 }
 
+/** The events of a stream, [{event, data}], each held to what the document says of its kind. */
+function checkedEvents(document, media, answer) {
+  const blocks = answer.body.split("\n\n");
+  assert.equal(blocks.pop(), "", "the last event ends with an empty line");
+  const withoutComments = blocks.map((block) => block.replaceAll(/^:.*\n?/gm, ""));
+  return withoutComments.filter(Boolean).map((block) => {
+    const [, event, text] = /^event: (\w+)\ndata: (.*)$/.exec(block) ?? assert.fail(`no event: ${block}`);
+    const data = JSON.parse(text);
+    assert.deepEqual(
+      document.faultsOf([...media.steps, "schema", "contentSchema", "items"], { event, data }),
+      [],
+    );
+    if (data.request_id !== undefined) assert.equal(data.request_id, answer.headers["x-request-id"]);
+    return { event, data };
+  });
+}
+
 function checked(document, answer) {
   const { method, path, status, headers } = answer;
   const asked = `${method} ${path} answered ${status}: ${answer.body.slice(0, 400)}`;
@@ -107,6 +124,7 @@ function checked(document, answer) {
   const media = document.at([...documented.steps, "content", type]);
   assert.ok(media.value, `content type ${type} is not documented: ${asked}`);
   if (method === "HEAD") return answer;
+  if (type === "text/event-stream") return { ...answer, events: checkedEvents(document, media, answer) };
   const json = JSON.parse(answer.body);
   assert.deepEqual(document.faultsOf([...media.steps, "schema"], json), [], asked);
   if (status >= 400) assert.equal(json.status, status, asked);
