@@ -16,7 +16,7 @@ struct Row {
 };
 
 // In the order of ErrorCode.
-constexpr std::array<Row, 16> kTable{{
+constexpr std::array<Row, 17> kTable{{
     {ErrorCode::malformed_json, 400, "malformed_json", "The body is not JSON"},
     {ErrorCode::too_deep, 400, "too_deep", "The JSON is nested too deep"},
     {ErrorCode::malformed_request, 400, "malformed_request", "The HTTP request is malformed"},
@@ -29,6 +29,7 @@ constexpr std::array<Row, 16> kTable{{
     {ErrorCode::target_too_long, 414, "target_too_long", "The request target is too long"},
     {ErrorCode::unsupported_media_type, 415, "unsupported_media_type", "The body is of another media type"},
     {ErrorCode::invalid_request, 422, "invalid_request", "The request is not valid"},
+    {ErrorCode::check_unfinished, 422, "check_unfinished", "The check did not end in time"},
     {ErrorCode::head_too_large, 431, "head_too_large", "The header fields are too large"},
     {ErrorCode::internal_error, 500, "internal_error", "The service has a fault"},
     {ErrorCode::overloaded, 503, "overloaded", "The service has too much to do"},

@@ -99,4 +99,15 @@ ReadOptions parse_options(const JsonValue& value, const JsonPath& path, FaultLis
   return options;
 }
 
+std::chrono::nanoseconds effective_budget(ReadOptions& options, const Limits& limits) {
+  const auto most = static_cast<double>(limits.max_budget_ms);
+  const double wanted = options.budget_ms.value_or(static_cast<double>(limits.default_budget_ms));
+  if (options.budget_ms && wanted > most) {
+    options.warnings.push_back("time_budget_ms was clamped from " + number_text(wanted) + " to " +
+                               std::to_string(limits.max_budget_ms) + ", the most that this service grants.");
+  }
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double, std::milli>(std::min(wanted, most)));
+}
+
 }  // namespace fleetplan::api

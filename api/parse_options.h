@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "api/fault_list.h"
 #include "api/json_path.h"
 #include "api/json_value.h"
+#include "api/limits.h"
 #include "core/planner.h"
 
 namespace fleetplan::api {
@@ -20,5 +22,9 @@ struct ReadOptions {
 
 /// Reads `options`; what is left out has its default.
 ReadOptions parse_options(const JsonValue& value, const JsonPath& path, FaultList& faults);
+
+/// The smaller of the budget that the options want, or the default one, and the service's largest. Where that
+/// is less than was wanted, it adds a warning.
+std::chrono::nanoseconds effective_budget(ReadOptions& options, const Limits& limits);
 
 }  // namespace fleetplan::api

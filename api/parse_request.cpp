@@ -13,17 +13,6 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kMembers{"map", "robot_defaults", "robots", "options"};
 
-std::chrono::nanoseconds effective_budget(ReadOptions& options, const Limits& limits) {
-  const auto most = static_cast<double>(limits.max_budget_ms);
-  const double wanted = options.budget_ms.value_or(static_cast<double>(limits.default_budget_ms));
-  if (options.budget_ms && wanted > most) {
-    options.warnings.push_back("time_budget_ms was clamped from " + number_text(wanted) + " to " +
-                               std::to_string(limits.max_budget_ms) + ", the most that this service grants.");
-  }
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-      std::chrono::duration<double, std::milli>(std::min(wanted, most)));
-}
-
 }  // namespace
 
 std::variant<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits) {

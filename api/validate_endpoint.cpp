@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <string>
 #include <utility>
 #include <variant>
@@ -10,6 +11,7 @@
 #include "api/error.h"
 #include "api/parse_fleet.h"
 #include "api/parse_plans.h"
+#include "api/text.h"
 #include "api/write_report.h"
 #include "core/verify/verify.h"
 
@@ -32,7 +34,15 @@ struct ValidateRequest {
   std::vector<core::Robot> robots;
   std::vector<core::RobotPlan> plans;
   double tolerance = kDefaultTolerance;
+  std::chrono::nanoseconds budget{};  // for the check itself
 };
+
+/// The default budget even where the options, which may be those of the plan's request, want less.
+std::chrono::nanoseconds check_budget(ReadOptions& options, const Limits& limits) {
+  const auto least = static_cast<double>(limits.default_budget_ms);
+  if (options.budget_ms) options.budget_ms = std::max(*options.budget_ms, least);
+  return effective_budget(options, limits);
+}
 
 std::variant<ValidateRequest, RequestError> parse_validate_request(std::string_view body,
                                                                    const Limits& limits) {
@@ -55,7 +65,22 @@ std::variant<ValidateRequest, RequestError> parse_validate_request(std::string_v
   std::vector<core::Robot> robots;
   robots.reserve(fleet.robots.size());
   for (ReadRobot& robot : fleet.robots) robots.push_back(std::move(robot.robot));
-  return ValidateRequest{std::move(fleet.map->grid), std::move(robots), std::move(plans), tolerance};
+  return ValidateRequest{std::move(fleet.map->grid), std::move(robots), std::move(plans), tolerance,
+                         check_budget(fleet.options, limits)};
+}
+
+Reply unfinished(const ValidateRequest& request, const core::StopCondition& stop,
+                 const std::string& request_id) {
+  if (stop.cancelled()) {
+    return problem_reply(ErrorCode::draining, "The service is shutting down.", request_id);
+  }
+  const auto ms = std::chrono::duration<double, std::milli>(request.budget).count();
+  return problem_reply(
+      ErrorCode::check_unfinished,
+      "The plans could not be checked within " + number_text(ms) +
+          " ms: give options.time_budget_ms more, as far as /v1/limits allows, or send fewer "
+          "robots or a part of the time.",
+      request_id);
 }
 
 }  // namespace
@@ -66,13 +91,12 @@ Reply validate_endpoint(std::string_view body, const RequestContext& context) {
     return problem_reply(error->code, error->detail, context.request_id, error->faults);
   }
   const auto& request = std::get<ValidateRequest>(parsed);
-  const core::StopCondition stop(core::StopCondition::Clock::time_point::max(), context.stop);
-  if (context.await_turn) context.await_turn(stop);
-  if (stop.met()) {
-    return problem_reply(ErrorCode::draining, "The service is shutting down.", context.request_id);
-  }
-  const auto report = core::verify(request.grid, request.robots, request.plans, request.tolerance);
-  return {200, kJson, write_report(report, request.robots)};
+  using Clock = core::StopCondition::Clock;
+  if (context.await_turn) context.await_turn(core::StopCondition(Clock::time_point::max(), context.stop));
+  const core::StopCondition stop(Clock::now() + request.budget, context.stop);
+  const auto report = core::verify(request.grid, request.robots, request.plans, request.tolerance, stop);
+  if (!report) return unfinished(request, stop, context.request_id);
+  return {200, kJson, write_report(*report, request.robots)};
 }
 
 }  // namespace fleetplan::api

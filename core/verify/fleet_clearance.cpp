@@ -33,21 +33,24 @@ struct Reach {
 class ClearanceSweep {
  public:
   ClearanceSweep(const std::vector<std::vector<Leg>>& legs_by_robot, const std::vector<double>& radii,
-                 double tolerance, std::size_t most_overlaps)
+                 double tolerance, std::size_t most_overlaps, const StopCondition& stop)
       : legs_(legs_by_robot),
         radii_(radii),
         tolerance_(tolerance),
         most_overlaps_(most_overlaps),
+        stop_(stop),
         current_leg_(radii.size(), 0),
         slack_(rounding_of_boxes()) {}
 
-  FleetClearance run() {
-    if (radii_.size() < 2) return {};
+  std::optional<FleetClearance> run() {
+    if (radii_.size() < 2) return FleetClearance{};
     const std::vector<double> boundaries = time_windows(legs_);
     for (std::size_t k = 0; k < boundaries.size(); ++k) {
+      if (stop_.met()) return std::nullopt;
       sweep({boundaries[k], k + 1 < boundaries.size() ? boundaries[k + 1] : kInfinity});
     }
-    return {least_, std::move(overlaps_)};
+    if (stop_.cancelled()) return std::nullopt;  // perhaps in the midst of a window
+    return FleetClearance{least_, std::move(overlaps_)};
   }
 
  private:
@@ -68,7 +71,7 @@ class ClearanceSweep {
 
   void sweep(const TimeSpan& window) {
     const std::vector<Reach> reaches = reaches_in(window);
-    for (std::size_t i = 0; i < reaches.size(); ++i) {
+    for (std::size_t i = 0; i < reaches.size() && !stop_.cancelled(); ++i) {
       const Reach& a = reaches[i];
       for (std::size_t j = i + 1; j < reaches.size(); ++j) {
         const Reach& b = reaches[j];
@@ -145,6 +148,7 @@ class ClearanceSweep {
   const std::vector<double>& radii_;
   double tolerance_;
   std::size_t most_overlaps_;
+  const StopCondition& stop_;
   std::vector<std::size_t> current_leg_;  // by robot, the first that has not ended when the window begins
   double slack_;
   double least_ = kInfinity;
@@ -154,10 +158,10 @@ class ClearanceSweep {
 
 }  // namespace
 
-FleetClearance fleet_clearance(const std::vector<std::vector<Leg>>& legs_by_robot,
-                               const std::vector<double>& radii, double tolerance,
-                               std::size_t most_overlaps) {
-  return ClearanceSweep(legs_by_robot, radii, tolerance, most_overlaps).run();
+std::optional<FleetClearance> fleet_clearance(const std::vector<std::vector<Leg>>& legs_by_robot,
+                                              const std::vector<double>& radii, double tolerance,
+                                              std::size_t most_overlaps, const StopCondition& stop) {
+  return ClearanceSweep(legs_by_robot, radii, tolerance, most_overlaps, stop).run();
 }
 
 }  // namespace fleetplan::core

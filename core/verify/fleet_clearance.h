@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/search/stop_condition.h"
 #include "core/verify/execution.h"
 
 namespace fleetplan::core {
@@ -28,8 +29,9 @@ struct FleetClearance {
 /// Exact up to rounding: a few ulp of the coordinates. `legs_by_robot` as `execute` makes them, `radii` in
 /// the same order. Once `most_overlaps` are found, further ones are not listed: those missing begin later
 /// than those listed, or hardly earlier. `least` is always that of all pairs and all time, whatever their
-/// order.
-FleetClearance fleet_clearance(const std::vector<std::vector<Leg>>& legs_by_robot,
-                               const std::vector<double>& radii, double tolerance, std::size_t most_overlaps);
+/// order. Nothing if `stop` was met before it was done.
+std::optional<FleetClearance> fleet_clearance(const std::vector<std::vector<Leg>>& legs_by_robot,
+                                              const std::vector<double>& radii, double tolerance,
+                                              std::size_t most_overlaps, const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -57,6 +57,12 @@ void sort_by_time(std::vector<Violation>& violations) {
 
 VerifyReport verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                     const std::vector<RobotPlan>& plans, double tolerance) {
+  return *verify(grid, robots, plans, tolerance, StopCondition());
+}
+
+std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
+                                   const std::vector<RobotPlan>& plans, double tolerance,
+                                   const StopCondition& stop) {
   VerifyReport report;
   const ObstacleField field(grid);
   const std::vector<const RobotPlan*> plan_of = plans_by_robot(robots.size(), plans);
@@ -64,6 +70,7 @@ VerifyReport verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
   std::vector<double> radii;
   std::vector<std::vector<Leg>> legs;
   for (std::size_t index = 0; index < robots.size(); ++index) {
+    if (stop.met()) return std::nullopt;
     const Robot& robot = robots[index];
     const RobotPlan* plan = plan_of[index];
     if (const auto unusable = find_unusable_number(index, robot, plan)) {
@@ -80,11 +87,12 @@ VerifyReport verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
     append(report.violations, check_obstacles(field, index, robot.radius, legs.back(), tolerance));
   }
 
-  const FleetClearance clearance = fleet_clearance(legs, radii, tolerance, kMostCollisions);
-  for (const Overlap& overlap : clearance.overlaps) {
+  const auto clearance = fleet_clearance(legs, radii, tolerance, kMostCollisions, stop);
+  if (!clearance) return std::nullopt;
+  for (const Overlap& overlap : clearance->overlaps) {
     report.violations.push_back(collision(overlap, checked, radii));
   }
-  report.min_clearance = clearance.least;
+  report.min_clearance = clearance->least;
   sort_by_time(report.violations);
   return report;
 }

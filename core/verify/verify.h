@@ -11,6 +11,7 @@
 #include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
+#include "core/search/stop_condition.h"
 
 namespace fleetplan::core {
 
@@ -60,5 +61,11 @@ struct VerifyReport {
 /// same.
 VerifyReport verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                     const std::vector<RobotPlan>& plans, double tolerance);
+
+/// The same, but nothing if `stop` is met before the check is done. Thousands of robots that mill about in
+/// one place take minutes.
+std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
+                                   const std::vector<RobotPlan>& plans, double tolerance,
+                                   const StopCondition& stop);
 
 }  // namespace fleetplan::core

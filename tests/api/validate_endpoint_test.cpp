@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <stop_token>
+
 #include "api/plan_endpoint.h"
 #include "tests/api/requests.h"
 
@@ -154,6 +156,58 @@ TEST(ValidateEndpoint, TellsFaultsOfThePlans) {
 
 TEST(ValidateEndpoint, WantsPlans) {
   EXPECT_EQ(faults_of_validation(swap_request()), (Faults{{"/plans", "missing"}}));
+}
+
+/// Robots that mill about in one heap: every pair of them overlaps in every moment.
+Json heap_request(int robots, int actions) {
+  Json request = drive_request();
+  request["robots"].clear();
+  request["plans"].clear();
+  for (int k = 0; k < robots; ++k) {
+    const std::string id = std::string("r") + std::to_string(k);
+    const double x = 2.0 + 0.001 * k;
+    request["robots"].push_back({{"id", id}, {"start", {{"x", x}, {"y", 1.5}}}});
+    Json moves = Json::array();
+    for (int i = 0; i < actions; ++i) {
+      const double t = 0.01 * i;
+      const double dx = i % 2 == 0 ? 0.0 : 0.005;
+      moves.push_back({{"type", "translate"},
+                       {"t_start", t},
+                       {"t_end", t + 0.01},
+                       {"from", {{"x", x + dx}, {"y", 1.5}, {"theta", 0}}},
+                       {"to", {{"x", x + 0.005 - dx}, {"y", 1.5}, {"theta", 0}}}});
+    }
+    request["plans"].push_back({{"robot", id}, {"cost", 0.01 * actions}, {"actions", moves}});
+  }
+  return request;
+}
+
+TEST(ValidateEndpoint, GivesUpWhenTheBudgetIsNotEnough) {
+  RequestContext context;
+  context.limits.default_budget_ms = 1;
+  const Reply reply = validate_endpoint(heap_request(200, 100).dump(), context);
+  EXPECT_EQ(reply.status, 422);
+  EXPECT_EQ(json_of(reply)["code"], "check_unfinished");
+  Json patient = heap_request(200, 100);
+  patient["options"] = {{"time_budget_ms", 100'000}};
+  EXPECT_EQ(validate_endpoint(patient.dump(), context).status, 200);
+}
+
+TEST(ValidateEndpoint, TakesNoLessThanTheDefaultBudget) {
+  Json request = drive_request();
+  request["options"] = {{"time_budget_ms", 1}};
+  request["plans"][0]["actions"] = heap_request(1, 2000)["plans"][0]["actions"];
+  EXPECT_EQ(validate_endpoint(request.dump(), {}).status, 200);
+}
+
+TEST(ValidateEndpoint, StopsWhenItIsAskedTo) {
+  std::stop_source stop;
+  stop.request_stop();
+  RequestContext context;
+  context.stop = stop.get_token();
+  const Reply reply = validate_endpoint(heap_request(2, 10).dump(), context);
+  EXPECT_EQ(reply.status, 503);
+  EXPECT_EQ(json_of(reply)["code"], "draining");
 }
 
 TEST(ValidateEndpoint, WritesAThousandViolationsAtMost) {
