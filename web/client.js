@@ -1,5 +1,7 @@
 // The service's HTTP interface. Addresses are relative to the page, so that it also works below a path.
 
+import { readEvents } from "./events.js";
+
 /** A failure to show: `problem` has the members of RFC 9457 ("title", "detail", "errors", …). */
 export class ProblemError extends Error {
   constructor(problem) {
@@ -21,32 +23,65 @@ export async function fetchExample(name) {
   return text;
 }
 
-/** Plans the request, a JSON text. The answer, parsed and as it came; rejects with AbortError when aborted. */
-export async function plan(requestText, signal) {
-  const text = await ask("v1/plan", {
+/** What the service takes: {default_budget_ms, max_budget_ms, …}. */
+export async function fetchLimits() {
+  return parseAnswer(await ask("v1/limits"));
+}
+
+/**
+ * Plans the request, a JSON text. The answer, parsed and as it came; rejects with AbortError when aborted. Meanwhile
+ * `told` hears of progress({elapsed_ms, attempt, planned, robots, best}) and incumbent(text), an answer's text, if
+ * the service, or what is between, streams events.
+ */
+export async function plan(requestText, signal, told) {
+  const response = await send("v1/plan", {
     method: "POST",
-    headers: { "Content-Type": "application/json", Accept: "application/json" },
+    headers: {
+      "Content-Type": "application/json",
+      Accept: "text/event-stream, application/json;q=0.9",
+    },
     body: requestText,
     signal,
   });
+  const streams = response.headers.get("Content-Type")?.startsWith("text/event-stream");
+  const text = await unlessCut(streams ? lastEvent(response, told) : response.text());
   return { answer: parseAnswer(text), text };
 }
 
-async function ask(address, init) {
-  let response;
-  let text;
+/** The text of the answer that ends a stream. Reads on to its very end, so that the connection serves again. */
+async function lastEvent(response, told) {
+  let answer = null;
+  for await (const { event, data } of readEvents(response.body)) {
+    if (event === "progress") told.progress(JSON.parse(data));
+    if (event === "incumbent") told.incumbent(data);
+    if (event === "plan") answer = data;
+    if (event === "problem") throw new ProblemError(readProblem(response, data));
+  }
+  if (answer === null) throw new Error("the stream ended without an answer");
+  return answer;
+}
+
+async function ask(address) {
+  return unlessCut((await send(address)).text());
+}
+
+/** The response, if it is no error. */
+async function send(address, init) {
+  const response = await unlessCut(fetch(address, init));
+  if (!response.ok) throw new ProblemError(readProblem(response, await unlessCut(response.text())));
+  return response;
+}
+
+async function unlessCut(receiving) {
   try {
-    response = await fetch(address, init);
-    text = await response.text();
+    return await receiving;
   } catch (error) {
-    if (error.name === "AbortError") throw error;
+    if (error.name === "AbortError" || error instanceof ProblemError) throw error;
     throw new ProblemError({
       title: "No answer from the service",
       detail: "The connection failed or was cut. Is the service running and reachable from here?",
     });
   }
-  if (!response.ok) throw new ProblemError(readProblem(response, text));
-  return text;
 }
 
 function readProblem(response, text) {
@@ -54,7 +89,7 @@ function readProblem(response, text) {
   const after = Number(response.headers.get("Retry-After"));
   return {
     ...problem,
-    status: response.status,
+    status: problem.status ?? response.status,
     title: problem.title ?? `The service answered ${response.status} ${response.statusText}`.trimEnd(),
     detail: problem.detail ?? "",
     errors: Array.isArray(problem.errors) ? problem.errors : [],

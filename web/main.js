@@ -4,13 +4,14 @@
 // `playing`, `request` and `answer` (parsed JSON or null), `poseOf(id)` (the pose drawn now, metres and
 // radians), `stateOf(id)` and `screenOf(id)` ({x, y, radius} of its disk on the canvas, CSS pixels).
 
-import { fetchExample, listExamples, plan, ProblemError } from "./client.js";
+import { fetchExample, fetchLimits, listExamples, plan, ProblemError } from "./client.js";
 import { byId, setText } from "./dom.js";
 import { copyText, curlCommand, fileStem, saveText } from "./exports.js";
 import { count, degrees } from "./format.js";
 import { robotColour, readTheme } from "./palette.js";
 import { RobotList, showProblem, showSummary, showUnplanned, summarize } from "./panel.js";
 import { Player } from "./player.js";
+import { budgetOf, PlanningStatus } from "./planning_status.js";
 import { readScene, readTracks, robotPoseAt, robotStateAt } from "./scene.js";
 import { Setup } from "./setup.js";
 import { watchShortcuts } from "./shortcuts.js";
@@ -24,7 +25,8 @@ let chosen = EMPTY; // {name, example: name or null, text, parsed}
 let scene = readScene(null);
 let tracks = new Map();
 let answered = null; // {answer, text} or null
-let planning = null; // AbortController or null
+let planning = null; // {control, incumbent}: an AbortController, and the text of the best answer so far or null
+let limits = {}; // of the service
 let loading = 0; // counts choices, so that a late example does not replace a newer choice
 let examples = [];
 let hovered = null;
@@ -35,6 +37,7 @@ let ticking = false; // a frame is on its way
 const player = new Player();
 const transport = new Transport(player, refresh);
 const stage = new Stage({ hover, select });
+const status = new PlanningStatus();
 const list = new RobotList({ hover, select });
 const setup = new Setup({
   example: chooseExample,
@@ -85,7 +88,7 @@ function chooseText(name, text) {
 }
 
 function adopt(choice) {
-  cancelPlanning();
+  stopPlanning();
   chosen = choice;
   scene = readScene(choice.parsed);
   selected = hovered = null;
@@ -119,13 +122,17 @@ function adoptAnswer(result) {
 
 async function startPlanning() {
   if (planning) return;
-  const control = (planning = new AbortController());
+  const turn = (planning = { control: new AbortController(), incumbent: null });
   showProblem(null);
   adoptAnswer(null);
   setup.setPlanning(true);
+  status.begin(budgetOf(chosen.parsed, limits));
   try {
-    const result = await plan(chosen.text, control.signal);
-    if (planning !== control) return;
+    const result = await plan(chosen.text, turn.control.signal, {
+      progress: (progress) => planning === turn && status.show(progress),
+      incumbent: (text) => (turn.incumbent = text),
+    });
+    if (planning !== turn) return;
     const watching = document.activeElement === byId("cancel"); // which had the focus from Plan
     endPlanning();
     adoptAnswer(result);
@@ -134,7 +141,7 @@ async function startPlanning() {
     refresh();
     if (watching) transport.focusPlay();
   } catch (error) {
-    if (planning !== control) return;
+    if (planning !== turn) return;
     endPlanning();
     fail(error);
   }
@@ -142,14 +149,23 @@ async function startPlanning() {
 
 function endPlanning() {
   planning = null;
+  status.end();
   setup.setPlanning(false);
+}
+
+/** The text of the best answer so far, or null. */
+function stopPlanning() {
+  const incumbent = planning?.incumbent ?? null;
+  planning?.control.abort();
+  if (planning) endPlanning();
+  return incumbent;
 }
 
 function cancelPlanning() {
   if (!planning) return;
-  planning.abort();
-  endPlanning();
-  announce("Planning cancelled.");
+  const text = stopPlanning();
+  if (text !== null) adoptAnswer({ answer: JSON.parse(text), text });
+  announce(`Planning cancelled${text === null ? "" : ": this is the best plan so far"}.`);
 }
 
 function fail(error) {
@@ -304,6 +320,10 @@ function namedExample() {
 }
 
 async function begin() {
+  fetchLimits().then(
+    (fetched) => (limits = fetched),
+    () => {}, // only the budget is not told then
+  );
   try {
     examples = await listExamples();
   } catch (error) {

@@ -2,8 +2,6 @@
 
 import { byId, element, setText } from "./dom.js";
 
-const CLOCK_MS = 100;
-
 export class Setup {
   #select = byId("example");
   #file = byId("file");
@@ -12,8 +10,6 @@ export class Setup {
   #text = byId("paste-text");
   #plan = byId("plan");
   #cancel = byId("cancel");
-  #elapsed = byId("elapsed");
-  #timer = null;
 
   /** `told` has example(name), file(file), text(name, text) (whether it is JSON), plan() and cancel(). */
   constructor(told) {
@@ -72,10 +68,8 @@ export class Setup {
   }
 
   setPlanning(planning) {
-    clearInterval(this.#timer);
     const hadFocus = document.activeElement;
     this.#cancel.hidden = !planning;
-    this.#elapsed.hidden = !planning;
     byId("facts").hidden = planning;
     this.#plan.disabled = planning;
     if (!planning) {
@@ -83,11 +77,6 @@ export class Setup {
       return;
     }
     if (hadFocus === this.#plan) this.#cancel.focus();
-    const since = performance.now();
-    const show = () =>
-      setText(this.#elapsed, `Planning ${((performance.now() - since) / 1000).toFixed(1)} s`);
-    show();
-    this.#timer = setInterval(show, CLOCK_MS);
   }
 
   #showForm(shown) {

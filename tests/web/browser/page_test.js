@@ -416,23 +416,87 @@ test("request and answer are saved as they went and came", async () => {
   });
 });
 
-test("planning can be cancelled and shows that it goes on", async () => {
+/** Two robots that change sides, with a minute to do it better. */
+const SWAP = {
+  ...TINY,
+  robots: ["a", "b"].map((id, at) => ({
+    ...TINY.robots[0],
+    id,
+    start: { x: 0.5 + 4 * at, y: 0.5 },
+    goal: { x: 4.5 - 4 * at, y: 0.5 },
+  })),
+  options: { mode: "anytime", time_budget_ms: 60_000 },
+};
+
+test("planning tells how far it has got, and when it is cancelled the best plan stays", async () => {
   await onPage(async (page) => {
-    const robots = ["a", "b"].map((id, at) => ({
-      ...TINY.robots[0],
-      id,
-      start: { x: 0.5 + 4 * at, y: 0.5 },
-      goal: { x: 4.5 - 4 * at, y: 0.5 },
-    }));
-    await paste(page, { ...TINY, robots, options: { mode: "anytime", time_budget_ms: 60_000 } });
+    await paste(page, SWAP);
     await page.click("#plan");
     await page.waitForFunction(() =>
-      /Planning 0\.[3-9]/.test(document.getElementById("elapsed").textContent),
+      /^Planning 0\.[3-9] of 60\.0 s$/.test(document.getElementById("elapsed").textContent),
     );
+    await page.waitForFunction(() =>
+      /^2 of 2 robots planned, flowtime [\d.]+ s$/.test(document.getElementById("so-far").textContent),
+    );
+    assert.ok((await page.evaluate(() => document.getElementById("budget").position)) > 0);
+    await page.click("#cancel");
+    await page.waitForSelector("#cancel", { state: "hidden" });
+    const kept = await hook(page, "answer");
+    assert.deepEqual([kept.status, kept.verified, kept.deterministic], ["solved", true, false]);
+    assert.match(await text(page, "#announcer"), /cancelled: this is the best plan so far/);
+    assert.equal(await page.isVisible("#planning"), false);
+    assert.equal(await page.isEnabled("#plan"), true);
+  });
+});
+
+test("planning that is cancelled before there is a plan leaves none", async () => {
+  await onPage(async (page) => {
+    await page.route("**/v1/plan", () => {}); // is never answered
+    await page.click("#plan");
     await page.click("#cancel");
     await page.waitForSelector("#cancel", { state: "hidden" });
     assert.equal(await hook(page, "answer"), null);
+    assert.equal(await text(page, "#announcer"), "Planning cancelled.");
     assert.equal(await page.isEnabled("#plan"), true);
+  });
+});
+
+test("another request does not get the plan of one that was being planned", async () => {
+  await onPage(async (page) => {
+    await paste(page, SWAP);
+    await page.click("#plan");
+    await page.waitForFunction(() => /flowtime/.test(document.getElementById("so-far").textContent));
+    await choose(page, "crossing");
+    assert.equal(await hook(page, "answer"), null);
+    assert.equal(await page.isVisible("#planning"), false);
+  });
+});
+
+test("a plan that comes without events is shown all the same", async () => {
+  await onPage(async (page) => {
+    await page.route("**/v1/plan", (route, request) =>
+      route.continue({ headers: { ...request.headers(), accept: "application/json" } }),
+    );
+    assert.equal((await pressPlan(page)).verified, true);
+  });
+});
+
+test("a stream that ends in a problem, or too early, is told in words", async () => {
+  await onPage(async (page) => {
+    const end = async (body, shown) => {
+      await page.route("**/v1/plan", (route) => route.fulfill({ contentType: "text/event-stream", body }));
+      await page.click("#plan");
+      await page.waitForFunction(
+        (words) => document.getElementById("problem").innerText.includes(words),
+        shown,
+      );
+      await page.unroute("**/v1/plan");
+    };
+    const progress = { elapsed_ms: 1, attempt: 1, planned: 0, robots: 1, best: null };
+    const begin = `event: progress\ndata: ${JSON.stringify(progress)}\n\n`;
+    await end(begin, "No answer from the service");
+    const problem = { title: "The service has a fault", status: 500, detail: "A bug.", errors: [] };
+    await end(`${begin}event: problem\ndata: ${JSON.stringify(problem)}\n\n`, "The service has a fault");
   });
 });
 
