@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace fleetplan::server {
@@ -11,6 +12,9 @@ namespace {
 
 constexpr std::size_t kMaxChunkLine = 4096;
 constexpr std::size_t kMaxTrailerLines = 100;
+constexpr std::size_t kMaxSizeDigits = 16;
+/// Of all chunks of a body: what is longer than a size is read, but counts for nobody's limit.
+constexpr std::uint64_t kMaxExtensionBytes = 64 * 1024;
 
 BodyFault malformed(std::string detail) { return {BodyFault::Kind::malformed, std::move(detail)}; }
 
@@ -24,37 +28,31 @@ class Source {
  public:
   Source(Socket& socket, std::string& input, std::chrono::milliseconds patience)
       : socket_(socket), input_(input), patience_(patience), begin_(Socket::Clock::now()) {}
-
-  /// False when no more is to come, or not in time.
-  bool more() {
-    const std::size_t before = input_.size();
-    const auto deadline = begin_ + patience_ + std::chrono::milliseconds(received_);
-    last_ = socket_.read_some(input_, deadline);
-    if (last_ != Socket::Read::some) return false;
-    received_ += input_.size() - before;
-    return true;
-  }
+  /// What was not taken stays in the input.
+  ~Source() { drop_taken(); }
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
 
   /// Moves `count` bytes to `body`; false when they do not come.
   bool take(std::uint64_t count, std::string& body) {
     while (count > 0) {
-      if (input_.empty() && !more()) return false;
-      const auto part = std::min<std::uint64_t>(count, input_.size());
-      body.append(input_, 0, part);
-      input_.erase(0, part);
+      if (taken_ == input_.size() && !more()) return false;
+      const auto part = std::min<std::uint64_t>(count, input_.size() - taken_);
+      body.append(input_, taken_, part);
+      taken_ += part;
       count -= part;
     }
     return true;
   }
 
-  /// A line without its CR LF; none when it does not come or is too long.
-  std::optional<std::string> take_line() {
+  /// A line without its CR LF, valid until more is taken; none when it does not come or is too long.
+  std::optional<std::string_view> take_line() {
     std::size_t end = 0;
-    while ((end = input_.find("\r\n")) == std::string::npos) {
-      if (input_.size() > kMaxChunkLine || !more()) return std::nullopt;
+    while ((end = input_.find("\r\n", taken_)) == std::string::npos) {
+      if (input_.size() - taken_ > kMaxChunkLine || !more()) return std::nullopt;
     }
-    std::string line = input_.substr(0, end);
-    input_.erase(0, end + 2);
+    const auto line = std::string_view(input_).substr(taken_, end - taken_);
+    taken_ = end + 2;
     return line;
   }
 
@@ -76,15 +74,32 @@ class Source {
   }
 
  private:
+  /// False when no more is to come, or not in time.
+  bool more() {
+    drop_taken();
+    const std::size_t before = input_.size();
+    const auto deadline = begin_ + patience_ + std::chrono::milliseconds(received_);
+    last_ = socket_.read_some(input_, deadline);
+    if (last_ != Socket::Read::some) return false;
+    received_ += input_.size() - before;
+    return true;
+  }
+
+  void drop_taken() {
+    input_.erase(0, taken_);
+    taken_ = 0;
+  }
+
   Socket& socket_;
   std::string& input_;
+  std::size_t taken_ = 0;  // of the input; dropped together, as many small pieces may be taken from it
   std::chrono::milliseconds patience_;
   Socket::Clock::time_point begin_;
   Socket::Read last_ = Socket::Read::some;
   std::size_t received_ = 0;  // bytes; each extends the deadline by a millisecond
 };
 
-std::optional<std::uint64_t> parse_chunk_size(const std::string& line) {
+std::optional<std::uint64_t> parse_chunk_size(std::string_view line) {
   std::uint64_t size = 0;
   const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), size, 16);
   if (error != std::errc{}) return std::nullopt;
@@ -94,11 +109,14 @@ std::optional<std::uint64_t> parse_chunk_size(const std::string& line) {
 
 std::variant<std::string, BodyFault> read_chunked(Source& source, std::uint64_t limit) {
   std::string body;
+  std::uint64_t extensions = 0;
   while (true) {
     const auto line = source.take_line();
     if (!line) return source.fault();
     const auto size = parse_chunk_size(*line);
     if (!size) return malformed("A chunk does not begin with its size in hexadecimal.");
+    extensions += line->size() > kMaxSizeDigits ? line->size() : 0;
+    if (extensions > kMaxExtensionBytes) return malformed("The chunks have too many extensions.");
     if (*size == 0) break;
     if (*size > limit - body.size()) {
       const auto read = static_cast<std::uint64_t>(body.size());

@@ -81,7 +81,7 @@ void Connection::serve() {
     serve_exchange(exchange);
     open_ = open_ && !exchange.close;
   }
-  if (unread_) socket_.linger();
+  if (unread_ || socket_.has_input()) socket_.linger();
 }
 
 bool Connection::await_request() {

@@ -13,6 +13,7 @@ namespace fleetplan::server {
 namespace {
 
 constexpr std::chrono::seconds kWriteTimeout{10};
+constexpr std::size_t kLeastBytesPerMs = 10;
 constexpr std::chrono::seconds kLinger{3};
 
 int milliseconds_until(Socket::Clock::time_point deadline) {
@@ -43,6 +44,8 @@ Socket::Read Socket::read_some(std::string& into, Clock::time_point deadline) {
 }
 
 bool Socket::write_all(std::string_view data) {
+  const auto deadline =
+      Clock::now() + kWriteTimeout + std::chrono::milliseconds(data.size() / kLeastBytesPerMs);
   while (!data.empty()) {
     const ssize_t sent = ::send(fd_, data.data(), data.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
     if (sent > 0) {
@@ -52,9 +55,15 @@ bool Socket::write_all(std::string_view data) {
     if (errno == EINTR) continue;
     if (errno != EAGAIN && errno != EWOULDBLOCK) return false;
     pollfd writable{fd_, POLLOUT, 0};
-    if (::poll(&writable, 1, milliseconds_until(Clock::now() + kWriteTimeout)) == 0) return false;
+    if (::poll(&writable, 1, milliseconds_until(std::min(deadline, Clock::now() + kWriteTimeout))) == 0)
+      return false;
   }
   return true;
+}
+
+bool Socket::has_input() const {
+  char ignored = 0;
+  return ::recv(fd_, &ignored, 1, MSG_DONTWAIT | MSG_PEEK) > 0;
 }
 
 bool Socket::peer_gone() const {

@@ -22,7 +22,8 @@ class Socket {
   /// Appends what arrives first.
   Read read_some(std::string& into, Clock::time_point deadline);
 
-  /// False when the peer is gone or takes nothing for long.
+  /// False when the peer is gone, takes nothing for long, or takes too little of it in all: the least is 10
+  /// kB/s after the first 10 s.
   bool write_all(std::string_view data);
 
   /// True when the peer has closed its side.
@@ -30,6 +31,9 @@ class Socket {
 
   /// Breaks the connection off: whoever looks at it finds the peer gone.
   void hang_up();
+
+  /// True when something has come that was not read.
+  bool has_input() const;
 
   /// Says goodbye so that the last answer arrives: a close with unread input would reset the connection and
   /// may destroy what is under way to the client.

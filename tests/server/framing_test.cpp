@@ -103,6 +103,21 @@ TEST_F(Framing, ThatIsChunkedAndOverTheLimitIs413) {
   EXPECT_NE(answer.find("1000"), std::string::npos);
 }
 
+TEST_F(Framing, OfOneByteChunksIsReadAndTheRestKept) {
+  RawConnection raw(server.server.port());
+  std::string body;
+  for (int i = 0; i < 1000; ++i) body += "1\r\nx\r\n";
+  raw.send(post("Transfer-Encoding: chunked\r\n", body + "0\r\n\r\n") + post("Content-Length: 2\r\n", "ab"));
+  EXPECT_NE(raw.receive().find(R"({"size":1000})"), std::string::npos);
+  EXPECT_NE(raw.receive().find(R"({"size":2})"), std::string::npos);
+}
+
+TEST_F(Framing, OfChunksWithTooManyExtensionsIs400) {
+  std::string body;
+  for (int i = 0; i < 20; ++i) body += "1;" + std::string(4000, 'e') + "\r\nx\r\n";
+  expect_400_and_close(post("Transfer-Encoding: chunked\r\n", body + "0\r\n\r\n"));
+}
+
 TEST_F(Framing, ThatPromisesAHugeChunkIs413BeforeItComes) {
   RawConnection raw(server.server.port());
   raw.send(post("Transfer-Encoding: chunked\r\n", "FFFFFFFFFFFFFFFE\r\n"));
