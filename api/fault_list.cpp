@@ -9,20 +9,25 @@ namespace {
 
 // Enough to answer with the first hundred in order; a hostile body must not make us hoard millions.
 constexpr std::size_t kMostKept = 10'000;
+constexpr std::size_t kMostBytes = 4 << 20;  // a pointer may be as long as the keys in the body
 
 }  // namespace
 
+bool FaultList::full() const { return placed_.size() >= kMostKept || bytes_ >= kMostBytes; }
+
 void FaultList::add(const JsonValue& value, const JsonPath& path, const char* code, std::string detail) {
-  add(value.begins(), Fault{path.pointer(), code, std::move(detail)});
+  add(value.begins(), full() ? Fault{} : Fault{path.pointer(), code, std::move(detail)});
 }
 
 void FaultList::add_missing(const JsonValue& object, const JsonPath& member, std::string detail) {
-  add(object.ends(), Fault{member.pointer(), fault::kMissing, std::move(detail)});
+  add(object.ends(), full() ? Fault{} : Fault{member.pointer(), fault::kMissing, std::move(detail)});
 }
 
 void FaultList::add(std::uint32_t place, Fault fault) {
   ++count_;
-  if (placed_.size() < kMostKept) placed_.push_back({place, std::move(fault)});
+  if (full()) return;
+  bytes_ += fault.pointer.size() + fault.detail.size();
+  placed_.push_back({place, std::move(fault)});
 }
 
 std::vector<Fault> FaultList::first(std::size_t most) const {

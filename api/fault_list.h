@@ -40,6 +40,9 @@ class FaultList {
   /// `place` as of JsonValue::begins().
   void add(std::uint32_t place, Fault fault);
 
+  /// True when what is added now is only counted, so that it need not be told.
+  bool full() const;
+
   bool empty() const { return count_ == 0; }
   std::size_t count() const { return count_; }
   /// The first `most` faults in the order of the document.
@@ -52,6 +55,7 @@ class FaultList {
   };
   std::vector<Placed> placed_;
   std::size_t count_ = 0;
+  std::size_t bytes_ = 0;  // of the texts in placed_
 };
 
 }  // namespace fleetplan::api

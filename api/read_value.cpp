@@ -20,6 +20,13 @@ std::string range_text(const Range& range) {
   return "from " + number_text(range.least) + " to " + number_text(range.most) + ' ' + unit;
 }
 
+/// Of UTF-8: all bytes but those that go on with a character.
+std::size_t characters_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
+  }));
+}
+
 }  // namespace
 
 std::optional<double> read_number(const JsonValue& value, const JsonPath& path, const Range& range,
@@ -63,8 +70,15 @@ std::optional<std::string> read_name(const JsonValue& value, const JsonPath& pat
     wrong_type(value, path, "a string", faults);
     return std::nullopt;
   }
-  if (!name->empty()) return *name;
-  faults.add(value, path, fault::kEmpty, path.name() + " must not be empty.");
+  const std::size_t length = characters_of(*name);
+  if (length > 0 && length <= kLongestName) return *name;
+  if (length == 0) {
+    faults.add(value, path, fault::kEmpty, path.name() + " must not be empty.");
+  } else {
+    faults.add(value, path, fault::kOutOfRange,
+               path.name() + " must have at most " + std::to_string(kLongestName) + " characters, not " +
+                   std::to_string(length) + ".");
+  }
   return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 
 // Single values of a document: of the right type and in their range, or a fault.
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -46,7 +47,10 @@ std::optional<std::uint64_t> read_natural(const JsonValue& value, const JsonPath
 
 std::optional<bool> read_boolean(const JsonValue& value, const JsonPath& path, FaultList& faults);
 
-/// The string, which may not be empty.
+/// An answer repeats names as often as robots are in each other's way.
+inline constexpr std::size_t kLongestName = 256;  // characters
+
+/// The string, which has 1 to kLongestName characters.
 std::optional<std::string> read_name(const JsonValue& value, const JsonPath& path, FaultList& faults);
 
 /// The items of an array.

@@ -90,6 +90,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"NotAnObject", [](Json& r) { robot(r, 1) = 7; }, "/robots/1", "wrong_type", "not 7"},
         Case{"NoId", [](Json& r) { robot(r, 0).erase("id"); }, "/robots/0/id", "missing", "id"},
         Case{"EmptyId", [](Json& r) { robot(r, 0)["id"] = ""; }, "/robots/0/id", "empty", "empty"},
+        Case{"LongId", [](Json& r) { robot(r, 0)["id"] = std::string(257, 'x'); }, "/robots/0/id",
+             "out_of_range", "at most 256 characters, not 257"},
         Case{"IdIsANumber", [](Json& r) { robot(r, 0)["id"] = 1; }, "/robots/0/id", "wrong_type", "string"},
         Case{"IdTwice", [](Json& r) { robot(r, 1)["id"] = "a"; }, "/robots/1/id", "duplicate",
              "Robots 0 and 1"},
@@ -226,6 +228,14 @@ TEST(Faults, AreToldUpToAHundredAndCounted) {
   EXPECT_EQ(error.faults.size(), 100U);
   EXPECT_EQ(error.faults.back().pointer, "/robots/99");
   EXPECT_THAT(error.detail, HasSubstr("150 faults"));
+}
+
+TEST(Faults, CountTheCharactersOfAnIdNotItsBytes) {
+  Json request = swap_request();
+  std::string id;
+  for (int i = 0; i < 256; ++i) id += "ä";
+  robot(request, 0)["id"] = id;
+  EXPECT_THAT(brief_faults_of(request), IsEmpty());
 }
 
 TEST(Faults, NameRobotsInAnyLanguage) {

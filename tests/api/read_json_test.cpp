@@ -118,6 +118,18 @@ TEST(ReadJson, TellsEqualKeysOfManyToo) {
   EXPECT_TRUE(document(body + "\"k\":0}").faults.empty());
 }
 
+TEST(ReadJson, HoardsNoLongPointers) {
+  const std::size_t length = 1'000'000;
+  std::string body = "{\"" + std::string(length, 'k') + "\":{\"a\":0";
+  for (int count = 0; count < 1000; ++count) body += ",\"a\":0";
+  const JsonDocument read = document(body + "}}");
+  EXPECT_EQ(read.faults.count(), 1000U);
+  std::size_t bytes = 0;
+  for (const Fault& fault : read.faults.first(1000)) bytes += fault.pointer.size();
+  EXPECT_GE(bytes, length);
+  EXPECT_LE(bytes, 6 * length);
+}
+
 TEST(ReadJson, ReadsNumbersTooLargeForADoubleAsInfinite) {
   const JsonDocument read = document(R"(["1e999 \" 1e999", 7, 1e999, 2.5, -1e999, 1e-999])");
   const JsonValue::Array& items = *read.root.array();
