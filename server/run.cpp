@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "server/http_server.h"
+#include "server/memory.h"
 #include "server/version.h"
 
 namespace fleetplan::server {
@@ -77,6 +78,7 @@ std::string url_of(const Settings& settings, int port) {
 
 int run(const Settings& settings, Service service) {
   const EndSignals signals;
+  keep_memory_small(settings.workers);
   raise_descriptor_limit();
   HttpServer server(settings, std::move(service));
   if (const auto fault = server.bind()) {

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace fleetplan::server {
+
+/// Makes the process give memory back that it no longer needs, instead of keeping the most that each of many
+/// threads ever took. To be called before any other thread is made.
+void keep_memory_small(int workers);
+
+}  // namespace fleetplan::server
