@@ -13,6 +13,8 @@ BUILD_PACKAGES=(g++:g++ cmake:cmake ninja-build:ninja pkgconf:pkg-config
 # What the tests want beside it.
 TEST_PACKAGES=(libgtest-dev libgmock-dev clang-format:clang-format clang-tidy:clang-tidy
   python3:python3 nodejs:node npm:npm chromium:chromium)
+# What fuzzing wants beside it.
+FUZZ_PACKAGES=(clang:clang++ libclang-rt-dev)
 
 say() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
 die() { say "$*"; exit 1; }

@@ -1,0 +1,68 @@
+// Any text as a request to plan, with a tiny budget: every answer is JSON, and every plan is valid for
+// /v1/validate.
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "api/plan_endpoint.h"
+#include "api/validate_endpoint.h"
+#include "tests/fuzz/refusals.h"
+#include "tests/fuzz/require.h"
+#include "tests/fuzz/small_limits.h"
+#include "tests/fuzz/target.h"
+
+namespace fleetplan::fuzz {
+
+namespace {
+
+using Json = nlohmann::json;
+
+api::RequestContext context_now() {
+  api::RequestContext context;
+  context.request_id = "id";
+  context.limits = small_limits();
+  return context;
+}
+
+/// Every robot is in `plans` or in `unplanned`, once.
+void require_all_robots(const Json& request, const Json& answer) {
+  std::multiset<std::string> wanted;
+  std::multiset<std::string> told;
+  for (const Json& robot : request.at("robots")) wanted.insert(robot.at("id").get<std::string>());
+  for (const char* member : {"plans", "unplanned"}) {
+    for (const Json& entry : answer.at(member)) told.insert(entry.at("robot").get<std::string>());
+  }
+  require(wanted == told, "an answer has other robots than its request", answer.dump());
+}
+
+void require_proper_answer(const std::string& body, const std::string& reply) {
+  const Json answer = Json::parse(reply, nullptr, false);
+  require(answer.is_object(), "an answer is not JSON", reply);
+  require(answer.at("verified") == true, "an answer is not verified", reply);
+  Json merged = Json::parse(body);
+  require_all_robots(merged, answer);
+  merged.update(answer);
+  api::RequestContext context = context_now();
+  context.limits.max_depth = api::Limits{}.max_depth;
+  const api::Reply verdict = api::validate_endpoint(merged.dump(), context);
+  require(verdict.status == 200, "an answer cannot be validated", verdict.body + reply);
+  require(Json::parse(verdict.body).at("valid") == true, "an answer is not valid", verdict.body + reply);
+}
+
+}  // namespace
+
+}  // namespace fleetplan::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace fleetplan::fuzz;
+  const std::string body(reinterpret_cast<const char*>(data), size);
+  const fleetplan::api::Reply reply = fleetplan::api::plan_endpoint(body, context_now());
+  if (reply.status == 200) {
+    require_proper_answer(body, reply.body);
+  } else {
+    require_proper_refusal(body, reply);
+  }
+  return 0;
+}

@@ -1,0 +1,59 @@
+// Any text as the body of both endpoints' requests: parsed into a valid problem, or refused properly.
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <variant>
+
+#include "api/parse_request.h"
+#include "api/validate_endpoint.h"
+#include "tests/fuzz/refusals.h"
+#include "tests/fuzz/require.h"
+#include "tests/fuzz/small_limits.h"
+#include "tests/fuzz/target.h"
+
+namespace fleetplan::fuzz {
+
+namespace {
+
+void require_within(const api::PlanRequest& request, const api::Limits& limits) {
+  using std::chrono::milliseconds;
+  const auto& robots = request.problem.robots();
+  require(!robots.empty() && robots.size() <= limits.max_robots, "a number of robots was let through");
+  require(request.problem.grid().cell_count() <= limits.max_cells, "a map was let through");
+  require(request.budget >= milliseconds(1) && request.budget <= milliseconds(limits.max_budget_ms),
+          "a budget was let through");
+  for (const core::Robot& robot : robots) require(!robot.id.empty(), "a robot has no id");
+}
+
+/// True when the body is JSON, whatever it says: if not, the other endpoint has no other reader to refuse it.
+bool try_plan_request(std::string_view body, const api::Limits& limits) {
+  const auto parsed = api::parse_request(body, limits);
+  if (const auto* error = std::get_if<api::RequestError>(&parsed)) {
+    require_proper_refusal(body, api::problem_reply(error->code, error->detail, "id", error->faults));
+    return error->code == api::ErrorCode::invalid_request;
+  }
+  require_within(std::get<api::PlanRequest>(parsed), limits);
+  require(nlohmann::json::accept(body), "what was taken is not JSON");
+  return true;
+}
+
+void try_validate_request(std::string_view body, const api::Limits& limits) {
+  api::RequestContext context;
+  context.limits = limits;
+  const api::Reply reply = api::validate_endpoint(body, context);
+  if (reply.status != 200) return require_proper_refusal(body, reply);
+  const auto report = nlohmann::json::parse(reply.body, nullptr, false);
+  require(report.is_object(), "a report is not JSON", reply.body);
+  require(report.at("valid") == report.at("violations").empty(), "a report contradicts itself", reply.body);
+}
+
+}  // namespace
+
+}  // namespace fleetplan::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view body(reinterpret_cast<const char*>(data), size);
+  const auto limits = fleetplan::fuzz::small_limits();
+  if (fleetplan::fuzz::try_plan_request(body, limits)) fleetplan::fuzz::try_validate_request(body, limits);
+  return 0;
+}
