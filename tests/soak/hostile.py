@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+"""What honest clients notice of hostile ones.
+
+Usage: hostile.py [--binary FLEETPLAN | --url URL] [--seconds N]
+
+Measures small plans of one honest client alone, then beside each kind of hostile client in turn. The exit status is 1
+when an honest answer was wrong, lost or, in the median, more than twice as slow as alone, or when the server ended or
+took more than a gibibyte.
+"""
+
+import argparse
+import contextlib
+import gzip
+import json
+import multiprocessing
+import socket
+import statistics
+import sys
+import threading
+import time
+
+from client import Connection, Lost, request
+from server import Server
+
+MOST_SLOWER = 2.0
+MOST_MEMORY_KIB = 1 << 20
+
+HONEST = {"map": {"rows": ["......"] * 4}, "robots": [
+    {"id": "a", "start": {"x": 0.5, "y": 0.5}, "goal": {"x": 5.5, "y": 0.5}},
+    {"id": "b", "start": {"x": 5.5, "y": 0.5}, "goal": {"x": 0.5, "y": 0.5}}],
+    "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 2.0}}
+POST = b"POST /v1/plan HTTP/1.1\r\nHost: hostile\r\n"
+
+
+class Attackers:
+    """A process with a number of sockets; a thread each does something with one, again and again, until the end."""
+
+    def __init__(self, address, count, act):
+        self.process = multiprocessing.Process(target=self._run, args=(address, count, act), daemon=True)
+
+    @staticmethod
+    def _run(address, count, act):
+        def attack():
+            while True:
+                with contextlib.suppress(OSError):
+                    with socket.create_connection(address, 10) as socket_:
+                        act(socket_)
+                time.sleep(0.01)
+        for _ in range(count):
+            threading.Thread(target=attack, daemon=True).start()
+        threading.Event().wait()
+
+    def __enter__(self):
+        self.process.start()
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.join()
+
+
+def idle(_socket):
+    time.sleep(60)
+
+
+def until_refused(socket_):
+    """Reads until the server has had enough."""
+    socket_.settimeout(5)
+    with contextlib.suppress(OSError):
+        while socket_.recv(1 << 16):
+            pass
+
+
+def drip(data, pause):
+    """Sends a head or a body byte by byte."""
+    def act(socket_):
+        for at in range(len(data)):
+            socket_.sendall(data[at:at + 1])
+            time.sleep(pause)
+    return act
+
+
+def send_and_read(data):
+    def act(socket_):
+        socket_.sendall(data)
+        until_refused(socket_)
+    return act
+
+
+def send_and_leave(data):
+    return lambda socket_: socket_.sendall(data)
+
+
+def never_read(data):
+    """Asks for large answers and takes none of them."""
+    def act(socket_):
+        socket_.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        for _ in range(50):
+            socket_.sendall(data)
+        time.sleep(60)
+    return act
+
+
+def large_body():
+    """Sends all of a large body but its end."""
+    block = b" " * (1 << 20)
+
+    def act(socket_):
+        socket_.settimeout(2)
+        socket_.sendall(POST + b"Content-Length: 33554432\r\n\r\n")
+        for _ in range(31):
+            socket_.sendall(block)
+        time.sleep(60)
+    return act
+
+
+def half_closed(data):
+    def act(socket_):
+        socket_.sendall(data)
+        socket_.shutdown(socket.SHUT_WR)
+        until_refused(socket_)
+    return act
+
+
+def posted(body, *fields):
+    return request("POST", "/v1/plan", body, fields)
+
+
+def attacks():
+    """Name, number of sockets, and what each does."""
+    small = json.dumps(HONEST).encode()
+    flat = gzip.compress(b" " * 33_000_000, 9)
+    bomb = gzip.compress(bytes(1 << 30), 9)
+    chunks = POST + b"Transfer-Encoding: chunked\r\n\r\n" + b"1\r\n[\r\n" * 200_000
+    heads = b"GET / HTTP/1.1\r\n" + b"".join(b"X-%d: y\r\n" % i for i in range(5000)) + b"\r\n"
+    ids = {**HONEST, "robots": [{**robot, "id": robot["id"] * 1_000_000} for robot in HONEST["robots"]]}
+    return [
+        ("500 idle sockets", 500, idle),
+        ("slow heads", 200, drip(b"GET / HTTP/1.1\r\nHost: a\r\nX: " + b"y" * 1000, 0.5)),
+        ("slow bodies", 200, drip(POST + b"Content-Length: 1000\r\n\r\n" + b" " * 1000, 0.5)),
+        ("header floods", 8, send_and_read(heads)),
+        ("conflicting lengths", 8, send_and_read(POST + b"Content-Length: 1\r\nContent-Length: 2\r\n\r\nab")),
+        ("negative lengths", 8, send_and_read(POST + b"Content-Length: -1\r\n\r\n")),
+        ("huge lengths", 50, send_and_read(POST + b"Content-Length: 33554432\r\n\r\n")),
+        ("60 whole bodies of 32 MB", 60, large_body()),
+        ("40 small ones of 32 MB", 40, send_and_read(posted(flat, ("Content-Encoding", "gzip")))),
+        ("one-byte chunks", 4, send_and_read(chunks)),
+        ("gzip bombs, 1 MB to 1 GB", 2, send_and_read(posted(bomb, ("Content-Encoding", "gzip")))),
+        ("deep JSON", 4, send_and_read(posted(b"[" * 1_000_000))),
+        ("equal keys in a long one", 2, send_and_read(posted(b'{"' + b"k" * 500_000 + b'":{"a":0' + b',"a":0' * 50_000 + b"}}"))),
+        ("ids of a megabyte", 4, send_and_read(posted(json.dumps(ids).encode()))),
+        ("clients that never read", 50, never_read(request("GET", "/v1/examples/hall-100"))),
+        ("half-closed clients", 8, half_closed(posted(small))),
+        ("clients that leave", 8, send_and_leave(posted(small))),
+        ("500 requests at once", 4, send_and_read(request("GET", "/healthz") * 500)),
+        ("connections that come and go", 8, send_and_leave(b"")),
+    ]
+
+
+def honest_times(server, seconds):
+    """Milliseconds of each answer to an honest client; raises when one is wrong or lost."""
+    connection, times, until = Connection(server.host, server.port, 20), [], time.monotonic() + seconds
+    body = json.dumps(HONEST).encode()
+    while time.monotonic() < until:
+        begin = time.monotonic()
+        connection.send(posted(body))
+        answer = connection.receive()
+        times.append(1000 * (time.monotonic() - begin))
+        if answer.status == 503:
+            times.pop()
+            time.sleep(0.01)
+        elif answer.status != 200 or answer.json()["status"] != "solved":
+            raise Lost(f"{answer.status}: {answer.body[:200]}")
+        time.sleep(0.005)  # an honest client has other things to do
+    connection.close()
+    return times
+
+
+def main():
+    parser = argparse.ArgumentParser(description="What honest clients notice of hostile ones.")
+    parser.add_argument("--binary", help="the server to start and to measure")
+    parser.add_argument("--url", help="a server that runs already")
+    parser.add_argument("--seconds", type=float, default=5.0, help="of each attack")
+    arguments = parser.parse_args()
+    server = Server(arguments.binary, arguments.url)
+    failures = []
+    print(f"{'beside':30} {'answers':>8} {'p50 ms':>8} {'p99 ms':>8} {'max ms':>8} {'slower':>7} {'MiB':>7}")
+
+    def line(name, times, usual):
+        times.sort()
+        slower = statistics.median(times) / usual
+        print(f"{name:30} {len(times):8} {statistics.median(times):8.2f} {times[int(0.99 * len(times))]:8.2f} "
+              f"{times[-1]:8.2f} {slower:7.2f} {(server.resident_kib() or 0) / 1024:7.1f}", flush=True)
+        return slower
+
+    honest_times(server, 1.0)
+    alone = honest_times(server, arguments.seconds)
+    usual = statistics.median(alone)
+    line("nobody", alone, usual)
+    for name, count, act in attacks():
+        try:
+            with Attackers((server.host, server.port), count, act):
+                time.sleep(0.5)
+                times = honest_times(server, arguments.seconds)
+            if not times:
+                failures.append(f"{name}: nothing was answered but with 503")
+            elif line(name, times, usual) > MOST_SLOWER:
+                failures.append(f"{name}: more than {MOST_SLOWER} times slower")
+        except (Lost, OSError) as fault:
+            failures.append(f"{name}: {fault}")
+            print(f"{name:30} {fault}")
+        if not server.alive():
+            failures.append(f"{name}: the server ended")
+            break
+    peak = server.peak_kib()
+    if peak:
+        print(f"{peak / 1024:.0f} MiB at most")
+        if peak > MOST_MEMORY_KIB:
+            failures.append("the server took more than a gibibyte")
+    if code := server.end():
+        failures.append(f"the server ended with {code}")
+    for failure in failures:
+        print(f"FAILED: {failure}")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,191 @@
+#!/usr/bin/env python3
+"""Offers a server more requests than it can answer.
+
+Usage: overload.py [--binary FLEETPLAN | --url URL] [--seconds N] [--times N]
+
+Measures how many plans a second the server answers, then offers four times as many for a minute, whether or not it
+answers, and looks how it recovers. The exit status is 1 when an answer was wrong or lost, when an accepted request
+overran its budget, when a refusal took 50 ms (the 99th percentile) or had no Retry-After, or when the server was not back
+to its usual latency at once.
+"""
+
+import argparse
+import asyncio
+import json
+import multiprocessing
+import re
+import sys
+import time
+
+import workload
+from client import Connection, request
+from server import Server
+
+SCENARIO = "hall-100"
+BUDGET_MS = 1000
+REFUSAL_MS = 50.0
+SLACK_MS = 100.0  # between the service's clock and the client's: sending, waking up, reading
+MOST_IDLE_S = 0.5
+
+
+def posted():
+    wanted = workload.scenarios()[SCENARIO]
+    wanted["options"]["time_budget_ms"] = BUDGET_MS
+    return request("POST", "/v1/plan", json.dumps(wanted).encode())
+
+
+class Load:
+    """Requests at a steady rate from one process, on as many connections as are needed."""
+
+    def __init__(self, host, port):
+        self.address, self.data = (host, port), posted()
+        self.idle = []      # connections and when they were used
+        self.answers = []   # seconds of latency, status, milliseconds in the service or None
+        self.faults = []
+
+    async def offer(self, rate, seconds):
+        loop, begin, tasks = asyncio.get_running_loop(), time.monotonic(), []
+        for index in range(int(rate * seconds)):
+            await asyncio.sleep(max(0.0, begin + index / rate - time.monotonic()))
+            tasks.append(loop.create_task(self.ask(begin + index / rate)))
+        await asyncio.gather(*tasks)
+
+    async def ask(self, due):
+        try:
+            status, told_ms = await asyncio.wait_for(self.exchange(), 60)
+            self.answers.append((time.monotonic() - due, status, told_ms))
+        except (OSError, asyncio.TimeoutError, asyncio.IncompleteReadError, ValueError) as fault:
+            self.faults.append(f"{type(fault).__name__} {fault}")
+
+    async def exchange(self):
+        while self.idle and time.monotonic() - self.idle[-1][2] > MOST_IDLE_S:
+            self.idle.pop()[1].close()
+        reader, writer = self.idle.pop()[:2] if self.idle else await asyncio.open_connection(*self.address, limit=1 << 20)
+        writer.write(self.data)
+        head = (await reader.readuntil(b"\r\n\r\n")).decode("latin-1")
+        status = int(head.split(" ", 2)[1])
+        body = await reader.readexactly(int(re.search(r"(?i)\r\ncontent-length: (\d+)", head).group(1)))
+        if "\r\nConnection: close" in head:
+            writer.close()
+        else:
+            self.idle.append((reader, writer, time.monotonic()))
+        if status == 503 and not re.search(r"(?i)\r\nretry-after: [1-9]", head):
+            raise ValueError("503 without Retry-After")
+        told = re.search(rb'"total":\s*([0-9.e+-]+)', body) if status == 200 else None
+        return status, float(told.group(1)) if told else None
+
+
+def run_process(host, port, rate, seconds, results):
+    load = Load(host, port)
+    asyncio.run(load.offer(rate, seconds))
+    results.put((load.answers, load.faults))
+
+
+def offer(server, rate, seconds, processes):
+    """Answers and faults of an open loop."""
+    results = multiprocessing.Queue()
+    children = [multiprocessing.Process(target=run_process,
+                                        args=(server.host, server.port, rate / processes, seconds, results))
+                for _ in range(processes)]
+    for child in children:
+        child.start()
+    told = [results.get(timeout=seconds + 300) for _ in children]
+    for child in children:
+        child.join()
+    return [a for answers, _ in told for a in answers], [f for _, faults in told for f in faults]
+
+
+def closed_loop(host, port, seconds, results):
+    connection, data, times, until = Connection(host, port), posted(), [], time.monotonic() + seconds
+    while time.monotonic() < until:
+        begin = time.monotonic()
+        connection.send(data)
+        if connection.receive().status == 200:
+            times.append(time.monotonic() - begin)
+    results.put(times)
+
+
+def capacity(server, workers, seconds):
+    """Plans a second when two clients for each worker ask again as soon as they have an answer."""
+    results = multiprocessing.Queue()
+    children = [multiprocessing.Process(target=closed_loop, args=(server.host, server.port, seconds, results))
+                for _ in range(2 * workers)]
+    for child in children:
+        child.start()
+    count = sum(len(results.get(timeout=seconds + 60)) for _ in children)
+    for child in children:
+        child.join()
+    return count / seconds
+
+
+def one_by_one(server, count):
+    """Latencies of a single client."""
+    connection, data, times = Connection(server.host, server.port), posted(), []
+    for _ in range(count):
+        begin = time.monotonic()
+        connection.send(data)
+        status = connection.receive().status
+        times.append(time.monotonic() - begin if status == 200 else float("inf"))
+    connection.close()
+    return times
+
+
+def ms(values):
+    values = sorted(values)
+    at = lambda share: 1000 * values[min(len(values) - 1, int(share * len(values)))]
+    return f"p50 {at(0.5):8.1f} ms   p99 {at(0.99):8.1f} ms   max {at(1.0):8.1f} ms" if values else "none"
+
+
+def percentile_ms(values, share):
+    return 1000 * sorted(values)[int(share * (len(values) - 1))] if values else 0.0
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Offers a server more requests than it can answer.")
+    parser.add_argument("--binary", help="the server to start and to measure")
+    parser.add_argument("--url", help="a server that runs already")
+    parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--times", type=float, default=4.0, help="the capacity")
+    parser.add_argument("--processes", type=int, default=2, help="of clients")
+    arguments = parser.parse_args()
+    server = Server(arguments.binary, arguments.url)
+    workers = server.get("/v1/limits")["workers"]
+
+    one_by_one(server, 10)
+    usual = one_by_one(server, 100)
+    print(f"{SCENARIO}, budget {BUDGET_MS} ms; alone     {ms(usual)}")
+    rate = capacity(server, workers, 10.0)
+    print(f"capacity: {rate:.0f} plans a second with {workers} workers; offering {arguments.times * rate:.0f} a second")
+    answers, faults = offer(server, arguments.times * rate, arguments.seconds, arguments.processes)
+    after = one_by_one(server, 20)
+
+    accepted = [answer for answer in answers if answer[1] == 200]
+    refused = [seconds for seconds, status, _ in answers if status == 503]
+    others = len(answers) - len(accepted) - len(refused)
+    print(f"offered {len(answers) + len(faults)}: {len(accepted)} accepted ({len(accepted) / arguments.seconds:.0f} a second), "
+          f"{len(refused)} refused, {others} others, {len(faults)} lost")
+    print(f"accepted, as the client sees it   {ms([a[0] for a in accepted])}")
+    print(f"accepted, by timings_ms.total     {ms([a[2] / 1000 for a in accepted])}")
+    print(f"refused                           {ms(refused)}")
+    print(f"the first 20 after it             {ms(after)}   the first {1000 * after[0]:.1f} ms")
+
+    failures = [f"lost: {fault}" for fault in faults[:5]]
+    if others or faults:
+        failures.append(f"{others} answers of another status, {len(faults)} lost")
+    if over := sum(1 for a in accepted if a[2] > BUDGET_MS):
+        failures.append(f"{over} accepted requests overran their budget")
+    if over := sum(1 for a in accepted if 1000 * a[0] > BUDGET_MS + SLACK_MS):
+        failures.append(f"{over} accepted requests came after their budget to the client")
+    if percentile_ms(refused, 0.99) >= REFUSAL_MS:
+        failures.append("refusals were slow")
+    if percentile_ms(after, 0.5) > 2 * percentile_ms(usual, 0.5) or after[0] > 2 * max(usual):
+        failures.append("it did not recover at once")
+    if code := server.end():
+        failures.append(f"the server ended with {code}")
+    for failure in failures:
+        print(f"FAILED: {failure}")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,48 @@
+"""The server under test: a process of our own, or one that runs somewhere already."""
+
+import json
+import re
+import subprocess
+import urllib.parse
+import urllib.request
+
+
+class Server:
+    def __init__(self, binary=None, url=None, flags=()):
+        self.process, self.url = None, url
+        if not url:
+            self.process = subprocess.Popen([binary, "--port", "0", "--log-level", "off", *flags],
+                                            stdout=subprocess.PIPE, text=True)
+            self.url = re.search(r"http://\S+", self.process.stdout.readline()).group()
+        parts = urllib.parse.urlsplit(self.url)
+        self.host, self.port = parts.hostname, parts.port or 80
+
+    def get(self, path):
+        with urllib.request.urlopen(self.url + path, timeout=30) as response:
+            return json.load(response)
+
+    def resident_kib(self):
+        """Resident memory; none when the server is not a process of ours, or has ended."""
+        return self._status("VmRSS")
+
+    def peak_kib(self):
+        return self._status("VmHWM")
+
+    def _status(self, name):
+        try:
+            with open(f"/proc/{self.process.pid}/status", encoding="ascii") as status:
+                return int(re.search(rf"{name}:\s+(\d+) kB", status.read()).group(1))
+        except (AttributeError, OSError):
+            return None
+
+    def alive(self):
+        return self.process is None or self.process.poll() is None
+
+    def end(self):
+        """Asks our server to end; its exit code."""
+        if not self.process:
+            return 0
+        self.process.terminate()
+        code = self.process.wait(60)
+        self.process.stdout.close()
+        return code

@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""Keeps a server saturated with good, bad, cancelled, slow and huge requests, and checks every answer.
+
+Usage: soak.py [--binary FLEETPLAN | --url URL] [--minutes N]
+
+Prints a table. The exit status is 1 when an answer was wrong or lost, when the server ended, or when its resident memory
+grew by more than 5 % after the first minute; it is taken in a pause of all clients after each round of a minute.
+"""
+
+import argparse
+import collections
+import multiprocessing
+import sys
+import time
+
+from clients import KINDS, run_process
+from server import Server
+
+ROUND_S = 60.0
+PAUSE_S = 3.0  # idle connections have ended, and the sockets' memory with them
+MOST_GROWTH = 0.05
+MOST_TOLD = 10
+
+
+def supports_streams(server):
+    """Whether /v1/plan knows text/event-stream, by how it refuses an empty body that is wanted so."""
+    from client import Connection, request
+    connection = Connection(server.host, server.port)
+    connection.send(request("POST", "/v1/plan", b"{}", [("Accept", "text/event-stream")]))
+    status = connection.receive().status
+    connection.close()
+    return status == 422
+
+
+def run_round(server, arguments, seed, limits, streams, seconds):
+    """All clients for a while; their records."""
+    results = multiprocessing.Queue()
+    processes = [multiprocessing.Process(target=run_process, args=(
+        server.host, server.port, seed * 1000 + index, arguments.connections, limits, streams, seconds, results))
+        for index in range(arguments.processes)]
+    for process in processes:
+        process.start()
+    records = [results.get(timeout=seconds + 300) for _ in processes]
+    for process in processes:
+        process.join()
+    return records
+
+
+def percentile(sorted_values, share):
+    return sorted_values[min(len(sorted_values) - 1, int(share * len(sorted_values)))]
+
+
+def print_report(records, seconds):
+    sent, statuses, latencies = collections.Counter(), collections.Counter(), collections.defaultdict(list)
+    for record in records:
+        sent.update(record.sent)
+        statuses.update(record.statuses)
+        for kind, values in record.latencies.items():
+            latencies[kind] += values
+    print(f"\n{'kind':12} {'sent':>9} {'answers':>9} {'p50 ms':>9} {'p99 ms':>9} {'max ms':>9}   (answers but 503)")
+    for kind in [*KINDS, "validate"]:
+        values = sorted(latencies[kind])
+        times = [1000 * value for value in (percentile(values, 0.5), percentile(values, 0.99), values[-1])] if values else []
+        print(f"{kind:12} {sent[kind] or '':>9} {len(values):>9} " + " ".join(f"{time_:9.1f}" for time_ in times))
+    print("\nstatuses: " + ", ".join(f"{status}: {count}" for status, count in sorted(statuses.items())))
+    print(f"{sum(statuses.values())} answers in {seconds:.0f} s, {sum(statuses.values()) / seconds:.0f} a second; "
+          f"{sum(record.validated for record in records)} plans validated")
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Keeps a server saturated and checks every answer.")
+    parser.add_argument("--binary", help="the server to start and to measure")
+    parser.add_argument("--url", help="a server that runs already")
+    parser.add_argument("--minutes", type=float, default=30.0)
+    parser.add_argument("--processes", type=int, default=4, help="of clients")
+    parser.add_argument("--connections", type=int, default=8, help="of each process")
+    parser.add_argument("--seed", type=int, default=int(time.time()), help="of everything random in the requests")
+    arguments = parser.parse_args()
+    if not arguments.binary and not arguments.url:
+        parser.error("--binary or --url is needed")
+
+    server = Server(arguments.binary, arguments.url)
+    print(f"seed {arguments.seed}, {arguments.processes} x {arguments.connections} connections, {server.url}")
+    memory = [server.resident_kib()]
+    limits, streams = server.get("/v1/limits"), supports_streams(server)
+    records, begin = [], time.monotonic()
+    end = begin + 60.0 * arguments.minutes
+    failures = []
+    while (left := end - time.monotonic()) > 1.0 and not failures:
+        records += run_round(server, arguments, arguments.seed + len(memory), limits, streams, min(left, ROUND_S))
+        time.sleep(PAUSE_S)
+        memory.append(server.resident_kib())
+        print(f"{time.monotonic() - begin:7.0f} s  {sum(sum(r.statuses.values()) for r in records):9} answers"
+              + (f"  {memory[-1] / 1024:7.1f} MiB" if memory[-1] else ""), flush=True)
+        if not server.alive():
+            failures.append("the server ended")
+    print_report(records, time.monotonic() - begin)
+
+    if memory[-1]:
+        grown = memory[-1] / memory[1] - 1
+        print(f"resident memory: {memory[0] / 1024:.1f} MiB at the start, {memory[1] / 1024:.1f} MiB after the first round, "
+              f"{memory[-1] / 1024:.1f} MiB at the end ({100 * grown:+.1f} %), {server.peak_kib() / 1024:.1f} MiB at most")
+        if len(memory) > 2 and grown > MOST_GROWTH:
+            failures.append(f"resident memory grew by {100 * grown:.1f} %")
+    if code := server.end():
+        failures.append(f"the server ended with {code}")
+    wrong = [each for record in records for each in record.wrong]
+    lost = [each for record in records for each in record.lost]
+    print(f"wrong answers: {len(wrong)}, lost answers: {len(lost)}")
+    for what, faults in (("wrong", wrong), ("lost", lost)):
+        for fault, times in collections.Counter(faults).most_common(MOST_TOLD):
+            print(f"  {what}, {times} x {fault}")
+    for failure in failures:
+        print(f"FAILED: {failure}")
+    return 1 if wrong or lost or failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
