@@ -48,6 +48,12 @@ static_assert(is_in_order(), "every ErrorCode has its row, in the order of the e
 
 }  // namespace
 
+std::vector<ErrorCode> error_codes() {
+  std::vector<ErrorCode> codes;
+  for (const Row& row : kTable) codes.push_back(row.code);
+  return codes;
+}
+
 int status_of(ErrorCode code) { return row_of(code).status; }
 
 std::string_view name_of(ErrorCode code) { return row_of(code).name; }
@@ -68,7 +74,7 @@ Reply problem_reply(ErrorCode code, const std::string& detail, const std::string
     json.end_object();
   }
   json.end_array().end_object();
-  return {row.status, kProblemJson, json.take()};
+  return {row.status, kProblemJson, json.take(), row.name};
 }
 
 }  // namespace fleetplan::api

@@ -38,6 +38,9 @@ struct Fault {
   std::string detail;   // what is wrong and what would be right
 };
 
+/// All of them, in the order of the table.
+std::vector<ErrorCode> error_codes();
+
 int status_of(ErrorCode code);
 std::string_view name_of(ErrorCode code);
 

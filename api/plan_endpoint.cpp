@@ -67,15 +67,21 @@ Reply checked_answer(const core::Plan& plan, const PlanRequest& request, const s
   const auto report =
       core::verify(request.problem.grid(), robots, plan.plans, check_tolerance(request.problem, plan));
   stages.verified = Clock::now();
+  PlanOutcome outcome =
+      outcome_of(plan, std::chrono::duration<double>(stages.planned - stages.started).count());
   if (!report.valid()) {
-    return problem_reply(ErrorCode::internal_error,
-                         "The planner made a plan that the checker refuses (" +
-                             report.violations.front().detail +
-                             "), so it is not returned. This is a bug of the service, not of the request.",
-                         request_id);
+    Reply refused = problem_reply(
+        ErrorCode::internal_error,
+        "The planner made a plan that the checker refuses (" + report.violations.front().detail +
+            "), so it is not returned. This is a bug of the service, not of the request.",
+        request_id);
+    outcome.status = PlanOutcome::Status::refused;
+    refused.outcome = outcome;
+    return refused;
   }
-  return {200, kJson,
-          write_response({plan, report, robots, request.frame, request.warnings}, request_id, stages)};
+  std::string answer =
+      write_response({plan, report, robots, request.frame, request.warnings}, request_id, stages);
+  return {200, kJson, std::move(answer), {}, outcome};
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
+
+#include "api/plan_outcome.h"
 
 namespace fleetplan::api {
 
@@ -12,6 +16,10 @@ struct Reply {
   int status = 200;
   std::string content_type = kJson;
   std::string body;
+
+  // For those who watch the service, not for the client.
+  std::string_view problem = {};  // the error's code, e.g. "not_found"; empty: none
+  std::optional<PlanOutcome> outcome = std::nullopt;
 };
 
 }  // namespace fleetplan::api

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "api/json_writer.h"
+#include "api/plan_outcome.h"
 #include "api/write_report.h"
 #include "core/geometry/angle.h"
 
@@ -39,11 +40,6 @@ std::string_view name_of(core::Unplanned::Reason reason) {
       break;
   }
   return "budget_exhausted";
-}
-
-std::string_view status(const core::Plan& plan) {
-  if (plan.unplanned.empty()) return "solved";
-  return plan.plans.empty() ? "none" : "partial";
 }
 
 void write_pose(JsonWriter& json, std::string_view key, const core::Pose& pose, const WorldFrame& frame) {
@@ -119,7 +115,7 @@ std::string write_response(const VerifiedPlan& verified, const std::string& requ
   JsonWriter json;
   json.reserve((actions + verified.robots.size() + 4) * kBytesAnAction);
   json.begin_object();
-  json.member("status", status(plan)).member("request_id", request_id);
+  json.member("status", name_of(status_of(plan))).member("request_id", request_id);
   json.key("plans").begin_array();
   for (const core::RobotPlan& one : plan.plans) write_plan(json, one, verified);
   json.end_array();

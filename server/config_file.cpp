@@ -20,6 +20,8 @@ std::optional<std::string> apply(CLI::App& app, const CLI::ConfigItem& item) {
   if (option == nullptr || !option->get_configurable()) {
     return "there is no setting " + in_quotes(item.fullname());
   }
+  // A line without '=' comes as "true", which newer versions of CLI11 take for the number 1.
+  if (item.inputs == std::vector<std::string>{"true"}) return in_quotes(item.name) + " has no value";
   if (option->count() > 0) return std::nullopt;
   option->add_result(item.inputs);
   option->run_callback();

@@ -6,6 +6,7 @@
 #include "server/body_reader.h"
 #include "server/request_id.h"
 #include "server/text.h"
+#include "server/under_way.h"
 
 namespace fleetplan::server {
 
@@ -16,18 +17,6 @@ using Clock = Socket::Clock;
 
 /// A refused body up to this size is read and dropped to keep the connection; a larger one costs it.
 constexpr std::uint64_t kMaxDropped = 1 << 20;
-
-/// Counts an exchange as under way.
-class Active {
- public:
-  explicit Active(std::atomic<int>& count) : count_(count) { ++count_; }
-  ~Active() { --count_; }
-  Active(const Active&) = delete;
-  Active& operator=(const Active&) = delete;
-
- private:
-  std::atomic<int>& count_;
-};
 
 ErrorCode code_of(BadHead::Kind kind) {
   switch (kind) {
@@ -70,11 +59,11 @@ double ms_between(Clock::time_point from, Clock::time_point to) {
 }  // namespace
 
 Connection::Connection(int fd, ConnectionContext context)
-    : context_(std::move(context)), socket_(fd, context_.stop_fd) {}
+    : context_(std::move(context)), socket_(fd, context_.stop_fd), peer_(socket_.peer()) {}
 
 void Connection::serve() {
   while (open_ && await_request()) {
-    const Active active(context_.active);
+    const UnderWay counted(context_.exchanges);
     Exchange exchange;
     exchange.socket = &socket_;
     exchange.begun_at = Clock::now();
@@ -102,6 +91,7 @@ void Connection::serve_exchange(Exchange& exchange) {
     return;  // it left before it asked for anything
   }
   if (exchange.abandoned) exchange.status = 499;
+  context_.metrics.count(exchange);
   log(exchange, bytes_out);
 }
 
@@ -200,6 +190,7 @@ std::optional<Refusal> Connection::read_content(Exchange& exchange) {
 std::uint64_t Connection::write(Exchange& exchange, const DirectAnswer& answer) {
   if (context_.draining) exchange.close = true;
   exchange.status = answer.reply.status;
+  exchange.problem = answer.reply.problem;
   const std::string text = answer_text(exchange, answer.reply, answer.fields);
   open_ = socket_.write_all(text) && open_;
   if (open_ && !exchange.close && exchange.body.empty() && has_body(exchange.head)) drop_body(exchange);
@@ -221,6 +212,9 @@ void Connection::log(const Exchange& exchange, std::uint64_t bytes_out) const {
   record.bytes_out = bytes_out;
   record.ms = ms_between(exchange.begun_at, Clock::now());
   record.queue_ms = exchange.queue_ms;
+  record.problem = exchange.problem;
+  record.outcome = exchange.outcome;
+  record.peer = peer_;
   record.admin = context_.port == Port::admin;
   context_.log.request(record);
 }

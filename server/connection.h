@@ -8,6 +8,7 @@
 #include "server/cors.h"
 #include "server/exchange.h"
 #include "server/exchange_stream.h"
+#include "server/metrics.h"
 #include "server/request_log.h"
 #include "server/settings.h"
 #include "server/static_files.h"
@@ -21,8 +22,9 @@ struct ConnectionContext {
   const StaticFiles& files;
   const CrossOrigin& cross_origin;
   const RequestLog& log;
+  Metrics& metrics;
   const std::atomic<bool>& draining;
-  std::atomic<int>& active;                                // exchanges under way
+  std::atomic<std::size_t>& exchanges;                     // under way
   int stop_fd;                                             // see Socket
   std::function<bool(Exchange&, ExchangeStream&)> answer;  // false: the connection is of no more use
 };
@@ -55,6 +57,7 @@ class Connection {
 
   ConnectionContext context_;
   Socket socket_;
+  const std::string peer_;
   std::string input_;  // read and not used yet
   bool open_ = true;
   bool unread_ = false;  // the client may still be sending

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "api/plan_outcome.h"
 #include "server/request_head.h"
 #include "server/routes.h"
 #include "server/socket.h"
@@ -33,6 +35,8 @@ struct Exchange {
   bool abandoned = false;                                // the client left: nobody reads an answer
   std::optional<std::uint64_t> streamed = std::nullopt;  // bytes of an answer that went out as an EventStream
   std::optional<double> queue_ms = std::nullopt;
+  std::string_view problem;  // see api::Reply
+  std::optional<api::PlanOutcome> outcome = std::nullopt;
 };
 
 }  // namespace fleetplan::server

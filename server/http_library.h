@@ -1,7 +1,7 @@
 #pragma once
 
-// The HTTP library, to be included by this name only. It brings <resolv.h>, whose macro `_res` breaks the headers
-// of Eigen when they come after it.
+// The HTTP library, to be included by this name only. It brings <resolv.h>, whose macro `_res` breaks the
+// headers of Eigen when they come after it.
 
 #include <httplib.h>
 

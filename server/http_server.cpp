@@ -10,7 +10,9 @@
 #include "server/event_stream.h"
 #include "server/guarded.h"
 #include "server/info_endpoints.h"
+#include "server/metrics_text.h"
 #include "server/negotiation.h"
+#include "server/under_way.h"
 
 namespace fleetplan::server {
 
@@ -26,7 +28,14 @@ constexpr const char* kContentSecurityPolicy =
     "'self'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-void fill(httplib::Response& response, api::Reply reply) {
+/// For metrics and the log.
+void note(Exchange& exchange, const api::Reply& reply) {
+  exchange.problem = reply.problem;
+  exchange.outcome = reply.outcome;
+}
+
+void fill(Exchange& exchange, httplib::Response& response, api::Reply reply) {
+  note(exchange, reply);
   response.status = reply.status;
   response.body = std::move(reply.body);
   response.set_header("Content-Type", reply.content_type);
@@ -80,11 +89,18 @@ void HttpServer::stop() {
 }
 
 void HttpServer::serve(int fd, Port port) {
+  Traffic& traffic = port == Port::main ? traffic_ : admin_traffic_;
+  const UnderWay open(traffic.connections);
   Connection connection(
-      fd, {settings_, port, files_, cross_origin_, log_, draining_,
-           port == Port::main ? active_ : admin_active_, stop_signal_.fd(),
+      fd, {settings_, port, files_, cross_origin_, log_, metrics_, draining_, traffic.exchanges,
+           stop_signal_.fd(),
            [this](Exchange& exchange, ExchangeStream& stream) { return answer(exchange, stream); }});
   connection.serve();
+}
+
+Gauges HttpServer::gauges() const {
+  return {traffic_.connections, admin_traffic_.connections, static_cast<std::size_t>(settings_.workers),
+          jobs_.running(), jobs_.queued()};
 }
 
 bool HttpServer::answer(Exchange& exchange, ExchangeStream& stream) {
@@ -125,8 +141,8 @@ void HttpServer::install_handlers() {
               const httplib::ContentReader& reader) { answer_job(*exchange_of(request), reader, response); });
   set_exception_handler(
       [this](const httplib::Request& request, httplib::Response& response, std::exception_ptr failure) {
-        if (const Exchange* exchange = exchange_of(request)) {
-          fill(response,
+        if (Exchange* exchange = exchange_of(request)) {
+          fill(*exchange, response,
                guarded(log_, exchange->request_id, [&]() -> api::Reply { std::rethrow_exception(failure); }));
         }
       });
@@ -142,10 +158,10 @@ void HttpServer::install_handlers() {
   });
 }
 
-void HttpServer::answer_get(const Exchange& exchange, httplib::Response& response) {
+void HttpServer::answer_get(Exchange& exchange, httplib::Response& response) {
   const Route& route = exchange.route;
   if (route.endpoint == Endpoint::page) return answer_page(exchange, response);
-  fill(response, guarded(log_, exchange.request_id, [&]() -> api::Reply {
+  fill(exchange, response, guarded(log_, exchange.request_id, [&]() -> api::Reply {
          switch (route.endpoint) {
            case Endpoint::example_list:
              return service_.example_list();
@@ -155,6 +171,8 @@ void HttpServer::answer_get(const Exchange& exchange, httplib::Response& respons
              return limits_reply(settings_);
            case Endpoint::openapi:
              return service_.openapi();
+           case Endpoint::metrics:
+             return {200, kMetricsType, metrics_.text(gauges())};
            case Endpoint::readyz:
              if (!ready_) response.set_header("Retry-After", kDrainingRetryAfterS);
              return readiness_reply(ready_, exchange.request_id);
@@ -164,12 +182,12 @@ void HttpServer::answer_get(const Exchange& exchange, httplib::Response& respons
        }));
 }
 
-void HttpServer::answer_page(const Exchange& exchange, httplib::Response& response) {
+void HttpServer::answer_page(Exchange& exchange, httplib::Response& response) {
   auto file = files_.read(exchange.route.parameter);
   if (!file) {
     const std::string detail = files_.has_root() ? "The page's folder has no such file."
                                                  : "This server has no page: start it with --web-root.";
-    return fill(response, api::problem_reply(ErrorCode::not_found, detail, exchange.request_id));
+    return fill(exchange, response, api::problem_reply(ErrorCode::not_found, detail, exchange.request_id));
   }
   response.set_header("ETag", file->etag);
   response.set_header("Cache-Control", "no-cache");
@@ -181,23 +199,24 @@ void HttpServer::answer_page(const Exchange& exchange, httplib::Response& respon
     response.status = 304;
     return;
   }
-  fill(response, {200, file->content_type, std::move(file->body)});
+  fill(exchange, response, {200, file->content_type, std::move(file->body)});
 }
 
 void HttpServer::answer_job(Exchange& exchange, const httplib::ContentReader& reader,
                             httplib::Response& response) {
-  if (auto refusal = decode_body(exchange, reader)) return fill(response, std::move(*refusal));
+  if (auto refusal = decode_body(exchange, reader)) return fill(exchange, response, std::move(*refusal));
   const auto& endpoint = exchange.route.endpoint == Endpoint::plan ? service_.plan : service_.validate;
   std::optional<EventStream> events;
   if (plan_form(exchange.head.field("accept")) == PlanForm::events) events.emplace(exchange);
   JobRunner::Outcome outcome = jobs_.run(exchange, endpoint, events ? &*events : nullptr);
   if (events && events->begun()) {
+    note(exchange, outcome.reply);
     events->end(outcome.reply);
     response.status = 200;
     return;
   }
   for (const auto& [name, value] : outcome.fields) response.set_header(name, value);
-  fill(response, std::move(outcome.reply));
+  fill(exchange, response, std::move(outcome.reply));
 }
 
 std::optional<api::Reply> HttpServer::decode_body(Exchange& exchange,

@@ -13,6 +13,7 @@
 #include "server/http_library.h"
 #include "server/job_runner.h"
 #include "server/listener.h"
+#include "server/metrics.h"
 #include "server/request_log.h"
 #include "server/service.h"
 #include "server/settings.h"
@@ -52,7 +53,7 @@ class HttpServer final : private httplib::Server {
   }
 
   /// No request is being read, worked on or answered, but for those of the admin port.
-  bool idle() const { return active_ == 0; }
+  bool idle() const { return traffic_.exchanges == 0; }
 
   /// Asks all jobs, now and later, to stop, and waits for no more of requests that are still being sent.
   void cancel_jobs();
@@ -61,11 +62,18 @@ class HttpServer final : private httplib::Server {
   void stop();
 
  private:
+  /// What goes on at one port.
+  struct Traffic {
+    std::atomic<std::size_t> connections{0};
+    std::atomic<std::size_t> exchanges{0};
+  };
+
   void serve(int fd, Port port);
+  Gauges gauges() const;
   void install_handlers();
   bool answer(Exchange& exchange, ExchangeStream& stream);
-  void answer_get(const Exchange& exchange, httplib::Response& response);
-  void answer_page(const Exchange& exchange, httplib::Response& response);
+  void answer_get(Exchange& exchange, httplib::Response& response);
+  void answer_page(Exchange& exchange, httplib::Response& response);
   void answer_job(Exchange& exchange, const httplib::ContentReader& reader, httplib::Response& response);
   std::optional<api::Reply> decode_body(Exchange& exchange, const httplib::ContentReader& reader) const;
   Exchange* exchange_of(const httplib::Request& request);
@@ -78,8 +86,9 @@ class HttpServer final : private httplib::Server {
   StopSignal stop_signal_;
   std::atomic<bool> ready_{true};
   std::atomic<bool> draining_{false};
-  std::atomic<int> active_{0};
-  std::atomic<int> admin_active_{0};
+  Traffic traffic_;
+  Traffic admin_traffic_;
+  Metrics metrics_;
   std::mutex exchanges_mutex_;
   std::unordered_map<const httplib::Request*, Exchange*> exchanges_;  // those in the library's hands
   Listener main_;

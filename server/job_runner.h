@@ -31,6 +31,10 @@ class JobRunner {
   /// a plan gets on, or null.
   Outcome run(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events);
 
+  /// Jobs that wait for their turn, and those that compute.
+  std::size_t queued() const { return workers_.queued(); }
+  std::size_t running() const { return workers_.running(); }
+
   /// Asks all jobs, now and later, to stop.
   void cancel_all() { cancel_all_.request_stop(); }
 

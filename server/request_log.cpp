@@ -15,8 +15,16 @@ using Line = nlohmann::ordered_json;
 /// The line's members beside time and level, which the pattern puts in front.
 constexpr const char* kPattern = R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l",%v)";
 
-/// Rounded to microseconds: enough, and short.
+/// Rounded to the third decimal, microseconds where these are milliseconds: enough, and short.
 double rounded(double ms) { return std::round(ms * 1000.0) / 1000.0; }
+
+void add_outcome(Line& line, const api::PlanOutcome& outcome) {
+  line["outcome"] = api::name_of(outcome.status);
+  line["planned"] = outcome.planned;
+  line["unplanned"] = outcome.unplanned;
+  line["flowtime"] = rounded(outcome.flowtime);
+  line["plan_ms"] = rounded(outcome.plan_seconds * 1000.0);
+}
 
 void write(spdlog::logger& logger, spdlog::level::level_enum level, const Line& line) {
   // A client's path may be no UTF-8: replaced rather than refused.
@@ -47,13 +55,19 @@ void RequestLog::request(const RequestRecord& record) const {
   line["bytes_out"] = record.bytes_out;
   line["ms"] = rounded(record.ms);
   if (record.queue_ms) line["queue_ms"] = rounded(*record.queue_ms);
+  if (record.outcome) add_outcome(line, *record.outcome);
+  if (!record.problem.empty()) line["code"] = record.problem;
+  line["peer"] = record.peer;
   write(*logger_, level, line);
 }
 
-void RequestLog::info(std::string_view message) const {
+void RequestLog::info(std::string_view message, Members members) const {
   if (!logger_->should_log(spdlog::level::info)) return;
   Line line;
   line["message"] = message;
+  for (const auto& [name, value] : members) {
+    std::visit([&, key = std::string(name)](const auto& known) { line[key] = known; }, value);
+  }
   write(*logger_, spdlog::level::info, line);
 }
 

@@ -1,10 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
+
+#include "api/plan_outcome.h"
 
 namespace spdlog {
 class logger;
@@ -22,7 +27,10 @@ struct RequestRecord {
   std::uint64_t bytes_out = 0;                    // of the whole answer
   double ms = 0.0;                                // first byte of the request to last byte of the answer
   std::optional<double> queue_ms = std::nullopt;  // for planning jobs: in the queue
-  bool admin = false;                             // on the admin port
+  std::string_view problem;                       // the error's code; empty: none
+  std::optional<api::PlanOutcome> outcome = std::nullopt;
+  std::string peer;    // address and port of the client, or of the proxy before it
+  bool admin = false;  // on the admin port
 };
 
 /// JSON lines to stderr. Thread-safe.
@@ -34,8 +42,13 @@ class RequestLog {
   /// At level info, error for a status of 500 and more except 503, debug for what the admin port answers.
   void request(const RequestRecord& record) const;
 
-  /// An event of the server's life, or a bug: level info or error.
-  void info(std::string_view message) const;
+  using Value = std::variant<std::int64_t, std::string>;
+  using Members = std::initializer_list<std::pair<std::string_view, Value>>;
+
+  /// An event of the server's life, at level info; `members` follow the message.
+  void info(std::string_view message, Members members = {}) const;
+
+  /// A bug.
   void error(std::string_view message, std::string_view request_id = {}) const;
 
  private:

@@ -7,21 +7,23 @@ namespace fleetplan::server {
 
 namespace {
 
+constexpr std::array<std::pair<std::string_view, Endpoint>, 9> kPaths{{
+    {"/v1/plan", Endpoint::plan},
+    {"/v1/validate", Endpoint::validate},
+    {"/v1/examples", Endpoint::example_list},
+    {"/v1/limits", Endpoint::limits},
+    {"/v1/openapi.json", Endpoint::openapi},
+    {"/healthz", Endpoint::healthz},
+    {"/readyz", Endpoint::readyz},
+    {"/metrics", Endpoint::metrics},
+    {"/", Endpoint::page},
+}};
+
 bool is_on_admin_port(Endpoint endpoint) {
-  return endpoint == Endpoint::healthz || endpoint == Endpoint::readyz;
+  return endpoint == Endpoint::healthz || endpoint == Endpoint::readyz || endpoint == Endpoint::metrics;
 }
 
 Route find_route(std::string_view path) {
-  constexpr std::array<std::pair<std::string_view, Endpoint>, 8> kPaths{{
-      {"/v1/plan", Endpoint::plan},
-      {"/v1/validate", Endpoint::validate},
-      {"/v1/examples", Endpoint::example_list},
-      {"/v1/limits", Endpoint::limits},
-      {"/v1/openapi.json", Endpoint::openapi},
-      {"/healthz", Endpoint::healthz},
-      {"/readyz", Endpoint::readyz},
-      {"/", Endpoint::page},
-  }};
   for (const auto& [known, endpoint] : kPaths) {
     if (path == known) return Route{endpoint, std::string(path)};
   }
@@ -37,6 +39,13 @@ Route find_route(std::string_view path) {
 Route find_route(std::string_view path, Port port) {
   Route route = find_route(path);
   return port == Port::main || is_on_admin_port(route.endpoint) ? route : Route{};
+}
+
+std::string_view name_of(Endpoint endpoint) {
+  for (const auto& [path, known] : kPaths) {
+    if (endpoint == known) return path;
+  }
+  return endpoint == Endpoint::example ? "/v1/examples/{name}" : "unknown";
 }
 
 std::string_view allowed_methods(Endpoint endpoint) {

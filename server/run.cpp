@@ -74,6 +74,17 @@ std::string url_of(const Settings& settings, int port) {
   return "http://" + (ipv6 ? "[" + settings.host + "]" : settings.host) + ':' + std::to_string(port);
 }
 
+void announce(const Settings& settings, const HttpServer& server, const RequestLog& log) {
+  const std::string url = url_of(settings, server.port());
+  const auto admin_port = server.admin_port();
+  const std::string admin_url = admin_port ? url_of(settings, *admin_port) : "";
+  std::cout << "fleetplan " << kVersion << " listening on " << url << std::endl;
+  if (admin_port)
+    std::cout << "fleetplan " << kVersion << " health and metrics on " << admin_url << std::endl;
+  log.info("started",
+           {{"version", kVersion}, {"url", url}, {"admin_url", admin_url}, {"workers", settings.workers}});
+}
+
 }  // namespace
 
 int run(const Settings& settings, Service service) {
@@ -85,26 +96,26 @@ int run(const Settings& settings, Service service) {
     std::cerr << "fleetplan: " << *fault << '\n';
     return 1;
   }
+  const RequestLog log(settings.log_level);
   std::thread serving([&] { server.run(); });
-  std::cout << "fleetplan " << kVersion << " listening on " << url_of(settings, server.port()) << std::endl;
-  if (const auto port = server.admin_port()) {
-    std::cout << "fleetplan " << kVersion << " health and metrics on " << url_of(settings, *port)
-              << std::endl;
-  }
+  announce(settings, server, log);
 
   signals.wait();
+  log.info("draining", {{"delay_ms", settings.drain_delay.count()}, {"drain_ms", settings.drain.count()}});
   server.announce_end();
   signals.linger(settings.drain_delay);
   server.begin_drain();
   if (!await_idle(server, signals, Clock::now() + settings.drain)) {
+    log.info("cutting plans that are still running");
     server.cancel_jobs();
     if (!await_idle(server, signals, Clock::now() + kStopGrace)) {
-      std::cerr << "fleetplan: a request did not end in time\n";
+      log.error("a request did not end in time");
       std::_Exit(1);
     }
   }
   server.stop();
   serving.join();
+  log.info("stopped");
   return 0;
 }
 

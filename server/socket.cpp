@@ -1,5 +1,6 @@
 #include "server/socket.h"
 
+#include <netdb.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -72,6 +73,21 @@ bool Socket::peer_gone() const {
 }
 
 void Socket::hang_up() { ::shutdown(fd_, SHUT_RDWR); }
+
+std::string Socket::peer() const {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  auto* generic = reinterpret_cast<sockaddr*>(&address);
+  std::array<char, NI_MAXHOST> host{};
+  std::array<char, NI_MAXSERV> port{};
+  if (::getpeername(fd_, generic, &size) != 0 ||
+      ::getnameinfo(generic, size, host.data(), host.size(), port.data(), port.size(),
+                    NI_NUMERICHOST | NI_NUMERICSERV) != 0) {
+    return {};
+  }
+  const std::string name = host.data();
+  return (address.ss_family == AF_INET6 ? '[' + name + ']' : name) + ':' + port.data();
+}
 
 void Socket::linger() {
   ::shutdown(fd_, SHUT_WR);

@@ -39,6 +39,9 @@ class Socket {
   /// may destroy what is under way to the client.
   void linger();
 
+  /// Address and port of the peer, e.g. 127.0.0.1:40310 or [::1]:40310; empty when it is gone.
+  std::string peer() const;
+
   int fd() const { return fd_; }
 
  private:

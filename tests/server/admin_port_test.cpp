@@ -38,6 +38,7 @@ TEST(AdminPort, AnswersHealthReadinessAndMetricsAndNothingElse) {
   auto client = admin_client(server);
   EXPECT_EQ(status_of(client.Get("/healthz")), 200);
   EXPECT_EQ(status_of(client.Get("/readyz")), 200);
+  EXPECT_EQ(status_of(client.Get("/metrics")), 200);
   for (const char* path : {"/", "/v1/limits", "/v1/examples", "/v1/plan"}) {
     EXPECT_EQ(status_of(client.Get(path)), 404) << path;
   }
@@ -56,7 +57,18 @@ TEST(AdminPort, AnswersWhenNoConnectionOfTheMainPortIsLeft) {
     auto client = admin_client(server);
     EXPECT_EQ(status_of(client.Get("/healthz")), 200);
     EXPECT_EQ(status_of(client.Get("/readyz")), 200);
+    EXPECT_EQ(status_of(client.Get("/metrics")), 200);
   }
+}
+
+TEST(AdminPort, WantsTheTokenForMetrics) {
+  Settings settings = with_admin_port();
+  settings.token = std::get<AccessToken>(AccessToken::from_text("token"));
+  const TestServer server(settings);
+  auto client = admin_client(server);
+  EXPECT_EQ(status_of(client.Get("/metrics")), 401);
+  EXPECT_EQ(status_of(client.Get("/metrics", httplib::Headers{{"Authorization", "Bearer token"}})), 200);
+  EXPECT_EQ(status_of(client.Get("/healthz")), 200);
 }
 
 TEST(AdminPort, AnswersWhenAllWorkersAreBusyAndTheQueueIsFull) {

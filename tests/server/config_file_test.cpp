@@ -84,7 +84,7 @@ TEST(ConfigFile, IsRefusedWithItsNameAndWhatIsWrong) {
   EXPECT_THAT(fault_of("prot = 9000\n"), AllOf(HasSubstr("--config: "), HasSubstr("no setting 'prot'")));
   EXPECT_THAT(fault_of("port = 70000\n"), AllOf(HasSubstr("--config: "), HasSubstr("--port")));
   EXPECT_THAT(fault_of("port = many\n"), HasSubstr("--port"));
-  EXPECT_THAT(fault_of("port\n"), HasSubstr("--port"));
+  EXPECT_THAT(fault_of("port\n"), HasSubstr("'port' has no value"));
   EXPECT_THAT(fault_of("port =\n"), HasSubstr("--port"));
   EXPECT_THAT(fault_of("port = 1\nport = 2\n"), HasSubstr("port"));
   EXPECT_THAT(fault_of("port = 1\nhost = ::1\nport = 1\n"), HasSubstr("'port' is set twice"));

@@ -56,6 +56,15 @@ class Process {
   std::string output_line() const { return line_of(out_); }
   std::string log_line() const { return line_of(log_); }
 
+  /// The next line of the log with this in it; empty when there is none.
+  std::string log_line_with(const std::string& part) const {
+    std::string line;
+    do {
+      line = log_line();
+    } while (!line.empty() && line.find(part) == std::string::npos);
+    return line;
+  }
+
   void signal(int number) const { ::kill(pid_, number); }
 
   /// Waits for the end; the exit code, or minus the signal that ended it.
@@ -83,6 +92,15 @@ int port_in(const std::string& line) { return std::stoi(line.substr(line.rfind('
 
 const std::string kGreeting = "fleetplan " FLEETPLAN_VERSION " listening on http://127.0.0.1:";
 
+/// Two robots that change places; `anytime` takes its whole budget of half a minute.
+std::string swap_request(const std::string& mode) {
+  return R"({"map":{"rows":["..........",".........."]},"robots":[
+    {"id":"a","radius":0.3,"linear_speed":1,"angular_speed":1,"start":{"x":0.5,"y":0.5},"goal":{"x":9.5,"y":0.5}},
+    {"id":"b","radius":0.3,"linear_speed":1,"angular_speed":1,"start":{"x":9.5,"y":0.5},"goal":{"x":0.5,"y":0.5}}],
+    "options":{"time_budget_ms":30000,"mode":")" +
+         mode + "\"}}";
+}
+
 TEST(Process, SaysWhereItListensAndLogsRequestsAsJson) {
   Process process({"--port", "0", "--workers", "1"});
   const std::string line = process.output_line();
@@ -91,12 +109,55 @@ TEST(Process, SaysWhereItListensAndLogsRequestsAsJson) {
   const auto health = client.Get("/healthz?secret=1", httplib::Headers{{"X-Request-Id", "abc"}});
   ASSERT_TRUE(health);
   EXPECT_EQ(health->status, 200);
-  const std::string log = process.log_line();
+  const std::string log = process.log_line_with("healthz");
   for (const char* part : {R"("time":"2)", R"("level":"info")", R"("id":"abc")", R"("method":"GET")",
-                           R"("path":"/healthz")", R"("status":200)", R"("ms":)"}) {
+                           R"("path":"/healthz")", R"("status":200)", R"("ms":)", R"("peer":"127.0.0.1:)"}) {
     EXPECT_NE(log.find(part), std::string::npos) << log;
   }
   EXPECT_EQ(log.find("secret"), std::string::npos) << log;
+}
+
+TEST(Process, LogsWhatBecameOfAPlan) {
+  Process process({"--port", "0", "--workers", "1"});
+  httplib::Client client("127.0.0.1", port_in(process.output_line()));
+  const auto swapped = client.Post("/v1/plan", swap_request("first"), "application/json");
+  ASSERT_TRUE(swapped);
+  const std::string log = process.log_line_with("/v1/plan");
+  for (const char* part : {R"("status":200)", R"("outcome":"solved")", R"("planned":2)", R"("unplanned":0)",
+                           R"("flowtime":)", R"("plan_ms":)", R"("queue_ms":)"}) {
+    EXPECT_NE(log.find(part), std::string::npos) << part << ": " << log;
+  }
+  const auto invalid = client.Post("/v1/plan", "{}", "application/json");
+  ASSERT_TRUE(invalid);
+  const std::string refusal = process.log_line_with("/v1/plan");
+  EXPECT_NE(refusal.find(R"("code":"invalid_request")"), std::string::npos) << refusal;
+  EXPECT_EQ(refusal.find("outcome"), std::string::npos) << refusal;
+}
+
+TEST(Process, LogsItsStartAndItsEnd) {
+  Process process({"--port", "0", "--admin-port", "0", "--workers", "1"});
+  const int port = port_in(process.output_line());
+  const std::string started = process.log_line();
+  EXPECT_NE(started.find(R"("message":"started","version":")"), std::string::npos) << started;
+  EXPECT_NE(started.find(R"("url":"http://127.0.0.1:)" + std::to_string(port) + '"'), std::string::npos);
+  EXPECT_NE(started.find(R"("workers":1)"), std::string::npos) << started;
+  process.signal(SIGTERM);
+  const std::string draining = process.log_line();
+  EXPECT_NE(draining.find(R"("message":"draining","delay_ms":0,"drain_ms":10000)"), std::string::npos)
+      << draining;
+  EXPECT_NE(process.log_line().find(R"("message":"stopped")"), std::string::npos);
+  EXPECT_EQ(process.exit_code(), 0);
+}
+
+TEST(Process, LogsTheAdminPortOnlyWhenAskedForDetails) {
+  for (const std::string& level : {std::string("info"), std::string("debug")}) {
+    Process process({"--port", "0", "--admin-port", "0", "--workers", "1", "--log-level", level});
+    process.output_line();
+    httplib::Client client("127.0.0.1", port_in(process.output_line()));
+    ASSERT_TRUE(client.Get("/healthz"));
+    process.signal(SIGTERM);
+    EXPECT_EQ(process.log_line_with("/healthz").empty(), level == "info");
+  }
 }
 
 TEST(Process, EndsWell) {
@@ -152,14 +213,6 @@ TEST(Process, FailsOnABadValueAndExplainsItself) {
   EXPECT_EQ(version.exit_code(), 0);
 }
 
-/// A plan that takes its whole budget: two robots in each other's way, improved for half a minute.
-std::string long_request() {
-  return R"({"map":{"rows":["..........",".........."]},"robots":[
-    {"id":"a","radius":0.3,"linear_speed":1,"angular_speed":1,"start":{"x":0.5,"y":0.5},"goal":{"x":9.5,"y":0.5}},
-    {"id":"b","radius":0.3,"linear_speed":1,"angular_speed":1,"start":{"x":9.5,"y":0.5},"goal":{"x":0.5,"y":0.5}}],
-    "options":{"mode":"anytime","time_budget_ms":30000}})";
-}
-
 /// Sends the long request from a thread of its own and waits until the server works on it.
 class LongRequest {
  public:
@@ -168,7 +221,7 @@ class LongRequest {
     thread_ = std::thread([this] {
       bool overloaded = true;  // as long as the probe below is in the way
       while (overloaded) {
-        const auto result = client_.Post("/v1/plan", long_request(), "application/json");
+        const auto result = client_.Post("/v1/plan", swap_request("anytime"), "application/json");
         status_ = result ? result->status : 0;
         overloaded = result && result->body.find("overloaded") != std::string::npos;
       }

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace fleetplan::core {
+struct Plan;
+}
+
+namespace fleetplan::api {
+
+/// What became of a valid request to plan, for those who watch the service; an answer tells all of it in
+/// full.
+struct PlanOutcome {
+  /// solved: every robot has a plan; partial: some; none. refused: by the checker, a bug.
+  enum class Status { solved, partial, none, refused };
+  Status status = Status::none;
+  std::size_t planned = 0;      // robots
+  std::size_t unplanned = 0;    // robots
+  std::int64_t expansions = 0;  // search labels
+  double flowtime = 0.0;        // seconds, of the planned robots
+  double plan_seconds = 0.0;    // time for planning, without parsing, checking and writing
+};
+
+/// As answers, metrics and the log have it, e.g. "solved".
+std::string_view name_of(PlanOutcome::Status status);
+
+/// How much of a plan is there, taking it that the checker accepts it.
+PlanOutcome::Status status_of(const core::Plan& plan);
+
+PlanOutcome outcome_of(const core::Plan& plan, double plan_seconds);
+
+}  // namespace fleetplan::api

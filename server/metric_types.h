@@ -1,0 +1,46 @@
+#pragma once
+
+// Numbers that many threads change and one reads now and then. Each is right by itself; together they may be
+// of slightly different moments, as Prometheus expects.
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+namespace fleetplan::server {
+
+/// Only grows.
+class Counter {
+ public:
+  void add(std::uint64_t amount = 1) { value_.fetch_add(amount, std::memory_order_relaxed); }
+  std::uint64_t value() const { return value_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<std::uint64_t> value_{0};
+};
+
+/// Durations by size.
+class Histogram {
+ public:
+  /// Upper bounds of the buckets, seconds, inclusive; whatever is longer is counted beyond the last.
+  static constexpr std::array<double, 16> kBounds{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1,  0.25,
+                                                  0.5,   1.0,    2.5,   5.0,  10.0,  30.0, 60.0, 120.0};
+
+  void observe(double seconds) {
+    std::size_t bucket = 0;
+    while (bucket < kBounds.size() && seconds > kBounds[bucket]) ++bucket;
+    counts_[bucket].add();
+    sum_.fetch_add(seconds, std::memory_order_relaxed);
+  }
+
+  /// In bucket `index` alone; kBounds.size() is the one beyond the last bound.
+  std::uint64_t count(std::size_t index) const { return counts_[index].value(); }
+  double sum() const { return sum_.load(std::memory_order_relaxed); }
+
+ private:
+  std::array<Counter, kBounds.size() + 1> counts_;
+  std::atomic<double> sum_{0.0};
+};
+
+}  // namespace fleetplan::server
