@@ -161,6 +161,27 @@ std::string Builder::pointer() const {
   return pointer;
 }
 
+/// Where a number ends that begins at the offset, by the grammar of JSON; what follows is not looked at.
+std::size_t number_end(std::string_view text, std::size_t at) {
+  const auto skip = [&](std::string_view any_of) {
+    if (at >= text.size() || any_of.find(text[at]) == std::string_view::npos) return false;
+    ++at;
+    return true;
+  };
+  const auto skip_digits = [&] {
+    while (skip("0123456789")) {
+    }
+  };
+  skip("-");
+  if (!skip("0")) skip_digits();
+  if (skip(".")) skip_digits();
+  if (skip("eE")) {
+    skip("+-");
+    skip_digits();
+  }
+  return at;
+}
+
 /// A body whose numbers that are too large for a double are replaced by 0, and which they were.
 struct Tamed {
   std::string body;
@@ -177,7 +198,7 @@ Tamed tame_overflowing(std::string_view body) {
     if (text[at] == '"') {
       for (++at; at < text.size() && text[at] != '"'; ++at) at += text[at] == '\\' ? 1 : 0;
     } else if (text[at] == '-' || (text[at] >= '0' && text[at] <= '9')) {
-      const std::size_t end = std::min(text.find_first_not_of("0123456789+-.eE", at), text.size());
+      const std::size_t end = number_end(text, at);
       if (std::isinf(std::strtod(text.substr(at, end - at).c_str(), nullptr))) {
         text.replace(at, end - at, end - at, ' ');
         text[at] = '0';

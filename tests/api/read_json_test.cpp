@@ -138,7 +138,13 @@ TEST(ReadJson, ReadsNumbersTooLargeForADoubleAsInfinite) {
   EXPECT_EQ(items[3].number(), 2.5);
   EXPECT_TRUE(std::isinf(*items[4].number()));
   EXPECT_EQ(items[5].number(), 0.0);
-  EXPECT_EQ(refused("[1e999, oops]").code, ErrorCode::malformed_json);
+}
+
+TEST(ReadJson, LooksAtWhatFollowsANumberTooLargeForADouble) {
+  for (const char* body : {"[1e999, oops]", "[1e999e1]", "[1e999-1]", "[1e999.5]", "[1e999, 01e999]",
+                           "[1e999, -]", "[1e999, 1e+]", "[1e999, 1.]"}) {
+    EXPECT_EQ(refused(body).code, ErrorCode::malformed_json) << body;
+  }
 }
 
 TEST(ReadJson, BoundsHowManyValuesThereAre) {
