@@ -128,6 +128,30 @@ test("422: a request that is not valid", async () => {
   for (const path of POSTS) expectProblem(await client.post(path, {}), 422, "invalid_request");
 });
 
+/** Plans of robots that mill about in one heap: each pair overlaps in every moment. */
+function heap(robots, actions) {
+  const ids = Array.from({ length: robots }, (_, index) => `r${index}`);
+  const [here, there] = [5, 5.005].map((x) => ({ x, y: 5, theta: 0 }));
+  const moves = Array.from({ length: actions }, (_, index) => ({
+    type: "translate",
+    t_start: index / 100,
+    t_end: (index + 1) / 100,
+    from: index % 2 === 0 ? here : there,
+    to: index % 2 === 0 ? there : here,
+  }));
+  return {
+    ...BUSY,
+    options: { time_budget_ms: 1 },
+    robots: ids.map((id) => ({ id, start: here })),
+    plans: ids.map((robot) => ({ robot, actions: moves })),
+  };
+}
+
+test("422: plans that take longer to check than there is time", async () => {
+  const { client: hasty } = await separateService(["--default-budget-ms", "1"]);
+  expectProblem(await hasty.post("/v1/validate", heap(200, 100)), 422, "check_unfinished");
+});
+
 /** A service of its own, which is stopped after the tests at the latest. */
 async function separateService(flags) {
   const service = await startService(flags);

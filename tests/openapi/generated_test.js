@@ -28,7 +28,7 @@ const BEYOND_SCHEMA = {
   goals_overlap: /^\/robots\/\d+\/goal$/,
 };
 
-const { document, client } = await openSession(["--default-budget-ms", "20", "--max-budget-ms", "50"]);
+const { document, client } = await openSession(["--default-budget-ms", "20", "--max-budget-ms", "1000"]);
 
 const KINDS = {
   "/v1/plan": { component: "PlanRequest", plausible: plausibleRequests(document) },
@@ -64,39 +64,51 @@ function rounding({ robots, robot_defaults }, { makespan }) {
 }
 
 /** A plan for a good request is complete, in order, and valid by /v1/validate. */
-async function expectSound(bytes, request, answer) {
+async function expectSound({ options, ...fleet }, answer) {
   const planned = answer.plans.map(({ robot }) => robot);
-  const all = request.robots.map(({ id }) => id);
+  const all = fleet.robots.map(({ id }) => id);
   const unplanned = answer.unplanned.map(({ robot }) => robot);
   assert.deepEqual([...planned, ...unplanned].sort(), [...all].sort());
   assert.deepEqual(
     planned,
     all.filter((id) => planned.includes(id)),
   );
-  const rest = JSON.stringify({ ...answer, ...rounding(request, answer) }).slice(1);
-  const both = bytes.toString("utf8").trimEnd().slice(0, -1);
-  const verdict = await client.post("/v1/validate", `${both},${rest}`);
+  const verdict = await client.post("/v1/validate", {
+    ...fleet,
+    ...answer,
+    ...rounding(fleet, answer),
+    options: { time_budget_ms: 1000 },
+  });
   assert.deepEqual(verdict.json.violations, []);
 }
 
+/** The answer at the end of a stream of events. */
+function lastOf(events) {
+  const { event, data } = events.at(-1);
+  assert.equal(event, "plan", JSON.stringify(data));
+  return data;
+}
+
 /** Sends bytes and holds the answer, which the client has held to the document, to what was promised. */
-async function judged(path, bytes, counts) {
+async function judged(path, bytes, counts, headers) {
   const promised = expectation(KINDS[path].component, bytes);
-  const { status, json } = await client.post(path, bytes);
+  const { status, json, events } = await client.post(path, bytes, headers);
   counts.set(status, (counts.get(status) ?? 0) + 1);
   assert.ok(
     promised.statuses.includes(status),
     `${status} instead of ${promised.statuses}: ${JSON.stringify(json)}`,
   );
-  if (status === 422) expectPlausibleFaults(json.errors, promised);
-  if (status === 200 && path === "/v1/plan") await expectSound(bytes, promised.value, json);
+  const isUnfinished = json?.code === "check_unfinished"; // when the machine is very busy
+  if (isUnfinished) assert.ok(promised.fits && path === "/v1/validate");
+  if (status === 422 && !isUnfinished) expectPlausibleFaults(json.errors, promised);
+  if (status === 200 && path === "/v1/plan") await expectSound(promised.value, json ?? lastOf(events));
 }
 
 /** Judges many requests; at least a tenth of them have to be answered with each of the statuses. */
-function property(name, path, requests, statuses) {
+function property(name, path, requests, statuses, headers = {}) {
   test(`${path}: ${name}`, async (t) => {
     const counts = new Map();
-    const check = fc.asyncProperty(requests, (bytes) => judged(path, Buffer.from(bytes), counts));
+    const check = fc.asyncProperty(requests, (bytes) => judged(path, Buffer.from(bytes), counts, headers));
     await fc.assert(check, { numRuns: RUNS, seed: SEED, includeErrorInReport: true });
     t.diagnostic(`seed ${SEED}, ${[...counts].map(([status, count]) => `${count} x ${status}`).join(", ")}`);
     for (const status of statuses) assert.ok(counts.get(status) >= RUNS / 10, `too few answers ${status}`);
@@ -110,3 +122,8 @@ for (const [path, { component, plausible }] of Object.entries(KINDS)) {
   property("requests spoiled at one place are refused there", path, spoiledValues(plausible), [400, 422]);
   property("requests with spoiled bytes are refused", path, spoiledBytes(plausible), [400]);
 }
+
+const plans = KINDS["/v1/plan"].plausible.map(textOf);
+property("plausible requests are served with events", "/v1/plan", plans, [200], {
+  Accept: "text/event-stream",
+});
