@@ -50,6 +50,7 @@ static_assert(is_in_order(), "every ErrorCode has its row, in the order of the e
 
 std::vector<ErrorCode> error_codes() {
   std::vector<ErrorCode> codes;
+  codes.reserve(kTable.size());
   for (const Row& row : kTable) codes.push_back(row.code);
   return codes;
 }
