@@ -19,4 +19,10 @@ void keep_memory_small(int workers) {
 #endif
 }
 
+void give_memory_back() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 }  // namespace fleetplan::server

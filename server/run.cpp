@@ -19,6 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kDrainCheck{20};
+constexpr std::chrono::seconds kHousekeeping{5};
 /// A job that was asked to stop does so within this, or the process ends without it.
 constexpr std::chrono::seconds kStopGrace{5};
 
@@ -32,10 +33,10 @@ class EndSignals {
     pthread_sigmask(SIG_BLOCK, &set_, nullptr);
   }
 
-  void wait() const {
-    int number = 0;
-    while (sigwait(&set_, &number) != 0) {
-    }
+  /// False when none came within that time.
+  bool wait(std::chrono::seconds patience) const {
+    const timespec time{patience.count(), 0};
+    return sigtimedwait(&set_, nullptr, &time) > 0;
   }
 
   /// Lets the time pass. A SIGINT, which is not the first signal any more, ends the process.
@@ -100,7 +101,7 @@ int run(const Settings& settings, Service service) {
   std::thread serving([&] { server.run(); });
   announce(settings, server, log);
 
-  signals.wait();
+  while (!signals.wait(kHousekeeping)) give_memory_back();
   log.info("draining", {{"delay_ms", settings.drain_delay.count()}, {"drain_ms", settings.drain.count()}});
   server.announce_end();
   signals.linger(settings.drain_delay);

@@ -17,7 +17,7 @@ from clients import KINDS, run_process
 from server import Server
 
 ROUND_S = 60.0
-PAUSE_S = 3.0  # idle connections have ended, and the sockets' memory with them
+PAUSE_S = 6.0  # the server gives back what it does not need every five seconds
 MOST_GROWTH = 0.05
 MOST_TOLD = 10
 
