@@ -106,17 +106,17 @@ Reply plan_with(const Planner& planner, std::string_view body, const RequestCont
   stages.parsed = Clock::now();
 
   const core::StopCondition stop(planning_deadline(context, request.budget), context.stop);
-  if (context.events != nullptr) context.events->begin({request.problem.robots().size()});
-  if (context.await_turn) context.await_turn(stop);
-  stages.started = Clock::now();
   const auto answer = [&](const core::Plan& plan) {
     return checked_answer(plan, request, context.request_id, stages);
   };
   std::optional<PlanWatch> watch;
   if (context.events != nullptr) {
     const std::size_t robots = request.problem.robots().size();
+    context.events->begin({robots});
     watch.emplace(*context.events, robots, stop.deadline(), answer);
   }
+  if (context.await_turn) context.await_turn(stop);
+  stages.started = Clock::now();
   const core::Plan plan = stop.met()
                               ? nothing_planned(request.problem)
                               : planner(request.problem, request.options, stop, watch ? &*watch : nullptr);
