@@ -26,18 +26,20 @@ BodyFault too_large(const std::string& size, std::uint64_t limit) {
 /// Input of one body from a socket, against a slow client.
 class Source {
  public:
-  Source(Socket& socket, std::string& input, std::chrono::milliseconds patience)
-      : socket_(socket), input_(input), patience_(patience), begin_(Socket::Clock::now()) {}
+  Source(Socket& socket, std::string& input, BodyMemory::Share& share, std::chrono::milliseconds patience)
+      : socket_(socket), input_(input), share_(share), patience_(patience), begin_(Socket::Clock::now()) {}
   /// What was not taken stays in the input.
   ~Source() { drop_taken(); }
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
-  /// Moves `count` bytes to `body`; false when they do not come.
+  /// Moves `count` bytes to `body`; false when they do not come or find no room.
   bool take(std::uint64_t count, std::string& body) {
     while (count > 0) {
       if (taken_ == input_.size() && !more()) return false;
       const auto part = std::min<std::uint64_t>(count, input_.size() - taken_);
+      has_room_ = share_.grow_to(body.size() + part);
+      if (!has_room_) return false;
       body.append(input_, taken_, part);
       taken_ += part;
       count -= part;
@@ -58,6 +60,9 @@ class Source {
 
   /// Why something could not be taken.
   BodyFault fault() const {
+    if (!has_room_) {
+      return {BodyFault::Kind::no_room, BodyMemory::kFull};
+    }
     switch (last_) {
       case Socket::Read::timeout:
         return {BodyFault::Kind::too_slow, "The body did not come in time: after " +
@@ -92,6 +97,8 @@ class Source {
 
   Socket& socket_;
   std::string& input_;
+  BodyMemory::Share& share_;
+  bool has_room_ = true;
   std::size_t taken_ = 0;  // of the input; dropped together, as many small pieces may be taken from it
   std::chrono::milliseconds patience_;
   Socket::Clock::time_point begin_;
@@ -139,8 +146,9 @@ std::variant<std::string, BodyFault> read_chunked(Source& source, std::uint64_t 
 }  // namespace
 
 std::variant<std::string, BodyFault> read_body(Socket& socket, std::string& input, const RequestHead& head,
-                                               std::uint64_t limit, std::chrono::milliseconds patience) {
-  Source source(socket, input, patience);
+                                               std::uint64_t limit, BodyMemory::Share& share,
+                                               std::chrono::milliseconds patience) {
+  Source source(socket, input, share, patience);
   if (head.chunked) return read_chunked(source, limit);
   const std::uint64_t length = head.content_length.value_or(0);
   if (length > limit) return too_large(std::to_string(length), limit);

@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "server/body_memory.h"
 #include "server/request_head.h"
 #include "server/socket.h"
 
@@ -13,7 +14,7 @@ namespace fleetplan::server {
 
 /// Why there is no body.
 struct BodyFault {
-  enum class Kind { malformed, too_large, too_slow, stopped };
+  enum class Kind { malformed, too_large, no_room, too_slow, stopped };
   Kind kind;
   std::string detail;
 };
@@ -22,8 +23,10 @@ struct BodyFault {
 /// about the framing; chunk extensions and trailers are read and dropped.
 ///
 /// `input` holds what was read beyond the head; what follows the body stays in it. `limit`: bytes of body.
-/// The client may pause for `patience` and must send at least 1 kB/s beyond that.
+/// `share`: of the memory of all bodies, to hold this one. The client may pause for `patience` and must send
+/// at least 1 kB/s beyond that.
 std::variant<std::string, BodyFault> read_body(Socket& socket, std::string& input, const RequestHead& head,
-                                               std::uint64_t limit, std::chrono::milliseconds patience);
+                                               std::uint64_t limit, BodyMemory::Share& share,
+                                               std::chrono::milliseconds patience);
 
 }  // namespace fleetplan::server

@@ -33,6 +33,8 @@ ErrorCode code_of(BodyFault::Kind kind) {
   switch (kind) {
     case BodyFault::Kind::too_large:
       return ErrorCode::body_too_large;
+    case BodyFault::Kind::no_room:
+      return ErrorCode::overloaded;
     case BodyFault::Kind::too_slow:
       return ErrorCode::request_timeout;
     case BodyFault::Kind::stopped:
@@ -66,6 +68,7 @@ void Connection::serve() {
     const UnderWay counted(context_.exchanges);
     Exchange exchange;
     exchange.socket = &socket_;
+    exchange.memory.emplace(context_.body_memory);
     exchange.begun_at = Clock::now();
     serve_exchange(exchange);
     open_ = open_ && !exchange.close;
@@ -175,11 +178,12 @@ std::optional<Refusal> Connection::read_content(Exchange& exchange) {
   const RequestHead& head = exchange.head;
   if (!has_body(head)) return std::nullopt;
   if (expects_continue(head) && input_.empty()) open_ = socket_.write_all("HTTP/1.1 100 Continue\r\n\r\n");
-  auto read =
-      read_body(socket_, input_, head, context_.settings.limits.max_body, context_.settings.read_timeout);
+  auto read = read_body(socket_, input_, head, context_.settings.limits.max_body, *exchange.memory,
+                        context_.settings.read_timeout);
   if (auto* fault = std::get_if<BodyFault>(&read)) {
     exchange.close = unread_ = true;
     Refusal refusal{code_of(fault->kind), fault->detail};
+    if (refusal.code == ErrorCode::overloaded) refusal.fields = {{"Retry-After", BodyMemory::kRetryAfterS}};
     if (refusal.code == ErrorCode::draining) refusal.fields = {{"Retry-After", kDrainingRetryAfterS}};
     return refusal;
   }
@@ -198,7 +202,8 @@ std::uint64_t Connection::write(Exchange& exchange, const DirectAnswer& answer) 
 }
 
 void Connection::drop_body(Exchange& exchange) {
-  const auto read = read_body(socket_, input_, exchange.head, kMaxDropped, context_.settings.read_timeout);
+  const auto read = read_body(socket_, input_, exchange.head, kMaxDropped, *exchange.memory,
+                              context_.settings.read_timeout);
   if (std::holds_alternative<BodyFault>(read)) exchange.close = unread_ = true;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "server/admission.h"
+#include "server/body_memory.h"
 #include "server/cors.h"
 #include "server/exchange.h"
 #include "server/exchange_stream.h"
@@ -23,6 +24,7 @@ struct ConnectionContext {
   const CrossOrigin& cross_origin;
   const RequestLog& log;
   Metrics& metrics;
+  BodyMemory& body_memory;
   const std::atomic<bool>& draining;
   std::atomic<std::size_t>& exchanges;                     // under way
   int stop_fd;                                             // see Socket

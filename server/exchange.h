@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "api/plan_outcome.h"
+#include "server/body_memory.h"
 #include "server/request_head.h"
 #include "server/routes.h"
 #include "server/socket.h"
@@ -27,7 +28,8 @@ struct Exchange {
   std::string request_id;
   RequestHead head;
   Route route;
-  std::string body;  // as sent, perhaps gzip-coded
+  std::optional<BodyMemory::Share> memory = std::nullopt;  // for the body
+  std::string body;                                        // as sent, perhaps gzip-coded
 
   HeaderFields fields;  // of the answer, by what the request's head says
   int status = 0;

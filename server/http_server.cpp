@@ -34,7 +34,10 @@ void note(Exchange& exchange, const api::Reply& reply) {
   exchange.outcome = reply.outcome;
 }
 
-void fill(Exchange& exchange, httplib::Response& response, api::Reply reply) {
+/// `fields`: further ones.
+void fill(Exchange& exchange, httplib::Response& response, api::Reply reply,
+          const HeaderFields& fields = {}) {
+  for (const auto& [name, value] : fields) response.set_header(name, value);
   note(exchange, reply);
   response.status = reply.status;
   response.body = std::move(reply.body);
@@ -50,6 +53,7 @@ HttpServer::HttpServer(const Settings& settings, Service service)
       files_(settings.web_root),
       cross_origin_(settings.cors_origins),
       main_(settings.host, settings.port, settings.connections, [this](int fd) { serve(fd, Port::main); }),
+      body_memory_(settings.limits.max_body * (settings.queue + static_cast<std::size_t>(settings.workers))),
       jobs_(settings_, log_) {
   if (settings_.admin_port) {
     admin_.emplace(settings_.host, *settings_.admin_port, kAdminConnections,
@@ -92,7 +96,7 @@ void HttpServer::serve(int fd, Port port) {
   Traffic& traffic = port == Port::main ? traffic_ : admin_traffic_;
   const UnderWay open(traffic.connections);
   Connection connection(
-      fd, {settings_, port, files_, cross_origin_, log_, metrics_, draining_, traffic.exchanges,
+      fd, {settings_, port, files_, cross_origin_, log_, metrics_, body_memory_, draining_, traffic.exchanges,
            stop_signal_.fd(),
            [this](Exchange& exchange, ExchangeStream& stream) { return answer(exchange, stream); }});
   connection.serve();
@@ -204,7 +208,9 @@ void HttpServer::answer_page(Exchange& exchange, httplib::Response& response) {
 
 void HttpServer::answer_job(Exchange& exchange, const httplib::ContentReader& reader,
                             httplib::Response& response) {
-  if (auto refusal = decode_body(exchange, reader)) return fill(exchange, response, std::move(*refusal));
+  if (auto refusal = decode_body(exchange, reader)) {
+    return fill(exchange, response, std::move(refusal->reply), refusal->fields);
+  }
   const auto& endpoint = exchange.route.endpoint == Endpoint::plan ? service_.plan : service_.validate;
   std::optional<EventStream> events;
   if (plan_form(exchange.head.field("accept")) == PlanForm::events) events.emplace(exchange);
@@ -215,32 +221,37 @@ void HttpServer::answer_job(Exchange& exchange, const httplib::ContentReader& re
     response.status = 200;
     return;
   }
-  for (const auto& [name, value] : outcome.fields) response.set_header(name, value);
-  fill(exchange, response, std::move(outcome.reply));
+  fill(exchange, response, std::move(outcome.reply), outcome.fields);
 }
 
-std::optional<api::Reply> HttpServer::decode_body(Exchange& exchange,
-                                                  const httplib::ContentReader& reader) const {
+std::optional<DirectAnswer> HttpServer::decode_body(Exchange& exchange,
+                                                    const httplib::ContentReader& reader) const {
   if (content_coding(exchange.head.field("content-encoding")) == ContentCoding::identity) return std::nullopt;
   const std::size_t limit = settings_.limits.max_body;
   std::string decoded;
   bool too_large = false;
+  bool has_room = true;
   const bool complete = reader([&](const char* data, std::size_t size) {
     too_large = size > limit - decoded.size();
-    if (!too_large) decoded.append(data, size);
-    return !too_large;
+    has_room = exchange.memory->grow_to(exchange.body.size() + decoded.size() + size);
+    if (too_large || !has_room) return false;
+    decoded.append(data, size);
+    return true;
   });
+  const auto refused = [&](ErrorCode code, const std::string& detail) {
+    return DirectAnswer{api::problem_reply(code, detail, exchange.request_id)};
+  };
   if (too_large) {
-    return api::problem_reply(ErrorCode::body_too_large,
-                              "The body of " + std::to_string(exchange.body.size()) +
-                                  " bytes has more than " + std::to_string(limit) +
-                                  " bytes when decompressed, which is the limit.",
-                              exchange.request_id);
+    return refused(ErrorCode::body_too_large, "The body of " + std::to_string(exchange.body.size()) +
+                                                  " bytes has more than " + std::to_string(limit) +
+                                                  " bytes when decompressed, which is the limit.");
   }
-  if (!complete) {
-    return api::problem_reply(ErrorCode::malformed_request, "The body is not in gzip, as it is declared.",
-                              exchange.request_id);
+  if (!has_room) {
+    DirectAnswer answer = refused(ErrorCode::overloaded, BodyMemory::kFull);
+    answer.fields = {{"Retry-After", BodyMemory::kRetryAfterS}};
+    return answer;
   }
+  if (!complete) return refused(ErrorCode::malformed_request, "The body is not in gzip, as it is declared.");
   exchange.body = std::move(decoded);
   return std::nullopt;
 }

@@ -75,7 +75,7 @@ class HttpServer final : private httplib::Server {
   void answer_get(Exchange& exchange, httplib::Response& response);
   void answer_page(Exchange& exchange, httplib::Response& response);
   void answer_job(Exchange& exchange, const httplib::ContentReader& reader, httplib::Response& response);
-  std::optional<api::Reply> decode_body(Exchange& exchange, const httplib::ContentReader& reader) const;
+  std::optional<DirectAnswer> decode_body(Exchange& exchange, const httplib::ContentReader& reader) const;
   Exchange* exchange_of(const httplib::Request& request);
 
   const Settings settings_;
@@ -93,6 +93,7 @@ class HttpServer final : private httplib::Server {
   std::unordered_map<const httplib::Request*, Exchange*> exchanges_;  // those in the library's hands
   Listener main_;
   std::optional<Listener> admin_;
+  BodyMemory body_memory_;  // of as many large bodies as there may be jobs
   JobRunner jobs_;
 };
 

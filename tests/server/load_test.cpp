@@ -114,6 +114,37 @@ TEST(Load, BeyondTheConnectionsWaitsForOneToEnd) {
   for (auto& client : clients) EXPECT_NE(client->receive().find("200 OK"), std::string::npos);
 }
 
+TEST(Load, OfManyLargeBodiesIsRefusedWhileSmallOnesAreTaken) {
+  Settings settings = with_workers(1, 0);  // so that one large body at a time is held
+  settings.limits.max_body = 1 << 20;
+  const TestServer server(settings);
+  RawConnection hoarder(server.server.port());
+  hoarder.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 1048576\r\n\r\n" + std::string((1 << 20) - 1, ' '));
+
+  auto client = server.client();
+  const std::string large(1 << 19, ' ');
+  for (const bool compressed : {false, true}) {
+    client.set_compress(compressed);
+    auto result = client.Post("/v1/plan", large, kJsonType);
+    while (result && result->status == 200) result = client.Post("/v1/plan", large, kJsonType);
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->status, 503);
+    EXPECT_NE(result->body.find("overloaded"), std::string::npos);
+    EXPECT_TRUE(result->has_header("Retry-After"));
+    const auto small = client.Post("/v1/plan", "abc", kJsonType);
+    ASSERT_TRUE(small);
+    EXPECT_EQ(small->status, 200);
+  }
+
+  hoarder.send(" ");
+  EXPECT_NE(hoarder.receive().find(R"({"size":1048576})"), std::string::npos);
+  hoarder.reset();
+  auto after = client.Post("/v1/plan", large, kJsonType);
+  while (after && after->status == 503) after = client.Post("/v1/plan", large, kJsonType);
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->body, R"({"size":524288})");
+}
+
 TEST(Leaving, StopsThePlanThatNobodyWaitsFor) {
   TestServer server(with_workers(1, 1));
   {

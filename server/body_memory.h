@@ -1,0 +1,41 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace fleetplan::server {
+
+/// Bounds what the bodies of all requests take together, so that many large ones at the same time are refused
+/// instead of exhausting the machine. Thread-safe.
+class BodyMemory {
+ public:
+  /// `bytes`: for all bodies beyond the small ones.
+  explicit BodyMemory(std::uint64_t bytes) : left_(static_cast<std::int64_t>(bytes)) {}
+
+  /// What one request holds, until its end.
+  class Share {
+   public:
+    explicit Share(BodyMemory& memory) : memory_(memory) {}
+    ~Share() { memory_.left_ += held_; }
+    Share(const Share&) = delete;
+    Share& operator=(const Share&) = delete;
+
+    /// True when the request may hold so many bytes. Up to kSmall always: so many honest clients can be
+    /// served beside a few that hoard the rest.
+    bool grow_to(std::uint64_t bytes);
+
+   private:
+    BodyMemory& memory_;
+    std::int64_t held_ = 0;
+  };
+
+  static constexpr std::uint64_t kSmall = 64 * 1024;
+  /// What a client is told when there is no more, and when to come back.
+  static constexpr const char* kFull = "Too many large requests are being received: try again later.";
+  static constexpr const char* kRetryAfterS = "1";
+
+ private:
+  std::atomic<std::int64_t> left_;
+};
+
+}  // namespace fleetplan::server
