@@ -156,7 +156,8 @@ void HttpServer::install_handlers() {
     exchange->status = response.status;
     if (draining_) exchange->close = true;
     for (const char* name : {"Keep-Alive", "Accept-Ranges", "Connection"}) response.headers.erase(name);
-    response.set_header("Vary", "Accept-Encoding");
+    response.set_header(
+        "Vary", exchange->route.endpoint == Endpoint::plan ? "Accept, Accept-Encoding" : "Accept-Encoding");
     if (response.status == 304) response.headers.erase("Content-Length");
     for (const auto& [name, value] : common_fields(*exchange)) response.set_header(name, value);
   });

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::chrono::seconds kWriteTimeout{10};
 constexpr std::size_t kLeastBytesPerMs = 10;
+constexpr std::chrono::seconds kWriteTimeoutAtTheEnd{2};
 constexpr std::chrono::seconds kLinger{3};
 
 int milliseconds_until(Socket::Clock::time_point deadline) {
@@ -45,8 +46,8 @@ Socket::Read Socket::read_some(std::string& into, Clock::time_point deadline) {
 }
 
 bool Socket::write_all(std::string_view data) {
-  const auto deadline =
-      Clock::now() + kWriteTimeout + std::chrono::milliseconds(data.size() / kLeastBytesPerMs);
+  auto deadline = Clock::now() + kWriteTimeout + std::chrono::milliseconds(data.size() / kLeastBytesPerMs);
+  bool stopped = false;
   while (!data.empty()) {
     const ssize_t sent = ::send(fd_, data.data(), data.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
     if (sent > 0) {
@@ -55,9 +56,13 @@ bool Socket::write_all(std::string_view data) {
     }
     if (errno == EINTR) continue;
     if (errno != EAGAIN && errno != EWOULDBLOCK) return false;
-    pollfd writable{fd_, POLLOUT, 0};
-    if (::poll(&writable, 1, milliseconds_until(std::min(deadline, Clock::now() + kWriteTimeout))) == 0)
-      return false;
+    std::array<pollfd, 2> wanted{{{fd_, POLLOUT, 0}, {stop_fd_, POLLIN, 0}}};
+    const auto patience = std::min(deadline, Clock::now() + kWriteTimeout);
+    if (::poll(wanted.data(), stopped ? 1 : 2, milliseconds_until(patience)) == 0) return false;
+    if (!stopped && wanted[1].revents != 0) {
+      stopped = true;
+      deadline = std::min(deadline, Clock::now() + kWriteTimeoutAtTheEnd);
+    }
   }
   return true;
 }

@@ -13,7 +13,7 @@ class Socket {
   using Clock = std::chrono::steady_clock;
   enum class Read { some, end, timeout, stopped };
 
-  /// `stop_fd`: reading gives up as soon as this descriptor becomes readable.
+  /// `stop_fd`: as soon as this descriptor becomes readable, reading gives up and writing soon does.
   Socket(int fd, int stop_fd) : fd_(fd), stop_fd_(stop_fd) {}
   ~Socket();
   Socket(const Socket&) = delete;

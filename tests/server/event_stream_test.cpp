@@ -218,6 +218,16 @@ TEST_F(EventStreams, EndWithThePlanThatThereIsWhenTheServerStopsJobs) {
   EXPECT_EQ(service.stopped, 1);
 }
 
+TEST_F(EventStreams, ThatNobodyReadsAreLeftSoonAfterTheServerStopsJobs) {
+  RawConnection stuck(server.server.port());
+  stuck.send(request("flood"));  // more than the sockets' buffers hold
+  while (service.done == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  server.server.begin_drain();
+  EXPECT_FALSE(server.server.idle());
+  server.server.cancel_jobs();
+  while (!server.server.idle()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
 TEST_F(EventStreams, AreNoFormOfOtherAnswers) {
   const auto validated = client.Post("/v1/validate", kEvents, "abc", kJsonType);
   ASSERT_TRUE(validated);
