@@ -99,11 +99,13 @@ void AaSipp::add_start() {
   const int interval = places_[static_cast<std::size_t>(place)].first_interval;
   if (places_[static_cast<std::size_t>(place)].interval_count == 0) return;
   if (intervals_[static_cast<std::size_t>(interval)].begin > 0.0) return;
-  if (!intervals_[static_cast<std::size_t>(interval)].contains(limits_.hold)) return;
+  // Who need not go anywhere holds for ever, and is at rest from the beginning.
+  const double t = is_final(place, interval) ? 0.0 : limits_.hold;
+  if (!intervals_[static_cast<std::size_t>(interval)].contains(t)) return;
   const double heading = fleet_.robot(robot_).start.theta;
-  if (!(rank(place, interval, limits_.hold, heading).cost < limits_.bound)) return;
-  enter(interval, limits_.hold, heading);
-  labels_.push_back({limits_.hold, heading, limits_.hold, -1, place, interval});
+  if (!(rank(place, interval, t, heading).cost < limits_.bound)) return;
+  enter(interval, t, heading);
+  labels_.push_back({t, heading, t, -1, place, interval});
   if (is_final(place, interval)) {
     goal_label_ = 0;
   } else {

@@ -46,6 +46,25 @@ TEST(AaSipp, GoesStraightInTheOpenWithItsTurns) {
   EXPECT_NEAR(trajectory.cost, 5.0 + 1.0, 1e-12) << "3-4-5, and all turns together a quarter, one second";
 }
 
+TEST(AaSipp, HoldsAtItsStart) {
+  Planning p(OccupancyGrid(10, 10, 1.0), {robot_at(1.5, 1.5).to(6.5, 1.5)});
+  const SearchResult result = p.state.plan(0, {.hold = 2.5}, p.never);
+  ASSERT_TRUE(result.trajectory);
+  EXPECT_NEAR(result.trajectory->cost, 2.5 + 5.0, 1e-12);
+}
+
+TEST(AaSipp, DoesNotHoldWhereItIsToRest) {
+  for (const bool turns : {false, true}) {
+    const auto robot = turns ? robot_at(1.5, 1.5).to(1.5, 1.5, kPi / 2) : robot_at(1.5, 1.5).to(1.5, 1.5);
+    Planning p(OccupancyGrid(10, 10, 1.0), {robot});
+    const SearchResult result = p.state.plan(0, {.hold = 2.5}, p.never);
+    ASSERT_TRUE(result.trajectory);
+    EXPECT_NEAR(result.trajectory->cost, turns ? 1.0 : 0.0, 1e-12);
+    p.state.follow(0, *result.trajectory);
+    expect_safe(p.state);
+  }
+}
+
 TEST(AaSipp, ComesToRestInAnyHeadingWhereTheGoalHasNone) {
   Planning p(OccupancyGrid(10, 10, 1.0), {robot_at(1.5, 1.5).to(6.5, 1.5)});
   EXPECT_NEAR(plan_first(p).cost, 5.0, 1e-12);
