@@ -40,12 +40,12 @@ class Record:
 
 
 class Client(threading.Thread):
-    def __init__(self, host, port, seed, limits, streams, until, record, lock):
+    def __init__(self, host, port, seed, limits, until, record, lock):
         super().__init__(daemon=True)
         self.connection = Connection(host, port)
         self.address = (host, port)
         self.random = random.Random(seed)
-        self.limits, self.streams, self.until = limits, streams, until
+        self.limits, self.until = limits, until
         self.record, self.lock = record, lock
         self.scenarios = list(workload.scenarios().items())
         self.bad_bodies, self.bad_texts = workload.bad_bodies(limits), workload.bad_texts(limits)
@@ -143,8 +143,6 @@ class Client(threading.Thread):
         self.plan(kind, wanted, fields, gzip.compress(json.dumps(wanted).encode(), 1))
 
     def do_stream(self, kind):
-        if not self.streams:
-            return
         wanted = self.random.choice(self.scenarios)[1]
         answer = self.ask(kind, "POST", "/v1/plan", {200}, json.dumps(wanted).encode(),
                           [("Accept", "text/event-stream")])
@@ -210,10 +208,10 @@ class Client(threading.Thread):
         self.plan(kind, wanted)
 
 
-def run_process(host, port, seed, connections, limits, streams, seconds, result):
+def run_process(host, port, seed, connections, limits, seconds, result):
     """Some clients of one process until the time is over; sends their record."""
     record, lock, until = Record(), threading.Lock(), time.monotonic() + seconds
-    clients = [Client(host, port, seed * 1000 + index, limits, streams, until, record, lock)
+    clients = [Client(host, port, seed * 1000 + index, limits, until, record, lock)
                for index in range(connections)]
     for client in clients:
         client.start()

@@ -22,21 +22,11 @@ MOST_GROWTH = 0.05
 MOST_TOLD = 10
 
 
-def supports_streams(server):
-    """Whether /v1/plan knows text/event-stream, by how it refuses an empty body that is wanted so."""
-    from client import Connection, request
-    connection = Connection(server.host, server.port)
-    connection.send(request("POST", "/v1/plan", b"{}", [("Accept", "text/event-stream")]))
-    status = connection.receive().status
-    connection.close()
-    return status == 422
-
-
-def run_round(server, arguments, seed, limits, streams, seconds):
+def run_round(server, arguments, seed, limits, seconds):
     """All clients for a while; their records."""
     results = multiprocessing.Queue()
     processes = [multiprocessing.Process(target=run_process, args=(
-        server.host, server.port, seed * 1000 + index, arguments.connections, limits, streams, seconds, results))
+        server.host, server.port, seed * 1000 + index, arguments.connections, limits, seconds, results))
         for index in range(arguments.processes)]
     for process in processes:
         process.start()
@@ -82,12 +72,12 @@ def main():
     server = Server(arguments.binary, arguments.url)
     print(f"seed {arguments.seed}, {arguments.processes} x {arguments.connections} connections, {server.url}")
     memory = [server.resident_kib()]
-    limits, streams = server.get("/v1/limits"), supports_streams(server)
+    limits = server.get("/v1/limits")
     records, begin = [], time.monotonic()
     end = begin + 60.0 * arguments.minutes
     failures = []
     while (left := end - time.monotonic()) > 1.0 and not failures:
-        records += run_round(server, arguments, arguments.seed + len(memory), limits, streams, min(left, ROUND_S))
+        records += run_round(server, arguments, arguments.seed + len(memory), limits, min(left, ROUND_S))
         time.sleep(PAUSE_S)
         memory.append(server.resident_kib())
         print(f"{time.monotonic() - begin:7.0f} s  {sum(sum(r.statuses.values()) for r in records):9} answers"
