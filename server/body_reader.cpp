@@ -10,6 +10,8 @@ namespace fleetplan::server {
 
 namespace {
 
+/// A body that comes more slowly falls behind until the client's patience is used up.
+constexpr std::size_t kLeastBytesPerMs = 100;
 constexpr std::size_t kMaxChunkLine = 4096;
 constexpr std::size_t kMaxTrailerLines = 100;
 constexpr std::size_t kMaxSizeDigits = 16;
@@ -65,9 +67,9 @@ class Source {
     }
     switch (last_) {
       case Socket::Read::timeout:
-        return {BodyFault::Kind::too_slow, "The body did not come in time: after " +
-                                               std::to_string(patience_.count()) +
-                                               " ms, 1 kB a second is the least."};
+        return {BodyFault::Kind::too_slow,
+                "The body did not come in time: it may pause for " + std::to_string(patience_.count()) +
+                    " ms, and fall as far behind " + std::to_string(kLeastBytesPerMs) + " kB a second."};
       case Socket::Read::stopped:
         return {BodyFault::Kind::stopped, "The service is shutting down: ask another one."};
       case Socket::Read::end:
@@ -83,8 +85,8 @@ class Source {
   bool more() {
     drop_taken();
     const std::size_t before = input_.size();
-    const auto deadline = begin_ + patience_ + std::chrono::milliseconds(received_);
-    last_ = socket_.read_some(input_, deadline);
+    const auto whole = begin_ + std::chrono::milliseconds(received_ / kLeastBytesPerMs);
+    last_ = socket_.read_some(input_, std::min(whole, Socket::Clock::now()) + patience_);
     if (last_ != Socket::Read::some) return false;
     received_ += input_.size() - before;
     return true;
@@ -103,7 +105,7 @@ class Source {
   std::chrono::milliseconds patience_;
   Socket::Clock::time_point begin_;
   Socket::Read last_ = Socket::Read::some;
-  std::size_t received_ = 0;  // bytes; each extends the deadline by a millisecond
+  std::size_t received_ = 0;  // bytes, chunk sizes included
 };
 
 std::optional<std::uint64_t> parse_chunk_size(std::string_view line) {

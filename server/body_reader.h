@@ -23,8 +23,8 @@ struct BodyFault {
 /// about the framing; chunk extensions and trailers are read and dropped.
 ///
 /// `input` holds what was read beyond the head; what follows the body stays in it. `limit`: bytes of body.
-/// `share`: of the memory of all bodies, to hold this one. The client may pause for `patience` and must send
-/// at least 1 kB/s beyond that.
+/// `share`: of the memory of all bodies, to hold this one. `patience`: with each pause of the client, and
+/// with how far it may fall behind 100 kB/s in all.
 std::variant<std::string, BodyFault> read_body(Socket& socket, std::string& input, const RequestHead& head,
                                                std::uint64_t limit, BodyMemory::Share& share,
                                                std::chrono::milliseconds patience);

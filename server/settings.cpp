@@ -128,8 +128,10 @@ class Flags {
     add_number<std::int64_t>("max-budget-ms", limits.max_budget_ms, 1, kMaxMs, "Longest time for a plan");
     add_number<std::int64_t>("idle-timeout-ms", idle_timeout_ms_, 1, kMaxMs,
                              "An idle connection is closed after this");
-    add_number<std::int64_t>("read-timeout-ms", read_timeout_ms_, 1, kMaxMs,
-                             "A request must come within this, pauses of its body too");
+    add_number<std::int64_t>(
+        "read-timeout-ms", read_timeout_ms_, 1, kMaxMs,
+        "A request's head must come within this; its body may pause for so long and fall "
+        "so far behind 100 kB/s");
     add_number<std::int64_t>("drain-ms", drain_ms_, 0, kMaxMs, "Time for running plans after SIGTERM");
     add_number<std::int64_t>("drain-delay-ms", drain_delay_ms_, 0, kMaxMs,
                              "Time before that, not ready but serving, for balancers to take notice");

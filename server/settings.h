@@ -22,7 +22,7 @@ struct Settings {
   std::size_t connections = 1024;
   api::Limits limits;
   std::chrono::milliseconds idle_timeout{1000};    // of a connection between requests
-  std::chrono::milliseconds read_timeout{10'000};  // for a request's head, and for a pause in its body
+  std::chrono::milliseconds read_timeout{10'000};  // for a request's head, and see read_body
   std::chrono::milliseconds drain{10'000};         // for running jobs when asked to end
   std::chrono::milliseconds drain_delay{0};        // before that: not ready any more, but all is served
   std::optional<AccessToken> token =

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "tests/server/test_server.h"
 
 namespace fleetplan::server {
@@ -203,6 +206,35 @@ TEST(SlowClient, IsGivenUpWhenItsBodyDoesNotCome) {
   EXPECT_EQ(answer.find("HTTP/1.1 408 Request Timeout\r\n"), 0u) << answer;
   EXPECT_NE(answer.find("request_timeout"), std::string::npos) << answer;
   EXPECT_TRUE(raw.closed_by_server());
+}
+
+TEST(SlowClient, IsGivenUpWhenItFallsSilentAfterALargePartOfItsBody) {
+  Settings settings;
+  settings.read_timeout = std::chrono::milliseconds(50);
+  const TestServer server(settings);
+  RawConnection raw(server.server.port());
+  const auto begin = std::chrono::steady_clock::now();
+  raw.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 4000000\r\n\r\n" + std::string(3'000'000, ' '));
+  const std::string answer = raw.receive();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));  // 30 s at 100 kB/s
+  EXPECT_EQ(answer.find("HTTP/1.1 408 Request Timeout\r\n"), 0u) << answer;
+  EXPECT_TRUE(raw.closed_by_server());
+}
+
+TEST(SlowClient, IsGivenUpWhenItsBodyTricklesThoughItNeverPausesForLong) {
+  Settings settings;
+  settings.read_timeout = std::chrono::milliseconds(300);
+  const TestServer server(settings);
+  RawConnection raw(server.server.port());
+  raw.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 50000\r\n\r\n");
+  const std::jthread trickle([&raw](const std::stop_token& stop) {  // 5 kB/s
+    for (int sent = 0; sent < 50'000 && !stop.stop_requested(); sent += 100) {
+      raw.send(std::string(100, ' '));
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
+  const std::string answer = raw.receive();
+  EXPECT_EQ(answer.find("HTTP/1.1 408 Request Timeout\r\n"), 0u) << answer;
 }
 
 TEST(SlowClient, ThatIsIdleIsLeft) {
