@@ -117,6 +117,10 @@ Reply plan_with(const Planner& planner, std::string_view body, const RequestCont
   }
   if (context.await_turn) context.await_turn(stop);
   stages.started = Clock::now();
+  if (stop.cancelled()) {
+    return problem_reply(ErrorCode::draining, "The service is shutting down: ask another one.",
+                         context.request_id);
+  }
   const core::Plan plan = stop.met()
                               ? nothing_planned(request.problem)
                               : planner(request.problem, request.options, stop, watch ? &*watch : nullptr);

@@ -95,11 +95,16 @@ void HttpServer::stop() {
 void HttpServer::serve(int fd, Port port) {
   Traffic& traffic = port == Port::main ? traffic_ : admin_traffic_;
   const UnderWay open(traffic.connections);
-  Connection connection(
-      fd, {settings_, port, files_, cross_origin_, log_, metrics_, body_memory_, draining_, traffic.exchanges,
-           stop_signal_.fd(),
-           [this](Exchange& exchange, ExchangeStream& stream) { return answer(exchange, stream); }});
-  connection.serve();
+  try {
+    Connection connection(
+        fd, {settings_, port, files_, cross_origin_, log_, metrics_, body_memory_, draining_,
+             traffic.exchanges, stop_signal_.fd(),
+             [this](Exchange& exchange, ExchangeStream& stream) { return answer(exchange, stream); }});
+    connection.serve();
+  } catch (
+      const std::exception& failure) {  // of one connection, such as no memory for its body: only that ends
+    log_.error(failure.what());
+  }
 }
 
 Gauges HttpServer::gauges() const {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "api/error.h"
+#include "server/admission.h"
 #include "server/guarded.h"
 
 namespace fleetplan::server {
@@ -29,7 +30,9 @@ JobRunner::Outcome JobRunner::run(Exchange& exchange, const Service::Endpoint& e
                                exchange.request_id),
             {{"Retry-After", std::to_string(workers_.retry_after_s())}}};
   }
-  return {compute(exchange, endpoint, events, *job)};
+  Outcome outcome{compute(exchange, endpoint, events, *job)};
+  if (outcome.reply.status == 503) outcome.fields = {{"Retry-After", kDrainingRetryAfterS}};
+  return outcome;
 }
 
 api::Reply JobRunner::compute(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events,

@@ -38,8 +38,9 @@ class Flags {
     add_access();
     add_limits();
     add_times();
-    add("config", config_, "File of 'flag = value' lines, for what neither flag nor environment says")
-        ->configurable(false);
+    config_option_ =
+        add("config", config_, "File of 'flag = value' lines, for what neither flag nor environment says")
+            ->configurable(false);
   }
 
   std::variant<Settings, SettingsExit> parse(std::vector<std::string> arguments) {
@@ -52,7 +53,7 @@ class Flags {
       return SettingsExit{code == 0 ? 0 : 2, text.str()};
     }
     if (const auto ignored = ignored_environment()) return bad(*ignored);
-    if (!config_.empty()) {
+    if (config_option_->count() > 0) {
       if (const auto fault = apply_config_file(app_, config_)) return bad(*fault);
     }
     return finish();
@@ -101,8 +102,8 @@ class Flags {
   }
 
   void add_access() {
-    add("auth-token-file", token_file_,
-        "File with the token that requests must show, but for health and readiness");
+    token_option_ = add("auth-token-file", token_file_,
+                        "File with the token that requests must show, but for health and readiness");
     add("cors-origin", settings_.cors_origins,
         "Origins whose pages may use the service from a browser, comma-separated or repeated; * for any")
         ->delimiter(',')
@@ -164,7 +165,7 @@ class Flags {
     for (const std::string& origin : settings_.cors_origins) {
       if (const auto fault = origin_fault(origin)) return "--cors-origin: " + *fault;
     }
-    if (token_file_.empty()) return std::nullopt;
+    if (token_option_->count() == 0) return std::nullopt;
     auto token = AccessToken::from_file(token_file_);
     if (const auto* fault = std::get_if<std::string>(&token)) {
       return "--auth-token-file: " + token_file_ + ": " + *fault;
@@ -186,7 +187,9 @@ class Flags {
   std::int64_t drain_delay_ms_ = Settings{}.drain_delay.count();
   int admin_port_ = 0;
   std::string token_file_;
+  CLI::Option* token_option_ = nullptr;
   std::string config_;
+  CLI::Option* config_option_ = nullptr;
   CLI::Option* admin_ = nullptr;
   CLI::Option* queue_ = nullptr;
   CLI::Option* default_budget_ = nullptr;

@@ -61,14 +61,21 @@ bool Workers::has_room() const {
   return admitted_ < room + burst_ && expected_wait_s() <= std::chrono::duration<double>(kShortWait).count();
 }
 
-/// All the work ahead, by the mean job so far or the longest running one if that is longer.
+/// All the work ahead: a job that runs takes at least as long again as it has run already, the others as long
+/// as the mean job so far, or the longest running one while none has ended.
 double Workers::expected_wait_s() const {
-  double job_s = mean_job_s_;
   const auto now = Clock::now();
+  double running_s = 0.0;
+  double longest_s = 0.0;
   for (const auto& since : busy_since_) {
-    if (since) job_s = std::max(job_s, std::chrono::duration<double>(now - *since).count());
+    if (!since) continue;
+    const double age_s = std::chrono::duration<double>(now - *since).count();
+    running_s += std::max(mean_job_s_, age_s);
+    longest_s = std::max(longest_s, age_s);
   }
-  return static_cast<double>(admitted_) * job_s / static_cast<double>(busy_since_.size());
+  const double others_s = mean_job_s_ > 0.0 ? mean_job_s_ : longest_s;
+  const double work_s = running_s + static_cast<double>(admitted_ - running_) * others_s;
+  return work_s / static_cast<double>(busy_since_.size());
 }
 
 int Workers::retry_after_s() const {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -158,6 +159,16 @@ TEST(PlanEndpoint, WaitsForItsTurnUntilThePlannerWouldHaveToEnd) {
     EXPECT_EQ(patience.deadline(), busy.received_at + std::chrono::milliseconds(60'000 - 25));
   };
   EXPECT_EQ(json_of(plan_endpoint(request.dump(), busy))["status"], "solved");
+}
+
+TEST(PlanEndpoint, SendsWhoCannotBePlannedBeforeTheEndOfTheServiceElsewhere) {
+  std::stop_source end;
+  RequestContext waiting = context();
+  waiting.stop = end.get_token();
+  waiting.await_turn = [&](const core::StopCondition&) { end.request_stop(); };
+  const Reply reply = plan_endpoint(swap_request().dump(), waiting);
+  EXPECT_EQ(reply.status, 503);
+  EXPECT_EQ(json_of(reply)["code"], "draining");
 }
 
 TEST(PlanEndpoint, TellsFaultsWithoutWaitingForATurn) {

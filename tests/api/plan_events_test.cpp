@@ -144,9 +144,8 @@ TEST(PlanEvents, NeverHaveAnIncumbentThatTheCheckerRefuses) {
 
 TEST(PlanWatch, WantsPlansAtMostOnceASecond) {
   Events events;
-  PlanWatch watch(events, 1, PlanWatch::Clock::time_point::max(), [](const core::Plan&) {
-    return Reply{200, kJson, "{}"};
-  });
+  const auto answer = [](const core::Plan&) { return Reply{200, kJson, "{}"}; };
+  PlanWatch watch(events, 1, PlanWatch::Clock::time_point::max(), answer);
   ASSERT_TRUE(watch.wants_plan());
   const auto begin = PlanWatch::Clock::now();
   watch.show({});

@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "api/error.h"
 #include "tests/server/test_server.h"
 
 namespace fleetplan::server {
@@ -193,6 +194,19 @@ TEST(Draining, AsksJobsThatTakeTooLongToStop) {
   server.server.cancel_jobs();
   EXPECT_EQ(running.status(), 200);
   EXPECT_EQ(server.stub.stopped, 1);
+}
+
+TEST(Draining, TellsJobsThatCannotBeDoneAnyMoreWhenToComeBack) {
+  StubService stub;
+  Service service = stub.service();
+  service.validate = [](std::string_view, const api::RequestContext& context) {
+    return api::problem_reply(api::ErrorCode::draining, "Ask another one.", context.request_id);
+  };
+  const TestServer server(with_workers(1, 4), service);
+  const auto refused = server.client().Post("/v1/validate", "abc", kJsonType);
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->status, 503);
+  EXPECT_TRUE(refused->has_header("Retry-After"));
 }
 
 TEST(Draining, IsAnnouncedBeforeAnythingIsRefused) {

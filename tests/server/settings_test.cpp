@@ -55,6 +55,9 @@ TEST(Settings, HoldTheTokenOfAFile) {
   const auto settings = settings_of({"--auth-token-file", file.path()});
   ASSERT_TRUE(settings.token);
   EXPECT_TRUE(settings.token->admits("Bearer open-sesame"));
+  EXPECT_EQ(exit_of({"--auth-token-file", ""}).code, 2)
+      << "an unset variable of a script must not open the door";
+  EXPECT_EQ(exit_of({"--config", ""}).code, 2);
   const support::TemporaryFile empty("\n");
   const auto exit = exit_of({"--auth-token-file", empty.path()});
   EXPECT_EQ(exit.code, 2);

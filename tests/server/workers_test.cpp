@@ -91,6 +91,20 @@ TEST(Workers, RefuseABurstWhileJobsAreLong) {
   EXPECT_FALSE(workers.admit()) << "the running job has taken longer than a short wait";
 }
 
+TEST(Workers, TakeABurstOfShortJobsBesideALongOne) {
+  Workers workers(2, 1, 100);
+  do_job(workers, [] {});
+  auto long_one = workers.admit();
+  ASSERT_TRUE(long_one->await_turn(kForever));
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  std::vector<Workers::Job> jobs;
+  for (int k = 0; k < 50; ++k) {
+    auto job = workers.admit();
+    ASSERT_TRUE(job) << "the others are short by all that is known";
+    jobs.push_back(std::move(*job));
+  }
+}
+
 TEST(Workers, BoundABurstHoweverShortTheJobs) {
   Workers workers(1, 1, 3);
   std::vector<Workers::Job> jobs;
