@@ -7,16 +7,21 @@ namespace {
 /// Taken at a time, so that a body that comes in small pieces does not ask for each.
 constexpr std::int64_t kStep = 256 * 1024;
 
+std::int64_t in_steps(std::int64_t bytes) { return (bytes + kStep - 1) / kStep * kStep; }
+
 }  // namespace
+
+BodyMemory::BodyMemory(std::uint64_t max_body, std::size_t requests)
+    : left_(2 * in_steps(static_cast<std::int64_t>(max_body)) * static_cast<std::int64_t>(requests)) {}
 
 bool BodyMemory::Share::grow_to(std::uint64_t bytes) {
   const auto wanted = static_cast<std::int64_t>(bytes);
   if (bytes <= kSmall || wanted <= held_) return true;
-  const std::int64_t more = (wanted - held_ + kStep - 1) / kStep * kStep;
-  if (memory_.left_.fetch_sub(more) < more) {
-    memory_.left_ += more;
-    return false;
-  }
+  const std::int64_t more = in_steps(wanted - held_);
+  std::int64_t left = memory_.left_;
+  do {
+    if (left < more) return false;
+  } while (!memory_.left_.compare_exchange_weak(left, left - more));
   held_ += more;
   return true;
 }

@@ -1,16 +1,19 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 
 namespace fleetplan::server {
 
-/// Bounds what the bodies of all requests take together, so that many large ones at the same time are refused
-/// instead of exhausting the machine. Thread-safe.
+/// Bounds what the bodies of all requests hold together, in bytes as sent and as decoded, so that many large
+/// ones at the same time are refused. What is made of them, such as the parsed JSON, is not counted.
+/// Thread-safe.
 class BodyMemory {
  public:
-  /// `bytes`: for all bodies beyond the small ones.
-  explicit BodyMemory(std::uint64_t bytes) : left_(static_cast<std::int64_t>(bytes)) {}
+  /// Enough for so many requests with bodies of `max_body` bytes (up to 1 TiB), as sent and as decoded,
+  /// beyond the small ones.
+  BodyMemory(std::uint64_t max_body, std::size_t requests);
 
   /// What one request holds, until its end.
   class Share {

@@ -53,7 +53,7 @@ HttpServer::HttpServer(const Settings& settings, Service service)
       files_(settings.web_root),
       cross_origin_(settings.cors_origins),
       main_(settings.host, settings.port, settings.connections, [this](int fd) { serve(fd, Port::main); }),
-      body_memory_(settings.limits.max_body * (settings.queue + static_cast<std::size_t>(settings.workers))),
+      body_memory_(settings.limits.max_body, settings.queue + static_cast<std::size_t>(settings.workers)),
       jobs_(settings_, log_) {
   if (settings_.admin_port) {
     admin_.emplace(settings_.host, *settings_.admin_port, kAdminConnections,

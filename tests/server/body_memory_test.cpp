@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t kMegabyte = 1 << 20;
 
 TEST(BodyMemory, IsGivenUntilThereIsNoMoreAndAgainWhenARequestEnds) {
-  BodyMemory memory(4 * kMegabyte);
+  BodyMemory memory(kMegabyte, 2);
   BodyMemory::Share first(memory);
   EXPECT_TRUE(first.grow_to(3 * kMegabyte));
   {
@@ -24,14 +24,37 @@ TEST(BodyMemory, IsGivenUntilThereIsNoMoreAndAgainWhenARequestEnds) {
 }
 
 TEST(BodyMemory, IsAlwaysThereForASmallBody) {
-  BodyMemory memory(0);
+  BodyMemory memory(0, 1);
   BodyMemory::Share share(memory);
   EXPECT_TRUE(share.grow_to(BodyMemory::kSmall));
   EXPECT_FALSE(share.grow_to(BodyMemory::kSmall + 1));
 }
 
+TEST(BodyMemory, IsEnoughForTheLargestBodyAsSentAndAsDecodedOfAnySize) {
+  for (const std::uint64_t size : {std::uint64_t{1}, 2 * BodyMemory::kSmall, kMegabyte + 1}) {
+    BodyMemory memory(size, 1);
+    BodyMemory::Share share(memory);
+    EXPECT_TRUE(share.grow_to(size)) << size;
+    EXPECT_TRUE(share.grow_to(2 * size)) << size;
+  }
+}
+
+TEST(BodyMemory, IsRefusedToNobodyBecauseOfOthersThatAskForTooMuch) {
+  BodyMemory memory(kMegabyte, 1);
+  const std::jthread greedy([&memory](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      BodyMemory::Share share(memory);
+      EXPECT_FALSE(share.grow_to(3 * kMegabyte));
+    }
+  });
+  for (int i = 0; i < 100'000; ++i) {
+    BodyMemory::Share share(memory);
+    ASSERT_TRUE(share.grow_to(2 * kMegabyte));
+  }
+}
+
 TEST(BodyMemory, CountsRightWhateverThreadsAskForIt) {
-  BodyMemory memory(8 * kMegabyte);
+  BodyMemory memory(2 * kMegabyte, 2);
   std::vector<std::thread> threads;
   for (int t = 0; t < 8; ++t) {
     threads.emplace_back([&] {
