@@ -187,6 +187,15 @@ TEST(Leaving, StopsThePlanThatNobodyWaitsFor) {
   EXPECT_EQ(server.stub.stopped, 1);
 }
 
+TEST(Leaving, IsToCloseOneHalfOfTheConnectionAsWell) {
+  TestServer server(with_workers(1, 1));
+  RawConnection client(server.server.port());
+  client.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 4\r\n\r\ngate");
+  server.stub.gate.await_waiting(1);
+  client.end_of_sending();
+  EXPECT_TRUE(holds_soon([&] { return server.stub.stopped == 1; }));
+}
+
 TEST(Draining, RefusesNewJobsButAnswersTheRunningOnes) {
   TestServer server(with_workers(1, 4));
   WaitingJob running(server);
