@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <thread>
 
 #include "tests/server/events.h"
+#include "tests/server/soon.h"
 #include "tests/server/test_server.h"
 
 namespace fleetplan::server {
@@ -190,7 +192,7 @@ TEST_F(EventStreams, ThatNobodyReadsAnyMoreStopTheirPlan) {
 TEST_F(EventStreams, ThatAreReadSlowlyHoldUpNobodyAndSkipWhatIsOutOfDate) {
   RawConnection slow(server.server.port());
   slow.send(request("flood"));
-  while (service.incumbents == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(holds_soon([&] { return service.incumbents > 0; }));
   // Nothing is read yet, but the planner gets to its end, and the worker serves others.
   const auto result = client.Post("/v1/plan", "abc", kJsonType);
   ASSERT_TRUE(result);
@@ -221,11 +223,14 @@ TEST_F(EventStreams, EndWithThePlanThatThereIsWhenTheServerStopsJobs) {
 TEST_F(EventStreams, ThatNobodyReadsAreLeftSoonAfterTheServerStopsJobs) {
   RawConnection stuck(server.server.port());
   stuck.send(request("flood"));  // more than the sockets' buffers hold
-  while (service.done == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(holds_soon([&] { return service.done > 0; }));
   server.server.begin_drain();
   EXPECT_FALSE(server.server.idle());
+  const auto begin = std::chrono::steady_clock::now();
   server.server.cancel_jobs();
-  while (!server.server.idle()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(holds_soon([&] { return server.server.idle(); }));
+  // Two seconds and the machine's own time; at other times it would be ten.
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(7));
 }
 
 TEST_F(EventStreams, AreNoFormOfOtherAnswers) {

@@ -270,7 +270,7 @@ TEST(Draining, WaitsForNoBodyOnceJobsAreToStop) {
   EXPECT_NE(answer.find("draining"), std::string::npos) << answer;
   EXPECT_NE(answer.find("\r\nRetry-After: "), std::string::npos) << answer;
   EXPECT_TRUE(slow.closed_by_server());
-  while (!server.server.idle()) std::this_thread::yield();
+  EXPECT_TRUE(holds_soon([&] { return server.server.idle(); }));
 }
 
 TEST(Stopping, EndsIdleConnectionsAtOnce) {

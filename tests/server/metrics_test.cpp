@@ -10,10 +10,10 @@
 #include <map>
 #include <set>
 #include <sstream>
-#include <thread>
 
 #include "server/metrics_text.h"
 #include "server/version.h"
+#include "tests/server/soon.h"
 #include "tests/server/test_server.h"
 #include "tests/support/temporary_file.h"
 
@@ -100,7 +100,7 @@ std::string metrics_of(const TestServer& server) {
 
 /// Once a series has this value; the end of an exchange may come after its answer.
 void await_value(const TestServer& server, const std::string& series, double value) {
-  while (samples_of(metrics_of(server))[series] != value) std::this_thread::yield();
+  EXPECT_TRUE(holds_soon([&] { return samples_of(metrics_of(server))[series] == value; })) << series;
 }
 
 TEST(Metrics, AreThereFromTheStart) {
