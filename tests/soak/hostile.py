@@ -3,14 +3,16 @@
 
 Usage: hostile.py [--binary FLEETPLAN | --url URL] [--seconds N]
 
-Measures small plans of one honest client alone, then beside each kind of hostile client in turn. The exit status is 1
-when an honest answer was wrong, lost or, in the median, more than twice as slow as alone, or when the server ended or
-took more than a gibibyte.
+Measures small plans of one honest client alone, then beside each kind of hostile client in turn, while health is asked
+for on the admin port (not with --url). The exit status is 1 when an honest answer was wrong, lost or, in the median, more
+than twice as slow as alone, when too many were refused with 503, when health did not answer, or when the server ended
+or took more than a gibibyte.
 """
 
 import argparse
 import contextlib
 import gzip
+import http.client
 import json
 import multiprocessing
 import socket
@@ -18,11 +20,14 @@ import statistics
 import sys
 import threading
 import time
+import urllib.request
 
 from client import Connection, Lost, request
 from server import Server
 
 MOST_SLOWER = 2.0
+MOST_REFUSED = 0.1
+HEALTH_TIMEOUT_S = 5.0
 MOST_MEMORY_KIB = 1 << 20
 
 HONEST = {"map": {"rows": ["......"] * 4}, "robots": [
@@ -56,6 +61,39 @@ class Attackers:
     def __exit__(self, *_):
         self.process.kill()
         self.process.join()
+
+
+class Health:
+    """Asks the admin port for health, on a new connection each time as probes do, until the end."""
+
+    def __init__(self, server):
+        self.url, self.times, self.faults, self.ending = server.admin_url, [], [], threading.Event()
+        self.thread = threading.Thread(target=self._ask_on, daemon=True)
+
+    def _ask_on(self):
+        while not self.ending.wait(0.05):
+            begin = time.monotonic()
+            try:
+                with urllib.request.urlopen(self.url + "/healthz", timeout=HEALTH_TIMEOUT_S) as response:
+                    response.read()
+                self.times.append(1000 * (time.monotonic() - begin))
+            except (OSError, http.client.HTTPException) as fault:
+                self.faults.append(str(fault))
+
+    def worst(self):
+        return f"{max(self.times):10.2f}" if self.times else f"{'-':>10}"
+
+    def __enter__(self):
+        if self.url:
+            self.thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self.ending.set()
+        if self.url:
+            self.thread.join()
+            if not self.times and not self.faults:
+                self.faults.append("it was never asked")
 
 
 def idle(_socket):
@@ -157,22 +195,24 @@ def attacks():
 
 
 def honest_times(server, seconds):
-    """Milliseconds of each answer to an honest client; raises when one is wrong or lost."""
+    """Milliseconds of each plan for an honest client, and how many it was refused; raises when one is wrong or lost."""
     connection, times, until = Connection(server.host, server.port, 20), [], time.monotonic() + seconds
+    refused = 0
     body = json.dumps(HONEST).encode()
     while time.monotonic() < until:
         begin = time.monotonic()
         connection.send(posted(body))
         answer = connection.receive()
-        times.append(1000 * (time.monotonic() - begin))
         if answer.status == 503:
-            times.pop()
+            refused += 1
             time.sleep(0.01)
         elif answer.status != 200 or answer.json()["status"] != "solved":
             raise Lost(f"{answer.status}: {answer.body[:200]}")
+        else:
+            times.append(1000 * (time.monotonic() - begin))
         time.sleep(0.005)  # an honest client has other things to do
     connection.close()
-    return times
+    return times, refused
 
 
 def main():
@@ -181,30 +221,38 @@ def main():
     parser.add_argument("--url", help="a server that runs already")
     parser.add_argument("--seconds", type=float, default=5.0, help="of each attack")
     arguments = parser.parse_args()
-    server = Server(arguments.binary, arguments.url)
+    server = Server(arguments.binary, arguments.url, ["--admin-port", "0"])
     failures = []
-    print(f"{'beside':30} {'answers':>8} {'p50 ms':>8} {'p99 ms':>8} {'max ms':>8} {'slower':>7} {'MiB':>7}")
+    print(f"{'beside':30} {'plans':>8} {'refused':>8} {'p50 ms':>8} {'p99 ms':>8} {'max ms':>8} {'slower':>7} {'MiB':>7} "
+          f"{'health, ms':>10}")
 
-    def line(name, times, usual):
+    def judge(name, times, refused, usual, health):
+        """A line of the table; more failures, if so."""
         times.sort()
         slower = statistics.median(times) / usual
-        print(f"{name:30} {len(times):8} {statistics.median(times):8.2f} {times[int(0.99 * len(times))]:8.2f} "
-              f"{times[-1]:8.2f} {slower:7.2f} {(server.resident_kib() or 0) / 1024:7.1f}", flush=True)
-        return slower
+        print(f"{name:30} {len(times):8} {refused:8} {statistics.median(times):8.2f} {times[int(0.99 * len(times))]:8.2f} "
+              f"{times[-1]:8.2f} {slower:7.2f} {(server.resident_kib() or 0) / 1024:7.1f} {health.worst()}", flush=True)
+        if slower > MOST_SLOWER:
+            failures.append(f"{name}: more than {MOST_SLOWER} times slower")
+        if refused > MOST_REFUSED * (len(times) + refused):
+            failures.append(f"{name}: {refused} of {len(times) + refused} were refused")
 
     honest_times(server, 1.0)
-    alone = honest_times(server, arguments.seconds)
+    with Health(server) as health:
+        alone, refused = honest_times(server, arguments.seconds)
     usual = statistics.median(alone)
-    line("nobody", alone, usual)
+    judge("nobody", alone, refused, usual, health)
     for name, count, act in attacks():
         try:
-            with Attackers((server.host, server.port), count, act):
+            with Health(server) as health, Attackers((server.host, server.port), count, act):
                 time.sleep(0.5)
-                times = honest_times(server, arguments.seconds)
-            if not times:
+                times, refused = honest_times(server, arguments.seconds)
+            if times:
+                judge(name, times, refused, usual, health)
+            else:
                 failures.append(f"{name}: nothing was answered but with 503")
-            elif line(name, times, usual) > MOST_SLOWER:
-                failures.append(f"{name}: more than {MOST_SLOWER} times slower")
+            if health.faults:
+                failures.append(f"{name}: health did not answer, {len(health.faults)} x, e.g. {health.faults[0]}")
         except (Lost, OSError) as fault:
             failures.append(f"{name}: {fault}")
             print(f"{name:30} {fault}")

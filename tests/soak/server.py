@@ -9,13 +9,18 @@ import urllib.request
 
 class Server:
     def __init__(self, binary=None, url=None, flags=()):
-        self.process, self.url = None, url
+        self.process, self.url, self.admin_url = None, url, None
         if not url:
             self.process = subprocess.Popen([binary, "--port", "0", "--log-level", "off", *flags],
                                             stdout=subprocess.PIPE, text=True)
-            self.url = re.search(r"http://\S+", self.process.stdout.readline()).group()
+            self.url = self._url_said()
+            if "--admin-port" in flags:
+                self.admin_url = self._url_said()
         parts = urllib.parse.urlsplit(self.url)
         self.host, self.port = parts.hostname, parts.port or 80
+
+    def _url_said(self):
+        return re.search(r"http://\S+", self.process.stdout.readline()).group()
 
     def get(self, path):
         with urllib.request.urlopen(self.url + path, timeout=30) as response:
