@@ -4,7 +4,7 @@
 #include <string>
 
 #include "api/error.h"
-#include "server/answer_fields.h"
+#include "server/header_fields.h"
 #include "server/request_head.h"
 #include "server/routes.h"
 #include "server/settings.h"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "server/exchange.h"
+#include "server/header_fields.h"
 
 namespace fleetplan::server {
 

@@ -1,5 +1,6 @@
 #include "server/connection.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "server/answer_text.h"
@@ -93,7 +94,10 @@ void Connection::serve_exchange(Exchange& exchange) {
   } else {
     return;  // it left before it asked for anything
   }
-  if (exchange.abandoned) exchange.status = 499;
+  if (exchange.abandoned) {
+    exchange.status = 499;
+    exchange.problem = {};  // no answer went out that could have one
+  }
   context_.metrics.count(exchange);
   log(exchange, bytes_out);
 }

@@ -9,6 +9,7 @@
 #include "server/cors.h"
 #include "server/exchange.h"
 #include "server/exchange_stream.h"
+#include "server/header_fields.h"
 #include "server/metrics.h"
 #include "server/request_log.h"
 #include "server/settings.h"

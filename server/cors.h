@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "server/answer_fields.h"
+#include "server/header_fields.h"
 #include "server/request_head.h"
 
 namespace fleetplan::server {

@@ -5,18 +5,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "api/plan_outcome.h"
 #include "server/body_memory.h"
+#include "server/header_fields.h"
 #include "server/request_head.h"
 #include "server/routes.h"
 #include "server/socket.h"
 
 namespace fleetplan::server {
-
-using HeaderFields = std::vector<std::pair<std::string, std::string>>;
 
 /// One request and its answer, on the connection's thread.
 struct Exchange {

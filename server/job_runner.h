@@ -4,8 +4,8 @@
 
 #include "api/plan_events.h"
 #include "api/reply.h"
-#include "server/answer_fields.h"
 #include "server/exchange.h"
+#include "server/header_fields.h"
 #include "server/peer_watch.h"
 #include "server/request_log.h"
 #include "server/service.h"

@@ -11,7 +11,4 @@ bool is_well_formed_request_id(std::string_view id);
 /// 128 random bits as 32 hexadecimal digits.
 std::string make_request_id();
 
-/// What the client sent if it is well-formed, a new one otherwise.
-std::string request_id_from(std::string_view sent);
-
 }  // namespace fleetplan::server

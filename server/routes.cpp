@@ -1,7 +1,10 @@
 #include "server/routes.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
+
+#include "server/text.h"
 
 namespace fleetplan::server {
 
@@ -53,8 +56,8 @@ std::string_view allowed_methods(Endpoint endpoint) {
 }
 
 bool is_allowed(Endpoint endpoint, std::string_view method) {
-  if (endpoint == Endpoint::plan || endpoint == Endpoint::validate) return method == "POST";
-  return method == "GET" || method == "HEAD";
+  const auto allowed = split(allowed_methods(endpoint), ',');
+  return std::find(allowed.begin(), allowed.end(), method) != allowed.end();
 }
 
 }  // namespace fleetplan::server

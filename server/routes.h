@@ -44,6 +44,7 @@ std::string_view name_of(Endpoint endpoint);
 /// Methods of an endpoint as the Allow header has them.
 std::string_view allowed_methods(Endpoint endpoint);
 
+/// Whether the method is among them.
 bool is_allowed(Endpoint endpoint, std::string_view method);
 
 }  // namespace fleetplan::server

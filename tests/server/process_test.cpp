@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "server/http_library.h"
+#include "tests/server/test_server.h"
 #include "tests/support/temporary_file.h"
 
 namespace fleetplan::server {
@@ -132,6 +133,38 @@ TEST(Process, LogsWhatBecameOfAPlan) {
   const std::string refusal = process.log_line_with("/v1/plan");
   EXPECT_NE(refusal.find(R"("code":"invalid_request")"), std::string::npos) << refusal;
   EXPECT_EQ(refusal.find("outcome"), std::string::npos) << refusal;
+}
+
+/// Until a series has this value.
+void await_metric(int port, const std::string& series_and_value) {
+  httplib::Client probe("127.0.0.1", port);
+  for (bool found = false; !found;) {
+    const auto metrics = probe.Get("/metrics");
+    ASSERT_TRUE(metrics);
+    found = metrics->body.find('\n' + series_and_value + '\n') != std::string::npos;
+  }
+}
+
+TEST(Process, LogsNoErrorOfAClientThatLeft) {
+  Process process({"--port", "0", "--workers", "1", "--queue", "1"});
+  const int port = port_in(process.output_line());
+  const auto send = [](RawConnection& client, const std::string& path, const std::string& body) {
+    client.send("POST " + path + " HTTP/1.1\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" +
+                body);
+  };
+  RawConnection busy(port);
+  send(busy, "/v1/plan", swap_request("anytime"));
+  await_metric(port, "fleetplan_workers_busy 1");
+  {
+    std::string body = swap_request("first");
+    body.replace(body.rfind('}'), 1, R"(,"plans":[]})");
+    RawConnection leaving(port);
+    send(leaving, "/v1/validate", body);
+    await_metric(port, "fleetplan_queue_depth 1");
+  }
+  const std::string log = process.log_line_with("/v1/validate");
+  EXPECT_NE(log.find(R"("status":499)"), std::string::npos) << log;
+  EXPECT_EQ(log.find(R"("code")"), std::string::npos) << log;
 }
 
 TEST(Process, LogsItsStartAndItsEnd) {
