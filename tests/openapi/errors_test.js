@@ -15,11 +15,18 @@ const MAX_BODY = 20_000;
 const { document, client } = await openSession(["--max-body", String(MAX_BODY), "--read-timeout-ms", "300"]);
 const POSTS = ["/v1/plan", "/v1/validate"];
 const seen = new Set();
+const texts = new Set();
+
+/** What a problem says, whatever its numbers, and without the request's name. */
+function textOf({ request_id, ...problem }) {
+  return JSON.stringify(problem).replaceAll(/\d+/g, "#");
+}
 
 /** A problem of this status and code. */
 function expectProblem(answer, status, code) {
   assert.deepEqual([answer.status, answer.json.code], [status, code], answer.body);
   seen.add(code);
+  texts.add(textOf(answer.json));
 }
 
 /** A request that is planned for as long as its budget lasts. */
@@ -36,7 +43,7 @@ const BUSY = {
 
 test("404: no such path, no such example", async () => {
   expectProblem(await client.get("/v1/nothing"), 404, "not_found");
-  expectProblem(await client.get("/v1/examples/nothing"), 404, "not_found");
+  expectProblem(await client.get("/v1/examples/corridor"), 404, "not_found");
   expectProblem(await client.post("/v1/plans", {}), 404, "not_found");
 });
 
@@ -126,6 +133,11 @@ test("400: not JSON, nested too deep, malformed framing, not in gzip", async () 
 
 test("422: a request that is not valid", async () => {
   for (const path of POSTS) expectProblem(await client.post(path, {}), 422, "invalid_request");
+  const robots = [
+    { id: "amr-1", linear_speed: 0, start: { x: 3.5, y: 1.5 } },
+    { id: "amr-2", radius: 0.2, start: { x: 12, y: 0.5 } },
+  ];
+  expectProblem(await client.post("/v1/plan", { ...BUSY, robots }), 422, "invalid_request");
 });
 
 /** Plans of robots that mill about in one heap: each pair overlaps in every moment. */
@@ -196,6 +208,17 @@ test("503: the queue is full", async () => {
   for (const answer of refused) expectProblem(answer, 503, "overloaded");
 });
 
+test("503: more large bodies at once than there is memory for", async () => {
+  const flags = ["--workers", "1", "--queue", "0", "--max-body", "1MiB", "--read-timeout-ms", "2000"];
+  const { client: crowd } = await separateService(flags);
+  const head = "POST /v1/plan HTTP/1.1\r\nHost: here\r\nContent-Length: 1000000\r\n\r\n";
+  const unfinished = head + " ".repeat(900_000);
+  const sent = Array.from({ length: 16 }, () => crowd.sendRaw("POST", "/v1/plan", unfinished));
+  const refused = (await Promise.all(sent)).filter(({ status }) => status !== 408);
+  assert.ok(refused.length > 0 && refused.length < sent.length, `${refused.length} were refused`);
+  for (const answer of refused) expectProblem(answer, 503, "overloaded");
+});
+
 test("503: the service shuts down, while what it began is answered", async () => {
   const { client: last, stop } = await separateService([]);
   const running = last.post("/v1/plan", BUSY);
@@ -213,4 +236,11 @@ test("503: the service shuts down, while what it began is answered", async () =>
 test("every error of the table was provoked, but for the one that is a bug", () => {
   const codes = [...document.problemCodes().keys()].filter((code) => code !== "internal_error");
   assert.deepEqual([...seen].sort(), codes.sort());
+});
+
+test("the document's examples are answers that were seen, but for their numbers", () => {
+  for (const example of document.problems()) {
+    if (example.code === "internal_error") continue;
+    assert.ok(texts.has(textOf(example)), `never answered: ${example.detail}`);
+  }
 });

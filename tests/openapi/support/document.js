@@ -87,13 +87,17 @@ export class Document {
       .find(({ value }) => value !== undefined);
   }
 
+  /** The examples of all problems. */
+  problems() {
+    const responses = Object.values(this.root.components.responses);
+    const examples = responses.flatMap(({ content }) =>
+      Object.values(content["application/problem+json"].examples),
+    );
+    return examples.map(({ value }) => value);
+  }
+
   /** The codes of all problems, each with the status of its answer. */
   problemCodes() {
-    const codes = new Map();
-    for (const response of Object.values(this.root.components.responses)) {
-      const { examples } = response.content["application/problem+json"];
-      for (const [code, { value }] of Object.entries(examples)) codes.set(code, value.status);
-    }
-    return codes;
+    return new Map(this.problems().map(({ code, status }) => [code, status]));
   }
 }
