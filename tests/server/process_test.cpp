@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "server/http_library.h"
+#include "tests/server/soon.h"
 #include "tests/server/test_server.h"
 #include "tests/support/temporary_file.h"
 
@@ -138,11 +139,10 @@ TEST(Process, LogsWhatBecameOfAPlan) {
 /// Until a series has this value.
 void await_metric(int port, const std::string& series_and_value) {
   httplib::Client probe("127.0.0.1", port);
-  for (bool found = false; !found;) {
+  EXPECT_TRUE(holds_soon([&] {
     const auto metrics = probe.Get("/metrics");
-    ASSERT_TRUE(metrics);
-    found = metrics->body.find('\n' + series_and_value + '\n') != std::string::npos;
-  }
+    return metrics && metrics->body.find('\n' + series_and_value + '\n') != std::string::npos;
+  })) << series_and_value;
 }
 
 TEST(Process, LogsNoErrorOfAClientThatLeft) {
