@@ -121,9 +121,12 @@ Reply plan_with(const Planner& planner, std::string_view body, const RequestCont
     return problem_reply(ErrorCode::draining, "The service is shutting down: ask another one.",
                          context.request_id);
   }
-  const core::Plan plan = stop.met()
-                              ? nothing_planned(request.problem)
-                              : planner(request.problem, request.options, stop, watch ? &*watch : nullptr);
+  if (stop.met()) {
+    Reply late = answer(nothing_planned(request.problem));
+    if (late.outcome) late.outcome->plan_seconds.reset();
+    return late;
+  }
+  const core::Plan plan = planner(request.problem, request.options, stop, watch ? &*watch : nullptr);
   return watch && watch->refusal() ? *watch->refusal() : answer(plan);
 }
 

@@ -23,7 +23,7 @@ PlanOutcome::Status status_of(const core::Plan& plan) {
   return plan.plans.empty() ? PlanOutcome::Status::none : PlanOutcome::Status::partial;
 }
 
-PlanOutcome outcome_of(const core::Plan& plan, double plan_seconds) {
+PlanOutcome outcome_of(const core::Plan& plan, std::optional<double> plan_seconds) {
   return {status_of(plan),        plan.plans.size(),        plan.unplanned.size(),
           plan.search.expansions, plan.objectives.flowtime, plan_seconds};
 }

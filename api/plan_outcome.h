@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace fleetplan::core {
@@ -20,7 +21,8 @@ struct PlanOutcome {
   std::size_t unplanned = 0;    // robots
   std::int64_t expansions = 0;  // search labels
   double flowtime = 0.0;        // seconds, of the planned robots
-  double plan_seconds = 0.0;    // time for planning, without parsing, checking and writing
+  /// Time for planning, without parsing, checking and writing; none when the budget was spent before.
+  std::optional<double> plan_seconds = std::nullopt;
 };
 
 /// As answers, metrics and the log have it, e.g. "solved".
@@ -29,6 +31,6 @@ std::string_view name_of(PlanOutcome::Status status);
 /// How much of a plan is there, taking it that the checker accepts it.
 PlanOutcome::Status status_of(const core::Plan& plan);
 
-PlanOutcome outcome_of(const core::Plan& plan, double plan_seconds);
+PlanOutcome outcome_of(const core::Plan& plan, std::optional<double> plan_seconds);
 
 }  // namespace fleetplan::api

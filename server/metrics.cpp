@@ -20,23 +20,43 @@ constexpr const char* kCompiler = "clang " __clang_version__;
 constexpr const char* kCompiler = "g++ " __VERSION__;
 #endif
 
-/// What is usually answered there, so that a series does not first appear when it goes up.
+/// What is usually answered there, so that a series does not first appear when it goes up. What is found
+/// before the route is known counts as unknown; a preflight (204) may ask for any route. What only a GET with
+/// a broken or endless body gets is not usual.
 std::initializer_list<int> usual_statuses(Endpoint endpoint) {
   static constexpr auto kUnknown = {400, 401, 404, 408, 414, 431};
-  static constexpr auto kJob = {200, 400, 401, 405, 406, 408, 413, 415, 422, 499, 500, 503};
-  static constexpr auto kReadiness = {200, 405, 500, 503};
-  static constexpr auto kOther = {200, 401, 404, 405, 500};
+  static constexpr auto kPlan = {200, 204, 400, 401, 405, 406, 408, 413, 415, 422, 499, 500, 503};
+  static constexpr auto kValidate = {200, 204, 400, 401, 405, 408, 413, 415, 422, 499, 500, 503};
+  static constexpr auto kHealth = {200, 204, 405, 500};
+  static constexpr auto kReadiness = {200, 204, 405, 500, 503};
+  static constexpr auto kPage = {200, 204, 304, 401, 404, 405, 500};
+  static constexpr auto kExample = {200, 204, 401, 404, 405, 500};
+  static constexpr auto kOther = {200, 204, 401, 405, 500};
   switch (endpoint) {
     case Endpoint::unknown:
       return kUnknown;
     case Endpoint::plan:
+      return kPlan;
     case Endpoint::validate:
-      return kJob;
+      return kValidate;
+    case Endpoint::healthz:
+      return kHealth;
     case Endpoint::readyz:
       return kReadiness;
+    case Endpoint::page:
+      return kPage;
+    case Endpoint::example:
+      return kExample;
     default:
       return kOther;
   }
+}
+
+/// The error's code if the exchange was refused. That /readyz says 503 is its answer.
+std::string_view rejection(const Exchange& exchange) {
+  const bool unready = exchange.route.endpoint == Endpoint::readyz &&
+                       exchange.problem == api::name_of(api::ErrorCode::draining);
+  return unready ? std::string_view() : exchange.problem;
 }
 
 double as_double(std::uint64_t count) { return static_cast<double>(count); }
@@ -69,7 +89,7 @@ void Metrics::count(const Exchange& exchange) {
     if (exchange.route.endpoint == Endpoint::plan) cancelled_.add();
     return;
   }
-  const auto rejected = rejected_.find(exchange.problem);
+  const auto rejected = rejected_.find(rejection(exchange));
   if (rejected != rejected_.end()) rejected->second.add();
   if (exchange.outcome) count_plan(*exchange.outcome);
 }
@@ -81,7 +101,7 @@ void Metrics::count_plan(const api::PlanOutcome& outcome) {
     unplanned_robots_.add(outcome.unplanned);
   }
   expansions_.add(static_cast<std::uint64_t>(outcome.expansions));
-  plan_seconds_.observe(outcome.plan_seconds);
+  if (outcome.plan_seconds) plan_seconds_.observe(*outcome.plan_seconds);
 }
 
 std::string Metrics::text(const Gauges& now) const {
@@ -105,7 +125,8 @@ std::string Metrics::text(const Gauges& now) const {
       text.sample(as_double(count), {{"route", name_of(endpoint)}, {"status", std::to_string(status)}});
     }
   }
-  text.metric("fleetplan_rejected_total", "counter", "Requests answered with a problem.");
+  text.metric("fleetplan_rejected_total", "counter",
+              "Requests answered with a problem, but for the 503 of /readyz.");
   for (const auto& [reason, count] : rejected_) {
     text.sample(as_double(count.value()), {{"reason", reason}});
   }
@@ -125,7 +146,8 @@ std::string Metrics::text(const Gauges& now) const {
   counter("fleetplan_plans_refused_total", plans_[static_cast<std::size_t>(Status::refused)],
           "Plans that the checker refused; each is a bug.");
   counter("fleetplan_plans_cancelled_total", cancelled_, "Plans whose client left before the answer.");
-  text.metric("fleetplan_plan_seconds", "histogram", "How long planning took.").histogram(plan_seconds_);
+  text.metric("fleetplan_plan_seconds", "histogram", "How long planning took, where there was time for it.")
+      .histogram(plan_seconds_);
   text.metric("fleetplan_robots_total", "counter", "Robots of the plans.");
   text.sample(as_double(planned_robots_.value()), {{"outcome", "planned"}});
   text.sample(as_double(unplanned_robots_.value()), {{"outcome", "unplanned"}});

@@ -29,7 +29,8 @@ class Metrics {
   /// An exchange that is over.
   void count(const Exchange& exchange);
 
-  /// Everything as GET /metrics answers it, see MetricsText. All series are there from the start.
+  /// Everything as GET /metrics answers it, see MetricsText. All series are there from the start, but for
+  /// those of statuses that are unusual on their route.
   std::string text(const Gauges& now) const;
 
  private:

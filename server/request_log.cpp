@@ -23,7 +23,7 @@ void add_outcome(Line& line, const api::PlanOutcome& outcome) {
   line["planned"] = outcome.planned;
   line["unplanned"] = outcome.unplanned;
   line["flowtime"] = rounded(outcome.flowtime);
-  line["plan_ms"] = rounded(outcome.plan_seconds * 1000.0);
+  if (outcome.plan_seconds) line["plan_ms"] = rounded(*outcome.plan_seconds * 1000.0);
 }
 
 void write(spdlog::logger& logger, spdlog::level::level_enum level, const Line& line) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "api/plan_endpoint.h"
 #include "tests/api/requests.h"
 
@@ -21,8 +23,19 @@ TEST(PlanOutcome, IsThatOfTheAnswer) {
   EXPECT_EQ(reply.outcome->unplanned, 0U);
   EXPECT_EQ(reply.outcome->expansions, answer["search"]["expansions"]);
   EXPECT_EQ(reply.outcome->flowtime, answer["flowtime"]);
-  EXPECT_NEAR(reply.outcome->plan_seconds * 1000.0, answer["timings_ms"]["plan"].get<double>(), 1e-6);
+  ASSERT_TRUE(reply.outcome->plan_seconds);
+  EXPECT_NEAR(*reply.outcome->plan_seconds * 1000.0, answer["timings_ms"]["plan"].get<double>(), 1e-6);
   EXPECT_TRUE(reply.problem.empty());
+}
+
+TEST(PlanOutcome, HasNoTimeForPlanningWhenTheBudgetWasSpentInTheQueue) {
+  RequestContext late;
+  late.received_at = RequestContext::Clock::now() - std::chrono::hours(1);
+  const Reply reply = plan_endpoint(swap_request().dump(), late);
+  ASSERT_TRUE(reply.outcome);
+  EXPECT_EQ(reply.outcome->status, Status::none);
+  EXPECT_EQ(reply.outcome->unplanned, 2U);
+  EXPECT_FALSE(reply.outcome->plan_seconds);
 }
 
 TEST(PlanOutcome, IsRefusedWhenTheCheckerRefusesThePlan) {
