@@ -62,6 +62,24 @@ need_packages() {
   rm -f "$log"
 }
 
+# download_promtool: the package with promtool to the current directory; it is Prometheus' own one in Debian 12.
+download_promtool() { apt-get -q download promtool || apt-get -q download prometheus; }
+
+# need_promtool: puts promtool, Prometheus' judge of metrics, on the PATH. When it is not installed it is taken out
+# of its package (19 MB): to install that would start a server on Debian 12.
+need_promtool() {
+  local folder=$ROOT/build/tools package
+  PATH=$PATH:$folder/usr/bin
+  command -v promtool >/dev/null && return 0
+  say "fetching promtool"
+  package=$(mktemp -d)
+  (cd "$package" && { download_promtool || { as_root apt-get -q update && download_promtool; }; }) >&2 &&
+    mkdir -p "$folder" &&
+    dpkg-deb --fsys-tarfile "$package"/*.deb | tar -C "$folder" -x ./usr/bin/promtool
+  rm -rf "$package"
+  command -v promtool >/dev/null
+}
+
 # ---------------------------------------------------------------- users
 
 # become_invoking_user SCRIPT [ARGS...]: when run through sudo, starts the script again as the user who called
