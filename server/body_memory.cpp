@@ -12,7 +12,7 @@ std::int64_t in_steps(std::int64_t bytes) { return (bytes + kStep - 1) / kStep *
 }  // namespace
 
 BodyMemory::BodyMemory(std::uint64_t max_body, std::size_t requests)
-    : left_(2 * in_steps(static_cast<std::int64_t>(max_body)) * static_cast<std::int64_t>(requests)) {}
+    : left_(in_steps(static_cast<std::int64_t>(max_body)) * static_cast<std::int64_t>(requests + 1)) {}
 
 bool BodyMemory::Share::grow_to(std::uint64_t bytes) {
   const auto wanted = static_cast<std::int64_t>(bytes);

@@ -11,8 +11,8 @@ namespace fleetplan::server {
 /// Thread-safe.
 class BodyMemory {
  public:
-  /// Enough for so many requests with bodies of `max_body` bytes (up to 1 TiB), as sent and as decoded,
-  /// beyond the small ones.
+  /// Enough for so many requests (at least one) with bodies of `max_body` bytes (up to 1 TiB), of which one
+  /// is being decoded, beyond the small ones.
   BodyMemory(std::uint64_t max_body, std::size_t requests);
 
   /// What one request holds, until its end.

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t kMegabyte = 1 << 20;
 
 TEST(BodyMemory, IsGivenUntilThereIsNoMoreAndAgainWhenARequestEnds) {
-  BodyMemory memory(kMegabyte, 2);
+  BodyMemory memory(kMegabyte, 3);
   BodyMemory::Share first(memory);
   EXPECT_TRUE(first.grow_to(3 * kMegabyte));
   {
@@ -54,7 +54,7 @@ TEST(BodyMemory, IsRefusedToNobodyBecauseOfOthersThatAskForTooMuch) {
 }
 
 TEST(BodyMemory, CountsRightWhateverThreadsAskForIt) {
-  BodyMemory memory(2 * kMegabyte, 2);
+  BodyMemory memory(2 * kMegabyte, 3);
   std::vector<std::thread> threads;
   for (int t = 0; t < 8; ++t) {
     threads.emplace_back([&] {
