@@ -43,7 +43,7 @@ Conversation converse(std::string_view bytes, std::size_t packet) {
   static const server::CrossOrigin kCrossOrigin({"https://a.example"});
   static const server::RequestLog kLog(kSettings.log_level);
   static server::Metrics metrics;
-  static server::BodyMemory memory(0);
+  static server::BodyMemory memory(0, 1);
   static server::StopSignal stop;
   std::array<int, 2> ends{};  // packets keep their bounds, so that each is read by itself
   require(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) == 0, "no socket pair");
