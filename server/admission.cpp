@@ -64,9 +64,7 @@ std::optional<Refusal> admission_fault(const RequestHead& head, const Route& rou
   if (head.method == "POST") {
     if (auto fault = job_fault(head, route, settings.limits.max_body)) return fault;
     if (draining) {
-      return Refusal{ErrorCode::draining,
-                     "The service is shutting down: ask another one.",
-                     {{"Retry-After", kDrainingRetryAfterS}}};
+      return Refusal{ErrorCode::draining, "The service is shutting down: ask another one."};
     }
   }
   return std::nullopt;

@@ -12,9 +12,6 @@
 
 namespace fleetplan::server {
 
-/// After how many seconds to try again when the service shuts down: another one may have taken its place.
-inline constexpr const char* kDrainingRetryAfterS = "1";
-
 /// Why a request is not served.
 struct Refusal {
   api::ErrorCode code;

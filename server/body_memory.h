@@ -33,9 +33,8 @@ class BodyMemory {
   };
 
   static constexpr std::uint64_t kSmall = 64 * 1024;
-  /// What a client is told when there is no more, and when to come back.
+  /// What a client is told when there is no more.
   static constexpr const char* kFull = "Too many large requests are being received: try again later.";
-  static constexpr const char* kRetryAfterS = "1";
 
  private:
   std::atomic<std::int64_t> left_;

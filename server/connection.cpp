@@ -186,10 +186,7 @@ std::optional<Refusal> Connection::read_content(Exchange& exchange) {
                         context_.settings.read_timeout);
   if (auto* fault = std::get_if<BodyFault>(&read)) {
     exchange.close = unread_ = true;
-    Refusal refusal{code_of(fault->kind), fault->detail};
-    if (refusal.code == ErrorCode::overloaded) refusal.fields = {{"Retry-After", BodyMemory::kRetryAfterS}};
-    if (refusal.code == ErrorCode::draining) refusal.fields = {{"Retry-After", kDrainingRetryAfterS}};
-    return refusal;
+    return Refusal{code_of(fault->kind), fault->detail};
   }
   exchange.body = std::get<std::string>(std::move(read));
   return std::nullopt;

@@ -30,8 +30,9 @@ struct Exchange {
 
   HeaderFields fields;  // of the answer, by what the request's head says
   int status = 0;
-  bool close = false;                                    // the connection ends with this answer
-  bool abandoned = false;                                // the client left: nobody reads an answer
+  int retry_after_s = 1;   // what a 503 tells; by default another service may have taken this one's place
+  bool close = false;      // the connection ends with this answer
+  bool abandoned = false;  // the client left: nobody reads an answer
   std::optional<std::uint64_t> streamed = std::nullopt;  // bytes of an answer that went out as an EventStream
   std::optional<double> queue_ms = std::nullopt;
   std::string_view problem;  // see api::Reply

@@ -34,10 +34,7 @@ void note(Exchange& exchange, const api::Reply& reply) {
   exchange.outcome = reply.outcome;
 }
 
-/// `fields`: further ones.
-void fill(Exchange& exchange, httplib::Response& response, api::Reply reply,
-          const HeaderFields& fields = {}) {
-  for (const auto& [name, value] : fields) response.set_header(name, value);
+void fill(Exchange& exchange, httplib::Response& response, api::Reply reply) {
   note(exchange, reply);
   response.status = reply.status;
   response.body = std::move(reply.body);
@@ -184,7 +181,6 @@ void HttpServer::answer_get(Exchange& exchange, httplib::Response& response) {
            case Endpoint::metrics:
              return {200, kMetricsType, metrics_.text(gauges())};
            case Endpoint::readyz:
-             if (!ready_) response.set_header("Retry-After", kDrainingRetryAfterS);
              return readiness_reply(ready_, exchange.request_id);
            default:
              return health_reply();
@@ -214,24 +210,22 @@ void HttpServer::answer_page(Exchange& exchange, httplib::Response& response) {
 
 void HttpServer::answer_job(Exchange& exchange, const httplib::ContentReader& reader,
                             httplib::Response& response) {
-  if (auto refusal = decode_body(exchange, reader)) {
-    return fill(exchange, response, std::move(refusal->reply), refusal->fields);
-  }
+  if (auto refusal = decode_body(exchange, reader)) return fill(exchange, response, std::move(*refusal));
   const auto& endpoint = exchange.route.endpoint == Endpoint::plan ? service_.plan : service_.validate;
   std::optional<EventStream> events;
   if (plan_form(exchange.head.field("accept")) == PlanForm::events) events.emplace(exchange);
-  JobRunner::Outcome outcome = jobs_.run(exchange, endpoint, events ? &*events : nullptr);
+  api::Reply reply = jobs_.run(exchange, endpoint, events ? &*events : nullptr);
   if (events && events->begun()) {
-    note(exchange, outcome.reply);
-    events->end(outcome.reply);
+    note(exchange, reply);
+    events->end(reply);
     response.status = 200;
     return;
   }
-  fill(exchange, response, std::move(outcome.reply), outcome.fields);
+  fill(exchange, response, std::move(reply));
 }
 
-std::optional<DirectAnswer> HttpServer::decode_body(Exchange& exchange,
-                                                    const httplib::ContentReader& reader) const {
+std::optional<api::Reply> HttpServer::decode_body(Exchange& exchange,
+                                                  const httplib::ContentReader& reader) const {
   if (content_coding(exchange.head.field("content-encoding")) == ContentCoding::identity) return std::nullopt;
   const std::size_t limit = settings_.limits.max_body;
   std::string decoded;
@@ -245,18 +239,14 @@ std::optional<DirectAnswer> HttpServer::decode_body(Exchange& exchange,
     return true;
   });
   const auto refused = [&](ErrorCode code, const std::string& detail) {
-    return DirectAnswer{api::problem_reply(code, detail, exchange.request_id)};
+    return api::problem_reply(code, detail, exchange.request_id);
   };
   if (too_large) {
     return refused(ErrorCode::body_too_large, "The body of " + std::to_string(exchange.body.size()) +
                                                   " bytes has more than " + std::to_string(limit) +
                                                   " bytes when decompressed, which is the limit.");
   }
-  if (!has_room) {
-    DirectAnswer answer = refused(ErrorCode::overloaded, BodyMemory::kFull);
-    answer.fields = {{"Retry-After", BodyMemory::kRetryAfterS}};
-    return answer;
-  }
+  if (!has_room) return refused(ErrorCode::overloaded, BodyMemory::kFull);
   if (!complete) return refused(ErrorCode::malformed_request, "The body is not in gzip, as it is declared.");
   exchange.body = std::move(decoded);
   return std::nullopt;

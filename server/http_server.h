@@ -75,7 +75,7 @@ class HttpServer final : private httplib::Server {
   void answer_get(Exchange& exchange, httplib::Response& response);
   void answer_page(Exchange& exchange, httplib::Response& response);
   void answer_job(Exchange& exchange, const httplib::ContentReader& reader, httplib::Response& response);
-  std::optional<DirectAnswer> decode_body(Exchange& exchange, const httplib::ContentReader& reader) const;
+  std::optional<api::Reply> decode_body(Exchange& exchange, const httplib::ContentReader& reader) const;
   Exchange* exchange_of(const httplib::Request& request);
 
   const Settings settings_;

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "api/error.h"
-#include "server/admission.h"
 #include "server/guarded.h"
 
 namespace fleetplan::server {
@@ -21,18 +20,15 @@ JobRunner::JobRunner(const Settings& settings, const RequestLog& log)
       log_(log),
       workers_(settings.workers, settings.queue, kBurst * settings.queue) {}
 
-JobRunner::Outcome JobRunner::run(Exchange& exchange, const Service::Endpoint& endpoint,
-                                  api::PlanEvents* events) {
+api::Reply JobRunner::run(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events) {
   auto job = workers_.admit();
   if (!job) {
-    return {api::problem_reply(api::ErrorCode::overloaded,
-                               "All workers are busy and the queue is full: try again later.",
-                               exchange.request_id),
-            {{"Retry-After", std::to_string(workers_.retry_after_s())}}};
+    exchange.retry_after_s = workers_.retry_after_s();
+    return api::problem_reply(api::ErrorCode::overloaded,
+                              "All workers are busy and the queue is full: try again later.",
+                              exchange.request_id);
   }
-  Outcome outcome{compute(exchange, endpoint, events, *job)};
-  if (outcome.reply.status == 503) outcome.fields = {{"Retry-After", kDrainingRetryAfterS}};
-  return outcome;
+  return compute(exchange, endpoint, events, *job);
 }
 
 api::Reply JobRunner::compute(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events,

@@ -5,7 +5,6 @@
 #include "api/plan_events.h"
 #include "api/reply.h"
 #include "server/exchange.h"
-#include "server/header_fields.h"
 #include "server/peer_watch.h"
 #include "server/request_log.h"
 #include "server/service.h"
@@ -21,15 +20,10 @@ class JobRunner {
   /// The log has to outlive it.
   JobRunner(const Settings& settings, const RequestLog& log);
 
-  struct Outcome {
-    api::Reply reply;
-    HeaderFields fields = {};  // further ones of the answer
-  };
-
   /// The endpoint's answer to the exchange's body, computed in this thread when its turn has come. Notes the
   /// time in the queue and whether the client left meanwhile in the exchange. `events`: who wants to hear how
   /// a plan gets on, or null.
-  Outcome run(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events);
+  api::Reply run(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events);
 
   /// Jobs that wait for their turn, and those that compute.
   std::size_t queued() const { return workers_.queued(); }

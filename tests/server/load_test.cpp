@@ -23,12 +23,22 @@ Settings with_workers(int workers, std::size_t queue) {
   return settings;
 }
 
+/// A body that gzip cannot make much smaller.
+std::string noise(std::string begin, std::size_t size) {
+  std::minstd_rand random(1);
+  while (begin.size() < size) begin += static_cast<char>(' ' + random() % 64);
+  return begin;
+}
+
 /// Sends a job that waits at the gate, from a thread of its own.
 class WaitingJob {
  public:
-  explicit WaitingJob(const TestServer& server) : client_(server.client()) {
-    thread_ = std::thread([this] {
-      const auto result = client_.Post("/v1/plan", "gate", kJsonType);
+  explicit WaitingJob(const TestServer& server) : WaitingJob(server, "gate", false) {}
+  /// `body`: begins with "gate".
+  WaitingJob(const TestServer& server, const std::string& body, bool compressed) : client_(server.client()) {
+    client_.set_compress(compressed);
+    thread_ = std::thread([this, body] {
+      const auto result = client_.Post("/v1/plan", body, kJsonType);
       status_ = result ? result->status : 0;
     });
   }
@@ -121,9 +131,7 @@ TEST(Load, OfTheLargestBodyIsTakenWithoutAQueue) {
   Settings settings = with_workers(1, 0);
   settings.limits.max_body = 2 * BodyMemory::kSmall;
   const TestServer server(settings);
-  std::minstd_rand random(1);
-  std::string body;  // of bytes that gzip cannot make much smaller
-  while (body.size() < settings.limits.max_body) body += static_cast<char>(' ' + random() % 64);
+  const std::string body = noise("", settings.limits.max_body);
   auto client = server.client();
   for (const bool compressed : {false, true}) {
     client.set_compress(compressed);
@@ -134,43 +142,36 @@ TEST(Load, OfTheLargestBodyIsTakenWithoutAQueue) {
 }
 
 TEST(Load, OfManyLargeBodiesIsRefusedWhileSmallOnesAreTaken) {
-  Settings settings = with_workers(1, 0);  // so that two large bodies at a time are held
-  settings.limits.max_body = 1 << 20;
-  const TestServer server(settings);
-  RawConnection hoarder(server.server.port());
-  RawConnection other_hoarder(server.server.port());
-  for (const RawConnection* each : {&hoarder, &other_hoarder}) {
-    each->send("POST /v1/plan HTTP/1.1\r\nContent-Length: 1048576\r\n\r\n" + std::string((1 << 20) - 1, ' '));
-  }
+  Settings settings = with_workers(3, 0);
+  settings.limits.max_body = 1 << 20;  // so that all bodies together have 4 MiB
+  TestServer server(settings);
+  const std::string hoard = noise("gate", settings.limits.max_body);
+  WaitingJob hoarder(server, hoard, true);  // holds it compressed and decoded: 1.75 MiB or more
+  server.stub.gate.await_waiting(1);
+  WaitingJob other_hoarder(server, hoard, true);
+  server.stub.gate.await_waiting(2);
 
   auto client = server.client();
-  const std::string large(1 << 19, ' ');
+  const std::string large(5 << 17, ' ');
   for (const bool compressed : {false, true}) {
     client.set_compress(compressed);
-    httplib::Result result = client.Post("/v1/plan", large, kJsonType);
-    EXPECT_TRUE(holds_soon([&] {  // once what the hoarders sent has arrived
-      if (result && result->status == 200) result = client.Post("/v1/plan", large, kJsonType);
-      return !result || result->status != 200;
-    }));
-    ASSERT_TRUE(result);
-    EXPECT_EQ(result->status, 503);
-    EXPECT_NE(result->body.find("overloaded"), std::string::npos);
-    EXPECT_TRUE(result->has_header("Retry-After"));
+    const auto refused = client.Post("/v1/plan", large, kJsonType);
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->status, 503);
+    EXPECT_NE(refused->body.find("Too many large requests"), std::string::npos);
+    EXPECT_TRUE(refused->has_header("Retry-After"));
     const auto small = client.Post("/v1/plan", "abc", kJsonType);
     ASSERT_TRUE(small);
     EXPECT_EQ(small->status, 200);
   }
 
-  hoarder.send(" ");
-  EXPECT_NE(hoarder.receive().find(R"({"size":1048576})"), std::string::npos);
-  hoarder.reset();
-  httplib::Result after = client.Post("/v1/plan", large, kJsonType);
-  EXPECT_TRUE(holds_soon([&] {
-    if (after && after->status == 503) after = client.Post("/v1/plan", large, kJsonType);
-    return !after || after->status != 503;
+  server.stub.gate.open();
+  EXPECT_EQ(hoarder.status(), 200);
+  EXPECT_EQ(other_hoarder.status(), 200);
+  EXPECT_TRUE(holds_soon([&] {  // once their connections have let go of the bodies
+    const auto after = client.Post("/v1/plan", large, kJsonType);
+    return after && after->status == 200;
   }));
-  ASSERT_TRUE(after);
-  EXPECT_EQ(after->body, R"({"size":524288})");
 }
 
 TEST(Leaving, StopsThePlanThatNobodyWaitsFor) {

@@ -29,8 +29,8 @@ class Gate {
   int waiting_ = 0;
 };
 
-/// Echoes the body's size and reports what its context was. A body of "gate" waits at the gate, "throw"
-/// throws.
+/// Echoes the body's size and reports what its context was. A body that begins with "gate" waits at
+/// the gate, "throw" throws.
 class StubService {
  public:
   Service service();
