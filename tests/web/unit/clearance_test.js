@@ -1,0 +1,106 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { clearanceOf, ClearanceSweep } from "../../../web/model/clearance.js";
+
+const near = (actual, expected) =>
+  assert.ok(Math.abs(actual - expected) < 1e-12, `${actual} is not ${expected}`);
+const motion = (radius, ...knots) => ({ radius, knots: Float64Array.from(knots.flat()) });
+
+/** Numbers in [0, 1) that look random and are the same in every run. */
+function* numbers(seed) {
+  for (let state = seed; ; ) {
+    state = (state * 16807) % 2147483647;
+    yield state / 2147483647;
+  }
+}
+
+/** A fleet that wanders about in a square. */
+function wanderers(count, legs, size, seed) {
+  const random = numbers(seed);
+  const next = () => random.next().value;
+  return Array.from({ length: count }, () => {
+    const knots = [[0, next() * size, next() * size]];
+    for (let k = 0; k < legs; k += 1) {
+      const [t, x, y] = knots[k];
+      knots.push(next() < 0.3 ? [t + next(), x, y] : [t + next() * 2, next() * size, next() * size]);
+    }
+    return motion(0.1 + next() * 0.3, ...knots);
+  });
+}
+
+function positionAt({ knots }, t) {
+  let at = 0;
+  while (at + 3 < knots.length && knots[at + 3] <= t) at += 3;
+  const [t0, x0, y0, t1, x1, y1] = knots.subarray(at);
+  if (t1 === undefined || t < t0) return [x0, y0];
+  const share = (t - t0) / (t1 - t0);
+  return [x0 + (x1 - x0) * share, y0 + (y1 - y0) * share];
+}
+
+function gapAt(motions, first, second, t) {
+  const [x, y] = positionAt(motions[first], t);
+  const [otherX, otherY] = positionAt(motions[second], t);
+  return Math.hypot(otherX - x, otherY - y) - motions[first].radius - motions[second].radius;
+}
+
+test("two that pass each other are nearest when they are side by side", () => {
+  const curve = clearanceOf([
+    motion(0.25, [0, 0, 0], [10, 10, 0]),
+    motion(0.5, [0, 10, 1], [10, 0, 1]),
+    motion(1, [0, 50, 50]),
+  ]);
+  const k = curve.least;
+  near(curve.gap[k], 0.25);
+  near(curve.t[k], 5);
+  assert.deepEqual([curve.first[k], curve.second[k]], [0, 1]);
+});
+
+test("every part of a plan has its own smallest gap", () => {
+  const curve = clearanceOf([motion(1, [0, 0, 0], [8, 8, 0]), motion(1, [0, 0, 5], [8, 0, 5])], 4);
+  const expected = [3, Math.hypot(2, 5) - 2, Math.hypot(4, 5) - 2, Math.hypot(6, 5) - 2];
+  assert.equal(curve.gap.length, 4);
+  expected.forEach((gap, k) => near(curve.gap[k], gap));
+  assert.deepEqual([...curve.t], [0, 2, 4, 6]);
+});
+
+test("disks that overlap have a negative gap, and one robot or none has no clearance", () => {
+  const curve = clearanceOf([motion(1, [0, 0, 0]), motion(1, [0, 0.5, 0])]);
+  assert.deepEqual([...curve.gap], [-1.5]);
+  assert.equal(clearanceOf([motion(1, [0, 0, 0])]), null);
+  assert.equal(clearanceOf([]), null);
+});
+
+test("no pair at any time is nearer than the curve says, and the pair it names is as near as it says", () => {
+  for (const [count, legs, size, seed] of [
+    [2, 6, 5, 1],
+    [9, 12, 8, 2],
+    [25, 8, 40, 3],
+  ]) {
+    const motions = wanderers(count, legs, size, seed);
+    const curve = clearanceOf(motions, 50);
+    curve.t.forEach((t, k) => near(gapAt(motions, curve.first[k], curve.second[k], t), curve.gap[k]));
+    const least = curve.gap[curve.least];
+    assert.equal(least, Math.min(...curve.gap));
+    const end = Math.max(...motions.map(({ knots }) => knots[knots.length - 3]));
+    for (let step = 0; step <= 400; step += 1) {
+      for (let a = 0; a < count; a += 1) {
+        for (let b = a + 1; b < count; b += 1) {
+          assert.ok(gapAt(motions, a, b, (end * step) / 400) >= least - 1e-12);
+        }
+      }
+    }
+  }
+});
+
+test("the nearest two now are those that comparing all would find, whichever way time goes", () => {
+  const motions = wanderers(30, 10, 20, 7);
+  const sweep = new ClearanceSweep(motions);
+  for (const t of [0, 0.4, 3, 2.9, 11, 0.1, 99]) {
+    const { gap, first, second } = sweep.nearestAt(t);
+    near(gapAt(motions, first, second, t), gap);
+    for (let a = 0; a < 30; a += 1) {
+      for (let b = a + 1; b < 30; b += 1) assert.ok(gapAt(motions, a, b, t) >= gap - 1e-12);
+    }
+  }
+});

@@ -1,0 +1,128 @@
+// How near the robots come to each other over time, exactly: between two times at which any motion changes all
+// move evenly, and the least distance of two that do has a formula. Pure. Gaps in metres between the disks,
+// negative where they overlap.
+
+import { Follower, knotTimes, lastKnot, sortedOnce } from "./motion.js";
+
+const SAMPLES = 600; // windows that a plan is cut into at least, so that the curve can be drawn
+
+/**
+ * The smallest gap of any two motions, window by window: {t, gap, first, second, least} of equally long arrays,
+ * where t[k] is the moment in window k when motions first[k] and second[k] are `gap[k]` apart, which none are
+ * nearer in that window. `least` is the k of the smallest gap of all. Null with fewer than two motions.
+ */
+export function clearanceOf(motions, samples = SAMPLES) {
+  if (motions.length < 2) return null;
+  const end = lastKnot(motions);
+  const even = Array.from({ length: samples }, (_, k) => (end * k) / samples);
+  const times = sortedOnce([...knotTimes(motions, end), ...even]);
+  const windows = Math.max(1, times.length - 1);
+  const curve = {
+    t: new Float64Array(windows),
+    gap: new Float64Array(windows),
+    first: new Int32Array(windows),
+    second: new Int32Array(windows),
+    least: 0,
+  };
+  const sweep = new ClearanceSweep(motions);
+  for (let k = 0; k < windows; k += 1) {
+    const nearest = sweep.nearestIn(times[k], times[k + 1] ?? times[k]);
+    curve.t[k] = nearest.t;
+    curve.gap[k] = nearest.gap;
+    curve.first[k] = Math.min(nearest.first, nearest.second);
+    curve.second[k] = Math.max(nearest.first, nearest.second);
+    if (nearest.gap < curve.gap[curve.least]) curve.least = k;
+  }
+  return curve;
+}
+
+/**
+ * Finds the nearest two of at least two motions, now or in a window of time. It sweeps the boxes of all motions
+ * from left to right, whose order hardly changes from one call to the next, and looks closely at pairs whose
+ * boxes are nearer than the least gap found so far.
+ */
+export class ClearanceSweep {
+  #followers;
+  #radii;
+  #left;
+  #right;
+  #bottom;
+  #top;
+  #order;
+  #nearest = { t: 0, gap: Infinity, first: 0, second: 1 };
+
+  constructor(motions) {
+    this.#followers = motions.map((motion) => new Follower(motion));
+    this.#radii = motions.map(({ radius }) => radius);
+    [this.#left, this.#right, this.#bottom, this.#top] = [0, 0, 0, 0].map(
+      () => new Float64Array(motions.length),
+    );
+    this.#order = Int32Array.from(motions, (_, at) => at);
+  }
+
+  /** The two nearest at a moment: {t, gap, first, second}, with the positions of the two among the motions. */
+  nearestAt(t) {
+    return this.nearestIn(t, t);
+  }
+
+  /** The two nearest in a window inside which no motion changes, at the moment when they are. */
+  nearestIn(t0, t1) {
+    this.#place(t0, t1);
+    sortBy(this.#order, this.#left);
+    const { first, second } = this.#nearest;
+    this.#nearest = { t: t0, gap: Infinity, first, second };
+    this.#compare(first, second, t0, t1); // those nearest before are near now: the rest is soon ruled out
+    const [left, right, bottom, top, order] = [this.#left, this.#right, this.#bottom, this.#top, this.#order];
+    for (let i = 0; i < order.length; i += 1) {
+      const a = order[i];
+      for (let j = i + 1; j < order.length; j += 1) {
+        const b = order[j];
+        const { gap } = this.#nearest;
+        if (left[b] - right[a] > gap) break;
+        if (bottom[b] - top[a] > gap || bottom[a] - top[b] > gap) continue;
+        this.#compare(a, b, t0, t1);
+      }
+    }
+    return this.#nearest;
+  }
+
+  #place(t0, t1) {
+    for (let at = 0; at < this.#followers.length; at += 1) {
+      const follower = this.#followers[at];
+      const radius = this.#radii[at];
+      follower.look(t0, t1);
+      this.#left[at] = Math.min(follower.x, follower.endX) - radius;
+      this.#right[at] = Math.max(follower.x, follower.endX) + radius;
+      this.#bottom[at] = Math.min(follower.y, follower.endY) - radius;
+      this.#top[at] = Math.max(follower.y, follower.endY) + radius;
+    }
+  }
+
+  #compare(first, second, t0, t1) {
+    const a = this.#followers[first];
+    const b = this.#followers[second];
+    const [x, y] = [b.x - a.x, b.y - a.y];
+    const [wayX, wayY] = [b.endX - a.endX - x, b.endY - a.endY - y];
+    const share = closestShare(x, y, wayX, wayY);
+    const apart = Math.sqrt((x + wayX * share) ** 2 + (y + wayY * share) ** 2);
+    const gap = apart - this.#radii[first] - this.#radii[second];
+    if (gap < this.#nearest.gap) this.#nearest = { t: t0 + (t1 - t0) * share, gap, first, second };
+  }
+}
+
+/** Where on its way, in [0, 1], a point that moves from (x, y) by (wayX, wayY) is nearest to the origin. */
+function closestShare(x, y, wayX, wayY) {
+  const squared = wayX * wayX + wayY * wayY;
+  return squared > 0 ? Math.min(1, Math.max(0, -(x * wayX + y * wayY) / squared)) : 0;
+}
+
+/** Sorts by insertion, which is quick for what is nearly sorted. */
+function sortBy(order, keys) {
+  for (let i = 1; i < order.length; i += 1) {
+    const moved = order[i];
+    const key = keys[moved];
+    let j = i - 1;
+    for (; j >= 0 && keys[order[j]] > key; j -= 1) order[j + 1] = order[j];
+    order[j + 1] = moved;
+  }
+}

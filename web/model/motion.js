@@ -1,0 +1,93 @@
+// Where the middle of a robot is, as a broken line through time: knots (t, x, y) with even motion in between.
+// Two knots at one time are a jump, which only a faulty plan has. Pure. Times in seconds, lengths in metres.
+
+/**
+ * The motion of a robot {start, radius} that executes `actions`: {radius, knots}, the knots one after the other
+ * as t, x, y, t, x, y, …
+ */
+export function motionOf(robot, actions) {
+  const knots = [];
+  for (const { t_start, t_end, from, to } of actions) {
+    addKnot(knots, t_start, from);
+    addKnot(knots, t_end, to);
+  }
+  if (knots.length === 0) knots.push(0, robot.start.x, robot.start.y);
+  return { radius: robot.radius, knots: Float64Array.from(knots) };
+}
+
+/**
+ * Appends a knot; one that says nothing new is left out, as is what in a faulty plan goes back in time or
+ * nowhere.
+ */
+function addKnot(knots, t, { x, y }) {
+  const end = knots.length;
+  if (!Number.isFinite(t + x + y) || (end > 0 && t < knots[end - 3])) return;
+  const rests = (at) => at >= 0 && knots[at + 1] === x && knots[at + 2] === y;
+  if (rests(end - 3)) {
+    if (t === knots[end - 3]) return;
+    if (rests(end - 6)) knots.length -= 3;
+  }
+  knots.push(t, x, y);
+}
+
+/** The last time at which one of the motions changes; 0 where nothing moves. */
+export function lastKnot(motions) {
+  return motions.reduce((last, { knots }) => Math.max(last, knots[knots.length - 3]), 0);
+}
+
+/** The times in [0, end] at which one of the motions changes, ascending, each once, with 0 and `end`. */
+export function knotTimes(motions, end) {
+  const times = [0, end];
+  for (const { knots } of motions) {
+    for (let at = 0; at < knots.length; at += 3) {
+      if (knots[at] > 0 && knots[at] < end) times.push(knots[at]);
+    }
+  }
+  return sortedOnce(times);
+}
+
+/** The numbers ascending, each once. */
+export function sortedOnce(numbers) {
+  const sorted = Float64Array.from(numbers).sort();
+  let length = Math.min(1, sorted.length);
+  for (let at = 1; at < sorted.length; at += 1) {
+    if (sorted[at] !== sorted[length - 1]) sorted[length++] = sorted[at];
+  }
+  return sorted.subarray(0, length);
+}
+
+/** Follows a motion through time. `x`, `y` and `endX`, `endY` are where it is at both ends of a span. */
+export class Follower {
+  x = 0;
+  y = 0;
+  endX = 0;
+  endY = 0;
+  #knots;
+  #at = 0; // the knot that begins the piece the span is on
+
+  constructor({ knots }) {
+    this.#knots = knots;
+  }
+
+  /**
+   * Looks at the span from t0 to t1, inside which no knot may lie; quick if it is near the one looked at last.
+   */
+  look(t0, t1) {
+    const knots = this.#knots;
+    while (this.#at > 0 && knots[this.#at] > t0) this.#at -= 3;
+    while (this.#at + 3 < knots.length && knots[this.#at + 3] <= t0) this.#at += 3;
+    const at = this.#at;
+    const x = knots[at + 1];
+    const y = knots[at + 2];
+    this.x = this.endX = x;
+    this.y = this.endY = y;
+    if (at + 3 >= knots.length || t0 < knots[at]) return;
+    const lasts = knots[at + 3] - knots[at];
+    const begin = (t0 - knots[at]) / lasts;
+    const end = (t1 - knots[at]) / lasts;
+    this.x = x + (knots[at + 4] - x) * begin;
+    this.y = y + (knots[at + 5] - y) * begin;
+    this.endX = end === 1 ? knots[at + 4] : x + (knots[at + 4] - x) * end;
+    this.endY = end === 1 ? knots[at + 5] : y + (knots[at + 5] - y) * end;
+  }
+}
