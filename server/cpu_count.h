@@ -1,7 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <istream>
 #include <optional>
-#include <string>
 
 namespace fleetplan::server {
 
@@ -9,7 +10,9 @@ namespace fleetplan::server {
 /// rounded down, at least 1.
 int cpus_granted();
 
-/// Processors by a cgroup v2 `cpu.max`, e.g. "150000 100000" is 1.5; none for "max ...".
-std::optional<double> parse_cpu_max(const std::string& text);
+/// The smallest CPU quota, in processors, of the control groups that `membership` names (the lines of
+/// /proc/self/cgroup) and of the groups above them, read below `mounts` (/sys/fs/cgroup). None when
+/// unlimited.
+std::optional<double> cpu_quota(std::istream& membership, const std::filesystem::path& mounts);
 
 }  // namespace fleetplan::server

@@ -1,5 +1,6 @@
 #include <iostream>
 
+#include "server/health_probe.h"
 #include "server/run.h"
 #include "server/service.h"
 #include "server/settings.h"
@@ -11,5 +12,9 @@ int main(int argc, char** argv) {
     (exit->code == 0 ? std::cout : std::cerr) << exit->text;
     return exit->code;
   }
-  return run(std::get<Settings>(parsed), planning_service());
+  const auto& settings = std::get<Settings>(parsed);
+  if (!settings.healthcheck) return run(settings, planning_service());
+  const auto fault = health_fault(settings);
+  if (fault) std::cerr << "fleetplan: " << *fault << '\n';
+  return fault ? 1 : 0;
 }

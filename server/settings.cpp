@@ -38,6 +38,9 @@ class Flags {
     add_access();
     add_limits();
     add_times();
+    app_.add_flag("--healthcheck", settings_.healthcheck,
+                  "Ask the service that runs with the same host and ports whether it is alive: exit 0, or 1")
+        ->configurable(false);
     config_option_ =
         add("config", config_, "File of 'flag = value' lines, for what neither flag nor environment says")
             ->configurable(false);

@@ -29,7 +29,8 @@ struct Settings {
       std::nullopt;                            // to be shown by all requests but for health and readiness
   std::vector<std::string> cors_origins = {};  // whose pages may read answers, see CrossOrigin
   std::string log_level = "info";
-  std::string web_root;  // empty: no page
+  std::string web_root;      // empty: no page
+  bool healthcheck = false;  // ask the service that runs with these settings, instead of serving
 };
 
 /// The process is to end instead of serving: help, version, or a bad value.

@@ -2,14 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include "tests/bench/jobs.h"
 #include "tests/bench/measure.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fleetplan::bench {
 namespace {
@@ -25,31 +24,6 @@ Instance small_instance() {
   recipe.robots = 5;
   return make_instance("small", generate(recipe, 1));
 }
-
-/// A folder of its own that goes away in the end.
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / fs::path(testing::TempDir()).filename() / unique()) {
-    fs::create_directories(path_);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  const fs::path& path() const { return path_; }
-  void write(const std::string& name, const std::string& text) const {
-    fs::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name) << text;
-  }
-
- private:
-  static std::string unique() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    return std::string("fleetplan-") + test->test_suite_name() + "-" + test->name() + "-" +
-           std::to_string(::getpid());
-  }
-  fs::path path_;
-};
 
 TEST(Instance, OfFewerRobotsHasTheFirstOnes) {
   const Instance instance = small_instance();
@@ -90,7 +64,7 @@ TEST(Instance, ThatIsNoValidRequestIsAFault) {
 }
 
 TEST(RequestFiles, AreThoseOfAFolderAtAnyDepthThatHoldRequests) {
-  const Folder folder;
+  const support::TemporaryFolder folder;
   const std::string request = small_instance().body(1, json::object());
   folder.write("b.json", request);
   folder.write("deep/er/a.json", request);
@@ -102,7 +76,7 @@ TEST(RequestFiles, AreThoseOfAFolderAtAnyDepthThatHoldRequests) {
 }
 
 TEST(RequestFiles, ThatCannotBeReadAreNamed) {
-  const Folder folder;
+  const support::TemporaryFolder folder;
   folder.write("broken.json", "{");
   folder.write("list.json", "[]");
   EXPECT_THROW(request_files({(folder.path() / "none").string()}), std::runtime_error);
@@ -125,7 +99,7 @@ TEST(Jobs, WithoutFilesAreTheHallsSeedBySeed) {
 }
 
 TEST(Jobs, WithAReferenceAreItsRows) {
-  const Folder folder;
+  const support::TemporaryFolder folder;
   folder.write("sub/a.json", small_instance().body(5, json::object()));
   Options options;
   options.reference = "reference.csv";

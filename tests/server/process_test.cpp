@@ -246,6 +246,18 @@ TEST(Process, FailsOnABadValueAndExplainsItself) {
   EXPECT_EQ(version.exit_code(), 0);
 }
 
+TEST(Process, AsksWhetherTheServiceIsAlive) {
+  Process service({"--port", "0", "--workers", "1"});
+  const std::string port = std::to_string(port_in(service.output_line()));
+  Process asking({"--healthcheck", "--port", port});
+  EXPECT_EQ(asking.exit_code(), 0);
+  service.signal(SIGTERM);
+  EXPECT_EQ(service.exit_code(), 0);
+  Process again({"--healthcheck", "--port", port});
+  EXPECT_EQ(again.log_line().find("fleetplan: no answer from 127.0.0.1 port " + port + ": "), 0u);
+  EXPECT_EQ(again.exit_code(), 1);
+}
+
 /// Sends the long request from a thread of its own and waits until the server works on it.
 class LongRequest {
  public:

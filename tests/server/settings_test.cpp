@@ -40,6 +40,13 @@ TEST(Settings, HaveTheirDefaults) {
   EXPECT_EQ(settings.drain_delay, std::chrono::milliseconds(0));
 }
 
+TEST(Settings, AskForTheHealthByFlagAlone) {
+  EXPECT_FALSE(settings_of({}).healthcheck);
+  EXPECT_TRUE(settings_of({"--healthcheck"}).healthcheck);
+  const support::TemporaryFile file("healthcheck = true\n");
+  EXPECT_EQ(exit_of({"--config", file.path()}).code, 2);
+}
+
 TEST(Settings, ComeFromFlags) {
   const auto settings =
       settings_of({"--port", "9000", "--workers=3", "--max-body", "2MiB", "--idle-timeout-ms", "7"});
@@ -140,14 +147,6 @@ TEST(Settings, ExplainThemselves) {
   const auto version = exit_of({"--version"});
   EXPECT_EQ(version.code, 0);
   EXPECT_EQ(version.text, "fleetplan " FLEETPLAN_VERSION "\n");
-}
-
-TEST(CpuCount, IsAtLeastOne) { EXPECT_GE(cpus_granted(), 1); }
-
-TEST(CpuCount, ReadsAQuota) {
-  EXPECT_EQ(parse_cpu_max("150000 100000"), 1.5);
-  EXPECT_EQ(parse_cpu_max("max 100000"), std::nullopt);
-  EXPECT_EQ(parse_cpu_max(""), std::nullopt);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include "server/static_files.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
+#include <filesystem>
 
 #include "tests/server/test_server.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fleetplan::server {
 namespace {
@@ -15,29 +15,23 @@ namespace fs = std::filesystem;
 class Page : public testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "fleetplan-page-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-    write("outside.txt", "secret");
-    write("web/index.html", "<!doctype html>");
-    write("web/style.css", "body {}");
-    write("web/modules/draw.js", "export {};");
-    write("web/.hidden", "secret");
-    fs::create_symlink(folder_ / "outside.txt", folder_ / "web" / "link.txt");
+    folder_.write("outside.txt", "secret");
+    folder_.write("web/index.html", "<!doctype html>");
+    folder_.write("web/style.css", "body {}");
+    folder_.write("web/modules/draw.js", "export {};");
+    folder_.write("web/.hidden", "secret");
+    fs::create_symlink(folder_.path() / "outside.txt", folder_.path() / "web" / "link.txt");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
-  void write(const std::string& name, const std::string& text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-  }
+  void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
 
   Settings settings() const {
     Settings settings;
-    settings.web_root = (folder_ / "web").string();
+    settings.web_root = (folder_.path() / "web").string();
     return settings;
   }
 
-  fs::path folder_;
+  support::TemporaryFolder folder_;
 };
 
 TEST_F(Page, IsServedWithItsTypesAndStrictFields) {
