@@ -42,7 +42,7 @@ for (const [size, options] of [
       await page.mouse.move(5, 5);
       await page.evaluate(() => {
         scrollTo(0, 0);
-        document.querySelector(".results").scrollTop = 0;
+        document.querySelector(".side-body").scrollTop = 0;
         document.activeElement.blur();
         return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
       });

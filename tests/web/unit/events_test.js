@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { readEvents } from "../../../web/events.js";
+import { readEvents } from "../../../web/service/events.js";
 
 /** The events of a text that comes in pieces of so many bytes. */
 async function eventsOf(text, size = Infinity) {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { budgetOf, describeProgress } from "../../../web/planning_status.js";
+import { budgetOf, describeProgress } from "../../../web/panels/planning_status.js";
 
 const LIMITS = { default_budget_ms: 5000, max_budget_ms: 120_000 };
 

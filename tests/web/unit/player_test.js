@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { Player } from "../../../web/player.js";
+import { Player } from "../../../web/model/player.js";
 
 function playing(duration) {
   const player = new Player();

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { readScene, readTracks, robotPoseAt, robotStateAt } from "../../../web/scene.js";
+import { readScene, readTracks, robotPoseAt, robotStateAt } from "../../../web/model/scene.js";
 
 const REQUEST = {
   map: { rows: ["#.", ".G", "@T"], resolution: 0.5, origin: { x: 10, y: -2 } },

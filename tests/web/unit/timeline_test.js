@@ -9,7 +9,7 @@ import {
   poseInAction,
   remainingPath,
   turnBetween,
-} from "../../../web/timeline.js";
+} from "../../../web/model/timeline.js";
 
 const { PI } = Math;
 const near = (actual, expected) =>

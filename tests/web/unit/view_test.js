@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { fit, keepInSight, panBy, scaleLimits, toScreen, toWorld, zoomAt } from "../../../web/view.js";
+import { fit, keepInSight, panBy, scaleLimits, toScreen, toWorld, zoomAt } from "../../../web/scene/view.js";
 
 const VIEWPORT = { width: 800, height: 600 };
 const CAMERA = { x: 10, y: 20, scale: 40 };

@@ -5,26 +5,37 @@ import { doingAt, pathOf, poseAt } from "./timeline.js";
 
 const FREE = new Set([".", "G"]);
 
-/** The map as {columns, rows, resolution, origin, blocked, bounds}; blocked[row * columns + column], top row first. */
-function readGrid(map) {
+/**
+ * The map as {map, lines, columns, rows, resolution, origin, blocked, bounds}; blocked[row * columns + column], top row
+ * first. `previous`, a grid or null, spares reading what is the same.
+ */
+function readGrid(map, previous) {
+  if (previous !== null && map === previous.map) return previous;
   const lines = Array.isArray(map?.rows) ? map.rows.filter((row) => typeof row === "string") : [];
   const columns = lines.reduce((most, row) => Math.max(most, row.length), 0);
   if (columns === 0) return null;
   const resolution = positive(map.resolution) ? map.resolution : 1;
   const origin = { x: finiteOr(map.origin?.x, 0), y: finiteOr(map.origin?.y, 0) };
-  const blocked = new Uint8Array(columns * lines.length);
-  lines.forEach((line, row) => {
-    for (let column = 0; column < columns; column += 1) {
-      blocked[row * columns + column] = FREE.has(line[column]) ? 0 : 1;
-    }
-  });
   const bounds = {
     left: origin.x,
     bottom: origin.y,
     right: origin.x + columns * resolution,
     top: origin.y + lines.length * resolution,
   };
-  return { columns, rows: lines.length, resolution, origin, blocked, bounds };
+  const blocked = readCells(lines, columns, previous);
+  return { map, lines, columns, rows: lines.length, resolution, origin, blocked, bounds };
+}
+
+function readCells(lines, columns, previous) {
+  const alike = previous?.columns === columns && previous.rows === lines.length;
+  const blocked = alike ? previous.blocked.slice() : new Uint8Array(columns * lines.length);
+  lines.forEach((line, row) => {
+    if (alike && line === previous.lines[row]) return;
+    for (let column = 0; column < columns; column += 1) {
+      blocked[row * columns + column] = FREE.has(line[column]) ? 0 : 1;
+    }
+  });
+  return blocked;
 }
 
 function readRobots(request) {
@@ -46,12 +57,15 @@ function readPose(pose) {
   return { x: pose.x, y: pose.y, theta: Number.isFinite(pose.theta) ? pose.theta : null };
 }
 
-/** The scene of a parsed request: {grid, robots}; the grid is null when there is no map to draw. */
-export function readScene(request) {
+/**
+ * The scene of a parsed request: {grid, robots}; the grid is null when there is no map to draw. `previous`, the scene
+ * of an earlier request, makes it cheap to read an edited one.
+ */
+export function readScene(request, previous = null) {
   const robots = readRobots(request);
   const shared = commonPrefixLength(robots.map(({ id }) => id));
   for (const robot of robots) robot.label = robot.id.slice(shared);
-  return { grid: readGrid(request?.map), robots };
+  return { grid: readGrid(request?.map, previous?.grid ?? null), robots };
 }
 
 /**

@@ -1,15 +1,7 @@
 // The service's HTTP interface. Addresses are relative to the page, so that it also works below a path.
 
 import { readEvents } from "./events.js";
-
-/** A failure to show: `problem` has the members of RFC 9457 ("title", "detail", "errors", …). */
-export class ProblemError extends Error {
-  constructor(problem) {
-    super(problem.title);
-    this.name = "ProblemError";
-    this.problem = problem;
-  }
-}
+import { ProblemError } from "./problem.js";
 
 /** The examples: [{name, title, description, robots, columns, rows}]. */
 export async function listExamples() {
@@ -46,6 +38,13 @@ export async function plan(requestText, signal, told) {
   const streams = response.headers.get("Content-Type")?.startsWith("text/event-stream");
   const text = await unlessCut(streams ? lastEvent(response, told) : response.text());
   return { answer: parseAnswer(text), text };
+}
+
+/** What the service says of a plan file's text: {valid, violations, min_clearance}. */
+export async function validate(text) {
+  const headers = { "Content-Type": "application/json" };
+  const response = await send("v1/validate", { method: "POST", headers, body: text });
+  return parseAnswer(await unlessCut(response.text()));
 }
 
 /** The text of the answer that ends a stream. Reads on to its very end, so that the connection serves again. */

@@ -15,11 +15,24 @@ export function robotColour(index, lightness) {
 
 const NAMES = ["void", "floor", "wall", "grid", "edge", "ink", "muted", "danger", "accent"];
 
-/** The canvas's colours under the present theme. */
+/** What robots do, see robotStateAt, in words for a legend. */
+export const STATES_IN_WORDS = {
+  moving: "moving: an arrow",
+  turning: "turning: an arc",
+  waiting: "waiting: two bars",
+  arrived: "arrived: a tick",
+  parked: "parked: a square",
+  ready: "before a plan",
+  unplanned: "without a plan: a cross",
+};
+
+/** The canvas's colours under the present theme; `states` are those of robots by what they do. */
 export function readTheme() {
   const style = getComputedStyle(document.documentElement);
   const theme = { robotLightness: Number(style.getPropertyValue("--robot-lightness")) };
   for (const name of NAMES) theme[name] = style.getPropertyValue(`--scene-${name}`).trim();
+  theme.states = {};
+  for (const state of Object.keys(STATES_IN_WORDS)) theme.states[state] = style.getPropertyValue(`--state-${state}`).trim();
   theme.font = getComputedStyle(document.body).fontFamily;
   return theme;
 }

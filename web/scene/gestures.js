@@ -3,11 +3,14 @@
 const CLICK_SLACK = 4; // pixels: a press that moved less is a click
 
 /**
- * Watches an element. `told` has: pan(dx, dy), zoom(pixel, factor), hover(pixel or null), click(pixel).
+ * Watches an element. `told` has: pan(dx, dy), zoom(pixel, factor), hover(pixel or null), click(pixel); and for
+ * presses that are not about the camera: press(pixel, event), which says whether to keep hold of the pointer, and
+ * then drag(pixel, event) until release(pixel, event), or letGo() when a second finger makes it a pinch.
  */
 export function watchGestures(element, told) {
   const pressed = new Map(); // pointer id -> last position
   let travelled = 0;
+  let held = null; // the id of the pointer that is not about the camera
 
   const within = (event) => {
     const box = element.getBoundingClientRect();
@@ -17,7 +20,14 @@ export function watchGestures(element, told) {
   element.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
     element.setPointerCapture(event.pointerId);
-    if (pressed.size === 0) travelled = 0;
+    if (held !== null) {
+      held = null;
+      told.letGo();
+    }
+    if (pressed.size === 0) {
+      travelled = 0;
+      if (told.press(within(event), event)) held = event.pointerId;
+    }
     pressed.set(event.pointerId, within(event));
   });
 
@@ -26,6 +36,11 @@ export function watchGestures(element, told) {
     const before = pressed.get(event.pointerId);
     if (!before) {
       if (event.pointerType === "mouse") told.hover(now);
+      return;
+    }
+    if (held === event.pointerId) {
+      pressed.set(event.pointerId, now);
+      told.drag(now, event);
       return;
     }
     travelled += Math.hypot(now.x - before.x, now.y - before.y);
@@ -49,9 +64,19 @@ export function watchGestures(element, told) {
 
   element.addEventListener("pointerup", (event) => {
     const known = pressed.delete(event.pointerId);
-    if (known && pressed.size === 0 && travelled <= CLICK_SLACK) told.click(within(event));
+    if (held === event.pointerId) {
+      held = null;
+      told.release(within(event), event);
+    } else if (known && pressed.size === 0 && travelled <= CLICK_SLACK) {
+      told.click(within(event), event);
+    }
   });
-  element.addEventListener("pointercancel", (event) => pressed.delete(event.pointerId));
+  element.addEventListener("pointercancel", (event) => {
+    pressed.delete(event.pointerId);
+    if (held !== event.pointerId) return;
+    held = null;
+    told.letGo();
+  });
   element.addEventListener("pointerleave", () => told.hover(null));
 
   const onWheel = (event) => {

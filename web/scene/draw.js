@@ -1,14 +1,16 @@
 // Paints a scene on a canvas. What stands still while a plan plays (map, starts, goals, paths) is painted on a
-// backdrop once for each camera; a frame is a copy of it and the robots.
+// backdrop once for each camera; a frame is a copy of it, the robots, and what overlays add.
 
+import { robotPoseAt, robotStateAt } from "../model/scene.js";
+import { remainingPath } from "../model/timeline.js";
 import { drawTiles, rasterize } from "./map_raster.js";
 import { drawGoal, drawPath, drawRobot, drawStart } from "./marks.js";
 import { robotColour } from "./palette.js";
-import { robotPoseAt } from "./scene.js";
-import { remainingPath } from "./timeline.js";
 import { toScreen } from "./view.js";
 
 const GRID_LINES_FROM = 14; // pixels a cell: below, lines would only grey the floor
+const NAME_ROOM = 40; // pixels beside a robot that its marks may take
+const FAINT = { width: 1.25, alpha: 0.34 };
 
 export class Painter {
   #canvas;
@@ -18,6 +20,7 @@ export class Painter {
   #scene = null;
   #tracks = null;
   #theme = null;
+  #look = null;
   #tiles = [];
   #colours = [];
 
@@ -26,8 +29,8 @@ export class Painter {
     this.#context = canvas.getContext("2d");
   }
 
-  /** What to paint from now on. */
-  show(scene, tracks, theme) {
+  /** What to paint from now on, and how: see Stage.look. */
+  show(scene, tracks, theme, look) {
     if (scene.grid !== this.#scene?.grid || theme !== this.#theme) {
       this.#tiles = scene.grid ? rasterize(scene.grid, theme.wall) : [];
     }
@@ -35,11 +38,15 @@ export class Painter {
     this.#scene = scene;
     this.#tracks = tracks;
     this.#theme = theme;
+    this.#look = look;
     this.#backdropKey = null;
   }
 
-  /** Paints the moment `time`; `marked` are the ids to bring out. */
-  paint({ camera, viewport, ratio, time, marked }) {
+  /**
+   * Paints the moment `time`; `marked` are the ids to bring out. `overlays` are functions (context, view) where view
+   * has camera, viewport, time, marked, theme, scale (pixels a metre) and screen(point), all in CSS pixels.
+   */
+  paint({ camera, viewport, ratio, time, marked, overlays }) {
     if (!this.#scene || viewport.width === 0) return;
     const width = Math.round(viewport.width * ratio);
     const height = Math.round(viewport.height * ratio);
@@ -52,8 +59,12 @@ export class Painter {
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.drawImage(this.#backdrop, 0, 0);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    this.#paintMarkedPaths(context, camera, viewport, time, marked);
-    this.#paintRobots(context, camera, viewport, time, marked);
+    const screen = (point) => toScreen(camera, viewport, point);
+    const view = { camera, viewport, time, marked, theme: this.#theme, scale: camera.scale, screen };
+    if (this.#look.paths === "remaining") this.#paintRemainingPaths(context, view);
+    this.#paintMarkedPaths(context, view);
+    this.#paintRobots(context, view);
+    for (const overlay of overlays) overlay(context, view);
   }
 
   #refreshBackdrop(camera, viewport, ratio, width, height) {
@@ -95,18 +106,25 @@ export class Painter {
       const screen = (point) => toScreen(camera, viewport, point);
       const radius = robot.radius * camera.scale;
       const colour = this.#colours[at];
-      if (track.path.length > 1)
-        drawPath(context, track.path.map(screen), colour, { width: 1.25, alpha: 0.34 });
+      if (this.#look.paths === "whole") drawPath(context, track.path.map(screen), colour, FAINT);
       if (track.actions.length > 0) drawStart(context, screen(robot.start), radius, colour);
       if (robot.goal) drawGoal(context, screen(robot.goal), robot.goal.theta, radius, colour);
     });
   }
 
-  #paintMarkedPaths(context, camera, viewport, time, marked) {
+  #paintRemainingPaths(context, { time, screen }) {
+    this.#scene.robots.forEach((robot, at) => {
+      const { actions, cost } = this.#tracks.get(robot.id);
+      if (cost === null || time >= cost) return;
+      const rest = remainingPath(actions, robot.start, time).map(screen);
+      drawPath(context, rest, this.#colours[at], FAINT);
+    });
+  }
+
+  #paintMarkedPaths(context, { time, marked, screen }) {
     this.#scene.robots.forEach((robot, at) => {
       if (!marked.has(robot.id)) return;
       const track = this.#tracks.get(robot.id);
-      const screen = (point) => toScreen(camera, viewport, point);
       if (track.path.length > 1) {
         const rest = remainingPath(track.actions, robot.start, time).map(screen);
         drawPath(context, rest, this.#colours[at], { width: 3, alpha: 0.95 });
@@ -120,29 +138,37 @@ export class Painter {
     });
   }
 
-  #paintRobots(context, camera, viewport, time, marked) {
-    const theme = this.#theme;
-    const order = this.#scene.robots.map((_, at) => at);
-    order.sort((a, b) => marked.has(this.#scene.robots[a].id) - marked.has(this.#scene.robots[b].id));
-    for (const at of order) {
-      const robot = this.#scene.robots[at];
-      const track = this.#tracks.get(robot.id);
-      const pose = robotPoseAt(robot, track, time);
-      const centre = toScreen(camera, viewport, pose);
-      const radius = robot.radius * camera.scale;
-      const beyond = radius + 40;
-      if (centre.x < -beyond || centre.x > viewport.width + beyond) continue;
-      if (centre.y < -beyond || centre.y > viewport.height + beyond) continue;
-      drawRobot(context, theme, {
-        centre,
-        theta: pose.theta,
-        radius,
-        colour: this.#colours[at],
-        label: robot.label,
-        unplanned: track.status === "unplanned",
-        name: marked.has(robot.id) ? robot.id : null,
-      });
+  #paintRobots(context, view) {
+    const { robots } = this.#scene;
+    for (let at = 0; at < robots.length; at += 1) {
+      if (!view.marked.has(robots[at].id)) this.#paintRobot(context, view, at, null);
     }
+    for (let at = 0; at < robots.length; at += 1) {
+      if (view.marked.has(robots[at].id)) this.#paintRobot(context, view, at, robots[at].id);
+    }
+  }
+
+  /** `name`: what to write beside the robot at this place of the scene, or null. */
+  #paintRobot(context, { viewport, time, scale, screen }, at, name) {
+    const robot = this.#scene.robots[at];
+    const track = this.#tracks.get(robot.id);
+    const pose = robotPoseAt(robot, track, time);
+    const centre = screen(pose);
+    const radius = robot.radius * scale;
+    const beyond = radius + NAME_ROOM;
+    if (centre.x < -beyond || centre.x > viewport.width + beyond) return;
+    if (centre.y < -beyond || centre.y > viewport.height + beyond) return;
+    const state = this.#look.colours === "state" ? robotStateAt(track, time) : null;
+    drawRobot(context, this.#theme, {
+      centre,
+      theta: pose.theta,
+      radius,
+      colour: state === null ? this.#colours[at] : this.#theme.states[state],
+      label: robot.label,
+      state,
+      unplanned: track.status === "unplanned",
+      name,
+    });
   }
 }
 

@@ -1,49 +1,56 @@
-// The bar below the scene: play and pause, scrubber, clock, speed, loop. Drives a Player.
+// The bar below the scene: play and pause, steps from event to event, scrubber, clock, speed, loop.
 
-import { byId, setText } from "./dom.js";
+import { eventTimes, nextEvent } from "../model/next_event.js";
+import { byId, setText } from "../ui/dom.js";
 
 const KEY_STEP = 0.25; // seconds
 const LONG_KEY_STEP = 2; // seconds
 
 export class Transport {
+  #session;
   #player;
-  #changed;
   #play = byId("play");
   #restart = byId("restart");
   #scrubber = byId("scrubber");
   #clock = byId("clock");
   #speed = byId("speed");
   #loop = byId("loop");
+  #previous = byId("previous-event");
+  #next = byId("next-event");
+  #events = new Map(); // event times by robot's id, null for those of all
   #resume = false; // playing was interrupted by dragging the scrubber
 
-  /** `changed` is called after every change that a person made. */
-  constructor(player, changed) {
-    this.#player = player;
-    this.#changed = changed;
-    this.#play.addEventListener("click", () => this.toggle());
+  constructor(session) {
+    this.#session = session;
+    this.#player = session.player;
+    this.#play.addEventListener("click", () => session.togglePlaying());
     this.#restart.addEventListener("click", () => this.restart());
+    this.#previous.addEventListener("click", () => this.step(-1));
+    this.#next.addEventListener("click", () => this.step(1));
     this.#loop.addEventListener("click", () => this.toggleLoop());
     this.#speed.addEventListener("change", () => {
-      player.speed = Number(this.#speed.value);
+      this.#player.speed = Number(this.#speed.value);
     });
-    this.#scrubber.addEventListener("input", () => this.#seek(Number(this.#scrubber.value)));
+    this.#scrubber.addEventListener("input", () => session.seek(Number(this.#scrubber.value)));
     this.#scrubber.addEventListener("pointerdown", () => {
-      this.#resume = player.playing;
-      player.pause();
-      this.#changed();
+      this.#resume = this.#player.playing;
+      session.pause();
     });
     this.#scrubber.addEventListener("pointerup", () => this.#release());
     this.#scrubber.addEventListener("pointercancel", () => this.#release());
     this.#scrubber.addEventListener("keydown", (event) => this.#onKey(event));
-  }
-
-  toggle() {
-    this.#player.toggle();
-    this.#changed();
+    session.on("answer", () => this.#events.clear());
+    session.on("answer time playback", () => this.#refresh());
   }
 
   restart() {
-    this.#seek(0);
+    this.#session.seek(0);
+  }
+
+  /** To the next event (+1) or the one before (-1), of the selected robot if there is one. */
+  step(direction) {
+    this.#session.pause();
+    this.#session.seek(nextEvent(this.#eventsOf(this.#session.selected), this.#player.time, direction));
   }
 
   toggleLoop() {
@@ -62,11 +69,20 @@ export class Transport {
     this.#play.focus({ preventScroll: true });
   }
 
+  #eventsOf(id) {
+    const { tracks } = this.#session;
+    const own = tracks.get(id)?.actions.length > 0 ? id : null;
+    if (!this.#events.has(own)) {
+      this.#events.set(own, eventTimes(own === null ? [...tracks.values()] : [tracks.get(own)]));
+    }
+    return this.#events.get(own);
+  }
+
   /** Shows the player's state. */
-  refresh() {
+  #refresh() {
     const { time, duration, playing } = this.#player;
     const idle = duration <= 0;
-    for (const control of [this.#play, this.#restart, this.#scrubber]) {
+    for (const control of [this.#play, this.#restart, this.#scrubber, this.#previous, this.#next]) {
       if (control.disabled !== idle) control.disabled = idle;
     }
     this.#play.classList.toggle("playing", playing);
@@ -81,13 +97,7 @@ export class Transport {
   #release() {
     if (!this.#resume) return;
     this.#resume = false;
-    if (this.#player.time < this.#player.duration) this.#player.play();
-    this.#changed();
-  }
-
-  #seek(time) {
-    this.#player.seek(time);
-    this.#changed();
+    if (this.#player.time < this.#player.duration) this.#session.play();
   }
 
   #onKey(event) {
@@ -105,6 +115,6 @@ export class Transport {
     };
     if (!(event.key in targets)) return;
     event.preventDefault();
-    this.#seek(targets[event.key]);
+    this.#session.seek(targets[event.key]);
   }
 }

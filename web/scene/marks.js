@@ -4,12 +4,15 @@
 const SMALLEST_DOT = 2.5; // a robot of fewer pixels is shown as a dot of this radius
 const SMALLEST_LABEL = 8; // font pixels
 
-/** A robot as a disk with a wedge where it heads; one without a plan is hollow and crossed out. */
-export function drawRobot(context, theme, { centre, theta, radius, colour, label, unplanned, name }) {
+/**
+ * A robot as a disk with a wedge where it heads and, where there is room, its label or, if `state` is not null, the
+ * sign of what it does; one without a plan is hollow and crossed out.
+ */
+export function drawRobot(context, theme, { centre, theta, radius, colour, label, state, unplanned, name }) {
   const shown = Math.max(radius, SMALLEST_DOT);
   if (name !== null) drawHalo(context, centre, shown, theme);
-  if (unplanned) drawStuck(context, theme, centre, theta, shown, colour);
-  else drawDisk(context, theme, centre, theta, shown, colour, label);
+  if (unplanned) drawStuck(context, theme, centre, shown, colour);
+  else drawDisk(context, theme, { centre, theta, radius: shown, colour, label, state });
   if (name !== null) drawName(context, theme, centre, shown, name);
 }
 
@@ -52,13 +55,16 @@ export function drawPath(context, points, colour, { width, alpha, dashes = [] })
   context.restore();
 }
 
-function drawDisk(context, theme, centre, theta, radius, colour, label) {
+function drawDisk(context, theme, { centre, theta, radius, colour, label, state }) {
   context.beginPath();
   context.arc(centre.x, centre.y, radius, 0, 2 * Math.PI);
   context.fillStyle = colour;
   context.fill();
   if (radius < 4) return;
-  const labelled = drawLabel(context, theme, centre, radius, label);
+  const labelled =
+    state === null
+      ? drawLabel(context, theme, centre, radius, label)
+      : drawStateSign(context, theme, centre, radius, state);
   context.save();
   context.translate(centre.x, centre.y);
   context.rotate(-theta);
@@ -94,7 +100,34 @@ function drawLabel(context, theme, centre, radius, label) {
   return true;
 }
 
-function drawStuck(context, theme, centre, theta, radius, colour) {
+/** Two bars for waiting, a turn's arc, a tick for arrived; moving is the wedge alone. Whether it drew one. */
+function drawStateSign(context, theme, centre, radius, state) {
+  const size = radius * 0.42;
+  if (size < 2 || !["waiting", "turning", "arrived", "parked"].includes(state)) return false;
+  const { x, y } = centre;
+  context.strokeStyle = theme.floor;
+  context.lineWidth = Math.max(1.2, radius * 0.16);
+  context.lineCap = context.lineJoin = "round";
+  context.beginPath();
+  if (state === "waiting") {
+    context.moveTo(x - size * 0.45, y - size * 0.7);
+    context.lineTo(x - size * 0.45, y + size * 0.7);
+    context.moveTo(x + size * 0.45, y - size * 0.7);
+    context.lineTo(x + size * 0.45, y + size * 0.7);
+  } else if (state === "turning") {
+    context.arc(x, y, size * 0.75, -0.6, Math.PI * 1.1);
+  } else if (state === "arrived") {
+    context.moveTo(x - size * 0.8, y);
+    context.lineTo(x - size * 0.2, y + size * 0.6);
+    context.lineTo(x + size * 0.8, y - size * 0.6);
+  } else {
+    context.rect(x - size * 0.5, y - size * 0.5, size, size);
+  }
+  context.stroke();
+  return true;
+}
+
+function drawStuck(context, theme, centre, radius, colour) {
   context.beginPath();
   context.arc(centre.x, centre.y, radius, 0, 2 * Math.PI);
   context.fillStyle = theme.floor;

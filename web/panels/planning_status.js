@@ -1,7 +1,8 @@
-// What is told while a plan is being made: the time, and how far it has got.
+// What is told while a plan is being made: the time, how far it has got, and how its cost falls.
 
-import { byId, setText } from "./dom.js";
-import { count, seconds } from "./format.js";
+import { byId, setText } from "../ui/dom.js";
+import { count, seconds } from "../ui/format.js";
+import { drawCosts } from "./cost_curve.js";
 
 const CLOCK_MS = 100;
 
@@ -13,23 +14,36 @@ export function budgetOf(request, limits) {
 }
 
 /** How far planning has got, in words. */
-export function describeProgress({ planned, robots, best }) {
+export function describeProgress({ attempt, planned, robots, best }) {
   const done = `${planned.toLocaleString("en")} of ${count(robots, "robot")} planned`;
-  return best === null ? done : `${done}, flowtime ${seconds(best.flowtime)}`;
+  const again = attempt > 1 ? `, attempt ${attempt.toLocaleString("en")}` : "";
+  return `${done}${again}${best === null ? "" : `, flowtime ${seconds(best.flowtime)}`}`;
 }
 
 export class PlanningStatus {
+  #session;
   #elapsed = byId("elapsed");
   #box = byId("planning");
   #bar = byId("budget");
   #soFar = byId("so-far");
+  #curve = byId("cost-curve");
   #timer = null;
 
-  /** Planning begins, and may take so many seconds (null: unknown). */
-  begin(budget) {
+  constructor(session) {
+    this.#session = session;
+    session.on("planning", () => {
+      if (session.planning === null) this.#end();
+      else if (this.#timer === null) this.#begin();
+      else this.#show();
+    });
+  }
+
+  #begin() {
     const since = performance.now();
+    const { budget } = this.#session.planning;
     this.#elapsed.hidden = this.#box.hidden = false;
     setText(this.#soFar, "");
+    this.#curve.hidden = true;
     this.#bar.hidden = budget === null;
     this.#bar.max = budget ?? 1;
     const limit = budget === null ? "" : ` of ${budget.toFixed(1)}`;
@@ -42,12 +56,15 @@ export class PlanningStatus {
     this.#timer = setInterval(show, CLOCK_MS);
   }
 
-  show(progress) {
+  #show() {
+    const { progress, costs } = this.#session.planning;
     setText(this.#soFar, describeProgress(progress));
+    drawCosts(this.#curve, costs, progress.elapsed_ms);
   }
 
-  end() {
+  #end() {
     clearInterval(this.#timer);
+    this.#timer = null;
     this.#elapsed.hidden = this.#box.hidden = true;
   }
 }

@@ -1,0 +1,37 @@
+// Scripting surface, read-only, for tests and the curious: `window.fleetplan` has `time`, `duration` (seconds),
+// `playing`, `request`, `answer` and `check` (parsed JSON or null), `selected` (id or null), `poseOf(id)` (the pose
+// drawn now, metres and radians), `stateOf(id)` and `screenOf(id)` ({x, y, radius} of its disk on the canvas, CSS
+// pixels); `pointOf({x, y})` is where a world point is on the canvas.
+
+export function offerHook(session, stage) {
+  window.fleetplan = Object.freeze({
+    get time() {
+      return session.player.time;
+    },
+    get duration() {
+      return session.player.duration;
+    },
+    get playing() {
+      return session.player.playing;
+    },
+    get request() {
+      return session.request;
+    },
+    get answer() {
+      return session.answer;
+    },
+    get check() {
+      return session.check;
+    },
+    get selected() {
+      return session.selected;
+    },
+    poseOf: (id) => session.poseOf(id),
+    stateOf: (id) => session.stateOf(id),
+    screenOf(id) {
+      const robot = session.robot(id);
+      return robot && stage.screenOf(session.poseOf(id), robot.radius);
+    },
+    pointOf: (point) => stage.screenOf(point, 0),
+  });
+}

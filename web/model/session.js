@@ -1,0 +1,350 @@
+// What the page is about: a request, its answer, the moment, what is pointed at. Features attach here and know
+// nothing of one another. No DOM; the service and the screen's frames are passed in.
+//
+// Features listen with on(names, listener):
+//   request   another request or an edit of it: `request`, `scene` and `tracks` are new. Told: {opened}, whether it
+//             is another one (true) or an edit of the same (false)
+//   answer    another answer, or none: `answer`, `tracks` and the player are new; comes after every "request" too
+//   planning  planning began, got on or ended: `planning`
+//   problem   a fault to show, or none: `problem`
+//   check     the plan was judged, or is no longer: `check`
+//   marks     other robots are hovered, selected or brought out
+//   time      another moment, by playing (each frame) or by seeking
+//   playback  playing began or ended
+//   limits    `limits` are known
+//   said      something for those who listen to the page. Told: the text
+//
+// Nobody changes what they get from here: a request is edited by handing over another one.
+
+import { ProblemError } from "../service/problem.js";
+import { History } from "./history.js";
+import { planFile } from "../files/plan_file.js";
+import { Player } from "./player.js";
+import { readScene, readTracks, robotPoseAt, robotStateAt } from "./scene.js";
+import { Signals } from "./signal.js";
+
+const EMPTY = { name: "", example: null, text: "", request: null };
+
+export class Session {
+  #signals = new Signals();
+  #service;
+  #nextFrame;
+  #opened = EMPTY; // as it was opened: {name, example, text, request}
+  #history = new History(null); // of requests
+  #turn = 0; // counts requests and edits, so that what was asked for an older one is dropped
+  #ticking = false; // a frame is on its way
+  #robots = new Map(); // of the scene, by id
+
+  player = new Player();
+  scene = readScene(null);
+  tracks = new Map(); // by id, see readTracks
+  answer = null; // parsed, or null
+  answerText = null; // as it came, or null
+  planning = null; // {control, budget, progress, costs, incumbent} while planning, see startPlanning; or null
+  problem = null; // of RFC 9457, or null
+  check = null; // what the service says of the plan: {valid, violations, min_clearance}, or null
+  hovered = null; // a robot's id, or null
+  selected = null; // a robot's id, or null
+  broughtOut = new Set(); // further ids, such as both robots of a collision
+  limits = {}; // what the service takes, see GET /v1/limits; empty until known
+
+  /** `service`: see service/client.js. `nextFrame` calls back with the wall clock in milliseconds. */
+  constructor(service, nextFrame) {
+    this.#service = service;
+    this.#nextFrame = nextFrame;
+  }
+
+  on(names, listener) {
+    this.#signals.on(names, listener);
+  }
+
+  setLimits(limits) {
+    this.limits = limits;
+    this.#signals.emit("limits");
+  }
+
+  // The request
+
+  get request() {
+    return this.#history.present;
+  }
+
+  /** What the request is called: an example's or a file's name. */
+  get name() {
+    return this.#opened.name;
+  }
+
+  /** The name of the example that this is, unchanged; or null. */
+  get example() {
+    return this.edited ? null : this.#opened.example;
+  }
+
+  get edited() {
+    return this.request !== this.#opened.request;
+  }
+
+  /** The request as JSON: the very text that was opened, until it is edited. */
+  get text() {
+    return this.edited ? JSON.stringify(this.request) : this.#opened.text;
+  }
+
+  get canUndo() {
+    return this.#history.canUndo;
+  }
+
+  get canRedo() {
+    return this.#history.canRedo;
+  }
+
+  /** Changes with every request and edit. */
+  get turn() {
+    return this.#turn;
+  }
+
+  /** Shows another request: {name, example: its name or null, text, request}, with an answer or null. */
+  open(opened, answer = null, answerText = null) {
+    this.#opened = opened;
+    this.#history = new History(opened.request);
+    this.selected = this.hovered = null;
+    this.#requestChanged(true);
+    if (answer !== null) this.adopt(answer, answerText ?? JSON.stringify(answer));
+  }
+
+  /** Edits the request. Edits in a row with the same `gesture` (a drag, typing in one field) are undone as one. */
+  edit(request, gesture = null) {
+    if (request === this.request) return;
+    this.#history.push(request, gesture);
+    this.#requestChanged(false);
+  }
+
+  endGesture() {
+    this.#history.endGesture();
+  }
+
+  undo() {
+    if (!this.canUndo) return;
+    this.#history.undo();
+    this.#requestChanged(false);
+    this.say("Undone.");
+  }
+
+  redo() {
+    if (!this.canRedo) return;
+    this.#history.redo();
+    this.#requestChanged(false);
+    this.say("Done again.");
+  }
+
+  #requestChanged(opened) {
+    this.#turn += 1;
+    this.stopPlanning();
+    this.scene = readScene(this.request, this.scene);
+    this.#robots = new Map(this.scene.robots.map((robot) => [robot.id, robot]));
+    if (!this.#robots.has(this.selected)) this.selected = null;
+    if (!this.#robots.has(this.hovered)) this.hovered = null;
+    this.#setAnswer(null, null);
+    this.#signals.emit("request", { opened });
+    this.setProblem(null);
+    this.#signals.emit("answer");
+    this.#signals.emit("marks");
+  }
+
+  // The answer
+
+  /** Shows an answer (parsed, and its text) of the present request, at its start. */
+  adopt(answer, text) {
+    this.#setAnswer(answer, text);
+    this.#signals.emit("answer");
+    this.#signals.emit("marks");
+  }
+
+  #setAnswer(answer, text) {
+    this.answer = answer;
+    this.answerText = text;
+    this.tracks = readTracks(this.scene, answer);
+    this.broughtOut = new Set();
+    this.player.reset(Math.max(0, ...(answer?.plans ?? []).map(({ cost }) => cost)));
+    this.#setCheck(null);
+  }
+
+  /** Has the service judge the plan, see `check`; true when it did. Faults are shown as a problem. */
+  async validate() {
+    const turn = this.#turn;
+    const { answer } = this;
+    try {
+      const check = await this.#service.validate(JSON.stringify(planFile(this.request, answer)));
+      if (turn === this.#turn && answer === this.answer) this.#setCheck(check);
+      return true;
+    } catch (error) {
+      if (turn === this.#turn) this.fail(error);
+      return false;
+    }
+  }
+
+  #setCheck(check) {
+    this.check = check;
+    this.#signals.emit("check");
+  }
+
+  // Planning
+
+  /**
+   * Plans the request; resolves when that has ended, to whether there is an answer. Meanwhile `planning` has `budget`
+   * (seconds, or null), the last `progress` of the service (or null) and `costs`, the best so far: [{elapsed_ms,
+   * flowtime, makespan}], each lower than the one before.
+   */
+  async plan(budget = null) {
+    if (this.planning || this.request === null) return false;
+    const turn = { control: new AbortController(), budget, progress: null, costs: [], incumbent: null };
+    this.planning = turn;
+    this.setProblem(null);
+    this.#setAnswer(null, null);
+    this.#signals.emit("answer");
+    this.#signals.emit("planning");
+    try {
+      const { answer, text } = await this.#service.plan(this.text, turn.control.signal, {
+        progress: (progress) => this.planning === turn && this.#progress(progress),
+        incumbent: (incumbent) => (turn.incumbent = incumbent),
+      });
+      if (this.planning !== turn) return false;
+      this.#endPlanning();
+      this.adopt(answer, text);
+      return true;
+    } catch (error) {
+      if (this.planning !== turn) return false;
+      this.#endPlanning();
+      this.fail(error);
+      return false;
+    }
+  }
+
+  #progress(progress) {
+    const { costs } = this.planning;
+    this.planning.progress = progress;
+    const { elapsed_ms, best } = progress;
+    if (best !== null && best.flowtime !== costs.at(-1)?.flowtime) costs.push({ elapsed_ms, ...best });
+    this.#signals.emit("planning");
+  }
+
+  #endPlanning() {
+    this.planning = null;
+    this.#signals.emit("planning");
+  }
+
+  /** Stops planning; the text of the best answer so far, or null. */
+  stopPlanning() {
+    if (!this.planning) return null;
+    const { control, incumbent } = this.planning;
+    control.abort();
+    this.#endPlanning();
+    return incumbent;
+  }
+
+  /** Stops planning and shows the best answer so far, if there is one. */
+  cancel() {
+    if (!this.planning) return;
+    const text = this.stopPlanning();
+    if (text !== null) this.adopt(JSON.parse(text), text);
+    this.say(`Planning cancelled${text === null ? "" : ": this is the best plan so far"}.`);
+  }
+
+  // Faults and words
+
+  /** Shows what a ProblemError is about; other errors are bugs and go on. */
+  fail(error) {
+    if (!(error instanceof ProblemError)) throw error;
+    this.setProblem(error.problem);
+  }
+
+  setProblem(problem) {
+    if (problem === null && this.problem === null) return;
+    this.problem = problem;
+    this.#signals.emit("problem");
+  }
+
+  say(text) {
+    this.#signals.emit("said", text);
+  }
+
+  // What is pointed at
+
+  hover(id) {
+    if (this.hovered === id) return;
+    this.hovered = id;
+    this.#signals.emit("marks");
+  }
+
+  /** Selects a robot, or none (null). */
+  select(id) {
+    this.bringOut(id === null ? [] : [id]);
+  }
+
+  /** Selects a robot, or none if it was selected. */
+  toggle(id) {
+    this.select(id === this.selected ? null : id);
+  }
+
+  /** Selects the first of some robots and brings out all. */
+  bringOut(ids) {
+    this.selected = ids[0] ?? null;
+    this.broughtOut = new Set(ids.slice(1));
+    this.#signals.emit("marks");
+  }
+
+  /** The ids of all robots to bring out. */
+  get marked() {
+    return new Set([this.hovered, this.selected, ...this.broughtOut].filter((id) => id !== null));
+  }
+
+  /** The robot of an id in the scene, or null. */
+  robot(id) {
+    return this.#robots.get(id) ?? null;
+  }
+
+  /** The pose of a robot at a time (seconds), now by default; null if there is no such robot. */
+  poseOf(id, time = this.player.time) {
+    const robot = this.robot(id);
+    return robot && robotPoseAt(robot, this.tracks.get(id), time);
+  }
+
+  /** What a robot does at a time, one word; null if there is no such robot. */
+  stateOf(id, time = this.player.time) {
+    return this.tracks.has(id) ? robotStateAt(this.tracks.get(id), time) : null;
+  }
+
+  // The moment
+
+  seek(time) {
+    this.player.seek(time);
+    this.#signals.emit("time");
+  }
+
+  play() {
+    this.player.play();
+    this.#signals.emit("playback");
+    if (this.player.playing) this.#tickOnce();
+  }
+
+  pause() {
+    this.player.pause();
+    this.#signals.emit("playback");
+  }
+
+  togglePlaying() {
+    if (this.player.playing) this.pause();
+    else this.play();
+  }
+
+  #tickOnce() {
+    if (this.#ticking) return;
+    this.#ticking = true;
+    this.#nextFrame((milliseconds) => {
+      this.#ticking = false;
+      if (!this.player.playing) return;
+      this.player.tick(milliseconds / 1000);
+      this.#signals.emit("time");
+      if (this.player.playing) this.#tickOnce();
+      else this.#signals.emit("playback");
+    });
+  }
+}

@@ -1,0 +1,100 @@
+// The list of robots with what each does now.
+
+import { byId, element, setText } from "../ui/dom.js";
+import { count, seconds } from "../ui/format.js";
+
+const EVERY_MS = 150; // between updates while playing
+
+export class RobotList {
+  #session;
+  #colours;
+  #list = byId("robots");
+  #rows = new Map(); // id -> {button, state}
+  #updated = -Infinity;
+
+  /** `colours`: see scene/robot_colours.js. */
+  constructor(session, colours) {
+    this.#session = session;
+    this.#colours = colours;
+    const idOf = (event) => event.target.closest("button")?.dataset.robot ?? null;
+    this.#list.addEventListener("click", (event) => {
+      const id = idOf(event);
+      if (id !== null) session.toggle(id);
+    });
+    this.#list.addEventListener("pointerover", (event) => session.hover(idOf(event)));
+    this.#list.addEventListener("pointerleave", () => session.hover(null));
+    this.#list.addEventListener("focusin", (event) => session.hover(idOf(event)));
+    this.#list.addEventListener("focusout", () => session.hover(null));
+    session.on("answer", () => this.#show());
+    colours.onChange(() => this.#show());
+    session.on("marks", () => {
+      this.#update();
+      this.#reveal(session.selected);
+    });
+    session.on("playback", () => this.#update());
+    session.on("time", () => {
+      if (!session.player.playing || performance.now() - this.#updated >= EVERY_MS) this.#update();
+    });
+  }
+
+  #show() {
+    this.#rows.clear();
+    const { robots } = this.#session.scene;
+    setText(byId("robots-title"), robots.length > 0 ? count(robots.length, "robot") : "Robots");
+    const items = robots.map((robot) => {
+      const row = this.#row(robot, this.#session.tracks.get(robot.id));
+      this.#rows.set(robot.id, row);
+      return element("li", {}, row.button);
+    });
+    this.#list.replaceChildren(...items);
+    this.#update();
+  }
+
+  #row(robot, track) {
+    const filled = track.status === "unplanned" ? "" : " filled";
+    const swatch = element("span", { class: `swatch${filled}` });
+    swatch.style.color = this.#colours.of(robot.index);
+    const state = element("span", { class: `robot-state ${track.status}` });
+    const cost = element("span", {
+      class: "robot-cost",
+      textContent: track.cost === null ? "" : seconds(track.cost),
+    });
+    const id = element("span", { class: "robot-id", textContent: robot.id, title: robot.id });
+    const button = element("button", {
+      type: "button",
+      class: "robot",
+      "aria-pressed": "false",
+      "data-robot": robot.id,
+    });
+    button.append(swatch, id, state, cost);
+    return { button, state };
+  }
+
+  #update() {
+    this.#updated = performance.now();
+    const { hovered, marked } = this.#session;
+    for (const [id, { button, state }] of this.#rows) {
+      setText(state, this.#session.stateOf(id));
+      button.classList.toggle("hovered", id === hovered);
+      const pressed = String(id !== hovered ? marked.has(id) : id === this.#session.selected);
+      if (button.getAttribute("aria-pressed") !== pressed) button.setAttribute("aria-pressed", pressed);
+    }
+  }
+
+  #reveal(id) {
+    if (id === this.#revealed) return;
+    this.#revealed = id;
+    const button = this.#rows.get(id)?.button;
+    if (button?.checkVisibility()) scrollWithin(button.closest(".side-body"), button);
+  }
+
+  #revealed = null;
+}
+
+/** Scrolls `box`, and nothing around it, so that `part` is in sight. */
+function scrollWithin(box, part) {
+  const outer = box.getBoundingClientRect();
+  const inner = part.getBoundingClientRect();
+  if (inner.top < outer.top) box.scrollTop -= outer.top - inner.top;
+  else if (inner.bottom > outer.bottom) box.scrollTop += inner.bottom - outer.bottom;
+}

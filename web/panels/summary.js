@@ -1,0 +1,99 @@
+// The figures of an answer.
+
+import { byId, element, icon } from "../ui/dom.js";
+import { count, metres, milliseconds, seconds } from "../ui/format.js";
+
+const TICK = "M4.5 10.5 8.5 14.5 15.5 6";
+const CROSS = "M5 5 15 15M15 5 5 15";
+const PART = "M4.5 10h11";
+
+const OUTCOMES = {
+  solved: { text: "Solved", tone: "good", path: TICK },
+  partial: { text: "Partly solved", tone: "fair", path: PART },
+  none: { text: "No robot planned", tone: "bad", path: CROSS },
+};
+
+/** A sentence that says how planning ended. */
+export function summarize(answer) {
+  const outcome = OUTCOMES[answer.status]?.text ?? answer.status;
+  const planned = `${count(answer.plans.length, "robot")} planned`;
+  const failed = answer.unplanned.length > 0 ? `, ${answer.unplanned.length} without a plan` : "";
+  return `${outcome}: ${planned}${failed}, flowtime ${seconds(answer.flowtime)}.`;
+}
+
+/** Shows the figures of the session's answer. */
+export function watchSummary(session) {
+  session.on("answer", () => showSummary(session.answer));
+}
+
+function showSummary(answer) {
+  const box = byId("summary");
+  box.hidden = answer === null;
+  if (answer === null) {
+    box.replaceChildren();
+    return;
+  }
+  const timings = answer.timings_ms;
+  const figures = element(
+    "dl",
+    { class: "figures" },
+    figure("Flowtime", seconds(answer.flowtime), ...bound(answer.flowtime, answer.lower_bound.flowtime)),
+    figure("Makespan", seconds(answer.makespan), ...bound(answer.makespan, answer.lower_bound.makespan)),
+    figure(
+      "Smallest gap",
+      answer.min_clearance === null ? "–" : metres(answer.min_clearance),
+      "between two robots",
+    ),
+    figure(
+      "Planned in",
+      milliseconds(timings.plan),
+      count(answer.search.expansions, "expansion"),
+      `${milliseconds(timings.total)} in all`,
+    ),
+  );
+  box.replaceChildren(badges(answer), figures);
+  if (answer.warnings.length > 0) box.append(warningList(answer.warnings));
+}
+
+function badges(answer) {
+  const outcome = OUTCOMES[answer.status] ?? OUTCOMES.none;
+  const list = element("div", { class: "badges" }, badge(outcome.text, outcome.tone, outcome.path));
+  if (answer.verified) {
+    list.append(
+      badge("Verified", "good", TICK, "An independent check in continuous time found no collision"),
+    );
+  } else {
+    list.append(badge("Not verified", "bad", CROSS));
+  }
+  const why = answer.deterministic
+    ? "The same request and seed give the same plan"
+    : "The clock decided when to stop: another run may differ";
+  list.append(badge(answer.deterministic ? "Deterministic" : "Not deterministic", "", null, why));
+  return list;
+}
+
+function badge(text, tone, path, title = "") {
+  return element("span", { class: `badge ${tone}`, title }, path ? icon(path) : null, text);
+}
+
+function figure(name, value, ...notes) {
+  const small = notes.filter((note) => note !== "").map((textContent) => element("small", { textContent }));
+  return element("div", {}, element("dt", { textContent: name }), element("dd", {}, value, ...small));
+}
+
+function bound(value, least) {
+  if (!(least > 0)) return [];
+  return [`lower bound ${seconds(least)}`, `${(value / least).toFixed(3)} times that`];
+}
+
+function warningList(warnings) {
+  const texts = warnings.map((warning) =>
+    typeof warning === "string" ? warning : (warning.detail ?? JSON.stringify(warning)),
+  );
+  return element(
+    "ul",
+    { class: "warnings", "aria-label": "Warnings" },
+    ...texts.map((textContent) => element("li", { textContent })),
+  );
+}
+

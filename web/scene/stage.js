@@ -1,0 +1,224 @@
+// The scene on the page: canvas, camera, gestures and keys. Features add overlays, which paint on top of each frame,
+// and a tool, which may take presses and keys from the camera.
+
+import { robotPoseAt } from "../model/scene.js";
+import { byId } from "../ui/dom.js";
+import { Painter } from "./draw.js";
+import { watchGestures } from "./gestures.js";
+import { fit, keepInSight, panBy, scaleLimits, toScreen, toWorld, zoomAt } from "./view.js";
+
+const MARGIN = 24; // pixels left free around a fitted map
+const HEADROOM = 64; // pixels above it, where the view's buttons are
+const KEY_PAN = 60; // pixels
+const KEY_ZOOM = 1.4;
+const REACH = 6; // pixels around a small robot that still pick it
+const NOWHERE = { left: 0, bottom: 0, right: 1, top: 1 };
+
+/**
+ * What a tool may have, all optional: press(world, event) says whether the tool takes the press, then come
+ * drag(world, event) and release(world, event), or letGo() if the press became a pinch; hover(world or null);
+ * key(event) says whether it took the key; cursor(world) gives a CSS cursor or null. World points in metres.
+ */
+export class Stage {
+  #session;
+  #colours;
+  #canvas = byId("scene");
+  #painter = new Painter(this.#canvas);
+  #viewport = { width: 0, height: 0 };
+  #camera = { x: 0, y: 0, scale: 1 };
+  #fitted = true; // the camera follows the viewport until someone moves it
+  #look = { colours: "robot", paths: "whole" };
+  #overlays = [];
+  #tool = {};
+  #scheduled = false;
+
+  /** `colours`: see RobotColours. */
+  constructor(session, colours) {
+    this.#session = session;
+    this.#colours = colours;
+    new ResizeObserver(() => this.#resize()).observe(this.#canvas);
+    colours.onChange(() => this.#show());
+    session.on("answer", () => this.#show());
+    session.on("request", ({ opened }) => opened && this.fit());
+    session.on("time marks", () => this.redraw());
+    watchGestures(this.#canvas, this.#gestures());
+    this.#canvas.addEventListener("keydown", (event) => this.#onKey(event));
+    byId("fit").addEventListener("click", () => this.fit());
+    byId("zoom-in").addEventListener("click", () => this.zoomIn());
+    byId("zoom-out").addEventListener("click", () => this.zoomOut());
+  }
+
+  /** `paint(context, view)` paints on top of each frame, in CSS pixels; see Painter for `view`. */
+  addOverlay(paint) {
+    this.#overlays.push(paint);
+    this.redraw();
+  }
+
+  /** The tool in hand from now on; null: none. */
+  setTool(tool) {
+    this.#tool = tool ?? {};
+    this.#canvas.style.cursor = "";
+    this.redraw();
+  }
+
+  /** How things are shown: {colours: "robot" or "state", paths: "whole", "remaining" or "none"}. */
+  get look() {
+    return this.#look;
+  }
+
+  setLook(changes) {
+    this.#look = { ...this.#look, ...changes };
+    this.#show();
+  }
+
+  /** Pixels a metre. */
+  get scale() {
+    return this.#camera.scale;
+  }
+
+  get canvas() {
+    return this.#canvas;
+  }
+
+  fit() {
+    this.#fitted = true;
+    if (this.#viewport.width > 0) this.#camera = fit(this.#bounds(), this.#viewport, this.#insets());
+    this.redraw();
+  }
+
+  zoomIn() {
+    this.#zoom(this.#middle(), KEY_ZOOM);
+  }
+
+  zoomOut() {
+    this.#zoom(this.#middle(), 1 / KEY_ZOOM);
+  }
+
+  /** Moves the camera, if need be, so that a world point is well in sight. */
+  reveal(point) {
+    const { x, y } = this.screenOf(point, 0);
+    const { width, height } = this.#viewport;
+    if (x > 40 && x < width - 40 && y > HEADROOM && y < height - 40) return;
+    this.#move({ ...this.#camera, x: point.x, y: point.y });
+  }
+
+  /** Where a disk of the world is on the canvas: {x, y, radius}, CSS pixels. */
+  screenOf(point, radius) {
+    return { ...toScreen(this.#camera, this.#viewport, point), radius: radius * this.#camera.scale };
+  }
+
+  /** The id of the robot whose disk, now, is at a world point, the nearest if there are several, or null. */
+  robotAt(world) {
+    const { scene, tracks, player } = this.#session;
+    let found = null;
+    let nearest = Infinity;
+    for (const robot of scene.robots) {
+      const pose = robotPoseAt(robot, tracks.get(robot.id), player.time);
+      const distance = Math.hypot(pose.x - world.x, pose.y - world.y);
+      if (distance > this.reach(robot.radius) || distance >= nearest) continue;
+      nearest = distance;
+      found = robot.id;
+    }
+    return found;
+  }
+
+  /** How near to the middle of a disk of this radius a pointer has to be to be on it, metres. */
+  reach(radius) {
+    return Math.max(radius, REACH / this.#camera.scale);
+  }
+
+  /** Paints with the next frame. */
+  redraw() {
+    if (this.#scheduled) return;
+    this.#scheduled = true;
+    requestAnimationFrame(() => this.paint());
+  }
+
+  /** Paints at once. */
+  paint() {
+    this.#scheduled = false;
+    const { player, marked } = this.#session;
+    this.#painter.paint({
+      camera: this.#camera,
+      viewport: this.#viewport,
+      ratio: window.devicePixelRatio || 1,
+      time: player.time,
+      marked,
+      overlays: this.#overlays,
+    });
+  }
+
+  #show() {
+    const { scene, tracks } = this.#session;
+    this.#painter.show(scene, tracks, this.#colours.theme, this.#look);
+    this.redraw();
+  }
+
+  #gestures() {
+    const world = (pixel) => toWorld(this.#camera, this.#viewport, pixel);
+    return {
+      pan: (dx, dy) => this.#move(panBy(this.#camera, dx, dy)),
+      zoom: (pixel, factor) => this.#zoom(pixel, factor),
+      hover: (pixel) => this.#hover(pixel && world(pixel)),
+      click: (pixel) => this.#session.toggle(this.robotAt(world(pixel))),
+      press: (pixel, event) => this.#tool.press?.(world(pixel), event) ?? false,
+      drag: (pixel, event) => this.#tool.drag?.(world(pixel), event),
+      release: (pixel, event) => this.#tool.release?.(world(pixel), event),
+      letGo: () => this.#tool.letGo?.(),
+    };
+  }
+
+  #hover(world) {
+    const id = world && this.robotAt(world);
+    this.#canvas.classList.toggle("on-robot", id !== null);
+    this.#canvas.style.cursor = (world && this.#tool.cursor?.(world)) ?? "";
+    this.#tool.hover?.(world);
+    this.#session.hover(id);
+  }
+
+  #resize() {
+    const box = this.#canvas.getBoundingClientRect();
+    const before = toWorld(this.#camera, this.#viewport, this.#middle());
+    this.#viewport = { width: box.width, height: box.height };
+    if (this.#fitted) this.fit();
+    else this.#move({ ...this.#camera, ...before });
+    this.paint();
+  }
+
+  #middle() {
+    return { x: this.#viewport.width / 2, y: this.#viewport.height / 2 };
+  }
+
+  #insets() {
+    const margin = Math.min(MARGIN, this.#viewport.width * 0.03);
+    return { left: margin, right: margin, bottom: margin, top: HEADROOM };
+  }
+
+  #bounds() {
+    return this.#session.scene.grid?.bounds ?? NOWHERE;
+  }
+
+  #move(camera) {
+    this.#fitted = false;
+    this.#camera = keepInSight(camera, this.#bounds());
+    this.redraw();
+  }
+
+  #zoom(pixel, factor) {
+    const cell = this.#session.scene.grid?.resolution ?? 1;
+    const limits = scaleLimits(this.#bounds(), this.#viewport, this.#insets(), cell);
+    this.#move(zoomAt(this.#camera, this.#viewport, pixel, factor, limits));
+  }
+
+  #onKey(event) {
+    if (this.#tool.key?.(event)) {
+      event.preventDefault();
+      return;
+    }
+    const steps = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const step = steps[event.key];
+    if (!step || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    this.#move(panBy(this.#camera, step[0] * KEY_PAN, step[1] * KEY_PAN));
+  }
+}
