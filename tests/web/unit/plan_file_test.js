@@ -1,0 +1,119 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { belongsTo, planFile, readDocument } from "../../../web/files/plan_file.js";
+
+const pose = (x) => ({ x, y: 0.5, theta: 0 });
+const REQUEST = {
+  map: { rows: [".."] },
+  robot_defaults: { radius: 0.3 },
+  robots: [{ id: "a", start: pose(0.5), goal: pose(1.5) }],
+  options: { seed: 1 },
+};
+const ANSWER = {
+  status: "solved",
+  plans: [
+    {
+      robot: "a",
+      cost: 1,
+      actions: [{ type: "translate", t_start: 0, t_end: 1, from: pose(0.5), to: pose(1.5) }],
+    },
+  ],
+  unplanned: [],
+  flowtime: 1,
+  makespan: 1,
+  warnings: [],
+};
+const changed = (change) => {
+  const document = structuredClone(planFile(REQUEST, ANSWER));
+  change(document);
+  return document;
+};
+
+test("a request is a request, be it faulty or only a map", () => {
+  assert.deepEqual(readDocument(REQUEST), { request: REQUEST, answer: null });
+  for (const document of [{ map: 7 }, { robots: [] }, { map: { rows: ["."] }, status: "x" }])
+    assert.equal(readDocument(document).request, document);
+});
+
+test("a plan file is taken apart into what was put together", () => {
+  assert.deepEqual(readDocument(planFile(REQUEST, ANSWER)), { request: REQUEST, answer: ANSWER });
+  const strict = { ...ANSWER, tolerance: 1e-3 };
+  assert.deepEqual(readDocument(planFile(REQUEST, strict)), { request: REQUEST, answer: strict });
+});
+
+test("what is saved without an answer has no plans, as a check wants it", () => {
+  assert.deepEqual(planFile(REQUEST, null), { ...REQUEST, plans: [] });
+});
+
+test("what a plan file lacks of an answer is filled in from its plans", () => {
+  const actions = [{ type: "wait", t_start: 0, t_end: 2.5, from: pose(1.5), to: pose(1.5) }];
+  const plans = [
+    { robot: "a", cost: 1, actions: ANSWER.plans[0].actions },
+    { robot: "b", actions },
+    { robot: "c", actions: [] },
+  ];
+  const { request, answer } = readDocument({ ...REQUEST, plans });
+  assert.deepEqual(request, REQUEST);
+  assert.deepEqual(
+    answer.plans.map(({ cost }) => cost),
+    [1, 2.5, 0],
+  );
+  const { status, flowtime, makespan, unplanned, warnings } = answer;
+  assert.deepEqual(
+    { status, flowtime, makespan, unplanned, warnings },
+    {
+      status: "solved",
+      flowtime: 3.5,
+      makespan: 2.5,
+      unplanned: [],
+      warnings: [],
+    },
+  );
+  assert.equal(readDocument({ plans: [], unplanned: [{ robot: "a" }] }).answer.status, "none");
+  assert.equal(readDocument({ plans, unplanned: [{ robot: "d" }] }).answer.status, "partial");
+});
+
+test("members that nobody knows stay with the request, for the service to tell", () => {
+  const { request } = readDocument({ ...planFile(REQUEST, ANSWER), colour: "red" });
+  assert.equal(request.colour, "red");
+});
+
+test("an answer alone has no request", () => {
+  assert.deepEqual(readDocument(ANSWER), { request: null, answer: ANSWER });
+});
+
+test("an answer belongs to a request that has all its robots", () => {
+  const { answer } = readDocument(ANSWER);
+  assert.equal(belongsTo(answer, REQUEST), true);
+  assert.equal(belongsTo(answer, { ...REQUEST, robots: [{ id: "b" }] }), false);
+  assert.equal(belongsTo({ plans: [], unplanned: [{ robot: "b" }] }, REQUEST), false);
+  assert.equal(belongsTo(answer, { robots: 7 }), false);
+  assert.equal(belongsTo(answer, null), false);
+});
+
+test("other JSON is refused with what it should be", () => {
+  for (const document of [null, 7, "map", [REQUEST], {}, { type: "Feature" }])
+    assert.throws(() => readDocument(document), /neither a request \(with "map" and "robots"\) nor a plan/);
+  const problem = { title: "Invalid request", errors: [] };
+  assert.throws(() => readDocument(problem), /error of the service: Invalid request/);
+});
+
+test("plans that could not be drawn are refused with the place", () => {
+  const refused = [
+    [(document) => (document.plans = {}), /plans is not what an answer has there: {}/],
+    [(document) => (document.plans = [null]), /plans\[0\] names no robot/],
+    [(document) => document.plans.push(document.plans[0]), /plans\[1\] is a second plan of a/],
+    [(document) => delete document.plans[0].actions, /plans\[0\], of a, has no list of actions/],
+    [({ plans }) => (plans[0].actions[0].type = "fly"), /plans\[0\].actions\[0\] has no type of rotate/],
+    [({ plans }) => (plans[0].actions[0].t_end = "1"), /plans\[0\].actions\[0\].t_end must be/],
+    [({ plans }) => delete plans[0].actions[0].to.theta, /plans\[0\].actions\[0\].to.theta must be/],
+    [({ plans }) => (plans[0].actions[0].from = null), /plans\[0\].actions\[0\].from.x must be/],
+    [(document) => (document.unplanned = 7), /unplanned is not what an answer has there: 7/],
+    [(document) => (document.flowtime = "long"), /flowtime is not/],
+    [(document) => (document.lower_bound = { flowtime: 1 }), /lower_bound is not/],
+    [(document) => (document.plans[0].cost = null), /plans\[0\].cost must be a number/],
+    [(document) => (document.unplanned = [{}]), /unplanned\[0\] names no robot/],
+  ];
+  for (const [change, message] of refused) assert.throws(() => readDocument(changed(change)), message);
+});

@@ -1,0 +1,215 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import {
+  classifyPixels,
+  countCells,
+  FREE,
+  mapOfGrid,
+  mergeCells,
+  OCCUPIED,
+  readRosYaml,
+  smallestFactor,
+  trimUnknown,
+  UNKNOWN,
+} from "../../../web/files/ros_map.js";
+
+const YAML = `image: lab.pgm
+resolution: 0.050000
+origin: [-10.1, -5.0, 0.0]
+negate: 0
+occupied_thresh: 0.65
+free_thresh: 0.196
+`;
+
+const LETTERS = [".", "#", "?"];
+const drawn = ({ columns, rows, cells }) =>
+  Array.from({ length: rows }, (_, row) =>
+    [...cells.subarray(row * columns, (row + 1) * columns)].map((cell) => LETTERS[cell]).join(""),
+  );
+const grid = (lines, resolution = 0.05, origin = { x: -10.1, y: -5 }) => ({
+  columns: lines[0].length,
+  rows: lines.length,
+  cells: Uint8Array.from([...lines.join("")].map((letter) => LETTERS.indexOf(letter))),
+  resolution,
+  origin,
+});
+const classify = (yaml, values, { maxval = 255, clear = null } = {}) => [
+  ...classifyPixels(readRosYaml(yaml), { width: values.length, height: 1, maxval, values, clear }).cells,
+];
+
+test("a map.yaml is read, the mode being trinary unless it says otherwise", () => {
+  assert.deepEqual(readRosYaml(YAML), {
+    image: "lab.pgm",
+    resolution: 0.05,
+    origin: { x: -10.1, y: -5 },
+    yaw: 0,
+    negate: false,
+    occupiedThresh: 0.65,
+    freeThresh: 0.196,
+    mode: "trinary",
+    warnings: [],
+  });
+  assert.equal(readRosYaml(YAML.replace("negate: 0", "negate: true")).negate, true);
+  assert.equal(readRosYaml(`${YAML}mode: scale\n`).mode, "scale");
+});
+
+test("a turned map is taken unturned, and says so", () => {
+  const described = readRosYaml(YAML.replace("0.0]", "0.5]"));
+  assert.equal(described.yaw, 0.5);
+  assert.match(described.warnings.join(), /turned by 0.5 rad.*unturned/);
+});
+
+test("thresholds that are missing are map_server's, and said", () => {
+  const described = readRosYaml(YAML.replace(/occupied.*\n/, "").replace(/free.*\n/, ""));
+  assert.deepEqual([described.occupiedThresh, described.freeThresh], [0.65, 0.196]);
+  assert.equal(described.warnings.length, 2);
+});
+
+test("what a map.yaml lacks or has wrong is named", () => {
+  const refused = [
+    [YAML.replace(/image.*\n/, ""), /names no image/],
+    [YAML.replace(/resolution.*\n/, ""), /resolution is missing/],
+    [YAML.replace("0.050000", "0"), /resolution is 0; it must be/],
+    [YAML.replace("0.050000", "fine"), /resolution is fine; it must be a number/],
+    [YAML.replace(/origin.*\n/, ""), /origin must be a list/],
+    [YAML.replace("-5.0", "south"), /origin must be a list/],
+    [YAML.replace("0.65", "65"), /occupied_thresh is 65; it must be from 0 to 1/],
+    [YAML.replace("0.196", "0.9"), /free_thresh is above/],
+    [`${YAML}mode: binary\n`, /mode is binary; map_server knows trinary, scale, raw/],
+  ];
+  for (const [text, message] of refused) assert.throws(() => readRosYaml(text), message, text);
+});
+
+test("pixels are free, occupied or unknown as map_server has it", () => {
+  // (255 - v) / 255 against 0.65 and 0.196: 89 gives 0.651, 90 gives 0.647, 205 gives 0.19608, 206 gives 0.192
+  assert.deepEqual(classify(YAML, [0, 89, 90, 205, 206, 255]), [
+    OCCUPIED,
+    OCCUPIED,
+    UNKNOWN,
+    UNKNOWN,
+    FREE,
+    FREE,
+  ]);
+  const negated = YAML.replace("negate: 0", "negate: 1");
+  assert.deepEqual(classify(negated, [0, 49, 50, 165, 166, 255]), [
+    FREE,
+    FREE,
+    UNKNOWN,
+    UNKNOWN,
+    OCCUPIED,
+    OCCUPIED,
+  ]);
+});
+
+test("a pixel that is exactly at a threshold is unknown", () => {
+  const halves = YAML.replace("0.65", "0.75").replace("0.196", "0.25");
+  assert.deepEqual(classify(halves, [0, 1, 2, 3, 4], { maxval: 4 }), [
+    OCCUPIED,
+    UNKNOWN,
+    UNKNOWN,
+    UNKNOWN,
+    FREE,
+  ]);
+});
+
+test("grays count by the largest one of the image", () => {
+  assert.deepEqual(classify(YAML, [0, 30000, 65535], { maxval: 65535 }), [OCCUPIED, UNKNOWN, FREE]);
+});
+
+test("in the mode scale, pixels that are not opaque are unknown", () => {
+  const values = [0, 255, 0, 255];
+  const clear = [0, 0, 1, 1];
+  assert.deepEqual(classify(`${YAML}mode: scale`, values, { clear }), [OCCUPIED, FREE, UNKNOWN, UNKNOWN]);
+  assert.deepEqual(classify(YAML, values, { clear }), [OCCUPIED, FREE, OCCUPIED, FREE]);
+});
+
+test("in the mode raw, the gray itself is the percentage occupied, up to 100", () => {
+  const raw = `${YAML}mode: raw`;
+  assert.deepEqual(classify(raw, [0, 19, 20, 65, 66, 100, 101, 255]), [
+    FREE,
+    FREE,
+    UNKNOWN,
+    UNKNOWN,
+    OCCUPIED,
+    OCCUPIED,
+    UNKNOWN,
+    UNKNOWN,
+  ]);
+});
+
+test("cells are counted by kind", () => {
+  assert.deepEqual(countCells(grid(["?.#", "??."])), [2, 1, 3]);
+});
+
+test("trimming takes off the unknown margin and moves the origin exactly", () => {
+  const trimmed = trimUnknown(grid(["?????", "??.#?", "?????", "??.??", "?????", "?????"]));
+  assert.deepEqual(drawn(trimmed), [".#", "??", ".?"]);
+  assert.deepEqual(trimmed.origin, { x: -10, y: -4.9 });
+  assert.equal(trimmed.resolution, 0.05);
+});
+
+test("a map without a margin, or all unknown, stays as it is when trimmed", () => {
+  const full = grid(["?#", ".?"]);
+  assert.deepEqual(trimUnknown(full), full);
+  const unknown = grid(["??", "??"]);
+  assert.deepEqual(trimUnknown(unknown), unknown);
+});
+
+test("unknown cells become blocked, or free if wanted", () => {
+  assert.deepEqual(drawn(mergeCells(grid([".?#"]), 1, false)), [".##"]);
+  assert.deepEqual(drawn(mergeCells(grid([".?#"]), 1, true)), ["..#"]);
+});
+
+test("merged cells are blocked if any of them is, and the lower-left corner stays", () => {
+  const merged = mergeCells(grid(["....", "..#.", "....", "...."]), 2, false);
+  assert.deepEqual(drawn(merged), [".#", ".."]);
+  assert.deepEqual([merged.columns, merged.rows, merged.resolution], [2, 2, 0.1]);
+  assert.deepEqual(merged.origin, { x: -10.1, y: -5 });
+  assert.equal(mergeCells(grid(["..."]), 3, false).resolution, 0.15);
+});
+
+test("merged cells that reach beyond the map are blocked", () => {
+  const merged = mergeCells(grid([".....", ".....", "....."]), 2, false);
+  assert.deepEqual(drawn(merged), ["###", "..#"]);
+  assert.deepEqual(drawn(mergeCells(grid(["#....", "....."]), 2, true)), ["#.#"]);
+});
+
+test("merging never frees what was blocked", () => {
+  let seed = 7;
+  const random = (below) => (seed = (seed * 48271) % 2147483647) % below;
+  for (let round = 0; round < 50; round += 1) {
+    const columns = 1 + random(9);
+    const rows = 1 + random(9);
+    const factor = 1 + random(4);
+    const lines = Array.from({ length: rows }, () =>
+      Array.from({ length: columns }, () => LETTERS[random(8) < 6 ? 0 : 1 + random(2)]).join(""),
+    );
+    const merged = mergeCells(grid(lines), factor, false);
+    for (let row = 0; row < merged.rows; row += 1) {
+      for (let column = 0; column < merged.columns; column += 1) {
+        let free = true; // rows counted from the bottom
+        for (let y = row * factor; y < (row + 1) * factor; y += 1)
+          for (let x = column * factor; x < (column + 1) * factor; x += 1)
+            free &&= lines[rows - 1 - y]?.[x] === ".";
+        const cell = merged.cells[(merged.rows - 1 - row) * merged.columns + column];
+        assert.equal(cell, free ? FREE : OCCUPIED, `${lines.join("\n")} by ${factor} at ${column}, ${row}`);
+      }
+    }
+  }
+});
+
+test("the smallest factor makes the map fit, the next smaller one does not", () => {
+  assert.equal(smallestFactor({ columns: 2000, rows: 2000 }, 4_000_000), 1);
+  assert.equal(smallestFactor({ columns: 2001, rows: 2000 }, 4_000_000), 2);
+  assert.equal(smallestFactor({ columns: 10_000, rows: 10_000 }, 4_000_000), 5);
+  assert.equal(smallestFactor({ columns: 7, rows: 3 }, 1), 7);
+});
+
+test("a grid becomes the map of a request", () => {
+  assert.deepEqual(mapOfGrid(grid([".#", ".."])), {
+    rows: [".#", ".."],
+    resolution: 0.05,
+    origin: { x: -10.1, y: -5 },
+  });
+});

@@ -1,0 +1,104 @@
+// Scenarios of the MovingAI benchmarks: a line for each start and goal on a map. The first so many become the
+// robots of a request.
+
+import { FileError, linesOf, quoted } from "./file_text.js";
+
+const ENTRY = /^\s*\d+\s+(.+?)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+[\d.eE+-]+\s*$/;
+const COLUMNS =
+  "A line of a scenario has, with tabs between: bucket, map, width, height, start x and y, goal x and y, " +
+  "optimal length.";
+const SLACK = 1e-10; // metres by which disks may overlap after rounding, well within what the service allows
+
+/**
+ * What a `.scen` text lists: [{map, width, height, start, goal}], the map's file name, its size in cells, and
+ * two cells {column, row}, row 0 the top one. Throws FileError.
+ */
+export function readMovingAiScenario(text) {
+  const entries = [];
+  for (const [index, line] of linesOf(text).entries()) {
+    if (line.trim() === "" || (entries.length === 0 && /^\s*version\b/.test(line))) continue;
+    entries.push(readEntry(line, index + 1));
+  }
+  if (entries.length === 0) throw new FileError(`There is no start and goal in it. ${COLUMNS}`);
+  const other = entries.find(({ map }) => map !== entries[0].map);
+  if (other)
+    throw new FileError(`It is for two maps, ${entries[0].map} and ${other.map}: make a file for each.`);
+  return entries;
+}
+
+function readEntry(line, number) {
+  const found = ENTRY.exec(line);
+  if (!found) throw new FileError(`Line ${number} is ${quoted(line)}. ${COLUMNS}`);
+  const [width, height, startColumn, startRow, goalColumn, goalRow] = found.slice(2).map(Number);
+  const entry = {
+    map: found[1].split(/[\\/]/).pop(),
+    width,
+    height,
+    start: { column: startColumn, row: startRow },
+    goal: { column: goalColumn, row: goalRow },
+  };
+  for (const which of ["start", "goal"]) {
+    const { column, row } = entry[which];
+    if (column < width && row < height) continue;
+    throw new FileError(
+      `Line ${number} has its ${which} at column ${column}, row ${row} (both from 0), outside the ` +
+        `${width} x ${height} cells that the line itself gives the map.`,
+    );
+  }
+  return entry;
+}
+
+/**
+ * A request on `map` (of a request) for the first `count` entries that are possible for robots as `defaults`
+ * ({radius, linear_speed, angular_speed}; m, m/s, rad/s) say, starts and goals at the cells' centres, goals with
+ * any heading. An entry is passed over when a disk does not fit between the walls or overlaps one taken before:
+ * {request, passedOver: {walls, overlaps}}. Throws FileError when the map is of another size.
+ */
+export function scenarioRequest(map, entries, count, defaults) {
+  const [{ width, height, map: name }] = entries;
+  if (map.rows.length !== height || map.rows[0].length !== width) {
+    throw new FileError(
+      `The scenario is for ${name} of ${width} x ${height} cells, but the map has ` +
+        `${map.rows[0].length} x ${map.rows.length}: open it with its own map.`,
+    );
+  }
+  const passedOver = { walls: 0, overlaps: 0 };
+  const taken = [];
+  const reach = (defaults.radius - SLACK) / map.resolution; // in cells
+  const apart = (a, b) => Math.hypot(a.column - b.column, a.row - b.row) >= 2 * reach;
+  for (const entry of entries) {
+    if (taken.length >= count) break;
+    if (!fits(map.rows, entry.start, reach) || !fits(map.rows, entry.goal, reach)) passedOver.walls += 1;
+    else if (!taken.every((other) => apart(other.start, entry.start) && apart(other.goal, entry.goal)))
+      passedOver.overlaps += 1;
+    else taken.push(entry);
+  }
+  const robots = taken.map(({ start, goal }, index) => ({
+    id: `r${index + 1}`,
+    start: { ...centreOf(map, start), theta: 0 },
+    goal: centreOf(map, goal),
+  }));
+  return { request: { map, robot_defaults: { ...defaults }, robots }, passedOver };
+}
+
+/** Whether a disk of `reach` cells at the cell's centre is clear of blocked cells and of the map's edge. */
+function fits(rows, { column, row }, reach) {
+  const toEdge = Math.min(column, row, rows[0].length - 1 - column, rows.length - 1 - row) + 0.5;
+  if (toEdge < reach) return false;
+  const span = Math.max(0, Math.ceil(reach - 0.5)); // cells away that the disk may touch
+  const gap = (cells) => Math.max(0, Math.abs(cells) - 0.5);
+  for (let down = -span; down <= span; down += 1) {
+    for (let right = -span; right <= span; right += 1) {
+      if (Math.hypot(gap(down), gap(right)) < reach && !".G".includes(rows[row + down][column + right]))
+        return false;
+    }
+  }
+  return true;
+}
+
+function centreOf({ rows, resolution, origin = { x: 0, y: 0 } }, { column, row }) {
+  return {
+    x: (origin.x ?? 0) + (column + 0.5) * resolution,
+    y: (origin.y ?? 0) + (rows.length - row - 0.5) * resolution,
+  };
+}

@@ -1,0 +1,162 @@
+// Maps of ROS: what map_server makes of a map.yaml and its image, as the map of a request.
+//
+// A grid here is {columns, rows, cells, resolution, origin}: `cells` row by row from the top, `resolution` in
+// metres, `origin` {x, y} the lower-left corner.
+
+import { plusTimes } from "./exact_decimal.js";
+import { FileError } from "./file_text.js";
+import { readYaml } from "./yaml_lite.js";
+
+export const FREE = 0;
+export const OCCUPIED = 1;
+export const UNKNOWN = 2;
+
+const OCCUPIED_THRESH = 0.65; // what map_server's own files have
+const FREE_THRESH = 0.196;
+const MODES = ["trinary", "scale", "raw"];
+
+/**
+ * What a map.yaml says: {image, resolution, origin: {x, y}, yaw, negate, occupiedThresh, freeThresh, mode,
+ * warnings}. Throws FileError.
+ */
+export function readRosYaml(text) {
+  const given = readYaml(text);
+  const warnings = [];
+  const image = String(given.image ?? "");
+  if (image === "")
+    throw new FileError('It names no image; a map.yaml of ROS has a line like "image: map.pgm".');
+  const resolution = numberIn(given, "resolution");
+  if (!(resolution > 0))
+    throw new FileError(`resolution is ${resolution}; it must be metres a pixel, above 0.`);
+  const origin = given.origin;
+  if (!Array.isArray(origin) || origin.length < 2 || !origin.every(Number.isFinite))
+    throw new FileError("origin must be a list of numbers: [x, y, yaw] of the lower-left pixel.");
+  const yaw = origin[2] ?? 0;
+  if (yaw !== 0)
+    warnings.push(`The map is turned by ${yaw} rad (origin's yaw) in ROS; here it is taken unturned.`);
+  const mode = given.mode ?? "trinary";
+  if (!MODES.includes(mode)) throw new FileError(`mode is ${mode}; map_server knows ${MODES.join(", ")}.`);
+  const described = {
+    image,
+    resolution,
+    origin: { x: origin[0], y: origin[1] },
+    yaw,
+    negate: given.negate === true || given.negate === 1,
+    occupiedThresh: thresholdIn(given, "occupied_thresh", OCCUPIED_THRESH, warnings),
+    freeThresh: thresholdIn(given, "free_thresh", FREE_THRESH, warnings),
+    mode,
+    warnings,
+  };
+  if (described.freeThresh > described.occupiedThresh)
+    throw new FileError("free_thresh is above occupied_thresh; swap them.");
+  return described;
+}
+
+function numberIn(given, key) {
+  if (Number.isFinite(given[key])) return given[key];
+  const found = given[key] === undefined ? "is missing" : `is ${given[key]}`;
+  throw new FileError(`${key} ${found}; it must be a number.`);
+}
+
+function thresholdIn(given, key, otherwise, warnings) {
+  if (given[key] === undefined) {
+    warnings.push(`${key} is missing; ${otherwise} is taken, as in map_server's own files.`);
+    return otherwise;
+  }
+  const threshold = numberIn(given, key);
+  if (threshold >= 0 && threshold <= 1) return threshold;
+  throw new FileError(`${key} is ${threshold}; it must be from 0 to 1.`);
+}
+
+/**
+ * The grid of FREE, OCCUPIED and UNKNOWN cells that map_server makes of gray pixels {width, height, maxval,
+ * values, clear}: `clear`, if any, has a 1 for each pixel that is not opaque.
+ */
+export function classifyPixels(described, { width, height, maxval, values, clear = null }) {
+  const { negate, occupiedThresh, freeThresh, mode, resolution, origin } = described;
+  const cells = new Uint8Array(width * height);
+  for (let index = 0; index < cells.length; index += 1) {
+    const value = values[index];
+    let p = (negate ? value : maxval - value) / maxval;
+    if (mode === "raw") p = Math.round((value / maxval) * 255) / 100; // the gray is the percentage itself
+    if ((mode === "raw" && p > 1) || (mode === "scale" && clear?.[index])) cells[index] = UNKNOWN;
+    else if (p > occupiedThresh) cells[index] = OCCUPIED;
+    else cells[index] = p < freeThresh ? FREE : UNKNOWN;
+  }
+  return { columns: width, rows: height, cells, resolution, origin };
+}
+
+/** How many cells are free, occupied and unknown, in that order. */
+export function countCells({ cells }) {
+  const counts = [0, 0, 0];
+  for (const cell of cells) counts[cell] += 1;
+  return counts;
+}
+
+/** The grid without wholly unknown rows and columns at its edges; the grid itself if all of it is unknown. */
+export function trimUnknown(grid) {
+  const { columns, rows, cells } = grid;
+  let [left, right, top, bottom] = [columns, -1, rows, -1];
+  for (let row = 0; row < rows; row += 1) {
+    for (let column = 0; column < columns; column += 1) {
+      if (cells[row * columns + column] === UNKNOWN) continue;
+      left = Math.min(left, column);
+      right = Math.max(right, column);
+      top = Math.min(top, row);
+      bottom = row;
+    }
+  }
+  if (right === -1) return grid;
+  const width = right - left + 1;
+  const kept = new Uint8Array(width * (bottom - top + 1));
+  for (let row = top; row <= bottom; row += 1) {
+    const first = row * columns + left;
+    kept.set(cells.subarray(first, first + width), (row - top) * width);
+  }
+  const origin = {
+    x: plusTimes(grid.origin.x, left, grid.resolution),
+    y: plusTimes(grid.origin.y, rows - 1 - bottom, grid.resolution),
+  };
+  return { ...grid, columns: width, rows: bottom - top + 1, cells: kept, origin };
+}
+
+/**
+ * The grid of FREE and OCCUPIED cells with `factor` × `factor` cells made one, from the lower-left corner on,
+ * which stays where it is: occupied if any is occupied, is unknown (unless `unknownFree`) or is not on the map.
+ */
+export function mergeCells(grid, factor, unknownFree) {
+  const columns = Math.ceil(grid.columns / factor);
+  const rows = Math.ceil(grid.rows / factor);
+  const cells = new Uint8Array(columns * rows);
+  const beyond = rows * factor - grid.rows; // rows of the top merged row that are none of the map
+  for (let row = 0; row < grid.rows; row += 1) {
+    const target = Math.floor((row + beyond) / factor) * columns;
+    for (let column = 0; column < grid.columns; column += 1) {
+      const cell = grid.cells[row * grid.columns + column];
+      if (cell === OCCUPIED || (cell === UNKNOWN && !unknownFree))
+        cells[target + Math.floor(column / factor)] = OCCUPIED;
+    }
+  }
+  if (beyond > 0) cells.fill(OCCUPIED, 0, columns);
+  if (columns * factor > grid.columns)
+    for (let row = 0; row < rows; row += 1) cells[row * columns + columns - 1] = OCCUPIED;
+  return { ...grid, columns, rows, cells, resolution: plusTimes(0, factor, grid.resolution) };
+}
+
+/** The smallest factor by which the cells must be merged so that there are no more than `most`. */
+export function smallestFactor({ columns, rows }, most) {
+  let factor = 1;
+  while (Math.ceil(columns / factor) * Math.ceil(rows / factor) > most) factor += 1;
+  return factor;
+}
+
+/** The map of a request as the grid of FREE and OCCUPIED cells has it. */
+export function mapOfGrid({ columns, rows, cells, resolution, origin }) {
+  const lines = [];
+  for (let row = 0; row < rows; row += 1) {
+    let line = "";
+    for (let at = row * columns; at < (row + 1) * columns; at += 1) line += cells[at] === FREE ? "." : "#";
+    lines.push(line);
+  }
+  return { rows: lines, resolution, origin: { ...origin } };
+}
