@@ -1,0 +1,210 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { Session } from "../../../web/model/session.js";
+import { ProblemError } from "../../../web/service/problem.js";
+
+const ROBOT = { id: "a", radius: 0.3, start: { x: 0.5, y: 0.5 }, goal: { x: 2.5, y: 0.5 } };
+const REQUEST = { map: { rows: ["..."] }, robots: [ROBOT] };
+const OPENED = { name: "one", example: null, text: JSON.stringify(REQUEST, null, 2), request: REQUEST };
+const ANSWER = {
+  plans: [
+    {
+      robot: "a",
+      cost: 2,
+      actions: [
+        {
+          type: "translate",
+          t_start: 0,
+          t_end: 2,
+          from: { x: 0.5, y: 0.5, theta: 0 },
+          to: { x: 2.5, y: 0.5, theta: 0 },
+        },
+      ],
+    },
+  ],
+};
+
+/** A session with a service that answers as told, and a record of its signals. */
+function begin(service = {}) {
+  const frames = [];
+  const session = new Session(service, (callback) => frames.push(callback));
+  const heard = [];
+  for (const name of ["request", "answer", "planning", "problem", "check", "marks", "time", "playback", "said"]) {
+    session.on(name, (detail) => heard.push(detail === undefined ? name : `${name} ${JSON.stringify(detail)}`));
+  }
+  return { session, heard, frames };
+}
+
+/** A promise and what settles it. */
+function deferred() {
+  const made = {};
+  made.promise = new Promise((resolve, reject) => Object.assign(made, { resolve, reject }));
+  return made;
+}
+
+test("what is opened is sent as it came until it is edited", () => {
+  const { session } = begin();
+  session.open(OPENED);
+  assert.equal(session.text, OPENED.text);
+  const edited = { ...REQUEST, options: { seed: 1 } };
+  session.edit(edited);
+  assert.equal(session.text, JSON.stringify(edited));
+  session.undo();
+  assert.equal(session.text, OPENED.text);
+  session.redo();
+  assert.equal(session.request, edited);
+});
+
+test("an example is one only while it is unchanged", () => {
+  const { session } = begin();
+  session.open({ ...OPENED, example: "one" });
+  session.edit({ ...REQUEST });
+  assert.equal(session.example, null);
+  session.undo();
+  assert.equal(session.example, "one");
+});
+
+test("an edit drops the answer and tells of request before answer", () => {
+  const { session, heard } = begin();
+  session.open(OPENED);
+  session.adopt(ANSWER, JSON.stringify(ANSWER));
+  assert.equal(session.player.duration, 2);
+  heard.length = 0;
+  session.edit({ ...REQUEST, options: {} });
+  assert.deepEqual([session.answer, session.player.duration], [null, 0]);
+  assert.deepEqual(heard, ["check", 'request {"opened":false}', "answer", "marks"]);
+});
+
+test("a robot stays selected over an edit if it is still there", () => {
+  const { session } = begin();
+  session.open(OPENED);
+  session.select("a");
+  session.edit({ ...REQUEST, options: {} });
+  assert.equal(session.selected, "a");
+  session.edit({ ...REQUEST, robots: [{ ...ROBOT, id: "b" }] });
+  assert.equal(session.selected, null);
+});
+
+test("planning ends with its answer, and hears of progress and costs on the way", async () => {
+  const answer = deferred();
+  let told;
+  const { session } = begin({
+    plan: (text, signal, listeners) => {
+      told = listeners;
+      return answer.promise;
+    },
+  });
+  session.open(OPENED);
+  const done = session.plan(5);
+  for (const [elapsed_ms, flowtime] of [
+    [1, null],
+    [2, 9],
+    [3, 9],
+    [4, 7],
+  ]) {
+    const best = flowtime === null ? null : { flowtime, makespan: 1 };
+    told.progress({ elapsed_ms, attempt: 1, planned: 1, robots: 1, best });
+  }
+  assert.deepEqual(
+    session.planning.costs.map(({ elapsed_ms, flowtime }) => [elapsed_ms, flowtime]),
+    [
+      [2, 9],
+      [4, 7],
+    ],
+  );
+  answer.resolve({ answer: ANSWER, text: "{}" });
+  assert.equal(await done, true);
+  assert.deepEqual([session.planning, session.answer], [null, ANSWER]);
+});
+
+test("cancelling keeps the best plan so far, and what comes late is dropped", async () => {
+  const answer = deferred();
+  let signal;
+  const { session } = begin({
+    plan: (text, given, { incumbent }) => {
+      signal = given;
+      incumbent(JSON.stringify(ANSWER));
+      return answer.promise;
+    },
+  });
+  session.open(OPENED);
+  const done = session.plan();
+  session.cancel();
+  assert.equal(signal.aborted, true);
+  assert.deepEqual(session.answer, ANSWER);
+  answer.reject(new Error("aborted"));
+  assert.equal(await done, false);
+  assert.deepEqual(session.answer, ANSWER);
+});
+
+test("an edit while planning stops it and shows no plan of the older request", async () => {
+  const answer = deferred();
+  const { session } = begin({ plan: () => answer.promise });
+  session.open(OPENED);
+  const done = session.plan();
+  session.edit({ ...REQUEST, options: {} });
+  answer.resolve({ answer: ANSWER, text: "{}" });
+  assert.equal(await done, false);
+  assert.equal(session.answer, null);
+});
+
+test("a fault of planning is shown as a problem, and gone with the next attempt", async () => {
+  const problem = { title: "No", errors: [] };
+  let refuses = true;
+  const { session } = begin({
+    plan: async () => {
+      if (refuses) throw new ProblemError(problem);
+      return { answer: ANSWER, text: "{}" };
+    },
+  });
+  session.open(OPENED);
+  assert.equal(await session.plan(), false);
+  assert.equal(session.problem, problem);
+  refuses = false;
+  assert.equal(await session.plan(), true);
+  assert.equal(session.problem, null);
+});
+
+test("a check of a plan that is no longer shown is dropped", async () => {
+  const check = deferred();
+  let sent;
+  const { session } = begin({
+    validate: (text) => {
+      sent = JSON.parse(text);
+      return check.promise;
+    },
+  });
+  session.open(OPENED, ANSWER);
+  const first = session.validate();
+  assert.deepEqual(sent, { ...REQUEST, ...ANSWER });
+  session.edit({ ...REQUEST, options: {} });
+  check.resolve({ valid: true, violations: [] });
+  await first;
+  assert.equal(session.check, null);
+});
+
+test("playing asks for a frame at a time and tells of the moment until the end", () => {
+  const { session, heard, frames } = begin();
+  session.open(OPENED, ANSWER);
+  heard.length = 0;
+  session.play();
+  session.play();
+  let clock = 0;
+  while (frames.length > 0) {
+    assert.equal(frames.length, 1);
+    frames.shift()((clock += 800));
+  }
+  assert.deepEqual(heard.slice(0, 2), ["playback", "playback"]);
+  assert.deepEqual(heard.slice(2), ["time", "time", "time", "time", "playback"]);
+  assert.deepEqual([session.player.time, session.player.playing], [2, false]);
+});
+
+test("several robots are brought out together, the first selected", () => {
+  const { session } = begin();
+  session.open({ ...OPENED, request: { ...REQUEST, robots: [ROBOT, { ...ROBOT, id: "b" }] } });
+  session.bringOut(["b", "a"]);
+  assert.deepEqual([session.selected, [...session.marked].sort()], ["b", ["a", "b"]]);
+  session.select(null);
+  assert.equal(session.marked.size, 0);
+});
