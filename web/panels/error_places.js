@@ -20,6 +20,7 @@ export function showPlacesOfErrors(session, stage, tabs) {
     for (const form of forms) showFieldErrors(form, errors());
   };
   session.on("problem marks", refresh); // marks: the form may have turned to another robot
+  session.on("problem", () => stage.redraw());
 
   stage.addOverlay((context, view) => {
     for (const { pointer = "" } of errors()) {

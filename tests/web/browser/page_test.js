@@ -2,42 +2,16 @@
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 
-import { choose, openPage, pressPlan, seek, startBrowser } from "../support/browser.js";
+import { choose, pressPlan, seek } from "../support/browser.js";
 import { expectedPose, headingGap } from "../support/expected_pose.js";
-import { startService } from "../support/service.js";
+import { coloursAt, hasTime, hook, pagesFor, paste, REFUSED } from "../support/on_page.js";
 
 const NEAR = 1e-9; // metres and radians: both sides interpolate the same doubles
 
-let service;
-let browser;
-
-before(async () => {
-  service = await startService();
-  browser = await startBrowser();
-});
-
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
-
-/** Runs `steps` on a fresh page; afterwards the page must not have complained but for `allowed`. */
-async function onPage(steps, { options = {}, allowed = null } = {}) {
-  const opened = await openPage(browser, service.url, options);
-  try {
-    await steps(opened.page, opened);
-    const complaints = opened.complaints.filter((text) => !allowed?.test(text));
-    assert.deepEqual(complaints, []);
-  } finally {
-    await opened.close();
-  }
-}
-
-const hook = (page, name) => page.evaluate((member) => window.fleetplan[member], name);
+const onPage = pagesFor();
 const text = (page, selector) => page.innerText(selector);
-const hasTime = (page, time) => page.waitForFunction((t) => Math.abs(window.fleetplan.time - t) < 1e-9, time);
 
 const TINY = {
   map: { rows: [".....", "....."] },
@@ -53,14 +27,8 @@ const TINY = {
   ],
 };
 
-async function paste(page, request) {
-  await page.click("#paste");
-  await page.fill("#paste-text", typeof request === "string" ? request : JSON.stringify(request));
-  await page.click("#paste-form button");
-}
-
 test("the page loads with the first example drawn and asks nobody else", async () => {
-  await onPage(async (page, { requested }) => {
+  await onPage(async (page, { requested, url }) => {
     const { examples } = await page.evaluate(async () => (await fetch("v1/examples")).json());
     const first = await page.evaluate(
       async (name) => (await fetch(`v1/examples/${name}`)).json(),
@@ -68,7 +36,7 @@ test("the page loads with the first example drawn and asks nobody else", async (
     );
     assert.deepEqual(await hook(page, "request"), first);
     assert.equal(await page.locator("#robots .robot").count(), first.robots.length);
-    for (const address of requested) assert.equal(new URL(address).origin, new URL(service.url).origin);
+    for (const address of requested) assert.equal(new URL(address).origin, new URL(url).origin);
   });
 });
 
@@ -111,10 +79,10 @@ test("every example loads, plans and plays as its plan says", async () => {
 });
 
 test("what is drawn of a deterministic plan is what the service answers anyone", async () => {
-  await onPage(async (page) => {
+  await onPage(async (page, { url }) => {
     const request = await choose(page, "corridor-swap");
     const shown = await pressPlan(page);
-    const response = await fetch(new URL("v1/plan", service.url), {
+    const response = await fetch(new URL("v1/plan", url), {
       method: "POST",
       headers: { "Content-Type": "application/json" },
       body: JSON.stringify(request),
@@ -125,25 +93,12 @@ test("what is drawn of a deterministic plan is what the service answers anyone",
   });
 });
 
-/** The colours painted on the canvas at offsets from a robot's centre, in its radii, x right and y up. */
+/** The colours painted at offsets from a robot's centre, in its radii, x right and y up. */
 async function coloursAround(page, id, offsets) {
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  return page.evaluate(
-    ([robot, places]) => {
-      const canvas = document.getElementById("scene");
-      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-      const scale = canvas.width / canvas.clientWidth;
-      const { x, y, radius } = window.fleetplan.screenOf(robot);
-      return places.map(([right, up]) => {
-        const column = Math.round((x + right * radius) * scale);
-        const row = Math.round((y - up * radius) * scale);
-        return data
-          .slice((row * canvas.width + column) * 4)
-          .slice(0, 3)
-          .join();
-      });
-    },
-    [id, offsets],
+  const { x, y, radius } = await page.evaluate((robot) => window.fleetplan.screenOf(robot), id);
+  return coloursAt(
+    page,
+    offsets.map(([right, up]) => ({ x: x + right * radius, y: y - up * radius })),
   );
 }
 
@@ -323,7 +278,7 @@ test("an invalid request shows each error's pointer and detail", async () => {
         assert.ok(shown.includes(detail), detail);
       }
     },
-    { allowed: /status of 422/ }, // Chromium itself notes every answer of 400 and above
+    { allowed: REFUSED },
   );
 });
 
@@ -335,14 +290,15 @@ test("an error that points to a robot selects it", async () => {
       await page.click("#problem .error");
       assert.equal(await page.getAttribute('.robot[data-robot="solo"]', "aria-pressed"), "true");
     },
-    { allowed: /status of 422/ },
+    { allowed: REFUSED },
   );
 });
 
 test("an address can name an example", async () => {
-  const { page, close } = await openPage(browser, `${service.url}#partly-solvable`);
-  assert.equal(await page.inputValue("#example"), "partly-solvable");
-  await close();
+  await onPage(
+    async (page) => assert.equal(await page.inputValue("#example"), "partly-solvable"),
+    { hash: "#partly-solvable" },
+  );
 });
 
 test("text that is not JSON is refused on the spot", async () => {

@@ -31,7 +31,14 @@ export async function openPage(browser, url, options = {}) {
   page.on("pageerror", (error) => complaints.push(String(error)));
   page.on("request", (request) => requested.push(request.url()));
   await page.goto(url);
-  await page.waitForFunction(() => window.fleetplan?.request);
+  try {
+    await page.waitForFunction(() => window.fleetplan?.request);
+  } catch (error) {
+    const shown = await page.innerText("body").catch(() => "no page");
+    throw new Error(`the page did not begin: ${complaints.join("; ")}; asked for ${requested.join(" ")}; it shows ${shown}`, {
+      cause: error,
+    });
+  }
   return { page, complaints, requested, close: () => context.close() };
 }
 

@@ -1,0 +1,125 @@
+// The options' form, and errors at the places they mean.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { choose, pressPlan } from "../support/browser.js";
+import { countColour, hook, pagesFor, paste, REFUSED, themeColour } from "../support/on_page.js";
+
+const onPage = pagesFor();
+
+const ROBOT = { id: "a", radius: 0.3, linear_speed: 1, angular_speed: 1, start: { x: 0.5, y: 0.5 } };
+const REQUEST = {
+  map: { rows: [".....", "....."] },
+  robots: [ROBOT, { ...ROBOT, id: "b", start: { x: 2.5, y: 1.5 }, goal: { x: 4.5, y: 0.5 } }],
+};
+
+const requestIs = (page, expected) =>
+  page.waitForFunction((text) => JSON.stringify(window.fleetplan.request) === text, JSON.stringify(expected));
+
+test("options are set in the request, and those at their default are left out", async () => {
+  await onPage(async (page) => {
+    await paste(page, REQUEST);
+    await page.click("#tab-options");
+    await page.fill("#option-seed", "12");
+    await page.selectOption("#option-mode", "anytime");
+    await page.fill("#option-max_iterations", "20");
+    await page.uncheck("#option-any_angle");
+    await page.selectOption("#option-connectivity", "16");
+    const options = { seed: 12, mode: "anytime", max_iterations: 20, any_angle: false, connectivity: 16 };
+    await requestIs(page, { ...REQUEST, options });
+    const answer = await pressPlan(page);
+    assert.deepEqual([answer.status, answer.deterministic], ["solved", true]);
+    await page.click('.option:has(#option-mode) .reset');
+    await requestIs(page, { ...REQUEST, options: { seed: 12, max_iterations: 20, any_angle: false, connectivity: 16 } });
+    assert.equal(await hook(page, "answer"), null);
+    await page.click("#reset-options");
+    await requestIs(page, REQUEST);
+    assert.equal(await page.inputValue("#option-seed"), "0");
+  });
+});
+
+test("typing a value is one step back", async () => {
+  await onPage(async (page) => {
+    await paste(page, REQUEST);
+    await page.click("#tab-options");
+    await page.locator("#option-seed").pressSequentially("345");
+    await page.keyboard.press("Tab");
+    await requestIs(page, { ...REQUEST, options: { seed: 345 } });
+    await page.locator("#tab-options").focus();
+    await page.keyboard.press("Control+z");
+    await requestIs(page, REQUEST);
+    await page.keyboard.press("Control+Shift+z");
+    await requestIs(page, { ...REQUEST, options: { seed: 345 } });
+  });
+});
+
+test("the form shows what a request sets", async () => {
+  await onPage(async (page) => {
+    const request = await choose(page, "warehouse");
+    await page.click("#tab-options");
+    assert.ok(request.options.time_budget_ms > 0);
+    assert.equal(await page.inputValue("#option-time_budget_ms"), String(request.options.time_budget_ms));
+  });
+});
+
+test("an edit that the service would refuse is told at its field, and forgotten when mended", async () => {
+  await onPage(
+    async (page) => {
+      await paste(page, REQUEST);
+      await page.click("#tab-options");
+      await page.fill("#option-inflation", "-1");
+      await page.waitForSelector("#option-inflation[aria-invalid=true]");
+      const message = await page.getAttribute("#option-inflation", "aria-describedby");
+      assert.match(await page.innerText(`#${message}`), /inflation|0|negative/i);
+      assert.match(await page.innerText("#problem"), /\/options\/inflation/);
+      await page.fill("#option-inflation", "0.1");
+      await page.waitForSelector("#option-inflation:not([aria-invalid])");
+      assert.equal(await page.isVisible("#problem"), false);
+    },
+    { allowed: REFUSED },
+  );
+});
+
+test("a listed error leads to its field", async () => {
+  await onPage(
+    async (page) => {
+      await paste(page, { ...REQUEST, options: { seed: -4 } });
+      await page.click("#plan");
+      await page.click('[data-error="/options/seed"]');
+      assert.equal(await page.evaluate(() => document.activeElement.id), "option-seed");
+      assert.equal(await page.isVisible("#panel-options"), true);
+    },
+    { allowed: REFUSED },
+  );
+});
+
+test("an error of a robot is marked where the robot is, and one of a row at the row", async () => {
+  await onPage(
+    async (page) => {
+      const danger = async (request, point) => {
+        await paste(page, request);
+        await page.click("#plan");
+        await page.waitForSelector("#problem:not([hidden])");
+        const place = await page.evaluate((world) => window.fleetplan.pointOf(world), point);
+        return countColour(page, await themeColour(page, "--scene-danger"), place, 220);
+      };
+      const near = { x: 1.5, y: 0.5 };
+      assert.ok((await danger({ ...REQUEST, robots: [{ ...ROBOT, start: near, radius: 0.9 }] }, near)) > 20);
+      assert.ok((await danger({ ...REQUEST, map: { rows: [".....", "..x.."] } }, { x: 0, y: 1 })) > 20);
+    },
+    { allowed: REFUSED },
+  );
+});
+
+test("tabs are moved by arrows", async () => {
+  await onPage(async (page) => {
+    await page.focus("#tab-plan");
+    await page.keyboard.press("ArrowLeft");
+    assert.equal(await page.evaluate(() => document.activeElement.id), "tab-options");
+    assert.equal(await page.isVisible("#panel-options"), true);
+    assert.equal(await page.isVisible("#panel-plan"), false);
+    await page.keyboard.press("Home");
+    assert.equal(await page.isVisible("#panel-plan"), true);
+  });
+});

@@ -1,0 +1,149 @@
+// Ways to look at a plan: steps from event to event, colours, paths.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { choose, pressPlan, seek } from "../support/browser.js";
+import { coloursAt, hasTime, hook, pagesFor, paste, themeColour } from "../support/on_page.js";
+
+const onPage = pagesFor();
+
+/** A robot that turns, goes right and turns back; another that stands. */
+const TURNING = {
+  map: { rows: [".....", "....."] },
+  robot_defaults: { radius: 0.4, linear_speed: 1, angular_speed: 1 },
+  robots: [
+    { id: "turner", start: { x: 0.5, y: 0.5, theta: 1 }, goal: { x: 4.5, y: 0.5, theta: 1 } },
+    { id: "post", start: { x: 2.5, y: 1.5 } },
+  ],
+};
+
+async function planned(page, request) {
+  await paste(page, request);
+  const answer = await pressPlan(page);
+  await page.keyboard.press("Space");
+  await page.keyboard.press("r");
+  await hasTime(page, 0);
+  return answer;
+}
+
+test("keys and buttons step from event to event", async () => {
+  await onPage(async (page) => {
+    const answer = await planned(page, TURNING);
+    const ends = answer.plans[0].actions.map(({ t_end }) => t_end);
+    assert.equal(ends.length, 3);
+    for (const end of ends) {
+      await page.keyboard.press(".");
+      await hasTime(page, end);
+    }
+    await page.click("#previous-event");
+    await hasTime(page, ends[1]);
+    await page.keyboard.press(",");
+    await hasTime(page, ends[0]);
+    await page.click("#next-event");
+    await hasTime(page, ends[1]);
+  });
+});
+
+test("with a robot selected the steps are its own", async () => {
+  await onPage(async (page) => {
+    await choose(page, "crossing");
+    const answer = await pressPlan(page);
+    await page.keyboard.press("Space");
+    const [{ robot, actions }] = answer.plans.filter((plan) => plan.actions.length > 1);
+    await page.click(`.robot[data-robot="${robot}"]`);
+    await page.keyboard.press("r");
+    for (const { t_end } of actions) {
+      await page.keyboard.press(".");
+      await hasTime(page, t_end);
+    }
+  });
+});
+
+test("coloured by what they do, robots change colour with it", async () => {
+  await onPage(async (page) => {
+    const answer = await planned(page, TURNING);
+    await page.click("#view-menu summary");
+    await page.check("input[name=colours][value=state]");
+    const [turn, drive] = answer.plans[0].actions;
+    const seen = [];
+    for (const time of [turn.t_end / 2, (drive.t_start + drive.t_end) / 2, answer.makespan]) {
+      await seek(page, time);
+      await hasTime(page, time);
+      const state = await page.evaluate(() => window.fleetplan.stateOf("turner"));
+      const wanted = await themeColour(page, `--state-${state}`);
+      const { x, y, radius } = await page.evaluate(() => window.fleetplan.screenOf("turner"));
+      const { theta } = await page.evaluate(() => window.fleetplan.poseOf("turner"));
+      const behind = { x: x - Math.cos(theta) * radius * 0.8, y: y + Math.sin(theta) * radius * 0.8 };
+      assert.deepEqual(await coloursAt(page, [behind]), [wanted], state);
+      seen.push(state);
+    }
+    assert.deepEqual(seen, ["turning", "moving", "arrived"]);
+  });
+});
+
+test("the path behind a robot is painted whole, not when only what remains is wanted, and not at all", async () => {
+  await onPage(async (page) => {
+    const answer = await planned(page, TURNING);
+    const [, drive] = answer.plans[0].actions;
+    const time = drive.t_start + (drive.t_end - drive.t_start) * 0.6;
+    await seek(page, time);
+    await hasTime(page, time);
+    await page.click("#view-menu summary");
+    const painted = async (x) => {
+      const place = await page.evaluate((at) => window.fleetplan.pointOf({ x: at, y: 0.5 }), x);
+      const [on, off] = await coloursAt(page, [place, { x: place.x, y: place.y + 6 }]);
+      return on !== off;
+    };
+    const seen = {};
+    for (const paths of ["whole", "remaining", "none"]) {
+      await page.check(`input[name=paths][value=${paths}]`);
+      seen[paths] = [await painted(1.75), await painted(3.75)];
+    }
+    assert.deepEqual(seen, { whole: [true, true], remaining: [false, true], none: [false, false] });
+  });
+});
+
+test("the view's menu closes with Escape and gives the focus back", async () => {
+  await onPage(async (page) => {
+    await page.focus("#view-menu summary");
+    await page.keyboard.press("Enter");
+    await page.focus("input[name=paths][value=none]");
+    await page.keyboard.press("Escape");
+    assert.equal(await page.evaluate(() => document.getElementById("view-menu").open), false);
+    assert.equal(await page.evaluate(() => document.activeElement.closest("#view-menu") !== null), true);
+  });
+});
+
+test("a plan that gets better draws its falling cost", async () => {
+  await onPage(async (page) => {
+    const costs = [90, 80, 72.5];
+    const events = costs.map((flowtime, at) => {
+      const best = { flowtime, makespan: flowtime };
+      const progress = { elapsed_ms: 100 * at, attempt: at + 1, planned: 2, robots: 2, best };
+      return `event: progress\ndata: ${JSON.stringify(progress)}\n\n`;
+    });
+    await page.evaluate((chunks) => {
+      const whole = window.fetch;
+      window.fetch = async (address, init) => {
+        if (address !== "v1/plan") return whole(address, init);
+        const body = new ReadableStream({
+          start(controller) {
+            for (const chunk of chunks) controller.enqueue(new TextEncoder().encode(chunk));
+          },
+        });
+        return new Response(body, { headers: { "Content-Type": "text/event-stream" } });
+      };
+    }, events);
+    await page.click("#plan");
+    await page.waitForSelector("#cost-curve svg");
+    assert.match(await page.getAttribute("#cost-curve svg", "aria-label"), /from 90\.00 s to 72\.50 s \(−19\.4 %\)/);
+    assert.equal(await page.innerText("#so-far"), "2 of 2 robots planned, attempt 3, flowtime 72.50 s");
+    const path = await page.getAttribute("#cost-curve path", "d");
+    const heights = [...path.matchAll(/V([\d.]+)/g)].map(([, y]) => Number(y));
+    assert.equal(heights.length, 2);
+    assert.ok(heights[0] < heights[1], "lower cost is further down");
+    await page.click("#cancel");
+    assert.equal(await hook(page, "answer"), null);
+  });
+});

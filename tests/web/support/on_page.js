@@ -1,0 +1,96 @@
+// Runs of steps on fresh pages against a server and a browser of the test file's own.
+
+import assert from "node:assert/strict";
+import { after, before } from "node:test";
+
+import { openPage, startBrowser } from "./browser.js";
+import { startService } from "./service.js";
+
+/**
+ * Starts server and browser before the tests of a file and stops them after. The result runs `steps(page, opened)` on a
+ * fresh page; afterwards the page must not have complained but for `allowed`, a regular expression.
+ */
+export function pagesFor() {
+  const running = {};
+  before(async () => {
+    running.service = await startService();
+    running.browser = await startBrowser();
+  });
+  after(async () => {
+    await running.browser?.close();
+    await running.service?.stop();
+  });
+  return async (steps, { options = {}, allowed = null, hash = "" } = {}) => {
+    const opened = await openPage(running.browser, running.service.url + hash, options);
+    try {
+      await steps(opened.page, { ...opened, url: running.service.url });
+      const complaints = opened.complaints.filter((text) => !allowed?.test(text));
+      assert.deepEqual(complaints, []);
+    } finally {
+      await opened.close();
+    }
+  };
+}
+
+/** What Chromium itself notes when the service refuses a request. */
+export const REFUSED = /status of 422/;
+
+/** Pastes a request, an object or a text, as a person would. */
+export async function paste(page, request) {
+  await page.click("#paste");
+  await page.fill("#paste-text", typeof request === "string" ? request : JSON.stringify(request));
+  await page.click("#paste-form button");
+}
+
+export const hook = (page, name) => page.evaluate((member) => window.fleetplan[member], name);
+
+/** Waits until the moment shown is this one, seconds. */
+export const hasTime = (page, time) =>
+  page.waitForFunction((t) => Math.abs(window.fleetplan.time - t) < 1e-9, time);
+
+/** The colours painted on the scene at canvas places ({x, y}, CSS pixels), each "r,g,b". */
+export async function coloursAt(page, places) {
+  const { pixels, width, scale } = await sceneOf(page);
+  return places.map(({ x, y }) => {
+    const at = (Math.round(y * scale) * width + Math.round(x * scale)) * 4;
+    return [...pixels.subarray(at, at + 3)].join();
+  });
+}
+
+/** How many pixels within so many CSS pixels of a canvas place are painted in a colour, "r,g,b". */
+export async function countColour(page, colour, place, reach) {
+  const { pixels, width, scale } = await sceneOf(page);
+  const wanted = colour.split(",").map(Number);
+  let found = 0;
+  for (let at = 0; at < pixels.length; at += 4) {
+    const x = ((at / 4) % width) / scale;
+    const y = Math.floor(at / 4 / width) / scale;
+    if (Math.abs(x - place.x) > reach || Math.abs(y - place.y) > reach) continue;
+    if (wanted.every((part, offset) => pixels[at + offset] === part)) found += 1;
+  }
+  return found;
+}
+
+/** A custom property of the theme that is a colour as #rrggbb, as "r,g,b". */
+export function themeColour(page, name) {
+  return page.evaluate((property) => {
+    const colour = getComputedStyle(document.documentElement).getPropertyValue(property).trim();
+    return [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16)).join();
+  }, name);
+}
+
+/** What is painted on the scene: {pixels (RGBA bytes), width (device pixels), scale (of them a CSS pixel)}. */
+async function sceneOf(page) {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  const { text, width, scale } = await page.evaluate(() => {
+    const canvas = document.getElementById("scene");
+    const copy = new OffscreenCanvas(canvas.width, canvas.height);
+    const context = copy.getContext("2d", { willReadFrequently: true });
+    context.drawImage(canvas, 0, 0);
+    const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+    let text = "";
+    for (let at = 0; at < data.length; at += 8192) text += String.fromCharCode(...data.subarray(at, at + 8192));
+    return { text: btoa(text), width: canvas.width, scale: canvas.width / canvas.clientWidth };
+  });
+  return { pixels: Buffer.from(text, "base64"), width, scale };
+}
