@@ -522,6 +522,9 @@ test("a phone shows the page without scrolling sideways", async () => {
       assert.deepEqual(widths, [390, 390]);
       const play = await page.locator("#play").boundingBox();
       assert.ok(play.y + play.height <= 844, "the playback bar is in sight");
+      const last = page.locator("#robots .robot").last();
+      await last.scrollIntoViewIfNeeded();
+      assert.ok((await last.boundingBox()).height > 30, "the list of robots is below");
     },
     { options: { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true } },
   );
