@@ -26,7 +26,7 @@ export class Painter {
 
   constructor(canvas) {
     this.#canvas = canvas;
-    this.#context = canvas.getContext("2d", { alpha: false });
+    this.#context = canvas.getContext("2d");
   }
 
   /** What to paint from now on, and how: see Stage.look. */

@@ -513,6 +513,15 @@ test("every control has a name and is reached with the keyboard", async () => {
   });
 });
 
+test("on a desk the page is as high as the window", async () => {
+  await onPage(async (page) => {
+    await choose(page, "warehouse");
+    await pressPlan(page);
+    const heights = await page.evaluate(() => [document.documentElement.scrollHeight, window.innerHeight]);
+    assert.deepEqual(heights, [900, 900]);
+  });
+});
+
 test("a phone shows the page without scrolling sideways", async () => {
   await onPage(
     async (page) => {
