@@ -1,5 +1,8 @@
 // Puts the page together. Each feature attaches to the session and knows nothing of the others.
 
+import { Address } from "./files/address.js";
+import { watchDrops } from "./files/drops.js";
+import { ImportDialogs } from "./files/import_dialogs.js";
 import { Opening } from "./files/opening.js";
 import { watchSaving } from "./files/save.js";
 import { offerHook } from "./hook.js";
@@ -28,7 +31,9 @@ const colours = new RobotColours();
 const stage = new Stage(session, colours);
 const tabs = new Tabs(byId("tabs"));
 const transport = new Transport(session);
-const opening = new Opening(session, service.fetchExample);
+const offerEditing = () => tabs.choose("tab-edit");
+const opening = new Opening(session, service.fetchExample, new ImportDialogs(session), offerEditing);
+const address = new Address(session, opening);
 const setup = new Setup(session, opening);
 const planButton = new PlanButton(session, transport);
 watchEdits(session, service.validate);
@@ -38,7 +43,8 @@ new RobotList(session, colours);
 watchSummary(session);
 watchUnplanned(session);
 watchReadout(session);
-watchSaving(session);
+watchSaving(session, stage, address);
+watchDrops((files) => opening.files(files));
 watchViewMenu(stage);
 showPlacesOfErrors(session, stage, tabs);
 session.on("said", (text) => setText(byId("announcer"), text));
@@ -65,4 +71,4 @@ watchShortcuts({
 document.addEventListener("visibilitychange", () => session.player.skip());
 
 offerHook(session, stage);
-setup.begin(service);
+setup.begin(service, address);

@@ -1,8 +1,12 @@
 // Taking things away: files and a command line.
 
-/** Saves a text as a file. */
+/** Saves a text of JSON as a file. */
 export function saveText(name, text) {
-  const address = URL.createObjectURL(new Blob([text], { type: "application/json" }));
+  saveBlob(name, new Blob([text], { type: "application/json" }));
+}
+
+export function saveBlob(name, blob) {
+  const address = URL.createObjectURL(blob);
   const link = document.createElement("a");
   link.href = address;
   link.download = name;
@@ -10,9 +14,9 @@ export function saveText(name, text) {
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
-/** A file name for a request's name. */
+/** A file name, without its ending, for a request's name. */
 export function fileStem(name) {
-  return name.replace(/\.json$/i, "").replace(/[^\w.-]+/g, "-") || "request";
+  return name.replace(/(\.plan)?\.(json|map|scen|ya?ml)$/i, "").replace(/[^\w.-]+/g, "-") || "request";
 }
 
 /** The command that plans the request from a POSIX shell; examples are fetched, other requests inlined. */

@@ -52,7 +52,7 @@ function readEntry(line, number) {
  * A request on `map` (of a request) for the first `count` entries that are possible for robots as `defaults`
  * ({radius, linear_speed, angular_speed}; m, m/s, rad/s) say, starts and goals at the cells' centres, goals with
  * any heading. An entry is passed over when a disk does not fit between the walls or overlaps one taken before:
- * {request, passedOver: {walls, overlaps}}. Throws FileError when the map is of another size.
+ * {request, cells, passedOver: {walls, overlaps}}, `cells` being the entries taken. Throws FileError when the map is of another size.
  */
 export function scenarioRequest(map, entries, count, defaults) {
   const [{ width, height, map: name }] = entries;
@@ -78,7 +78,7 @@ export function scenarioRequest(map, entries, count, defaults) {
     start: { ...centreOf(map, start), theta: 0 },
     goal: centreOf(map, goal),
   }));
-  return { request: { map, robot_defaults: { ...defaults }, robots }, passedOver };
+  return { request: { map, robot_defaults: { ...defaults }, robots }, cells: taken, passedOver };
 }
 
 /** Whether a disk of `reach` cells at the cell's centre is clear of blocked cells and of the map's edge. */

@@ -1,16 +1,28 @@
-// What to plan is opened here: an example, a file, a text.
+// What to plan is opened here: an example, files, a text, a link. Whatever was chosen last wins.
 
 import { ProblemError } from "../service/problem.js";
+import { FileError } from "./file_text.js";
+import { readLinkState } from "./link_state.js";
+import { Reader } from "./reader.js";
 
 export class Opening {
   #session;
   #fetchExample;
-  #turn = 0; // counts choices, so that a late example does not replace a newer choice
+  #dialogs;
+  #offerEditing;
+  #reader;
+  #turn = 0; // counts choices, so that a late one does not replace a newer one
 
-  /** `fetchExample(name)` resolves to an example's text. */
-  constructor(session, fetchExample) {
+  /**
+   * `fetchExample(name)` resolves to an example's text. `dialogs`: see ImportDialogs. `offerEditing` is called when
+   * what is opened has no robots yet.
+   */
+  constructor(session, fetchExample, dialogs, offerEditing) {
     this.#session = session;
+    this.#offerEditing = offerEditing;
     this.#fetchExample = fetchExample;
+    this.#dialogs = dialogs;
+    this.#reader = new Reader(session, dialogs);
   }
 
   /** Whether anything was chosen yet. */
@@ -18,45 +30,64 @@ export class Opening {
     return this.#turn > 0;
   }
 
-  async example(name) {
-    const turn = (this.#turn += 1);
-    try {
+  // Each of these resolves to whether it is open now; if not, the session has the problem or something newer was chosen.
+
+  example(name) {
+    return this.#choose(async () => {
       const text = await this.#fetchExample(name);
-      if (turn === this.#turn) {
-        this.#session.open({ name, example: name, text, request: JSON.parse(text) });
-      }
-    } catch (error) {
-      if (turn === this.#turn) this.#session.fail(error);
-    }
+      return { name, example: name, text, request: JSON.parse(text), answer: null };
+    });
   }
 
-  async file(file) {
-    const turn = (this.#turn += 1);
-    let text;
-    try {
-      text = await file.text();
-    } catch (error) {
-      this.#fail("The file cannot be read", `${file.name}: ${error.message}`);
-      return;
-    }
-    if (turn === this.#turn) this.text(file.name, text);
+  /** Opens what files (File) are together, after asking where there is a choice. */
+  files(files) {
+    return this.#choose(() => this.#reader.files(files));
   }
 
-  /** Whether the text is JSON and now open. */
   text(name, text) {
-    let request;
+    return this.#choose(() => this.#reader.text(name, text));
+  }
+
+  /** Opens the request that the fragment of an address holds. */
+  link(fragment) {
+    return this.#choose(async () => {
+      return this.#reader.text("linked request", JSON.stringify(await readLinkState(fragment)));
+    });
+  }
+
+  /** `read` resolves to what to open, see Reader, or to null if it is not to be opened after all. */
+  async #choose(read) {
+    const turn = (this.#turn += 1);
+    this.#dialogs.dismiss();
     try {
-      request = JSON.parse(text);
+      const opened = await read();
+      if (turn !== this.#turn || opened === null) return false;
+      this.#open(opened);
+      return true;
     } catch (error) {
-      this.#fail("That is not JSON", `${name}: ${error.message}`);
+      if (turn === this.#turn) this.#session.fail(asProblem(error));
       return false;
     }
-    this.#turn += 1;
-    this.#session.open({ name, example: null, text, request });
-    return true;
   }
 
-  #fail(title, detail) {
-    this.#session.fail(new ProblemError({ title, detail }));
+  #open({ answer, ...opened }) {
+    const session = this.#session;
+    if (opened.request === session.request) {
+      session.stopPlanning();
+      session.setProblem(null);
+      session.adopt(answer, JSON.stringify(answer));
+    } else {
+      session.open(opened, answer);
+    }
+    if (answer !== null) session.validate();
+    if (Array.isArray(opened.request.robots) && opened.request.robots.length === 0) {
+      session.say(`${opened.name} is open and has no robots yet: place some under Edit.`);
+      this.#offerEditing();
+    }
   }
+}
+
+function asProblem(error) {
+  if (!(error instanceof FileError)) return error;
+  return new ProblemError({ title: "That cannot be opened", detail: error.message });
 }

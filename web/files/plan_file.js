@@ -28,7 +28,8 @@ export function planFile(request, answer) {
 /**
  * What a parsed JSON document is, taken apart: {request, answer}, one of which may be null. A faulty request is a
  * request, for the service to tell its faults. An answer's plans and figures can be shown; of what a document lacks,
- * what follows from its plans is filled in. Throws FileError for what is neither.
+ * what follows from its plans is filled in; whether it is `verified` is left out, as only a check can tell. Throws
+ * FileError for what is neither.
  */
 export function readDocument(document) {
   if (document === null || typeof document !== "object" || Array.isArray(document)) throw notOurs();
@@ -64,7 +65,7 @@ function notOurs() {
   );
 }
 
-function completed(answer) {
+function completed({ verified: _, ...answer }) {
   const plans = answer.plans.map((plan) => ({ cost: plan.actions.at(-1)?.t_end ?? 0, ...plan }));
   const costs = plans.map(({ cost }) => cost);
   const { unplanned = [], warnings = [] } = answer;
@@ -120,7 +121,8 @@ function checkPlans(plans) {
     if (seen.has(plan.robot))
       throw new FileError(`${place} is a second plan of ${plan.robot}; a robot has one.`);
     seen.add(plan.robot);
-    if (plan.cost !== undefined && !isNumber(plan.cost)) throw new FileError(`${place}.cost must be a number.`);
+    if (plan.cost !== undefined && !isNumber(plan.cost))
+      throw new FileError(`${place}.cost must be a number.`);
     if (!Array.isArray(plan.actions))
       throw new FileError(`${place}, of ${plan.robot}, has no list of actions.`);
     for (const [number, action] of plan.actions.entries()) checkAction(action, `${place}.actions[${number}]`);

@@ -7,6 +7,14 @@ export function isPng(bytes) {
   return SIGNATURE.every((byte, index) => bytes[index] === byte);
 }
 
+/** {width, height} in pixels, as the header says. */
+export function sizeOf(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  return bytes.length < 24
+    ? { width: 0, height: 0 }
+    : { width: view.getUint32(16), height: view.getUint32(20) };
+}
+
 /** Whether the image has transparency: an alpha channel, or a tRNS chunk before its pixels. */
 export function hasAlpha(bytes) {
   if (WITH_ALPHA.has(bytes[25])) return true;
@@ -24,14 +32,14 @@ export function hasAlpha(bytes) {
  * map_server counts the alpha channel, where the image has one, as a fourth colour; so do we.
  */
 export function grayOfRgba({ width, height, data }, { alpha, mode }) {
-  const values = new Float64Array(width * height);
+  const values = new Uint16Array(width * height); // sums, as means would be rounded
   const clear = new Uint8Array(width * height);
   const averaged = alpha && mode === "trinary";
   for (let index = 0; index < values.length; index += 1) {
     const at = 4 * index;
     const colours = data[at] + data[at + 1] + data[at + 2];
-    values[index] = averaged ? (colours + data[at + 3]) / 4 : colours / 3;
+    values[index] = averaged ? colours + data[at + 3] : colours;
     clear[index] = data[at + 3] < 255 ? 1 : 0;
   }
-  return { width, height, maxval: 255, values, clear };
+  return { width, height, maxval: 255 * (averaged ? 4 : 3), values, clear };
 }

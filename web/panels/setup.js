@@ -1,5 +1,6 @@
 // Choosing what to plan: an example, a file, pasted text.
 
+import { ACCEPT } from "../files/file_kinds.js";
 import { byId, element, setText } from "../ui/dom.js";
 import { count } from "../ui/format.js";
 
@@ -17,28 +18,24 @@ export class Setup {
   constructor(session, opening) {
     this.#session = session;
     this.#opening = opening;
+    this.#file.accept = ACCEPT;
     this.#select.addEventListener("change", () => {
       if (this.#select.value !== "") opening.example(this.#select.value);
     });
     byId("open").addEventListener("click", () => this.#file.click());
     this.#file.addEventListener("change", () => {
-      const [file] = this.#file.files;
-      if (file) opening.file(file);
+      const files = [...this.#file.files];
+      if (files.length > 0) opening.files(files);
       this.#file.value = "";
     });
     this.#paste.addEventListener("click", () => this.#showForm(this.#form.hidden));
     this.#form.addEventListener("submit", (event) => this.#onPaste(event));
-    watchDrops((file) => opening.file(file));
     session.on("request", () => this.#refresh());
     session.on("problem", () => this.#showChosen()); // what was chosen may not have come
-    addEventListener("hashchange", () => {
-      const named = this.#named();
-      if (named && named.name !== session.example) opening.example(named.name);
-    });
   }
 
-  /** Lists the examples; the first stands ready, or the one that the address names (#name). */
-  async begin(service) {
+  /** Lists the examples and opens what the address says. `address`: see Address. */
+  async begin(service, address) {
     service.fetchLimits().then(
       (limits) => this.#session.setLimits(limits),
       () => {}, // only the limits are not told then
@@ -49,12 +46,7 @@ export class Setup {
       this.#session.fail(error);
     }
     this.#showExamples();
-    const first = this.#named() ?? this.#examples[0];
-    if (first && !this.#opening.begun) await this.#opening.example(first.name);
-  }
-
-  #named() {
-    return this.#examples.find(({ name }) => `#${name}` === location.hash);
+    await address.begin(this.#examples);
   }
 
   #showExamples() {
@@ -72,7 +64,6 @@ export class Setup {
   #refresh() {
     const { example, scene } = this.#session;
     this.#showChosen();
-    history.replaceState(null, "", example === null ? location.pathname : `#${example}`);
     const { grid, robots } = scene;
     const size = grid ? `${grid.columns} × ${grid.rows} cells` : "no map";
     setText(byId("facts"), `${count(robots.length, "robot")}, ${size}`);
@@ -96,9 +87,9 @@ export class Setup {
     this.#select.selectedIndex = 0;
   }
 
-  #onPaste(event) {
+  async #onPaste(event) {
     event.preventDefault();
-    if (!this.#opening.text("pasted request", this.#text.value)) return;
+    if (!(await this.#opening.text("pasted request", this.#text.value))) return;
     this.#showForm(false);
     byId("plan").focus();
   }
@@ -108,25 +99,4 @@ export class Setup {
     this.#paste.setAttribute("aria-expanded", String(shown));
     if (shown) this.#text.focus();
   }
-}
-
-/** Opens files dropped anywhere on the page. */
-function watchDrops(open) {
-  const hint = byId("drop-hint");
-  const carriesFile = (event) => event.dataTransfer?.types.includes("Files");
-  addEventListener("dragover", (event) => {
-    if (!carriesFile(event)) return;
-    event.preventDefault();
-    hint.hidden = false;
-  });
-  addEventListener("dragleave", (event) => {
-    if (event.relatedTarget === null) hint.hidden = true;
-  });
-  addEventListener("drop", (event) => {
-    if (!carriesFile(event)) return;
-    event.preventDefault();
-    hint.hidden = true;
-    const [file] = event.dataTransfer.files;
-    if (file) open(file);
-  });
 }

@@ -21,50 +21,54 @@ export function summarize(answer) {
   return `${outcome}: ${planned}${failed}, flowtime ${seconds(answer.flowtime)}.`;
 }
 
-/** Shows the figures of the session's answer. */
+/** Shows the figures of the session's answer; a plan from a file may lack some. */
 export function watchSummary(session) {
-  session.on("answer", () => showSummary(session.answer));
+  session.on("answer check", () => showSummary(session));
 }
 
-function showSummary(answer) {
+function showSummary({ answer, check }) {
   const box = byId("summary");
   box.hidden = answer === null;
   if (answer === null) {
     box.replaceChildren();
     return;
   }
-  const timings = answer.timings_ms;
+  const { flowtime, makespan, lower_bound: least } = answer;
+  const gap = check?.min_clearance ?? answer.min_clearance ?? null;
   const figures = element(
     "dl",
     { class: "figures" },
-    figure("Flowtime", seconds(answer.flowtime), ...bound(answer.flowtime, answer.lower_bound.flowtime)),
-    figure("Makespan", seconds(answer.makespan), ...bound(answer.makespan, answer.lower_bound.makespan)),
-    figure(
-      "Smallest gap",
-      answer.min_clearance === null ? "–" : metres(answer.min_clearance),
-      "between two robots",
-    ),
-    figure(
-      "Planned in",
-      milliseconds(timings.plan),
-      count(answer.search.expansions, "expansion"),
-      `${milliseconds(timings.total)} in all`,
-    ),
+    figure("Flowtime", seconds(flowtime), ...bound(flowtime, least?.flowtime)),
+    figure("Makespan", seconds(makespan), ...bound(makespan, least?.makespan)),
+    figure("Smallest gap", gap === null ? "–" : metres(gap), "between two robots"),
+    answer.timings_ms ? effort(answer) : null,
   );
-  box.replaceChildren(badges(answer), figures);
+  box.replaceChildren(badges(answer, check), figures);
   if (answer.warnings.length > 0) box.append(warningList(answer.warnings));
 }
 
-function badges(answer) {
+function effort({ timings_ms: timings, search }) {
+  const expansions = search ? count(search.expansions, "expansion") : "";
+  return figure(
+    "Planned in",
+    milliseconds(timings.plan),
+    expansions,
+    `${milliseconds(timings.total)} in all`,
+  );
+}
+
+function badges(answer, check) {
   const outcome = OUTCOMES[answer.status] ?? OUTCOMES.none;
   const list = element("div", { class: "badges" }, badge(outcome.text, outcome.tone, outcome.path));
-  if (answer.verified) {
+  const verified = check?.valid ?? answer.verified ?? null;
+  if (verified) {
     list.append(
       badge("Verified", "good", TICK, "An independent check in continuous time found no collision"),
     );
-  } else {
+  } else if (verified === false) {
     list.append(badge("Not verified", "bad", CROSS));
   }
+  if (answer.deterministic === undefined) return list;
   const why = answer.deterministic
     ? "The same request and seed give the same plan"
     : "The clock decided when to stop: another run may differ";
@@ -96,4 +100,3 @@ function warningList(warnings) {
     ...texts.map((textContent) => element("li", { textContent })),
   );
 }
-

@@ -2,6 +2,7 @@
 
 import { STATES_IN_WORDS } from "../scene/palette.js";
 import { byId, element } from "../ui/dom.js";
+import { makeClosable } from "../ui/menu.js";
 
 /** Applies what is chosen in the menu to the stage. */
 export function watchViewMenu(stage) {
@@ -14,13 +15,5 @@ export function watchViewMenu(stage) {
       return element("li", {}, element("span", { class: `swatch filled state-${state}` }), words);
     }),
   );
-  addEventListener("pointerdown", (event) => {
-    if (menu.open && !menu.contains(event.target)) menu.open = false;
-  });
-  menu.addEventListener("keydown", (event) => {
-    if (event.key !== "Escape") return;
-    event.preventDefault();
-    menu.open = false;
-    menu.querySelector("summary").focus();
-  });
+  makeClosable(menu);
 }

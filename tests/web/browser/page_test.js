@@ -1,7 +1,6 @@
 // The page in headless Chromium, against the real server.
 
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
 import { test } from "node:test";
 
 import { choose, pressPlan, seek } from "../support/browser.js";
@@ -330,45 +329,6 @@ test("the figures are those of the answer", async () => {
     for (const part of ["Solved", "Verified", answer.flowtime.toFixed(2), answer.makespan.toFixed(2)]) {
       assert.ok(shown.includes(part), part);
     }
-  });
-});
-
-test("a file can be opened, and dropped on the page", async () => {
-  const opens = (page) => page.waitForFunction(() => window.fleetplan.request.robots[0].id === "solo");
-  await onPage(async (page) => {
-    const file = {
-      name: "tiny.json",
-      mimeType: "application/json",
-      buffer: Buffer.from(JSON.stringify(TINY)),
-    };
-    await page.setInputFiles("#file", file);
-    await opens(page);
-    assert.deepEqual(await hook(page, "request"), TINY);
-    assert.equal((await pressPlan(page)).status, "solved");
-  });
-  await onPage(async (page) => {
-    await page.evaluate((content) => {
-      const dataTransfer = new DataTransfer();
-      dataTransfer.items.add(new File([content], "tiny.json", { type: "application/json" }));
-      document.body.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
-    }, JSON.stringify(TINY));
-    await opens(page);
-  });
-});
-
-test("request and answer are saved as they went and came", async () => {
-  await onPage(async (page) => {
-    const save = async (selector) => {
-      const [download] = await Promise.all([page.waitForEvent("download"), page.click(selector)]);
-      return {
-        name: download.suggestedFilename(),
-        value: JSON.parse(await readFile(await download.path(), "utf8")),
-      };
-    };
-    const request = await choose(page, "corridor-swap");
-    const answer = await pressPlan(page);
-    assert.deepEqual(await save("#save-request"), { name: "corridor-swap.json", value: request });
-    assert.deepEqual(await save("#save-answer"), { name: "corridor-swap.plan.json", value: answer });
   });
 });
 

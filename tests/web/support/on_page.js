@@ -7,13 +7,13 @@ import { openPage, startBrowser } from "./browser.js";
 import { startService } from "./service.js";
 
 /**
- * Starts server and browser before the tests of a file and stops them after. The result runs `steps(page, opened)` on a
- * fresh page; afterwards the page must not have complained but for `allowed`, a regular expression.
+ * Starts server (with these flags) and browser before the tests of a file and stops them after. The result runs
+ * `steps(page, opened)` on a fresh page; afterwards the page must not have complained but for `allowed`, a regular expression.
  */
-export function pagesFor() {
+export function pagesFor(flags = []) {
   const running = {};
   before(async () => {
-    running.service = await startService();
+    running.service = await startService(flags);
     running.browser = await startBrowser();
   });
   after(async () => {
@@ -89,7 +89,8 @@ async function sceneOf(page) {
     context.drawImage(canvas, 0, 0);
     const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
     let text = "";
-    for (let at = 0; at < data.length; at += 8192) text += String.fromCharCode(...data.subarray(at, at + 8192));
+    for (let at = 0; at < data.length; at += 8192)
+      text += String.fromCharCode(...data.subarray(at, at + 8192));
     return { text: btoa(text), width: canvas.width, scale: canvas.width / canvas.clientWidth };
   });
   return { pixels: Buffer.from(text, "base64"), width, scale };

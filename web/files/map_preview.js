@@ -1,0 +1,38 @@
+// A small picture of a map that is about to be imported.
+
+import { drawTiles, rasterize } from "../scene/map_raster.js";
+import { readTheme } from "../scene/palette.js";
+import { element } from "../ui/dom.js";
+
+const MOST_CELLS = 2 ** 24; // to paint as fast as one types
+
+export class MapPreview {
+  canvas = element("canvas", { class: "map-preview", role: "img" });
+
+  /**
+   * Paints a grid {columns, rows, blocked} described by `label`; `mark(context, theme, place)` may add to it, where
+   * place(column, row) is the middle of a cell, row 0 the top one: {x, y}, with `cell`, a cell's side, in pixels.
+   */
+  paint(grid, label, mark = () => {}) {
+    const { canvas } = this;
+    const ratio = window.devicePixelRatio || 1;
+    canvas.setAttribute("aria-label", label);
+    canvas.width = Math.round(canvas.clientWidth * ratio);
+    canvas.height = Math.round(canvas.clientHeight * ratio);
+    if (canvas.width === 0 || canvas.height === 0) return;
+    const { columns, rows } = grid;
+    const theme = readTheme();
+    const context = canvas.getContext("2d");
+    const cell = Math.min(canvas.width / columns, canvas.height / rows);
+    const left = (canvas.width - columns * cell) / 2;
+    const top = (canvas.height - rows * cell) / 2;
+    context.fillStyle = theme.floor;
+    context.fillRect(left, top, columns * cell, rows * cell);
+    if (columns * rows <= MOST_CELLS) drawTiles(context, rasterize(grid, theme.wall), left, top, cell);
+    mark(context, theme, (column, row) => ({
+      x: left + (column + 0.5) * cell,
+      y: top + (row + 0.5) * cell,
+      cell,
+    }));
+  }
+}

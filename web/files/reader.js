@@ -1,0 +1,132 @@
+// From files to what is to be opened: {name, example: null, text, request, answer or null}.
+
+import { imageNamed, sortFiles } from "./file_kinds.js";
+import { FileError } from "./file_text.js";
+import { readImage } from "./image_pixels.js";
+import { readMovingAiMap } from "./movingai_map.js";
+import { readMovingAiScenario } from "./movingai_scen.js";
+import { belongsTo, readDocument } from "./plan_file.js";
+import { about, bytesOf, headOf, textOf } from "./read_file.js";
+import { classifyPixels, readRosYaml } from "./ros_map.js";
+
+const SPEEDS = { linear_speed: 1, angular_speed: 3.1416 }; // m/s, rad/s
+const CELL_RADIUS = 0.4; // of a cell's side, of robots that go from cell to cell
+const INDOOR_RADIUS = 0.2; // metres, of robots on a map that a robot made
+
+export class Reader {
+  #session;
+  #dialogs;
+
+  /** `dialogs`: see ImportDialogs. */
+  constructor(session, dialogs) {
+    this.#session = session;
+    this.#dialogs = dialogs;
+  }
+
+  /** What files (File) are together; null if the dialog about them is given up. Rejects with FileError. */
+  async files(files) {
+    const heads = await Promise.all(files.map(headOf));
+    const sorted = sortFiles(files.map((file, at) => ({ name: file.name, head: heads[at], file })));
+    switch (sorted.kind) {
+      case "json":
+        return this.#documents(
+          await Promise.all(sorted.files.map(async ({ name, file }) => ({ name, text: await textOf(file) }))),
+        );
+      case "map":
+        return opened(sorted.map.name, withoutRobots(await readMap(sorted.map.file), CELL_RADIUS));
+      case "scenario":
+        return this.#scenario(sorted);
+      default:
+        return this.#rosMap(sorted);
+    }
+  }
+
+  /** What a JSON text is. Throws FileError. */
+  text(name, text) {
+    return this.#documents([{ name, text }]);
+  }
+
+  /** One document, or two of which one is the request and the other its answer: [{name, text}]. */
+  #documents(documents) {
+    const read = documents.map(({ name, text }) => ({
+      name,
+      text,
+      ...about({ name }, () => readJson(text)),
+    }));
+    const whole = read.find(({ request }) => request !== null);
+    const alone = read.find(({ request }) => request === null);
+    if (read.length === 2 && (!whole || !alone || whole.answer !== null)) {
+      throw new FileError(
+        `${read[0].name} and ${read[1].name} are not a request and its answer: open one after the other.`,
+      );
+    }
+    if (!alone) {
+      const { name, text, request, answer } = whole;
+      return { ...opened(name, request, answer), ...(answer === null ? { text } : {}) };
+    }
+    const { request } = whole ?? this.#session;
+    if (!belongsTo(alone.answer, request)) {
+      throw new FileError(
+        whole
+          ? `${alone.name} plans robots that ${whole.name} does not have: open it with its own request.`
+          : `${alone.name} is an answer without its request, and of other robots than those shown: ` +
+              "open it together with its request.",
+      );
+    }
+    return opened(whole?.name ?? this.#session.name, request, alone.answer);
+  }
+
+  async #scenario({ scenario, map: drawn }) {
+    const text = await textOf(scenario.file);
+    const entries = about(scenario, () => readMovingAiScenario(text));
+    const map = drawn ? await readMap(drawn.file) : this.#openMap(scenario.name, entries[0]);
+    const defaults = { radius: CELL_RADIUS * map.resolution, ...SPEEDS };
+    const request = await this.#dialogs.scenario(scenario.name, map, entries, defaults);
+    return request && opened(scenario.name, request);
+  }
+
+  /** The map that is open, if it can be the one that the scenario is for. */
+  #openMap(name, { map: wanted, width, height }) {
+    const { grid } = this.#session.scene;
+    if (grid?.map.rows.length === height && grid.lines.every((line) => line.length === width))
+      return { ...grid.map, resolution: grid.resolution, origin: grid.origin };
+    throw new FileError(
+      `${name} is for the map ${wanted} of ${width} x ${height} cells, which is not the one shown: open both together.`,
+    );
+  }
+
+  async #rosMap({ yaml, images }) {
+    const text = await textOf(yaml.file);
+    const described = about(yaml, () => readRosYaml(text));
+    const image = imageNamed(described.image, images, yaml.name);
+    const bytes = await bytesOf(image.file);
+    const pixels = await about(image, () => readImage(bytes, described.mode));
+    const grid = classifyPixels(described, pixels);
+    const warnings = [...described.warnings, ...pixels.warnings];
+    const map = await this.#dialogs.rosMap(yaml.name, grid, warnings);
+    return map && opened(yaml.name, withoutRobots(map, INDOOR_RADIUS));
+  }
+}
+
+function opened(name, request, answer = null) {
+  return { name, example: null, text: JSON.stringify(request), request, answer };
+}
+
+function withoutRobots(map, radius) {
+  return { map, robot_defaults: { radius, ...SPEEDS }, robots: [] };
+}
+
+async function readMap(file) {
+  const text = await textOf(file);
+  return about(file, () => readMovingAiMap(text));
+}
+
+function readJson(text) {
+  let document;
+  try {
+    document = JSON.parse(text);
+  } catch (error) {
+    throw new FileError(`It is not JSON: ${error.message}.`);
+  }
+  return readDocument(document);
+}

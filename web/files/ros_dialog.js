@@ -1,0 +1,105 @@
+// Asks what to make of a ROS map: its unknown cells, its margin, and how many cells become one.
+
+import { element, setText } from "../ui/dom.js";
+import { FormDialog, numberField } from "../ui/form_dialog.js";
+import { metres } from "../ui/format.js";
+import { MapPreview } from "./map_preview.js";
+import {
+  countCells,
+  mapOfGrid,
+  mergeCells,
+  OCCUPIED,
+  smallestFactor,
+  trimUnknown,
+  UNKNOWN,
+} from "./ros_map.js";
+
+const MOST_MERGED = 100; // cells a side made one
+
+export class RosMapDialog {
+  #whole;
+  #trimmed;
+  #most;
+  #preview = new MapPreview();
+  #status = element("p", { class: "dialog-status", role: "status" });
+  #unknownFree = element("input", { type: "checkbox", id: "ros-unknown-free" });
+  #trim = element("input", { type: "checkbox", id: "ros-trim", checked: true });
+  #merge;
+  #dialog;
+  #made = null; // of the present fields: a grid; null where one is not filled in
+
+  /** `grid`: see classifyPixels; at most `most` cells; `warnings` are told. */
+  constructor(name, grid, warnings, most) {
+    this.#whole = grid;
+    this.#trimmed = trimUnknown(grid);
+    this.#most = most;
+    this.#merge = numberField(
+      "ros-merge",
+      "Cells merged into one",
+      "a side",
+      smallestFactor(this.#trimmed, most),
+      { min: "1", max: String(MOST_MERGED), step: "1" },
+      "A merged cell is blocked if any of its cells is.",
+    );
+    const notes = warnings.map((textContent) => element("li", { textContent }));
+    this.#dialog = new FormDialog(
+      `Map of ${name}`,
+      "Import",
+      notes.length > 0 ? element("ul", { class: "warnings", "aria-label": "Warnings" }, ...notes) : null,
+      element("p", { textContent: inWords(grid) }),
+      tick(this.#unknownFree, "Unknown cells are free (otherwise blocked)"),
+      tick(this.#trim, "Leave out the unknown margin"),
+      this.#merge.field,
+      this.#preview.canvas,
+      this.#status,
+    );
+    for (const input of [this.#unknownFree, this.#trim, this.#merge.input]) {
+      input.addEventListener("input", () => this.#refresh());
+    }
+  }
+
+  /** Resolves to the map of a request, or to null if it was given up. */
+  async ask() {
+    const sent = this.#dialog.ask();
+    this.#refresh();
+    return (await sent) ? mapOfGrid(this.#made) : null;
+  }
+
+  giveUp() {
+    this.#dialog.giveUp();
+  }
+
+  #refresh() {
+    const { input } = this.#merge;
+    const source = this.#trim.checked ? this.#trimmed : this.#whole;
+    this.#made = input.checkValidity()
+      ? mergeCells(source, input.valueAsNumber, this.#unknownFree.checked)
+      : null;
+    const cells = this.#made ? this.#made.columns * this.#made.rows : 0;
+    this.#dialog.ready = this.#made !== null && cells <= this.#most;
+    this.#status.classList.toggle("wrong", this.#made === null || cells > this.#most);
+    setText(this.#status, this.#outcome(source, cells));
+    if (this.#made) this.#preview.paint({ ...this.#made, blocked: this.#made.cells }, "The map as imported");
+  }
+
+  #outcome(source, cells) {
+    if (this.#made === null) return `Merge 1 to ${MOST_MERGED} cells a side.`;
+    const { columns, rows, resolution, origin } = this.#made;
+    const size = `${columns} × ${rows} = ${cells.toLocaleString("en")} cells of ${metres(resolution)}`;
+    const most = this.#most.toLocaleString("en");
+    if (cells > this.#most)
+      return `${size}: this service takes at most ${most}. Merge at least ${smallestFactor(source, this.#most)}.`;
+    const share = Math.round((100 * countCells(this.#made)[OCCUPIED]) / cells);
+    const limit = Number.isFinite(this.#most) ? ` (at most ${most})` : "";
+    return `${size}${limit}, ${share} % blocked; lower-left corner at (${origin.x}, ${origin.y}) m.`;
+  }
+}
+
+function inWords(grid) {
+  const unknown = Math.round((100 * countCells(grid)[UNKNOWN]) / (grid.columns * grid.rows));
+  return `${grid.columns} × ${grid.rows} pixels of ${metres(grid.resolution)}, ${unknown} % unknown.`;
+}
+
+function tick(input, text) {
+  return element("label", { class: "tick" }, input, text);
+}

@@ -1,0 +1,110 @@
+// Asks how many robots of a scenario to take, and what they are like.
+
+import { robotColour } from "../scene/palette.js";
+import { element, setText } from "../ui/dom.js";
+import { FormDialog, numberField } from "../ui/form_dialog.js";
+import { count } from "../ui/format.js";
+import { MapPreview } from "./map_preview.js";
+import { scenarioRequest } from "./movingai_scen.js";
+
+const FIRST_COUNT = 10; // robots, if there are as many
+
+export class ScenarioDialog {
+  #map;
+  #entries;
+  #preview = new MapPreview();
+  #status = element("p", { class: "dialog-status", role: "status" });
+  #fields;
+  #dialog;
+  #made = null; // of the present fields: {request, passedOver}; null where one is not filled in
+
+  /** `entries` on `map`: see movingai_scen.js; at most `most` robots, `defaults` as a request's robot_defaults. */
+  constructor(name, map, entries, defaults, most) {
+    this.#map = map;
+    this.#entries = entries;
+    const robots = Math.min(entries.length, most);
+    const positive = { min: "0" };
+    this.#fields = {
+      count: numberField(
+        "scenario-count",
+        "Robots",
+        "",
+        Math.min(FIRST_COUNT, robots),
+        { min: "1", max: String(robots), step: "1" },
+        `the first that are possible, of ${count(entries.length, "start and goal", "starts and goals")}`,
+      ),
+      radius: numberField("scenario-radius", "Radius", "m", defaults.radius, positive),
+      linear_speed: numberField("scenario-speed", "Speed", "m/s", defaults.linear_speed, positive),
+      angular_speed: numberField("scenario-turning", "Turning", "rad/s", defaults.angular_speed, positive),
+    };
+    const fields = Object.values(this.#fields).map(({ field }) => field);
+    const grid = element("div", { class: "dialog-fields" }, ...fields);
+    this.#dialog = new FormDialog(`Robots of ${name}`, "Import", grid, this.#preview.canvas, this.#status);
+    for (const { input } of Object.values(this.#fields))
+      input.addEventListener("input", () => this.#refresh());
+  }
+
+  /** Resolves to the request, or to null if it was given up. */
+  async ask() {
+    const sent = this.#dialog.ask();
+    this.#refresh();
+    return (await sent) ? this.#made.request : null;
+  }
+
+  giveUp() {
+    this.#dialog.giveUp();
+  }
+
+  #refresh() {
+    const { count: wanted, ...rest } = this.#fields;
+    const filled = Object.values(this.#fields).every(
+      ({ input }) => input.checkValidity() && input.valueAsNumber > 0,
+    );
+    const defaults = Object.fromEntries(
+      Object.entries(rest).map(([key, { input }]) => [key, input.valueAsNumber]),
+    );
+    this.#made = filled
+      ? scenarioRequest(this.#map, this.#entries, wanted.input.valueAsNumber, defaults)
+      : null;
+    const robots = this.#made?.request.robots ?? [];
+    this.#dialog.ready = robots.length > 0;
+    setText(this.#status, this.#made ? this.#inWords() : "Fill in numbers above 0 in all fields.");
+    this.#paint(robots.length, defaults.radius / this.#map.resolution);
+  }
+
+  #inWords() {
+    const { request, passedOver } = this.#made;
+    const taken = request.robots.length;
+    const wanted = this.#fields.count.input.valueAsNumber;
+    const parts = [taken < wanted ? `Only ${count(taken, "robot")} possible` : `${count(taken, "robot")}`];
+    if (passedOver.walls > 0) parts.push(`${passedOver.walls} passed over as the disk does not fit there`);
+    if (passedOver.overlaps > 0) parts.push(`${passedOver.overlaps} as they overlap one taken before`);
+    return `${parts.join("; ")}.`;
+  }
+
+  #paint(robots, reach) {
+    const { rows } = this.#map;
+    const blocked = Uint8Array.from(rows.join(""), (letter) => (".G".includes(letter) ? 0 : 1));
+    const grid = { columns: rows[0].length, rows: rows.length, blocked };
+    this.#preview.paint(
+      grid,
+      `The map with the starts of ${count(robots, "robot")}`,
+      (context, theme, place) => {
+        this.#made?.cells.forEach(({ start, goal }, index) => {
+          const colour = robotColour(index, theme.robotLightness);
+          disk(context, place(goal.column, goal.row), reach, colour, 0.4);
+          disk(context, place(start.column, start.row), reach, colour, 1);
+        });
+      },
+    );
+  }
+}
+
+function disk(context, { x, y, cell }, reach, colour, alpha) {
+  context.globalAlpha = alpha;
+  context.fillStyle = colour;
+  context.beginPath();
+  context.arc(x, y, Math.max(1.5, reach * cell), 0, 2 * Math.PI);
+  context.fill();
+  context.globalAlpha = 1;
+}
