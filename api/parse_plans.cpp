@@ -16,7 +16,8 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kMembers{"robot", "cost", "actions"};
+// `lower_bound` is of an answer of /v1/plan, and nobody reads it here.
+constexpr std::array<std::string_view, 4> kMembers{"robot", "cost", "lower_bound", "actions"};
 constexpr std::array<std::string_view, 5> kActionMembers{"type", "t_start", "t_end", "from", "to"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
 

@@ -53,6 +53,7 @@ void write_pose(JsonWriter& json, std::string_view key, const core::Pose& pose, 
 void write_plan(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPlan& verified) {
   json.begin_object();
   json.member("robot", verified.robots[plan.robot].id).member("cost", plan.cost);
+  json.member("lower_bound", plan.lower_bound);
   json.key("actions").begin_array();
   for (const core::Action& action : plan.actions) {
     json.begin_object();

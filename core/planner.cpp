@@ -36,10 +36,12 @@ void add(Objectives& total, double cost) {
   total.makespan = std::max(total.makespan, cost);
 }
 
-RobotPlan robot_plan(const FleetState& state, std::size_t index) {
+/// Rounding may leave a bound a little above the cost that it bounds: it is told as that cost.
+RobotPlan robot_plan(const FleetState& state, std::size_t index, double bound) {
   const auto& trajectory = state.trajectory(index);
-  if (!trajectory) return {index, 0.0, {}};  // parked
-  return {index, trajectory->cost, to_actions(state.fleet().robot(index), *trajectory)};
+  if (!trajectory) return {index, 0.0, {}, 0.0};  // parked
+  const double cost = trajectory->cost;
+  return {index, cost, to_actions(state.fleet().robot(index), *trajectory), std::min(bound, cost)};
 }
 
 /// Of the robots' trajectories; infinite where there is none.
@@ -68,9 +70,9 @@ Plan collect(const FleetState& state, const std::vector<std::optional<Unplanned>
       plan.unplanned.push_back(*unplanned[i]);
       continue;
     }
-    plan.plans.push_back(robot_plan(state, i));
-    add(plan.objectives, plan.plans.back().cost);
-    add(plan.lower_bound, bounds[i]);
+    const RobotPlan& robot = plan.plans.emplace_back(robot_plan(state, i, bounds[i]));
+    add(plan.objectives, robot.cost);
+    add(plan.lower_bound, robot.lower_bound);
   }
   return plan;
 }

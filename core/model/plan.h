@@ -22,11 +22,13 @@ struct Action {
 
 /// What one robot does. Actions are contiguous in time and space and begin at t = 0 in the start pose; at
 /// `cost` the robot has come to rest in its goal pose for good. Empty, with cost 0, for a robot that need not
-/// move.
+/// move. `lower_bound` is what the robot would cost alone on the static map, or less, and never more than
+/// `cost`; no check looks at it.
 struct RobotPlan {
   std::size_t robot = 0;  // index into the problem's robots
   double cost = 0.0;      // seconds
   std::vector<Action> actions;
+  double lower_bound = 0.0;  // seconds
 };
 
 /// A robot without a plan: it stays at its start, and no plan crosses it.
@@ -38,7 +40,8 @@ struct Unplanned {
   std::vector<std::size_t> blocked_by;  // indices of the robots in the way, ascending
 };
 
-/// Flowtime is the sum, makespan the maximum of the costs of the planned robots, seconds.
+/// Of the planned robots' costs, or of their lower bounds: flowtime is the sum, makespan the maximum,
+/// seconds.
 struct Objectives {
   double flowtime = 0.0;
   double makespan = 0.0;
@@ -57,7 +60,7 @@ struct Plan {
   std::vector<RobotPlan> plans;
   std::vector<Unplanned> unplanned;
   Objectives objectives;
-  Objectives lower_bound;     // what the planned robots would cost each alone on the static map, or less
+  Objectives lower_bound;
   bool deterministic = true;  // neither the clock nor the load decided anything
   SearchStatistics search;
 };

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -60,7 +61,25 @@ TEST(PlanEndpoint, SwapsTwoRobotsAroundAWall) {
   EXPECT_NEAR(last["to"]["x"].get<double>(), 0.5, 1e-9);
   EXPECT_NEAR(last["to"]["theta"].get<double>(), 0.25, 1e-9);
   EXPECT_EQ(last["t_end"], answer["plans"][1]["cost"]);
-  EXPECT_LE(answer["lower_bound"]["flowtime"].get<double>(), answer["flowtime"].get<double>() + 1e-9);
+}
+
+TEST(PlanEndpoint, TellsTheLowerBoundOfEachRobotAndTheirSumAndMaximum) {
+  Json request = swap_request();
+  request["robots"].push_back(Json::parse(R"({"id": "parked", "start": {"x": 4.5, "y": 0.5}})"));
+  const Json answer = planned(request);
+  ASSERT_EQ(answer["plans"].size(), 3U);
+  double sum = 0.0;
+  double most = 0.0;
+  for (const Json& plan : answer["plans"]) {
+    const double bound = plan["lower_bound"].get<double>();
+    EXPECT_LE(bound, plan["cost"].get<double>()) << plan["robot"];
+    sum += bound;
+    most = std::max(most, bound);
+  }
+  EXPECT_GT(answer["plans"][0]["lower_bound"].get<double>(), 8.0) << "8 m, around a wall";
+  EXPECT_EQ(answer["plans"][2]["lower_bound"], 0.0);
+  EXPECT_EQ(answer["lower_bound"]["flowtime"], sum);
+  EXPECT_EQ(answer["lower_bound"]["makespan"], most);
 }
 
 TEST(PlanEndpoint, AnswersWithTheMembersOfTheContractInTheirOrder) {
@@ -68,7 +87,7 @@ TEST(PlanEndpoint, AnswersWithTheMembersOfTheContractInTheirOrder) {
   EXPECT_THAT(keys_of(answer),
               ElementsAre("status", "request_id", "plans", "unplanned", "flowtime", "makespan", "lower_bound",
                           "verified", "min_clearance", "deterministic", "search", "timings_ms", "warnings"));
-  EXPECT_THAT(keys_of(answer["plans"][0]), ElementsAre("robot", "cost", "actions"));
+  EXPECT_THAT(keys_of(answer["plans"][0]), ElementsAre("robot", "cost", "lower_bound", "actions"));
   EXPECT_THAT(keys_of(answer["plans"][0]["actions"][0]),
               ElementsAre("type", "t_start", "t_end", "from", "to"));
   EXPECT_THAT(keys_of(answer["plans"][0]["actions"][0]["to"]), ElementsAre("x", "y", "theta"));
@@ -100,7 +119,8 @@ TEST(PlanEndpoint, TellsParkedRobotsAndNoClearanceOfOne) {
   request["robots"][0].erase("goal");
   const Json answer = planned(request);
   EXPECT_EQ(answer["status"], "solved");
-  EXPECT_EQ(answer["plans"], Json::parse(R"([{"robot": "a", "cost": 0.0, "actions": []}])"));
+  EXPECT_EQ(answer["plans"],
+            Json::parse(R"([{"robot": "a", "cost": 0.0, "lower_bound": 0.0, "actions": []}])"));
   EXPECT_TRUE(answer["min_clearance"].is_null());
   EXPECT_EQ(answer["flowtime"], 0.0);
 }

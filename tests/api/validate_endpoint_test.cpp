@@ -85,6 +85,14 @@ TEST(ValidateEndpoint, TakesTheEndOfTheLastActionForTheCost) {
   EXPECT_EQ(validated(request)["valid"], true);
 }
 
+TEST(ValidateEndpoint, DoesNotLookAtTheLowerBoundOfAPlan) {
+  Json request = drive_request();
+  for (const Json& bound : {Json(3.0), Json(1e9), Json("none"), Json()}) {
+    request["plans"][0]["lower_bound"] = bound;
+    EXPECT_EQ(validated(request)["valid"], true) << bound;
+  }
+}
+
 TEST(ValidateEndpoint, TellsARobotThatIsTooFast) {
   Json request = drive_request();
   action(request)["t_end"] = 1.5;

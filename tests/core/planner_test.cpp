@@ -8,6 +8,7 @@
 #include "core/search/stop_condition.h"
 #include "tests/core/search/planning.h"
 #include "tests/support/ascii_map.h"
+#include "tests/support/expect_bounds.h"
 #include "tests/support/expect_safe.h"
 #include "tests/support/problem_builder.h"
 
@@ -27,8 +28,7 @@ Plan checked_plan(const Problem& problem, const PlanOptions& options = {}, const
   Plan plan = core::plan(problem, options, stop);
   expect_safe(problem, plan, options.inflation);
   EXPECT_EQ(plan.plans.size() + plan.unplanned.size(), problem.robots().size());
-  EXPECT_GE(plan.objectives.flowtime, plan.lower_bound.flowtime - 1e-9);
-  EXPECT_GE(plan.objectives.makespan, plan.lower_bound.makespan - 1e-9);
+  support::expect_bounded(plan);
   return plan;
 }
 
@@ -48,7 +48,7 @@ TEST(Planner, CostsALoneRobotTheStraightLineAndItsTurns) {
   const Plan plan = checked_plan(problem);
   ASSERT_EQ(plan.plans.size(), 1u);
   EXPECT_NEAR(plan.plans[0].cost, 2.5 + 4.0, 1e-9) << "5 m and half a turn in all";
-  EXPECT_NEAR(plan.lower_bound.flowtime, plan.plans[0].cost, 1e-9);
+  EXPECT_NEAR(plan.plans[0].lower_bound, plan.plans[0].cost, 1e-9);
   EXPECT_EQ(plan.objectives.flowtime, plan.plans[0].cost);
   EXPECT_EQ(plan.objectives.makespan, plan.plans[0].cost);
   EXPECT_TRUE(plan.deterministic);
@@ -110,6 +110,23 @@ TEST(Planner, PlansOneOfTwoRobotsInACorridorWithoutABay) {
   const std::size_t left_out = plan.unplanned[0].robot;
   expect_unplanned(plan, left_out, Reason::blocked_by_robots, {1 - left_out});
   EXPECT_TRUE(plan.deterministic);
+}
+
+TEST(Planner, BoundsTheCostOfEachRobotByItsWayAlone) {
+  const Problem problem = support::make_problem(
+      support::ascii_map({"........",  //
+                          ".###....",  //
+                          "........"}),
+      {robot_at(2.5, 0.5).to(2.5, 2.5).radius(0.2), robot_at(0.5, 0.5).to(4.5, 0.5).radius(0.2),
+       robot_at(7.5, 2.5), robot_at(7.5, 1.5, 1.0).to(7.5, 1.5), robot_at(7.5, 0.5).to(7.5, 0.5, 1.0)});
+  const Plan plan = checked_plan(problem);
+  ASSERT_EQ(plan.plans.size(), 5u);
+  EXPECT_GT(plan.plans[0].lower_bound, 4.0) << "around the wall";
+  EXPECT_NEAR(plan.plans[1].lower_bound, 4.0, 1e-9) << "straight through the first one";
+  EXPECT_EQ(plan.plans[2].lower_bound, 0.0) << "parked";
+  EXPECT_EQ(plan.plans[3].lower_bound, 0.0) << "there already";
+  EXPECT_EQ(plan.plans[4].lower_bound, plan.plans[4].cost) << "only turns";
+  EXPECT_GT(plan.plans[4].lower_bound, 0.0);
 }
 
 TEST(Planner, LeavesParkedRobotsAloneAndGoesRoundThem) {

@@ -37,12 +37,19 @@ void require_all_robots(const Json& request, const Json& answer) {
   require(wanted == told, "an answer has other robots than its request", answer.dump());
 }
 
+void require_bounded_costs(const Json& answer) {
+  for (const Json& plan : answer.at("plans")) {
+    require(plan.at("lower_bound") <= plan.at("cost"), "a robot costs less than its bound", answer.dump());
+  }
+}
+
 void require_proper_answer(const std::string& body, const std::string& reply) {
   const Json answer = Json::parse(reply, nullptr, false);
   require(answer.is_object(), "an answer is not JSON", reply);
   require(answer.at("verified") == true, "an answer is not verified", reply);
   Json merged = Json::parse(body);
   require_all_robots(merged, answer);
+  require_bounded_costs(answer);
   merged.update(answer);
   api::RequestContext context = context_now();
   context.limits.max_depth = api::Limits{}.max_depth;

@@ -63,7 +63,18 @@ function rounding({ robots, robot_defaults }, { makespan }) {
   return lost > 1e-6 ? { tolerance: Math.min(lost, 1e9) } : {};
 }
 
-/** A plan for a good request is complete, in order, and valid by /v1/validate. */
+/** No robot costs less than its lower bound, and those of the answer are their sum and maximum. */
+function expectBounded({ plans, lower_bound }) {
+  for (const plan of plans) assert.ok(plan.lower_bound <= plan.cost, JSON.stringify(plan));
+  const bounds = plans.map((plan) => plan.lower_bound);
+  assert.equal(
+    lower_bound.flowtime,
+    bounds.reduce((sum, bound) => sum + bound, 0),
+  );
+  assert.equal(lower_bound.makespan, Math.max(0, ...bounds));
+}
+
+/** A plan for a good request is complete, in order, bounded, and valid by /v1/validate. */
 async function expectSound({ options, ...fleet }, answer) {
   const planned = answer.plans.map(({ robot }) => robot);
   const all = fleet.robots.map(({ id }) => id);
@@ -73,6 +84,7 @@ async function expectSound({ options, ...fleet }, answer) {
     planned,
     all.filter((id) => planned.includes(id)),
   );
+  expectBounded(answer);
   const verdict = await client.post("/v1/validate", {
     ...fleet,
     ...answer,

@@ -9,6 +9,7 @@
 
 #include "core/planner.h"
 #include "core/verify/verify.h"
+#include "tests/support/expect_bounds.h"
 #include "tests/support/random_problem.h"
 #include "tests/support/summary.h"
 
@@ -56,8 +57,7 @@ TEST_P(RandomFleet, EveryReturnedPlanPassesTheChecker) {
   const VerifyReport report = verify(problem.grid(), problem.robots(), plan.plans, kTolerance);
   EXPECT_TRUE(report.valid()) << support::text(report);
   expect_every_robot_once(problem, plan);
-  EXPECT_LE(plan.lower_bound.flowtime, plan.objectives.flowtime * (1.0 + 1e-12));
-  EXPECT_LE(plan.lower_bound.makespan, plan.objectives.makespan * (1.0 + 1e-12));
+  support::expect_bounded(plan);
   if (options.wait_before_move > 0.0) expect_waits_before_moves(plan, options.wait_before_move);
 }
 

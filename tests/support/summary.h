@@ -17,7 +17,7 @@ inline std::string exact_text(const core::Plan& plan) {
   std::ostringstream text;
   text << std::hexfloat;
   for (const auto& robot : plan.plans) {
-    text << "robot " << robot.robot << " cost " << robot.cost << '\n';
+    text << "robot " << robot.robot << " cost " << robot.cost << " bound " << robot.lower_bound << '\n';
     for (const auto& action : robot.actions) {
       text << "  " << static_cast<int>(action.type) << ' ' << action.t_start << ' ' << action.t_end << ' '
            << action.to.position.x() << ' ' << action.to.position.y() << ' ' << action.to.theta << '\n';
