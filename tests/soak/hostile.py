@@ -16,13 +16,13 @@ import http.client
 import json
 import multiprocessing
 import socket
-import statistics
 import sys
 import threading
 import time
 import urllib.request
 
 from client import Connection, Lost, request
+from report import percentile, spread, verdict
 from server import Server
 
 MOST_SLOWER = 2.0
@@ -228,10 +228,10 @@ def main():
 
     def judge(name, times, refused, usual, health):
         """A line of the table; more failures, if so."""
-        times.sort()
-        slower = statistics.median(times) / usual
-        print(f"{name:30} {len(times):8} {refused:8} {statistics.median(times):8.2f} {times[int(0.99 * len(times))]:8.2f} "
-              f"{times[-1]:8.2f} {slower:7.2f} {(server.resident_kib() or 0) / 1024:7.1f} {health.worst()}", flush=True)
+        p50, p99, most = spread(times)
+        slower = p50 / usual
+        print(f"{name:30} {len(times):8} {refused:8} {p50:8.2f} {p99:8.2f} {most:8.2f} {slower:7.2f} "
+              f"{(server.resident_kib() or 0) / 1024:7.1f} {health.worst()}", flush=True)
         if slower > MOST_SLOWER:
             failures.append(f"{name}: more than {MOST_SLOWER} times slower")
         if refused > MOST_REFUSED * (len(times) + refused):
@@ -240,7 +240,7 @@ def main():
     honest_times(server, 1.0)
     with Health(server) as health:
         alone, refused = honest_times(server, arguments.seconds)
-    usual = statistics.median(alone)
+    usual = percentile(alone, 0.5)
     judge("nobody", alone, refused, usual, health)
     for name, count, act in attacks():
         try:
@@ -266,9 +266,7 @@ def main():
             failures.append("the server took more than a gibibyte")
     if code := server.end():
         failures.append(f"the server ended with {code}")
-    for failure in failures:
-        print(f"FAILED: {failure}")
-    return 1 if failures else 0
+    return verdict(failures)
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ import time
 
 import workload
 from client import Connection, request
+from report import percentile, spread, verdict
 from server import Server
 
 SCENARIO = "hall-100"
@@ -131,13 +132,10 @@ def one_by_one(server, count):
 
 
 def ms(values):
-    values = sorted(values)
-    at = lambda share: 1000 * values[min(len(values) - 1, int(share * len(values)))]
-    return f"p50 {at(0.5):8.1f} ms   p99 {at(0.99):8.1f} ms   max {at(1.0):8.1f} ms" if values else "none"
-
-
-def percentile_ms(values, share):
-    return 1000 * sorted(values)[int(share * (len(values) - 1))] if values else 0.0
+    if not values:
+        return "none"
+    p50, p99, most = (1000 * value for value in spread(values))
+    return f"p50 {p50:8.1f} ms   p99 {p99:8.1f} ms   max {most:8.1f} ms"
 
 
 def main():
@@ -176,15 +174,13 @@ def main():
         failures.append(f"{over} accepted requests overran their budget")
     if over := sum(1 for a in accepted if 1000 * a[0] > BUDGET_MS + SLACK_MS):
         failures.append(f"{over} accepted requests came after their budget to the client")
-    if percentile_ms(refused, 0.99) >= REFUSAL_MS:
+    if refused and 1000 * percentile(refused, 0.99) >= REFUSAL_MS:
         failures.append("refusals were slow")
-    if percentile_ms(after, 0.5) > 2 * percentile_ms(usual, 0.5) or after[0] > 2 * max(usual):
+    if percentile(after, 0.5) > 2 * percentile(usual, 0.5) or after[0] > 2 * max(usual):
         failures.append("it did not recover at once")
     if code := server.end():
         failures.append(f"the server ended with {code}")
-    for failure in failures:
-        print(f"FAILED: {failure}")
-    return 1 if failures else 0
+    return verdict(failures)
 
 
 if __name__ == "__main__":

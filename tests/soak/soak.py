@@ -14,6 +14,7 @@ import sys
 import time
 
 from clients import KINDS, run_process
+from report import spread, verdict
 from server import Server
 
 ROUND_S = 60.0
@@ -36,10 +37,6 @@ def run_round(server, arguments, seed, limits, seconds):
     return records
 
 
-def percentile(sorted_values, share):
-    return sorted_values[min(len(sorted_values) - 1, int(share * len(sorted_values)))]
-
-
 def print_report(records, seconds):
     sent, statuses, latencies = collections.Counter(), collections.Counter(), collections.defaultdict(list)
     for record in records:
@@ -49,8 +46,8 @@ def print_report(records, seconds):
             latencies[kind] += values
     print(f"\n{'kind':12} {'sent':>9} {'answers':>9} {'p50 ms':>9} {'p99 ms':>9} {'max ms':>9}   (answers but 503)")
     for kind in [*KINDS, "validate"]:
-        values = sorted(latencies[kind])
-        times = [1000 * value for value in (percentile(values, 0.5), percentile(values, 0.99), values[-1])] if values else []
+        values = latencies[kind]
+        times = [1000 * value for value in spread(values)] if values else []
         print(f"{kind:12} {sent[kind] or '':>9} {len(values):>9} " + " ".join(f"{time_:9.1f}" for time_ in times))
     print("\nstatuses: " + ", ".join(f"{status}: {count}" for status, count in sorted(statuses.items())))
     print(f"{sum(statuses.values())} answers in {seconds:.0f} s, {sum(statuses.values()) / seconds:.0f} a second; "
@@ -100,9 +97,9 @@ def main():
     for what, faults in (("wrong", wrong), ("lost", lost)):
         for fault, times in collections.Counter(faults).most_common(MOST_TOLD):
             print(f"  {what}, {times} x {fault}")
-    for failure in failures:
-        print(f"FAILED: {failure}")
-    return 1 if wrong or lost or failures else 0
+    if wrong or lost:
+        failures.append("answers were wrong or lost")
+    return verdict(failures)
 
 
 if __name__ == "__main__":
