@@ -76,10 +76,12 @@ export class ScenarioDialog {
     const { request, passedOver } = this.#made;
     const taken = request.robots.length;
     const wanted = this.#fields.count.input.valueAsNumber;
-    const parts = [taken < wanted ? `Only ${count(taken, "robot")} possible` : `${count(taken, "robot")}`];
-    if (passedOver.walls > 0) parts.push(`${passedOver.walls} passed over as the disk does not fit there`);
-    if (passedOver.overlaps > 0) parts.push(`${passedOver.overlaps} as they overlap one taken before`);
-    return `${parts.join("; ")}.`;
+    const { walls, overlaps } = passedOver;
+    const reasons = [];
+    if (walls > 0) reasons.push(`${walls} where the disk does not fit`);
+    if (overlaps > 0) reasons.push(`${overlaps} where it overlaps one taken before`);
+    const outcome = taken < wanted ? `Only ${count(taken, "robot")} possible.` : `${count(taken, "robot")}.`;
+    return reasons.length > 0 ? `${outcome} Passed over: ${reasons.join(", ")}.` : outcome;
   }
 
   #paint(robots, reach) {

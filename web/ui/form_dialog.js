@@ -53,7 +53,12 @@ export function numberField(id, label, unit, value, limits, note = "") {
   input.value = String(value);
   const parts = [
     element("label", { htmlFor: id, textContent: label }),
-    element("div", { class: "value" }, input, element("span", { class: "unit", textContent: unit })),
+    element(
+      "div",
+      { class: "value" },
+      input,
+      unit ? element("span", { class: "unit", textContent: unit }) : null,
+    ),
   ];
   if (note) {
     parts.push(element("small", { id: `${id}-note`, textContent: note }));

@@ -102,7 +102,7 @@ for (const [way, hand] of Object.entries(WAYS)) {
       await page.waitForSelector("dialog[open]");
       assert.match(
         await page.innerText("dialog"),
-        /Only 2 robots possible.*1 passed over.*1 as they overlap/,
+        /Only 2 robots possible\..*: 1 where the disk does not fit, 1 where it overlaps/,
       );
       await page.fill("#scenario-count", "1");
       await page.fill("#scenario-radius", "0.5");
@@ -221,6 +221,30 @@ test("a dialog that is given up changes nothing and gives the focus back", async
     assert.equal(await page.evaluate(() => document.activeElement.id), "open");
     assert.deepEqual(await hook(page, "request"), before);
   });
+});
+
+test("the dialogs fit a phone", async () => {
+  const phone = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true };
+  const isWithin = (page) =>
+    page.evaluate(() => {
+      const dialog = document.querySelector("dialog");
+      const { left, right, top, bottom } = dialog.getBoundingClientRect();
+      const scrolls = [dialog, ...dialog.querySelectorAll("*")].some((part) => {
+        return part.tagName !== "INPUT" && part.scrollWidth > part.clientWidth && part.clientWidth > 0;
+      });
+      return !scrolls && left >= 0 && right <= innerWidth && top >= 0 && bottom <= innerHeight;
+    });
+  await onPage(
+    async (page) => {
+      await drop(page, { "arena.scen": SCENARIO, "arena.map": MAP });
+      await page.waitForSelector("dialog[open]");
+      assert.ok(await isWithin(page));
+      await drop(page, { "lab.yaml": YAML.replace("0.0]", "0.5]"), "lab.pgm": pgm(GRAYS) });
+      await page.waitForSelector("#ros-merge");
+      assert.ok(await isWithin(page));
+    },
+    { options: phone },
+  );
 });
 
 test("files dropped while a dialog is open take its place", async () => {
