@@ -289,7 +289,7 @@ test("files that cannot be opened are named, with what to do", async () => {
     const refused = [
       [{ "broken.json": "{" }, /broken.json: It is not JSON/],
       [{ "other.json": "[1]" }, /other.json: It is JSON, but neither a request/],
-      [{ "fleet.json": JSON.stringify({ ...TINY, plans: [{}] }) }, /fleet.json: plans\[0\] names no robot/],
+      [{ "fleet.json": JSON.stringify({ ...TINY, plans: [{}] }) }, /fleet.json: plans\[0\].robot is missing/],
       [{ "arena.map": MAP.replace("@@S", "@@x") }, /arena.map: Line 6 has "x" in column 4/],
       [{ "arena.scen": "version 1\n1 2 3", "arena.map": MAP }, /arena.scen: Line 2 is/],
       [{ "lab.yaml": YAML }, /lab.yaml names the image lab.pgm: open both together/],

@@ -46,10 +46,10 @@ test("what is saved without an answer has no plans, as a check wants it", () => 
   assert.deepEqual(planFile(REQUEST, null), { ...REQUEST, plans: [] });
 });
 
-test("what a plan file lacks of an answer is filled in from its plans", () => {
+test("what follows from the plans of a file is taken from there", () => {
   const actions = [{ type: "wait", t_start: 0, t_end: 2.5, from: pose(1.5), to: pose(1.5) }];
   const plans = [
-    { robot: "a", cost: 1, actions: ANSWER.plans[0].actions },
+    { robot: "a", cost: 7, actions: ANSWER.plans[0].actions },
     { robot: "b", actions },
     { robot: "c", actions: [] },
   ];
@@ -99,21 +99,25 @@ test("other JSON is refused with what it should be", () => {
   assert.throws(() => readDocument(problem), /error of the service: Invalid request/);
 });
 
-test("plans that could not be drawn are refused with the place", () => {
+test("answers that could not be shown are refused with the place", () => {
   const refused = [
-    [(document) => (document.plans = {}), /plans is not what an answer has there: {}/],
-    [(document) => (document.plans = [null]), /plans\[0\] names no robot/],
+    [(document) => (document.plans = {}), /plans is {}, which is not/],
+    [(document) => (document.plans = [null]), /plans\[0\].robot is missing/],
     [(document) => document.plans.push(document.plans[0]), /plans\[1\] is a second plan of a/],
-    [(document) => delete document.plans[0].actions, /plans\[0\], of a, has no list of actions/],
-    [({ plans }) => (plans[0].actions[0].type = "fly"), /plans\[0\].actions\[0\] has no type of rotate/],
-    [({ plans }) => (plans[0].actions[0].t_end = "1"), /plans\[0\].actions\[0\].t_end must be/],
-    [({ plans }) => delete plans[0].actions[0].to.theta, /plans\[0\].actions\[0\].to.theta must be/],
-    [({ plans }) => (plans[0].actions[0].from = null), /plans\[0\].actions\[0\].from.x must be/],
-    [(document) => (document.unplanned = 7), /unplanned is not what an answer has there: 7/],
-    [(document) => (document.flowtime = "long"), /flowtime is not/],
-    [(document) => (document.lower_bound = { flowtime: 1 }), /lower_bound is not/],
-    [(document) => (document.plans[0].cost = null), /plans\[0\].cost must be a number/],
-    [(document) => (document.unplanned = [{}]), /unplanned\[0\] names no robot/],
+    [(document) => (document.plans[0].cost = null), /plans\[0\].cost is null/],
+    [(document) => (document.plans[0].lower_bound = "1"), /plans\[0\].lower_bound is "1"/],
+    [(document) => delete document.plans[0].actions, /plans\[0\].actions is missing/],
+    [({ plans }) => (plans[0].actions[0] = 7), /plans\[0\].actions\[0\].type is missing/],
+    [({ plans }) => (plans[0].actions[0].type = "fly"), /plans\[0\].actions\[0\].type is "fly"/],
+    [({ plans }) => (plans[0].actions[0].t_end = "1"), /plans\[0\].actions\[0\].t_end is "1"/],
+    [({ plans }) => delete plans[0].actions[0].to.theta, /plans\[0\].actions\[0\].to is {"x":1.5/],
+    [({ plans }) => (plans[0].actions[0].from = null), /plans\[0\].actions\[0\].from is null/],
+    [(document) => (document.unplanned = 7), /unplanned is 7/],
+    [(document) => (document.unplanned = [{}]), /unplanned\[0\].robot is missing/],
+    [(document) => (document.unplanned = [{ robot: "b", blocked_by: "a" }]), /unplanned\[0\].blocked_by/],
+    [(document) => (document.warnings = [null]), /warnings is \[null\]/],
+    [(document) => (document.flowtime = "long"), /flowtime is "long"/],
+    [(document) => (document.lower_bound = { flowtime: 1 }), /lower_bound is {"flowtime":1}/],
   ];
   for (const [change, message] of refused) assert.throws(() => readDocument(changed(change)), message);
 });
