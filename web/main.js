@@ -3,6 +3,7 @@
 import { Address } from "./files/address.js";
 import { watchDrops } from "./files/drops.js";
 import { ImportDialogs } from "./files/import_dialogs.js";
+import { EditPanel } from "./edit/edit_panel.js";
 import { Opening } from "./files/opening.js";
 import { watchSaving } from "./files/save.js";
 import { offerHook } from "./hook.js";
@@ -36,6 +37,7 @@ const opening = new Opening(session, service.fetchExample, new ImportDialogs(ses
 const address = new Address(session, opening);
 const setup = new Setup(session, opening);
 const planButton = new PlanButton(session, transport);
+const edit = new EditPanel(session, stage, tabs, opening);
 watchEdits(session, service.validate);
 new PlanningStatus(session);
 new OptionsPanel(session);
@@ -46,7 +48,7 @@ watchReadout(session);
 watchSaving(session, stage, address);
 watchDrops((files) => opening.files(files));
 watchViewMenu(stage);
-showPlacesOfErrors(session, stage, tabs);
+showPlacesOfErrors(session, stage, tabs, edit.choice);
 session.on("said", (text) => setText(byId("announcer"), text));
 
 watchShortcuts({
@@ -62,6 +64,11 @@ watchShortcuts({
   "+": () => stage.zoomIn(),
   "=": () => stage.zoomIn(),
   "-": () => stage.zoomOut(),
+  v: () => edit.take("select"),
+  w: () => edit.take("wall"),
+  e: () => edit.take("erase"),
+  b: () => edit.take("box"),
+  a: () => edit.take("robot"),
   "Control+z": () => session.undo(),
   "Control+Shift+z": () => session.redo(),
   "Control+y": () => session.redo(),

@@ -9,7 +9,7 @@ const FREE = new Set([".", "G"]);
  * The map as {map, lines, columns, rows, resolution, origin, blocked, bounds}; blocked[row * columns + column], top row
  * first. `previous`, a grid or null, spares reading what is the same.
  */
-function readGrid(map, previous) {
+export function readGrid(map, previous) {
   if (previous !== null && map === previous.map) return previous;
   const lines = Array.isArray(map?.rows) ? map.rows.filter((row) => typeof row === "string") : [];
   const columns = lines.reduce((most, row) => Math.max(most, row.length), 0);

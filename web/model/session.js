@@ -144,7 +144,7 @@ export class Session {
     if (!this.#robots.has(this.hovered)) this.hovered = null;
     this.#setAnswer(null, null);
     this.#signals.emit("request", { opened });
-    this.setProblem(null);
+    if (opened) this.setProblem(null); // that of an edited request stays until it is judged again, see live_check.js
     this.#signals.emit("answer");
     this.#signals.emit("marks");
   }

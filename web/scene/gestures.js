@@ -1,11 +1,13 @@
 // Pointer, wheel and pinch on the scene, told as camera movements. Positions in CSS pixels within the element.
 
 const CLICK_SLACK = 4; // pixels: a press that moved less is a click
+const TOUCH_SLACK = 10; // pixels, likewise: before a finger draws, a second one may come to pinch
 
 /**
  * Watches an element. `told` has: pan(dx, dy), zoom(pixel, factor), hover(pixel or null), click(pixel); and for
- * presses that are not about the camera: press(pixel, event), which says whether to keep hold of the pointer, and
- * then drag(pixel, event) until release(pixel, event), or letGo() when a second finger makes it a pinch.
+ * presses that are not about the camera: press(pixel, event), which says whether to keep hold of the pointer, then
+ * drag(pixel, event) once it has moved enough to be no click, and release(pixel, event), or letGo() when a second
+ * finger makes it a pinch. The middle button is always about the camera.
  */
 export function watchGestures(element, told) {
   const pressed = new Map(); // pointer id -> last position
@@ -18,7 +20,7 @@ export function watchGestures(element, told) {
   };
 
   element.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
+    if (event.button > 1) return;
     element.setPointerCapture(event.pointerId);
     if (held !== null) {
       held = null;
@@ -26,7 +28,7 @@ export function watchGestures(element, told) {
     }
     if (pressed.size === 0) {
       travelled = 0;
-      if (told.press(within(event), event)) held = event.pointerId;
+      if (event.button === 0 && told.press(within(event), event)) held = event.pointerId;
     }
     pressed.set(event.pointerId, within(event));
   });
@@ -38,12 +40,12 @@ export function watchGestures(element, told) {
       if (event.pointerType === "mouse") told.hover(now);
       return;
     }
+    travelled += Math.hypot(now.x - before.x, now.y - before.y);
     if (held === event.pointerId) {
       pressed.set(event.pointerId, now);
-      told.drag(now, event);
+      if (travelled > (event.pointerType === "touch" ? TOUCH_SLACK : CLICK_SLACK)) told.drag(now, event);
       return;
     }
-    travelled += Math.hypot(now.x - before.x, now.y - before.y);
     if (pressed.size === 1) {
       if (travelled > CLICK_SLACK) told.pan(now.x - before.x, now.y - before.y);
     } else if (pressed.size === 2) {
@@ -67,7 +69,7 @@ export function watchGestures(element, told) {
     if (held === event.pointerId) {
       held = null;
       told.release(within(event), event);
-    } else if (known && pressed.size === 0 && travelled <= CLICK_SLACK) {
+    } else if (known && event.button === 0 && pressed.size === 0 && travelled <= CLICK_SLACK) {
       told.click(within(event), event);
     }
   });
@@ -78,6 +80,9 @@ export function watchGestures(element, told) {
     told.letGo();
   });
   element.addEventListener("pointerleave", () => told.hover(null));
+  element.addEventListener("mousedown", (event) => {
+    if (event.button === 1) event.preventDefault(); // browsers would begin to scroll
+  });
 
   const onWheel = (event) => {
     event.preventDefault();

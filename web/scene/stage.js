@@ -16,8 +16,9 @@ const NOWHERE = { left: 0, bottom: 0, right: 1, top: 1 };
 
 /**
  * What a tool may have, all optional: press(world, event) says whether the tool takes the press, then come
- * drag(world, event) and release(world, event), or letGo() if the press became a pinch; hover(world or null);
- * key(event) says whether it took the key; cursor(world) gives a CSS cursor or null. World points in metres.
+ * drag(world, event), unless it is a mere click, and release(world, event), or letGo() if the press became a pinch;
+ * hover(world or null); key(event) says whether it took the key; cursor(world) gives a CSS cursor or null;
+ * paint(context, view) paints on top of all else, see addOverlay. World points in metres.
  */
 export class Stage {
   #session;
@@ -30,6 +31,7 @@ export class Stage {
   #look = { colours: "robot", paths: "whole" };
   #overlays = [];
   #tool = {};
+  #pressed = {}; // the tool that took the press
   #scheduled = false;
 
   /** `colours`: see RobotColours. */
@@ -39,7 +41,7 @@ export class Stage {
     new ResizeObserver(() => this.#resize()).observe(this.#canvas);
     colours.onChange(() => this.#show());
     session.on("answer", () => this.#show());
-    session.on("request", ({ opened }) => opened && this.fit());
+    session.on("request", ({ opened }) => (opened || this.#fitted) && this.fit());
     session.on("time marks", () => this.redraw());
     watchGestures(this.#canvas, this.#gestures());
     this.#canvas.addEventListener("keydown", (event) => this.#onKey(event));
@@ -102,6 +104,11 @@ export class Stage {
     this.#move({ ...this.#camera, x: point.x, y: point.y });
   }
 
+  /** The world point in the middle of the view. */
+  get middle() {
+    return { x: this.#camera.x, y: this.#camera.y };
+  }
+
   /** Where a disk of the world is on the canvas: {x, y, radius}, CSS pixels. */
   screenOf(point, radius) {
     return { ...toScreen(this.#camera, this.#viewport, point), radius: radius * this.#camera.scale };
@@ -144,7 +151,7 @@ export class Stage {
       ratio: window.devicePixelRatio || 1,
       time: player.time,
       marked,
-      overlays: this.#overlays,
+      overlays: this.#tool.paint ? [...this.#overlays, this.#tool.paint.bind(this.#tool)] : this.#overlays,
     });
   }
 
@@ -161,10 +168,13 @@ export class Stage {
       zoom: (pixel, factor) => this.#zoom(pixel, factor),
       hover: (pixel) => this.#hover(pixel && world(pixel)),
       click: (pixel) => this.#session.toggle(this.robotAt(world(pixel))),
-      press: (pixel, event) => this.#tool.press?.(world(pixel), event) ?? false,
-      drag: (pixel, event) => this.#tool.drag?.(world(pixel), event),
-      release: (pixel, event) => this.#tool.release?.(world(pixel), event),
-      letGo: () => this.#tool.letGo?.(),
+      press: (pixel, event) => {
+        this.#pressed = this.#tool;
+        return this.#tool.press?.(world(pixel), event) ?? false;
+      },
+      drag: (pixel, event) => this.#pressed.drag?.(world(pixel), event),
+      release: (pixel, event) => this.#pressed.release?.(world(pixel), event),
+      letGo: () => this.#pressed.letGo?.(),
     };
   }
 

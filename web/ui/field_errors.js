@@ -1,5 +1,5 @@
-// Errors at the fields they are about. A field says what it edits by data-pointer, a JSON Pointer into the request;
-// an error is shown at the fields whose pointer it has or lies under.
+// Errors at the fields they are about. A field, or a group of fields, says what it edits by data-pointer, a JSON Pointer
+// into the request; an error is shown where the pointer is the error's own, or the nearest above.
 
 import { element } from "./dom.js";
 
@@ -8,9 +8,17 @@ let made = 0; // messages, for their ids
 /** Shows these errors ([{pointer, detail}]) at the fields within `root`, and no others. */
 export function showFieldErrors(root, errors) {
   for (const message of root.querySelectorAll(".field-error")) message.remove();
-  for (const field of root.querySelectorAll("[data-pointer]")) {
-    const at = errors.filter(({ pointer }) => covers(field.dataset.pointer, pointer));
-    if (at.length > 0) mark(field, at.map(({ detail }) => detail).join(" "));
+  const fields = [...root.querySelectorAll("[data-pointer]")];
+  const texts = new Map(); // field -> details
+  for (const { pointer, detail } of errors) {
+    const covering = fields.filter((field) => covers(field.dataset.pointer, pointer));
+    const nearest = Math.max(...covering.map((field) => field.dataset.pointer.length));
+    for (const field of covering) {
+      if (field.dataset.pointer.length === nearest) texts.set(field, [...(texts.get(field) ?? []), detail]);
+    }
+  }
+  for (const field of fields) {
+    if (texts.has(field)) mark(field, texts.get(field).join(" "));
     else unmark(field);
   }
 }
@@ -18,9 +26,10 @@ export function showFieldErrors(root, errors) {
 /** The field within `root` that is about what a pointer leads to, or null. */
 export function fieldOf(root, pointer) {
   const fields = [...root.querySelectorAll("[data-pointer]")];
+  const above = fields.filter((field) => covers(field.dataset.pointer, pointer));
+  above.sort((a, b) => b.dataset.pointer.length - a.dataset.pointer.length);
   return (
-    fields.find((field) => field.dataset.pointer === pointer) ??
-    fields.find((field) => covers(field.dataset.pointer, pointer)) ??
+    above[0] ??
     fields.find((field) => field.dataset.pointer.startsWith(`${pointer}/`)) ??
     null
   );

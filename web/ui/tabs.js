@@ -1,6 +1,9 @@
 // Tabs as ARIA's authoring practices want them: arrows move between them, the chosen one alone is in the tab order.
 
+import { Signals } from "../model/signal.js";
+
 export class Tabs {
+  #signals = new Signals();
   #tabs;
 
   /** `list`: the element with role=tablist; its buttons name their panels by aria-controls. */
@@ -11,6 +14,16 @@ export class Tabs {
     this.choose(this.#tabs[0].id);
   }
 
+  /** The id of the tab whose panel is shown. */
+  get chosen() {
+    return this.#tabs.find((tab) => tab.tabIndex === 0).id;
+  }
+
+  /** Calls `listener` when another tab is chosen. */
+  onChange(listener) {
+    this.#signals.on("change", listener);
+  }
+
   /** Shows the panel of the tab with this id. */
   choose(id) {
     for (const tab of this.#tabs) {
@@ -19,6 +32,7 @@ export class Tabs {
       tab.tabIndex = chosen ? 0 : -1;
       document.getElementById(tab.getAttribute("aria-controls")).hidden = !chosen;
     }
+    this.#signals.emit("change");
   }
 
   /** Shows the panel that holds an element. */

@@ -1,0 +1,174 @@
+// The tools that make cells wall or floor: freehand and as rectangles.
+
+import { cellAt, cellsAlong, cellsBetween, isFree } from "../model/cells.js";
+import { setCells } from "../model/edit_map.js";
+import { count } from "../ui/format.js";
+import { CellCursor } from "./cell_cursor.js";
+
+const NO_MAP = "There is no map to draw on yet: begin one under New map.";
+
+let strokes = 0; // for a name of each
+
+/** Makes cells wall, or floor, where it is drawn. */
+export class DrawTool {
+  help;
+  #session;
+  #cursor;
+  #blocked;
+  #last = null; // where the stroke has got to
+  #gesture = null;
+
+  /** `blocked`: whether it makes walls. */
+  constructor(session, stage, blocked) {
+    this.#session = session;
+    this.#cursor = new CellCursor(session, stage);
+    this.#blocked = blocked;
+    const what = blocked ? "walls" : "free floor";
+    this.help = `Drag to draw ${what}. In the scene also arrows and Enter, with Shift a line.`;
+  }
+
+  press(world) {
+    if (this.#session.scene.grid === null) this.#session.say(NO_MAP);
+    strokes += 1;
+    this.#gesture = `stroke ${strokes}`;
+    this.#last = world;
+    return true;
+  }
+
+  drag(world) {
+    const { grid } = this.#session.scene;
+    if (grid) this.#set(cellsAlong(grid, this.#last, world), this.#gesture);
+    this.#last = world;
+    this.#cursor.hover(world);
+  }
+
+  release(world) {
+    this.drag(world);
+    this.letGo();
+  }
+
+  letGo() {
+    this.#session.endGesture();
+  }
+
+  hover(world) {
+    this.#cursor.hover(world);
+  }
+
+  cursor() {
+    return "crosshair";
+  }
+
+  paint(context, view) {
+    this.#cursor.paint(context, view, { sign: this.#blocked ? "add" : "remove" });
+  }
+
+  key(event) {
+    const { cell } = this.#cursor;
+    if (cell === null) return false;
+    if (event.key === "Enter" || event.key === " ") {
+      this.#set([cell]);
+    } else if (this.#cursor.key(event)) {
+      if (event.shiftKey) this.#set([cell, this.#cursor.cell]);
+    } else {
+      return false;
+    }
+    this.#tellCell();
+    return true;
+  }
+
+  #set(cells, gesture = null) {
+    const { request, scene } = this.#session;
+    this.#session.edit(setCells(request, cells, this.#blocked, scene.grid), gesture);
+  }
+
+  #tellCell() {
+    const { cell } = this.#cursor;
+    const state = isFree(this.#session.scene.grid, cell) ? "free" : "wall";
+    this.#session.say(`Column ${cell.column + 1}, row ${cell.row + 1} from the top: ${state}.`);
+  }
+}
+
+/** Fills the rectangle between two corners with walls or, with Alt, frees it. */
+export class BoxTool {
+  help = "Drag from corner to corner to fill with wall, with Alt to free. Or arrows, and Enter at each corner.";
+
+  #session;
+  #cursor;
+  #corner = null; // a cell
+  #frees = false;
+
+  constructor(session, stage) {
+    this.#session = session;
+    this.#cursor = new CellCursor(session, stage);
+    session.on("request", () => (this.#corner = null));
+  }
+
+  press(world) {
+    const { grid } = this.#session.scene;
+    if (grid === null) this.#session.say(NO_MAP);
+    this.#corner = grid && cellAt(grid, world);
+    return true;
+  }
+
+  drag(world, event) {
+    this.#frees = event.altKey;
+    this.#cursor.hover(world);
+  }
+
+  release(world, event) {
+    this.drag(world, event);
+    const { grid } = this.#session.scene;
+    if (grid && this.#corner) this.#fill(cellAt(grid, world), event.altKey);
+    this.letGo();
+  }
+
+  letGo() {
+    this.#corner = null;
+    this.#frees = false;
+  }
+
+  hover(world) {
+    this.#cursor.hover(world);
+  }
+
+  cursor() {
+    return "crosshair";
+  }
+
+  paint(context, view) {
+    this.#cursor.paint(context, view, { other: this.#corner, sign: this.#frees ? "remove" : "add" });
+  }
+
+  key(event) {
+    const { cell } = this.#cursor;
+    if (cell === null) return false;
+    if (event.key === "Escape" && this.#corner) {
+      this.letGo();
+      return true;
+    }
+    if (event.key !== "Enter" && event.key !== " ") return this.#moved(event);
+    if (this.#corner) {
+      this.#fill(cell, event.altKey);
+      this.letGo();
+    } else {
+      this.#corner = cell;
+      this.#session.say("First corner set.");
+    }
+    return true;
+  }
+
+  #moved(event) {
+    if (!this.#cursor.key(event)) return false;
+    const { column, row } = this.#cursor.cell;
+    this.#session.say(`Column ${column + 1}, row ${row + 1} from the top.`);
+    return true;
+  }
+
+  #fill(cell, frees) {
+    const { request, scene } = this.#session;
+    const cells = cellsBetween(scene.grid, this.#corner, cell);
+    this.#session.edit(setCells(request, cells, !frees, scene.grid));
+    this.#session.say(`${count(cells.length, "cell")} made ${frees ? "free" : "wall"}.`);
+  }
+}

@@ -1,0 +1,83 @@
+// What of the robots can be taken hold of in the scene: disks, goals and, of the chosen robot, handles that turn its
+// start and goal. A part is {robot, pose: "start" or "goal", turns: whether it is the handle, place: {x, y}}.
+
+import { robotPoseAt } from "../model/scene.js";
+
+const STEM = 22; // pixels from a disk's rim to its handle
+const LONGER = 20; // pixels more for the goal's handle if it would cover the start's
+const KNOB = 6; // pixels, the radius of a handle
+const GRASP = { mouse: 10, touch: 22 }; // pixels around a handle that take hold of it
+
+/** The part at a world point, or null; `event` says what points there, and with shift that goals go first. */
+export function partAt(world, { session, stage, chosen, event }) {
+  const grasp = (event?.pointerType === "touch" ? GRASP.touch : GRASP.mouse) / stage.scale;
+  for (const pose of chosen ? posesOf(chosen) : []) {
+    const { knob } = handleOf(chosen, pose, stage.scale);
+    if (Math.hypot(knob.x - world.x, knob.y - world.y) > grasp) continue;
+    return { robot: chosen, pose, turns: true, place: knob };
+  }
+  const start = nearestPart(world, session, stage, "start");
+  const goal = nearestPart(world, session, stage, "goal");
+  return event?.shiftKey ? (goal ?? start) : (start ?? goal);
+}
+
+/** The disk (as it is now) or goal that is nearest to a world point, among those that hold it, or null. */
+function nearestPart(world, { scene, tracks, player }, stage, pose) {
+  let found = null;
+  let least = Infinity;
+  for (const robot of scene.robots) {
+    const place = pose === "goal" ? robot.goal : robotPoseAt(robot, tracks.get(robot.id), player.time);
+    const distance = place ? Math.hypot(place.x - world.x, place.y - world.y) : Infinity;
+    if (distance > stage.reach(robot.radius) || distance >= least) continue;
+    least = distance;
+    found = { robot, pose, turns: false, place };
+  }
+  return found;
+}
+
+const posesOf = (robot) => (robot.goal ? ["goal", "start"] : ["start"]);
+
+/** The handle that turns a pose, world points: {rim, knob}. A goal of any heading has it to the right. */
+function handleOf(robot, pose, scale) {
+  const { x, y, theta } = robot[pose];
+  const apart = robot.goal ? Math.hypot(robot.goal.x - robot.start.x, robot.goal.y - robot.start.y) : Infinity;
+  const longer = pose === "goal" && apart * scale < 2 * STEM ? LONGER : 0;
+  const at = (radius) => ({ x: x + Math.cos(theta ?? 0) * radius, y: y + Math.sin(theta ?? 0) * radius });
+  return { rim: at(robot.radius), knob: at(robot.radius + (STEM + longer) / scale) };
+}
+
+/** Paints the handles of the chosen robot. */
+export function paintHandles(context, { scale, screen, theme }, robot) {
+  context.save();
+  context.lineWidth = 2;
+  for (const pose of posesOf(robot)) {
+    const { rim, knob } = handleOf(robot, pose, scale);
+    const [from, to] = [screen(rim), screen(knob)];
+    context.strokeStyle = theme.accent;
+    context.setLineDash(robot[pose].theta === null ? [2, 3] : []);
+    context.beginPath();
+    context.moveTo(from.x, from.y);
+    context.lineTo(to.x, to.y);
+    context.stroke();
+    context.setLineDash([]);
+    context.fillStyle = pose === "start" ? theme.accent : theme.floor;
+    context.beginPath();
+    context.arc(to.x, to.y, KNOB, 0, 2 * Math.PI);
+    context.fill();
+    context.strokeStyle = pose === "start" ? theme.floor : theme.accent;
+    context.stroke();
+  }
+  context.restore();
+}
+
+/** Rings what would be taken hold of. */
+export function paintPart(context, { scale, screen, theme }, { robot, turns, place }) {
+  const centre = screen(place);
+  context.save();
+  context.strokeStyle = theme.accent;
+  context.lineWidth = 2;
+  context.beginPath();
+  context.arc(centre.x, centre.y, turns ? KNOB + 3 : Math.max(robot.radius * scale, 4) + 4, 0, 2 * Math.PI);
+  context.stroke();
+  context.restore();
+}

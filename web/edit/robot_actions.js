@@ -1,0 +1,88 @@
+// What can be done to the chosen robot by buttons and keys; each is one step to undo and is told in words.
+
+import {
+  deleteRobot,
+  duplicateRobot,
+  nameOf,
+  removeGoal,
+  robotsOf,
+  setPose,
+} from "../model/edit_robots.js";
+import { nearestFreePlace } from "../model/free_place.js";
+import { degrees } from "../ui/format.js";
+
+const ROOM = 2.5; // radii between a start and a goal that is put beside it
+
+export class RobotActions {
+  #session;
+  #choice;
+
+  /** `choice`: see RobotChoice. */
+  constructor(session, choice) {
+    this.#session = session;
+    this.#choice = choice;
+  }
+
+  /** Moves or turns the chosen robot's "start" or "goal": sets the members {x, y, theta} that are given. */
+  setPose(pose, members, gesture = null) {
+    this.#session.edit(setPose(this.#session.request, this.#choice.index, pose, members), gesture);
+  }
+
+  /** Says where the chosen robot's "start" or "goal" is now. */
+  tellPose(pose) {
+    const at = robotsOf(this.#session.request)[this.#choice.index]?.[pose];
+    const place = `(${at?.x}, ${at?.y}) m`;
+    const heading = Number.isFinite(at?.theta) ? `, facing ${degrees(at.theta)}` : "";
+    this.#session.say(`${this.#name} ${pose === "goal" ? "has its goal" : "starts"} at ${place}${heading}.`);
+  }
+
+  duplicate() {
+    const { robot, index } = this.#choice;
+    const { request, scene } = this.#session;
+    if (index === null) return;
+    const start = robot && this.#freePlace(robot, robot.start, scene.robots.map(startDisk));
+    const goal = robot?.goal && this.#freePlace(robot, robot.goal, scene.robots.map(goalDisk).filter(Boolean));
+    this.#session.edit(duplicateRobot(request, index, start, goal));
+    const name = this.#name;
+    this.#choice.choose(robotsOf(this.#session.request).length - 1);
+    this.#session.say(`${name} duplicated as ${this.#name}.`);
+  }
+
+  delete() {
+    const { index } = this.#choice;
+    if (index === null) return;
+    const name = this.#name;
+    this.#choice.choose(null);
+    this.#session.edit(deleteRobot(this.#session.request, index));
+    this.#session.say(`${name} deleted.`);
+  }
+
+  /** Gives the chosen robot a goal beside its start, of any heading. */
+  addGoal() {
+    const { robot } = this.#choice;
+    const { scene } = this.#session;
+    const goals = scene.robots.map(goalDisk).filter(Boolean);
+    const place = robot && this.#freePlace(robot, robot.start, goals, ROOM * robot.radius);
+    this.setPose("goal", place ?? { x: 0, y: 0 });
+    this.tellPose("goal");
+  }
+
+  removeGoal() {
+    this.#session.edit(removeGoal(this.#session.request, this.#choice.index));
+    this.#session.say(`${this.#name} has no goal: it stays at its start.`);
+  }
+
+  get #name() {
+    return nameOf(this.#session.request, this.#choice.index);
+  }
+
+  /** The nearest place for a robot that is free of walls and of `others`; where there is none, the point itself. */
+  #freePlace({ radius }, point, others, beyond = 0) {
+    const { grid } = this.#session.scene;
+    const found = grid && nearestFreePlace(grid, point, radius, others, beyond);
+    return found ?? { x: point.x, y: point.y };
+  }
+}
+
+const startDisk = ({ start, radius }) => ({ ...start, radius });
+const goalDisk = ({ goal, radius }) => goal && { ...goal, radius };

@@ -1,0 +1,110 @@
+// The form of the chosen robot.
+
+import { tidy } from "../model/cells.js";
+import { robotsOf, setRobot } from "../model/edit_robots.js";
+import { byId } from "../ui/dom.js";
+import { NumberField } from "../ui/number_field.js";
+
+export const ROBOT_NUMBERS = [
+  { name: "radius", label: "Radius", unit: "m" },
+  { name: "linear_speed", label: "Speed", unit: "m/s" },
+  { name: "angular_speed", label: "Turning", unit: "rad/s" },
+];
+const POSES = ["start", "goal"];
+
+export class RobotForm {
+  #session;
+  #choice;
+  #actions;
+  #form = byId("robot-form");
+  #id = byId("robot-id");
+  #hasGoal = byId("robot-has-goal");
+  #numbers = new Map(); // name -> NumberField
+  #poses = new Map(); // "start" or "goal" -> {x, y, theta}, each a NumberField
+
+  /** `choice`: see RobotChoice; `actions`: see RobotActions. */
+  constructor(session, choice, actions) {
+    this.#session = session;
+    this.#choice = choice;
+    this.#actions = actions;
+    this.#build();
+    this.#id.addEventListener("input", () => this.#set("id", this.#id.value));
+    this.#id.addEventListener("change", () => session.endGesture());
+    this.#hasGoal.addEventListener("change", () => {
+      if (this.#hasGoal.checked) actions.addGoal();
+      else actions.removeGoal();
+    });
+    byId("duplicate-robot").addEventListener("click", () => actions.duplicate());
+    byId("delete-robot").addEventListener("click", () => {
+      actions.delete();
+      byId("edited-robot").focus();
+    });
+    session.on("request marks", () => this.#refresh());
+    this.#refresh();
+  }
+
+  #build() {
+    const settle = () => this.#session.endGesture();
+    for (const { name, label, unit } of ROBOT_NUMBERS) {
+      const take = (value) => this.#set(name, value);
+      this.#numbers.set(name, new NumberField({ label, unit, take, settle }));
+    }
+    byId("robot-numbers").append(...[...this.#numbers.values()].map(({ element }) => element));
+    for (const pose of POSES) {
+      const field = (name, described) =>
+        new NumberField({ ...described, take: (value) => this.#setPose(pose, name, value), settle });
+      const fields = {
+        x: field("x", { label: "x", unit: "m", required: true }),
+        y: field("y", { label: "y", unit: "m", required: true }),
+        theta: field("theta", { label: "Heading", unit: "°" }),
+      };
+      this.#poses.set(pose, fields);
+      byId(`robot-${pose}-numbers`).append(...Object.values(fields).map(({ element }) => element));
+    }
+  }
+
+  #set(name, value) {
+    const { index } = this.#choice;
+    this.#session.edit(setRobot(this.#session.request, index, name, value), `robot ${index} ${name}`);
+  }
+
+  /** Sets x or y, metres, or theta, degrees. */
+  #setPose(pose, name, value) {
+    const inUnits = name === "theta" && value !== undefined ? (value * Math.PI) / 180 : value;
+    this.#actions.setPose(pose, { [name]: inUnits }, `robot ${this.#choice.index} ${pose} ${name}`);
+  }
+
+  #refresh() {
+    const { index } = this.#choice;
+    this.#form.hidden = index === null;
+    byId("no-robot").hidden = index !== null;
+    if (index === null) return;
+    const robot = robotsOf(this.#session.request)[index] ?? {};
+    const pointer = `/robots/${index}`;
+    this.#form.dataset.pointer = pointer;
+    this.#id.dataset.pointer = `${pointer}/id`;
+    const id = typeof robot.id === "string" ? robot.id : "";
+    if (this.#id.value !== id) this.#id.value = id;
+    const defaults = this.#session.request?.robot_defaults;
+    for (const [name, field] of this.#numbers) {
+      field.input.dataset.pointer = `${pointer}/${name}`;
+      field.show(robot[name], { placeholder: String(defaults?.[name] ?? "") });
+    }
+    for (const pose of POSES) this.#refreshPose(robot, pose, `${pointer}/${pose}`);
+    this.#hasGoal.checked = robot.goal !== undefined;
+    byId("robot-goal-numbers").hidden = robot.goal === undefined;
+  }
+
+  #refreshPose(robot, pose, pointer) {
+    const fields = this.#poses.get(pose);
+    byId(`robot-${pose}`).dataset.pointer = pointer;
+    for (const [name, field] of Object.entries(fields)) field.input.dataset.pointer = `${pointer}/${name}`;
+    fields.x.show(robot[pose]?.x);
+    fields.y.show(robot[pose]?.y);
+    const theta = robot[pose]?.theta;
+    const known = typeof theta === "number";
+    const degrees = known ? tidy((theta * 180) / Math.PI) : theta;
+    const otherwise = pose === "goal" ? "any" : "0";
+    fields.theta.show(degrees, { placeholder: otherwise, note: known ? `= ${Number(theta.toFixed(4))} rad` : "" });
+  }
+}

@@ -1,0 +1,94 @@
+// The tool that adds robots.
+
+import { centreOf } from "../model/cells.js";
+import { addRobot, nameOf, robotsOf } from "../model/edit_robots.js";
+import { snapPoint } from "../model/snap.js";
+import { CellCursor } from "./cell_cursor.js";
+
+let gestures = 0; // for a name of each
+
+export class RobotTool {
+  help = "Press where a robot starts, drag to its goal. A click alone adds one that stays. Alt: anywhere.";
+
+  #session;
+  #choice;
+  #actions;
+  #cursor;
+  #pressed = null; // {start, gesture, added} while pressed
+
+  /** `choice`: see RobotChoice; `actions`: see RobotActions. */
+  constructor(session, stage, choice, actions) {
+    this.#session = session;
+    this.#choice = choice;
+    this.#actions = actions;
+    this.#cursor = new CellCursor(session, stage);
+  }
+
+  press(world, event) {
+    gestures += 1;
+    this.#pressed = { start: this.#snap(world, event), gesture: `add ${gestures}`, added: false };
+    return true;
+  }
+
+  drag(world, event) {
+    const { start, gesture } = this.#pressed;
+    this.#add();
+    this.#cursor.hover(world);
+    const goal = this.#snap(world, event);
+    const radius = this.#choice.robot?.radius ?? 0;
+    if (Math.hypot(goal.x - start.x, goal.y - start.y) > radius) this.#actions.setPose("goal", goal, gesture);
+  }
+
+  release() {
+    this.#add();
+    this.#tell();
+    this.letGo();
+  }
+
+  letGo() {
+    this.#pressed = null;
+    this.#session.endGesture();
+  }
+
+  hover(world) {
+    this.#cursor.hover(world);
+  }
+
+  cursor() {
+    return "copy";
+  }
+
+  paint(context, view) {
+    if (!this.#pressed) this.#cursor.paint(context, view, { sign: "add" });
+  }
+
+  key(event) {
+    const { cell } = this.#cursor;
+    if (cell === null) return false;
+    if (event.key !== "Enter" && event.key !== " ") return this.#cursor.key(event);
+    this.press(centreOf(this.#session.scene.grid, cell), event);
+    this.release();
+    return true;
+  }
+
+  #add() {
+    if (this.#pressed.added) return;
+    this.#pressed.added = true;
+    const { start, gesture } = this.#pressed;
+    this.#session.edit(addRobot(this.#session.request, start), gesture);
+    this.#choice.choose(robotsOf(this.#session.request).length - 1);
+  }
+
+  #tell() {
+    const { request } = this.#session;
+    const index = robotsOf(request).length - 1;
+    const { start, goal } = request.robots[index];
+    const where = `(${start.x}, ${start.y}) m`;
+    const aim = goal ? `with its goal at (${goal.x}, ${goal.y}) m` : "without a goal";
+    this.#session.say(`${nameOf(request, index)} added at ${where}, ${aim}.`);
+  }
+
+  #snap(world, { altKey }) {
+    return snapPoint(this.#session.scene.grid, world, altKey);
+  }
+}

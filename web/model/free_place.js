@@ -1,0 +1,59 @@
+// Where there is room for a robot. Pure.
+
+import { cellAt, centreOf, isFree } from "./cells.js";
+
+const CONTACT = 1e-9; // metres: touching is not a collision
+
+/**
+ * The middle of the cell nearest to a world point, but at least `beyond` metres away, where a disk of this radius
+ * touches neither wall nor `others`, disks [{x, y, radius}]; null if there is none.
+ */
+export function nearestFreePlace(grid, point, radius, others, beyond = 0) {
+  const home = cellAt(grid, point);
+  let best = null;
+  let nearest = Infinity;
+  const farthest = Math.max(grid.columns, grid.rows) + Math.hypot(home.column, home.row);
+  for (let ring = 0; ring <= farthest && (ring - 1) * grid.resolution <= nearest; ring += 1) {
+    for (const cell of ringOf(home, ring)) {
+      if (!isFree(grid, cell)) continue;
+      const place = centreOf(grid, cell);
+      const distance = Math.hypot(place.x - point.x, place.y - point.y);
+      if (distance >= nearest || distance < beyond - CONTACT) continue;
+      if (!hasRoom(grid, place, radius, others)) continue;
+      nearest = distance;
+      best = place;
+    }
+  }
+  return best;
+}
+
+/** The cells at `ring` steps from one, right of it first. */
+function* ringOf({ column, row }, ring) {
+  if (ring === 0) yield { column, row };
+  for (let at = 0; at < 2 * ring; at += 1) {
+    const along = at % 2 === 0 ? at / 2 : -(at + 1) / 2; // 0, -1, 1, -2, …: the nearest first
+    yield { column: column + ring, row: row + along };
+    yield { column: column - ring, row: row - along };
+    yield { column: column - along, row: row + ring };
+    yield { column: column + along, row: row - ring };
+  }
+}
+
+function hasRoom(grid, place, radius, others) {
+  const { origin, resolution, rows } = grid;
+  const first = cellAt(grid, { x: place.x - radius, y: place.y + radius });
+  const last = cellAt(grid, { x: place.x + radius, y: place.y - radius });
+  for (let { row } = first; row <= last.row; row += 1) {
+    for (let { column } = first; column <= last.column; column += 1) {
+      if (isFree(grid, { column, row })) continue;
+      const left = origin.x + column * resolution;
+      const bottom = origin.y + (rows - 1 - row) * resolution;
+      const x = Math.max(left, Math.min(left + resolution, place.x));
+      const y = Math.max(bottom, Math.min(bottom + resolution, place.y));
+      if (Math.hypot(x - place.x, y - place.y) < radius - CONTACT) return false;
+    }
+  }
+  return others.every((other) => {
+    return Math.hypot(other.x - place.x, other.y - place.y) >= radius + other.radius - CONTACT;
+  });
+}
