@@ -1,7 +1,7 @@
 // An edited request is judged by the service soon after, so that a fault shows while one edits, not when one plans.
 
-import { planFile } from "../files/plan_file.js";
 import { ProblemError } from "../service/problem.js";
+import { misfitErrors, standingAtGoals, standingAtStarts } from "./misfits.js";
 
 const REST_MS = 350; // without a further edit
 
@@ -16,12 +16,25 @@ export function watchEdits(session, validate) {
 
 async function judge(session, validate) {
   const { turn } = session;
-  let problem = null;
+  const problem = await problemOf(session.request, validate);
+  if (turn === session.turn && session.planning === null && session.answer === null) session.setProblem(problem);
+}
+
+/** What is wrong with a request, or null. */
+async function problemOf(request, validate) {
   try {
-    await validate(JSON.stringify(planFile(session.request, null)));
+    const atStarts = standingAtStarts(request);
+    const { violations } = await validate(JSON.stringify(atStarts));
+    const errors = misfitErrors(request, violations, "start");
+    const atGoals = standingAtGoals(request);
+    if (atGoals) {
+      const check = await validate(JSON.stringify(atGoals));
+      errors.push(...misfitErrors(request, check.violations, "goal"));
+    }
+    if (errors.length === 0) return null;
+    return { title: "The request is not valid", errors };
   } catch (error) {
     if (!(error instanceof ProblemError)) throw error;
-    problem = error.problem.errors?.length > 0 ? error.problem : null; // others are not about the request
+    return error.problem.errors?.length > 0 ? error.problem : null; // others are not about the request
   }
-  if (turn === session.turn && session.planning === null && session.answer === null) session.setProblem(problem);
 }

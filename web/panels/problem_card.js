@@ -1,5 +1,6 @@
 // What went wrong, with each error's place: pressing an error leads there.
 
+import { nameOf } from "../model/edit_robots.js";
 import { mapRowOf, robotIndexOf } from "../model/pointer.js";
 import { byId, element } from "../ui/dom.js";
 import { count } from "../ui/format.js";
@@ -8,10 +9,10 @@ const MOST_ERRORS = 100; // to list; nobody reads more
 
 /** Shows the session's problem. `show(pointer)` leads to the place of an error. */
 export function watchProblem(session, show) {
-  session.on("problem", () => showProblem(session.problem, session.scene, show));
+  session.on("problem", () => showProblem(session.problem, session.request, show));
 }
 
-function showProblem(problem, scene, show) {
+function showProblem(problem, request, show) {
   const box = byId("problem");
   box.hidden = problem === null;
   box.replaceChildren();
@@ -21,18 +22,18 @@ function showProblem(problem, scene, show) {
   if (problem.retry_after) {
     box.append(element("p", { textContent: `Try again in ${count(problem.retry_after, "second")}.` }));
   }
-  if (problem.errors?.length > 0) box.append(errorList(problem.errors, scene, show));
+  if (problem.errors?.length > 0) box.append(errorList(problem.errors, request, show));
   if (problem.request_id) {
     box.append(element("p", { class: "request-id", textContent: `Request ${problem.request_id}` }));
   }
 }
 
-function errorList(errors, scene, show) {
+function errorList(errors, request, show) {
   const list = element("ul", { class: "errors" });
   for (const { pointer = "", detail } of errors.slice(0, MOST_ERRORS)) {
     const place = element("button", { type: "button", class: "error", "data-error": pointer });
     place.append(
-      element("span", { class: "error-place" }, placeInWords(pointer, scene)),
+      element("span", { class: "error-place" }, placeInWords(pointer, request)),
       element("code", { textContent: pointer || "(whole request)" }),
       element("span", { textContent: detail }),
     );
@@ -45,9 +46,9 @@ function errorList(errors, scene, show) {
 }
 
 /** What a pointer leads to, as a person would say. */
-function placeInWords(pointer, { robots }) {
+function placeInWords(pointer, request) {
   const index = robotIndexOf(pointer);
-  if (index !== null) return robots.find((robot) => robot.index === index)?.id ?? `Robot ${index + 1}`;
+  if (index !== null) return nameOf(request, index);
   const row = mapRowOf(pointer);
   if (row !== null) return `Row ${row + 1} of the map`;
   if (pointer.startsWith("/map")) return "Map";
