@@ -1,0 +1,39 @@
+# The service as an image of its own files and the libraries that they need, nothing else: no shell, no package
+# manager. Builds with BuildKit and without it.
+#
+#   docker build -t fleetplan .
+#   docker build -t fleetplan --build-arg DEBIAN_SUITE=bookworm .
+ARG DEBIAN_SUITE=trixie
+
+FROM debian:${DEBIAN_SUITE}-slim AS build
+WORKDIR /src
+COPY scripts/lib.sh scripts/
+RUN bash -euo pipefail -c '. scripts/lib.sh; need_packages "${BUILD_PACKAGES[@]}" libgtest-dev libgmock-dev python3'
+COPY CMakeLists.txt CMakePresets.json ./
+COPY core core
+COPY api api
+COPY server server
+COPY tests tests
+RUN bash -euo pipefail -c '. scripts/lib.sh; build release'
+COPY web web
+RUN ctest --preset release -j "$(nproc)" --timeout 600 --no-tests=error --exclude-regex '^Readme$'
+COPY deploy/image/make-root deploy/image/
+RUN deploy/image/make-root build/release /image
+
+FROM scratch
+ARG DEBIAN_SUITE
+ARG CREATED
+ARG REVISION
+LABEL org.opencontainers.image.title="Fleetplan" \
+      org.opencontainers.image.description="Plans collision-free, timed motions for fleets of robots, over HTTP" \
+      org.opencontainers.image.version="0.1.0" \
+      org.opencontainers.image.revision="${REVISION}" \
+      org.opencontainers.image.created="${CREATED}" \
+      org.opencontainers.image.base.name="debian:${DEBIAN_SUITE}-slim"
+COPY --from=build /image /
+# The ports of work and of health and metrics. FLEETPLAN_ADMIN_PORT= (empty) leaves the second one out.
+ENV FLEETPLAN_HOST=0.0.0.0 FLEETPLAN_PORT=8080 FLEETPLAN_ADMIN_PORT=8081
+EXPOSE 8080 8081
+USER 65532:65532
+HEALTHCHECK --interval=10s --timeout=10s --start-period=5s --retries=3 CMD ["/usr/local/bin/fleetplan", "--healthcheck"]
+ENTRYPOINT ["/usr/local/bin/fleetplan"]

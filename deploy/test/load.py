@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""Sends requests from several connections until it is told to end (SIGTERM) or the time is over, and looks at every
+answer. Prints one line of JSON: requests, those that failed with what each kind of failure was, rate, latencies.
+
+Exit code 0 when no request failed, 1 otherwise.
+"""
+
+import argparse
+import collections
+import json
+import pathlib
+import signal
+import sys
+import threading
+import time
+
+TESTS = pathlib.Path(__file__).resolve().parent.parent.parent / "tests"
+sys.path.insert(0, str(TESTS / "soak"))
+
+from client import Connection, Lost, request  # noqa: E402
+
+
+def hall(side, robots):
+    """A plan's request: an empty hall of side x side cells, a byte each, where robots change sides."""
+    fleet = [{"id": f"r{i}", "start": {"x": 0.5, "y": i + 0.5}, "goal": {"x": side - 0.5, "y": robots - i - 0.5}}
+             for i in range(robots)]
+    return {"map": {"rows": ["." * side] * side}, "robots": fleet,
+            "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 2.0}}
+
+
+def posted(path, body):
+    return request("POST", path, json.dumps(body).encode())
+
+
+def scenario(name):
+    return posted("/v1/plan", json.loads((TESTS / "scenarios" / f"{name}.json").read_text()))
+
+
+END_SIGNALS = {signal.SIGTERM, signal.SIGINT}
+
+KINDS = {
+    "get": lambda: request("GET", "/v1/limits"),
+    "1kB": lambda: posted("/v1/plan", hall(20, 5)),
+    "60kB": lambda: posted("/v1/plan", hall(240, 5)),
+    "hall-100": lambda: scenario("hall-100"),
+}
+
+
+class Load:
+    def __init__(self, host, port, kinds):
+        self.host, self.port = host, port
+        self.requests = {kind: KINDS[kind]() for kind in kinds}
+        self.ended = threading.Event()
+        self.lock = threading.Lock()
+        self.failures = collections.Counter()
+        self.seconds = {kind: [] for kind in kinds}
+
+    def fault_of(self, answer, kind):
+        """What is wrong with an answer, if anything is."""
+        if answer.status != 200:
+            return f"{kind}: status {answer.status}"
+        content = answer.json()
+        if kind != "get" and content["status"] != "solved":
+            return f"{kind}: {content['status']}"
+        return None
+
+    def ask(self, connection, kind):
+        try:
+            connection.send(self.requests[kind])
+            return self.fault_of(connection.receive(), kind)
+        except (Lost, OSError, ValueError) as error:
+            connection.close()
+            return f"{kind}: {error}"
+
+    def keep_asking(self, offset):
+        connection = Connection(self.host, self.port)
+        kinds = list(self.requests)
+        turn = offset
+        while not self.ended.is_set():
+            kind = kinds[turn % len(kinds)]
+            begun = time.monotonic()
+            fault = self.ask(connection, kind)
+            took = time.monotonic() - begun
+            turn += 1
+            if turn % 20 == 0:
+                connection.close()  # some clients come anew
+            with self.lock:
+                self.seconds[kind].append(took)
+                if fault:
+                    self.failures[fault] += 1
+        connection.close()
+
+    def run(self, connections, seconds):
+        threads = [threading.Thread(target=self.keep_asking, args=(i,)) for i in range(connections)]
+        begun = time.monotonic()
+        for thread in threads:
+            thread.start()
+        signal.sigtimedwait(END_SIGNALS, seconds)
+        self.ended.set()
+        for thread in threads:
+            thread.join()
+        return self.summary(time.monotonic() - begun)
+
+    def summary(self, elapsed):
+        took = sorted(s for of_kind in self.seconds.values() for s in of_kind)
+        at = lambda share: round(1000 * took[int(share * (len(took) - 1))], 1) if took else None
+        return {"requests": {kind: len(of_kind) for kind, of_kind in self.seconds.items()},
+                "failed": sum(self.failures.values()), "failures": dict(self.failures.most_common(10)),
+                "per_second": round(len(took) / elapsed, 1), "seconds": round(elapsed, 1),
+                "ms": {"median": at(0.5), "p99": at(0.99), "longest": at(1)}}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--host", default="127.0.0.1")
+    parser.add_argument("--port", type=int, required=True)
+    parser.add_argument("--connections", type=int, default=6)
+    parser.add_argument("--seconds", type=float, default=600.0)
+    parser.add_argument("--kinds", default="get,1kB,60kB", help=f"of {', '.join(KINDS)}")
+    options = parser.parse_args()
+    load = Load(options.host, options.port, options.kinds.split(","))
+    signal.pthread_sigmask(signal.SIG_BLOCK, END_SIGNALS)
+    summary = load.run(options.connections, options.seconds)
+    print(json.dumps(summary))
+    return 0 if summary["failed"] == 0 and all(summary["requests"].values()) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

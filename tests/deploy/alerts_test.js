@@ -1,0 +1,49 @@
+// Prometheus' configuration and alert rules, judged by its own tool, and against the metrics of a running server.
+
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { test } from "node:test";
+import { fileURLToPath } from "node:url";
+
+import { startService } from "../web/support/service.js";
+import { pathOf, yamlOf } from "./support/files.js";
+
+const RULES = "deploy/prometheus/alerts.yml";
+const rules = yamlOf(RULES).groups.flatMap((group) => group.rules);
+
+function promtool(...words) {
+  const { error, status, stdout, stderr } = spawnSync("promtool", words, { encoding: "utf8" });
+  assert.ifError(error);
+  assert.equal(status, 0, stdout + stderr);
+}
+
+test("promtool has nothing to say about configuration and rules", () => {
+  promtool("check", "config", pathOf("deploy/prometheus/prometheus.yml"));
+  promtool("check", "rules", "--lint-fatal", pathOf(RULES));
+});
+
+test("the alerts come when they should, and only then", () => {
+  promtool("test", "rules", fileURLToPath(new URL("alerts_test.yml", import.meta.url)));
+});
+
+test("every alert has a severity, a summary and what to do", () => {
+  for (const { alert, labels, annotations } of rules) {
+    assert.match(labels.severity, /^(warning|critical)$/, alert);
+    assert.ok(annotations.summary && annotations.description, alert);
+  }
+});
+
+test("the rules ask for series that the server has", async () => {
+  const service = await startService();
+  try {
+    const metrics = await (await fetch(new URL("/metrics", service.url))).text();
+    const asked = rules.flatMap(({ expr }) => expr.match(/\b(?:fleetplan|process)_\w+(?:\{[^}=~]*="[^"]*"\})?/g) ?? []);
+    assert.ok(asked.length > 5);
+    for (const series of asked) {
+      const found = metrics.includes(`\n${series}`) || metrics.includes(`\n${series.replace(/\{.*/, "")} `);
+      assert.ok(found, series);
+    }
+  } finally {
+    await service.stop();
+  }
+});

@@ -1,0 +1,45 @@
+// deploy/compose.yaml, the Dockerfile and HAProxy's configuration, as far as they have to agree with the server.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { said, settingNames, textOf, yamlOf } from "./support/files.js";
+
+const { services } = yamlOf("deploy/compose.yaml");
+const replicas = Object.keys(services).filter((name) => name.startsWith("fleetplan"));
+const replica = services[replicas[0]];
+const dockerfile = textOf("Dockerfile");
+const haproxy = textOf("deploy/haproxy/haproxy.cfg");
+const prometheus = yamlOf("deploy/prometheus/prometheus.yml");
+
+test("the image's label tells the version", () => {
+  const [, version] = /image\.version="([^"]*)"/.exec(dockerfile);
+  assert.equal(`fleetplan ${version}`, said("--version").trim());
+});
+
+test("the environments hold settings only", () => {
+  const known = settingNames();
+  const inImage = dockerfile.match(/^ENV .*$/m)[0].match(/FLEETPLAN_[A-Z_]+/g);
+  for (const name of [...inImage, ...Object.keys(replica.environment)]) assert.ok(known.has(name), name);
+});
+
+test("the balancer and Prometheus know the same replicas as the stack", () => {
+  const balanced = [...haproxy.matchAll(/^ {2}server (\S+) (\S+):8080$/gm)].map(([, name, host]) => {
+    assert.equal(name, host);
+    return name;
+  });
+  assert.deepEqual(balanced, replicas);
+  const { targets } = prometheus.scrape_configs.find(({ job_name: name }) => name === "fleetplan").static_configs[0];
+  assert.deepEqual(targets, replicas.map((name) => `${name}:8081`));
+});
+
+test("replicas have longer to end than delay and drain take together", () => {
+  const { FLEETPLAN_DRAIN_DELAY_MS: delay, FLEETPLAN_DRAIN_MS: drain } = replica.environment;
+  assert.ok(Number.parseInt(replica.stop_grace_period, 10) * 1000 > delay + drain + 5000);
+});
+
+test("the balancer waits longer than the longest plan takes", () => {
+  const [, seconds] = /^ {2}timeout server (\d+)s$/m.exec(haproxy);
+  const [, longest] = /--max-budget-ms \D*(\d+)/.exec(said("--help"));
+  assert.ok(Number(seconds) * 1000 > Number(longest));
+});

@@ -1,0 +1,79 @@
+// deploy/kubernetes against the schemas of Kubernetes, and what no schema knows of it.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { namesIn, said, settingNames, textOf, yamlOf } from "./support/files.js";
+import { faultsOf, resourcesOf } from "./support/manifests.js";
+
+const BASE = "deploy/kubernetes/base";
+const listed = yamlOf(`${BASE}/kustomization.yaml`).resources;
+const resources = listed.flatMap((name) => resourcesOf(textOf(`${BASE}/${name}`)));
+const named = (kind) => resources.find((resource) => resource.kind === kind);
+const deployment = named("Deployment");
+const pod = deployment.spec.template;
+const [container] = pod.spec.containers;
+
+test("every file of the base is a part of it", () => {
+  assert.deepEqual([...listed, "kustomization.yaml"].sort(), namesIn(BASE));
+});
+
+test("the schemas have nothing to say about the base", () => {
+  assert.deepEqual(faultsOf(resources), []);
+});
+
+test("wrong types, unknown members, unknown and incomplete resources are found", () => {
+  const misspelt = structuredClone(deployment);
+  misspelt.spec.template.spec.containers[0].readinesProbe = {};
+  const wrong = structuredClone(named("HorizontalPodAutoscaler"));
+  wrong.spec.minReplicas = "3";
+  const incomplete = structuredClone(named("Service"));
+  delete incomplete.spec.ports[0].port;
+  for (const [resource, what] of [
+    [misspelt, /Deployment fleetplan: .*readinesProbe/],
+    [wrong, /HorizontalPodAutoscaler fleetplan: .*minReplicas must be integer/],
+    [incomplete, /Service fleetplan: .*required property port/],
+    [{ ...deployment, apiVersion: "apps/v7" }, /there is no Deployment in apps\/v7/],
+    [{ ...deployment, kind: "Deploiment" }, /there is no Deploiment in apps\/v1/],
+  ]) {
+    assert.match(faultsOf([resource]).join("\n"), what);
+  }
+});
+
+test("everything selects the pods of the deployment", () => {
+  const { labels } = pod.metadata;
+  assert.deepEqual(deployment.spec.selector.matchLabels, labels);
+  assert.deepEqual(named("Service").spec.selector, labels);
+  assert.deepEqual(named("PodDisruptionBudget").spec.selector.matchLabels, labels);
+  assert.deepEqual(named("NetworkPolicy").spec.podSelector.matchLabels, labels);
+  const { kind, name } = named("HorizontalPodAutoscaler").spec.scaleTargetRef;
+  assert.deepEqual([kind, name], ["Deployment", deployment.metadata.name]);
+});
+
+test("ports are called by names that the container has", () => {
+  const names = new Set(container.ports.map((port) => port.name));
+  const used = [
+    ...named("Service").spec.ports.map((port) => port.targetPort),
+    ...named("NetworkPolicy").spec.ingress.flatMap((rule) => rule.ports.map((port) => port.port)),
+    ...["startupProbe", "readinessProbe", "livenessProbe"].map((probe) => container[probe].httpGet.port),
+  ];
+  for (const name of used) assert.ok(names.has(name), name);
+});
+
+test("the environment of the pods holds settings only, which variables for services cannot overwrite", () => {
+  const known = settingNames();
+  const overlay = yamlOf("deploy/kubernetes/overlays/example/token.yaml").spec.template.spec.containers[0];
+  for (const { name } of [...container.env, ...overlay.env]) assert.ok(known.has(name), name);
+  assert.equal(pod.spec.enableServiceLinks, false);
+});
+
+test("pods have longer to end than delay and drain take together", () => {
+  const ms = (name) => Number(container.env.find((entry) => entry.name === name).value);
+  const drain = ms("FLEETPLAN_DRAIN_DELAY_MS") + ms("FLEETPLAN_DRAIN_MS");
+  assert.ok(pod.spec.terminationGracePeriodSeconds * 1000 > drain + 5000);
+});
+
+test("the example takes the image of this version", () => {
+  const [{ newTag }] = yamlOf("deploy/kubernetes/overlays/example/kustomization.yaml").images;
+  assert.equal(`fleetplan ${newTag}`, said("--version").trim());
+});

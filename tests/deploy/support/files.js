@@ -1,0 +1,39 @@
+// The files of deploy/, and the settings and version of the server that they are for.
+
+import { spawnSync } from "node:child_process";
+import { readdirSync, readFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+
+import { load } from "js-yaml";
+
+const PROJECT = new URL("../../../", import.meta.url);
+
+/** Where a file of the project is, by its path from the project's folder. */
+export function pathOf(name) {
+  return fileURLToPath(new URL(name, PROJECT));
+}
+
+export function textOf(name) {
+  return readFileSync(pathOf(name), "utf8");
+}
+
+/** The only YAML document of a file. */
+export function yamlOf(name) {
+  return load(textOf(name));
+}
+
+export function namesIn(folder) {
+  return readdirSync(pathOf(folder)).sort();
+}
+
+/** What the server prints, such as for --help. */
+export function said(flag) {
+  const { stdout, error } = spawnSync(process.env.FLEETPLAN_BIN, [flag], { encoding: "utf8" });
+  if (error) throw error;
+  return stdout;
+}
+
+/** The names in the environment of all settings. */
+export function settingNames() {
+  return new Set(said("--help").match(/FLEETPLAN_[A-Z_]+/g));
+}
