@@ -1,9 +1,10 @@
 // Scripting surface, read-only, for tests and the curious: `window.fleetplan` has `time`, `duration` (seconds),
-// `playing`, `request`, `answer` and `check` (parsed JSON or null), `selected` (id or null), `poseOf(id)` (the pose
-// drawn now, metres and radians), `stateOf(id)` and `screenOf(id)` ({x, y, radius} of its disk on the canvas, CSS
-// pixels); `pointOf({x, y})` is where a world point is on the canvas.
+// `playing`, `request`, `answer` and `check` (parsed JSON or null), `selected` (id or null), `closest` ({ids,
+// gap} of the two robots that are closest now, metres) and `least` ({t, gap, ids} when two are closest in all
+// of the plan), `poseOf(id)` (the pose drawn now, metres and radians), `stateOf(id)` and `screenOf(id)` ({x, y,
+// radius} of its disk on the canvas, CSS pixels); `pointOf({x, y})` is where a world point is on the canvas.
 
-export function offerHook(session, stage) {
+export function offerHook(session, stage, fleet) {
   window.fleetplan = Object.freeze({
     get time() {
       return session.player.time;
@@ -25,6 +26,12 @@ export function offerHook(session, stage) {
     },
     get selected() {
       return session.selected;
+    },
+    get closest() {
+      return fleet.nearestAt(session.player.time);
+    },
+    get least() {
+      return fleet.least;
     },
     poseOf: (id) => session.poseOf(id),
     stateOf: (id) => session.stateOf(id),

@@ -7,9 +7,12 @@ import { EditPanel } from "./edit/edit_panel.js";
 import { Opening } from "./files/opening.js";
 import { watchSaving } from "./files/save.js";
 import { offerHook } from "./hook.js";
+import { FleetMotion } from "./model/fleet_motion.js";
 import { watchEdits } from "./model/live_check.js";
 import { Session } from "./model/session.js";
+import { watchCheck } from "./panels/check_card.js";
 import { showPlacesOfErrors } from "./panels/error_places.js";
+import { Inspector } from "./panels/inspector.js";
 import { OptionsPanel } from "./panels/options_panel.js";
 import { PlanButton } from "./panels/plan_button.js";
 import { PlanningStatus } from "./panels/planning_status.js";
@@ -17,11 +20,16 @@ import { watchReadout } from "./panels/readout.js";
 import { RobotList } from "./panels/robot_list.js";
 import { Setup } from "./panels/setup.js";
 import { watchSummary } from "./panels/summary.js";
+import { TimelineDock } from "./panels/timeline_dock.js";
 import { Transport } from "./panels/transport.js";
 import { watchUnplanned } from "./panels/unplanned.js";
 import { watchViewMenu } from "./panels/view_menu.js";
+import { showBlockers } from "./scene/blocker_overlay.js";
+import { ClosestOverlay } from "./scene/closest_overlay.js";
 import { RobotColours } from "./scene/robot_colours.js";
 import { Stage } from "./scene/stage.js";
+import { showViolations } from "./scene/violation_overlay.js";
+import { clearanceJob } from "./service/clearance_job.js";
 import * as service from "./service/client.js";
 import { byId, setText } from "./ui/dom.js";
 import { watchShortcuts } from "./ui/shortcuts.js";
@@ -30,6 +38,8 @@ import { Tabs } from "./ui/tabs.js";
 const session = new Session(service, requestAnimationFrame.bind(window));
 const colours = new RobotColours();
 const stage = new Stage(session, colours);
+const fleet = new FleetMotion(session, clearanceJob());
+const closest = new ClosestOverlay(session, stage, fleet);
 const tabs = new Tabs(byId("tabs"));
 const transport = new Transport(session);
 const offerEditing = () => tabs.choose("tab-edit");
@@ -42,7 +52,12 @@ watchEdits(session, service.validate);
 new PlanningStatus(session);
 new OptionsPanel(session);
 new RobotList(session, colours);
+new TimelineDock(session, colours, fleet, (over) => closest.peek(over));
+new Inspector(session, colours, fleet);
 watchSummary(session);
+watchCheck(session, stage);
+showBlockers(session, stage);
+showViolations(session, stage, fleet);
 watchUnplanned(session);
 watchReadout(session);
 watchSaving(session, stage, address);
@@ -60,6 +75,7 @@ watchShortcuts({
   ".": () => transport.step(1),
   "[": () => transport.changeSpeed(-1),
   "]": () => transport.changeSpeed(1),
+  c: () => closest.toggle(),
   f: () => stage.fit(),
   "+": () => stage.zoomIn(),
   "=": () => stage.zoomIn(),
@@ -77,5 +93,5 @@ watchShortcuts({
 
 document.addEventListener("visibilitychange", () => session.player.skip());
 
-offerHook(session, stage);
+offerHook(session, stage, fleet);
 setup.begin(service, address);

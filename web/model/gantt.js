@@ -68,15 +68,3 @@ export function orderRows(robots, tracks, by) {
   keyed.sort((a, b) => (a.value === b.value ? 0 : a.value - b.value));
   return keyed.map(({ id }) => id);
 }
-
-/** When the next (direction 1) or the previous (-1) action of some begins or ends, or null. */
-export function neighbouringEvent(actions, t, direction) {
-  let found = null;
-  for (const { t_start, t_end } of actions) {
-    for (const event of [t_start, t_end]) {
-      const ahead = (event - t) * direction;
-      if (ahead > 0 && (found === null || ahead < (found - t) * direction)) found = event;
-    }
-  }
-  return found;
-}

@@ -6,8 +6,8 @@ import { doingAt, pathOf, poseAt } from "./timeline.js";
 const FREE = new Set([".", "G"]);
 
 /**
- * The map as {map, lines, columns, rows, resolution, origin, blocked, bounds}; blocked[row * columns + column], top row
- * first. `previous`, a grid or null, spares reading what is the same.
+ * The map as {map, lines, columns, rows, resolution, origin, blocked, bounds}; blocked[row * columns + column],
+ * top row first. `previous`, a grid or null, spares reading what is the same.
  */
 export function readGrid(map, previous) {
   if (previous !== null && map === previous.map) return previous;
@@ -58,8 +58,8 @@ function readPose(pose) {
 }
 
 /**
- * The scene of a parsed request: {grid, robots}; the grid is null when there is no map to draw. `previous`, the scene
- * of an earlier request, makes it cheap to read an edited one.
+ * The scene of a parsed request: {grid, robots}; the grid is null when there is no map to draw. `previous`, the
+ * scene of an earlier request, makes it cheap to read an edited one.
  */
 export function readScene(request, previous = null) {
   const robots = readRobots(request);
@@ -69,8 +69,9 @@ export function readScene(request, previous = null) {
 }
 
 /**
- * What each robot of the scene does, by id: {status, actions, path, cost, unplanned}. The status is "ready" before
- * there is an answer, then "planned", "parked" (it has no goal) or "unplanned".
+ * What each robot of the scene does, by id: {status, actions, path, cost, lowerBound, unplanned}. The status is
+ * "ready" before there is an answer, then "planned", "parked" (it has no goal) or "unplanned"; `lowerBound`,
+ * what the robot would cost alone on the map (seconds), is null where the answer does not tell.
  */
 export function readTracks(scene, answer) {
   const plans = new Map((answer?.plans ?? []).map((plan) => [plan.robot, plan]));
@@ -83,6 +84,7 @@ export function readTracks(scene, answer) {
       actions,
       path: pathOf(actions),
       cost: plans.get(robot.id)?.cost ?? null,
+      lowerBound: plans.get(robot.id)?.lower_bound ?? null,
       unplanned: failures.get(robot.id) ?? null,
     });
   }

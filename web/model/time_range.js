@@ -35,6 +35,7 @@ export function ticks({ from, to }, most) {
   const power = 10 ** Math.floor(Math.log10(least));
   const step = power * (STEPS.find((factor) => power * factor >= least) ?? 10);
   const times = [];
-  for (let k = Math.max(0, Math.ceil(from / step - SLACK)); k * step <= to + SLACK * step; k += 1) times.push(k * step);
+  const first = Math.max(0, Math.ceil(from / step - SLACK));
+  for (let k = first; k * step <= to + SLACK * step; k += 1) times.push(k * step);
   return { step, times };
 }

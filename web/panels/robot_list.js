@@ -1,6 +1,6 @@
 // The list of robots with what each does now.
 
-import { byId, element, setText } from "../ui/dom.js";
+import { byId, element, scrollWithin, setText } from "../ui/dom.js";
 import { count, seconds } from "../ui/format.js";
 
 const EVERY_MS = 150; // between updates while playing
@@ -89,12 +89,4 @@ export class RobotList {
   }
 
   #revealed = null;
-}
-
-/** Scrolls `box`, and nothing around it, so that `part` is in sight. */
-function scrollWithin(box, part) {
-  const outer = box.getBoundingClientRect();
-  const inner = part.getBoundingClientRect();
-  if (inner.top < outer.top) box.scrollTop -= outer.top - inner.top;
-  else if (inner.bottom > outer.bottom) box.scrollTop += inner.bottom - outer.bottom;
 }

@@ -5,8 +5,8 @@ const SMALLEST_DOT = 2.5; // a robot of fewer pixels is shown as a dot of this r
 const SMALLEST_LABEL = 8; // font pixels
 
 /**
- * A robot as a disk with a wedge where it heads and, where there is room, its label or, if `state` is not null, the
- * sign of what it does; one without a plan is hollow and crossed out.
+ * A robot as a disk with a wedge where it heads and, where there is room, its label or, if `state` is not null,
+ * the sign of what it does; one without a plan is hollow and crossed out.
  */
 export function drawRobot(context, theme, { centre, theta, radius, colour, label, state, unplanned, name }) {
   const shown = Math.max(radius, SMALLEST_DOT);
@@ -153,22 +153,26 @@ function drawHalo(context, centre, radius, theme) {
 }
 
 function drawName(context, theme, centre, radius, name) {
+  drawTag(context, theme, { x: centre.x, y: centre.y - radius - 17 }, name);
+}
+
+/** A short text on a ground of its own, in the middle of a point. */
+export function drawTag(context, theme, { x, y }, text) {
   context.save();
   context.font = `600 12px ${theme.font}`;
   context.textAlign = "center";
   context.textBaseline = "middle";
-  const width = context.measureText(name).width + 12;
-  const y = centre.y - radius - 17;
+  const width = context.measureText(text).width + 12;
   context.fillStyle = theme.ink;
   context.beginPath();
-  context.roundRect(centre.x - width / 2, y - 9, width, 18, 5);
+  context.roundRect(x - width / 2, y - 9, width, 18, 5);
   context.fill();
   context.fillStyle = theme.floor;
-  context.fillText(name, centre.x, y + 0.5);
+  context.fillText(text, x, y + 0.5);
   context.restore();
 }
 
-function ring(context, centre, radius, colour, { width, alpha, dashes }) {
+export function ring(context, centre, radius, colour, { width, alpha, dashes }) {
   context.save();
   context.globalAlpha = alpha;
   context.strokeStyle = colour;

@@ -34,3 +34,15 @@ export function icon(path) {
 export function setText(target, text) {
   if (target.textContent !== text) target.textContent = text;
 }
+
+/**
+ * Scrolls `box`, and nothing around it, so that `part` is in sight. `covered`: pixels at its top that are
+ * hidden below a head that stays.
+ */
+export function scrollWithin(box, part, covered = 0) {
+  const outer = box.getBoundingClientRect();
+  const inner = part.getBoundingClientRect();
+  const top = outer.top + covered;
+  if (inner.top < top) box.scrollTop -= top - inner.top;
+  else if (inner.bottom > outer.bottom) box.scrollTop += inner.bottom - outer.bottom;
+}

@@ -460,7 +460,7 @@ test("every control has a name and is reached with the keyboard", async () => {
   await onPage(async (page) => {
     await pressPlan(page);
     const controls = await page.evaluate(() =>
-      [...document.querySelectorAll("button, select, input, textarea, summary, canvas")]
+      [...document.querySelectorAll("button, select, input, textarea, summary, canvas:not([aria-hidden])")]
         .filter((control) => control.checkVisibility() && !control.disabled)
         .map((control) => ({
           id: control.id || control.dataset.robot || control.textContent,

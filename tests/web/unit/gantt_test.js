@@ -3,7 +3,6 @@ import { test } from "node:test";
 
 import {
   clampScroll,
-  neighbouringEvent,
   orderRows,
   rowAt,
   rowsSeen,
@@ -83,17 +82,4 @@ test("rows are sorted by what is asked for, and as listed where that is equal or
   assert.equal(sorted("start"), "cdaeb");
   assert.equal(sorted("cost"), "ceadb");
   assert.equal(sorted("delay"), "dacbe");
-});
-
-test("events are gone through one by one in both directions", () => {
-  const actions = [
-    { t_start: 0, t_end: 1.5 },
-    { t_start: 1.5, t_end: 4 },
-  ];
-  assert.equal(neighbouringEvent(actions, 0, 1), 1.5);
-  assert.equal(neighbouringEvent(actions, 1.5, 1), 4);
-  assert.equal(neighbouringEvent(actions, 4, 1), null);
-  assert.equal(neighbouringEvent(actions, 4, -1), 1.5);
-  assert.equal(neighbouringEvent(actions, 1, -1), 0);
-  assert.equal(neighbouringEvent(actions, 0, -1), null);
 });

@@ -1,0 +1,62 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { clearanceOf } from "../../../web/model/clearance.js";
+import { FleetMotion } from "../../../web/model/fleet_motion.js";
+import { readScene, readTracks } from "../../../web/model/scene.js";
+import { Signals } from "../../../web/model/signal.js";
+
+const REQUEST = {
+  map: { rows: ["....."] },
+  robot_defaults: { radius: 0.25 },
+  robots: [
+    { id: "far", start: { x: 50, y: 0.5 } },
+    { id: "mover", start: { x: 0.5, y: 0.5 }, goal: { x: 3.5, y: 0.5 } },
+    { id: "stayer", start: { x: 4.5, y: 0.5 } },
+  ],
+};
+const ACTIONS = [
+  { type: "translate", t_start: 0, t_end: 3, from: { x: 0.5, y: 0.5 }, to: { x: 3.5, y: 0.5 } },
+];
+
+/** As much of a session as the fleet's motion asks for. */
+class FakeSession extends Signals {
+  scene = readScene(REQUEST);
+  tracks = readTracks(this.scene, null);
+  answer = null;
+
+  adopt(answer) {
+    this.answer = answer;
+    this.tracks = readTracks(this.scene, answer);
+    this.emit("answer");
+  }
+}
+
+test("the two nearest are named by their ids, at any time and under the present answer", () => {
+  const session = new FakeSession();
+  const fleet = new FleetMotion(session, () => {});
+  assert.deepEqual(fleet.nearestAt(3), { ids: ["mover", "stayer"], gap: 3.5 });
+  session.adopt({ plans: [{ robot: "mover", cost: 3, actions: ACTIONS }] });
+  assert.deepEqual(fleet.nearestAt(3), { ids: ["mover", "stayer"], gap: 0.5 });
+  assert.deepEqual(fleet.nearestAt(1), { ids: ["mover", "stayer"], gap: 2.5 });
+});
+
+test("the curve is told when it is worked out, and not for an answer that is gone", () => {
+  const session = new FakeSession();
+  const told = [];
+  const fleet = new FleetMotion(session, (motions, tell) => told.push(() => tell(clearanceOf(motions))));
+  let changes = 0;
+  fleet.onCurve(() => (changes += 1));
+  session.adopt({ plans: [] });
+  session.adopt({ plans: [{ robot: "mover", cost: 3, actions: ACTIONS }] });
+  assert.equal(changes, 2);
+  told[0]();
+  assert.equal(fleet.least, null);
+  assert.equal(changes, 2);
+  told[1]();
+  assert.deepEqual(fleet.least, { t: 3, gap: 0.5, ids: ["mover", "stayer"] });
+  assert.equal(changes, 3);
+  session.adopt(null);
+  assert.equal(fleet.least, null);
+  assert.equal(told.length, 2);
+});

@@ -1,0 +1,71 @@
+// How all robots of the session move under its answer, for whoever asks how near they come. No DOM; whoever
+// works the curve out is passed in.
+
+import { ClearanceSweep } from "./clearance.js";
+import { motionOf } from "./motion.js";
+import { Signals } from "./signal.js";
+
+export class FleetMotion {
+  #session;
+  #signals = new Signals();
+  #byId = null;
+  #sweep = null;
+  #nearest = { time: null, pair: null };
+
+  /** The smallest gap over time, see clearanceOf; null without an answer and until it is worked out. */
+  curve = null;
+
+  /** `workOut(motions, told)` tells the curve later, and no more of older motions once it has newer ones. */
+  constructor(session, workOut) {
+    this.#session = session;
+    session.on("answer", () => {
+      const { answer } = session;
+      this.#byId = this.#sweep = this.curve = null;
+      this.#nearest = { time: null, pair: null };
+      this.#signals.emit("curve");
+      if (answer === null) return;
+      workOut([...this.byId.values()], (curve) => {
+        if (answer !== session.answer) return;
+        this.curve = curve;
+        this.#signals.emit("curve");
+      });
+    });
+  }
+
+  /** `listener` is called when there is another curve, or none. */
+  onCurve(listener) {
+    this.#signals.on("curve", listener);
+  }
+
+  /** The motions of all robots by id, in the order of the scene. */
+  get byId() {
+    const { scene, tracks } = this.#session;
+    this.#byId ??= new Map(
+      scene.robots.map((robot) => [robot.id, motionOf(robot, tracks.get(robot.id).actions)]),
+    );
+    return this.#byId;
+  }
+
+  /** The two robots that are nearest to each other at a time: {ids, gap}, or null if there are no two. */
+  nearestAt(time) {
+    if (this.byId.size < 2) return null;
+    if (time !== this.#nearest.time) {
+      this.#sweep ??= new ClearanceSweep([...this.byId.values()]);
+      const { first, second, gap } = this.#sweep.nearestAt(time);
+      this.#nearest = { time, pair: { ids: this.#idsOf(first, second), gap } };
+    }
+    return this.#nearest.pair;
+  }
+
+  /** When two robots come nearest to each other in all of the plan: {t, gap, ids}, or null. */
+  get least() {
+    if (this.curve === null) return null;
+    const { t, gap, first, second, least } = this.curve;
+    return { t: t[least], gap: gap[least], ids: this.#idsOf(first[least], second[least]) };
+  }
+
+  #idsOf(first, second) {
+    const { robots } = this.#session.scene;
+    return [Math.min(first, second), Math.max(first, second)].map((at) => robots[at].id);
+  }
+}

@@ -1,0 +1,80 @@
+// What the service says of the plan shown: valid, or what is wrong with it and when. Pressing a violation shows
+// it.
+
+import { kindInWords } from "../model/violations.js";
+import { byId, element, icon } from "../ui/dom.js";
+import { count, metres, seconds } from "../ui/format.js";
+
+const TICK = "M4.5 10.5 8.5 14.5 15.5 6";
+const CROSS = "M5 5 15 15M15 5 5 15";
+const MOST = 100; // violations to list; nobody reads more
+const DISTANCES = new Set(["robot_collision", "obstacle_collision"]);
+
+/** Offers to check the session's plan, and shows what came of it. `stage`: see Stage. */
+export function watchCheck(session, stage) {
+  const button = byId("check-plan");
+  button.addEventListener("click", async () => {
+    button.disabled = true;
+    button.textContent = "Checking…";
+    await session.validate();
+    button.textContent = "Check plan";
+    button.disabled = false;
+  });
+  session.on("answer", () => (byId("checking").hidden = session.answer === null));
+  session.on("check", () => showCheck(session, stage));
+}
+
+function showCheck(session, stage) {
+  const box = byId("check");
+  const { check } = session;
+  box.hidden = check === null;
+  box.replaceChildren();
+  if (check === null) return;
+  box.className = `card check ${check.valid ? "good" : "bad"}`;
+  const gap = check.min_clearance;
+  const nearest = gap === null ? "" : ` The smallest gap between two robots is ${metres(gap)}.`;
+  const title = check.valid ? "Valid" : `Not valid: ${count(check.violations.length, "violation")}`;
+  box.append(
+    element("h2", {}, icon(check.valid ? TICK : CROSS), check.truncated ? `${title} and more` : title),
+    element("p", {
+      textContent: check.valid
+        ? `The service checked every motion in continuous time and found nothing wrong.${nearest}`
+        : nearest.trim(),
+    }),
+  );
+  if (!check.valid) box.append(violationList(check.violations, session, stage));
+  session.say(box.querySelector("h2").textContent);
+}
+
+function violationList(violations, session, stage) {
+  const list = element("ol", { class: "violations" });
+  for (const violation of violations.slice(0, MOST)) {
+    list.append(element("li", {}, violationButton(violation, session, stage)));
+  }
+  const more = violations.length - MOST;
+  if (more > 0) list.append(element("li", { textContent: `and ${count(more, "more", "more")}` }));
+  return list;
+}
+
+function violationButton({ kind, robots, t, distance, required, detail }, session, stage) {
+  const names = robots.map((id) => element("span", { class: "robot-name", textContent: id }));
+  const button = element(
+    "button",
+    { type: "button", class: "violation", "data-kind": kind },
+    element("span", { class: "violation-kind", textContent: kindInWords(kind) }),
+    element("span", { class: "violation-time", textContent: seconds(t) }),
+    element("span", { class: "violation-robots" }, ...names),
+    DISTANCES.has(kind)
+      ? element("span", { textContent: `${metres(distance)} apart, ${metres(required)} needed` })
+      : null,
+    element("span", { class: "violation-detail", textContent: detail }),
+  );
+  button.addEventListener("click", () => {
+    session.pause();
+    session.bringOut(robots);
+    session.seek(t);
+    const at = session.poseOf(robots[0]);
+    if (at) stage.reveal(at);
+  });
+  return button;
+}

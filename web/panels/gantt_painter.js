@@ -1,0 +1,182 @@
+// Paints the timeline: the smallest gap over time, an axis of time, and a row a robot. What a robot does is
+// told by form: driving is a full bar, turning half a bar, waiting an open one. Sizes in CSS pixels.
+
+import { rowsSeen, xOf, yOf } from "../model/gantt.js";
+import { ticks } from "../model/time_range.js";
+import { REASONS } from "./unplanned.js";
+
+export const STRIP = 44; // the height of the curve above the rows
+export const AXIS = 20; // the height of the axis between
+
+const PAD = 8;
+const SWATCH = 5; // radius
+const TICK_WIDTH = 72; // room for a tick's label
+const LEAST_BAR = 1; // so that a short action is seen at all
+const CONTACT = 1e-6; // metres: nearer is contact, further overlapping a collision
+const FONT = 12;
+
+/**
+ * `chart` has layout (see model/gantt.js, whose rows begin below the strip and the axis), ids (row by row),
+ * session, colours (see RobotColours) and curve (see clearanceOf, or null).
+ */
+export function paintGantt(context, chart) {
+  const { layout, colours } = chart;
+  const { theme } = colours;
+  context.clearRect(0, 0, layout.left + layout.width + PAD, layout.top + layout.height);
+  context.textBaseline = "middle";
+  context.textAlign = "left";
+  paintRows(context, chart);
+  context.clearRect(0, 0, layout.left + layout.width + PAD, layout.top);
+  paintAxis(context, layout, theme);
+  clipped(context, layout, 0, STRIP, () => paintCurve(context, layout, theme, chart.curve));
+  paintStripLabel(context, theme, chart.curve);
+}
+
+function paintAxis(context, layout, theme) {
+  const { left, width, range, top, height } = layout;
+  const { step, times } = ticks(range, width / TICK_WIDTH);
+  const digits = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
+  context.font = `${FONT - 1}px ${theme.font}`;
+  context.textAlign = "center";
+  for (const time of times) {
+    const x = Math.round(xOf(layout, time));
+    context.fillStyle = theme.muted;
+    const text = `${time.toFixed(digits)} s`;
+    const half = context.measureText(text).width / 2;
+    context.fillText(text, Math.min(left + width - half, Math.max(left + half, x)), STRIP + AXIS / 2 + 1);
+    context.fillStyle = theme.edge;
+    context.globalAlpha = 0.3;
+    context.fillRect(x, 0, 1, STRIP);
+    context.fillRect(x, top, 1, height);
+    context.globalAlpha = 1;
+  }
+  context.textAlign = "left";
+}
+
+function paintStripLabel(context, theme, curve) {
+  context.font = `${FONT - 1}px ${theme.font}`;
+  context.fillStyle = theme.muted;
+  context.fillText("Smallest gap", PAD, STRIP / 2 - (curve ? 7 : 0));
+  if (curve === null) return;
+  context.fillText(`0 to ${largestGap(curve).toFixed(1)} m`, PAD, STRIP / 2 + 8);
+}
+
+/** The curve on a square root's scale, which spreads small gaps; below it what is contact or worse. */
+function paintCurve(context, layout, theme, curve) {
+  if (curve === null) return;
+  const { t, gap } = curve;
+  const most = largestGap(curve);
+  const bottom = STRIP - 5;
+  const yAt = (value) => bottom - Math.sqrt(Math.max(0, value) / most) * (bottom - 5);
+  context.beginPath();
+  context.moveTo(xOf(layout, 0), yAt(gap[0]));
+  for (let k = 0; k < t.length; k += 1) context.lineTo(xOf(layout, t[k]), yAt(gap[k]));
+  context.lineTo(layout.left + layout.width, yAt(gap[t.length - 1]));
+  context.strokeStyle = theme.accent;
+  context.lineWidth = 1.5;
+  context.lineJoin = "round";
+  context.stroke();
+  context.lineTo(layout.left + layout.width, bottom);
+  context.lineTo(xOf(layout, 0), bottom);
+  context.globalAlpha = 0.14;
+  context.fillStyle = theme.accent;
+  context.fill();
+  context.globalAlpha = 1;
+  for (let k = 0; k < t.length; k += 1) {
+    if (gap[k] > CONTACT) continue;
+    const overlap = gap[k] < -CONTACT;
+    context.fillStyle = overlap ? theme.danger : theme.ink;
+    context.fillRect(xOf(layout, t[k]) - 1, overlap ? 4 : bottom - 1, 2, overlap ? STRIP - 4 : 6);
+  }
+}
+
+function largestGap({ gap }) {
+  return gap.reduce((largest, value) => Math.max(largest, value), CONTACT);
+}
+
+function paintRows(context, { layout, ids, session, colours }) {
+  const { first, end } = rowsSeen(layout);
+  const { theme } = colours;
+  for (let row = first; row < end; row += 1) {
+    const robot = session.robot(ids[row]);
+    const track = session.tracks.get(robot.id);
+    const top = yOf(layout, row);
+    paintGround(context, layout, theme, top, robot.id === session.hovered, session.marked.has(robot.id));
+    paintLabel(context, layout, theme, { top, robot, track, colour: colours.of(robot.index) });
+    clipped(context, layout, top, layout.rowHeight, () => {
+      if (track.status === "planned") paintActions(context, layout, theme, top, track, colours.of(robot.index));
+      else paintStatus(context, layout, theme, top, track);
+    });
+  }
+}
+
+function paintGround(context, { left, width, rowHeight }, theme, top, hovered, marked) {
+  if (!hovered && !marked) return;
+  context.globalAlpha = marked ? 0.16 : 0.08;
+  context.fillStyle = marked ? theme.accent : theme.ink;
+  context.fillRect(0, top, left + width + PAD, rowHeight);
+  context.globalAlpha = 1;
+  if (!marked) return;
+  context.fillStyle = theme.accent;
+  context.fillRect(0, top, 3, rowHeight);
+}
+
+function paintLabel(context, { left, rowHeight }, theme, { top, robot, track, colour }) {
+  const middle = top + rowHeight / 2;
+  context.beginPath();
+  context.arc(PAD + SWATCH, middle, SWATCH - 0.75, 0, 2 * Math.PI);
+  context.fillStyle = context.strokeStyle = colour;
+  context.lineWidth = 1.5;
+  if (track.status !== "unplanned") context.fill();
+  context.stroke();
+  context.font = `${FONT}px ${theme.font}`;
+  context.fillStyle = theme.ink;
+  const room = left - 3 * PAD - 2 * SWATCH;
+  context.fillText(shortened(context, robot.id, room), 2 * PAD + 2 * SWATCH, middle + 0.5);
+}
+
+/** The text, or its end (ids differ there) if it is too long. */
+function shortened(context, text, room) {
+  if (context.measureText(text).width <= room) return text;
+  let from = 1;
+  while (from < text.length && context.measureText(`…${text.slice(from)}`).width > room) from += 1;
+  return `…${text.slice(from)}`;
+}
+
+function paintActions(context, layout, theme, top, { actions, lowerBound }, colour) {
+  const middle = Math.round(top + layout.rowHeight / 2);
+  const full = Math.round(layout.rowHeight * 0.56);
+  const half = Math.round(full / 2);
+  context.fillStyle = context.strokeStyle = colour;
+  context.lineWidth = 1;
+  for (const { type, t_start, t_end } of actions) {
+    if (t_end < layout.range.from || t_start > layout.range.to) continue;
+    const x = xOf(layout, t_start);
+    const width = Math.max(LEAST_BAR, xOf(layout, t_end) - x);
+    if (type === "translate") context.fillRect(x, middle - full / 2, width, full);
+    else if (type === "rotate") context.fillRect(x, middle + full / 2 - half, width, half);
+    else context.strokeRect(x + 0.5, middle - 1.5, Math.max(0, width - 1), 3);
+  }
+  if (!Number.isFinite(lowerBound)) return;
+  context.fillStyle = theme.ink;
+  context.fillRect(Math.round(xOf(layout, lowerBound)) - 1, top + 2, 2, layout.rowHeight - 4);
+}
+
+function paintStatus(context, layout, theme, top, { status, unplanned }) {
+  const text = unplanned ? `✕ ${REASONS[unplanned.reason] ?? unplanned.reason}` : STATUS[status];
+  context.font = `${unplanned ? "600 " : ""}${FONT}px ${theme.font}`;
+  context.fillStyle = unplanned ? theme.danger : theme.muted;
+  context.fillText(text, layout.left + PAD, top + layout.rowHeight / 2 + 0.5);
+}
+
+const STATUS = { parked: "Parked", ready: "" };
+
+/** Paints within the part of the chart that is about time. */
+function clipped(context, { left, width }, top, height, paint) {
+  context.save();
+  context.beginPath();
+  context.rect(left, top, width + PAD, height);
+  context.clip();
+  paint();
+  context.restore();
+}

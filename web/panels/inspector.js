@@ -1,0 +1,178 @@
+// The card of the selected robot: what it costs, how it spends its time, and its actions one by one, with what
+// each wait is for.
+
+import { waitedFor } from "../model/blame.js";
+import { delayOf } from "../model/gantt.js";
+import { actionInWords, totals } from "../model/itinerary.js";
+import { actionIndexAt } from "../model/timeline.js";
+import { byId, element, icon, scrollWithin, setText } from "../ui/dom.js";
+import { seconds } from "../ui/format.js";
+import { robotChip } from "./robot_chip.js";
+import { REASONS } from "./unplanned.js";
+
+const CROSS = "M5 5 15 15M15 5 5 15";
+const COLUMNS = ["", "From, s", "To, s", "What"];
+const WHY_STILL = {
+  parked: "It has no goal and stays where it is.",
+  planned: "It is at its goal and need not move.",
+  ready: "The plan says nothing of it: it stays where it is.",
+};
+
+export class Inspector {
+  #session;
+  #colours;
+  #fleet;
+  #box = byId("inspector");
+  #shown = null; // the id of the robot shown
+  #state = null; // the element that says what it does now
+  #rows = []; // of the table, one an action
+  #current = -1; // the row of the action under way
+
+  /** `colours`: see RobotColours; `fleet`: see FleetMotion. */
+  constructor(session, colours, fleet) {
+    this.#session = session;
+    this.#colours = colours;
+    this.#fleet = fleet;
+    session.on("answer", () => this.#show());
+    session.on("marks", () => session.selected !== this.#shown && this.#show());
+    session.on("time", () => this.#update());
+    colours.onChange(() => this.#show());
+  }
+
+  #show() {
+    const { selected, answer } = this.#session;
+    this.#shown = selected;
+    this.#rows = [];
+    this.#current = -1;
+    this.#box.hidden = selected === null || answer === null;
+    if (this.#box.hidden) {
+      this.#box.replaceChildren();
+      return;
+    }
+    const robot = this.#session.robot(selected);
+    const track = this.#session.tracks.get(selected);
+    this.#box.setAttribute("aria-label", `Robot ${selected}`);
+    this.#box.replaceChildren(this.#head(robot, track), ...this.#body(robot, track));
+    this.#update();
+  }
+
+  #head(robot, track) {
+    const swatch = element("span", { class: `swatch${track.status === "unplanned" ? "" : " filled"}` });
+    swatch.style.color = this.#colours.of(robot.index);
+    this.#state = element("span", { class: `robot-state ${track.status}` });
+    const close = element("button", { type: "button", class: "icon close", title: "Close (Esc)" }, icon(CROSS));
+    close.setAttribute("aria-label", "Close");
+    close.addEventListener("click", () => this.#session.select(null));
+    const title = element("h2", { class: "robot-id", textContent: robot.id, title: robot.id });
+    return element("header", {}, swatch, title, this.#state, close);
+  }
+
+  #body(robot, track) {
+    if (track.unplanned) return [this.#whyUnplanned(track.unplanned)];
+    if (track.actions.length === 0) return [element("p", { textContent: WHY_STILL[track.status] })];
+    const sum = totals(track.actions);
+    return [costOf(track), sharesOf(sum), this.#table(robot, track.actions)];
+  }
+
+  #whyUnplanned({ reason, detail, blocked_by }) {
+    const parts = [
+      element("p", { class: "reason", textContent: REASONS[reason] ?? reason }),
+      detail ? element("p", { textContent: detail }) : null,
+    ];
+    if (blocked_by?.length > 0) {
+      const chips = blocked_by.map((id) => robotChip(this.#session, id));
+      parts.push(element("div", { class: "chips" }, "In the way:", ...chips));
+    }
+    return element("div", { class: "why" }, ...parts);
+  }
+
+  #table(robot, actions) {
+    const body = element("tbody");
+    this.#rows = actions.map((action, at) => {
+      const words = element("button", { type: "button", class: "action", textContent: actionInWords(action) });
+      words.addEventListener("click", () => this.#session.seek(action.t_start));
+      const what = element("td", {}, words);
+      if (action.type === "wait") what.append(...this.#blame(robot, actions, at));
+      const row = element(
+        "tr",
+        { "data-type": action.type },
+        element("td", {}, element("span", { class: `form ${action.type}` })),
+        element("td", { class: "when", textContent: action.t_start.toFixed(2) }),
+        element("td", { class: "when", textContent: action.t_end.toFixed(2) }),
+        what,
+      );
+      body.append(row);
+      return row;
+    });
+    const heads = COLUMNS.map((textContent) => element("th", { scope: "col", textContent }));
+    const table = element("table", {}, element("thead", {}, element("tr", {}, ...heads)), body);
+    return element("div", { class: "actions", tabIndex: 0, role: "region", "aria-label": "Actions" }, table);
+  }
+
+  /** What to write after a wait. */
+  #blame(robot, actions, at) {
+    const hit = waitedFor(robot.id, actions, at, this.#fleet.byId);
+    if (hit) return this.#waitsFor("for", hit);
+    const inflation = this.#session.request.options?.inflation ?? 0;
+    const near = inflation > 0 && waitedFor(robot.id, actions, at, this.#fleet.byId, 2 * inflation);
+    if (near) return this.#waitsFor("to keep clear of", near);
+    const note = element("span", {
+      class: "note",
+      textContent: "for no robot",
+      title: "Without this wait no robot would have been hit: a pause before moving, or one for safety",
+    });
+    return [" ", note];
+  }
+
+  #waitsFor(why, { robot, t }) {
+    const chip = robotChip(this.#session, robot);
+    chip.title = `Without this wait the two would meet at ${seconds(t)}`;
+    return [` ${why} `, chip];
+  }
+
+  #update() {
+    if (this.#box.hidden) return;
+    const { time } = this.#session.player;
+    setText(this.#state, this.#session.stateOf(this.#shown));
+    if (this.#rows.length === 0) return;
+    const { actions, cost } = this.#session.tracks.get(this.#shown);
+    const current = time >= cost ? -1 : actionIndexAt(actions, time);
+    if (current === this.#current) return;
+    this.#rows[this.#current]?.removeAttribute("aria-current");
+    this.#current = current;
+    const row = this.#rows[current];
+    if (!row) return;
+    row.setAttribute("aria-current", "step");
+    const box = row.closest(".actions");
+    scrollWithin(box, row, box.querySelector("thead").offsetHeight);
+  }
+}
+
+function costOf(track) {
+  const delay = delayOf(track);
+  const compared =
+    delay === -Infinity
+      ? null
+      : element("small", {
+          textContent:
+            delay < 5e-3
+              ? "as quick as alone on the map"
+              : `${seconds(delay)} more than alone on the map (${seconds(track.lowerBound)})`,
+        });
+  const cost = element("b", { textContent: seconds(track.cost) });
+  return element("p", { class: "cost" }, cost, " to the goal", compared);
+}
+
+/** How the time is spent, as a bar and in words. */
+function sharesOf({ moving, turning, waiting, distance }) {
+  const spent = Object.entries({ moving, turning, waiting }).filter(([, time]) => time > 0);
+  const bar = element("div", { class: "shares", "aria-hidden": "true" });
+  for (const [doing, time] of spent) {
+    const part = element("span", { class: `share ${doing}` });
+    part.style.flexGrow = String(time);
+    bar.append(part);
+  }
+  const words = spent.map(([doing, time]) => `${doing} ${time.toFixed(1)} s`);
+  words.push(`${distance.toFixed(1)} m travelled`);
+  return element("div", {}, bar, element("p", { class: "note", textContent: words.join(" · ") }));
+}

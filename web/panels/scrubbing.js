@@ -1,0 +1,67 @@
+// Pressing, dragging and hovering on the timeline, by mouse or finger. A finger that moves up or down scrolls,
+// which the browser does; sideways it seeks.
+
+const TAP_SLACK = 6; // pixels
+
+/**
+ * Watches the scrolling box of a chart. `chart` has timeAt(x) and robotAt(y), in pixels within the box and null
+ * where there is none, and over(y or null), which hears where the pointer is.
+ */
+export function watchScrubbing(box, session, chart) {
+  let pressed = null; // {x, resume, moved} of the press at hand
+  const within = (event) => {
+    const { left, top } = box.getBoundingClientRect();
+    return { x: event.clientX - left - box.clientLeft, y: event.clientY - top - box.clientTop };
+  };
+
+  const seek = (x) => {
+    const time = chart.timeAt(x);
+    if (time !== null) session.seek(time);
+  };
+
+  const point = ({ x, y }) => {
+    const id = chart.robotAt(y);
+    if (id !== null) session.select(id);
+    seek(x);
+  };
+
+  box.addEventListener("pointerdown", (event) => {
+    const place = within(event);
+    if (event.button !== 0 || place.x >= box.clientWidth) return; // the scroll bar is the browser's
+    pressed = { x: place.x, resume: session.player.playing, moved: false };
+    if (event.pointerType === "touch") return; // perhaps it scrolls
+    box.setPointerCapture(event.pointerId);
+    session.pause();
+    point(place);
+  });
+
+  box.addEventListener("pointermove", (event) => {
+    const place = within(event);
+    if (pressed === null) {
+      session.hover(chart.robotAt(place.y));
+      chart.over(place.y);
+      return;
+    }
+    pressed.moved ||= Math.abs(place.x - pressed.x) > TAP_SLACK;
+    if (event.pointerType === "touch" && !pressed.moved) return;
+    if (session.player.playing) session.pause();
+    seek(Math.max(place.x, 0));
+  });
+
+  box.addEventListener("pointerup", (event) => {
+    if (pressed === null) return;
+    if (event.pointerType === "touch" && !pressed.moved) point(within(event));
+    release();
+  });
+
+  const release = () => {
+    const resume = pressed?.resume && session.player.time < session.player.duration;
+    pressed = null;
+    if (resume) session.play();
+  };
+  box.addEventListener("pointercancel", release);
+  box.addEventListener("pointerleave", () => {
+    session.hover(null);
+    chart.over(null);
+  });
+}

@@ -1,0 +1,243 @@
+// The timeline's chart on the page: it scrolls, zooms, is pointed at and steered by keys. The picture is
+// painted when something in it changes; while a plan plays, only the playhead moves.
+
+import { orderRows, rowAt, scrollToRow, timeAt, xOf } from "../model/gantt.js";
+import { eventTimes, nextEvent } from "../model/next_event.js";
+import { panTime, revealTime, zoomTime } from "../model/time_range.js";
+import { byId } from "../ui/dom.js";
+import { seconds } from "../ui/format.js";
+import { AXIS, paintGantt, STRIP } from "./gantt_painter.js";
+import { watchScrubbing } from "./scrubbing.js";
+
+const LABELS = { wide: 132, narrow: 108 }; // pixels for the robots' names
+const NARROW = 560; // pixels
+const RIGHT = 10; // pixels kept free at the right
+const ROW = { fine: 20, coarse: 28 }; // pixels; coarse for fingers
+const KEY_ZOOM = 1.5;
+
+export class TimelineChart {
+  #session;
+  #colours;
+  #fleet;
+  #box = byId("timeline-scroll");
+  #canvas = byId("timeline-canvas");
+  #playhead = byId("timeline-playhead");
+  #rows = byId("timeline-rows");
+  #rowHeight = matchMedia("(pointer: coarse)").matches ? ROW.coarse : ROW.fine;
+  #sortedBy = "listed";
+  #ids = []; // row by row
+  #range = { from: 0, to: 0 };
+  #size = { clientWidth: 0, clientHeight: 0 }; // of the box: asking it each frame would have it laid out anew
+  #scroll = 0;
+  #scheduled = false;
+  #revealed = null; // the selected robot when its row was last brought in sight
+
+  /** `fleet`: see FleetMotion. `overStrip(whether)` hears of the pointer on the curve of the smallest gap. */
+  constructor(session, colours, fleet, overStrip) {
+    this.#session = session;
+    this.#colours = colours;
+    this.#fleet = fleet;
+    new ResizeObserver(() => this.#measure()).observe(this.#box);
+    session.on("answer", () => this.#show());
+    session.on("time", () => this.#follow());
+    session.on("time playback", () => session.player.playing || this.#describe());
+    session.on("marks", () => this.#mark());
+    colours.onChange(() => this.#repaint());
+    fleet.onCurve(() => this.#repaint());
+    this.#box.addEventListener("scroll", () => this.#measure());
+    this.#box.addEventListener("wheel", (event) => this.#onWheel(event), { passive: false });
+    this.#box.addEventListener("keydown", (event) => this.#onKey(event));
+    this.#box.addEventListener("dblclick", () => this.#setRange({ from: 0, to: session.player.duration }));
+    watchScrubbing(this.#box, session, {
+      timeAt: (x) => (x < this.#layout().left ? null : timeAt(this.#layout(), x)),
+      robotAt: (y) => this.#ids[rowAt(this.#layout(), y)] ?? null,
+      over: (y) => overStrip(y !== null && y < STRIP),
+    });
+  }
+
+  /** Sorts the rows: "listed", "start", "cost" or "delay". */
+  sortBy(key) {
+    this.#sortedBy = key;
+    this.#order();
+    this.#repaint();
+  }
+
+  #show() {
+    this.#range = { from: 0, to: this.#session.player.duration };
+    this.#order();
+    this.#describe();
+    this.#repaint();
+  }
+
+  #order() {
+    this.#ids = orderRows(this.#session.scene.robots, this.#session.tracks, this.#sortedBy);
+    this.#rows.style.height = `${STRIP + AXIS + this.#ids.length * this.#rowHeight}px`;
+  }
+
+  #measure() {
+    const { clientWidth, clientHeight, scrollTop } = this.#box;
+    this.#size = { clientWidth, clientHeight };
+    this.#scroll = scrollTop;
+    this.#repaint();
+  }
+
+  #layout() {
+    const { clientWidth, clientHeight } = this.#size;
+    const left = clientWidth < NARROW ? LABELS.narrow : LABELS.wide;
+    const top = STRIP + AXIS;
+    return {
+      left,
+      width: Math.max(1, clientWidth - left - RIGHT),
+      top,
+      height: Math.max(0, clientHeight - top),
+      rowHeight: this.#rowHeight,
+      scroll: this.#scroll,
+      rows: this.#ids.length,
+      range: this.#range,
+    };
+  }
+
+  // Painting
+
+  #repaint() {
+    if (this.#scheduled) return;
+    this.#scheduled = true;
+    requestAnimationFrame(() => this.#paint());
+  }
+
+  #paint() {
+    this.#scheduled = false;
+    const { clientWidth, clientHeight } = this.#size;
+    if (clientHeight === 0) return;
+    const ratio = window.devicePixelRatio || 1;
+    const [width, height] = [Math.round(clientWidth * ratio), Math.round(clientHeight * ratio)];
+    if (this.#canvas.width !== width || this.#canvas.height !== height) {
+      Object.assign(this.#canvas, { width, height });
+      this.#canvas.style.width = `${clientWidth}px`;
+      this.#canvas.style.height = `${clientHeight}px`;
+    }
+    const context = this.#canvas.getContext("2d");
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    paintGantt(context, {
+      layout: this.#layout(),
+      ids: this.#ids,
+      session: this.#session,
+      colours: this.#colours,
+      curve: this.#fleet.curve,
+    });
+    this.#playhead.style.height = `${clientHeight}px`;
+    this.#placePlayhead();
+  }
+
+  #placePlayhead() {
+    const layout = this.#layout();
+    const { time, duration } = this.#session.player;
+    const x = xOf(layout, time);
+    this.#playhead.hidden = duration <= 0 || x < layout.left - 1 || x > layout.left + layout.width + 1;
+    this.#playhead.style.transform = `translateX(${x.toFixed(1)}px)`;
+  }
+
+  /** Keeps up with the moment: turns the page when it leaves what is shown. */
+  #follow() {
+    const { time, duration } = this.#session.player;
+    const range = revealTime(this.#range, duration, time);
+    if (range !== this.#range) this.#setRange(range);
+    else this.#placePlayhead();
+  }
+
+  #mark() {
+    const { selected } = this.#session;
+    if (selected !== this.#revealed) {
+      this.#revealed = selected;
+      this.#revealRow(this.#ids.indexOf(selected));
+      this.#describe();
+    }
+    this.#repaint();
+  }
+
+  #revealRow(row) {
+    if (row >= 0) this.#box.scrollTop = scrollToRow(this.#layout(), row);
+  }
+
+  #describe() {
+    const { selected, player } = this.#session;
+    const moment = `at ${player.time.toFixed(2)} of ${seconds(player.duration)}`;
+    const robot = selected === null ? "no robot chosen" : `${selected} ${this.#session.stateOf(selected)}`;
+    this.#box.setAttribute("aria-label", `Timeline of ${this.#ids.length} robots: ${robot} ${moment}`);
+  }
+
+  // Steering
+
+  #setRange(range) {
+    this.#range = range;
+    this.#repaint();
+  }
+
+  #zoom(anchor, factor) {
+    this.#setRange(zoomTime(this.#range, this.#session.player.duration, anchor, factor));
+  }
+
+  #onWheel(event) {
+    const layout = this.#layout();
+    const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
+    if (event.ctrlKey || event.metaKey) {
+      event.preventDefault();
+      const x = event.clientX - this.#box.getBoundingClientRect().left;
+      this.#zoom(timeAt(layout, x), Math.exp(-Math.max(-240, Math.min(240, event.deltaY * unit)) * 0.005));
+      return;
+    }
+    const across = event.shiftKey ? event.deltaY || event.deltaX : event.deltaX;
+    const down = event.shiftKey ? 0 : event.deltaY;
+    if (Math.abs(across) <= Math.abs(down)) return; // the rows scroll by themselves
+    event.preventDefault();
+    const shift = ((across * unit) / layout.width) * (this.#range.to - this.#range.from);
+    this.#setRange(panTime(this.#range, this.#session.player.duration, shift));
+  }
+
+  #onKey(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const { player } = this.#session;
+    const keys = {
+      ArrowUp: () => this.#choose(-1),
+      ArrowDown: () => this.#choose(1),
+      ArrowLeft: () => this.#step(-1),
+      ArrowRight: () => this.#step(1),
+      Home: () => this.#goTo(0),
+      End: () => this.#goTo(player.duration),
+      "+": () => this.#zoom(player.time, KEY_ZOOM),
+      "=": () => this.#zoom(player.time, KEY_ZOOM),
+      "-": () => this.#zoom(player.time, 1 / KEY_ZOOM),
+    };
+    if (!(event.key in keys)) return;
+    event.preventDefault();
+    keys[event.key]();
+  }
+
+  /** Selects the robot of the row below (1) or above (-1). */
+  #choose(direction) {
+    if (this.#ids.length === 0) return;
+    const at = this.#ids.indexOf(this.#session.selected);
+    const next = at < 0 ? (direction > 0 ? 0 : this.#ids.length - 1) : at + direction;
+    this.#session.select(this.#ids[Math.max(0, Math.min(this.#ids.length - 1, next))]);
+    this.#tell();
+  }
+
+  /** To the next event (1) of the selected robot, or of all, or the one before (-1). */
+  #step(direction) {
+    const { selected, tracks, player } = this.#session;
+    const own = tracks.get(selected)?.actions.length > 0 ? [tracks.get(selected)] : [...tracks.values()];
+    this.#goTo(nextEvent(eventTimes(own), player.time, direction));
+  }
+
+  #goTo(time) {
+    this.#session.pause();
+    this.#session.seek(time);
+    this.#tell();
+  }
+
+  #tell() {
+    const { selected, player } = this.#session;
+    const what = selected === null ? "" : `${selected} ${this.#session.stateOf(selected)}, `;
+    this.#session.say(`${what}${seconds(player.time)}`);
+  }
+}

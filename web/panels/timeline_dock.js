@@ -1,0 +1,97 @@
+// The dock of the timeline below the scene: it folds, is drawn to a height, says which robots are closest now,
+// and how rows are sorted.
+
+import { delayOf } from "../model/gantt.js";
+import { byId, setText } from "../ui/dom.js";
+import { metres } from "../ui/format.js";
+import { TimelineChart } from "./timeline_chart.js";
+
+const EVERY_MS = 100; // between updates of the words while playing
+const HEIGHT = { least: 110, first: 216, step: 24 }; // pixels of the chart
+const MOST_OF_WINDOW = 0.6;
+
+export class TimelineDock {
+  #session;
+  #fleet;
+  #toggle = byId("timeline-toggle");
+  #body = byId("timeline-body");
+  #divider = byId("timeline-divider");
+  #sort = byId("timeline-sort");
+  #closest = byId("timeline-closest");
+  #least = byId("timeline-least");
+  #height = HEIGHT.first;
+  #told = -Infinity;
+
+  /** See TimelineChart. */
+  constructor(session, colours, fleet, overStrip) {
+    this.#session = session;
+    this.#fleet = fleet;
+    const chart = new TimelineChart(session, colours, fleet, overStrip);
+    this.#toggle.addEventListener("click", () => this.#fold(!this.#body.hidden));
+    this.#sort.addEventListener("change", () => chart.sortBy(this.#sort.value));
+    this.#least.addEventListener("click", () => this.#goToLeast());
+    this.#watchDivider();
+    this.#fold(matchMedia("(max-width: 820px)").matches);
+    session.on("answer", () => {
+      const known = [...session.tracks.values()].some((track) => delayOf(track) > -Infinity);
+      this.#sort.querySelector("[value=delay]").disabled = !known;
+      byId("legend-bound").hidden = !known;
+    });
+    session.on("answer time playback", () => this.#tellClosest());
+    fleet.onCurve(() => this.#tellLeast());
+  }
+
+  #fold(folded) {
+    this.#body.hidden = this.#divider.hidden = folded;
+    this.#toggle.setAttribute("aria-expanded", String(!folded));
+  }
+
+  #tellClosest() {
+    const now = performance.now();
+    if (this.#session.player.playing && now - this.#told < EVERY_MS) return;
+    this.#told = now;
+    const pair = this.#session.answer === null ? null : this.#fleet.nearestAt(this.#session.player.time);
+    setText(this.#closest, pair === null ? "" : `Closest now: ${pair.ids.join(" and ")}, ${metres(pair.gap)}`);
+  }
+
+  #tellLeast() {
+    const { least } = this.#fleet;
+    this.#least.hidden = least === null;
+    if (least === null) return;
+    setText(this.#least, `Smallest gap ${metres(least.gap)}`);
+    this.#least.title = `${least.ids.join(" and ")} at ${least.t.toFixed(2)} s: show that moment`;
+  }
+
+  #goToLeast() {
+    const { t, ids } = this.#fleet.least;
+    this.#session.pause();
+    this.#session.bringOut(ids);
+    this.#session.seek(t);
+  }
+
+  #watchDivider() {
+    this.#setHeight(this.#height);
+    this.#divider.addEventListener("pointerdown", (event) => {
+      event.preventDefault();
+      this.#divider.setPointerCapture(event.pointerId);
+    });
+    this.#divider.addEventListener("pointermove", (event) => {
+      if (this.#divider.hasPointerCapture(event.pointerId)) this.#setHeight(this.#height - event.movementY);
+    });
+    this.#divider.addEventListener("keydown", (event) => {
+      const steps = { ArrowUp: HEIGHT.step, ArrowDown: -HEIGHT.step };
+      if (!(event.key in steps)) return;
+      event.preventDefault();
+      this.#setHeight(this.#height + steps[event.key]);
+    });
+  }
+
+  #setHeight(height) {
+    const most = Math.max(HEIGHT.least, Math.round(innerHeight * MOST_OF_WINDOW));
+    this.#height = Math.max(HEIGHT.least, Math.min(most, height));
+    this.#body.style.height = `${this.#height}px`;
+    for (const [name, value] of Object.entries({ now: this.#height, min: HEIGHT.least, max: most })) {
+      this.#divider.setAttribute(`aria-value${name}`, String(Math.round(value)));
+    }
+  }
+}
