@@ -1,5 +1,5 @@
-// The page's address says what is open: an example by its name (#name), and any other request itself where it is small
-// enough (#r=…), so that it can be bookmarked, sent and loaded again.
+// The page's address says what is open: an example by its name (#name), and any other request itself where it is
+// small enough (#r=…), so that it can be bookmarked, sent and loaded again.
 
 import { isLinkState, LONGEST_LINK, writeLinkState } from "./link_state.js";
 
@@ -33,7 +33,7 @@ export class Address {
     if (first && (await this.#opening.example(first.name)) && problem) this.#session.setProblem(problem);
   }
 
-  /** An address that opens the session's request: {address, length}, its length without what is before the "#". */
+  /** An address that opens the session's request: {address, length}, the length being that of the fragment. */
   async link() {
     const { example, request } = this.#session;
     const fragment = example === null ? await writeLinkState(request) : `#${example}`;

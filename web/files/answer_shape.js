@@ -1,4 +1,4 @@
-// What an answer has to be like so that it can be shown. Whether its plans are any good is the service's to tell.
+// What an answer has to be like to be shown. Whether its plans are any good is the service's to tell.
 
 import { FileError, quoted } from "./file_text.js";
 

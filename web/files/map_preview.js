@@ -10,17 +10,17 @@ export class MapPreview {
   canvas = element("canvas", { class: "map-preview", role: "img" });
 
   /**
-   * Paints a grid {columns, rows, blocked} described by `label`; `mark(context, theme, place)` may add to it, where
-   * place(column, row) is the middle of a cell, row 0 the top one: {x, y}, with `cell`, a cell's side, in pixels.
+   * Paints a map of so many cells. `layers` says which in which colour: [{cells, colour}], `cells` row by row
+   * from the top, 0 for none, `colour` a name in the theme. `label` describes it. `mark(context, theme, place)`
+   * may add to it, where place(column, row) is the middle of a cell {x, y} with `cell`, a cell's side, in pixels.
    */
-  paint(grid, label, mark = () => {}) {
+  paint({ columns, rows }, layers, label, mark = () => {}) {
     const { canvas } = this;
     const ratio = window.devicePixelRatio || 1;
     canvas.setAttribute("aria-label", label);
     canvas.width = Math.round(canvas.clientWidth * ratio);
     canvas.height = Math.round(canvas.clientHeight * ratio);
     if (canvas.width === 0 || canvas.height === 0) return;
-    const { columns, rows } = grid;
     const theme = readTheme();
     const context = canvas.getContext("2d");
     const cell = Math.min(canvas.width / columns, canvas.height / rows);
@@ -28,7 +28,9 @@ export class MapPreview {
     const top = (canvas.height - rows * cell) / 2;
     context.fillStyle = theme.floor;
     context.fillRect(left, top, columns * cell, rows * cell);
-    if (columns * rows <= MOST_CELLS) drawTiles(context, rasterize(grid, theme.wall), left, top, cell);
+    for (const { cells, colour } of columns * rows <= MOST_CELLS ? layers : []) {
+      drawTiles(context, rasterize({ columns, rows, blocked: cells }, theme[colour]), left, top, cell);
+    }
     mark(context, theme, (column, row) => ({
       x: left + (column + 0.5) * cell,
       y: top + (row + 0.5) * cell,

@@ -52,7 +52,8 @@ function readEntry(line, number) {
  * A request on `map` (of a request) for the first `count` entries that are possible for robots as `defaults`
  * ({radius, linear_speed, angular_speed}; m, m/s, rad/s) say, starts and goals at the cells' centres, goals with
  * any heading. An entry is passed over when a disk does not fit between the walls or overlaps one taken before:
- * {request, cells, passedOver: {walls, overlaps}}, `cells` being the entries taken. Throws FileError when the map is of another size.
+ * {request, cells, passedOver: {walls, overlaps}}, `cells` being the entries taken. Throws FileError when the map
+ * is of another size.
  */
 export function scenarioRequest(map, entries, count, defaults) {
   const [{ width, height, map: name }] = entries;

@@ -14,8 +14,8 @@ export class Opening {
   #turn = 0; // counts choices, so that a late one does not replace a newer one
 
   /**
-   * `fetchExample(name)` resolves to an example's text. `dialogs`: see ImportDialogs. `offerEditing` is called when
-   * what is opened has no robots yet.
+   * `fetchExample(name)` resolves to an example's text. `dialogs`: see ImportDialogs. `offerEditing` is called
+   * when what is opened has no robots yet.
    */
   constructor(session, fetchExample, dialogs, offerEditing) {
     this.#session = session;
@@ -30,7 +30,8 @@ export class Opening {
     return this.#turn > 0;
   }
 
-  // Each of these resolves to whether it is open now; if not, the session has the problem or something newer was chosen.
+  // Each of these resolves to whether it is open now; if not, the session has the problem, or it was given up or
+  // something newer was chosen.
 
   example(name) {
     return this.#choose(async () => {

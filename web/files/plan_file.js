@@ -9,9 +9,9 @@ export function planFile(request, answer) {
 }
 
 /**
- * What a parsed JSON document is, taken apart: {request, answer}, one of which may be null. A faulty request is a
- * request, for the service to tell its faults. An answer can be shown and has all that follows from its plans, but
- * is not called `verified`, as only a check can tell. Throws FileError for what is neither.
+ * What a parsed JSON document is, taken apart: {request, answer}, one of which may be null. A faulty request is
+ * a request, for the service to tell its faults. An answer can be shown and has all that follows from its plans,
+ * but is not called `verified`, as only a check can tell. Throws FileError for what is neither.
  */
 export function readDocument(document) {
   if (document === null || typeof document !== "object" || Array.isArray(document)) throw notOurs();

@@ -91,7 +91,7 @@ export class Reader {
     if (grid?.map.rows.length === height && grid.lines.every((line) => line.length === width))
       return { ...grid.map, resolution: grid.resolution, origin: grid.origin };
     throw new FileError(
-      `${name} is for the map ${wanted} of ${width} x ${height} cells, which is not the one shown: open both together.`,
+      `${name} is for the map ${wanted} of ${width} x ${height} cells, not the one shown: open both together.`,
     );
   }
 

@@ -62,7 +62,7 @@ export class RosMapDialog {
   async ask() {
     const sent = this.#dialog.ask();
     this.#refresh();
-    return (await sent) ? mapOfGrid(this.#made) : null;
+    return (await sent) ? mapOfGrid(this.#made, this.#unknownFree.checked) : null;
   }
 
   giveUp() {
@@ -72,32 +72,45 @@ export class RosMapDialog {
   #refresh() {
     const { input } = this.#merge;
     const source = this.#trim.checked ? this.#trimmed : this.#whole;
-    this.#made = input.checkValidity()
-      ? mergeCells(source, input.valueAsNumber, this.#unknownFree.checked)
-      : null;
-    const cells = this.#made ? this.#made.columns * this.#made.rows : 0;
-    this.#dialog.ready = this.#made !== null && cells <= this.#most;
-    this.#status.classList.toggle("wrong", this.#made === null || cells > this.#most);
-    setText(this.#status, this.#outcome(source, cells));
-    if (this.#made) this.#preview.paint({ ...this.#made, blocked: this.#made.cells }, "The map as imported");
+    const made = input.checkValidity() ? mergeCells(source, input.valueAsNumber) : null;
+    const fits = made !== null && made.cells.length <= this.#most;
+    this.#made = made;
+    this.#dialog.ready = fits;
+    this.#status.classList.toggle("wrong", !fits);
+    setText(this.#status, made ? this.#outcome(source) : `Merge 1 to ${MOST_MERGED} cells a side.`);
+    if (made) this.#paint(made);
   }
 
-  #outcome(source, cells) {
-    if (this.#made === null) return `Merge 1 to ${MOST_MERGED} cells a side.`;
-    const { columns, rows, resolution, origin } = this.#made;
-    const size = `${columns} × ${rows} = ${cells.toLocaleString("en")} cells of ${metres(resolution)}`;
+  #outcome(source) {
+    const { columns, rows, cells, resolution, origin } = this.#made;
+    const total = cells.length.toLocaleString("en");
+    const size = `${columns} × ${rows} = ${total} cells of ${metres(resolution)}`;
     const most = this.#most.toLocaleString("en");
-    if (cells > this.#most)
-      return `${size}: this service takes at most ${most}. Merge at least ${smallestFactor(source, this.#most)}.`;
-    const share = Math.round((100 * countCells(this.#made)[OCCUPIED]) / cells);
+    if (cells.length > this.#most)
+      return `${size}: the service takes at most ${most}. Merge at least ${smallestFactor(source, this.#most)}.`;
+    const counts = countCells(this.#made);
+    const blocked = counts[OCCUPIED] + (this.#unknownFree.checked ? 0 : counts[UNKNOWN]);
     const limit = Number.isFinite(this.#most) ? ` (at most ${most})` : "";
-    return `${size}${limit}, ${share} % blocked; lower-left corner at (${origin.x}, ${origin.y}) m.`;
+    return (
+      `${size}${limit}, ${percent(blocked, cells.length)} blocked; ` +
+      `lower-left corner at (${origin.x}, ${origin.y}) m.`
+    );
+  }
+
+  #paint(made) {
+    const layerOf = (kind, colour) => ({ cells: made.cells.map((cell) => (cell === kind ? 1 : 0)), colour });
+    const unknown = layerOf(UNKNOWN, this.#unknownFree.checked ? "void" : "wall");
+    this.#preview.paint(made, [layerOf(OCCUPIED, "wall"), unknown], "The map as imported");
   }
 }
 
 function inWords(grid) {
-  const unknown = Math.round((100 * countCells(grid)[UNKNOWN]) / (grid.columns * grid.rows));
-  return `${grid.columns} × ${grid.rows} pixels of ${metres(grid.resolution)}, ${unknown} % unknown.`;
+  const unknown = percent(countCells(grid)[UNKNOWN], grid.cells.length);
+  return `${grid.columns} × ${grid.rows} pixels of ${metres(grid.resolution)}, ${unknown} unknown.`;
+}
+
+function percent(part, whole) {
+  return `${Math.round((100 * part) / whole)} %`;
 }
 
 function tick(input, text) {

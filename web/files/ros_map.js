@@ -121,10 +121,10 @@ export function trimUnknown(grid) {
 }
 
 /**
- * The grid of FREE and OCCUPIED cells with `factor` × `factor` cells made one, from the lower-left corner on,
- * which stays where it is: occupied if any is occupied, is unknown (unless `unknownFree`) or is not on the map.
+ * The grid with `factor` × `factor` cells made one, from the lower-left corner on, which stays where it is:
+ * occupied if any is occupied or not on the map, otherwise unknown if any is.
  */
-export function mergeCells(grid, factor, unknownFree) {
+export function mergeCells(grid, factor) {
   const columns = Math.ceil(grid.columns / factor);
   const rows = Math.ceil(grid.rows / factor);
   const cells = new Uint8Array(columns * rows);
@@ -133,8 +133,8 @@ export function mergeCells(grid, factor, unknownFree) {
     const target = Math.floor((row + beyond) / factor) * columns;
     for (let column = 0; column < grid.columns; column += 1) {
       const cell = grid.cells[row * grid.columns + column];
-      if (cell === OCCUPIED || (cell === UNKNOWN && !unknownFree))
-        cells[target + Math.floor(column / factor)] = OCCUPIED;
+      const merged = target + Math.floor(column / factor);
+      if (cell === OCCUPIED || (cell === UNKNOWN && cells[merged] === FREE)) cells[merged] = cell;
     }
   }
   if (beyond > 0) cells.fill(OCCUPIED, 0, columns);
@@ -150,12 +150,16 @@ export function smallestFactor({ columns, rows }, most) {
   return factor;
 }
 
-/** The map of a request as the grid of FREE and OCCUPIED cells has it. */
-export function mapOfGrid({ columns, rows, cells, resolution, origin }) {
+/** The map of a request as the grid has it; unknown cells are blocked or, if `unknownFree`, free. */
+export function mapOfGrid({ columns, rows, cells, resolution, origin }, unknownFree) {
+  const letters = [];
+  letters[FREE] = ".";
+  letters[OCCUPIED] = "#";
+  letters[UNKNOWN] = unknownFree ? "." : "#";
   const lines = [];
   for (let row = 0; row < rows; row += 1) {
     let line = "";
-    for (let at = row * columns; at < (row + 1) * columns; at += 1) line += cells[at] === FREE ? "." : "#";
+    for (let at = row * columns; at < (row + 1) * columns; at += 1) line += letters[cells[at]];
     lines.push(line);
   }
   return { rows: lines, resolution, origin: { ...origin } };

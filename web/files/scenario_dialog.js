@@ -18,7 +18,7 @@ export class ScenarioDialog {
   #dialog;
   #made = null; // of the present fields: {request, passedOver}; null where one is not filled in
 
-  /** `entries` on `map`: see movingai_scen.js; at most `most` robots, `defaults` as a request's robot_defaults. */
+  /** `entries` on `map`: see movingai_scen.js. At most `most` robots. `defaults`: those to begin with. */
   constructor(name, map, entries, defaults, most) {
     this.#map = map;
     this.#entries = entries;
@@ -87,9 +87,10 @@ export class ScenarioDialog {
   #paint(robots, reach) {
     const { rows } = this.#map;
     const blocked = Uint8Array.from(rows.join(""), (letter) => (".G".includes(letter) ? 0 : 1));
-    const grid = { columns: rows[0].length, rows: rows.length, blocked };
+    const size = { columns: rows[0].length, rows: rows.length };
     this.#preview.paint(
-      grid,
+      size,
+      [{ cells: blocked, colour: "wall" }],
       `The map with the starts of ${count(robots, "robot")}`,
       (context, theme, place) => {
         this.#made?.cells.forEach(({ start, goal }, index) => {

@@ -47,7 +47,7 @@ export class FormDialog {
   }
 }
 
-/** A number to fill in: {field, input}, with its unit and what more there is to say. `limits` are those of an <input>. */
+/** A number to fill in: {field, input}, with its unit and a note. `limits`: min, max and step of the <input>. */
 export function numberField(id, label, unit, value, limits, note = "") {
   const input = element("input", { id, type: "number", required: true, step: "any", ...limits });
   input.value = String(value);

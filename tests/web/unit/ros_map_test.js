@@ -156,23 +156,23 @@ test("a map without a margin, or all unknown, stays as it is when trimmed", () =
   assert.deepEqual(trimUnknown(unknown), unknown);
 });
 
-test("unknown cells become blocked, or free if wanted", () => {
-  assert.deepEqual(drawn(mergeCells(grid([".?#"]), 1, false)), [".##"]);
-  assert.deepEqual(drawn(mergeCells(grid([".?#"]), 1, true)), ["..#"]);
-});
-
 test("merged cells are blocked if any of them is, and the lower-left corner stays", () => {
-  const merged = mergeCells(grid(["....", "..#.", "....", "...."]), 2, false);
+  const merged = mergeCells(grid(["....", "..#.", "....", "...."]), 2);
   assert.deepEqual(drawn(merged), [".#", ".."]);
   assert.deepEqual([merged.columns, merged.rows, merged.resolution], [2, 2, 0.1]);
   assert.deepEqual(merged.origin, { x: -10.1, y: -5 });
-  assert.equal(mergeCells(grid(["..."]), 3, false).resolution, 0.15);
+  assert.equal(mergeCells(grid(["..."]), 3).resolution, 0.15);
+});
+
+test("merged cells are unknown if any of them is and none is occupied", () => {
+  assert.deepEqual(drawn(mergeCells(grid([".??#", "..#."]), 2)), ["?#"]);
+  const same = grid([".?#"]);
+  assert.deepEqual(drawn(mergeCells(same, 1)), drawn(same));
 });
 
 test("merged cells that reach beyond the map are blocked", () => {
-  const merged = mergeCells(grid([".....", ".....", "....."]), 2, false);
-  assert.deepEqual(drawn(merged), ["###", "..#"]);
-  assert.deepEqual(drawn(mergeCells(grid(["#....", "....."]), 2, true)), ["#.#"]);
+  assert.deepEqual(drawn(mergeCells(grid([".....", ".....", "....."]), 2)), ["###", "..#"]);
+  assert.deepEqual(drawn(mergeCells(grid(["#....", "....."]), 2)), ["#.#"]);
 });
 
 test("merging never frees what was blocked", () => {
@@ -185,7 +185,7 @@ test("merging never frees what was blocked", () => {
     const lines = Array.from({ length: rows }, () =>
       Array.from({ length: columns }, () => LETTERS[random(8) < 6 ? 0 : 1 + random(2)]).join(""),
     );
-    const merged = mergeCells(grid(lines), factor, false);
+    const merged = mergeCells(grid(lines), factor);
     for (let row = 0; row < merged.rows; row += 1) {
       for (let column = 0; column < merged.columns; column += 1) {
         let free = true; // rows counted from the bottom
@@ -193,7 +193,7 @@ test("merging never frees what was blocked", () => {
           for (let x = column * factor; x < (column + 1) * factor; x += 1)
             free &&= lines[rows - 1 - y]?.[x] === ".";
         const cell = merged.cells[(merged.rows - 1 - row) * merged.columns + column];
-        assert.equal(cell, free ? FREE : OCCUPIED, `${lines.join("\n")} by ${factor} at ${column}, ${row}`);
+        assert.equal(cell === FREE, free, `${lines.join("\n")} by ${factor} at ${column}, ${row}`);
       }
     }
   }
@@ -206,10 +206,9 @@ test("the smallest factor makes the map fit, the next smaller one does not", () 
   assert.equal(smallestFactor({ columns: 7, rows: 3 }, 1), 7);
 });
 
-test("a grid becomes the map of a request", () => {
-  assert.deepEqual(mapOfGrid(grid([".#", ".."])), {
-    rows: [".#", ".."],
-    resolution: 0.05,
-    origin: { x: -10.1, y: -5 },
-  });
+test("a grid becomes the map of a request, its unknown cells blocked or free", () => {
+  const whole = grid([".#", "?."]);
+  const map = { rows: [".#", "#."], resolution: 0.05, origin: { x: -10.1, y: -5 } };
+  assert.deepEqual(mapOfGrid(whole, false), map);
+  assert.deepEqual(mapOfGrid(whole, true), { ...map, rows: [".#", ".."] });
 });
