@@ -52,17 +52,17 @@ export class Address {
 
   #showSoon() {
     clearTimeout(this.#timer);
-    const { example, text } = this.#session;
+    const { example } = this.#session;
     if (example !== null) {
       put(`#${example}`);
       return;
     }
     if (!isLinkState(location.hash)) put(""); // no example any longer
-    this.#timer = setTimeout(() => this.#showRequest(text), REST_MS);
+    this.#timer = setTimeout(() => this.#showRequest(), REST_MS);
   }
 
-  async #showRequest(text) {
-    const { request, turn } = this.#session;
+  async #showRequest() {
+    const { request, text, turn } = this.#session;
     const fragment = text.length <= LONGEST_TEXT ? await writeLinkState(request) : "";
     if (turn === this.#session.turn) put(fragment.length <= LONGEST_LINK ? fragment : "");
   }
