@@ -59,9 +59,12 @@ export class CellCursor {
     const [left, top] = [Math.min(a.x, b.x) - half, Math.min(a.y, b.y) - half];
     const [width, height] = [Math.abs(a.x - b.x) + 2 * half, Math.abs(a.y - b.y) + 2 * half];
     context.save();
-    context.strokeStyle = theme.accent;
+    context.fillStyle = context.strokeStyle = theme.accent;
     context.lineWidth = 2;
     context.strokeRect(left, top, width, height);
+    context.globalAlpha = 0.14;
+    context.fillRect(left, top, width, height);
+    context.globalAlpha = 1;
     paintSign(context, left + width / 2, top + height / 2, Math.min(half * 0.5, 7), sign);
     context.restore();
   }

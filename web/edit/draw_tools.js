@@ -12,6 +12,7 @@ let strokes = 0; // for a name of each
 /** Makes cells wall, or floor, where it is drawn. */
 export class DrawTool {
   help;
+  keys = "In the scene also arrows and Enter, with Shift a line.";
   #session;
   #cursor;
   #blocked;
@@ -24,7 +25,7 @@ export class DrawTool {
     this.#cursor = new CellCursor(session, stage);
     this.#blocked = blocked;
     const what = blocked ? "walls" : "free floor";
-    this.help = `Drag to draw ${what}. In the scene also arrows and Enter, with Shift a line.`;
+    this.help = `Drag to draw ${what}.`;
   }
 
   press(world) {
@@ -91,7 +92,8 @@ export class DrawTool {
 
 /** Fills the rectangle between two corners with walls or, with Alt, frees it. */
 export class BoxTool {
-  help = "Drag from corner to corner to fill with wall, with Alt to free. Or arrows, and Enter at each corner.";
+  help = "Drag from corner to corner to fill with wall.";
+  keys = "Alt: to free. In the scene also arrows, and Enter at both corners.";
 
   #session;
   #cursor;

@@ -26,7 +26,9 @@ export class EditPanel {
     new RobotForm(session, this.choice, actions);
     watchDefaultsForm(session);
     new MapForm(session);
-    watchNewMapForm(session, (request) => opening.text("new map", JSON.stringify(request)));
+    watchNewMapForm(session, async (request) => {
+      if (await opening.text("new map", JSON.stringify(request))) this.take("wall");
+    });
   }
 
   /** Takes a tool in hand: select, wall, erase, box or robot. */

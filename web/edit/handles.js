@@ -5,6 +5,7 @@ import { robotPoseAt } from "../model/scene.js";
 
 const STEM = 22; // pixels from a disk's rim to its handle
 const LONGER = 20; // pixels more for the goal's handle if it would cover the start's
+const NAME = 28; // pixels beyond a disk's top that its name may take
 const KNOB = 6; // pixels, the radius of a handle
 const GRASP = { mouse: 10, touch: 22 }; // pixels around a handle that take hold of it
 
@@ -37,13 +38,17 @@ function nearestPart(world, { scene, tracks, player }, stage, pose) {
 
 const posesOf = (robot) => (robot.goal ? ["goal", "start"] : ["start"]);
 
-/** The handle that turns a pose, world points: {rim, knob}. A goal of any heading has it to the right. */
+/** The handle that turns a pose, world points: {rim, knob}, where its stem begins and ends. A goal of any heading has it to the right. */
 function handleOf(robot, pose, scale) {
   const { x, y, theta } = robot[pose];
   const apart = robot.goal ? Math.hypot(robot.goal.x - robot.start.x, robot.goal.y - robot.start.y) : Infinity;
   const longer = pose === "goal" && apart * scale < 2 * STEM ? LONGER : 0;
-  const at = (radius) => ({ x: x + Math.cos(theta ?? 0) * radius, y: y + Math.sin(theta ?? 0) * radius });
-  return { rim: at(robot.radius), knob: at(robot.radius + (STEM + longer) / scale) };
+  const beyondName = pose === "start" && Math.sin(theta) > 0.7 ? NAME : 0;
+  const at = (pixels) => {
+    const distance = robot.radius + pixels / scale;
+    return { x: x + Math.cos(theta ?? 0) * distance, y: y + Math.sin(theta ?? 0) * distance };
+  };
+  return { rim: at(beyondName), knob: at(beyondName + longer + STEM) };
 }
 
 /** Paints the handles of the chosen robot. */

@@ -5,33 +5,30 @@ import { nameOf, robotsOf } from "../model/edit_robots.js";
 import { robotIndexOf } from "../model/pointer.js";
 import { byId, element, setText } from "../ui/dom.js";
 
+const HOW_TO_CHOOSE = "Choose a robot here, or press one in the scene.";
+const HOW_TO_ADD = "A request needs at least one robot: take the robot tool and press in the scene.";
+
 export function watchRobotPicker(session, choice) {
   const list = byId("edited-robot");
   list.addEventListener("change", () => choice.choose(list.value === "" ? null : Number(list.value)));
+  let listed = [];
   session.on("request problem", () => {
-    list.replaceChildren(...optionsFor(session));
+    const names = namesOf(session);
+    if (names.join("\n") !== listed.join("\n")) {
+      listed = names;
+      list.replaceChildren(...names.map((name, at) => element("option", { value: at - 1, textContent: name })));
+      list.options[0].value = "";
+    }
     list.value = choice.index ?? "";
-    const many = robotsOf(session.request).length > 0;
-    list.disabled = !many;
-    setText(
-      byId("no-robot"),
-      many
-        ? "Choose a robot here, or press one in the scene."
-        : "A request needs at least one robot: take the robot tool and press in the scene.",
-    );
+    list.disabled = names.length === 1;
+    setText(byId("no-robot"), list.disabled ? HOW_TO_ADD : HOW_TO_CHOOSE);
   });
   session.on("marks", () => (list.value = choice.index ?? ""));
 }
 
-function optionsFor({ request, problem }) {
+/** What to call no robot and each robot in turn. */
+function namesOf({ request, problem }) {
   const faulty = new Set((problem?.errors ?? []).map(({ pointer = "" }) => robotIndexOf(pointer)));
-  const robots = robotsOf(request);
-  const none = robots.length > 0 ? "None chosen" : "No robots yet";
-  return [
-    element("option", { value: "", textContent: none }),
-    ...robots.map((_, index) => {
-      const textContent = `${faulty.has(index) ? "⚠ " : ""}${nameOf(request, index)}`;
-      return element("option", { value: String(index), textContent });
-    }),
-  ];
+  const names = robotsOf(request).map((_, index) => `${faulty.has(index) ? "⚠ " : ""}${nameOf(request, index)}`);
+  return [names.length > 0 ? "None chosen" : "No robots yet", ...names];
 }

@@ -8,7 +8,8 @@ import { CellCursor } from "./cell_cursor.js";
 let gestures = 0; // for a name of each
 
 export class RobotTool {
-  help = "Press where a robot starts, drag to its goal. A click alone adds one that stays. Alt: anywhere.";
+  help = "Press where a robot starts and drag to its goal; a mere click adds one that stays.";
+  keys = "Alt: anywhere.";
 
   #session;
   #choice;

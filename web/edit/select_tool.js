@@ -14,7 +14,8 @@ const TURNS = { t: ["start", 1], T: ["start", -1], g: ["goal", 1], G: ["goal", -
 let gestures = 0; // for a name of each
 
 export class SelectTool {
-  help = "Drag robots, goals and the handles that turn them. Alt: anywhere, at any heading. Shift: goals first.";
+  help = "Drag robots, goals and the handles that turn them.";
+  keys = "Alt: anywhere, at any heading. Shift: goals first.";
 
   #session;
   #stage;

@@ -62,6 +62,7 @@ export class Toolbox {
     const { tool } = this.#tools[this.#chosen];
     this.#radios.get(this.#chosen).checked = true;
     setText(byId("tool-help"), tool.help);
+    setText(byId("tool-keys"), tool.keys);
     this.#stage.setTool(this.#tabs.chosen === TAB ? tool : null);
   }
 }

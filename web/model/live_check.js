@@ -35,6 +35,10 @@ async function problemOf(request, validate) {
     return { title: "The request is not valid", errors };
   } catch (error) {
     if (!(error instanceof ProblemError)) throw error;
-    return error.problem.errors?.length > 0 ? error.problem : null; // others are not about the request
+    const errors = (error.problem.errors ?? []).filter((each) => !isWithoutRobots(each));
+    return errors.length > 0 ? { ...error.problem, errors } : null; // others are not about the request
   }
 }
+
+/** That a request has no robots yet is no fault while it is being made. */
+const isWithoutRobots = ({ pointer, code }) => pointer === "/robots" && ["empty", "missing"].includes(code);

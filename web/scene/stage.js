@@ -59,6 +59,7 @@ export class Stage {
   /** The tool in hand from now on; null: none. */
   setTool(tool) {
     this.#tool = tool ?? {};
+    this.#canvas.setAttribute("role", tool?.key ? "application" : "img"); // screen readers leave it its keys
     this.#canvas.style.cursor = "";
     this.redraw();
   }

@@ -21,9 +21,14 @@ const QUARTER = Math.PI / 2;
 
 /** A page with a request, on the Edit tab. */
 async function editing(page, request = REQUEST) {
-  await paste(page, request);
+  const text = typeof request === "string" ? request : JSON.stringify(request);
+  await paste(page, text);
+  await isRequest(page, text);
   await page.click("#tab-edit");
 }
+
+const isRequest = (page, text) =>
+  page.waitForFunction((json) => JSON.stringify(window.fleetplan.request) === json, text);
 
 const robotAt = async (page, index) => (await hook(page, "request")).robots[index];
 const rowsOf = async (page) => (await hook(page, "request")).map.rows;
@@ -385,25 +390,31 @@ test("the map grows and is cut on each side and robots stay where they are", asy
 });
 
 test("a request is made from nothing: a new map, walls, robots, a plan", async () => {
-  await onPage(async (page) => {
-    await page.click("#tab-edit");
-    await page.click("summary:text-is('New map…')");
-    await page.fill("#new-columns", "0");
-    await page.click("#new-map button");
-    assert.match(await page.innerText("#new-map-fault"), /at least one cell/);
-    await page.fill("#new-columns", "8");
-    await page.fill("#new-rows", "5");
-    await page.click("#new-map button");
-    const rows = ["########", "#......#", "#......#", "#......#", "########"];
-    assert.deepEqual(await hook(page, "request"), { map: { rows, resolution: 0.5 }, robots: [] });
-    await tool(page, "wall");
-    await press(page, { x: 1.75, y: 1.25 });
-    await tool(page, "robot");
-    await drag(page, [{ x: 0.75, y: 1.25 }, { x: 3.25, y: 1.25 }]);
-    const [robot] = (await hook(page, "request")).robots;
-    assert.deepEqual([robot.id, robot.radius, robot.goal], ["robot-1", 0.2, { x: 3.25, y: 1.25 }]);
-    assert.equal((await pressPlan(page)).status, "solved");
-  });
+  await onPage(
+    async (page) => {
+      await page.click("#tab-edit");
+      await page.click("summary:text-is('New map…')");
+      await page.fill("#new-columns", "0");
+      await page.click("#new-map button");
+      assert.match(await page.innerText("#new-map-fault"), /at least one cell/);
+      await page.fill("#new-columns", "8");
+      await page.fill("#new-rows", "5");
+      await page.click("#new-map button");
+      const rows = ["########", "#......#", "#......#", "#......#", "########"];
+      await isRequest(page, JSON.stringify({ map: { rows, resolution: 0.5 }, robots: [] }));
+      await page.waitForSelector(".tool:has([value=wall]:checked)");
+      const judged = page.waitForResponse(/validate/);
+      await press(page, { x: 1.75, y: 1.25 });
+      assert.equal((await judged).status(), 422);
+      assert.equal(await page.isVisible("#problem"), false, "that robots are yet to come is no fault");
+      await tool(page, "robot");
+      await drag(page, [{ x: 0.75, y: 1.25 }, { x: 3.25, y: 1.25 }]);
+      const [robot] = (await hook(page, "request")).robots;
+      assert.deepEqual([robot.id, robot.radius, robot.goal], ["robot-1", 0.2, { x: 3.25, y: 1.25 }]);
+      assert.equal((await pressPlan(page)).status, "solved");
+    },
+    { allowed: REFUSED },
+  );
 });
 
 test("a request without a map, without robots, or with anything else there can be edited", async () => {
