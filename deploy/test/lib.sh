@@ -151,12 +151,15 @@ start_stack() {
   await 60 balanced 3 || die "the balancer does not find the replicas"
 }
 
-# balancer_metric NAME: of its backend, from inside the stack's network.
-balancer_metric() {
+# metrics SERVICE PORT: what it tells Prometheus, from inside the stack's network.
+metrics() {
   local address
-  address=$(docker inspect -f '{{range .NetworkSettings.Networks}}{{.IPAddress}}{{end}}' "$(container balancer)")
-  curl -s "http://$address:8404/metrics" | sed -n "s/^$1{proxy=\"replicas\"} //p"
+  address=$(docker inspect -f '{{range .NetworkSettings.Networks}}{{.IPAddress}}{{end}}' "$(container "$1")")
+  curl -s "http://$address:$2/metrics"
 }
+
+# balancer_metric NAME: of its backend.
+balancer_metric() { metrics balancer 8404 | sed -n "s/^$1{proxy=\"replicas\"} //p"; }
 
 # balanced COUNT: whether the balancer has so many replicas to send to.
 balanced() { [ "$(balancer_metric haproxy_backend_active_servers)" = "$1" ]; }

@@ -42,6 +42,7 @@ KINDS = {
     "get": lambda: request("GET", "/v1/limits"),
     "1kB": lambda: posted("/v1/plan", hall(20, 5)),
     "60kB": lambda: posted("/v1/plan", hall(240, 5)),
+    "1MB": lambda: posted("/v1/plan", hall(1000, 5)),
     "hall-100": lambda: scenario("hall-100"),
 }
 
