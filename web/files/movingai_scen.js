@@ -1,6 +1,7 @@
 // Scenarios of the MovingAI benchmarks: a line for each start and goal on a map. The first so many become the
 // robots of a request.
 
+import { plusTimes } from "./exact_decimal.js";
 import { FileError, linesOf, quoted } from "./file_text.js";
 
 const ENTRY = /^\s*\d+\s+(.+?)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+[\d.eE+-]+\s*$/;
@@ -99,7 +100,7 @@ function fits(rows, { column, row }, reach) {
 
 function centreOf({ rows, resolution, origin = { x: 0, y: 0 } }, { column, row }) {
   return {
-    x: (origin.x ?? 0) + (column + 0.5) * resolution,
-    y: (origin.y ?? 0) + (rows.length - row - 0.5) * resolution,
+    x: plusTimes(origin.x ?? 0, 2 * column + 1, resolution / 2),
+    y: plusTimes(origin.y ?? 0, 2 * (rows.length - row) - 1, resolution / 2),
   };
 }

@@ -10,7 +10,7 @@ import { about, bytesOf, headOf, textOf } from "./read_file.js";
 import { classifyPixels, readRosYaml } from "./ros_map.js";
 
 const SPEEDS = { linear_speed: 1, angular_speed: 3.1416 }; // m/s, rad/s
-const CELL_RADIUS = 0.4; // of a cell's side, of robots that go from cell to cell
+const CELL_SHARE = 0.4; // radius of robots that go from cell to cell, of a cell's side
 const INDOOR_RADIUS = 0.2; // metres, of robots on a map that a robot made
 
 export class Reader {
@@ -33,7 +33,7 @@ export class Reader {
           await Promise.all(sorted.files.map(async ({ name, file }) => ({ name, text: await textOf(file) }))),
         );
       case "map":
-        return opened(sorted.map.name, withoutRobots(await readMap(sorted.map.file), CELL_RADIUS));
+        return opened(sorted.map.name, withoutRobots(await readMap(sorted.map.file), CELL_SHARE));
       case "scenario":
         return this.#scenario(sorted);
       default:
@@ -80,7 +80,7 @@ export class Reader {
     const text = await textOf(scenario.file);
     const entries = about(scenario, () => readMovingAiScenario(text));
     const map = drawn ? await readMap(drawn.file) : this.#openMap(scenario.name, entries[0]);
-    const defaults = { radius: CELL_RADIUS * map.resolution, ...SPEEDS };
+    const defaults = { radius: Number((CELL_SHARE * map.resolution).toPrecision(6)), ...SPEEDS };
     const request = await this.#dialogs.scenario(scenario.name, map, entries, defaults);
     return request && opened(scenario.name, request);
   }

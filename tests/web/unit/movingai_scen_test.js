@@ -63,6 +63,9 @@ test("poses are the centres of cells, y up", () => {
   const moved = { ...MAP, resolution: 0.5, origin: { x: 10, y: -2 } };
   const { robots } = request(entries, 1, { ...DEFAULTS, radius: 0.2 }, moved).request;
   assert.deepEqual([robots[0].start.x, robots[0].start.y, robots[0].goal.x], [12.75, -0.25, 10.25]);
+  const fine = { ...MAP, resolution: 0.05, origin: { x: -1.1, y: 2 } };
+  const [small] = request(entries, 1, { ...DEFAULTS, radius: 0.02 }, fine).request.robots;
+  assert.deepEqual([small.start.x, small.start.y], [-0.825, 2.175]); // as decimals, not as sums of doubles
 });
 
 test("the first so many are taken, in their order", () => {
