@@ -12,6 +12,9 @@ const FLAGS = [
   "--disable-sync",
 ];
 
+/** What Chromium says when it drops all it is loading since a network interface of the machine came or went. */
+const DISTURBED = /ERR_NETWORK_CHANGED/;
+
 export function startBrowser() {
   return chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: FLAGS });
 }
@@ -30,16 +33,26 @@ export async function openPage(browser, url, options = {}) {
   });
   page.on("pageerror", (error) => complaints.push(String(error)));
   page.on("request", (request) => requested.push(request.url()));
-  await page.goto(url);
-  try {
-    await page.waitForFunction(() => window.fleetplan?.request);
-  } catch (error) {
+  const disturbed = new Promise((resolve) => {
+    page.on("console", (message) => DISTURBED.test(message.text()) && resolve("disturbed"));
+  });
+  const begun = begin(page, url).catch((error) => error);
+  const outcome = await Promise.race([begun, disturbed]);
+  if (outcome === "disturbed" || DISTURBED.test(outcome?.message)) {
+    await context.close();
+    return openPage(browser, url, options);
+  }
+  if (outcome instanceof Error) {
     const shown = await page.innerText("body").catch(() => "no page");
-    throw new Error(`the page did not begin: ${complaints.join("; ")}; asked for ${requested.join(" ")}; it shows ${shown}`, {
-      cause: error,
-    });
+    const told = `${complaints.join("; ")}; asked for ${requested.join(" ")}; it shows ${shown}`;
+    throw new Error(`the page did not begin: ${told}`, { cause: outcome });
   }
   return { page, complaints, requested, close: () => context.close() };
+}
+
+async function begin(page, url) {
+  await page.goto(url);
+  await page.waitForFunction(() => window.fleetplan?.request);
 }
 
 /** Chooses an example and waits until it is the one drawn. */
