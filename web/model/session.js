@@ -17,7 +17,10 @@
 // Nobody changes what they get from here: a request is edited by handing over another one.
 
 import { ProblemError } from "../service/problem.js";
+import { Focus } from "./focus.js";
 import { History } from "./history.js";
+import { PlanRun } from "./plan_run.js";
+import { Playback } from "./playback.js";
 import { planFile } from "../files/plan_file.js";
 import { Player } from "./player.js";
 import { readScene, readTracks, robotPoseAt, robotStateAt } from "./scene.js";
@@ -28,11 +31,11 @@ const EMPTY = { name: "", example: null, text: "", request: null };
 export class Session {
   #signals = new Signals();
   #service;
-  #nextFrame;
+  #playback;
+  #focus = new Focus();
   #opened = EMPTY; // as it was opened: {name, example, text, request}
   #history = new History(null); // of requests
   #turn = 0; // counts requests and edits, so that what was asked for an older one is dropped
-  #ticking = false; // a frame is on its way
   #robots = new Map(); // of the scene, by id
 
   player = new Player();
@@ -40,18 +43,18 @@ export class Session {
   tracks = new Map(); // by id, see readTracks
   answer = null; // parsed, or null
   answerText = null; // as it came, or null
-  planning = null; // {control, budget, progress, costs, incumbent} while planning, see startPlanning; or null
+  planning = null; // a PlanRun while planning, or null
   problem = null; // of RFC 9457, or null
   check = null; // what the service says of the plan: {valid, violations, min_clearance}, or null
-  hovered = null; // a robot's id, or null
-  selected = null; // a robot's id, or null
-  broughtOut = new Set(); // further ids, such as both robots of a collision
   limits = {}; // what the service takes, see GET /v1/limits; empty until known
 
   /** `service`: see service/client.js. `nextFrame` calls back with the wall clock in milliseconds. */
   constructor(service, nextFrame) {
     this.#service = service;
-    this.#nextFrame = nextFrame;
+    this.#playback = new Playback(this.player, nextFrame, {
+      moved: () => this.#signals.emit("time"),
+      ended: () => this.#signals.emit("playback"),
+    });
   }
 
   on(names, listener) {
@@ -105,7 +108,7 @@ export class Session {
   open(opened, answer = null, answerText = null) {
     this.#opened = opened;
     this.#history = new History(opened.request);
-    this.selected = this.hovered = null;
+    this.#focus = new Focus();
     this.#requestChanged(true);
     if (answer !== null) this.adopt(answer, answerText ?? JSON.stringify(answer));
   }
@@ -140,8 +143,7 @@ export class Session {
     this.stopPlanning();
     this.scene = readScene(this.request, this.scene);
     this.#robots = new Map(this.scene.robots.map((robot) => [robot.id, robot]));
-    if (!this.#robots.has(this.selected)) this.selected = null;
-    if (!this.#robots.has(this.hovered)) this.hovered = null;
+    this.#focus.keep(this.#robots);
     this.#setAnswer(null, null);
     this.#signals.emit("request", { opened });
     if (opened) this.setProblem(null); // that of an edited request stays until it is judged again, see live_check.js
@@ -162,7 +164,7 @@ export class Session {
     this.answer = answer;
     this.answerText = text;
     this.tracks = readTracks(this.scene, answer);
-    this.broughtOut = new Set();
+    this.#focus.keep(this.#robots);
     this.player.reset(Math.max(0, ...(answer?.plans ?? []).map(({ cost }) => cost)));
     this.#setCheck(null);
   }
@@ -188,41 +190,34 @@ export class Session {
 
   // Planning
 
-  /**
-   * Plans the request; resolves when that has ended, to whether there is an answer. Meanwhile `planning` has `budget`
-   * (seconds, or null), the last `progress` of the service (or null) and `costs`, the best so far: [{elapsed_ms,
-   * flowtime, makespan}], each lower than the one before.
-   */
+  /** Plans the request; resolves when that has ended, to whether there is an answer. `budget`: see PlanRun. */
   async plan(budget = null) {
     if (this.planning || this.request === null) return false;
-    const turn = { control: new AbortController(), budget, progress: null, costs: [], incumbent: null };
-    this.planning = turn;
+    const run = new PlanRun(budget);
+    this.planning = run;
     this.setProblem(null);
     this.#setAnswer(null, null);
     this.#signals.emit("answer");
     this.#signals.emit("planning");
     try {
-      const { answer, text } = await this.#service.plan(this.text, turn.control.signal, {
-        progress: (progress) => this.planning === turn && this.#progress(progress),
-        incumbent: (incumbent) => (turn.incumbent = incumbent),
+      const { answer, text } = await this.#service.plan(this.text, run.signal, {
+        progress: (progress) => this.planning === run && this.#hear(progress),
+        incumbent: (incumbent) => (run.incumbent = incumbent),
       });
-      if (this.planning !== turn) return false;
+      if (this.planning !== run) return false;
       this.#endPlanning();
       this.adopt(answer, text);
       return true;
     } catch (error) {
-      if (this.planning !== turn) return false;
+      if (this.planning !== run) return false;
       this.#endPlanning();
       this.fail(error);
       return false;
     }
   }
 
-  #progress(progress) {
-    const { costs } = this.planning;
-    this.planning.progress = progress;
-    const { elapsed_ms, best } = progress;
-    if (best !== null && best.flowtime !== costs.at(-1)?.flowtime) costs.push({ elapsed_ms, ...best });
+  #hear(progress) {
+    this.planning.hear(progress);
     this.#signals.emit("planning");
   }
 
@@ -234,8 +229,8 @@ export class Session {
   /** Stops planning; the text of the best answer so far, or null. */
   stopPlanning() {
     if (!this.planning) return null;
-    const { control, incumbent } = this.planning;
-    control.abort();
+    const { incumbent } = this.planning;
+    this.planning.stop();
     this.#endPlanning();
     return incumbent;
   }
@@ -268,9 +263,22 @@ export class Session {
 
   // What is pointed at
 
+  get hovered() {
+    return this.#focus.hovered;
+  }
+
+  get selected() {
+    return this.#focus.selected;
+  }
+
+  /** The ids of all robots to bring out. */
+  get marked() {
+    return this.#focus.all;
+  }
+
   hover(id) {
     if (this.hovered === id) return;
-    this.hovered = id;
+    this.#focus.hovered = id;
     this.#signals.emit("marks");
   }
 
@@ -286,14 +294,8 @@ export class Session {
 
   /** Selects the first of some robots and brings out all. */
   bringOut(ids) {
-    this.selected = ids[0] ?? null;
-    this.broughtOut = new Set(ids.slice(1));
+    this.#focus.bringOut(ids);
     this.#signals.emit("marks");
-  }
-
-  /** The ids of all robots to bring out. */
-  get marked() {
-    return new Set([this.hovered, this.selected, ...this.broughtOut].filter((id) => id !== null));
   }
 
   /** The robot of an id in the scene, or null. */
@@ -320,9 +322,8 @@ export class Session {
   }
 
   play() {
-    this.player.play();
+    this.#playback.play();
     this.#signals.emit("playback");
-    if (this.player.playing) this.#tickOnce();
   }
 
   pause() {
@@ -333,18 +334,5 @@ export class Session {
   togglePlaying() {
     if (this.player.playing) this.pause();
     else this.play();
-  }
-
-  #tickOnce() {
-    if (this.#ticking) return;
-    this.#ticking = true;
-    this.#nextFrame((milliseconds) => {
-      this.#ticking = false;
-      if (!this.player.playing) return;
-      this.player.tick(milliseconds / 1000);
-      this.#signals.emit("time");
-      if (this.player.playing) this.#tickOnce();
-      else this.#signals.emit("playback");
-    });
   }
 }
