@@ -53,7 +53,7 @@ new PlanningStatus(session);
 new OptionsPanel(session);
 new RobotList(session, colours);
 new TimelineDock(session, colours, fleet, (over) => closest.peek(over));
-new Inspector(session, colours, fleet);
+new Inspector(session, stage, colours, fleet);
 watchSummary(session);
 watchCheck(session, stage);
 showBlockers(session, stage);

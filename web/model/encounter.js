@@ -1,6 +1,6 @@
 // When two moving disks first overlap, exactly. Pure. Times in seconds, lengths in metres.
 
-import { Follower, knotTimes } from "./motion.js";
+import { Follower } from "./motion.js";
 
 const CONTACT = 1e-9; // metres that disks may overlap in contact, which rounding makes of none
 
@@ -8,17 +8,16 @@ const CONTACT = 1e-9; // metres that disks may overlap in contact, which roundin
 export function firstOverlap(motion, other, from, until, margin = 0) {
   const reach = motion.radius + other.radius + margin - CONTACT;
   const [a, b] = [new Follower(motion), new Follower(other)];
-  const times = knotTimes([motion, other], until);
-  for (let k = 0; k < times.length; k += 1) {
-    const t0 = Math.max(times[k], from);
-    const t1 = times[k + 1] ?? until;
-    if (t1 < t0) continue;
+  let t0 = from;
+  do {
+    const t1 = Math.min(until, a.nextKnot(t0), b.nextKnot(t0));
     a.look(t0, t1);
     b.look(t0, t1);
     const [x, y] = [b.x - a.x, b.y - a.y];
     const share = shareUntil(reach, x, y, b.endX - a.endX - x, b.endY - a.endY - y);
     if (share !== null) return t0 + (t1 - t0) * share;
-  }
+    t0 = t1;
+  } while (t0 < until);
   return null;
 }
 

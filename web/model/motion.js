@@ -73,9 +73,8 @@ export class Follower {
    * Looks at the span from t0 to t1, inside which no knot may lie; quick if it is near the one looked at last.
    */
   look(t0, t1) {
+    this.#seek(t0);
     const knots = this.#knots;
-    while (this.#at > 0 && knots[this.#at] > t0) this.#at -= 3;
-    while (this.#at + 3 < knots.length && knots[this.#at + 3] <= t0) this.#at += 3;
     const at = this.#at;
     const x = knots[at + 1];
     const y = knots[at + 2];
@@ -89,5 +88,18 @@ export class Follower {
     this.y = y + (knots[at + 5] - y) * begin;
     this.endX = end === 1 ? knots[at + 4] : x + (knots[at + 4] - x) * end;
     this.endY = end === 1 ? knots[at + 5] : y + (knots[at + 5] - y) * end;
+  }
+  /** When the motion changes next after t; Infinity if it does not. */
+  nextKnot(t) {
+    this.#seek(t);
+    const at = this.#knots[this.#at] > t ? this.#at : this.#at + 3;
+    return this.#knots[at] ?? Infinity;
+  }
+
+  /** To the last knot that is not after t; the first if there is none. */
+  #seek(t) {
+    const knots = this.#knots;
+    while (this.#at > 0 && knots[this.#at] > t) this.#at -= 3;
+    while (this.#at + 3 < knots.length && knots[this.#at + 3] <= t) this.#at += 3;
   }
 }

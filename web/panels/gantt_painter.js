@@ -14,6 +14,7 @@ const TICK_WIDTH = 72; // room for a tick's label
 const LEAST_BAR = 1; // so that a short action is seen at all
 const CONTACT = 1e-6; // metres: nearer is contact, further overlapping a collision
 const FONT = 12;
+const HINT = "Plan to see who moves, turns and waits when";
 
 /**
  * `chart` has layout (see model/gantt.js, whose rows begin below the strip and the axis), ids (row by row),
@@ -30,10 +31,18 @@ export function paintGantt(context, chart) {
   paintAxis(context, layout, theme);
   clipped(context, layout, 0, STRIP, () => paintCurve(context, layout, theme, chart.curve));
   paintStripLabel(context, theme, chart.curve);
+  if (chart.session.answer === null) paintHint(context, layout, theme);
+}
+
+function paintHint(context, { left }, theme) {
+  context.font = `${FONT}px ${theme.font}`;
+  context.fillStyle = theme.muted;
+  context.fillText(HINT, left + PAD, STRIP / 2);
 }
 
 function paintAxis(context, layout, theme) {
   const { left, width, range, top, height } = layout;
+  if (range.to <= range.from) return;
   const { step, times } = ticks(range, width / TICK_WIDTH);
   const digits = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
   context.font = `${FONT - 1}px ${theme.font}`;
@@ -82,12 +91,22 @@ function paintCurve(context, layout, theme, curve) {
   context.fillStyle = theme.accent;
   context.fill();
   context.globalAlpha = 1;
-  for (let k = 0; k < t.length; k += 1) {
-    if (gap[k] > CONTACT) continue;
-    const overlap = gap[k] < -CONTACT;
-    context.fillStyle = overlap ? theme.danger : theme.ink;
-    context.fillRect(xOf(layout, t[k]) - 1, overlap ? 4 : bottom - 1, 2, overlap ? STRIP - 4 : 6);
-  }
+  for (let k = 0; k < t.length; k += 1) paintContact(context, layout, theme, curve, k, bottom);
+}
+
+/** Marks contact below the curve and, over all its height, overlap; from moment to moment where it goes on. */
+function paintContact(context, layout, theme, { t, gap }, k, bottom) {
+  if (gap[k] > CONTACT) return;
+  const overlap = gap[k] < -CONTACT;
+  const x = Math.round(xOf(layout, t[k])) - 1;
+  const goesOn = overlap ? gap[k + 1] < -CONTACT : Math.abs(gap[k + 1]) <= CONTACT;
+  const width = goesOn ? Math.max(1, Math.round(xOf(layout, t[k + 1])) - 1 - x) : 2;
+  context.fillStyle = overlap ? theme.danger : theme.ink;
+  context.fillRect(x, bottom - 1, width, 6);
+  if (!overlap) return;
+  context.globalAlpha = 0.35;
+  context.fillRect(x, 0, width, bottom - 1);
+  context.globalAlpha = 1;
 }
 
 function largestGap({ gap }) {

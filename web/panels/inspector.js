@@ -7,10 +7,12 @@ import { actionInWords, totals } from "../model/itinerary.js";
 import { actionIndexAt } from "../model/timeline.js";
 import { byId, element, icon, scrollWithin, setText } from "../ui/dom.js";
 import { seconds } from "../ui/format.js";
+import { cornerFor } from "./card_corner.js";
 import { robotChip } from "./robot_chip.js";
 import { REASONS } from "./unplanned.js";
 
 const CROSS = "M5 5 15 15M15 5 5 15";
+const MARGIN = { top: 60, side: 12, bottom: 12 }; // pixels around the card: above are the view's buttons
 const COLUMNS = ["", "From, s", "To, s", "What"];
 const WHY_STILL = {
   parked: "It has no goal and stays where it is.",
@@ -20,6 +22,7 @@ const WHY_STILL = {
 
 export class Inspector {
   #session;
+  #stage;
   #colours;
   #fleet;
   #box = byId("inspector");
@@ -29,8 +32,9 @@ export class Inspector {
   #current = -1; // the row of the action under way
 
   /** `colours`: see RobotColours; `fleet`: see FleetMotion. */
-  constructor(session, colours, fleet) {
+  constructor(session, stage, colours, fleet) {
     this.#session = session;
+    this.#stage = stage;
     this.#colours = colours;
     this.#fleet = fleet;
     session.on("answer", () => this.#show());
@@ -54,6 +58,20 @@ export class Inspector {
     this.#box.setAttribute("aria-label", `Robot ${selected}`);
     this.#box.replaceChildren(this.#head(robot, track), ...this.#body(robot, track));
     this.#update();
+    this.#box.dataset.corner = cornerFor(
+      { width: this.#box.offsetWidth, height: this.#box.offsetHeight },
+      { width: this.#stage.canvas.clientWidth, height: this.#stage.canvas.clientHeight },
+      MARGIN,
+      this.#placesOf(robot, track).map((place) => this.#stage.screenOf(place, 0)),
+    );
+  }
+
+  /** What the card should not hide: where the robot is and goes, and who is in its way. */
+  #placesOf(robot, track) {
+    const blockers = track.unplanned?.blocked_by ?? [];
+    const goal = robot.goal === null ? [] : [robot.goal];
+    const now = [robot.id, ...blockers].map((id) => this.#session.poseOf(id)).filter((pose) => pose !== null);
+    return [...now, ...goal, ...track.path];
   }
 
   #head(robot, track) {

@@ -382,6 +382,12 @@ test("a robot without a plan tells why, and who is in its way is ringed in the s
     await page.locator("#inspector .reason").waitFor();
     assert.equal(await page.locator("#inspector .chip").first().innerText(), blocked_by[0]);
     assert.ok((await dangerAround(page, blocked_by[0])) > before + 20);
+    const onTop = await page.evaluate((id) => {
+      const { x, y } = window.fleetplan.screenOf(id);
+      const { left, top } = document.getElementById("scene").getBoundingClientRect();
+      return document.elementFromPoint(left + x, top + y).id;
+    }, blocked_by[0]);
+    assert.equal(onTop, "scene", "the card does not hide who is in the way");
   });
 });
 
