@@ -9,17 +9,17 @@ export class Opening {
   #session;
   #fetchExample;
   #dialogs;
-  #offerEditing;
+  #show;
   #reader;
   #turn = 0; // counts choices, so that a late one does not replace a newer one
 
   /**
-   * `fetchExample(name)` resolves to an example's text. `dialogs`: see ImportDialogs. `offerEditing` is called
-   * when what is opened has no robots yet.
+   * `fetchExample(name)` resolves to an example's text. `dialogs`: see ImportDialogs. `show(part)` brings a part of
+   * the page into sight: "plan", "edit" or "problem".
    */
-  constructor(session, fetchExample, dialogs, offerEditing) {
+  constructor(session, fetchExample, dialogs, show) {
     this.#session = session;
-    this.#offerEditing = offerEditing;
+    this.#show = show;
     this.#fetchExample = fetchExample;
     this.#dialogs = dialogs;
     this.#reader = new Reader(session, dialogs);
@@ -66,7 +66,9 @@ export class Opening {
       this.#open(opened);
       return true;
     } catch (error) {
-      if (turn === this.#turn) this.#session.fail(asProblem(error));
+      if (turn !== this.#turn) return false;
+      this.#session.fail(asProblem(error));
+      this.#show("problem");
       return false;
     }
   }
@@ -80,10 +82,13 @@ export class Opening {
     } else {
       session.open(opened, answer);
     }
-    if (answer !== null) session.validate();
+    if (answer !== null) {
+      session.validate();
+      this.#show("plan"); // where the outcome of the check will be
+    }
     if (Array.isArray(opened.request.robots) && opened.request.robots.length === 0) {
       session.say(`${opened.name} is open and has no robots yet: place some under Edit.`);
-      this.#offerEditing();
+      this.#show("edit");
     }
   }
 }

@@ -2,6 +2,7 @@
 
 import { byId } from "../ui/dom.js";
 import { budgetOf } from "./planning_status.js";
+import { revealProblem } from "./problem_card.js";
 import { summarize } from "./summary.js";
 
 export class PlanButton {
@@ -22,7 +23,10 @@ export class PlanButton {
   async press() {
     const session = this.#session;
     const solved = await session.plan(budgetOf(session.request, session.limits));
-    if (!solved) return;
+    if (!solved) {
+      if (session.problem !== null) revealProblem();
+      return;
+    }
     const watching = document.activeElement === this.#plan; // which has the focus again from Cancel
     session.say(summarize(session.answer));
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches) session.play();

@@ -12,6 +12,11 @@ export function watchProblem(session, show) {
   session.on("problem", () => showProblem(session.problem, session.request, show));
 }
 
+/** Brings the problem into sight where the page is longer than the window, as on a phone. */
+export function revealProblem() {
+  byId("problem").scrollIntoView({ block: "center" });
+}
+
 function showProblem(problem, request, show) {
   const box = byId("problem");
   box.hidden = problem === null;

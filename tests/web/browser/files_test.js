@@ -6,7 +6,7 @@ import { test } from "node:test";
 
 import { choose, pressPlan } from "../support/browser.js";
 import { drop, pgm, png, WAYS } from "../support/map_files.js";
-import { hook, pagesFor } from "../support/on_page.js";
+import { hook, pagesFor, REFUSED } from "../support/on_page.js";
 
 const onPage = pagesFor(["--max-cells", "200"]);
 
@@ -79,6 +79,7 @@ for (const [way, hand] of Object.entries(WAYS)) {
       assert.deepEqual(await hook(page, "request"), TINY);
       assert.equal(await hook(page, "duration"), 8);
       assert.deepEqual((await hook(page, "check")).valid, true);
+      assert.ok(await page.isVisible("#check"));
       assert.match(await page.innerText("#summary"), /Verified[^]*8\.00 s/);
     });
   });
@@ -244,6 +245,27 @@ test("the dialogs fit a phone", async () => {
       assert.ok(await isWithin(page));
     },
     { options: phone },
+  );
+});
+
+test("on a phone, what went wrong comes into sight", async () => {
+  const phone = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true };
+  const isInSight = (page) =>
+    page.waitForFunction(() => {
+      const { top, bottom } = document.getElementById("problem").getBoundingClientRect();
+      return bottom > top && top >= 0 && bottom <= innerHeight;
+    });
+  await onPage(
+    async (page) => {
+      await drop(page, { "broken.json": "{" });
+      await isInSight(page);
+      await page.evaluate(() => scrollTo(0, 0));
+      await drop(page, { "alone.json": JSON.stringify({ ...TINY, robots: [] }) });
+      await page.waitForFunction(() => window.fleetplan.request.robots.length === 0);
+      await page.click("#plan");
+      await isInSight(page);
+    },
+    { options: phone, allowed: REFUSED },
   );
 });
 
