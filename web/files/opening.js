@@ -83,8 +83,8 @@ export class Opening {
       session.open(opened, answer);
     }
     if (answer !== null) {
-      session.validate();
       this.#show("plan"); // where the outcome of the check will be
+      session.validate().then((judged) => judged || this.#show("problem"));
     }
     if (Array.isArray(opened.request.robots) && opened.request.robots.length === 0) {
       session.say(`${opened.name} is open and has no robots yet: place some under Edit.`);

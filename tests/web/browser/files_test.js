@@ -290,6 +290,18 @@ test("a plan that is wrong is shown, and so is what is wrong with it", async () 
   });
 });
 
+test("a plan file that the service cannot check is shown with the service's reasons", async () => {
+  await onPage(
+    async (page) => {
+      await drop(page, { "odd.json": JSON.stringify({ ...TINY, colour: "red", plans: PLANS }) });
+      assert.match(await problemOn(page), /\/colour/);
+      assert.equal(await hook(page, "duration"), 8);
+      assert.equal(await hook(page, "check"), null);
+    },
+    { allowed: REFUSED },
+  );
+});
+
 test("an answer is opened with its request, or on the request that is shown", async () => {
   await onPage(async (page) => {
     const answer = JSON.stringify({ status: "solved", plans: PLANS });
