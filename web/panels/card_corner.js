@@ -3,8 +3,8 @@
 const CORNERS = ["top-right", "bottom-right", "bottom-left"]; // those liked best first
 
 /**
- * The corner for a card of some width and height in a scene {width, height}, `margin` {top, side, bottom} away from its
- * edges, that covers the fewest of the points.
+ * The corner for a card of some width and height in a scene {width, height}, `margin` {top, side, bottom} away
+ * from its edges, that covers the fewest of the points.
  */
 export function cornerFor({ width, height }, scene, margin, points) {
   const covered = CORNERS.map((corner) => {

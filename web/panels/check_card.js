@@ -8,7 +8,7 @@ import { count, metres, seconds } from "../ui/format.js";
 const TICK = "M4.5 10.5 8.5 14.5 15.5 6";
 const CROSS = "M5 5 15 15M15 5 5 15";
 const MOST = 100; // violations to list; nobody reads more
-const DISTANCES = new Set(["robot_collision", "obstacle_collision"]);
+const DISTANCES = { robot_collision: "between their centres", obstacle_collision: "from its centre to the wall" };
 
 /** Offers to check the session's plan, and shows what came of it. `stage`: see Stage. */
 export function watchCheck(session, stage) {
@@ -64,8 +64,8 @@ function violationButton({ kind, robots, t, distance, required, detail }, sessio
     element("span", { class: "violation-kind", textContent: kindInWords(kind) }),
     element("span", { class: "violation-time", textContent: seconds(t) }),
     element("span", { class: "violation-robots" }, ...names),
-    DISTANCES.has(kind)
-      ? element("span", { textContent: `${metres(distance)} apart, ${metres(required)} needed` })
+    kind in DISTANCES
+      ? element("span", { textContent: `${metres(distance)} ${DISTANCES[kind]}, ${metres(required)} needed` })
       : null,
     element("span", { class: "violation-detail", textContent: detail }),
   );

@@ -2,6 +2,7 @@
 // told by form: driving is a full bar, turning half a bar, waiting an open one. Sizes in CSS pixels.
 
 import { rowsSeen, xOf, yOf } from "../model/gantt.js";
+import { thinned } from "../model/thinned_curve.js";
 import { ticks } from "../model/time_range.js";
 import { REASONS } from "./unplanned.js";
 
@@ -30,7 +31,7 @@ export function paintGantt(context, chart) {
   context.clearRect(0, 0, layout.left + layout.width + PAD, layout.top);
   paintAxis(context, layout, theme);
   clipped(context, layout, 0, STRIP, () => paintCurve(context, layout, theme, chart.curve));
-  paintStripLabel(context, theme, chart.curve);
+  paintStripLabel(context, layout, theme, chart.curve);
   if (chart.session.answer === null) paintHint(context, layout, theme);
 }
 
@@ -62,45 +63,48 @@ function paintAxis(context, layout, theme) {
   context.textAlign = "left";
 }
 
-function paintStripLabel(context, theme, curve) {
+function paintStripLabel(context, layout, theme, curve) {
   context.font = `${FONT - 1}px ${theme.font}`;
   context.fillStyle = theme.muted;
   context.fillText("Smallest gap", PAD, STRIP / 2 - (curve ? 7 : 0));
   if (curve === null) return;
-  context.fillText(`0 to ${largestGap(curve).toFixed(1)} m`, PAD, STRIP / 2 + 8);
+  context.fillText(`0 to ${largestGap(curve, layout.range).toFixed(1)} m`, PAD, STRIP / 2 + 8);
 }
 
 /** The curve on a square root's scale, which spreads small gaps; below it what is contact or worse. */
 function paintCurve(context, layout, theme, curve) {
   if (curve === null) return;
   const { t, gap } = curve;
-  const most = largestGap(curve);
+  const most = largestGap(curve, layout.range);
   const bottom = STRIP - 5;
   const yAt = (value) => bottom - Math.sqrt(Math.max(0, value) / most) * (bottom - 5);
   context.beginPath();
-  context.moveTo(xOf(layout, 0), yAt(gap[0]));
-  for (let k = 0; k < t.length; k += 1) context.lineTo(xOf(layout, t[k]), yAt(gap[k]));
-  context.lineTo(layout.left + layout.width, yAt(gap[t.length - 1]));
+  const shown = thinned(curve, layout.range, layout.width);
+  const [first, last] = [shown[0], shown[shown.length - 1]];
+  const right = Math.max(layout.left + layout.width, xOf(layout, t[last]));
+  context.moveTo(Math.min(layout.left, xOf(layout, t[first])), yAt(gap[first]));
+  for (const k of shown) context.lineTo(xOf(layout, t[k]), yAt(gap[k]));
+  context.lineTo(right, yAt(gap[last]));
   context.strokeStyle = theme.accent;
   context.lineWidth = 1.5;
   context.lineJoin = "round";
   context.stroke();
-  context.lineTo(layout.left + layout.width, bottom);
-  context.lineTo(xOf(layout, 0), bottom);
+  context.lineTo(right, bottom);
+  context.lineTo(Math.min(layout.left, xOf(layout, t[first])), bottom);
   context.globalAlpha = 0.14;
   context.fillStyle = theme.accent;
   context.fill();
   context.globalAlpha = 1;
-  for (let k = 0; k < t.length; k += 1) paintContact(context, layout, theme, curve, k, bottom);
+  shown.forEach((k, at) => paintContact(context, layout, theme, curve, [k, shown[at + 1]], bottom));
 }
 
-/** Marks contact below the curve and, over all its height, overlap; from moment to moment where it goes on. */
-function paintContact(context, layout, theme, { t, gap }, k, bottom) {
+/** Marks contact below the curve and, over all its height, overlap; to the next moment where it goes on. */
+function paintContact(context, layout, theme, { t, gap }, [k, next], bottom) {
   if (gap[k] > CONTACT) return;
   const overlap = gap[k] < -CONTACT;
   const x = Math.round(xOf(layout, t[k])) - 1;
-  const goesOn = overlap ? gap[k + 1] < -CONTACT : Math.abs(gap[k + 1]) <= CONTACT;
-  const width = goesOn ? Math.max(1, Math.round(xOf(layout, t[k + 1])) - 1 - x) : 2;
+  const goesOn = overlap ? gap[next] < -CONTACT : Math.abs(gap[next]) <= CONTACT;
+  const width = goesOn ? Math.max(1, Math.round(xOf(layout, t[next])) - 1 - x) : 2;
   context.fillStyle = overlap ? theme.danger : theme.ink;
   context.fillRect(x, bottom - 1, width, 6);
   if (!overlap) return;
@@ -109,8 +113,13 @@ function paintContact(context, layout, theme, { t, gap }, k, bottom) {
   context.globalAlpha = 1;
 }
 
-function largestGap({ gap }) {
-  return gap.reduce((largest, value) => Math.max(largest, value), CONTACT);
+/** The largest gap in a range of time, at least that of contact. */
+function largestGap({ t, gap }, { from, to }) {
+  let largest = CONTACT;
+  for (let k = 0; k < t.length; k += 1) {
+    if (t[k] >= from && t[k] <= to) largest = Math.max(largest, gap[k]);
+  }
+  return largest;
 }
 
 function paintRows(context, { layout, ids, session, colours }) {
