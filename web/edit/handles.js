@@ -4,7 +4,7 @@
 import { robotPoseAt } from "../model/scene.js";
 
 const STEM = 22; // pixels from a disk's rim to its handle
-const LONGER = 20; // pixels more for the goal's handle if it would cover the start's
+const LONGER = 48; // pixels more for the goal's handle if it would cover the start's
 const NAME = 28; // pixels beyond a disk's top that its name may take
 const KNOB = 6; // pixels, the radius of a handle
 const GRASP = { mouse: 10, touch: 22 }; // pixels around a handle that take hold of it
@@ -13,7 +13,7 @@ const GRASP = { mouse: 10, touch: 22 }; // pixels around a handle that take hold
 export function partAt(world, { session, stage, chosen, event }) {
   const grasp = (event?.pointerType === "touch" ? GRASP.touch : GRASP.mouse) / stage.scale;
   for (const pose of chosen ? posesOf(chosen) : []) {
-    const { knob } = handleOf(chosen, pose, stage.scale);
+    const { knob } = handleOf(chosen, pose, { scale: stage.scale, time: session.player.time });
     if (Math.hypot(knob.x - world.x, knob.y - world.y) > grasp) continue;
     return { robot: chosen, pose, turns: true, place: knob };
   }
@@ -38,12 +38,15 @@ function nearestPart(world, { scene, tracks, player }, stage, pose) {
 
 const posesOf = (robot) => (robot.goal ? ["goal", "start"] : ["start"]);
 
-/** The handle that turns a pose, world points: {rim, knob}, where its stem begins and ends. A goal of any heading has it to the right. */
-function handleOf(robot, pose, scale) {
+/**
+ * The handle that turns a pose, world points: {rim, knob}, where its stem begins and ends. A goal of any heading has it
+ * to the right. At time 0 the robot is at its start, with its name above it.
+ */
+function handleOf(robot, pose, { scale, time }) {
   const { x, y, theta } = robot[pose];
   const apart = robot.goal ? Math.hypot(robot.goal.x - robot.start.x, robot.goal.y - robot.start.y) : Infinity;
   const longer = pose === "goal" && apart * scale < 2 * STEM ? LONGER : 0;
-  const beyondName = pose === "start" && Math.sin(theta) > 0.7 ? NAME : 0;
+  const beyondName = pose === "start" && time === 0 && Math.sin(theta) > 0.7 ? NAME : 0;
   const at = (pixels) => {
     const distance = robot.radius + pixels / scale;
     return { x: x + Math.cos(theta ?? 0) * distance, y: y + Math.sin(theta ?? 0) * distance };
@@ -52,11 +55,12 @@ function handleOf(robot, pose, scale) {
 }
 
 /** Paints the handles of the chosen robot. */
-export function paintHandles(context, { scale, screen, theme }, robot) {
+export function paintHandles(context, view, robot) {
+  const { screen, theme } = view;
   context.save();
   context.lineWidth = 2;
   for (const pose of posesOf(robot)) {
-    const { rim, knob } = handleOf(robot, pose, scale);
+    const { rim, knob } = handleOf(robot, pose, view);
     const [from, to] = [screen(rim), screen(knob)];
     context.strokeStyle = theme.accent;
     context.setLineDash(robot[pose].theta === null ? [2, 3] : []);

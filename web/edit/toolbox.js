@@ -47,10 +47,12 @@ export class Toolbox {
 
   #button(name) {
     const { label, key } = this.#tools[name];
-    const radio = element("input", { type: "radio", name: "tool", value: name, class: "visually-hidden" });
+    const id = `tool-${name}`;
+    const radio = element("input", { type: "radio", name: "tool", id, value: name, class: "visually-hidden" });
     radio.addEventListener("change", () => this.#choose(name));
     this.#radios.set(name, radio);
-    return element("label", { class: "tool", title: `${label} (${key})` }, radio, icon(ICONS[name]), label);
+    const face = element("label", { htmlFor: id, title: `${label} (${key})` }, icon(ICONS[name]), label);
+    return element("div", { class: "tool" }, radio, face);
   }
 
   #choose(name) {
@@ -63,6 +65,8 @@ export class Toolbox {
     this.#radios.get(this.#chosen).checked = true;
     setText(byId("tool-help"), tool.help);
     setText(byId("tool-keys"), tool.keys);
-    this.#stage.setTool(this.#tabs.chosen === TAB ? tool : null);
+    const editing = this.#tabs.chosen === TAB;
+    document.documentElement.classList.toggle("editing", editing);
+    this.#stage.setTool(editing ? tool : null);
   }
 }

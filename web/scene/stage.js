@@ -171,7 +171,9 @@ export class Stage {
       click: (pixel) => this.#session.toggle(this.robotAt(world(pixel))),
       press: (pixel, event) => {
         this.#pressed = this.#tool;
-        return this.#tool.press?.(world(pixel), event) ?? false;
+        const taken = this.#tool.press?.(world(pixel), event) ?? false;
+        if (taken) this.#session.hover(null); // what lies under a drag is not what it is about
+        return taken;
       },
       drag: (pixel, event) => this.#pressed.drag?.(world(pixel), event),
       release: (pixel, event) => this.#pressed.release?.(world(pixel), event),
