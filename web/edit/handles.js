@@ -1,5 +1,6 @@
-// What of the robots can be taken hold of in the scene: disks, goals and, of the chosen robot, handles that turn its
-// start and goal. A part is {robot, pose: "start" or "goal", turns: whether it is the handle, place: {x, y}}.
+// What of the robots can be taken hold of in the scene: disks, goals and, of the chosen robot, handles that
+// turn its start and goal. A part is {robot, pose: "start" or "goal", turns: whether it is the handle, place:
+// {x, y}}.
 
 import { robotPoseAt } from "../model/scene.js";
 
@@ -39,8 +40,8 @@ function nearestPart(world, { scene, tracks, player }, stage, pose) {
 const posesOf = (robot) => (robot.goal ? ["goal", "start"] : ["start"]);
 
 /**
- * The handle that turns a pose, world points: {rim, knob}, where its stem begins and ends. A goal of any heading has it
- * to the right. At time 0 the robot is at its start, with its name above it.
+ * The handle that turns a pose, world points: {rim, knob}, where its stem begins and ends. A goal of any
+ * heading has it to the right. At time 0 the robot is at its start, with its name above it.
  */
 function handleOf(robot, pose, { scale, time }) {
   const { x, y, theta } = robot[pose];

@@ -76,7 +76,9 @@ export class RobotActions {
     return nameOf(this.#session.request, this.#choice.index);
   }
 
-  /** The nearest place for a robot that is free of walls and of `others`; where there is none, the point itself. */
+  /**
+   * The nearest place for a robot that is free of walls and of `others`; where there is none, the point itself.
+   */
   #freePlace({ radius }, point, others, beyond = 0) {
     const { grid } = this.#session.scene;
     const found = grid && nearestFreePlace(grid, point, radius, others, beyond);

@@ -105,6 +105,7 @@ export class RobotForm {
     const known = typeof theta === "number";
     const degrees = known ? tidy((theta * 180) / Math.PI) : theta;
     const otherwise = pose === "goal" ? "any" : "0";
-    fields.theta.show(degrees, { placeholder: otherwise, note: known ? `= ${Number(theta.toFixed(4))} rad` : "" });
+    const note = known ? `= ${Number(theta.toFixed(4))} rad` : "";
+    fields.theta.show(degrees, { placeholder: otherwise, note });
   }
 }

@@ -1,5 +1,5 @@
-// The list from which every robot of the request can be chosen, also one too faulty to be seen in the scene. Those that
-// the service finds faults with are marked.
+// The list from which every robot of the request can be chosen, also one too faulty to be seen in the scene.
+// Those that the service finds faults with are marked.
 
 import { nameOf, robotsOf } from "../model/edit_robots.js";
 import { robotIndexOf } from "../model/pointer.js";
@@ -29,6 +29,7 @@ export function watchRobotPicker(session, choice) {
 /** What to call no robot and each robot in turn. */
 function namesOf({ request, problem }) {
   const faulty = new Set((problem?.errors ?? []).map(({ pointer = "" }) => robotIndexOf(pointer)));
-  const names = robotsOf(request).map((_, index) => `${faulty.has(index) ? "⚠ " : ""}${nameOf(request, index)}`);
+  const sign = (index) => (faulty.has(index) ? "⚠ " : "");
+  const names = robotsOf(request).map((_, index) => sign(index) + nameOf(request, index));
   return [names.length > 0 ? "None chosen" : "No robots yet", ...names];
 }

@@ -110,7 +110,8 @@ export class SelectTool {
   #step(event) {
     const { robot } = this.#choice;
     const pose = event.shiftKey ? "goal" : "start";
-    const place = stepped(this.#session.scene.grid, robot[pose] ?? robot.start, ARROWS[event.key], event.altKey);
+    const { grid } = this.#session.scene;
+    const place = stepped(grid, robot[pose] ?? robot.start, ARROWS[event.key], event.altKey);
     this.#actions.setPose(pose, place, this.#gestureOf(event));
     this.#actions.tellPose(pose);
     this.#stage.reveal(place);

@@ -1,5 +1,5 @@
-// Edits of a request's map: a request in, another out that shares what is the same; nothing is changed in place. Pure.
-// A faulty map is taken as it is drawn, see readScene.
+// Edits of a request's map: a request in, another out that shares what is the same; nothing is changed in
+// place. Pure. A faulty map is taken as it is drawn, see readScene.
 
 import { isFree, tidy } from "./cells.js";
 import { objectOf, withMember, withMembers } from "./members.js";
@@ -10,8 +10,8 @@ const BLOCKED = "#";
 const MOST_CELLS = 4_000_000; // if the service has not said
 
 /**
- * The request with these cells of its map blocked, or free. Cells that are so already keep their letter. `known`, the
- * grid of this map or one before, makes it cheap.
+ * The request with these cells of its map blocked, or free. Cells that are so already keep their letter.
+ * `known`, the grid of this map or one before, makes it cheap.
  */
 export function setCells(request, cells, blocked, known = null) {
   const grid = readGrid(request?.map, known);
@@ -39,8 +39,8 @@ function withLetters(line, columns, letter) {
 }
 
 /**
- * The request with so many columns or rows of free cells more on each side: {left, right, top, bottom}, negative to
- * cut. The origin moves so that all else stays where it is. A map keeps at least one cell.
+ * The request with so many columns or rows of free cells more on each side: {left, right, top, bottom},
+ * negative to cut. The origin moves so that all else stays where it is. A map keeps at least one cell.
  */
 export function resize(request, { left = 0, right = 0, top = 0, bottom = 0 }) {
   const grid = readGrid(request?.map, null);

@@ -1,5 +1,5 @@
-// Edits of a request's robots: a request in, another out that shares what is the same; nothing is changed in place.
-// Robots are named by their index. Faulty requests are mended as far as an edit goes. Pure.
+// Edits of a request's robots: a request in, another out that shares what is the same; nothing is changed in
+// place. Robots are named by their index. Faulty requests are mended as far as an edit goes. Pure.
 
 import { objectOf, withMember, withMembers } from "./members.js";
 
@@ -17,7 +17,9 @@ export function nameOf(request, index) {
   return typeof id === "string" && id !== "" ? id : `#${index}`;
 }
 
-/** The request with a member of a robot (id, radius, linear_speed, angular_speed) set, or left out if undefined. */
+/**
+ * The request with a member of a robot (id, radius, linear_speed, angular_speed) set, or left out if undefined.
+ */
 export function setRobot(request, index, name, value) {
   return withRobot(request, index, (robot) => withMember(robot, name, value));
 }
@@ -25,12 +27,13 @@ export function setRobot(request, index, name, value) {
 /** The request with a default (radius, linear_speed, angular_speed) set, or left out if undefined. */
 export function setDefault(request, name, value) {
   const defaults = withMember(objectOf(request?.robot_defaults), name, value);
-  return withMember(objectOf(request), "robot_defaults", Object.keys(defaults).length > 0 ? defaults : undefined);
+  const isEmpty = Object.keys(defaults).length === 0;
+  return withMember(objectOf(request), "robot_defaults", isEmpty ? undefined : defaults);
 }
 
 /**
- * The request with members of a robot's `pose`, "start" or "goal", set: {x, y, theta}, those that are undefined left
- * out (theta: the start's default, the goal's any heading).
+ * The request with members of a robot's `pose`, "start" or "goal", set: {x, y, theta}, those that are undefined
+ * left out (theta: the start's default, the goal's any heading).
  */
 export function setPose(request, index, pose, members) {
   return withRobot(request, index, (robot) => {
@@ -61,7 +64,9 @@ export function addRobot(request, start, goal = undefined) {
   return { ...objectOf(request), robots: [...robots, robot] };
 }
 
-/** The request with a robot once more, the last: its like with an id, start and goal (if it has one) of its own. */
+/**
+ * The request with a robot once more, the last: its like with an id, start and goal (if it has one) of its own.
+ */
 export function duplicateRobot(request, index, start, goal) {
   const robots = robotsOf(request);
   const robot = objectOf(robots[index]);
@@ -74,7 +79,10 @@ export function deleteRobot(request, index) {
   return { ...objectOf(request), robots: robotsOf(request).filter((_, at) => at !== index) };
 }
 
-/** An id that no robot has, of the pattern of `like` or else of the last that ends in a number: robot-4 after robot-3. */
+/**
+ * An id that no robot has, of the pattern of `like` or else of the last that ends in a number: robot-4 after
+ * robot-3.
+ */
 export function freshId(request, like = undefined) {
   const taken = new Set(robotsOf(request).map((robot) => robot?.id));
   const ids = [...taken].filter((id) => typeof id === "string");

@@ -5,8 +5,8 @@ import { cellAt, centreOf, isFree } from "./cells.js";
 const CONTACT = 1e-9; // metres: touching is not a collision
 
 /**
- * The middle of the cell nearest to a world point, but at least `beyond` metres away, where a disk of this radius
- * touches neither wall nor `others`, disks [{x, y, radius}]; null if there is none.
+ * The middle of the cell nearest to a world point, but at least `beyond` metres away, where a disk of this
+ * radius touches neither wall nor `others`, disks [{x, y, radius}]; null if there is none.
  */
 export function nearestFreePlace(grid, point, radius, others, beyond = 0) {
   const home = cellAt(grid, point);

@@ -1,23 +1,28 @@
-// An edited request is judged by the service soon after, so that a fault shows while one edits, not when one plans.
+// An edited request is judged by the service soon after, so that a fault shows while one edits, not when one
+// plans.
 
 import { ProblemError } from "../service/problem.js";
 import { misfitErrors, standingAtGoals, standingAtStarts } from "./misfits.js";
 
 const REST_MS = 350; // without a further edit
 
-/** Has the service judge the session's request after edits. `validate(text)`: see service/client.js. */
-export function watchEdits(session, validate) {
+/**
+ * Has the service judge the session's request when edits have rested so many milliseconds. `validate(text)`:
+ * see service/client.js.
+ */
+export function watchEdits(session, validate, rest = REST_MS) {
   let timer = null;
   session.on("request", ({ opened }) => {
     clearTimeout(timer);
-    if (!opened) timer = setTimeout(() => judge(session, validate), REST_MS);
+    if (!opened) timer = setTimeout(() => judge(session, validate), rest);
   });
 }
 
 async function judge(session, validate) {
   const { turn } = session;
   const problem = await problemOf(session.request, validate);
-  if (turn === session.turn && session.planning === null && session.answer === null) session.setProblem(problem);
+  const stillShown = turn === session.turn && session.planning === null && session.answer === null;
+  if (stillShown) session.setProblem(problem);
 }
 
 /** What is wrong with a request, or null. */

@@ -1,5 +1,5 @@
-// Starts and goals that do not fit, found by the service's check of robots that just stand there, told as the errors that
-// planning would give. Pure.
+// Starts and goals that do not fit, found by the service's check of robots that just stand there, told as the
+// errors that planning would give. Pure.
 
 import { robotsOf } from "./edit_robots.js";
 
@@ -17,7 +17,9 @@ export function standingAtGoals(request) {
   return { ...standingAtStarts(request), robots: robots.map((robot) => ({ ...robot, start: robot.goal })) };
 }
 
-/** The errors, [{pointer, detail}], that the violations of robots standing at their "start" or "goal" amount to. */
+/**
+ * The errors, [{pointer, detail}], that the violations of robots standing at their "start" or "goal" amount to.
+ */
 export function misfitErrors(request, violations, pose) {
   const indices = new Map(robotsOf(request).map(({ id }, index) => [id, index]));
   return violations.map(({ kind, robots, distance, required }) => {

@@ -1,5 +1,5 @@
-// Which robot of the request is being edited. It follows the robot selected in the scene; a robot so faulty that the
-// scene cannot show it can be chosen too. No DOM.
+// Which robot of the request is being edited. It follows the robot selected in the scene; a robot so faulty
+// that the scene cannot show it can be chosen too. No DOM.
 
 import { robotsOf } from "./edit_robots.js";
 
@@ -13,7 +13,10 @@ export class RobotChoice {
     session.on("marks", () => this.#followMarks());
   }
 
-  /** Its place in the request's robots, or null. Whoever shows it listens to the session's "request" and "marks". */
+  /**
+   * Its place in the request's robots, or null. Whoever shows it listens to the session's "request" and
+   * "marks".
+   */
   get index() {
     return this.#index;
   }

@@ -1,4 +1,5 @@
-// Where things land that are placed by hand: in the middle of a cell and at round headings, or nearly anywhere. Pure.
+// Where things land that are placed by hand: in the middle of a cell and at round headings, or nearly anywhere.
+// Pure.
 
 import { cellAt, centreOf, tidy } from "./cells.js";
 

@@ -13,9 +13,9 @@ export class NumberField {
   #refusal = "";
 
   /**
-   * `label` and `unit` in words; `take(value)` gets each new number, or undefined when the field is emptied unless it
-   * is `required`, and may return why not, in words; `settle()` is called when typing has ended. `late`: takes only
-   * then.
+   * `label` and `unit` in words; `take(value)` gets each new number, or undefined when the field is emptied
+   * unless it is `required`, and may return why not, in words; `settle()` is called when typing has ended.
+   * `late`: takes only then.
    */
   constructor({ label, unit = "", step = "any", required = false, late = false, take, settle = () => {} }) {
     made += 1;

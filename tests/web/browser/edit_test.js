@@ -62,7 +62,8 @@ async function drag(page, [from, ...others], beside = { x: 0, y: 0 }) {
 
 /** Takes the handle of a pose to a world point. `theta`: where the handle is now. */
 async function turn(page, pose, theta, to) {
-  const [middle, rim] = [await windowPoint(page, pose), await windowPoint(page, { ...pose, x: pose.x + ROBOT.radius })];
+  const middle = await windowPoint(page, pose);
+  const rim = await windowPoint(page, { ...pose, x: pose.x + ROBOT.radius });
   const length = rim.x - middle.x + 22;
   await drag(page, [pose, to], { x: Math.cos(theta) * length, y: -Math.sin(theta) * length });
 }
@@ -215,9 +216,8 @@ test("the selected robot is moved, turned, duplicated and deleted by keys", asyn
     await page.selectOption("#edited-robot", "0");
     await page.locator("#tab-edit").focus();
     await page.keyboard.press("v");
-    for (const key of ["ArrowRight", "ArrowRight", "ArrowUp", "Shift+ArrowUp", "Alt+ArrowRight", "t", "t", "Shift+G"]) {
-      await page.keyboard.press(key);
-    }
+    const moves = ["ArrowRight", "ArrowRight", "ArrowUp", "Shift+ArrowUp", "Alt+ArrowRight"];
+    for (const key of [...moves, "t", "t", "Shift+G"]) await page.keyboard.press(key);
     const [first] = structuredClone(REQUEST.robots);
     first.start = { x: 2.6, y: 1.5, theta: Math.PI / 6 };
     first.goal = { x: 8.5, y: 1.5, theta: -Math.PI / 12 };
@@ -275,7 +275,8 @@ test("the form sets what a robot has, and what is typed is one step back", async
     await field("start/x").fill("1.25");
     await field("start/theta").fill("90");
     await field("goal/theta").fill("-45");
-    const changed = { id: "carrier", linear_speed: 1.5, angular_speed: 1, start: { x: 1.25, y: 4.5, theta: QUARTER } };
+    const start = { x: 1.25, y: 4.5, theta: QUARTER };
+    const changed = { id: "carrier", linear_speed: 1.5, angular_speed: 1, start };
     assert.deepEqual(await robotAt(page, 1), { ...changed, goal: { x: 8.5, y: 4.5, theta: -Math.PI / 4 } });
     assert.equal(await hook(page, "selected"), "carrier");
     assert.match(await page.innerText("#robot-start"), /= 1\.5708 rad/);
@@ -333,7 +334,8 @@ test("a fault is shown at the robot's field and in the scene, and goes when it i
       assert.equal(await marks({ x: 0.5, y: 4.5 }), 0);
       await drag(page, [{ x: 0.5, y: 0.5 }, { x: 4.5, y: 0.5 }]);
       await page.waitForSelector("#robot-start[aria-invalid=true]");
-      assert.match(await page.innerText("#robot-start .field-error"), /start does not fit: 0 m where 0.3 m is needed/);
+      const told = await page.innerText("#robot-start .field-error");
+      assert.match(told, /start does not fit: 0 m where 0\.3 m is needed/);
       assert.ok((await marks({ x: 4.5, y: 0.5 })) > 20);
       await drag(page, [{ x: 4.5, y: 0.5 }, { x: 6.5, y: 2.5 }]);
       await page.waitForSelector("#problem", { state: "hidden" });
@@ -418,7 +420,8 @@ test("a request is made from nothing: a new map, walls, robots, a plan", async (
 });
 
 test("a request without a map, without robots, or with anything else there can be edited", async () => {
-  for (const request of [{ robots: [] }, { map: { rows: ["..."] } }, { robots: "none", map: 3 }, { robots: [null, 7] }]) {
+  const noMap = [{ robots: [] }, { robots: "none", map: 3 }, { robots: [null, 7] }];
+  for (const request of [...noMap, { map: { rows: ["..."] } }]) {
     await onPage(
       async (page) => {
         await editing(page, JSON.stringify(request));
@@ -474,7 +477,9 @@ test("one finger draws, two zoom and leave no wall", async () => {
       const from = await windowPoint(page, { x: 3.5, y: 2.5 });
       const to = await windowPoint(page, { x: 5.5, y: 2.5 });
       await touch("touchStart", [from.x, from.y]);
-      for (let step = 1; step <= 8; step += 1) await touch("touchMove", [from.x + ((to.x - from.x) * step) / 8, to.y]);
+      for (let step = 1; step <= 8; step += 1) {
+        await touch("touchMove", [from.x + ((to.x - from.x) * step) / 8, to.y]);
+      }
       await touch("touchEnd");
       assert.equal((await rowsOf(page))[3], "...###....");
     },
@@ -486,7 +491,8 @@ test("an edit of an example is told as one, and undone it is the example again",
   await onPage(async (page) => {
     const request = await choose(page, "corridor-swap");
     await page.click("#tab-edit");
-    await drag(page, [request.robots[0].start, { x: request.robots[0].start.x + 1, y: request.robots[0].start.y }]);
+    const { start } = request.robots[0];
+    await drag(page, [start, { ...start, x: start.x + 1 }]);
     assert.match(await page.innerText("#example option:checked"), /edited/);
     await undoAll(page);
     assert.equal(await page.inputValue("#example"), "corridor-swap");

@@ -2,7 +2,14 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { cellAt, cellsAlong, cellsBetween, centreOf } from "../../../web/model/cells.js";
-import { faultOfSize, newMap, resize, setCells, setOrigin, setResolution } from "../../../web/model/edit_map.js";
+import {
+  faultOfSize,
+  newMap,
+  resize,
+  setCells,
+  setOrigin,
+  setResolution,
+} from "../../../web/model/edit_map.js";
 import { readScene } from "../../../web/model/scene.js";
 
 const REQUEST = {

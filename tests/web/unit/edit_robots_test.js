@@ -52,7 +52,8 @@ test("a robot's members and the defaults are set and left out", () => {
 
 test("a robot that is no object, or robots that are no list, can be edited", () => {
   assert.deepEqual(setPose({ robots: [7] }, 0, "start", { x: 1 }).robots, [{ start: { x: 1 } }]);
-  assert.deepEqual(setPose({ robots: [{ start: "here" }] }, 0, "start", { y: 1 }).robots, [{ start: { y: 1 } }]);
+  const placed = setPose({ robots: [{ start: "here" }] }, 0, "start", { y: 1 });
+  assert.deepEqual(placed.robots, [{ start: { y: 1 } }]);
   assert.equal(addRobot({ robots: "none" }, { x: 0, y: 0 }).robots.length, 1);
   assert.equal(addRobot(null, { x: 0, y: 0 }).robots[0].radius, 0.4);
   assert.equal(nameOf({ robots: [7] }, 0), "#0");
