@@ -31,8 +31,9 @@ LABEL org.opencontainers.image.title="Fleetplan" \
       org.opencontainers.image.created="${CREATED}" \
       org.opencontainers.image.base.name="debian:${DEBIAN_SUITE}-slim"
 COPY --from=build /image /
-# The ports of work and of health and metrics. FLEETPLAN_ADMIN_PORT= (empty) leaves the second one out.
-ENV FLEETPLAN_HOST=0.0.0.0 FLEETPLAN_PORT=8080 FLEETPLAN_ADMIN_PORT=8081
+# The ports of work and of health and metrics; FLEETPLAN_ADMIN_PORT= (empty) leaves the second one out. Engines kill
+# what does not end within 10 s.
+ENV FLEETPLAN_HOST=0.0.0.0 FLEETPLAN_PORT=8080 FLEETPLAN_ADMIN_PORT=8081 FLEETPLAN_DRAIN_MS=8000
 EXPOSE 8080 8081
 USER 65532:65532
 HEALTHCHECK --interval=10s --timeout=10s --start-period=5s --retries=3 CMD ["/usr/local/bin/fleetplan", "--healthcheck"]
