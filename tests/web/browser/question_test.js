@@ -262,10 +262,10 @@ test("rows beyond the dock's height scroll, and the selected one comes in sight"
     await page.locator(`.robot[data-robot="${last}"]`).click();
     await page.waitForFunction(() => document.getElementById("timeline-scroll").scrollTop > 1000);
     const box = await page.locator("#timeline-scroll").boundingBox();
+    const low = await scrolled();
     await page.mouse.move(box.x + 300, box.y + HEAD + 20);
     await page.mouse.wheel(0, -600);
-    const before = await scrolled();
-    await page.waitForFunction((top) => document.getElementById("timeline-scroll").scrollTop <= top, before);
+    await page.waitForFunction((top) => document.getElementById("timeline-scroll").scrollTop < top, low);
   });
 });
 
