@@ -1,6 +1,6 @@
 // A small picture of a map that is about to be imported.
 
-import { drawTiles, rasterize } from "../scene/map_raster.js";
+import { MapRaster } from "../scene/map_raster.js";
 import { readTheme } from "../scene/palette.js";
 import { element } from "../ui/dom.js";
 
@@ -29,7 +29,9 @@ export class MapPreview {
     context.fillStyle = theme.floor;
     context.fillRect(left, top, columns * cell, rows * cell);
     for (const { cells, colour } of columns * rows <= MOST_CELLS ? layers : []) {
-      drawTiles(context, rasterize({ columns, rows, blocked: cells }, theme[colour]), left, top, cell);
+      const raster = new MapRaster();
+      raster.show({ columns, rows, blocked: cells }, theme[colour]);
+      raster.draw(context, left, top, cell);
     }
     mark(context, theme, (column, row) => ({
       x: left + (column + 0.5) * cell,

@@ -3,7 +3,7 @@
 
 import { robotPoseAt, robotStateAt } from "../model/scene.js";
 import { remainingPath } from "../model/timeline.js";
-import { drawTiles, rasterize } from "./map_raster.js";
+import { MapRaster } from "./map_raster.js";
 import { drawGoal, drawPath, drawRobot, drawStart } from "./marks.js";
 import { robotColour } from "./palette.js";
 import { toScreen } from "./view.js";
@@ -21,7 +21,7 @@ export class Painter {
   #tracks = null;
   #theme = null;
   #look = null;
-  #tiles = [];
+  #map = new MapRaster();
   #colours = [];
 
   constructor(canvas) {
@@ -31,9 +31,7 @@ export class Painter {
 
   /** What to paint from now on, and how: see Stage.look. */
   show(scene, tracks, theme, look) {
-    if (scene.grid !== this.#scene?.grid || theme !== this.#theme) {
-      this.#tiles = scene.grid ? rasterize(scene.grid, theme.wall) : [];
-    }
+    this.#map.show(scene.grid, theme.wall);
     this.#colours = scene.robots.map(({ index }) => robotColour(index, theme.robotLightness));
     this.#scene = scene;
     this.#tracks = tracks;
@@ -93,7 +91,7 @@ export class Painter {
     if (cell >= GRID_LINES_FROM * ratio) {
       paintGridLines(context, { left, top, cell, columns, rows }, this.#theme.grid);
     }
-    drawTiles(context, this.#tiles, left, top, cell);
+    this.#map.draw(context, left, top, cell);
     const line = Math.max(1, Math.round(ratio));
     context.strokeStyle = this.#theme.edge;
     context.lineWidth = line;

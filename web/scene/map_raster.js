@@ -2,47 +2,87 @@
 
 const TILE = 2048; // cells a side: canvases of any browser and memory hold that
 
-/** The grid's tiles: [{canvas, column, row, columns, rows}], blocked cells in the wall's colour, free ones clear. */
-export function rasterize(grid, wallColour) {
-  const wall = rgbaOf(wallColour);
+/** The map of a grid (see readScene) as tiles: blocked cells in the wall's colour, free ones clear. */
+export class MapRaster {
+  #grid = null;
+  #wallColour = null;
+  #wall = 0; // the colour as the bytes of a pixel
+  #tiles = []; // [{canvas, column, row, columns, rows}]
+
+  /** What to draw from now on; `grid` may be null. Of an edited grid only the rows that differ are made again. */
+  show(grid, wallColour) {
+    const before = this.#grid;
+    if (grid === before && wallColour === this.#wallColour) return;
+    const alike = grid?.columns === before?.columns && grid?.rows === before?.rows;
+    this.#grid = grid;
+    if (wallColour !== this.#wallColour || !alike) {
+      this.#wallColour = wallColour;
+      this.#wall = rgbaOf(wallColour);
+      this.#tiles = grid ? tilesOf(grid) : [];
+      this.#paint(0, grid?.rows ?? 0);
+    } else {
+      this.#paint(...changedRows(before, grid));
+    }
+  }
+
+  /** Draws it; `left`, `top` is the map's upper left corner and `cell` a cell's side, in the context's pixels. */
+  draw(context, left, top, cell) {
+    context.imageSmoothingEnabled = cell < 1;
+    context.imageSmoothingQuality = "high";
+    const snap = (start, count) => Math.round(start + count * cell);
+    for (const { canvas, column, row, columns, rows } of this.#tiles) {
+      const x = snap(left, column);
+      const y = snap(top, row);
+      context.drawImage(canvas, x, y, snap(left, column + columns) - x, snap(top, row + rows) - y);
+    }
+  }
+
+  /** Paints the rows from one to another, which is not painted. */
+  #paint(begin, end) {
+    for (const tile of this.#tiles) {
+      const from = Math.max(begin, tile.row);
+      const to = Math.min(end, tile.row + tile.rows);
+      if (from < to) paintRows(tile, this.#grid, from, to, this.#wall);
+    }
+  }
+}
+
+function tilesOf(grid) {
   const tiles = [];
   for (let row = 0; row < grid.rows; row += TILE) {
     for (let column = 0; column < grid.columns; column += TILE) {
       const columns = Math.min(TILE, grid.columns - column);
       const rows = Math.min(TILE, grid.rows - row);
-      tiles.push({ canvas: paintTile(grid, column, row, columns, rows, wall), column, row, columns, rows });
+      const canvas = document.createElement("canvas");
+      canvas.width = columns;
+      canvas.height = rows;
+      tiles.push({ canvas, column, row, columns, rows });
     }
   }
   return tiles;
 }
 
-/** Draws the tiles; `left`, `top` is the map's upper left corner and `cell` a cell's side, in the context's pixels. */
-export function drawTiles(context, tiles, left, top, cell) {
-  context.imageSmoothingEnabled = cell < 1;
-  context.imageSmoothingQuality = "high";
-  const snap = (start, count) => Math.round(start + count * cell);
-  for (const { canvas, column, row, columns, rows } of tiles) {
-    const x = snap(left, column);
-    const y = snap(top, row);
-    context.drawImage(canvas, x, y, snap(left, column + columns) - x, snap(top, row + rows) - y);
-  }
+/** From the first row that differs to after the last one. */
+function changedRows(before, grid) {
+  let begin = 0;
+  let end = grid.rows;
+  while (begin < end && grid.lines[begin] === before.lines[begin]) begin += 1;
+  while (end > begin && grid.lines[end - 1] === before.lines[end - 1]) end -= 1;
+  return [begin, end];
 }
 
-function paintTile(grid, column, row, columns, rows, wall) {
-  const canvas = document.createElement("canvas");
-  canvas.width = columns;
-  canvas.height = rows;
+function paintRows({ canvas, column, row, columns }, grid, from, to, wall) {
   const context = canvas.getContext("2d");
-  const image = context.createImageData(columns, rows);
+  const image = context.createImageData(columns, to - from);
   const pixels = new Uint32Array(image.data.buffer);
-  for (let y = 0; y < rows; y += 1) {
-    const first = (row + y) * grid.columns + column;
+  for (let y = from; y < to; y += 1) {
+    const first = y * grid.columns + column;
+    const at = (y - from) * columns;
     for (let x = 0; x < columns; x += 1) {
-      if (grid.blocked[first + x]) pixels[y * columns + x] = wall;
+      if (grid.blocked[first + x]) pixels[at + x] = wall;
     }
   }
-  context.putImageData(image, 0, 0);
-  return canvas;
+  context.putImageData(image, 0, from - row);
 }
 
 /** A CSS colour as the bytes of a pixel. */

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { choose, pressPlan } from "../support/browser.js";
-import { countColour, hook, pagesFor, paste, REFUSED, themeColour } from "../support/on_page.js";
+import { coloursAt, countColour, hook, pagesFor, paste, REFUSED, themeColour } from "../support/on_page.js";
 
 const onPage = pagesFor();
 
@@ -98,6 +98,29 @@ test("walls are drawn and erased with the mouse, a stroke in one step", async ()
     assert.equal(await page.isEnabled("#undo"), false);
     await redoAll(page);
     assert.deepEqual(await rowsOf(page), erased);
+  });
+});
+
+test("what is drawn is painted, and what is undone no longer", async () => {
+  await onPage(async (page) => {
+    await editing(page);
+    const [wall, floor] = await Promise.all(["wall", "floor"].map((name) => themeColour(page, `--scene-${name}`)));
+    const painted = async () => {
+      await tool(page, "select"); // no cursor of cells is in the way
+      const at = [2.8, 7.8].map((x) => ({ x, y: 4.2 }));
+      return coloursAt(page, await page.evaluate((all) => all.map((each) => window.fleetplan.pointOf(each)), at));
+    };
+    const draw = async (x) => {
+      await tool(page, "wall");
+      await press(page, { x, y: 4.5 });
+    };
+    assert.deepEqual(await painted(), [floor, floor]);
+    await draw(2.5);
+    assert.deepEqual(await painted(), [wall, floor]);
+    await draw(7.5);
+    assert.deepEqual(await painted(), [wall, wall]);
+    await page.click("#undo");
+    assert.deepEqual(await painted(), [wall, floor]);
   });
 });
 
