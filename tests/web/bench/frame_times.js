@@ -1,5 +1,6 @@
-// How long a frame takes while 300 robots play: what the page's main thread does from one frame to the next, script,
-// layout and drawing together, as Chromium's tracing tells it. Without a GPU, so that canvases are painted by the CPU.
+// How long a frame takes while 300 robots play: the CPU time of the page's main thread from one frame to the next, for
+// script, layout and drawing together, as Chromium's tracing tells it. Without a GPU, so that canvases are painted by
+// the CPU; other work on the machine does not count, but for what it costs caches.
 //
 //   FLEETPLAN_BIN=… node bench/frame_times.js [robots] [seconds]
 
@@ -46,20 +47,20 @@ async function trace(page, milliseconds) {
   return events;
 }
 
-/** Milliseconds that the page's main thread was busy for each frame, and in scripts alone: [{busy, script}]. */
+/** CPU milliseconds of the page's main thread for each frame, all in all and in scripts alone: [{all, script}]. */
 function framesOf(events) {
   const scripts = events.filter(({ name }) => name === "FireAnimationFrame");
   const { pid, tid } = scripts[0];
   const own = (name) =>
     events
-      .filter((event) => event.name === name && event.pid === pid && event.tid === tid && event.dur !== undefined)
+      .filter((event) => event.name === name && event.pid === pid && event.tid === tid && event.tdur !== undefined)
       .sort((a, b) => a.ts - b.ts);
   const tasks = own("RunTask");
   const begins = own("Commit").map(({ ts, dur }) => ts + dur); // a frame ends with its commit
-  const sum = (all, from, to) =>
-    all.reduce((total, { ts, dur }) => total + (ts >= from && ts < to ? dur : 0), 0) / 1000;
+  const sum = (parts, from, to) =>
+    parts.reduce((total, { ts, tdur }) => total + (ts >= from && ts < to ? tdur : 0), 0) / 1000;
   return begins.slice(1).map((end, at) => ({
-    busy: sum(tasks, begins[at], end),
+    all: sum(tasks, begins[at], end),
     script: sum(scripts, begins[at], end),
   }));
 }
@@ -83,7 +84,7 @@ await browser.close();
 await service.stop();
 
 console.log(`${answer.plans.length} of ${ROBOTS} robots, ${frames.length} frames in ${SECONDS} s, 1440 × 900 pixels`);
-for (const part of ["busy", "script"]) {
+for (const part of ["all", "script"]) {
   const times = frames.map((frame) => frame[part]);
   const shown = [0.5, 0.95, 0.99].map((share) => `p${share * 100} ${percentile(times, share).toFixed(1)}`);
   console.log(`${part.padEnd(6)} ${shown.join("  ")} ms`);
