@@ -54,7 +54,7 @@ new PlanningStatus(session);
 new OptionsPanel(session);
 new RobotList(session, colours);
 new TimelineDock(session, colours, fleet, (over) => closest.peek(over));
-new Inspector(session, stage, colours, fleet);
+new Inspector(session, stage, colours, fleet, tabs);
 watchSummary(session);
 watchCheck(session, stage);
 showBlockers(session, stage);

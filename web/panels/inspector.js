@@ -11,6 +11,7 @@ import { cornerFor } from "./card_corner.js";
 import { robotChip } from "./robot_chip.js";
 import { REASONS } from "./unplanned.js";
 
+const EDITING = "tab-edit"; // whose form has what there is to know of a robot, and needs the scene
 const CROSS = "M5 5 15 15M15 5 5 15";
 const MARGIN = { top: 60, side: 12, bottom: 12 }; // pixels around the card: above are the view's buttons
 const COLUMNS = ["", "From, s", "To, s", "What"];
@@ -25,22 +26,25 @@ export class Inspector {
   #stage;
   #colours;
   #fleet;
+  #tabs;
   #box = byId("inspector");
   #shown = null; // the id of the robot shown
   #state = null; // the element that says what it does now
   #rows = []; // of the table, one an action
   #current = -1; // the row of the action under way
 
-  /** `colours`: see RobotColours; `fleet`: see FleetMotion. */
-  constructor(session, stage, colours, fleet) {
+  /** `colours`: see RobotColours; `fleet`: see FleetMotion; `tabs`: the page's. */
+  constructor(session, stage, colours, fleet, tabs) {
     this.#session = session;
     this.#stage = stage;
     this.#colours = colours;
     this.#fleet = fleet;
+    this.#tabs = tabs;
     session.on("answer", () => this.#show());
     session.on("marks", () => session.selected !== this.#shown && this.#show());
     session.on("time", () => this.#update());
     colours.onChange(() => this.#show());
+    tabs.onChange(() => this.#show());
   }
 
   #show() {
@@ -48,7 +52,7 @@ export class Inspector {
     this.#shown = selected;
     this.#rows = [];
     this.#current = -1;
-    this.#box.hidden = selected === null || answer === null;
+    this.#box.hidden = selected === null || answer === null || this.#tabs.chosen === EDITING;
     if (this.#box.hidden) {
       this.#box.replaceChildren();
       return;

@@ -479,6 +479,33 @@ test("an edit while a plan plays drops the plan, and what is dragged stays under
   });
 });
 
+test("on phones the tools are at the window's lower edge however far it is scrolled", async () => {
+  await onPage(
+    async (page) => {
+      await editing(page);
+      for (const top of [0, 400]) {
+        await page.evaluate((y) => scrollTo(0, y), top);
+        const box = await page.locator(".tool-bar").boundingBox();
+        assert.ok(Math.abs(box.y + box.height - PHONE.viewport.height) < 1, `scrolled by ${top}`);
+      }
+    },
+    { options: PHONE },
+  );
+});
+
+test("the card of a robot leaves the scene to editing", async () => {
+  await onPage(async (page) => {
+    await paste(page, REQUEST);
+    await pressPlan(page);
+    await page.click('.robot[data-robot="robot-1"]');
+    assert.equal(await page.isVisible("#inspector"), true);
+    await page.click("#tab-edit");
+    assert.equal(await page.isVisible("#inspector"), false);
+    await page.click("#tab-plan");
+    assert.equal(await page.isVisible("#inspector"), true);
+  });
+});
+
 test("one finger draws, two zoom and leave no wall", async () => {
   await onPage(
     async (page) => {
