@@ -13,6 +13,9 @@ const OUTCOMES = {
   none: { text: "No robot planned", tone: "bad", path: CROSS },
 };
 
+/** The parts of timings_ms beside planning itself, in words. */
+const PARTS = { queue: "queue", parse: "parse", verify: "check", serialize: "write" };
+
 /** A sentence that says how planning ended. */
 export function summarize(answer) {
   const outcome = OUTCOMES[answer.status]?.text ?? answer.status;
@@ -44,6 +47,7 @@ function showSummary({ answer, check }) {
     answer.timings_ms ? effort(answer) : null,
   );
   box.replaceChildren(badges(answer, check), figures);
+  if (answer.timings_ms) box.append(otherTimings(answer.timings_ms));
   if (answer.warnings.length > 0) box.append(warningList(answer.warnings));
 }
 
@@ -55,6 +59,12 @@ function effort({ timings_ms: timings, search }) {
     expansions,
     `${milliseconds(timings.total)} in all`,
   );
+}
+
+/** What else the service's time went into. */
+function otherTimings(timings) {
+  const parts = Object.entries(PARTS).map(([part, words]) => `${words} ${(timings[part] ?? 0).toFixed(2)}`);
+  return element("p", { class: "facts", textContent: `${parts.join(" · ")} ms` });
 }
 
 function badges(answer, check) {

@@ -329,6 +329,7 @@ test("the figures are those of the answer", async () => {
     for (const part of ["Solved", "Verified", answer.flowtime.toFixed(2), answer.makespan.toFixed(2)]) {
       assert.ok(shown.includes(part), part);
     }
+    assert.ok(shown.includes(`write ${answer.timings_ms.serialize.toFixed(2)} ms`));
   });
 });
 
