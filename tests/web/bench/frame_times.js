@@ -47,7 +47,12 @@ async function trace(page, milliseconds) {
   return events;
 }
 
-/** CPU milliseconds of the page's main thread for each frame, all in all and in scripts alone: [{all, script}]. */
+const DRAWING = ["UpdateLayoutTree", "Layout", "PrePaint", "Paint", "Layerize", "Commit"];
+
+/**
+ * CPU milliseconds of the page's main thread for each frame: [{script, drawn, all}], in scripts alone, with style,
+ * layout and drawing, and with all that the browser does beside them.
+ */
 function framesOf(events) {
   const scripts = events.filter(({ name }) => name === "FireAnimationFrame");
   const { pid, tid } = scripts[0];
@@ -56,12 +61,14 @@ function framesOf(events) {
       .filter((event) => event.name === name && event.pid === pid && event.tid === tid && event.tdur !== undefined)
       .sort((a, b) => a.ts - b.ts);
   const tasks = own("RunTask");
+  const drawing = DRAWING.flatMap(own);
   const begins = own("Commit").map(({ ts, dur }) => ts + dur); // a frame ends with its commit
   const sum = (parts, from, to) =>
     parts.reduce((total, { ts, tdur }) => total + (ts >= from && ts < to ? tdur : 0), 0) / 1000;
   return begins.slice(1).map((end, at) => ({
-    all: sum(tasks, begins[at], end),
     script: sum(scripts, begins[at], end),
+    drawn: sum(scripts, begins[at], end) + sum(drawing, begins[at], end),
+    all: sum(tasks, begins[at], end),
   }));
 }
 
@@ -84,7 +91,7 @@ await browser.close();
 await service.stop();
 
 console.log(`${answer.plans.length} of ${ROBOTS} robots, ${frames.length} frames in ${SECONDS} s, 1440 × 900 pixels`);
-for (const part of ["all", "script"]) {
+for (const part of ["script", "drawn", "all"]) {
   const times = frames.map((frame) => frame[part]);
   const shown = [0.5, 0.95, 0.99].map((share) => `p${share * 100} ${percentile(times, share).toFixed(1)}`);
   console.log(`${part.padEnd(6)} ${shown.join("  ")} ms`);
