@@ -53,7 +53,7 @@ watchEdits(session, service.validate);
 new PlanningStatus(session);
 new OptionsPanel(session);
 new RobotList(session, colours);
-new TimelineDock(session, colours, fleet, (over) => closest.peek(over));
+new TimelineDock(session, colours, fleet, transport, (over) => closest.peek(over));
 new Inspector(session, stage, colours, fleet, tabs);
 watchSummary(session);
 watchCheck(session, stage);

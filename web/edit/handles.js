@@ -3,6 +3,7 @@
 // {x, y}}.
 
 import { robotPoseAt } from "../model/scene.js";
+import { ring } from "../scene/marks.js";
 
 const STEM = 22; // pixels from a disk's rim to its handle
 const LONGER = 48; // pixels more for the goal's handle if it would cover the start's
@@ -24,17 +25,11 @@ export function partAt(world, { session, stage, chosen, event }) {
 }
 
 /** The disk (as it is now) or goal that is nearest to a world point, among those that hold it, or null. */
-function nearestPart(world, { scene, tracks, player }, stage, pose) {
-  let found = null;
-  let least = Infinity;
-  for (const robot of scene.robots) {
-    const place = pose === "goal" ? robot.goal : robotPoseAt(robot, tracks.get(robot.id), player.time);
-    const distance = place ? Math.hypot(place.x - world.x, place.y - world.y) : Infinity;
-    if (distance > stage.reach(robot.radius) || distance >= least) continue;
-    least = distance;
-    found = { robot, pose, turns: false, place };
-  }
-  return found;
+function nearestPart(world, { tracks, player }, stage, pose) {
+  const found = stage.diskAt(world, (robot) => {
+    return pose === "goal" ? robot.goal : robotPoseAt(robot, tracks.get(robot.id), player.time);
+  });
+  return found && { ...found, pose, turns: false };
 }
 
 const posesOf = (robot) => (robot.goal ? ["goal", "start"] : ["start"]);
@@ -82,12 +77,6 @@ export function paintHandles(context, view, robot) {
 
 /** Rings what would be taken hold of. */
 export function paintPart(context, { scale, screen, theme }, { robot, turns, place }) {
-  const centre = screen(place);
-  context.save();
-  context.strokeStyle = theme.accent;
-  context.lineWidth = 2;
-  context.beginPath();
-  context.arc(centre.x, centre.y, turns ? KNOB + 3 : Math.max(robot.radius * scale, 4) + 4, 0, 2 * Math.PI);
-  context.stroke();
-  context.restore();
+  const radius = turns ? KNOB + 3 : Math.max(robot.radius * scale, 4) + 4;
+  ring(context, screen(place), radius, theme.accent, { width: 2, alpha: 1, dashes: [] });
 }

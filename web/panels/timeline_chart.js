@@ -2,7 +2,6 @@
 // painted when something in it changes; while a plan plays, only the playhead moves.
 
 import { orderRows, rowAt, scrollToRow, timeAt, xOf } from "../model/gantt.js";
-import { eventTimes, nextEvent } from "../model/next_event.js";
 import { panTime, revealTime, zoomTime } from "../model/time_range.js";
 import { byId } from "../ui/dom.js";
 import { seconds } from "../ui/format.js";
@@ -19,6 +18,7 @@ export class TimelineChart {
   #session;
   #colours;
   #fleet;
+  #transport;
   #box = byId("timeline-scroll");
   #canvas = byId("timeline-canvas");
   #playhead = byId("timeline-playhead");
@@ -32,11 +32,12 @@ export class TimelineChart {
   #scheduled = false;
   #revealed = null; // the selected robot when its row was last brought in sight
 
-  /** `fleet`: see FleetMotion. `overStrip(whether)` hears of the pointer on the curve of the smallest gap. */
-  constructor(session, colours, fleet, overStrip) {
+  /** `fleet`: see FleetMotion; `transport`: see Transport. `overStrip(whether)` hears of the pointer on the curve of the smallest gap. */
+  constructor(session, colours, fleet, transport, overStrip) {
     this.#session = session;
     this.#colours = colours;
     this.#fleet = fleet;
+    this.#transport = transport;
     new ResizeObserver(() => this.#measure()).observe(this.#box);
     session.on("answer", () => this.#show());
     session.on("time", () => this.#follow());
@@ -222,11 +223,9 @@ export class TimelineChart {
     this.#tell();
   }
 
-  /** To the next event (1) of the selected robot, or of all, or the one before (-1). */
   #step(direction) {
-    const { selected, tracks, player } = this.#session;
-    const own = tracks.get(selected)?.actions.length > 0 ? [tracks.get(selected)] : [...tracks.values()];
-    this.#goTo(nextEvent(eventTimes(own), player.time, direction));
+    this.#transport.step(direction);
+    this.#tell();
   }
 
   #goTo(time) {

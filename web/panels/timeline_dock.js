@@ -23,10 +23,10 @@ export class TimelineDock {
   #told = -Infinity;
 
   /** See TimelineChart. */
-  constructor(session, colours, fleet, overStrip) {
+  constructor(session, colours, fleet, transport, overStrip) {
     this.#session = session;
     this.#fleet = fleet;
-    const chart = new TimelineChart(session, colours, fleet, overStrip);
+    const chart = new TimelineChart(session, colours, fleet, transport, overStrip);
     this.#toggle.addEventListener("click", () => this.#fold(!this.#body.hidden));
     this.#sort.addEventListener("change", () => chart.sortBy(this.#sort.value));
     this.#least.addEventListener("click", () => this.#goToLeast());

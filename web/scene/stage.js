@@ -117,15 +117,21 @@ export class Stage {
 
   /** The id of the robot whose disk, now, is at a world point, the nearest if there are several, or null. */
   robotAt(world) {
-    const { scene, tracks, player } = this.#session;
+    const { tracks, player } = this.#session;
+    const found = this.diskAt(world, (robot) => robotPoseAt(robot, tracks.get(robot.id), player.time));
+    return found?.robot.id ?? null;
+  }
+
+  /** The robot whose disk, put at placeOf(robot) ({x, y} or null), is at a world point: {robot, place}, or null. */
+  diskAt(world, placeOf) {
     let found = null;
     let nearest = Infinity;
-    for (const robot of scene.robots) {
-      const pose = robotPoseAt(robot, tracks.get(robot.id), player.time);
-      const distance = Math.hypot(pose.x - world.x, pose.y - world.y);
+    for (const robot of this.#session.scene.robots) {
+      const place = placeOf(robot);
+      const distance = place ? Math.hypot(place.x - world.x, place.y - world.y) : Infinity;
       if (distance > this.reach(robot.radius) || distance >= nearest) continue;
       nearest = distance;
-      found = robot.id;
+      found = { robot, place };
     }
     return found;
   }

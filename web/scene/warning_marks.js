@@ -1,18 +1,13 @@
 // Marks of what is wrong in a scene: a ring or a band in the colour of danger, and always a sign beside it.
 
+import { ring } from "./marks.js";
+
 /** Rings a disk of the world and puts an exclamation mark at it. `radius` in metres. */
 export function markWrong(context, { scale, screen, theme }, point, radius) {
   const { x, y } = screen(point);
-  const ring = Math.max(radius * scale, 4) + 3;
-  context.save();
-  context.strokeStyle = theme.danger;
-  context.lineWidth = 2.5;
-  context.setLineDash([6, 3]);
-  context.beginPath();
-  context.arc(x, y, ring, 0, 2 * Math.PI);
-  context.stroke();
-  context.restore();
-  drawExclamation(context, theme, x + ring * 0.75, y - ring * 0.75);
+  const rim = Math.max(radius * scale, 4) + 3;
+  ring(context, { x, y }, rim, theme.danger, { width: 2.5, alpha: 1, dashes: [6, 3] });
+  drawExclamation(context, theme, x + rim * 0.75, y - rim * 0.75);
 }
 
 /** Brings out a row of the map, 0 the top one. */
