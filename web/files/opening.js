@@ -78,7 +78,7 @@ export class Opening {
     if (opened.request === session.request) {
       session.stopPlanning();
       session.setProblem(null);
-      session.adopt(answer, JSON.stringify(answer));
+      session.adopt(answer);
     } else {
       session.open(opened, answer);
     }

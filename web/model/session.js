@@ -42,7 +42,6 @@ export class Session {
   scene = readScene(null);
   tracks = new Map(); // by id, see readTracks
   answer = null; // parsed, or null
-  answerText = null; // as it came, or null
   planning = null; // a PlanRun while planning, or null
   problem = null; // of RFC 9457, or null
   check = null; // what the service says of the plan: {valid, violations, min_clearance}, or null
@@ -105,12 +104,12 @@ export class Session {
   }
 
   /** Shows another request: {name, example: its name or null, text, request}, with an answer or null. */
-  open(opened, answer = null, answerText = null) {
+  open(opened, answer = null) {
     this.#opened = opened;
     this.#history = new History(opened.request);
     this.#focus = new Focus();
     this.#requestChanged(true);
-    if (answer !== null) this.adopt(answer, answerText ?? JSON.stringify(answer));
+    if (answer !== null) this.adopt(answer);
   }
 
   /** Edits the request. Edits in a row with the same `gesture` (a drag, typing in one field) are undone as one. */
@@ -144,7 +143,7 @@ export class Session {
     this.scene = readScene(this.request, this.scene);
     this.#robots = new Map(this.scene.robots.map((robot) => [robot.id, robot]));
     this.#focus.keep(this.#robots);
-    this.#setAnswer(null, null);
+    this.#setAnswer(null);
     this.#signals.emit("request", { opened });
     if (opened) this.setProblem(null); // that of an edited request stays until it is judged again, see live_check.js
     this.#signals.emit("answer");
@@ -153,16 +152,15 @@ export class Session {
 
   // The answer
 
-  /** Shows an answer (parsed, and its text) of the present request, at its start. */
-  adopt(answer, text) {
-    this.#setAnswer(answer, text);
+  /** Shows an answer of the present request, at its start. */
+  adopt(answer) {
+    this.#setAnswer(answer);
     this.#signals.emit("answer");
     this.#signals.emit("marks");
   }
 
-  #setAnswer(answer, text) {
+  #setAnswer(answer) {
     this.answer = answer;
-    this.answerText = text;
     this.tracks = readTracks(this.scene, answer);
     this.#focus.keep(this.#robots);
     this.player.reset(Math.max(0, ...(answer?.plans ?? []).map(({ cost }) => cost)));
@@ -196,17 +194,17 @@ export class Session {
     const run = new PlanRun(budget);
     this.planning = run;
     this.setProblem(null);
-    this.#setAnswer(null, null);
+    this.#setAnswer(null);
     this.#signals.emit("answer");
     this.#signals.emit("planning");
     try {
-      const { answer, text } = await this.#service.plan(this.text, run.signal, {
+      const { answer } = await this.#service.plan(this.text, run.signal, {
         progress: (progress) => this.planning === run && this.#hear(progress),
         incumbent: (incumbent) => (run.incumbent = incumbent),
       });
       if (this.planning !== run) return false;
       this.#endPlanning();
-      this.adopt(answer, text);
+      this.adopt(answer);
       return true;
     } catch (error) {
       if (this.planning !== run) return false;
@@ -239,7 +237,7 @@ export class Session {
   cancel() {
     if (!this.planning) return;
     const text = this.stopPlanning();
-    if (text !== null) this.adopt(JSON.parse(text), text);
+    if (text !== null) this.adopt(JSON.parse(text));
     this.say(`Planning cancelled${text === null ? "" : ": this is the best plan so far"}.`);
   }
 
