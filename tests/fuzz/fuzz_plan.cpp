@@ -51,9 +51,8 @@ void require_proper_answer(const std::string& body, const std::string& reply) {
   require_all_robots(merged, answer);
   require_bounded_costs(answer);
   merged.update(answer);
-  api::RequestContext context = context_now();
-  context.limits.max_depth = api::Limits{}.max_depth;
-  const api::Reply verdict = api::validate_endpoint(merged.dump(), context);
+  const api::RequestContext usual;  // a check has all the time that it needs, also on a machine that stutters
+  const api::Reply verdict = api::validate_endpoint(merged.dump(), usual);
   require(verdict.status == 200, "an answer cannot be validated", verdict.body + reply);
   require(Json::parse(verdict.body).at("valid") == true, "an answer is not valid", verdict.body + reply);
 }
