@@ -30,7 +30,13 @@ export class History {
       this.#past.push(this.#present);
       if (this.#past.length > MOST) this.#past.shift();
     }
+    this.replace(value);
     this.#gesture = gesture;
+  }
+
+  /** Another present without a step back to this one. */
+  replace(value) {
+    this.#gesture = null;
     this.#future = [];
     this.#present = value;
   }

@@ -14,7 +14,7 @@ export function watchEdits(session, validate, rest = REST_MS) {
   let timer = null;
   session.on("request", ({ opened }) => {
     clearTimeout(timer);
-    if (!opened) timer = setTimeout(() => judge(session, validate), rest);
+    if (!opened || session.edited) timer = setTimeout(() => judge(session, validate), rest);
   });
 }
 

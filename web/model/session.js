@@ -2,8 +2,8 @@
 // nothing of one another. No DOM; the service and the screen's frames are passed in.
 //
 // Features listen with on(names, listener):
-//   request   another request or an edit of it: `request`, `scene` and `tracks` are new. Told: {opened}, whether it
-//             is another one (true) or an edit of the same (false)
+//   request   another request or an edit of it: `request`, `scene` and `tracks` are new. Told: {opened}, whether
+//             another one was opened, or is open again by undo or redo, (true) or the same was edited (false)
 //   answer    another answer, or none: `answer`, `tracks` and the player are new; comes after every "request" too
 //   planning  planning began, got on or ended: `planning`
 //   problem   a fault to show, or none: `problem`
@@ -28,13 +28,15 @@ import { Signals } from "./signal.js";
 
 const EMPTY = { name: "", example: null, text: "", request: null };
 
+/** What was opened, {name, example, text, request}, and what its request was edited to. */
+const documentOf = (opened, request = opened.request) => ({ opened, request });
+
 export class Session {
   #signals = new Signals();
   #service;
   #playback;
   #focus = new Focus();
-  #opened = EMPTY; // as it was opened: {name, example, text, request}
-  #history = new History(null); // of requests
+  #history = new History(documentOf(EMPTY)); // of documents
   #turn = 0; // counts requests and edits, so that what was asked for an older one is dropped
   #robots = new Map(); // of the scene, by id
 
@@ -67,8 +69,12 @@ export class Session {
 
   // The request
 
+  get #opened() {
+    return this.#history.present.opened;
+  }
+
   get request() {
-    return this.#history.present;
+    return this.#history.present.request;
   }
 
   /** What the request is called: an example's or a file's name. */
@@ -103,11 +109,13 @@ export class Session {
     return this.#turn;
   }
 
-  /** Shows another request: {name, example: its name or null, text, request}, with an answer or null. */
+  /**
+   * Shows another request: {name, example: its name or null, text, request}, with an answer or null. Undo brings the
+   * one before it back if that was edited.
+   */
   open(opened, answer = null) {
-    this.#opened = opened;
-    this.#history = new History(opened.request);
-    this.#focus = new Focus();
+    if (this.edited) this.#history.push(documentOf(opened));
+    else this.#history.replace(documentOf(opened));
     this.#requestChanged(true);
     if (answer !== null) this.adopt(answer);
   }
@@ -115,7 +123,7 @@ export class Session {
   /** Edits the request. Edits in a row with the same `gesture` (a drag, typing in one field) are undone as one. */
   edit(request, gesture = null) {
     if (request === this.request) return;
-    this.#history.push(request, gesture);
+    this.#history.push(documentOf(this.#opened, request), gesture);
     this.#requestChanged(false);
   }
 
@@ -124,22 +132,25 @@ export class Session {
   }
 
   undo() {
-    if (!this.canUndo) return;
-    this.#history.undo();
-    this.#requestChanged(false);
-    this.say("Undone.");
+    if (this.canUndo) this.#step(() => this.#history.undo(), "Undone");
   }
 
   redo() {
-    if (!this.canRedo) return;
-    this.#history.redo();
-    this.#requestChanged(false);
-    this.say("Done again.");
+    if (this.canRedo) this.#step(() => this.#history.redo(), "Done again");
+  }
+
+  #step(take, word) {
+    const before = this.#opened;
+    take();
+    const reopened = this.#opened !== before;
+    this.#requestChanged(reopened);
+    this.say(reopened ? `${word}: ${this.name} is open again.` : `${word}.`);
   }
 
   #requestChanged(opened) {
     this.#turn += 1;
     this.stopPlanning();
+    if (opened) this.#focus = new Focus();
     this.scene = readScene(this.request, this.scene);
     this.#robots = new Map(this.scene.robots.map((robot) => [robot.id, robot]));
     this.#focus.keep(this.#robots);
@@ -198,7 +209,7 @@ export class Session {
     this.#signals.emit("answer");
     this.#signals.emit("planning");
     try {
-      const { answer } = await this.#service.plan(this.text, run.signal, {
+      const answer = await this.#service.plan(this.text, run.signal, {
         progress: (progress) => this.planning === run && this.#hear(progress),
         incumbent: (incumbent) => (run.incumbent = incumbent),
       });

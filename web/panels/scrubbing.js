@@ -1,5 +1,5 @@
 // Pressing, dragging and hovering on the timeline, by mouse or finger. A finger that moves up or down scrolls,
-// which the browser does; sideways it seeks.
+// which the browser does; sideways it seeks. A second finger ends that: two pinch, see pinching.js.
 
 const TAP_SLACK = 6; // pixels
 
@@ -26,6 +26,7 @@ export function watchScrubbing(box, session, chart) {
   };
 
   box.addEventListener("pointerdown", (event) => {
+    if (!event.isPrimary) return release();
     const place = within(event);
     if (event.button !== 0 || place.x >= box.clientWidth) return; // the scroll bar is the browser's
     pressed = { x: place.x, resume: session.player.playing, moved: false };
@@ -38,6 +39,7 @@ export function watchScrubbing(box, session, chart) {
   box.addEventListener("pointermove", (event) => {
     const place = within(event);
     if (pressed === null) {
+      if (event.pointerType === "touch") return;
       session.hover(chart.robotAt(place.y));
       chart.over(place.y);
       return;

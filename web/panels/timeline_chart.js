@@ -5,7 +5,9 @@ import { orderRows, rowAt, scrollToRow, timeAt, xOf } from "../model/gantt.js";
 import { panTime, revealTime, zoomTime } from "../model/time_range.js";
 import { byId } from "../ui/dom.js";
 import { seconds } from "../ui/format.js";
+import { wheelFactor, wheelTravel } from "../ui/wheel.js";
 import { AXIS, paintGantt, STRIP } from "./gantt_painter.js";
+import { watchPinching } from "./pinching.js";
 import { watchScrubbing } from "./scrubbing.js";
 
 const LABELS = { wide: 132, narrow: 108 }; // pixels for the robots' names
@@ -13,6 +15,7 @@ const NARROW = 560; // pixels
 const RIGHT = 10; // pixels kept free at the right
 const ROW = { fine: 20, coarse: 28 }; // pixels; coarse for fingers
 const KEY_ZOOM = 1.5;
+const WHEEL_GAIN = 0.005; // see wheelFactor
 
 export class TimelineChart {
   #session;
@@ -49,6 +52,7 @@ export class TimelineChart {
     this.#box.addEventListener("wheel", (event) => this.#onWheel(event), { passive: false });
     this.#box.addEventListener("keydown", (event) => this.#onKey(event));
     this.#box.addEventListener("dblclick", () => this.#setRange({ from: 0, to: session.player.duration }));
+    watchPinching(this.#box, (x, factor) => this.#zoom(timeAt(this.#layout(), x), factor));
     watchScrubbing(this.#box, session, {
       timeAt: (x) => (x < this.#layout().left ? null : timeAt(this.#layout(), x)),
       robotAt: (y) => this.#ids[rowAt(this.#layout(), y)] ?? null,
@@ -179,19 +183,18 @@ export class TimelineChart {
   }
 
   #onWheel(event) {
-    const layout = this.#layout();
-    const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
     if (event.ctrlKey || event.metaKey) {
       event.preventDefault();
       const x = event.clientX - this.#box.getBoundingClientRect().left;
-      this.#zoom(timeAt(layout, x), Math.exp(-Math.max(-240, Math.min(240, event.deltaY * unit)) * 0.005));
+      this.#zoom(timeAt(this.#layout(), x), wheelFactor(event, WHEEL_GAIN));
       return;
     }
-    const across = event.shiftKey ? event.deltaY || event.deltaX : event.deltaX;
-    const down = event.shiftKey ? 0 : event.deltaY;
+    const travel = wheelTravel(event);
+    const across = event.shiftKey ? travel.down || travel.across : travel.across;
+    const down = event.shiftKey ? 0 : travel.down;
     if (Math.abs(across) <= Math.abs(down)) return; // the rows scroll by themselves
     event.preventDefault();
-    const shift = ((across * unit) / layout.width) * (this.#range.to - this.#range.from);
+    const shift = (across / this.#layout().width) * (this.#range.to - this.#range.from);
     this.#setRange(panTime(this.#range, this.#session.player.duration, shift));
   }
 

@@ -1,7 +1,11 @@
 // Pointer, wheel and pinch on the scene, told as camera movements. Positions in CSS pixels within the element.
 
+import { wheelFactor } from "../ui/wheel.js";
+
 const CLICK_SLACK = 4; // pixels: a press that moved less is a click
 const TOUCH_SLACK = 10; // pixels, likewise: before a finger draws, a second one may come to pinch
+const WHEEL_GAIN = 0.002; // see wheelFactor
+const PINCH_GAIN = 0.01; // likewise, of two fingers on a touchpad, which come with ctrlKey
 
 /**
  * Watches an element. `told` has: pan(dx, dy), zoom(pixel, factor), hover(pixel or null), click(pixel); and for
@@ -86,9 +90,7 @@ export function watchGestures(element, told) {
 
   const onWheel = (event) => {
     event.preventDefault();
-    const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
-    const pixels = Math.max(-240, Math.min(240, event.deltaY * lines));
-    told.zoom(within(event), Math.exp(-pixels * (event.ctrlKey ? 0.01 : 0.002)));
+    told.zoom(within(event), wheelFactor(event, event.ctrlKey ? PINCH_GAIN : WHEEL_GAIN));
   };
   element.addEventListener("wheel", onWheel, { passive: false });
 }

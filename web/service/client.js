@@ -21,7 +21,7 @@ export async function fetchLimits() {
 }
 
 /**
- * Plans the request, a JSON text. The answer, parsed and as it came; rejects with AbortError when aborted. Meanwhile
+ * Plans the request, a JSON text. The answer; rejects with AbortError when aborted. Meanwhile
  * `told` hears of progress({elapsed_ms, attempt, planned, robots, best}) and incumbent(text), an answer's text, if
  * the service, or what is between, streams events.
  */
@@ -36,8 +36,7 @@ export async function plan(requestText, signal, told) {
     signal,
   });
   const streams = response.headers.get("Content-Type")?.startsWith("text/event-stream");
-  const text = await unlessCut(streams ? lastEvent(response, told) : response.text());
-  return { answer: parseAnswer(text), text };
+  return parseAnswer(await unlessCut(streams ? lastEvent(response, told) : response.text()));
 }
 
 /** What the service says of a plan file's text: {valid, violations, min_clearance}. */

@@ -549,3 +549,20 @@ test("an edit of an example is told as one, and undone it is the example again",
     assert.deepEqual(await hook(page, "request"), request);
   });
 });
+
+test("opening another request does not lose an edit: undo brings it back", async () => {
+  await onPage(async (page) => {
+    await editing(page);
+    await tool(page, "wall");
+    await press(page, { x: 9.5, y: 5.5 });
+    const edited = await hook(page, "request");
+    await choose(page, "corridor-swap");
+    await page.click("#tab-edit");
+    await page.click("#undo");
+    await isRequest(page, JSON.stringify(edited));
+    await tells(page, "is open again");
+    assert.match(await page.innerText("#example option:checked"), /pasted|edited/);
+    await page.click("#undo");
+    assert.deepEqual(await hook(page, "request"), REQUEST);
+  });
+});

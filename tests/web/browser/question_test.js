@@ -253,6 +253,35 @@ test("the wheel with control zooms in time around the pointer, a double click sh
   });
 });
 
+test("two fingers zoom the timeline in time, each keeps its moment, and seek nothing", async () => {
+  await onPage(
+    async (page) => {
+      const { answer } = await planned(page, "crossing");
+      await seek(page, 0);
+      const box = await page.locator("#timeline-scroll").boundingBox();
+      const session = await page.context().newCDPSession(page);
+      const touch = async (type, ...shares) => {
+        const places = await Promise.all(shares.map((share) => placeOf(page, 1, share)));
+        const touchPoints = places.map(({ x, y }, id) => ({ x: box.x + x, y: box.y + y, id }));
+        await session.send("Input.dispatchTouchEvent", { type, touchPoints });
+      };
+      await touch("touchStart", 0.4);
+      await touch("touchStart", 0.4, 0.6);
+      for (const half of [0.15, 0.2, 0.25, 0.3]) await touch("touchMove", 0.5 - half, 0.5 + half);
+      await touch("touchEnd");
+      assert.equal(await hook(page, "time"), 0);
+      for (const [share, moment] of [
+        [0.2, 0.4],
+        [0.8, 0.6],
+      ]) {
+        await pressRow(page, 1, share);
+        await hasTime(page, answer.makespan * moment, answer.makespan * 0.01);
+      }
+    },
+    { hasTouch: true },
+  );
+});
+
 test("rows beyond the dock's height scroll, and the selected one comes in sight", async () => {
   await onPage(async (page) => {
     const { request } = await planned(page, "hall-100");

@@ -52,6 +52,20 @@ test("values of one gesture are one step, until it ends or something else comes 
   assert.deepEqual(seen, ["f", "e", "d", "a"]);
 });
 
+test("a value that replaces another leaves no step to it and nothing to redo", () => {
+  const history = new History("a");
+  history.push("b", "drag");
+  history.push("c");
+  history.undo();
+  history.replace("d");
+  assert.deepEqual([history.present, history.canRedo], ["d", false]);
+  history.push("e", "drag");
+  history.undo();
+  assert.equal(history.present, "d");
+  history.undo();
+  assert.equal(history.present, "a");
+});
+
 test("a gesture does not go on after an undo", () => {
   const history = new History("a");
   history.push("b", "drag");

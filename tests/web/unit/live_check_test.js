@@ -7,6 +7,7 @@ import { ProblemError } from "../../../web/service/problem.js";
 
 const ROBOT = { id: "a", radius: 0.3, start: { x: 0.5, y: 0.5 }, goal: { x: 2.5, y: 0.5 } };
 const REQUEST = { map: { rows: ["..."] }, robots: [ROBOT] };
+const OPENED = { name: "one", example: null, text: JSON.stringify(REQUEST), request: REQUEST };
 const FITS = { violations: [] };
 
 /**
@@ -14,15 +15,23 @@ const FITS = { violations: [] };
  * was asked.
  */
 async function afterEdit(validate, request = { ...REQUEST, options: { seed: 1 } }) {
-  const session = new Session({}, () => {});
-  const asked = [];
-  const ask = async (text) => validate(asked.push(JSON.parse(text)));
-  watchEdits(session, ask, 0);
-  session.open({ name: "one", example: null, text: JSON.stringify(REQUEST), request: REQUEST });
+  const { session, asked } = watched(validate);
+  session.open(OPENED);
   session.edit(request);
   session.edit({ ...request });
-  for (let turn = 0; turn < 3; turn += 1) await new Promise((done) => setTimeout(done, 0));
+  await rest();
   return { problem: session.problem, asked };
+}
+
+function watched(validate) {
+  const session = new Session({}, () => {});
+  const asked = [];
+  watchEdits(session, async (text) => validate(asked.push(JSON.parse(text))), 0);
+  return { session, asked };
+}
+
+async function rest() {
+  for (let turn = 0; turn < 3; turn += 1) await new Promise((done) => setTimeout(done, 0));
 }
 
 const refuse = (problem) => () => {
@@ -55,4 +64,18 @@ test("starts and goals that do not fit are told together", async () => {
   const { problem } = await afterEdit(() => ({ violations: [violation] }));
   const pointers = problem.errors.map(({ pointer }) => pointer);
   assert.deepEqual(pointers, ["/robots/0/start", "/robots/0/goal"]);
+});
+
+test("what is opened is not judged, unless undo brought back an edit", async () => {
+  const { session, asked } = watched(() => FITS);
+  session.open(OPENED);
+  await rest();
+  assert.equal(asked.length, 0);
+  session.edit({ ...REQUEST });
+  session.open({ ...OPENED, name: "two" });
+  await rest();
+  assert.equal(asked.length, 0);
+  session.undo();
+  await rest();
+  assert.equal(asked.length, 2);
 });

@@ -65,10 +65,36 @@ test("an example is one only while it is unchanged", () => {
   assert.equal(session.example, "one");
 });
 
+test("undo brings an edited request back after another one was opened", () => {
+  const { session, heard } = begin();
+  const edited = { ...REQUEST, options: { seed: 1 } };
+  const other = { name: "two", example: "two", text: "{}", request: {} };
+  session.open(OPENED);
+  session.edit(edited);
+  session.open(other);
+  heard.length = 0;
+  session.undo();
+  assert.deepEqual([session.request, session.name, session.edited], [edited, "one", true]);
+  assert.ok(heard.includes('request {"opened":true}'));
+  assert.equal(heard.at(-1), 'said "Undone: one is open again."');
+  session.undo();
+  assert.equal(session.text, OPENED.text);
+  session.redo();
+  session.redo();
+  assert.deepEqual([session.text, session.example, session.canRedo], ["{}", "two", false]);
+});
+
+test("opening one request after another without an edit leaves nothing to undo", () => {
+  const { session } = begin();
+  session.open(OPENED);
+  session.open({ ...OPENED, request: { ...REQUEST } });
+  assert.equal(session.canUndo, false);
+});
+
 test("an edit drops the answer and tells of request before answer", () => {
   const { session, heard } = begin();
   session.open(OPENED);
-  session.adopt(ANSWER, JSON.stringify(ANSWER));
+  session.adopt(ANSWER);
   assert.equal(session.player.duration, 2);
   heard.length = 0;
   session.edit({ ...REQUEST, options: {} });
@@ -113,7 +139,7 @@ test("planning ends with its answer, and hears of progress and costs on the way"
       [4, 7],
     ],
   );
-  answer.resolve({ answer: ANSWER, text: "{}" });
+  answer.resolve(ANSWER);
   assert.equal(await done, true);
   assert.deepEqual([session.planning, session.answer], [null, ANSWER]);
 });
@@ -144,7 +170,7 @@ test("an edit while planning stops it and shows no plan of the older request", a
   session.open(OPENED);
   const done = session.plan();
   session.edit({ ...REQUEST, options: {} });
-  answer.resolve({ answer: ANSWER, text: "{}" });
+  answer.resolve(ANSWER);
   assert.equal(await done, false);
   assert.equal(session.answer, null);
 });
@@ -155,7 +181,7 @@ test("a fault of planning is shown as a problem, and gone with the next attempt"
   const { session } = begin({
     plan: async () => {
       if (refuses) throw new ProblemError(problem);
-      return { answer: ANSWER, text: "{}" };
+      return ANSWER;
     },
   });
   session.open(OPENED);
