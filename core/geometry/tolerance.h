@@ -10,4 +10,10 @@ inline constexpr double kContactTolerance = 1e-9;
 /// neither its own rounding (about 1e-12) nor that of a start in contact with a neighbour decides anything.
 inline constexpr double kSearchSlack = 0.5 * kContactTolerance;
 
+/// Directions that differ by less are the same (radians): far above rounding, far below a visible bend.
+inline constexpr double kSameHeading = 1e-12;
+
+/// Arrivals and departures that differ by less are the same (seconds): rounding of sums of durations.
+inline constexpr double kSameTime = 1e-11;
+
 }  // namespace fleetplan::core

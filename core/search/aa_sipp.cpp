@@ -5,12 +5,11 @@
 #include <functional>
 
 #include "core/geometry/angle.h"
+#include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {
 namespace {
 
-/// Arrivals and departures that differ by less are the same (seconds): rounding of sums of durations.
-constexpr double kSameTime = 1e-11;
 /// Candidates between two looks at the clock.
 constexpr int kStopStride = 32;
 
@@ -41,7 +40,6 @@ void AaSipp::reset() {
   for (const Place& place : places_) place_of_vertex_[static_cast<std::size_t>(place.vertex)] = -1;
   places_.clear();
   intervals_.clear();
-  arrivals_of_interval_.clear();
   arrivals_.clear();
   labels_.clear();
   ways_.clear();
@@ -57,7 +55,8 @@ AaSipp::Outcome AaSipp::search(bool thorough) {
   reset();
   thorough_ = thorough;
   coarse_ = !thorough && limits_.coarseness > 0.0;
-  slack_ = coarse_ ? motion_->translation_time(limits_.coarseness * fleet_.lattice().spacing()) : 0.0;
+  const double reach = coarse_ ? limits_.coarseness * fleet_.lattice().spacing() : 0.0;
+  arrivals_.begin(*motion_, motion_->translation_time(reach));
   goal_place_ = place_of(vertices_->goal());
   const Place& goal = places_[static_cast<std::size_t>(goal_place_)];
   if (goal.interval_count == 0) return Outcome::exhausted;
@@ -90,7 +89,7 @@ int AaSipp::place_of(int vertex) {
   places_.push_back(
       {vertex, position, estimate, static_cast<int>(intervals_.size()), static_cast<int>(safe.size())});
   intervals_.insert(intervals_.end(), safe.begin(), safe.end());
-  arrivals_of_interval_.resize(intervals_.size(), -1);
+  arrivals_.set_interval_count(intervals_.size());
   return known;
 }
 
@@ -104,7 +103,7 @@ void AaSipp::add_start() {
   if (!intervals_[static_cast<std::size_t>(interval)].contains(t)) return;
   const double heading = fleet_.robot(robot_).start.theta;
   if (!(rank(place, interval, t, heading).cost < limits_.bound)) return;
-  enter(interval, t, heading);
+  arrivals_.add(interval, t, heading);
   labels_.push_back({t, heading, t, -1, place, interval});
   if (is_final(place, interval)) {
     goal_label_ = 0;
@@ -163,7 +162,7 @@ void AaSipp::process(int index) {
   const Candidate candidate = candidates_[static_cast<std::size_t>(index)];
   if (candidate.entry < 0) {
     time_move(candidate, key);
-  } else if (!arrivals_[static_cast<std::size_t>(candidate.entry)].dominated) {
+  } else if (!arrivals_.dominated(candidate.entry)) {
     settle(candidate);
   }
 }
@@ -182,7 +181,7 @@ void AaSipp::time_move(Candidate candidate, double key) {
   // An arrival that dominates the optimistic one also dominates the way through the expanded label.
   if (redundant(interval, candidate.arrival, move.heading, key)) return;
   SafeInterval target = intervals_[static_cast<std::size_t>(interval)];
-  const double useful_until = dominated_from(interval, move.heading);
+  const double useful_until = arrivals_.needless_from(interval, move.heading);
   if (useful_until < target.end) {
     target.end = useful_until;
     pruned_ = pruned_ || coarse_;
@@ -193,7 +192,7 @@ void AaSipp::time_move(Candidate candidate, double key) {
     candidate.departure = *departure;
     candidate.arrival = *departure + move.duration;
     if (candidate.arrival <= optimistic + kSameTime) {
-      enter(interval, candidate.arrival, move.heading);
+      arrivals_.add(interval, candidate.arrival, move.heading);
       return settle(candidate);
     }
   }
@@ -201,8 +200,7 @@ void AaSipp::time_move(Candidate candidate, double key) {
   if (!departure || redundant(interval, candidate.arrival, move.heading, key)) return;
   const Rank ranked = rank(place, interval, candidate.arrival, move.heading);
   if (!(ranked.cost < limits_.bound)) return;
-  candidate.entry = static_cast<int>(arrivals_.size());
-  enter(interval, candidate.arrival, move.heading);
+  candidate.entry = arrivals_.add(interval, candidate.arrival, move.heading);
   push(candidate, ranked);
   if (is_final(place, interval) && ranked.cost < best_goal_cost_) {
     best_goal_ = static_cast<int>(candidates_.size()) - 1;
@@ -212,53 +210,12 @@ void AaSipp::time_move(Candidate candidate, double key) {
 
 /// Is an arrival there that makes this one needless, or good enough?
 bool AaSipp::redundant(int interval, double arrival, double heading, double key) {
-  if (arrivals_of_interval_[static_cast<std::size_t>(interval)] < 0) return false;
+  if (arrivals_.none_in(interval)) return false;
   const bool waiting = !thorough_ && key <= release_;  // while the goal is not even free, one label will do
-  const bool dominated = waiting || dominated_from(interval, heading) <= arrival + kSameTime ||
-                         (motion_->wait_before_move > 0.0 && known(interval, arrival, heading));
+  const bool dominated = waiting || arrivals_.needless_from(interval, heading) <= arrival + kSameTime ||
+                         (motion_->wait_before_move > 0.0 && arrivals_.has(interval, arrival, heading));
   pruned_ = pruned_ || (dominated && (waiting || coarse_));
   return dominated;
-}
-
-/// Arrivals with this heading are no better from then on. Who arrives earlier may have to make the added wait
-/// that a later one, which passes on, does without.
-double AaSipp::dominated_from(int interval, double heading) const {
-  double from = kForever;
-  for (int e = arrivals_of_interval_[static_cast<std::size_t>(interval)]; e >= 0;) {
-    const Arrival& entry = arrivals_[static_cast<std::size_t>(e)];
-    const double ready = motion_->rotation_time(entry.heading, heading) + motion_->wait_before_move;
-    from = std::min(from, entry.time + (coarse_ ? -slack_ : ready));
-    e = entry.next;
-  }
-  return from;
-}
-
-/// Is the same arrival there already?
-bool AaSipp::known(int interval, double arrival, double heading) const {
-  for (int e = arrivals_of_interval_[static_cast<std::size_t>(interval)]; e >= 0;) {
-    const Arrival& entry = arrivals_[static_cast<std::size_t>(e)];
-    if (std::abs(entry.time - arrival) <= kSameTime && angle_between(entry.heading, heading) <= kSameHeading)
-      return true;
-    e = entry.next;
-  }
-  return false;
-}
-
-/// Adds an arrival that is not redundant, and strikes out those that it dominates.
-void AaSipp::enter(int interval, double time, double heading) {
-  int* link = &arrivals_of_interval_[static_cast<std::size_t>(interval)];
-  while (*link >= 0) {
-    Arrival& entry = arrivals_[static_cast<std::size_t>(*link)];
-    const double ready = motion_->rotation_time(heading, entry.heading) + motion_->wait_before_move;
-    if (time + ready <= entry.time) {
-      entry.dominated = true;
-      *link = entry.next;
-    } else {
-      link = &entry.next;
-    }
-  }
-  *link = static_cast<int>(arrivals_.size());
-  arrivals_.push_back({time, heading, -1, false});
 }
 
 void AaSipp::settle(const Candidate& candidate) {

@@ -9,6 +9,7 @@
 #include "core/geometry/interval.h"
 #include "core/model/trajectory.h"
 #include "core/reservation/reservation_table.h"
+#include "core/search/arrivals.h"
 #include "core/search/cost_to_go.h"
 #include "core/search/fleet.h"
 #include "core/search/move_timing.h"
@@ -45,9 +46,8 @@ struct SearchLimits {
 /// One robot among reservations: any-angle safe-interval path planning with headings (paper, section
 /// Individual planner; Phillips and Likhachev, ICRA 2011; Yakovlev and Andreychuk, ICAPS 2017).
 ///
-/// A label is a vertex, a safe interval, the heading and the earliest arrival there. Label a dominates b of
-/// the same interval if a's arrival plus the rotation from a's heading to b's, and the added wait if there is
-/// one, is no later than b's arrival.
+/// A label is a vertex, a safe interval, the heading and the earliest arrival there, unless another dominates
+/// it (see Arrivals).
 /// Moves start from the label or, any-angle, from its parent. They are put on the open list with an
 /// optimistic arrival and timed against the reservations only when they come first (after Lazy Theta*); the
 /// next safe interval of the same vertex follows only then. A timed move that cannot be had at its optimistic
@@ -76,13 +76,6 @@ class AaSipp {
     int place;
     int interval;
   };
-  /// An arrival in an interval that others are measured by; those of one interval form a list.
-  struct Arrival {
-    double time;
-    double heading;
-    int next;        // in the list, or -1
-    bool dominated;  // by a later entry
-  };
   enum class Sight : std::uint8_t { unknown, free, blocked };
   /// How a place may be reached by way of a label: from the label itself or, any-angle, from its parent.
   struct Way {
@@ -98,7 +91,7 @@ class AaSipp {
     double departure;
     int way;
     int interval;
-    int entry;  // into arrivals_, or -1 while the move is not timed and its arrival optimistic
+    int entry;  // of arrivals_, or -1 while the move is not timed and its arrival optimistic
     Kind kind;
     bool leads;  // the next interval of the place follows when this one comes first
   };
@@ -135,9 +128,6 @@ class AaSipp {
   bool offer(int index, Kind kind, int interval, bool leads);
   Rank rank(int place, int interval, double arrival, double heading) const;
   void push(const Candidate& candidate, const Rank& rank);
-  double dominated_from(int interval, double heading) const;
-  bool known(int interval, double arrival, double heading) const;
-  void enter(int interval, double time, double heading);
   bool redundant(int interval, double arrival, double heading, double key);
   Standing standing_at(int label) const;
   Position position_of(int label) const;
@@ -159,7 +149,6 @@ class AaSipp {
   double release_ = 0.0;  // the goal's last safe interval begins here
   bool thorough_ = false;
   bool coarse_ = false;
-  double slack_ = 0.0;  // seconds by which an earlier arrival is no better while coarse
   bool pruned_ = false;
   int goal_place_ = -1;
   int goal_label_ = -1;
@@ -169,8 +158,7 @@ class AaSipp {
   std::vector<int> place_of_vertex_;
   std::vector<Place> places_;
   std::vector<SafeInterval> intervals_;
-  std::vector<int> arrivals_of_interval_;
-  std::vector<Arrival> arrivals_;
+  Arrivals arrivals_;
   std::vector<Label> labels_;
   std::vector<Way> ways_;
   std::vector<Candidate> candidates_;

@@ -2,7 +2,7 @@
 
 #include "core/geometry/angle.h"
 #include "core/geometry/segment.h"
-#include "core/search/move_timing.h"
+#include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {
 namespace {

@@ -4,13 +4,11 @@
 #include <optional>
 
 #include "core/geometry/interval.h"
+#include "core/geometry/tolerance.h"
 #include "core/reservation/reservation_table.h"
 #include "core/search/fleet.h"
 
 namespace fleetplan::core {
-
-/// Directions that differ by less are the same (radians): far above rounding, far below a visible bend.
-inline constexpr double kSameHeading = 1e-12;
 
 /// Where a move starts from.
 struct Standing {
