@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <future>
 #include <memory>
 #include <random>
 #include <thread>
@@ -30,34 +31,17 @@ std::string noise(std::string begin, std::size_t size) {
   return begin;
 }
 
-/// Sends a job that waits at the gate, from a thread of its own.
-class WaitingJob {
- public:
-  explicit WaitingJob(const TestServer& server) : WaitingJob(server, "gate", false) {}
-  /// `body`: begins with "gate".
-  WaitingJob(const TestServer& server, const std::string& body, bool compressed) : client_(server.client()) {
-    client_.set_compress(compressed);
-    thread_ = std::thread([this, body] {
-      const auto result = client_.Post("/v1/plan", body, kJsonType);
-      status_ = result ? result->status : 0;
-    });
-  }
-  ~WaitingJob() {
-    if (thread_.joinable()) thread_.join();
-  }
-  WaitingJob(const WaitingJob&) = delete;
-  WaitingJob& operator=(const WaitingJob&) = delete;
-
-  int status() {
-    thread_.join();
-    return status_;
-  }
-
- private:
-  httplib::Client client_;
-  std::thread thread_;
-  int status_ = 0;
-};
+/// Sends a job that waits at the gate, from a thread of its own: the status, 0 without an answer. `body`
+/// begins with "gate".
+std::future<int> waiting_job(const TestServer& server, const std::string& body = "gate",
+                             bool compressed = false) {
+  return std::async(std::launch::async, [&server, body, compressed] {
+    auto client = server.client();
+    client.set_compress(compressed);
+    const auto result = client.Post("/v1/plan", body, kJsonType);
+    return result ? result->status : 0;
+  });
+}
 
 TEST(Load, OfManyClientsIsServedAndNoAnswerIsMixedUp) {
   const TestServer server(with_workers(2, 8));  // more clients than the queue has places, but short jobs
@@ -84,7 +68,7 @@ TEST(Load, OfManyClientsIsServedAndNoAnswerIsMixedUp) {
 
 TEST(Load, BeyondTheQueueIs503WithRetryAfterWhileHealthAnswers) {
   TestServer server(with_workers(1, 0));
-  WaitingJob running(server);
+  auto running = waiting_job(server);
   server.stub.gate.await_waiting(1);
   auto client = server.client();
   const auto refused = client.Post("/v1/plan", "abc", kJsonType);
@@ -96,7 +80,7 @@ TEST(Load, BeyondTheQueueIs503WithRetryAfterWhileHealthAnswers) {
   ASSERT_TRUE(health);
   EXPECT_EQ(health->status, 200);
   server.stub.gate.open();
-  EXPECT_EQ(running.status(), 200);
+  EXPECT_EQ(running.get(), 200);
 }
 
 TEST(Load, OfIdleConnectionsStarvesNobody) {
@@ -146,9 +130,9 @@ TEST(Load, OfManyLargeBodiesIsRefusedWhileSmallOnesAreTaken) {
   settings.limits.max_body = 1 << 20;  // so that all bodies together have 4 MiB
   TestServer server(settings);
   const std::string hoard = noise("gate", settings.limits.max_body);
-  WaitingJob hoarder(server, hoard, true);  // holds it compressed and decoded: 1.75 MiB or more
+  auto hoarder = waiting_job(server, hoard, true);  // holds it compressed and decoded: 1.75 MiB or more
   server.stub.gate.await_waiting(1);
-  WaitingJob other_hoarder(server, hoard, true);
+  auto other_hoarder = waiting_job(server, hoard, true);
   server.stub.gate.await_waiting(2);
 
   auto client = server.client();
@@ -166,8 +150,8 @@ TEST(Load, OfManyLargeBodiesIsRefusedWhileSmallOnesAreTaken) {
   }
 
   server.stub.gate.open();
-  EXPECT_EQ(hoarder.status(), 200);
-  EXPECT_EQ(other_hoarder.status(), 200);
+  EXPECT_EQ(hoarder.get(), 200);
+  EXPECT_EQ(other_hoarder.get(), 200);
   EXPECT_TRUE(holds_soon([&] {  // once their connections have let go of the bodies
     const auto after = client.Post("/v1/plan", large, kJsonType);
     return after && after->status == 200;
@@ -199,7 +183,7 @@ TEST(Leaving, IsToCloseOneHalfOfTheConnectionAsWell) {
 
 TEST(Draining, RefusesNewJobsButAnswersTheRunningOnes) {
   TestServer server(with_workers(1, 4));
-  WaitingJob running(server);
+  auto running = waiting_job(server);
   server.stub.gate.await_waiting(1);
   server.server.begin_drain();
   EXPECT_FALSE(server.server.idle());
@@ -220,16 +204,16 @@ TEST(Draining, RefusesNewJobsButAnswersTheRunningOnes) {
   EXPECT_EQ(health->status, 200);
 
   server.stub.gate.open();
-  EXPECT_EQ(running.status(), 200);
+  EXPECT_EQ(running.get(), 200);
 }
 
 TEST(Draining, AsksJobsThatTakeTooLongToStop) {
   TestServer server(with_workers(1, 4));
-  WaitingJob running(server);
+  auto running = waiting_job(server);
   server.stub.gate.await_waiting(1);
   server.server.begin_drain();
   server.server.cancel_jobs();
-  EXPECT_EQ(running.status(), 200);
+  EXPECT_EQ(running.get(), 200);
   EXPECT_EQ(server.stub.stopped, 1);
 }
 

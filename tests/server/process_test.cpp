@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
+#include <chrono>
 #include <csignal>
+#include <future>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "server/http_library.h"
@@ -258,44 +258,26 @@ TEST(Process, AsksWhetherTheServiceIsAlive) {
   EXPECT_EQ(again.exit_code(), 1);
 }
 
-/// Sends the long request from a thread of its own and waits until the server works on it.
-class LongRequest {
- public:
-  explicit LongRequest(int port) : client_("127.0.0.1", port) {
-    client_.set_read_timeout(150);
-    thread_ = std::thread([this] {
-      bool overloaded = true;  // as long as the probe below is in the way
-      while (overloaded) {
-        const auto result = client_.Post("/v1/plan", swap_request("anytime"), "application/json");
-        status_ = result ? result->status : 0;
-        overloaded = result && result->body.find("overloaded") != std::string::npos;
-      }
-      ended_ = true;
-    });
-    // With one worker and no queue, another job is refused as soon as the long one has begun.
-    httplib::Client probe("127.0.0.1", port);
-    while (!ended_) {
-      const auto result = probe.Post("/v1/validate", "{}", "application/json");
-      if (!result || result->status == 503) break;
-    }
+/// Sends the long request from a thread of its own and waits until the server works on it: its status, 0
+/// without an answer.
+std::future<int> long_request(int port) {
+  auto status = std::async(std::launch::async, [port] {
+    httplib::Client client("127.0.0.1", port);
+    client.set_read_timeout(150);
+    for (;;) {
+      const auto result = client.Post("/v1/plan", swap_request("anytime"), "application/json");
+      if (!result) return 0;
+      if (result->body.find("overloaded") == std::string::npos) return result->status;
+    }  // the probe below was in the way
+  });
+  // With one worker and no queue, another job is refused as soon as the long one has begun.
+  httplib::Client probe("127.0.0.1", port);
+  while (status.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    const auto result = probe.Post("/v1/validate", "{}", "application/json");
+    if (!result || result->status == 503) break;
   }
-  ~LongRequest() {
-    if (thread_.joinable()) thread_.join();
-  }
-  LongRequest(const LongRequest&) = delete;
-  LongRequest& operator=(const LongRequest&) = delete;
-
-  int status() {
-    thread_.join();
-    return status_;
-  }
-
- private:
-  httplib::Client client_;
-  std::thread thread_;
-  int status_ = 0;
-  std::atomic<bool> ended_{false};
-};
+  return status;
+}
 
 void await_unready(int port) {
   httplib::Client probe("127.0.0.1", port);
@@ -307,9 +289,9 @@ void await_unready(int port) {
 
 TEST(Process, CutsPlansShortWhenTheDrainTakesTooLong) {
   Process process({"--port", "0", "--workers", "1", "--queue", "0", "--drain-ms", "100"});
-  LongRequest request(port_in(process.output_line()));
+  auto request = long_request(port_in(process.output_line()));
   process.signal(SIGTERM);
-  EXPECT_EQ(request.status(), 200);
+  EXPECT_EQ(request.get(), 200);
   EXPECT_EQ(process.exit_code(), 0);
 }
 
@@ -336,7 +318,7 @@ TEST(Process, EndsWellAfterTheDelay) {
 TEST(Process, RefusesNewWorkWhileItFinishesThePlanAtHand) {
   Process process({"--port", "0", "--workers", "1", "--queue", "0", "--drain-ms", "3000"});
   const int port = port_in(process.output_line());
-  LongRequest request(port);
+  auto request = long_request(port);
   process.signal(SIGTERM);
   await_unready(port);
   httplib::Client client("127.0.0.1", port);
@@ -349,19 +331,19 @@ TEST(Process, RefusesNewWorkWhileItFinishesThePlanAtHand) {
     EXPECT_TRUE(refused->has_header("Retry-After"));
     EXPECT_EQ(refused->get_header_value("Connection"), "close");
   }
-  EXPECT_EQ(request.status(), 200);
+  EXPECT_EQ(request.get(), 200);
   EXPECT_EQ(process.exit_code(), 0);
 }
 
 TEST(Process, EndsAtOnceOnASecondInterrupt) {
   Process process({"--port", "0", "--workers", "1", "--queue", "0", "--drain-ms", "120000"});
   const int port = port_in(process.output_line());
-  LongRequest request(port);
+  auto request = long_request(port);
   process.signal(SIGTERM);
   await_unready(port);
   process.signal(SIGINT);
   EXPECT_EQ(process.exit_code(), 128 + SIGINT);
-  EXPECT_EQ(request.status(), 0);
+  EXPECT_EQ(request.get(), 0);
 }
 
 }  // namespace
