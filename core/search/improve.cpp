@@ -108,6 +108,7 @@ class Improving {
 
   void round(std::size_t count) {
     std::vector<Iteration> iterations;
+    iterations.reserve(count);
     for (std::size_t k = 0; k < count; ++k) iterations.push_back(choose());
     executor_.run(count, [&](std::size_t k) { search(iterations[k]); });
     std::vector<std::size_t> changed;
