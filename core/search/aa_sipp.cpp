@@ -40,7 +40,6 @@ void AaSipp::reset() {
   for (const Place& place : places_) place_of_vertex_[static_cast<std::size_t>(place.vertex)] = -1;
   places_.clear();
   intervals_.clear();
-  arrivals_.clear();
   labels_.clear();
   ways_.clear();
   candidates_.clear();

@@ -10,12 +10,8 @@
 namespace fleetplan::core {
 
 void Arrivals::begin(const Motion& motion, double slack) {
-  clear();
   motion_ = &motion;
   slack_ = slack;
-}
-
-void Arrivals::clear() {
   first_.clear();
   arrivals_.clear();
 }

@@ -12,11 +12,9 @@ namespace fleetplan::core {
 /// later than b's time.
 class Arrivals {
  public:
-  /// Forgets all. `slack` > 0: an arrival that is earlier than another by less (seconds) is no better,
-  /// whatever its heading; 0: only domination counts.
+  /// Forgets all, for a search of a robot that moves so. `slack` > 0: an arrival that is earlier than another
+  /// by less (seconds) is no better, whatever its heading; 0: only domination counts.
   void begin(const Motion& motion, double slack);
-
-  void clear();
 
   /// Intervals are numbered from 0 and this is how many there are; never fewer than before.
   void set_interval_count(std::size_t count) { first_.resize(count, -1); }
