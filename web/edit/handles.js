@@ -2,7 +2,6 @@
 // turn its start and goal. A part is {robot, pose: "start" or "goal", turns: whether it is the handle, place:
 // {x, y}}.
 
-import { robotPoseAt } from "../model/scene.js";
 import { ring } from "../scene/marks.js";
 
 const STEM = 22; // pixels from a disk's rim to its handle
@@ -19,18 +18,13 @@ export function partAt(world, { session, stage, chosen, event }) {
     if (Math.hypot(knob.x - world.x, knob.y - world.y) > grasp) continue;
     return { robot: chosen, pose, turns: true, place: knob };
   }
-  const start = nearestPart(world, session, stage, "start");
-  const goal = nearestPart(world, session, stage, "goal");
+  const start = part(stage.diskAt(world), "start");
+  const goal = part(stage.diskAt(world, (robot) => robot.goal), "goal");
   return event?.shiftKey ? (goal ?? start) : (start ?? goal);
 }
 
-/** The disk (as it is now) or goal that is nearest to a world point, among those that hold it, or null. */
-function nearestPart(world, { tracks, player }, stage, pose) {
-  const found = stage.diskAt(world, (robot) => {
-    return pose === "goal" ? robot.goal : robotPoseAt(robot, tracks.get(robot.id), player.time);
-  });
-  return found && { ...found, pose, turns: false };
-}
+/** The part that a disk ({robot, place} or null) of a robot at one of its poses is, or null. */
+const part = (disk, pose) => disk && { ...disk, pose, turns: false };
 
 const posesOf = (robot) => (robot.goal ? ["goal", "start"] : ["start"]);
 

@@ -35,7 +35,10 @@ export class TimelineChart {
   #scheduled = false;
   #revealed = null; // the selected robot when its row was last brought in sight
 
-  /** `fleet`: see FleetMotion; `transport`: see Transport. `overStrip(whether)` hears of the pointer on the curve of the smallest gap. */
+  /**
+   * `fleet`: see FleetMotion; `transport`: see Transport. `overStrip(whether)` hears of the pointer on the curve of the
+   * smallest gap.
+   */
   constructor(session, colours, fleet, transport, overStrip) {
     this.#session = session;
     this.#colours = colours;

@@ -117,13 +117,14 @@ export class Stage {
 
   /** The id of the robot whose disk, now, is at a world point, the nearest if there are several, or null. */
   robotAt(world) {
-    const { tracks, player } = this.#session;
-    const found = this.diskAt(world, (robot) => robotPoseAt(robot, tracks.get(robot.id), player.time));
-    return found?.robot.id ?? null;
+    return this.diskAt(world)?.robot.id ?? null;
   }
 
-  /** The robot whose disk, put at placeOf(robot) ({x, y} or null), is at a world point: {robot, place}, or null. */
-  diskAt(world, placeOf) {
+  /**
+   * The robot whose disk, now or put at placeOf(robot) ({x, y} or null), is at a world point, the nearest: {robot,
+   * place}, or null.
+   */
+  diskAt(world, placeOf = (robot) => this.#poseNow(robot)) {
     let found = null;
     let nearest = Infinity;
     for (const robot of this.#session.scene.robots) {
@@ -134,6 +135,11 @@ export class Stage {
       found = { robot, place };
     }
     return found;
+  }
+
+  #poseNow(robot) {
+    const { tracks, player } = this.#session;
+    return robotPoseAt(robot, tracks.get(robot.id), player.time);
   }
 
   /** How near to the middle of a disk of this radius a pointer has to be to be on it, metres. */

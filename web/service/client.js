@@ -21,9 +21,9 @@ export async function fetchLimits() {
 }
 
 /**
- * Plans the request, a JSON text. The answer; rejects with AbortError when aborted. Meanwhile
- * `told` hears of progress({elapsed_ms, attempt, planned, robots, best}) and incumbent(text), an answer's text, if
- * the service, or what is between, streams events.
+ * Plans the request, a JSON text. The answer; rejects with AbortError when aborted. Meanwhile `told` hears of
+ * progress({elapsed_ms, attempt, planned, robots, best}) and incumbent(text), an answer's text, if the service, or what
+ * is between, streams events.
  */
 export async function plan(requestText, signal, told) {
   const response = await send("v1/plan", {

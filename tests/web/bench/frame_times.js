@@ -61,13 +61,13 @@ function framesOf(events) {
       .filter((event) => event.name === name && event.pid === pid && event.tid === tid && event.tdur !== undefined)
       .sort((a, b) => a.ts - b.ts);
   const tasks = own("RunTask");
-  const drawing = DRAWING.flatMap(own);
+  const drawn = [...scripts, ...DRAWING.flatMap(own)];
   const begins = own("Commit").map(({ ts, dur }) => ts + dur); // a frame ends with its commit
   const sum = (parts, from, to) =>
     parts.reduce((total, { ts, tdur }) => total + (ts >= from && ts < to ? tdur : 0), 0) / 1000;
   return begins.slice(1).map((end, at) => ({
     script: sum(scripts, begins[at], end),
-    drawn: sum(scripts, begins[at], end) + sum(drawing, begins[at], end),
+    drawn: sum(drawn, begins[at], end),
     all: sum(tasks, begins[at], end),
   }));
 }
