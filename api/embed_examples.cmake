@@ -26,7 +26,7 @@ foreach(file IN LISTS files)
 endforeach()
 
 file(WRITE "${OUTPUT}" "// Made by api/embed_examples.cmake from the request files; do not edit.
-#include \"api/embedded_examples.h\"
+#include \"api/endpoints/embedded_examples.h\"
 
 #include <array>
 

@@ -22,7 +22,7 @@ string(REGEX REPLACE "\n *" "" document "${document}")
 string(HEX "${document}" hex)
 char_array(kDocument "${hex}" array)
 file(WRITE "${OUTPUT}" "// Made by api/embed_openapi.cmake from api/openapi; do not edit.
-#include \"api/openapi.h\"
+#include \"api/endpoints/openapi.h\"
 
 namespace fleetplan::api {
 namespace {

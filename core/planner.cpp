@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "core/actions.h"
-#include "core/search/fleet.h"
-#include "core/search/fleet_state.h"
-#include "core/search/improve.h"
-#include "core/search/prioritized.h"
-#include "core/search/progress_report.h"
-#include "core/search/taut_bounds.h"
-#include "core/search/triage.h"
+#include "core/bounds/taut_bounds.h"
+#include "core/instance.h"
+#include "core/lns/large_neighbourhood_search.h"
+#include "core/prioritized/plan_state.h"
+#include "core/prioritized/prioritized_planning.h"
+#include "core/prioritized/progress_report.h"
+#include "core/prioritized/triage.h"
 
 namespace fleetplan::core {
 namespace {
@@ -37,35 +37,35 @@ void add(Objectives& total, double cost) {
 }
 
 /// Rounding may leave a bound a little above the cost that it bounds: it is told as that cost.
-RobotPlan robot_plan(const FleetState& state, std::size_t index, double bound) {
+RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
   const auto& trajectory = state.trajectory(index);
   if (!trajectory) return {index, 0.0, {}, 0.0};  // parked
   const double cost = trajectory->cost;
-  return {index, cost, to_actions(state.fleet().robot(index), *trajectory), std::min(bound, cost)};
+  return {index, cost, to_actions(state.instance().robot(index), *trajectory), std::min(bound, cost)};
 }
 
 /// Of the robots' trajectories; infinite where there is none.
-std::vector<double> costs(const FleetState& state) {
-  std::vector<double> costs(state.fleet().size(), kForever);
+std::vector<double> costs(const PlanState& state) {
+  std::vector<double> costs(state.instance().size(), kForever);
   for (std::size_t i = 0; i < costs.size(); ++i) {
     if (const auto& trajectory = state.trajectory(i)) costs[i] = trajectory->cost;
   }
   return costs;
 }
 
-Objectives objectives(const FleetState& state) {
+Objectives objectives(const PlanState& state) {
   Objectives total;
-  for (std::size_t i = 0; i < state.fleet().size(); ++i) {
+  for (std::size_t i = 0; i < state.instance().size(); ++i) {
     if (const auto& trajectory = state.trajectory(i)) add(total, trajectory->cost);
   }
   return total;
 }
 
 /// Puts the plans together: a robot that is not in `unplanned` follows its trajectory or is parked.
-Plan collect(const FleetState& state, const std::vector<std::optional<Unplanned>>& unplanned,
+Plan collect(const PlanState& state, const std::vector<std::optional<Unplanned>>& unplanned,
              const TautBounds& bounds) {
   Plan plan;
-  for (std::size_t i = 0; i < state.fleet().size(); ++i) {
+  for (std::size_t i = 0; i < state.instance().size(); ++i) {
     if (unplanned[i]) {
       plan.unplanned.push_back(*unplanned[i]);
       continue;
@@ -82,7 +82,7 @@ class Showing {
  public:
   using PlanSoFar = std::function<Plan(const Improvement&)>;
 
-  Showing(const FleetState& state, ProgressReport& progress, PlanSoFar plan_so_far)
+  Showing(const PlanState& state, ProgressReport& progress, PlanSoFar plan_so_far)
       : state_(state), progress_(progress), plan_so_far_(std::move(plan_so_far)) {}
 
   void operator()(const Improvement& so_far) {
@@ -96,7 +96,7 @@ class Showing {
   }
 
  private:
-  const FleetState& state_;
+  const PlanState& state_;
   ProgressReport& progress_;
   const PlanSoFar plan_so_far_;
   std::int64_t told_ = 0;  // improvements
@@ -106,21 +106,21 @@ class Showing {
 }  // namespace
 
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop) {
-  CallersThread executor;
+  CallerThread executor;
   return plan(problem, options, stop, executor);
 }
 
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop, Executor& executor,
           Observer* observer) {
-  const Fleet fleet(problem, options);
-  FleetState state(fleet);
+  const Instance instance(problem, options);
+  PlanState state(instance);
   ProgressReport progress(state, observer);
   Random random(options.seed);
 
   std::vector<std::optional<Unplanned>> unplanned = triage(state, stop);
   std::vector<std::size_t> movers;
-  for (std::size_t i = 0; i < fleet.size(); ++i) {
-    if (fleet.robot(i).goal && !unplanned[i]) movers.push_back(i);
+  for (std::size_t i = 0; i < instance.size(); ++i) {
+    if (instance.robot(i).goal && !unplanned[i]) movers.push_back(i);
   }
   PrioritizedResult prioritized =
       plan_prioritized(state, movers, random, until_share_ends(stop, kPatienceShare), stop, progress);
@@ -128,7 +128,8 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   std::erase_if(movers, [&](std::size_t robot) { return !state.trajectory(robot); });
   progress.found(objectives(state));
   const bool anytime = options.mode == PlanOptions::Mode::anytime;
-  const TautBounds bounds(fleet, movers, costs(state), anytime ? until_share_ends(stop, kBoundsShare) : stop);
+  const TautBounds bounds(instance, movers, costs(state),
+                          anytime ? until_share_ends(stop, kBoundsShare) : stop);
   const std::int64_t expansions = state.expansions();
   const auto plan_so_far = [&](const Improvement& improvement) {
     Plan plan = collect(state, unplanned, bounds);

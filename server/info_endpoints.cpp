@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "api/error.h"
-#include "server/text.h"
-#include "server/version.h"
+#include "api/response/error.h"
+#include "server/http/text.h"
+#include "server/ops/version.h"
 
 namespace fleetplan::server {
 

@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "api/reply.h"
+#include "api/response/reply.h"
+#include "server/ops/settings.h"
 #include "server/service.h"
-#include "server/settings.h"
 
 namespace fleetplan::server {
 

@@ -1,9 +1,9 @@
 #include <iostream>
 
-#include "server/health_probe.h"
+#include "server/ops/health_probe.h"
+#include "server/ops/settings.h"
 #include "server/run.h"
 #include "server/service.h"
-#include "server/settings.h"
 
 int main(int argc, char** argv) {
   using namespace fleetplan::server;

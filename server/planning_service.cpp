@@ -1,7 +1,7 @@
-#include "api/examples.h"
-#include "api/openapi.h"
-#include "api/plan_endpoint.h"
-#include "api/validate_endpoint.h"
+#include "api/endpoints/examples.h"
+#include "api/endpoints/openapi.h"
+#include "api/endpoints/plan_endpoint.h"
+#include "api/endpoints/validate_endpoint.h"
 #include "server/service.h"
 
 namespace fleetplan::server {

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "server/text.h"
+#include "server/http/text.h"
 
 namespace fleetplan::server {
 

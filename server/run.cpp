@@ -9,9 +9,9 @@
 #include <thread>
 #include <utility>
 
-#include "server/http_server.h"
-#include "server/memory.h"
-#include "server/version.h"
+#include "server/http/http_server.h"
+#include "server/ops/memory.h"
+#include "server/ops/version.h"
 
 namespace fleetplan::server {
 

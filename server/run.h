@@ -1,7 +1,7 @@
 #pragma once
 
+#include "server/ops/settings.h"
 #include "server/service.h"
-#include "server/settings.h"
 
 namespace fleetplan::server {
 

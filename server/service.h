@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "api/reply.h"
-#include "api/request_context.h"
+#include "api/endpoints/request_context.h"
+#include "api/response/reply.h"
 
 namespace fleetplan::server {
 

@@ -13,7 +13,7 @@ inline constexpr double kSearchSlack = 0.5 * kContactTolerance;
 /// Directions that differ by less are the same (radians): far above rounding, far below a visible bend.
 inline constexpr double kSameHeading = 1e-12;
 
-/// Arrivals and departures that differ by less are the same (seconds): rounding of sums of durations.
+/// DominanceTable and departures that differ by less are the same (seconds): rounding of sums of durations.
 inline constexpr double kSameTime = 1e-11;
 
 }  // namespace fleetplan::core

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/search/stop_condition.h"
+#include "core/runtime/stop_condition.h"
 #include "core/verify/execution.h"
 
 namespace fleetplan::core {

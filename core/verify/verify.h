@@ -11,7 +11,7 @@
 #include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
-#include "core/search/stop_condition.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 

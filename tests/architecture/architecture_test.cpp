@@ -51,8 +51,8 @@ INSTANTIATE_TEST_SUITE_P(Of, Layer, testing::Values("core", "api", "server", "te
 TEST(SourceRules, LetCoreIncludeItselfEigenAndTheStandardLibraryOnly) {
   EXPECT_THAT(violations("core/a.cpp", "#include \"core/a.h\"\n#include <Eigen/Core>\n#include <vector>\n"),
               IsEmpty());
-  EXPECT_THAT(violations("core/a.cpp", "#include \"api/error.h\"\n"),
-              ElementsAre("core/a.cpp must not include \"api/error.h\""));
+  EXPECT_THAT(violations("core/a.cpp", "#include \"api/response/error.h\"\n"),
+              ElementsAre("core/a.cpp must not include \"api/response/error.h\""));
   EXPECT_THAT(violations("core/a.cpp", "  #  include <nlohmann/json.hpp>"),
               ElementsAre(HasSubstr("<nlohmann/json.hpp>"), HasSubstr("use nlohmann")));
   EXPECT_THAT(violations("core/a.cpp", "#include <unistd.h>\n"), ElementsAre(HasSubstr("<unistd.h>")));
@@ -67,7 +67,8 @@ TEST(SourceRules, LetApiIncludeCoreButNotTheServer) {
 }
 
 TEST(SourceRules, LetTheServerIncludeAnythingButTests) {
-  EXPECT_THAT(violations("server/a.cpp", "#include \"api/reply.h\"\n#include <sys/socket.h>\n"), IsEmpty());
+  EXPECT_THAT(violations("server/a.cpp", "#include \"api/response/reply.h\"\n#include <sys/socket.h>\n"),
+              IsEmpty());
   EXPECT_THAT(violations("server/a.cpp", "#include \"tests/support/x.h\"\n"),
               ElementsAre(HasSubstr("\"tests/support/x.h\"")));
 }

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "api/plan_endpoint.h"
-#include "api/validate_endpoint.h"
+#include "api/endpoints/plan_endpoint.h"
+#include "api/endpoints/validate_endpoint.h"
 #include "tests/bench/process.h"
 #include "tests/bench/statistics.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/search/random.h"
+#include "core/runtime/random.h"
 
 namespace fleetplan::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/search/stop_condition.h"
-#include "tests/core/search/planning.h"
+#include "core/runtime/stop_condition.h"
+#include "tests/core/support/planning.h"
 #include "tests/support/ascii_map.h"
 #include "tests/support/expect_bounds.h"
 #include "tests/support/expect_safe.h"

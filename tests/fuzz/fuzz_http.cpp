@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "server/connection.h"
-#include "server/stop_signal.h"
+#include "server/http/connection.h"
+#include "server/ops/stop_signal.h"
 #include "tests/fuzz/require.h"
 #include "tests/fuzz/target.h"
 

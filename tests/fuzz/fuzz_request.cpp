@@ -4,8 +4,8 @@
 #include <string_view>
 #include <variant>
 
-#include "api/parse_request.h"
-#include "api/validate_endpoint.h"
+#include "api/endpoints/validate_endpoint.h"
+#include "api/request/parse_request.h"
 #include "tests/fuzz/refusals.h"
 #include "tests/fuzz/require.h"
 #include "tests/fuzz/small_limits.h"

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "api/reply.h"
+#include "api/response/reply.h"
 
 namespace fleetplan::fuzz {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "api/limits.h"
+#include "api/request/limits.h"
 
 namespace fleetplan::fuzz {
 

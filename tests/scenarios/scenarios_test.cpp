@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "api/examples.h"
-#include "api/plan_endpoint.h"
-#include "api/validate_endpoint.h"
+#include "api/endpoints/examples.h"
+#include "api/endpoints/plan_endpoint.h"
+#include "api/endpoints/validate_endpoint.h"
 
 namespace fleetplan::api {
 

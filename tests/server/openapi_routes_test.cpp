@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "api/openapi.h"
+#include "api/endpoints/openapi.h"
 #include "server/routes.h"
 
 namespace fleetplan::server {

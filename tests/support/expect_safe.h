@@ -11,7 +11,7 @@
 #include "core/actions.h"
 #include "core/model/plan.h"
 #include "core/model/problem.h"
-#include "core/search/fleet_state.h"
+#include "core/prioritized/plan_state.h"
 #include "core/verify/verify.h"
 #include "tests/support/summary.h"
 
@@ -40,18 +40,18 @@ inline void expect_safe(const core::Problem& problem, const core::Plan& plan, do
 }
 
 /// The trajectories that robots follow at the moment, as plans. Robots without one stand.
-inline std::vector<core::RobotPlan> plans_of(const core::FleetState& state) {
+inline std::vector<core::RobotPlan> plans_of(const core::PlanState& state) {
   std::vector<core::RobotPlan> plans;
-  for (std::size_t i = 0; i < state.fleet().size(); ++i) {
+  for (std::size_t i = 0; i < state.instance().size(); ++i) {
     const auto& trajectory = state.trajectory(i);
     if (!trajectory) continue;
-    plans.push_back({i, trajectory->cost, core::to_actions(state.fleet().robot(i), *trajectory)});
+    plans.push_back({i, trajectory->cost, core::to_actions(state.instance().robot(i), *trajectory)});
   }
   return plans;
 }
 
-inline void expect_safe(const core::FleetState& state) {
-  expect_safe(state.fleet().problem(), plans_of(state));
+inline void expect_safe(const core::PlanState& state) {
+  expect_safe(state.instance().problem(), plans_of(state));
 }
 
 }  // namespace fleetplan::support

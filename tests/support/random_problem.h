@@ -88,9 +88,9 @@ inline std::vector<core::Robot> random_robots(Dice& dice, const core::OccupancyG
 inline core::Problem random_problem(Dice& dice, int robots) {
   while (true) {
     core::OccupancyGrid grid = random_map(dice);
-    std::vector<core::Robot> fleet = random_robots(dice, grid, robots);
-    if (fleet.empty()) continue;
-    auto problem = core::Problem::create(std::move(grid), std::move(fleet));
+    std::vector<core::Robot> instance = random_robots(dice, grid, robots);
+    if (instance.empty()) continue;
+    auto problem = core::Problem::create(std::move(grid), std::move(instance));
     if (auto* valid = std::get_if<core::Problem>(&problem)) return std::move(*valid);
   }
 }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/progress.h"
+#include "core/runtime/progress.h"
 
 namespace fleetplan::support {
 

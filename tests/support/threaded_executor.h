@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/parallel/executor.h"
+#include "core/runtime/executor.h"
 
 namespace fleetplan::support {
 

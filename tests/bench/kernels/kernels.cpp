@@ -13,7 +13,7 @@
 #include "core/model/problem.h"
 #include "core/planner.h"
 #include "core/reservation/reservation_table.h"
-#include "core/search/random.h"
+#include "core/runtime/random.h"
 #include "tests/bench/workload.h"
 
 namespace fleetplan::bench {

@@ -1,0 +1,89 @@
+#include "api/endpoints/examples.h"
+
+#include <algorithm>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "api/endpoints/embedded_examples.h"
+#include "api/json/json_writer.h"
+#include "api/json/read_json.h"
+#include "api/request/limits.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+/// A line of the list of examples.
+struct Entry {
+  const Example* example;
+  std::string title;
+  std::string description;
+};
+
+/// Our own files, which the tests hold to be good; anything else reads as null.
+JsonValue read_own(std::string_view text) {
+  auto read = read_json(text, Limits{}.max_depth);
+  auto* document = std::get_if<JsonDocument>(&read);
+  return document != nullptr ? std::move(document->root) : JsonValue();
+}
+
+std::string string_member(const JsonValue& object, std::string_view key) {
+  const JsonValue* member = object.find(key);
+  const std::string* text = member != nullptr ? member->string() : nullptr;
+  return text != nullptr ? *text : std::string();
+}
+
+std::size_t size_of(const JsonValue* value) {
+  return value != nullptr && value->array() != nullptr ? value->array()->size() : 0;
+}
+
+const Example* find_example(std::string_view name) {
+  const auto all = examples();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Example& example) { return example.name == name; });
+  return found != all.end() ? &*found : nullptr;
+}
+
+/// All examples: first those of the index, in its order, then the rest.
+std::vector<Entry> entries() {
+  std::vector<Entry> listed;
+  const JsonValue index = read_own(embedded_index());
+  if (index.array() != nullptr) {
+    for (const JsonValue& item : *index.array()) {
+      const Example* example = find_example(string_member(item, "name"));
+      if (example == nullptr) continue;
+      listed.push_back({example, string_member(item, "title"), string_member(item, "description")});
+    }
+  }
+  for (const Example& example : examples()) {
+    const bool known = std::any_of(listed.begin(), listed.end(),
+                                   [&](const Entry& entry) { return entry.example == &example; });
+    if (!known) listed.push_back({&example, std::string(example.name), ""});
+  }
+  return listed;
+}
+
+}  // namespace
+
+std::span<const Example> examples() { return embedded_examples(); }
+
+Reply examples_endpoint() {
+  JsonWriter json;
+  json.begin_object().key("examples").begin_array();
+  for (const Entry& entry : entries()) {
+    const JsonValue request = read_own(entry.example->body);
+    const JsonValue* map = request.find("map");
+    const JsonValue* rows = map != nullptr ? map->find("rows") : nullptr;
+    const std::string* row = size_of(rows) > 0 ? rows->array()->front().string() : nullptr;
+    json.begin_object();
+    json.member("name", entry.example->name).member("title", entry.title);
+    json.member("description", entry.description).member("robots", size_of(request.find("robots")));
+    json.member("columns", row != nullptr ? row->size() : 0).member("rows", size_of(rows));
+    json.end_object();
+  }
+  json.end_array().end_object();
+  return {200, kJson, json.take()};
+}
+
+}  // namespace fleetplan::api

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "api/response/reply.h"
+
+namespace fleetplan::api {
+
+/// The OpenAPI 3.1 document of the whole service, JSON. Its source is the folder api/openapi, joined at build
+/// time (embed_openapi.cmake).
+std::string_view openapi_document();
+
+/// GET /v1/openapi.json.
+inline Reply openapi_endpoint() { return {200, kJson, std::string(openapi_document())}; }
+
+}  // namespace fleetplan::api

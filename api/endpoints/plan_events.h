@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "core/runtime/progress.h"
+
+namespace fleetplan::api {
+
+/// How far a request's plan has got.
+struct PlanProgress {
+  std::size_t robots = 0;  // of the request
+  core::Progress planner = {};
+};
+
+/// Takes what happens while a plan is made (`text/event-stream`). Called by the thread that plans, which
+/// waits meanwhile: an implementation must not wait for a client.
+class PlanEvents {
+ public:
+  PlanEvents() = default;
+  PlanEvents(const PlanEvents&) = delete;
+  PlanEvents& operator=(const PlanEvents&) = delete;
+  virtual ~PlanEvents() = default;
+
+  /// The request is valid: from now on, whatever comes of it is an event. Called at most once, before the
+  /// others.
+  virtual void begin(const PlanProgress& progress) = 0;
+
+  /// The newest state, often; who comes later may forget those before.
+  virtual void progress(const PlanProgress& progress) = 0;
+
+  /// A better plan was found: a whole answer, as JSON, which has passed the check.
+  virtual void incumbent(std::string answer) = 0;
+};
+
+/// The data of `event: progress`. `elapsed_ms`: since the last byte of the request.
+std::string write_progress(const PlanProgress& progress, double elapsed_ms);
+
+}  // namespace fleetplan::api

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <stop_token>
+#include <string>
+
+#include "api/endpoints/plan_events.h"
+#include "api/request/limits.h"
+#include "core/runtime/executor.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::api {
+
+/// What an endpoint knows of its request beside the body.
+struct RequestContext {
+  using Clock = std::chrono::steady_clock;
+
+  std::string request_id;
+  Clock::time_point received_at = Clock::now();  // last byte of the body in
+  std::stop_token stop;                          // the client is gone or the server drains
+  Limits limits;
+  core::Executor* executor = nullptr;  // of more threads than the caller's, if there are any
+  PlanEvents* events = nullptr;        // who wants to hear how a plan gets on, if anybody
+
+  /// To be called once, when the request is known to be good: returns when computing may begin or `stop` is
+  /// met, whichever comes first. Empty: at once.
+  std::function<void(const core::StopCondition& stop)> await_turn;
+};
+
+}  // namespace fleetplan::api

@@ -1,0 +1,51 @@
+#pragma once
+
+// Errors as RFC 9457 problem details, from one table.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/response/reply.h"
+
+namespace fleetplan::api {
+
+/// Every error of the service; its row in the table (error.cpp) gives the HTTP status, `code` and `title`.
+enum class ErrorCode {
+  malformed_json,          // 400
+  too_deep,                // 400
+  malformed_request,       // 400, framing
+  unauthorized,            // 401
+  not_found,               // 404
+  method_not_allowed,      // 405
+  not_acceptable,          // 406
+  request_timeout,         // 408, head or body not complete in time
+  body_too_large,          // 413
+  target_too_long,         // 414, request target
+  unsupported_media_type,  // 415
+  invalid_request,         // 422, with one entry in `errors` for each fault
+  check_unfinished,        // 422, a plan that takes longer to check than the budget
+  head_too_large,          // 431, header fields by size or number
+  internal_error,          // 500
+  overloaded,              // 503, queue full
+  draining,                // 503, shutting down
+};
+
+/// One fault of a request's content.
+struct Fault {
+  std::string pointer;  // RFC 6901 JSON Pointer to the smallest thing that is wrong
+  std::string code;     // e.g. "out_of_range"
+  std::string detail;   // what is wrong and what would be right
+};
+
+/// All of them, in the order of the table.
+std::vector<ErrorCode> error_codes();
+
+int status_of(ErrorCode code);
+std::string_view name_of(ErrorCode code);
+
+/// The error as application/problem+json.
+Reply problem_reply(ErrorCode code, const std::string& detail, const std::string& request_id,
+                    const std::vector<Fault>& faults = {});
+
+}  // namespace fleetplan::api

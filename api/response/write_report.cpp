@@ -1,0 +1,65 @@
+#include "api/response/write_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "api/json/json_writer.h"
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+constexpr std::size_t kMostWritten = 1000;
+
+std::string_view name_of(core::Violation::Kind kind) {
+  switch (kind) {
+    case core::Violation::Kind::robot_collision:
+      return "robot_collision";
+    case core::Violation::Kind::obstacle_collision:
+      return "obstacle_collision";
+    case core::Violation::Kind::discontinuity:
+      return "discontinuity";
+    case core::Violation::Kind::speed:
+      return "speed";
+    case core::Violation::Kind::wrong_start:
+      return "wrong_start";
+    case core::Violation::Kind::wrong_goal:
+      break;
+  }
+  return "wrong_goal";
+}
+
+}  // namespace
+
+std::optional<double> told_clearance(const core::VerifyReport& report) {
+  const bool contact = report.min_clearance && std::abs(*report.min_clearance) <= core::kContactTolerance;
+  return contact ? 0.0 : report.min_clearance;
+}
+
+std::string write_report(const core::VerifyReport& report, const std::vector<core::Robot>& robots) {
+  const std::size_t written = std::min(report.violations.size(), kMostWritten);
+  JsonWriter json;
+  json.begin_object();
+  json.member("valid", report.valid());
+  json.key("violations").begin_array();
+  for (std::size_t index = 0; index < written; ++index) {
+    const core::Violation& violation = report.violations[index];
+    json.begin_object();
+    json.member("kind", name_of(violation.kind));
+    json.key("robots").begin_array();
+    for (const std::size_t robot : violation.robots) json.value(robots[robot].id);
+    json.end_array();
+    json.member("t", violation.t).member("distance", violation.distance);
+    json.member("required", violation.required).member("detail", violation.detail);
+    json.end_object();
+  }
+  json.end_array();
+  json.member("min_clearance", told_clearance(report));
+  if (written < report.violations.size()) json.member("truncated", true);
+  json.end_object();
+  return json.take();
+}
+
+}  // namespace fleetplan::api

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "api/endpoints/plan_events.h"
+#include "api/response/reply.h"
+#include "server/http/exchange.h"
+
+namespace fleetplan::server {
+
+/// The answer to an exchange as a stream of events (WHATWG HTML, server-sent events), each with one line of
+/// data. It goes past the HTTP library, which would have to know at first whether it is one.
+///
+/// From begin() on a thread of its own writes. Who plans only leaves what is new, so a client that reads
+/// slowly holds up nobody: it misses what is out of date by the time it reads on.
+class EventStream final : public api::PlanEvents {
+ public:
+  /// From one progress event to the next, whatever the planner does.
+  static constexpr std::chrono::milliseconds kPeriod{150};
+
+  /// The exchange has to outlive it.
+  explicit EventStream(Exchange& exchange);
+  ~EventStream() override;
+
+  void begin(const api::PlanProgress& progress) override;
+  void progress(const api::PlanProgress& progress) override;
+  void incumbent(std::string answer) override;
+
+  /// Otherwise nothing has been written.
+  bool begun() const { return begun_; }
+
+  /// The last event of one that has begun: the plan, or a problem. If it cannot be written, the connection is
+  /// closed.
+  void end(const api::Reply& reply);
+
+ private:
+  void write_events();
+  void stop_writing();
+  std::string head() const;
+  std::string event(std::string_view name, std::string_view data) const;
+  bool send(std::string_view text);
+
+  Exchange& exchange_;
+  const bool chunked_;
+  bool begun_ = false;
+  std::thread writer_;
+  bool failed_ = false;     // the client takes no more; of the thread that writes
+  std::uint64_t sent_ = 0;  // bytes; of the thread that writes
+  std::mutex mutex_;        // guards all below
+  std::condition_variable changed_;
+  api::PlanProgress progress_;
+  std::optional<std::string> incumbent_;  // not written yet
+  bool ending_ = false;
+};
+
+}  // namespace fleetplan::server

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <stop_token>
+
+#include "api/endpoints/plan_events.h"
+#include "api/response/reply.h"
+#include "server/http/exchange.h"
+#include "server/http/peer_watch.h"
+#include "server/jobs/workers.h"
+#include "server/ops/request_log.h"
+#include "server/ops/settings.h"
+#include "server/service.h"
+
+namespace fleetplan::server {
+
+/// Has the jobs done, which are what takes time: a plan, a check of one. Admits no more than the queue holds,
+/// and stops those whose client has left. Thread-safe.
+class JobRunner {
+ public:
+  /// The log has to outlive it.
+  JobRunner(const Settings& settings, const RequestLog& log);
+
+  /// The endpoint's answer to the exchange's body, computed in this thread when its turn has come. Notes the
+  /// time in the queue and whether the client left meanwhile in the exchange. `events`: who wants to hear how
+  /// a plan gets on, or null.
+  api::Reply run(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events);
+
+  /// Jobs that wait for their turn, and those that compute.
+  std::size_t queued() const { return workers_.queued(); }
+  std::size_t running() const { return workers_.running(); }
+
+  /// Asks all jobs, now and later, to stop.
+  void cancel_all() { cancel_all_.request_stop(); }
+
+ private:
+  api::Reply compute(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events,
+                     Workers::Job& job);
+
+  const api::Limits limits_;
+  const RequestLog& log_;
+  std::stop_source cancel_all_;
+  PeerWatch peers_;
+  Workers workers_;
+};
+
+}  // namespace fleetplan::server

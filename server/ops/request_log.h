@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "api/response/plan_outcome.h"
+
+namespace spdlog {
+class logger;
+}
+
+namespace fleetplan::server {
+
+/// One line of the log for each request.
+struct RequestRecord {
+  std::string id;
+  std::string method;
+  std::string path;                               // without query, as sent
+  int status = 0;                                 // 499: the client left before the answer
+  std::uint64_t bytes_in = 0;                     // of the body, as sent
+  std::uint64_t bytes_out = 0;                    // of the whole answer
+  double ms = 0.0;                                // first byte of the request to last byte of the answer
+  std::optional<double> queue_ms = std::nullopt;  // for planning jobs: in the queue
+  std::string_view problem;                       // the error's code; empty: none
+  std::optional<api::PlanOutcome> outcome = std::nullopt;
+  std::string peer;    // address and port of the client, or of the proxy before it
+  bool admin = false;  // on the admin port
+};
+
+/// JSON lines to stderr. Thread-safe.
+class RequestLog {
+ public:
+  /// `level`: trace, debug, info, warn, error, critical or off.
+  explicit RequestLog(const std::string& level);
+
+  /// At level info, error for a status of 500 and more except 503, debug for what the admin port answers.
+  void request(const RequestRecord& record) const;
+
+  using Value = std::variant<std::int64_t, std::string>;
+  using Members = std::initializer_list<std::pair<std::string_view, Value>>;
+
+  /// An event of the server's life, at level info; `members` follow the message.
+  void info(std::string_view message, Members members = {}) const;
+
+  /// A bug.
+  void error(std::string_view message, std::string_view request_id = {}) const;
+
+ private:
+  std::shared_ptr<spdlog::logger> logger_;
+};
+
+}  // namespace fleetplan::server

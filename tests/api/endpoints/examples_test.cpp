@@ -1,0 +1,51 @@
+#include "api/endpoints/examples.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <variant>
+
+#include "api/request/parse_request.h"
+#include "tests/api/support/requests.h"
+
+namespace fleetplan::api {
+namespace {
+
+TEST(Examples, AreValidRequestsSortedByName) {
+  ASSERT_FALSE(examples().empty());
+  for (const Example& example : examples()) {
+    EXPECT_TRUE(std::holds_alternative<PlanRequest>(parse_request(example.body, {}))) << example.name;
+  }
+  EXPECT_TRUE(std::is_sorted(examples().begin(), examples().end(),
+                             [](const Example& a, const Example& b) { return a.name < b.name; }));
+}
+
+TEST(Examples, AreListedWithWhatTheyAre) {
+  const Reply reply = examples_endpoint();
+  EXPECT_EQ(reply.status, 200);
+  const Json list = json_of(reply)["examples"];
+  std::set<std::string> names;
+  for (const auto& entry : list) {
+    const std::string name = entry["name"];
+    names.insert(name);
+    EXPECT_FALSE(entry["title"].get<std::string>().empty()) << name;
+    EXPECT_FALSE(entry["description"].get<std::string>().empty()) << name << " is not in index.json";
+    const auto example = std::find_if(examples().begin(), examples().end(),
+                                      [&](const Example& one) { return one.name == name; });
+    ASSERT_NE(example, examples().end());
+    const Json request = Json::parse(example->body);
+    EXPECT_EQ(entry["robots"], request["robots"].size());
+    EXPECT_EQ(entry["rows"], request["map"]["rows"].size());
+    EXPECT_EQ(entry["columns"], request["map"]["rows"][0].get<std::string>().size());
+  }
+  EXPECT_EQ(names.size(), examples().size());
+}
+
+TEST(Examples, BeginWithTheFirstOfTheIndex) {
+  EXPECT_EQ(json_of(examples_endpoint())["examples"][0]["name"], "corridor-swap");
+}
+
+}  // namespace
+}  // namespace fleetplan::api

@@ -1,0 +1,276 @@
+#include "api/endpoints/plan_endpoint.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+#include "api/response/error.h"
+#include "tests/api/support/requests.h"
+
+namespace fleetplan::api {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+RequestContext context() {
+  RequestContext made;
+  made.request_id = "test-7";
+  return made;
+}
+
+Json planned(const Json& request) {
+  const Reply reply = plan_endpoint(request.dump(), context());
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  EXPECT_EQ(reply.content_type, "application/json");
+  return json_of(reply);
+}
+
+std::vector<std::string> keys_of(const Json& object) {
+  std::vector<std::string> keys;
+  for (const auto& item : object.items()) keys.push_back(item.key());
+  return keys;
+}
+
+TEST(PlanEndpoint, PlansForRobotsThatHardlyMoveFarFromTheOrigin) {
+  const Json answer = planned(Json::parse(R"({
+    "map": {"rows": ["......", "......", "......"], "resolution": 0.05, "origin": {"x": 10000, "y": 3}},
+    "robots": [{"id": "a", "radius": 0.0025, "linear_speed": 1e-9, "angular_speed": 0.5,
+                "start": {"x": 10000.225, "y": 3.025}, "goal": {"x": 10000.025, "y": 3.125}}]})"));
+  EXPECT_EQ(answer["status"], "solved");
+}
+
+TEST(PlanEndpoint, SwapsTwoRobotsAroundAWall) {
+  const Json answer = planned(swap_request());
+  EXPECT_EQ(answer["status"], "solved");
+  EXPECT_EQ(answer["request_id"], "test-7");
+  EXPECT_EQ(answer["verified"], true);
+  EXPECT_EQ(answer["deterministic"], true);
+  EXPECT_GE(answer["min_clearance"].get<double>(), 0.0) << "contact is told as 0";
+  ASSERT_EQ(answer["plans"].size(), 2U);
+  EXPECT_EQ(answer["plans"][0]["robot"], "a");
+  EXPECT_EQ(answer["plans"][1]["robot"], "b");
+  const Json& last = answer["plans"][1]["actions"].back();
+  EXPECT_NEAR(last["to"]["x"].get<double>(), 0.5, 1e-9);
+  EXPECT_NEAR(last["to"]["theta"].get<double>(), 0.25, 1e-9);
+  EXPECT_EQ(last["t_end"], answer["plans"][1]["cost"]);
+}
+
+TEST(PlanEndpoint, TellsTheLowerBoundOfEachRobotAndTheirSumAndMaximum) {
+  Json request = swap_request();
+  request["robots"].push_back(Json::parse(R"({"id": "parked", "start": {"x": 4.5, "y": 0.5}})"));
+  const Json answer = planned(request);
+  ASSERT_EQ(answer["plans"].size(), 3U);
+  double sum = 0.0;
+  double most = 0.0;
+  for (const Json& plan : answer["plans"]) {
+    const double bound = plan["lower_bound"].get<double>();
+    EXPECT_LE(bound, plan["cost"].get<double>()) << plan["robot"];
+    sum += bound;
+    most = std::max(most, bound);
+  }
+  EXPECT_GT(answer["plans"][0]["lower_bound"].get<double>(), 8.0) << "8 m, around a wall";
+  EXPECT_EQ(answer["plans"][2]["lower_bound"], 0.0);
+  EXPECT_EQ(answer["lower_bound"]["flowtime"], sum);
+  EXPECT_EQ(answer["lower_bound"]["makespan"], most);
+}
+
+TEST(PlanEndpoint, AnswersWithTheMembersOfTheContractInTheirOrder) {
+  const Json answer = planned(swap_request());
+  EXPECT_THAT(keys_of(answer),
+              ElementsAre("status", "request_id", "plans", "unplanned", "flowtime", "makespan", "lower_bound",
+                          "verified", "min_clearance", "deterministic", "search", "timings_ms", "warnings"));
+  EXPECT_THAT(keys_of(answer["plans"][0]), ElementsAre("robot", "cost", "lower_bound", "actions"));
+  EXPECT_THAT(keys_of(answer["plans"][0]["actions"][0]),
+              ElementsAre("type", "t_start", "t_end", "from", "to"));
+  EXPECT_THAT(keys_of(answer["plans"][0]["actions"][0]["to"]), ElementsAre("x", "y", "theta"));
+  EXPECT_THAT(keys_of(answer["lower_bound"]), ElementsAre("flowtime", "makespan"));
+  EXPECT_THAT(keys_of(answer["search"]), ElementsAre("attempts", "expansions", "improvements"));
+  EXPECT_THAT(keys_of(answer["timings_ms"]),
+              ElementsAre("queue", "parse", "plan", "verify", "serialize", "total"));
+}
+
+TEST(PlanEndpoint, AnswersInTheClientsWorld) {
+  Json request = swap_request();
+  request["map"]["origin"] = {{"x", -100.0}, {"y", 1000.0}};
+  for (auto& robot : request["robots"]) {
+    for (const char* pose : {"start", "goal"}) {
+      robot[pose]["x"] = robot[pose]["x"].get<double>() - 100.0;
+      robot[pose]["y"] = robot[pose]["y"].get<double>() + 1000.0;
+    }
+  }
+  const Json answer = planned(request);
+  const Json& actions = answer["plans"][0]["actions"];
+  EXPECT_NEAR(actions.front()["from"]["x"].get<double>(), -99.5, 1e-9);
+  EXPECT_NEAR(actions.front()["from"]["y"].get<double>(), 1001.5, 1e-9);
+  EXPECT_NEAR(actions.back()["to"]["x"].get<double>(), -91.5, 1e-9);
+}
+
+TEST(PlanEndpoint, TellsParkedRobotsAndNoClearanceOfOne) {
+  Json request = swap_request();
+  request["robots"].erase(1);
+  request["robots"][0].erase("goal");
+  const Json answer = planned(request);
+  EXPECT_EQ(answer["status"], "solved");
+  EXPECT_EQ(answer["plans"],
+            Json::parse(R"([{"robot": "a", "cost": 0.0, "lower_bound": 0.0, "actions": []}])"));
+  EXPECT_TRUE(answer["min_clearance"].is_null());
+  EXPECT_EQ(answer["flowtime"], 0.0);
+}
+
+TEST(PlanEndpoint, TellsWhyARobotIsUnplanned) {
+  Json request = swap_request();
+  request["map"]["rows"] = {"....#....", "....#....", "....#....", "....#...."};
+  const Json answer = planned(request);
+  EXPECT_EQ(answer["status"], "none");
+  ASSERT_EQ(answer["unplanned"].size(), 2U);
+  EXPECT_THAT(keys_of(answer["unplanned"][0]), ElementsAre("robot", "reason", "detail", "blocked_by"));
+  EXPECT_EQ(answer["unplanned"][0]["robot"], "a");
+  EXPECT_EQ(answer["unplanned"][0]["reason"], "goal_unreachable");
+}
+
+TEST(PlanEndpoint, GivesTimingsWhoseTotalIsNoLessThanTheirSum) {
+  RequestContext late = context();
+  late.await_turn = [](const core::StopCondition&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  };
+  const Json timings = json_of(plan_endpoint(swap_request().dump(), late))["timings_ms"];
+  double sum = 0.0;
+  for (const char* part : {"queue", "parse", "plan", "verify", "serialize"}) {
+    EXPECT_GE(timings[part].get<double>(), 0.0) << part;
+    sum += timings[part].get<double>();
+  }
+  EXPECT_GE(timings["queue"].get<double>(), 20.0);
+  EXPECT_GE(timings["total"].get<double>(), sum - 1e-6);
+}
+
+TEST(PlanEndpoint, DoesNotPlanWhenTheBudgetIsSpentInTheQueue) {
+  Json request = swap_request();
+  request["options"] = {{"time_budget_ms", 10}};
+  request["robots"].push_back(Json::parse(R"({"id": "parked", "start": {"x": 4.5, "y": 0.5}})"));
+  RequestContext late = context();
+  late.received_at -= std::chrono::milliseconds(11);
+  const Planner never = [](const auto&, const auto&, const auto&, auto*) -> core::Plan {
+    ADD_FAILURE() << "was asked to plan";
+    return {};
+  };
+  const Json answer = json_of(plan_with(never, request.dump(), late));
+  EXPECT_EQ(answer["status"], "partial");
+  EXPECT_EQ(answer["plans"][0]["robot"], "parked");
+  ASSERT_EQ(answer["unplanned"].size(), 2U);
+  EXPECT_EQ(answer["unplanned"][1]["reason"], "budget_exhausted");
+  EXPECT_EQ(answer["deterministic"], false);
+  request["robots"].erase(2);
+  EXPECT_EQ(json_of(plan_with(never, request.dump(), late))["status"], "none");
+}
+
+TEST(PlanEndpoint, WaitsForItsTurnUntilThePlannerWouldHaveToEnd) {
+  Json request = swap_request();
+  request["options"] = {{"time_budget_ms", 60'000}};
+  RequestContext busy = context();
+  busy.await_turn = [&](const core::StopCondition& patience) {
+    EXPECT_EQ(patience.deadline(), busy.received_at + std::chrono::milliseconds(60'000 - 25));
+  };
+  EXPECT_EQ(json_of(plan_endpoint(request.dump(), busy))["status"], "solved");
+}
+
+TEST(PlanEndpoint, SendsWhoCannotBePlannedBeforeTheEndOfTheServiceElsewhere) {
+  std::stop_source end;
+  RequestContext waiting = context();
+  waiting.stop = end.get_token();
+  waiting.await_turn = [&](const core::StopCondition&) { end.request_stop(); };
+  const Reply reply = plan_endpoint(swap_request().dump(), waiting);
+  EXPECT_EQ(reply.status, 503);
+  EXPECT_EQ(json_of(reply)["code"], "draining");
+}
+
+TEST(PlanEndpoint, TellsFaultsWithoutWaitingForATurn) {
+  RequestContext busy = context();
+  busy.await_turn = [](const core::StopCondition&) { ADD_FAILURE() << "waited"; };
+  EXPECT_EQ(plan_endpoint("{}", busy).status, 422);
+}
+
+TEST(PlanEndpoint, GivesThePlannerWhatIsLeftOfTheBudget) {
+  Json request = swap_request();
+  request["options"] = {{"time_budget_ms", 60'000}, {"seed", 42}};
+  const RequestContext now = context();
+  const Planner planner = [&](const core::Problem& problem, const core::PlanOptions& options,
+                              const core::StopCondition& stop, auto*) {
+    EXPECT_EQ(stop.deadline(), now.received_at + std::chrono::milliseconds(60'000 - 25))
+        << "time for the answer";
+    EXPECT_EQ(options.seed, 42U);
+    return core::plan(problem, options, stop);
+  };
+  EXPECT_EQ(plan_with(planner, request.dump(), now).status, 200);
+}
+
+TEST(PlanEndpoint, TellsOfAClampedBudget) {
+  Json request = swap_request();
+  request["options"] = {{"time_budget_ms", 500'000}};
+  EXPECT_THAT(planned(request)["warnings"][0].get<std::string>(), HasSubstr("clamped"));
+}
+
+TEST(PlanEndpoint, NeverReturnsAPlanThatTheCheckerRefuses) {
+  const Planner through_the_wall = [](const core::Problem& problem, const auto&, const auto&, auto*) {
+    const core::Pose start = problem.robots()[0].start;
+    const core::Pose goal{problem.robots()[0].goal->position, 0.0};
+    core::Plan plan;
+    plan.plans.push_back({0, 8.0, {{core::Action::Type::translate, 0.0, 8.0, start, goal}}});
+    plan.unplanned.push_back({1, core::Unplanned::Reason::blocked_by_robots, "", {0}});
+    return plan;
+  };
+  const Reply reply = plan_with(through_the_wall, swap_request().dump(), context());
+  EXPECT_EQ(reply.status, 500);
+  EXPECT_EQ(reply.content_type, "application/problem+json");
+  EXPECT_EQ(json_of(reply)["code"], "internal_error");
+  EXPECT_EQ(json_of(reply)["request_id"], "test-7");
+}
+
+TEST(PlanEndpoint, RefusesAPlanThatCrossesAnUnplannedRobot) {
+  Json request = swap_request();
+  request["map"]["rows"] = {"........."};
+  request["robots"][0]["start"]["y"] = 0.5;
+  request["robots"][0]["goal"]["y"] = 0.5;
+  request["robots"][1]["start"] = {{"x", 4.5}, {"y", 0.5}};
+  request["robots"][1]["goal"] = {{"x", 0.5}, {"y", 0.5}};
+  const Planner across = [](const core::Problem& problem, const auto&, const auto&, auto*) {
+    const core::Pose goal{problem.robots()[0].goal->position, 0.0};
+    core::Plan plan;
+    plan.plans.push_back(
+        {0, 8.0, {{core::Action::Type::translate, 0.0, 8.0, problem.robots()[0].start, goal}}});
+    plan.unplanned.push_back({1, core::Unplanned::Reason::blocked_by_robots, "", {0}});
+    return plan;
+  };
+  EXPECT_EQ(plan_with(across, request.dump(), context()).status, 500);
+}
+
+TEST(PlanEndpoint, AnswersErrorsAsProblems) {
+  const auto code = [](const std::string& body) {
+    const Reply reply = plan_endpoint(body, context());
+    EXPECT_EQ(reply.content_type, "application/problem+json");
+    EXPECT_EQ(json_of(reply)["request_id"], "test-7");
+    return std::to_string(reply.status) + ' ' + json_of(reply)["code"].get<std::string>();
+  };
+  EXPECT_EQ(code(""), "400 malformed_json");
+  EXPECT_EQ(code("{"), "400 malformed_json");
+  EXPECT_EQ(code(std::string(1'000'000, '[')), "400 too_deep");
+  EXPECT_EQ(code("[]"), "422 invalid_request");
+  EXPECT_EQ(code("null"), "422 invalid_request");
+}
+
+TEST(PlanEndpoint, KeepsIdsInAnyLanguage) {
+  Json request = swap_request();
+  const std::string id = "\"Wägelchen\" 🚚\n";
+  request["robots"][0]["id"] = id;
+  EXPECT_EQ(planned(request)["plans"][0]["robot"], id);
+}
+
+}  // namespace
+}  // namespace fleetplan::api

@@ -1,0 +1,169 @@
+// What is told while a plan is made.
+
+#include "api/endpoints/plan_events.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+#include <vector>
+
+#include "api/endpoints/plan_endpoint.h"
+#include "api/endpoints/plan_watch.h"
+#include "api/endpoints/validate_endpoint.h"
+#include "tests/api/support/requests.h"
+
+namespace fleetplan::api {
+namespace {
+
+class Events : public PlanEvents {
+ public:
+  void begin(const PlanProgress& progress) override { begun.push_back(progress); }
+  void progress(const PlanProgress& progress) override { told.push_back(progress); }
+  void incumbent(std::string answer) override { incumbents.push_back(Json::parse(answer)); }
+
+  std::vector<PlanProgress> begun;
+  std::vector<PlanProgress> told;
+  std::vector<Json> incumbents;
+};
+
+RequestContext told_to(Events& events) {
+  RequestContext context;
+  context.request_id = "test-8";
+  context.events = &events;
+  return context;
+}
+
+Json anytime_request() {
+  Json request = swap_request();
+  request["options"] = {{"mode", "anytime"}, {"max_iterations", 50}, {"time_budget_ms", 60'000}};
+  return request;
+}
+
+/// What two answers to one request have in common.
+Json without_timings(Json answer) {
+  answer.erase("timings_ms");
+  answer.erase("request_id");
+  return answer;
+}
+
+TEST(WriteProgress, TellsTheMembersOfTheContract) {
+  EXPECT_EQ(write_progress({3}, 0.5), R"({"elapsed_ms":0.5,"attempt":0,"planned":0,"robots":3,"best":null})");
+  EXPECT_EQ(write_progress({12, {4, 11, core::Objectives{80.5, 20.0}}}, 1250.0),
+            R"({"elapsed_ms":1250.0,"attempt":4,"planned":11,"robots":12,)"
+            R"("best":{"flowtime":80.5,"makespan":20.0}})");
+}
+
+TEST(PlanEvents, DoNotBeginForARequestWithFaults) {
+  Json no_way = swap_request();
+  no_way["robots"][0]["start"]["x"] = -1.0;
+  for (const std::string& body : {std::string("{"), std::string("[]"), no_way.dump()}) {
+    Events events;
+    EXPECT_GE(plan_endpoint(body, told_to(events)).status, 400);
+    EXPECT_TRUE(events.begun.empty());
+    EXPECT_TRUE(events.told.empty());
+  }
+}
+
+TEST(PlanEvents, BeginOnceAndEndWithTheFiguresOfTheAnswer) {
+  Events events;
+  const Json answer = json_of(plan_endpoint(anytime_request().dump(), told_to(events)));
+  ASSERT_EQ(events.begun.size(), 1U);
+  EXPECT_EQ(events.begun[0].robots, 2U);
+  ASSERT_FALSE(events.told.empty());
+  for (const PlanProgress& progress : events.told) EXPECT_EQ(progress.robots, 2U);
+  const core::Progress& last = events.told.back().planner;
+  EXPECT_EQ(last.planned, 2U);
+  EXPECT_EQ(last.attempts, answer["search"]["attempts"].get<std::int64_t>());
+  ASSERT_TRUE(last.best);
+  EXPECT_EQ(last.best->flowtime, answer["flowtime"].get<double>());
+  EXPECT_EQ(last.best->makespan, answer["makespan"].get<double>());
+}
+
+TEST(PlanEvents, ChangeNoAnswer) {
+  for (const Json& request : {swap_request(), anytime_request()}) {
+    Events events;
+    const Json told = json_of(plan_endpoint(request.dump(), told_to(events)));
+    EXPECT_EQ(told["deterministic"], true);
+    EXPECT_EQ(without_timings(told), without_timings(json_of(plan_endpoint(request.dump(), {}))));
+  }
+}
+
+TEST(PlanEvents, HaveIncumbentsThatAreWholeAndValidAnswers) {
+  Events events;
+  const Json request = anytime_request();
+  const Json answer = json_of(plan_endpoint(request.dump(), told_to(events)));
+  ASSERT_FALSE(events.incumbents.empty());
+  for (const Json& incumbent : events.incumbents) {
+    EXPECT_EQ(incumbent["status"], "solved");
+    EXPECT_EQ(incumbent["verified"], true);
+    EXPECT_EQ(incumbent["deterministic"], false) << "the clock chose it";
+    EXPECT_EQ(incumbent["request_id"], "test-8");
+    EXPECT_GE(incumbent["flowtime"].get<double>(), answer["flowtime"].get<double>());
+    for (std::size_t robot = 0; robot < 2; ++robot) {
+      EXPECT_NEAR(incumbent["plans"][robot]["lower_bound"].get<double>(),
+                  answer["plans"][robot]["lower_bound"].get<double>(), 1e-9);
+    }
+    for (const auto& member : answer.items()) EXPECT_TRUE(incumbent.contains(member.key())) << member.key();
+    Json both = request;
+    both.update(incumbent);
+    EXPECT_EQ(json_of(validate_endpoint(both.dump(), {}))["valid"], true);
+  }
+}
+
+TEST(PlanEvents, AreNoIncumbentsWhereTheFirstSolutionIsTheAnswer) {
+  Events events;
+  EXPECT_EQ(plan_endpoint(swap_request().dump(), told_to(events)).status, 200);
+  EXPECT_TRUE(events.incumbents.empty());
+}
+
+TEST(PlanEvents, BeginAlsoWhenTheBudgetIsSpentAlready) {
+  Events events;
+  RequestContext late = told_to(events);
+  late.received_at -= std::chrono::minutes(2);
+  EXPECT_EQ(json_of(plan_endpoint(anytime_request().dump(), late))["status"], "none");
+  EXPECT_EQ(events.begun.size(), 1U);
+  EXPECT_TRUE(events.incumbents.empty());
+}
+
+TEST(PlanEvents, NeverHaveAnIncumbentThatTheCheckerRefuses) {
+  const Planner shows_a_crash = [](const core::Problem& problem, const core::PlanOptions& options,
+                                   const core::StopCondition& stop, core::Observer* observer) {
+    core::Plan through_the_wall;
+    const core::Pose goal{problem.robots()[0].goal->position, 0.0};
+    through_the_wall.plans.push_back(
+        {0, 8.0, {{core::Action::Type::translate, 0.0, 8.0, problem.robots()[0].start, goal}}});
+    through_the_wall.unplanned.push_back({1, core::Unplanned::Reason::blocked_by_robots, "", {0}});
+    EXPECT_TRUE(observer->wants_plan());
+    observer->show(through_the_wall);
+    EXPECT_FALSE(observer->wants_plan());
+    return core::plan(problem, options, stop);
+  };
+  Events events;
+  const Reply reply = plan_with(shows_a_crash, anytime_request().dump(), told_to(events));
+  EXPECT_EQ(reply.status, 500);
+  EXPECT_EQ(json_of(reply)["code"], "internal_error");
+  EXPECT_TRUE(events.incumbents.empty());
+}
+
+TEST(PlanWatch, WantsPlansAtMostOnceASecond) {
+  Events events;
+  const auto answer = [](const core::Plan&) { return Reply{200, kJson, "{}"}; };
+  PlanWatch watch(events, 1, PlanWatch::Clock::time_point::max(), answer);
+  ASSERT_TRUE(watch.wants_plan());
+  const auto begin = PlanWatch::Clock::now();
+  watch.show({});
+  EXPECT_EQ(events.incumbents.size(), 1U);
+  while (!watch.wants_plan()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_GE(PlanWatch::Clock::now() - begin, std::chrono::seconds(1));
+}
+
+TEST(PlanWatch, WantsNoPlanWhenTheLastOneIsNear) {
+  Events events;
+  const auto answer = [](const core::Plan&) { return Reply{}; };
+  const auto soon = PlanWatch::Clock::now() + PlanWatch::kLastBit;
+  EXPECT_FALSE(PlanWatch(events, 1, soon, answer).wants_plan());
+  EXPECT_TRUE(PlanWatch(events, 1, soon + std::chrono::minutes(1), answer).wants_plan());
+}
+
+}  // namespace
+}  // namespace fleetplan::api

@@ -1,0 +1,232 @@
+#include "api/endpoints/validate_endpoint.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stop_token>
+
+#include "api/endpoints/plan_endpoint.h"
+#include "tests/api/support/requests.h"
+
+namespace fleetplan::api {
+namespace {
+
+using testing::ElementsAre;
+
+Json validated(const Json& request) {
+  const Reply reply = validate_endpoint(request.dump(), {});
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  return json_of(reply);
+}
+
+/// Robot "a" drives ahead 3 m; "b" has no plan.
+Json drive_request() {
+  Json request = swap_request();
+  request["robots"][0]["goal"] = {{"x", 3.5}, {"y", 1.5}};
+  request["plans"] = Json::parse(R"([{"robot": "a", "cost": 3.0, "actions": [
+    {"type": "translate", "t_start": 0, "t_end": 3.0, "from": {"x": 0.5, "y": 1.5, "theta": 0},
+     "to": {"x": 3.5, "y": 1.5, "theta": 0}}]}])");
+  return request;
+}
+
+Json& action(Json& request) { return request["plans"][0]["actions"][0]; }
+
+std::vector<std::string> kinds_of(const Json& answer) {
+  std::vector<std::string> kinds;
+  for (const auto& violation : answer["violations"]) kinds.push_back(violation["kind"]);
+  return kinds;
+}
+
+Faults faults_of_validation(const Json& request) {
+  const Reply reply = validate_endpoint(request.dump(), {});
+  EXPECT_EQ(reply.status, 422);
+  Faults faults;
+  const Json body = json_of(reply);
+  for (const auto& fault : body["errors"]) faults.emplace_back(fault["pointer"], fault["code"]);
+  return faults;
+}
+
+TEST(ValidateEndpoint, AcceptsAGoodPlan) {
+  const Json answer = validated(drive_request());
+  EXPECT_EQ(answer["valid"], true);
+  EXPECT_EQ(answer["violations"], Json::array());
+  EXPECT_NEAR(answer["min_clearance"].get<double>(), 4.4, 1e-9);
+}
+
+TEST(ValidateEndpoint, AcceptsTheAnswerOfAPlanThatLastsForAges) {
+  Json request = Json::parse(R"({
+    "map": {"rows": ["....."], "resolution": 1e8},
+    "robots": [{"id": "a", "radius": 1.0, "linear_speed": 1e-9, "angular_speed": 1e-9,
+                "start": {"x": 1e8, "y": 5e7}, "goal": {"x": 4e8, "y": 5e7}}]})");
+  const Reply reply = plan_endpoint(request.dump(), {});
+  ASSERT_EQ(reply.status, 200) << reply.body;
+  request.update(json_of(reply));
+  EXPECT_GT(request["makespan"], 1e17);
+  EXPECT_EQ(validated(request)["violations"], Json::array());
+}
+
+TEST(ValidateEndpoint, AcceptsAWholeAnswerAddedToItsRequest) {
+  Json request = swap_request();
+  request["map"]["origin"] = {{"x", 10.0}, {"y", -5.0}};
+  for (auto& robot : request["robots"]) {
+    for (const char* pose : {"start", "goal"}) {
+      robot[pose]["x"] = robot[pose]["x"].get<double>() + 10.0;
+      robot[pose]["y"] = robot[pose]["y"].get<double>() - 5.0;
+    }
+  }
+  request["options"] = {{"seed", 3}};
+  request.update(json_of(plan_endpoint(request.dump(), {})));
+  EXPECT_EQ(validated(request)["valid"], true);
+}
+
+TEST(ValidateEndpoint, TakesTheEndOfTheLastActionForTheCost) {
+  Json request = drive_request();
+  request["plans"][0].erase("cost");
+  EXPECT_EQ(validated(request)["valid"], true);
+}
+
+TEST(ValidateEndpoint, DoesNotLookAtTheLowerBoundOfAPlan) {
+  Json request = drive_request();
+  for (const Json& bound : {Json(3.0), Json(1e9), Json("none"), Json()}) {
+    request["plans"][0]["lower_bound"] = bound;
+    EXPECT_EQ(validated(request)["valid"], true) << bound;
+  }
+}
+
+TEST(ValidateEndpoint, TellsARobotThatIsTooFast) {
+  Json request = drive_request();
+  action(request)["t_end"] = 1.5;
+  request["plans"][0]["cost"] = 1.5;
+  const Json answer = validated(request);
+  EXPECT_EQ(answer["valid"], false);
+  ASSERT_THAT(kinds_of(answer), ElementsAre("speed"));
+  const Json& violation = answer["violations"][0];
+  EXPECT_EQ(violation["robots"], Json::array({"a"}));
+  EXPECT_NEAR(violation["distance"].get<double>(), 2.0, 1e-9);
+  EXPECT_EQ(violation["required"], 1.0);
+  EXPECT_FALSE(violation["detail"].get<std::string>().empty());
+}
+
+TEST(ValidateEndpoint, TellsACollisionWithARobotThatHasNoPlan) {
+  Json request = drive_request();
+  request["robots"][1]["start"]["x"] = 2.5;
+  const Json answer = validated(request);
+  ASSERT_THAT(kinds_of(answer), ElementsAre("robot_collision"));
+  EXPECT_EQ(answer["violations"][0]["robots"], Json::array({"a", "b"}));
+  EXPECT_NEAR(answer["violations"][0]["t"].get<double>(), 2.0, 1e-6);
+}
+
+TEST(ValidateEndpoint, JudgesStartsThatOverlapInsteadOfRefusingThem) {
+  Json request = drive_request();
+  request["plans"] = Json::array();
+  request["robots"][1]["start"]["x"] = 0.7;
+  EXPECT_THAT(kinds_of(validated(request)), ElementsAre("robot_collision"));
+}
+
+TEST(ValidateEndpoint, TellsAWallAndAWrongGoal) {
+  Json request = drive_request();
+  action(request)["to"]["x"] = 4.5;
+  action(request)["t_end"] = 4.0;
+  request["plans"][0]["cost"] = 4.0;
+  EXPECT_THAT(kinds_of(validated(request)),
+              testing::UnorderedElementsAre("obstacle_collision", "wrong_goal"));
+}
+
+TEST(ValidateEndpoint, JudgesByTheToleranceGiven) {
+  Json request = drive_request();
+  action(request)["from"]["x"] = 0.505;
+  EXPECT_EQ(validated(request)["valid"], false);
+  request["tolerance"] = 0.01;
+  EXPECT_EQ(validated(request)["valid"], true);
+  request["tolerance"] = -1;
+  EXPECT_THAT(faults_of_validation(request), ElementsAre(testing::Pair("/tolerance", "out_of_range")));
+}
+
+TEST(ValidateEndpoint, TellsFaultsOfThePlans) {
+  Json request = drive_request();
+  action(request)["type"] = "fly";
+  action(request)["to"].erase("theta");
+  action(request)["speed"] = 1;
+  action(request).erase("t_start");
+  request["plans"].push_back(Json::parse(R"({"robot": "a", "actions": []})"));
+  request["plans"].push_back(Json::parse(R"({"robot": "z", "actions": []})"));
+  request["plans"].push_back(Json::parse(R"({"robot": "b"})"));
+  request["plan"] = 1;
+  EXPECT_EQ(faults_of_validation(request), (Faults{{"/plans/0/actions/0/type", "unknown_value"},
+                                                   {"/plans/0/actions/0/to/theta", "missing"},
+                                                   {"/plans/0/actions/0/speed", "unknown_key"},
+                                                   {"/plans/0/actions/0/t_start", "missing"},
+                                                   {"/plans/1/robot", "duplicate"},
+                                                   {"/plans/2/robot", "unknown_robot"},
+                                                   {"/plans/3/actions", "missing"},
+                                                   {"/plan", "unknown_key"}}));
+}
+
+TEST(ValidateEndpoint, WantsPlans) {
+  EXPECT_EQ(faults_of_validation(swap_request()), (Faults{{"/plans", "missing"}}));
+}
+
+/// Robots that mill about in one heap: every pair of them overlaps in every moment.
+Json heap_request(int robots, int actions) {
+  Json request = drive_request();
+  request["robots"].clear();
+  request["plans"].clear();
+  for (int k = 0; k < robots; ++k) {
+    const std::string id = std::string("r") + std::to_string(k);
+    const double x = 2.0 + 0.001 * k;
+    request["robots"].push_back({{"id", id}, {"start", {{"x", x}, {"y", 1.5}}}});
+    Json moves = Json::array();
+    for (int i = 0; i < actions; ++i) {
+      const double t = 0.01 * i;
+      const double dx = i % 2 == 0 ? 0.0 : 0.005;
+      moves.push_back({{"type", "translate"},
+                       {"t_start", t},
+                       {"t_end", t + 0.01},
+                       {"from", {{"x", x + dx}, {"y", 1.5}, {"theta", 0}}},
+                       {"to", {{"x", x + 0.005 - dx}, {"y", 1.5}, {"theta", 0}}}});
+    }
+    request["plans"].push_back({{"robot", id}, {"cost", 0.01 * actions}, {"actions", moves}});
+  }
+  return request;
+}
+
+TEST(ValidateEndpoint, GivesUpWhenTheBudgetIsNotEnough) {
+  RequestContext context;
+  context.limits.default_budget_ms = 1;
+  const Reply reply = validate_endpoint(heap_request(200, 100).dump(), context);
+  EXPECT_EQ(reply.status, 422);
+  EXPECT_EQ(json_of(reply)["code"], "check_unfinished");
+  Json patient = heap_request(200, 100);
+  patient["options"] = {{"time_budget_ms", 100'000}};
+  EXPECT_EQ(validate_endpoint(patient.dump(), context).status, 200);
+}
+
+TEST(ValidateEndpoint, TakesNoLessThanTheDefaultBudget) {
+  Json request = drive_request();
+  request["options"] = {{"time_budget_ms", 1}};
+  request["plans"][0]["actions"] = heap_request(1, 2000)["plans"][0]["actions"];
+  EXPECT_EQ(validate_endpoint(request.dump(), {}).status, 200);
+}
+
+TEST(ValidateEndpoint, StopsWhenItIsAskedTo) {
+  std::stop_source stop;
+  stop.request_stop();
+  RequestContext context;
+  context.stop = stop.get_token();
+  const Reply reply = validate_endpoint(heap_request(2, 10).dump(), context);
+  EXPECT_EQ(reply.status, 503);
+  EXPECT_EQ(json_of(reply)["code"], "draining");
+}
+
+TEST(ValidateEndpoint, WritesAThousandViolationsAtMost) {
+  Json request = drive_request();
+  const Json jump = action(request);
+  for (int count = 0; count < 1100; ++count) request["plans"][0]["actions"].push_back(jump);
+  const Json answer = validated(request);
+  EXPECT_EQ(answer["violations"].size(), 1000U);
+  EXPECT_EQ(answer["truncated"], true);
+  EXPECT_FALSE(validated(drive_request()).contains("truncated"));
+}
+
+}  // namespace
+}  // namespace fleetplan::api

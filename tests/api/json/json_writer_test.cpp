@@ -1,0 +1,54 @@
+#include "api/json/json_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace fleetplan::api {
+namespace {
+
+std::string written(double number) {
+  JsonWriter json;
+  return json.value(number).take();
+}
+
+std::string written(const std::string& text) {
+  JsonWriter json;
+  return json.value(std::string_view(text)).take();
+}
+
+TEST(JsonWriter, WritesNumbersThatRoundTrip) {
+  for (const double number : {0.1, 1.0 / 3.0, 1e-9, 5e-324, 1.7976931348623157e308, 123456789.125, -2.5}) {
+    EXPECT_EQ(nlohmann::json::parse(written(number)).get<double>(), number);
+  }
+}
+
+TEST(JsonWriter, KeepsRealNumbersReal) {
+  EXPECT_EQ(written(5.0), "5.0");
+  EXPECT_EQ(written(1e30), "1e+30");
+  EXPECT_EQ(written(0.25), "0.25");
+}
+
+TEST(JsonWriter, WritesNoNegativeZero) { EXPECT_EQ(written(-0.0), "0.0"); }
+
+TEST(JsonWriter, WritesNullForWhatIsNotFinite) {
+  EXPECT_EQ(written(std::numeric_limits<double>::infinity()), "null");
+  EXPECT_EQ(written(std::numeric_limits<double>::quiet_NaN()), "null");
+}
+
+TEST(JsonWriter, EscapesStrings) {
+  EXPECT_EQ(written("a\"b\\c"), R"("a\"b\\c")");
+  EXPECT_EQ(written("\n\t\x01\x1f"), R"("\n\t\u0001\u001f")");
+  EXPECT_EQ(written("Wägelchen 🚚"), "\"Wägelchen 🚚\"");
+}
+
+TEST(JsonWriter, SeparatesMembersAndItems) {
+  JsonWriter json;
+  json.begin_object().member("a", 1).key("b").begin_array().value(true).value("x");
+  json.begin_object().end_object().end_array().member("c", std::optional<double>{}).end_object();
+  EXPECT_EQ(json.take(), R"({"a":1,"b":[true,"x",{}],"c":null})");
+}
+
+}  // namespace
+}  // namespace fleetplan::api

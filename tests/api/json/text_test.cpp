@@ -1,0 +1,52 @@
+#include "api/json/text.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+
+namespace fleetplan::api {
+namespace {
+
+constexpr std::array<std::string_view, 3> kWords{"radius", "linear_speed", "goal"};
+
+TEST(Suggestion, FindsTheKeyThatWasMeant) {
+  EXPECT_EQ(suggestion("raduis", kWords), "; did you mean \"radius\"?");
+  EXPECT_EQ(suggestion("linearSpeed", kWords), "; did you mean \"linear_speed\"?");
+  EXPECT_EQ(suggestion("GOAL", kWords), "; did you mean \"goal\"?");
+  EXPECT_EQ(suggestion("linear", kWords), "; did you mean \"linear_speed\"?");
+}
+
+TEST(Suggestion, IsSilentWhenNothingIsNear) {
+  EXPECT_EQ(suggestion("colour", kWords), "");
+  EXPECT_EQ(suggestion("", kWords), "");
+  EXPECT_EQ(suggestion(std::string(1'000'000, 'r'), kWords), "");
+}
+
+TEST(Quotes, CutLongTextAtACharacter) {
+  std::string text = "x";
+  for (int count = 0; count < 40; ++count) text += "ä";
+  const std::string quote = in_quotes(text);
+  std::string cut = "\"";
+  cut += text.substr(0, 63);
+  cut += "…\"";
+  EXPECT_EQ(quote, cut);
+  EXPECT_EQ(in_quotes("short"), "\"short\"");
+}
+
+TEST(Descriptions, NameTypesAndValues) {
+  EXPECT_EQ(described(JsonValue()), "null");
+  EXPECT_EQ(described(JsonValue(true)), "true");
+  EXPECT_EQ(described(JsonValue(-1.5)), "-1.5");
+  EXPECT_EQ(described(JsonValue(std::uint64_t{18446744073709551615U})), "18446744073709551615");
+  EXPECT_EQ(described(JsonValue(std::string("a"))), "the string \"a\"");
+  EXPECT_EQ(described(JsonValue(JsonValue::Array{})), "an array");
+  EXPECT_EQ(described(JsonValue(std::numeric_limits<double>::infinity())), "a number too large for a double");
+}
+
+TEST(Alternatives, ReadLikeASentence) {
+  EXPECT_EQ(alternatives(kWords), R"("radius", "linear_speed" or "goal")");
+}
+
+}  // namespace
+}  // namespace fleetplan::api

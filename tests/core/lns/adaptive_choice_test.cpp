@@ -1,0 +1,59 @@
+#include "core/lns/adaptive_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace fleetplan::core {
+namespace {
+
+/// How often each way is chosen in 1000 tries that gain and take these.
+std::vector<int> tries(AdaptiveChoice& choice, const std::vector<double>& gain,
+                       const std::vector<double>& effort) {
+  Random random(1);
+  std::vector<int> tries(gain.size(), 0);
+  for (int k = 0; k < 1000; ++k) {
+    const std::size_t way = choice.choose(random);
+    ++tries[way];
+    choice.learn(way, gain[way], effort[way]);
+  }
+  return tries;
+}
+
+TEST(AdaptiveChoice, ChoosesAtRandomWhatNobodyKnowsAbout) {
+  const AdaptiveChoice choice(3);
+  Random random(7);
+  std::vector<int> chosen(3, 0);
+  for (int k = 0; k < 300; ++k) ++chosen[choice.choose(random)];
+  for (const int count : chosen) EXPECT_GT(count, 60);
+}
+
+TEST(AdaptiveChoice, PrefersWhatGainsMoreButForgetsNothing) {
+  AdaptiveChoice choice(2);
+  const auto chosen = tries(choice, {1.0, 5.0}, {1.0, 1.0});
+  EXPECT_GT(chosen[1], 3 * chosen[0]);
+  EXPECT_GT(chosen[0], 30);
+}
+
+TEST(AdaptiveChoice, PrefersWhatTakesLess) {
+  AdaptiveChoice choice(2);
+  const auto chosen = tries(choice, {1.0, 1.0}, {1.0, 10.0});
+  EXPECT_GT(chosen[0], 20 * chosen[1]);
+  EXPECT_GT(chosen[1], 0);
+}
+
+TEST(AdaptiveChoice, SpendsEquallyWhereNothingIsGained) {
+  AdaptiveChoice choice(2);
+  const auto chosen = tries(choice, {0.0, 0.0}, {1.0, 10.0});
+  EXPECT_NEAR(chosen[0] / 10.0, chosen[1], 35.0);
+}
+
+TEST(AdaptiveChoice, ChangesItsMind) {
+  AdaptiveChoice choice(2);
+  tries(choice, {5.0, 1.0}, {1.0, 1.0});
+  const auto chosen = tries(choice, {1.0, 5.0}, {1.0, 1.0});
+  EXPECT_GT(chosen[1], 2 * chosen[0]);
+}
+
+}  // namespace
+}  // namespace fleetplan::core

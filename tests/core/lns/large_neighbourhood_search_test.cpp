@@ -1,0 +1,159 @@
+#include "core/lns/large_neighbourhood_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/prioritized/prioritized_planning.h"
+#include "core/prioritized/triage.h"
+#include "tests/core/support/planning.h"
+#include "tests/support/random_problem.h"
+
+namespace fleetplan::core {
+namespace {
+
+using support::expect_safe;
+using support::robot_at;
+using Objective = PlanOptions::Objective;
+
+struct Value {
+  double flowtime = 0.0;
+  double makespan = 0.0;
+};
+
+Value value_of(const PlanState& state) {
+  Value value;
+  for (const RobotPlan& plan : support::plans_of(state)) {
+    value.flowtime += plan.cost;
+    value.makespan = std::max(value.makespan, plan.cost);
+  }
+  return value;
+}
+
+/// Plans as core::plan does before it improves.
+std::vector<std::size_t> plan_first_solution(Planning& p) {
+  const auto given_up = triage(p.state, p.never);
+  std::vector<std::size_t> movers = p.movers();
+  std::erase_if(movers, [&](std::size_t robot) { return given_up[robot].has_value(); });
+  plan_prioritized(p.state, movers, p.random, p.never, p.never, p.progress);
+  return movers;
+}
+
+TautBounds bounds_of(const Planning& p) {
+  return {p.instance, p.movers(), std::vector<double>(p.instance.size(), kForever), p.never};
+}
+
+PlanOptions iterations(std::int64_t count, Objective objective = Objective::flowtime) {
+  PlanOptions options;
+  options.max_iterations = count;
+  options.objective = objective;
+  options.seed = 5;
+  return options;
+}
+
+/// Eight robots that all cross in the middle of a hall.
+std::vector<Robot> roundabout() {
+  std::vector<Robot> robots;
+  for (int k = 0; k < 8; ++k) {
+    const double angle = k * 0.25 * 3.141592653589793;
+    const Position arm = 4.0 * Position(std::cos(angle), std::sin(angle));
+    robots.push_back(robot_at(5.0 + arm.x(), 5.0 + arm.y()).to(5.0 - arm.x(), 5.0 - arm.y()));
+  }
+  return robots;
+}
+
+TEST(Improve, MakesARoundaboutBetter) {
+  Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(60));
+  const auto movers = plan_first_solution(p);
+  const Value before = value_of(p.state);
+  const Improvement improvement = improve(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
+  EXPECT_GT(improvement.improvements, 0);
+  EXPECT_FALSE(improvement.cut_off);
+  EXPECT_LT(value_of(p.state).flowtime, before.flowtime);
+  expect_safe(p.state);
+}
+
+TEST(Improve, ShortensTheMakespanWhenAsked) {
+  Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(60, Objective::makespan));
+  const auto movers = plan_first_solution(p);
+  const Value before = value_of(p.state);
+  improve(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
+  EXPECT_LT(value_of(p.state).makespan, before.makespan);
+  expect_safe(p.state);
+}
+
+TEST(Improve, ChangesNothingInNoIterations) {
+  Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(0));
+  const auto movers = plan_first_solution(p);
+  const double before = value_of(p.state).flowtime;
+  EXPECT_EQ(improve(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never).improvements, 0);
+  EXPECT_EQ(value_of(p.state).flowtime, before);
+}
+
+TEST(Improve, DoesTheSameAgain) {
+  const auto run = [] {
+    Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(30));
+    const auto movers = plan_first_solution(p);
+    improve(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
+    Plan plan;
+    plan.plans = support::plans_of(p.state);
+    return support::exact_text(plan);
+  };
+  EXPECT_EQ(run(), run());
+}
+
+TEST(Improve, EndsByItselfWhenEveryRobotCostsItsLowerBound) {
+  PlanOptions options;  // neither iterations nor a clock
+  Planning p(OccupancyGrid(10, 10, 1.0), {robot_at(1.5, 1.5).to(8.5, 1.5), robot_at(1.5, 8.5).to(8.5, 7.5)},
+             options);
+  const auto movers = plan_first_solution(p);
+  const Improvement improvement = improve(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
+  EXPECT_EQ(improvement.improvements, 0);
+  EXPECT_FALSE(improvement.cut_off);
+}
+
+TEST(Improve, EndsAtOnceWithoutAnyPlan) {
+  Planning p(OccupancyGrid(10, 10, 1.0), {robot_at(1.5, 1.5).to(8.5, 1.5), robot_at(5.5, 5.5)});
+  EXPECT_FALSE(improve(p.state, {}, bounds_of(p), p.random, p.callers_thread, p.never).cut_off);
+  EXPECT_FALSE(improve(p.state, {0}, bounds_of(p), p.random, p.callers_thread, p.never).cut_off)
+      << "it has no plan to improve";
+}
+
+TEST(Improve, ChangesNothingWhenItIsStopped) {
+  Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(1000));
+  const auto movers = plan_first_solution(p);
+  const double before = value_of(p.state).flowtime;
+  const Improvement improvement = improve(p.state, movers, bounds_of(p), p.random, p.callers_thread, met());
+  EXPECT_TRUE(improvement.cut_off);
+  EXPECT_EQ(value_of(p.state).flowtime, before);
+}
+
+class ImproveRandomFleets : public testing::TestWithParam<Objective> {};
+
+TEST_P(ImproveRandomFleets, IsNeverWorseAndStaysSafe) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    support::Dice dice(seed);
+    Planning p(support::random_problem(dice, 8), iterations(15, GetParam()));
+    const auto movers = plan_first_solution(p);
+    const std::size_t planned = support::plans_of(p.state).size();
+    const Value before = value_of(p.state);
+    const Improvement improvement =
+        improve(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
+    const Value after = value_of(p.state);
+    const bool by_makespan = GetParam() == Objective::makespan;
+    ASSERT_LE(by_makespan ? after.makespan : after.flowtime, by_makespan ? before.makespan : before.flowtime);
+    if (improvement.improvements == 0) {
+      ASSERT_EQ(after.flowtime, before.flowtime);
+    }
+    ASSERT_EQ(support::plans_of(p.state).size(), planned) << "nobody loses its plan";
+    expect_safe(p.state);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Objectives, ImproveRandomFleets,
+                         testing::Values(Objective::flowtime, Objective::makespan));
+
+}  // namespace
+}  // namespace fleetplan::core

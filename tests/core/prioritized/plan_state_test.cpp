@@ -1,0 +1,100 @@
+#include "core/prioritized/plan_state.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/support/planning.h"
+
+namespace fleetplan::core {
+namespace {
+
+using support::robot_at;
+using Robots = std::vector<std::size_t>;
+
+/// Robot 0 wants through the middle of a hall, where robot 1 is.
+struct Hall : Planning {
+  Hall()
+      : Planning(OccupancyGrid(9, 5, 1.0),
+                 {robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(4.5, 2.5).to(4.5, 4.5)}) {}
+
+  /// Who is in the way of driving straight through the middle, which takes 8 s from t = `departure`.
+  Robots in_the_middle(double departure = 0.0) const {
+    return state.conflicting_robots(0, through({{0.5, 2.5}, {8.5, 2.5}}, departure));
+  }
+};
+
+TEST(PlanState, IsEmptyAtFirst) {
+  Hall p;
+  EXPECT_EQ(p.in_the_middle(), Robots{});
+  EXPECT_FALSE(p.state.trajectory(1));
+  EXPECT_EQ(p.state.expansions(), 0);
+}
+
+TEST(PlanState, ReplacesWhatARobotHeldBefore) {
+  Hall p;
+  p.state.stand_for_ever(1);
+  EXPECT_EQ(p.in_the_middle(), Robots{1});
+  EXPECT_EQ(p.in_the_middle(1000.0), Robots{1});
+  p.state.follow(1, through({{4.5, 2.5}, {4.5, 4.5}}));
+  EXPECT_TRUE(p.state.trajectory(1));
+  EXPECT_EQ(p.in_the_middle(), Robots{}) << "it has gone by then";
+  p.state.follow(1, through({{4.5, 2.5}, {4.5, 4.5}}, 3.0));
+  EXPECT_EQ(p.in_the_middle(), Robots{1}) << "it goes too late";
+  p.state.block_start(1, 3.1);
+  EXPECT_FALSE(p.state.trajectory(1));
+  EXPECT_EQ(p.in_the_middle(), Robots{}) << "3.2 m take longer";
+  p.state.block_start(1, 3.3);
+  EXPECT_EQ(p.in_the_middle(), Robots{1});
+  p.state.leave(1);
+  EXPECT_EQ(p.in_the_middle(), Robots{});
+}
+
+TEST(PlanState, BlocksAStartForNoTimeNotAtAll) {
+  Hall p;
+  p.state.stand_for_ever(1);
+  p.state.block_start(1, 0.0);
+  EXPECT_EQ(p.state.conflicting_robots(0, through({{4.5, 2.5}, {5.5, 2.5}})), Robots{});
+}
+
+TEST(PlanState, KnowsWhoCrossesAStart) {
+  Hall p;
+  p.state.follow(0, through({{0.5, 2.5}, {8.5, 2.5}}));
+  EXPECT_EQ(p.state.robots_conflicting_with_standing(1), Robots{0});
+  p.state.follow(0, through({{0.5, 2.5}, {0.5, 4.5}, {8.5, 4.5}}));
+  EXPECT_EQ(p.state.robots_conflicting_with_standing(1), Robots{});
+}
+
+TEST(PlanState, PlansAmongTheOthersWithoutChangingThem) {
+  Hall p;
+  p.state.stand_for_ever(1);
+  const auto found = p.state.plan(0, {}, p.never).trajectory;
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->cost, 8.0) << "round robot 1";
+  EXPECT_FALSE(p.state.trajectory(0));
+  EXPECT_GT(p.state.expansions(), 0);
+  p.state.follow(0, *found);
+  support::expect_safe(p.state);
+}
+
+TEST(PlanState, KnowsThePathOfARobotThatIsAlone) {
+  Hall p;
+  p.state.stand_for_ever(1);
+  const Trajectory alone = p.state.alone(0, p.never);
+  EXPECT_NEAR(alone.cost, 8.0, 1e-12);
+  EXPECT_EQ(p.state.conflicting_robots(0, alone), Robots{1});
+}
+
+TEST(PlanState, LeavesARobotThatHasNoWayWhereItIs) {
+  Planning p(support::ascii_map({"..#..", "..#.."}), {robot_at(0.5, 0.5).to(4.5, 0.5)});
+  EXPECT_FALSE(p.state.goal_reachable(0, p.never));
+  const Trajectory alone = p.state.alone(0, p.never);
+  EXPECT_TRUE(alone.moves.empty());
+  EXPECT_EQ(alone.start, Position(0.5, 0.5));
+}
+
+TEST(PlanState, ReachesAGoalThatIsTheStart) {
+  Planning p(support::ascii_map({"##.##", "#####"}), {robot_at(2.5, 1.5).to(2.5, 1.5, 2.0)});
+  EXPECT_TRUE(p.state.goal_reachable(0, p.never));
+}
+
+}  // namespace
+}  // namespace fleetplan::core

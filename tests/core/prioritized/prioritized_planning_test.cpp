@@ -1,0 +1,127 @@
+#include "core/prioritized/prioritized_planning.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/support/planning.h"
+
+namespace fleetplan::core {
+namespace {
+
+using support::expect_safe;
+using support::robot_at;
+using Priority = PlanOptions::Priority;
+using Reordering = PlanOptions::Reordering;
+using Robots = std::vector<std::size_t>;
+
+/// Robot 0 has a short way, into the doorway between two rooms, and stays there. Robot 1 has to go through
+/// first. Robot 2 stays on its side.
+struct Doorway : Planning {
+  Doorway(Priority priority, Reordering reordering)
+      : Planning(support::ascii_map({"....#....",  //
+                                     ".........",  //
+                                     "....#...."}),
+                 {robot_at(2.5, 1.5).to(4.5, 1.5), robot_at(0.5, 1.5).to(8.5, 1.5),
+                  robot_at(8.5, 0.5).to(5.5, 0.5)},
+                 chosen(priority, reordering)) {}
+
+  static PlanOptions chosen(Priority priority, Reordering reordering) {
+    PlanOptions options;
+    options.priority = priority;
+    options.reordering = reordering;
+    return options;
+  }
+};
+
+Robots robots_of(const PrioritizedResult& result) {
+  Robots robots;
+  for (const Unplanned& robot : result.unplanned) robots.push_back(robot.robot);
+  return robots;
+}
+
+PrioritizedResult run(Planning& p) {
+  return plan_prioritized(p.state, p.movers(), p.random, p.never, p.never, p.progress);
+}
+
+TEST(Prioritized, PlansInOneAttemptWhereTheFirstOrderWorks) {
+  Doorway p(Priority::longest_first, Reordering::raise_failed);
+  const auto result = run(p);
+  EXPECT_TRUE(result.unplanned.empty());
+  EXPECT_EQ(result.attempts, 1);
+  EXPECT_FALSE(result.cut_off);
+  expect_safe(p.state);
+}
+
+TEST(Prioritized, RaisesTheRobotThatFailed) {
+  Doorway p(Priority::shortest_first, Reordering::raise_failed);
+  const auto result = run(p);
+  EXPECT_TRUE(result.unplanned.empty());
+  EXPECT_EQ(result.attempts, 2);
+  expect_safe(p.state);
+}
+
+TEST(Prioritized, FindsAnOrderAtRandom) {
+  Doorway p(Priority::shortest_first, Reordering::random);
+  const auto result = run(p);
+  EXPECT_TRUE(result.unplanned.empty());
+  EXPECT_GE(result.attempts, 2);
+  EXPECT_LE(result.attempts, 6) << "there are no more orders";
+  expect_safe(p.state);
+}
+
+TEST(Prioritized, PlansTheRestAllTheSameWithoutReordering) {
+  Doorway p(Priority::as_listed, Reordering::none);
+  const auto result = run(p);
+  ASSERT_EQ(robots_of(result), Robots{1});
+  EXPECT_EQ(result.unplanned[0].blocked_by, Robots{0});
+  EXPECT_EQ(result.attempts, 1);
+  EXPECT_TRUE(p.state.trajectory(0));
+  EXPECT_TRUE(p.state.trajectory(2)) << "it came after the one that failed";
+  expect_safe(p.state);
+}
+
+TEST(Prioritized, PlansTheOthersBesideARobotThatIsHopelessAmongThoseThatStay) {
+  for (const Reordering reordering : {Reordering::raise_failed, Reordering::random, Reordering::none}) {
+    Planning p(support::ascii_map({"....#....",  //
+                                   ".........",  //
+                                   "....#...."}),
+               {robot_at(4.5, 1.5), robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(8.5, 0.5).to(5.5, 0.5),
+                robot_at(2.5, 2.5).to(0.5, 2.5)},
+               Doorway::chosen(Priority::shortest_first, reordering));
+    p.state.stand_for_ever(0);
+    const auto result = run(p);
+    ASSERT_EQ(robots_of(result), Robots{1});
+    EXPECT_EQ(static_cast<int>(result.unplanned[0].reason),
+              static_cast<int>(Unplanned::Reason::blocked_by_robots));
+    EXPECT_EQ(result.unplanned[0].blocked_by, Robots{0});
+    EXPECT_FALSE(result.cut_off);
+    expect_safe(p.state);
+  }
+}
+
+TEST(Prioritized, HasNothingToDoWithoutMovers) {
+  Planning p(OccupancyGrid(4, 4, 1.0), {robot_at(1, 1)});
+  const auto result = plan_prioritized(p.state, {}, p.random, p.never, p.never, p.progress);
+  EXPECT_TRUE(result.unplanned.empty());
+  EXPECT_FALSE(result.cut_off);
+}
+
+TEST(Prioritized, CompletesWhatItHasWhenTheTimeForAttemptsIsUp) {
+  Planning p(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5), robot_at(0.5, 1.5).to(0.5, 8.5)});
+  const auto result = plan_prioritized(p.state, p.movers(), p.random, met(), p.never, p.progress);
+  EXPECT_TRUE(result.unplanned.empty()) << "there is time left to complete";
+  EXPECT_TRUE(result.cut_off);
+  expect_safe(p.state);
+}
+
+TEST(Prioritized, LeavesEverybodyStandingWhenAllTimeIsUp) {
+  Planning p(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5), robot_at(0.5, 1.5).to(0.5, 8.5)});
+  const auto result = plan_prioritized(p.state, p.movers(), p.random, met(), met(), p.progress);
+  EXPECT_EQ(robots_of(result), (Robots{0, 1}));
+  EXPECT_TRUE(result.cut_off);
+  EXPECT_EQ(static_cast<int>(result.unplanned[0].reason),
+            static_cast<int>(Unplanned::Reason::budget_exhausted));
+  expect_safe(p.state);
+}
+
+}  // namespace
+}  // namespace fleetplan::core

@@ -1,0 +1,136 @@
+#include "core/prioritized/triage.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/core/support/planning.h"
+
+namespace fleetplan::core {
+namespace {
+
+using support::robot_at;
+using Reason = Unplanned::Reason;
+using Robots = std::vector<std::size_t>;
+
+PlanOptions inflated(double metres) {
+  PlanOptions options;
+  options.inflation = metres;
+  return options;
+}
+
+void expect_given_up(const std::optional<Unplanned>& robot, std::size_t index, Reason reason,
+                     const Robots& blocked_by = {}) {
+  ASSERT_TRUE(robot) << "robot " << index;
+  EXPECT_EQ(robot->robot, index);
+  EXPECT_EQ(static_cast<int>(robot->reason), static_cast<int>(reason)) << robot->detail;
+  EXPECT_EQ(robot->blocked_by, blocked_by);
+  EXPECT_FALSE(robot->detail.empty());
+}
+
+/// Two rooms, a doorway of a metre between them.
+OccupancyGrid rooms() {
+  return support::ascii_map({"....#....",  //
+                             ".........",  //
+                             "....#...."});
+}
+
+TEST(Triage, LetsRobotsThatCanBePlannedPass) {
+  Planning p(rooms(), {robot_at(1, 1).to(8, 1), robot_at(8, 2).to(1, 2), robot_at(3, 1)});
+  for (const auto& robot : triage(p.state, p.never)) EXPECT_FALSE(robot);
+  EXPECT_EQ(p.state.robots_conflicting_with_standing(0), Robots{}) << "it is not there yet";
+}
+
+TEST(Triage, LetsParkedRobotsStand) {
+  Planning p(rooms(), {robot_at(1, 1).to(1, 2), robot_at(3, 1)});
+  EXPECT_FALSE(triage(p.state, p.never)[1]);
+  EXPECT_EQ(p.state.conflicting_robots(0, through({{1, 1}, {3.5, 1}})), Robots{1});
+}
+
+TEST(Triage, GivesUpARobotThatIsTooWideAtItsStartWhenInflated) {
+  Planning p(rooms(), {robot_at(0.45, 1).to(3, 1), robot_at(3, 2).to(1, 2)}, inflated(0.1));
+  const auto result = triage(p.state, p.never);
+  expect_given_up(result[0], 0, Reason::start_blocked);
+  EXPECT_FALSE(result[1]);
+  EXPECT_EQ(p.state.conflicting_robots(1, through({{3, 2}, {0.5, 1}})), Robots{0}) << "it stands for ever";
+}
+
+TEST(Triage, GivesUpRobotsThatOverlapAtTheirStartsWhenInflated) {
+  Planning p(rooms(), {robot_at(1, 1).to(3, 1), robot_at(1.9, 1).to(3, 2), robot_at(6, 1).to(8, 1)},
+             inflated(0.06));
+  const auto result = triage(p.state, p.never);
+  expect_given_up(result[0], 0, Reason::start_blocked, {1});
+  expect_given_up(result[1], 1, Reason::start_blocked, {0});
+  EXPECT_FALSE(result[2]);
+}
+
+TEST(Triage, GivesUpARobotThatOverlapsAParkedOneWhenInflatedButNotTheParkedOne) {
+  Planning p(rooms(), {robot_at(1, 1), robot_at(1.9, 1).to(3, 2)}, inflated(0.06));
+  const auto result = triage(p.state, p.never);
+  EXPECT_FALSE(result[0]);
+  expect_given_up(result[1], 1, Reason::start_blocked, {0});
+}
+
+TEST(Triage, GivesUpARobotThatIsTooWideAtItsGoalWhenInflated) {
+  Planning p(rooms(), {robot_at(3, 1).to(0.45, 1)}, inflated(0.06));
+  expect_given_up(triage(p.state, p.never)[0], 0, Reason::goal_blocked);
+}
+
+TEST(Triage, ServesTheFirstOfTwoGoalsThatOverlapWhenInflated) {
+  Planning p(rooms(), {robot_at(1, 1).to(6, 1), robot_at(1, 2).to(6.9, 1), robot_at(3, 2).to(8, 1)},
+             inflated(0.06));
+  const auto result = triage(p.state, p.never);
+  EXPECT_FALSE(result[0]);
+  expect_given_up(result[1], 1, Reason::goal_blocked, {0});
+  EXPECT_FALSE(result[2]);
+}
+
+TEST(Triage, FindsContactWhenInflatedGoodEnough) {
+  Planning p(rooms(), {robot_at(0.5, 0.5).to(0.5, 2.5), robot_at(1.5, 0.5).to(1.5, 2.5)}, inflated(0.1));
+  for (const auto& robot : triage(p.state, p.never)) EXPECT_FALSE(robot);
+}
+
+TEST(Triage, GivesUpARobotThatNoWayIsWideEnoughFor) {
+  Planning p(rooms(), {robot_at(1, 1).to(8, 1).radius(0.6), robot_at(1, 2.4).to(8, 2.4)});
+  const auto result = triage(p.state, p.never);
+  expect_given_up(result[0], 0, Reason::goal_unreachable);
+  EXPECT_FALSE(result[1]);
+}
+
+TEST(Triage, GivesUpARobotWhoseGoalAParkedOneStandsOn) {
+  Planning p(rooms(), {robot_at(1, 1).to(6, 1), robot_at(6.5, 1), robot_at(6, 2.5).to(8, 2)});
+  const auto result = triage(p.state, p.never);
+  expect_given_up(result[0], 0, Reason::goal_blocked, {1});
+  EXPECT_FALSE(result[2]);
+}
+
+TEST(Triage, GivesUpWhoeverWantsToThePlaceOfARobotGivenUp) {
+  // 2 wants to the place of 1, which wants to the place of 0, which cannot leave its room.
+  Planning p(rooms(), {robot_at(1, 1).to(8, 2).radius(0.6), robot_at(6, 1).to(1, 1),
+                       robot_at(8, 0.5).to(6, 1), robot_at(3.3, 2).to(8, 0.5)});
+  const auto result = triage(p.state, p.never);
+  expect_given_up(result[0], 0, Reason::goal_unreachable);
+  expect_given_up(result[1], 1, Reason::goal_blocked, {0});
+  expect_given_up(result[2], 2, Reason::goal_blocked, {1});
+  expect_given_up(result[3], 3, Reason::goal_blocked, {2});
+}
+
+TEST(Triage, DoesNotCallAGoalUnreachableWhenItWasStopped) {
+  Planning p(support::ascii_map({"..............#.",  //
+                                 "..............#.",  //
+                                 "..............#."}),
+             {robot_at(0.5, 0.5).to(15.5, 0.5).radius(0.2)});
+  EXPECT_TRUE(triage(p.state, p.never)[0]);
+  // The way back from the goal has three places only, so that is known at once; not so from the other side.
+  Planning reversed(support::ascii_map({"..............#.",  //
+                                        "..............#.",  //
+                                        "..............#.",  //
+                                        "..............#.",  //
+                                        "..............#.",  //
+                                        "..............#."}),
+                    {robot_at(15.5, 0.5).to(0.5, 0.5).radius(0.2)});
+  EXPECT_FALSE(triage(reversed.state, met())[0]);
+}
+
+}  // namespace
+}  // namespace fleetplan::core

@@ -1,0 +1,32 @@
+#include "core/runtime/stop_condition.h"
+
+#include <gtest/gtest.h>
+
+namespace fleetplan::core {
+namespace {
+
+using Clock = StopCondition::Clock;
+
+TEST(StopCondition, IsNeverMetByDefault) {
+  EXPECT_FALSE(StopCondition().met());
+  EXPECT_FALSE(StopCondition().cancelled());
+  EXPECT_EQ(StopCondition().deadline(), Clock::time_point::max());
+}
+
+TEST(StopCondition, IsMetOnceItsDeadlineHasPassed) {
+  EXPECT_TRUE(StopCondition(Clock::now() - std::chrono::seconds(1)).met());
+  EXPECT_FALSE(StopCondition(Clock::now() - std::chrono::seconds(1)).cancelled());
+  EXPECT_FALSE(StopCondition(Clock::now() + std::chrono::hours(1)).met());
+}
+
+TEST(StopCondition, IsMetAsSoonAsSomebodyAsksToStop) {
+  std::stop_source source;
+  const StopCondition stop(Clock::now() + std::chrono::hours(1), source.get_token());
+  EXPECT_FALSE(stop.met());
+  source.request_stop();
+  EXPECT_TRUE(stop.met());
+  EXPECT_TRUE(stop.cancelled());
+}
+
+}  // namespace
+}  // namespace fleetplan::core

@@ -1,0 +1,99 @@
+#include "core/sipp/vertices.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "tests/core/support/planning.h"
+#include "tests/support/random_problem.h"
+
+namespace fleetplan::core {
+namespace {
+
+using support::robot_at;
+
+std::vector<int> neighbours(const Vertices& vertices, int vertex) {
+  std::vector<int> all;
+  vertices.for_each_neighbour(vertex, [&](int neighbour) { all.push_back(neighbour); });
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+TEST(Vertices, AreTheLatticesWhereStartAndGoalAreCellCentres) {
+  const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.5, 2.5).to(6.5, 4.5)});
+  const Vertices vertices(p.instance, 0);
+  EXPECT_EQ(vertices.count(), 48);
+  EXPECT_EQ(vertices.start(), 17);
+  EXPECT_EQ(vertices.goal(), 38);
+  EXPECT_EQ(neighbours(vertices, 17).size(), 8u);
+}
+
+TEST(Vertices, HaveOwnOnesWhereStartAndGoalLieOffTheLattice) {
+  const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.2, 2.7).to(6.51, 4.5)});
+  const Vertices vertices(p.instance, 0);
+  EXPECT_EQ(vertices.count(), 50);
+  EXPECT_EQ(vertices.start(), 48);
+  EXPECT_EQ(vertices.goal(), 49);
+  EXPECT_EQ(vertices.position(48), Position(1.2, 2.7));
+  EXPECT_EQ(vertices.position(49), Position(6.51, 4.5));
+}
+
+TEST(Vertices, AreOneWhereStartAndGoalAreTheSame) {
+  const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.2, 2.7).to(1.2, 2.7, 1.0)});
+  const Vertices vertices(p.instance, 0);
+  EXPECT_EQ(vertices.start(), vertices.goal());
+  EXPECT_EQ(vertices.count(), 49);
+}
+
+TEST(Vertices, OfAParkedRobotHaveNoGoal) {
+  const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.2, 2.7)});
+  EXPECT_EQ(Vertices(p.instance, 0).goal(), -1);
+}
+
+TEST(Vertices, JoinANearbyStartAndGoalDirectly) {
+  const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.2, 2.7).to(2.3, 3.1)});
+  const Vertices vertices(p.instance, 0);
+  const auto from_start = neighbours(vertices, vertices.start());
+  EXPECT_TRUE(std::binary_search(from_start.begin(), from_start.end(), vertices.goal()));
+  const auto from_goal = neighbours(vertices, vertices.goal());
+  EXPECT_TRUE(std::binary_search(from_goal.begin(), from_goal.end(), vertices.start()));
+}
+
+TEST(Vertices, DoNotJoinAStartAndGoalOutOfSight) {
+  const Planning p(support::ascii_map({"...",  //
+                                       "###",  //
+                                       "..."}),
+                   {robot_at(1.2, 0.5).radius(0.3).to(1.2, 2.5)});
+  const Vertices vertices(p.instance, 0);
+  EXPECT_EQ(neighbours(vertices, vertices.start()), (std::vector<int>{0, 1, 2}));
+}
+
+TEST(Vertices, LinkOwnOnesToAllOfTheLatticeInSightWithinTwoCellsAndBack) {
+  const std::uint64_t seed = 23;
+  support::Dice dice(seed);
+  for (int k = 0; k < 60; ++k) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", problem " << k);
+    const Planning p(support::random_problem(dice, 1));
+    const Vertices vertices(p.instance, 0);
+    const int start = vertices.start();
+    if (start < p.instance.lattice().vertex_count()) continue;
+    std::vector<int> expected;
+    for (int v = 0; v < p.instance.lattice().vertex_count(); ++v) {
+      const Position there = vertices.position(v);
+      if ((there - vertices.position(start)).norm() > 2.0 * p.problem.grid().resolution()) continue;
+      const bool seen =
+          p.instance.sight().may_sweep(vertices.position(start), there, p.instance.motion(0).radius);
+      if (seen) expected.push_back(v);
+      const auto back = neighbours(vertices, v);
+      ASSERT_EQ(std::binary_search(back.begin(), back.end(), start), seen) << "from vertex " << v;
+    }
+    auto links = neighbours(vertices, start);
+    std::erase(links, vertices.goal());
+    std::erase(expected, vertices.goal());
+    ASSERT_EQ(links, expected);
+  }
+}
+
+}  // namespace
+}  // namespace fleetplan::core

@@ -1,0 +1,84 @@
+#pragma once
+
+// A problem with everything that the search needs around it.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/instance.h"
+#include "core/prioritized/plan_state.h"
+#include "core/prioritized/progress_report.h"
+#include "core/runtime/executor.h"
+#include "core/runtime/random.h"
+#include "core/runtime/stop_condition.h"
+#include "core/sipp/aa_sipp.h"
+#include "tests/support/ascii_map.h"
+#include "tests/support/expect_safe.h"
+#include "tests/support/problem_builder.h"
+
+namespace fleetplan::core {
+
+/// A search that settles for nothing dearer than it has to.
+inline constexpr SearchLimits kExact{
+    .heuristic_weight = 1.0, .suboptimality = 0.0, .suboptimality_growth = 0.0, .dominance_slack = 0.0};
+
+struct Planning {
+  explicit Planning(Problem told, const PlanOptions& options = {})
+      : problem(std::move(told)), instance(problem, options), state(instance), random(options.seed) {}
+  Planning(OccupancyGrid grid, std::vector<Robot> robots, const PlanOptions& options = {})
+      : Planning(support::make_problem(std::move(grid), std::move(robots)), options) {}
+  Planning(const Planning&) = delete;
+  Planning& operator=(const Planning&) = delete;
+
+  /// Robots with goals, ascending.
+  std::vector<std::size_t> movers() const {
+    std::vector<std::size_t> movers;
+    for (std::size_t i = 0; i < instance.size(); ++i) {
+      if (instance.robot(i).goal) movers.push_back(i);
+    }
+    return movers;
+  }
+
+  Problem problem;
+  Instance instance;
+  PlanState state;
+  Random random;
+  StopCondition never;
+  CallerThread callers_thread;
+  ProgressReport progress{state, nullptr};  // nobody watches
+};
+
+/// A stop condition that is met already.
+inline StopCondition met() {
+  std::stop_source source;
+  source.request_stop();
+  return StopCondition(StopCondition::Clock::time_point::max(), source.get_token());
+}
+
+/// Straight moves through these points, each at a speed of 1 m/s and departing as soon as it can, the first
+/// at `departure`.
+inline Trajectory through(const std::vector<Position>& points, double departure = 0.0) {
+  Trajectory trajectory{points.front(), {}, departure};
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double arrival = trajectory.cost + (points[i] - points[i - 1]).norm();
+    trajectory.moves.push_back({{points[i - 1], points[i]}, trajectory.cost, arrival});
+    trajectory.cost = arrival;
+  }
+  return trajectory;
+}
+
+/// One way back and forth, 28 m x 9 m; no search finds it at a glance.
+inline OccupancyGrid maze() {
+  return support::ascii_map({"............................",  //
+                             "............................",  //
+                             ".###########################",  //
+                             "............................",  //
+                             "###########################.",  //
+                             "............................",  //
+                             ".###########################",  //
+                             "............................",  //
+                             "............................"});
+}
+
+}  // namespace fleetplan::core
