@@ -37,7 +37,7 @@ PlanOptions hasty() {
 TEST(Complete, PlansEveryRobotThatHasNoTrajectoryYet) {
   Planning p(hall(), {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(6.5, 2.5).to(0.5, 2.5)});
   p.state.follow(1, through({{6.5, 2.5}, {0.5, 2.5}}, 4.0));
-  const PartialPlan completion = complete(p.state, {1, 0}, {}, p.never, p.progress);
+  const PartialPlan completion = make_partial_plan(p.state, {1, 0}, {}, p.never, p.progress);
   EXPECT_TRUE(completion.unplanned.empty());
   EXPECT_FALSE(completion.cut_off);
   EXPECT_EQ(p.state.trajectory(1)->moves.front().t_start, 4.0) << "it was planned already";
@@ -47,7 +47,7 @@ TEST(Complete, PlansEveryRobotThatHasNoTrajectoryYet) {
 TEST(Complete, GivesARobotUpAndNamesThoseInItsWay) {
   Planning p(hall(), {robot_at(3.5, 3.5).to(5.5, 0.5), robot_at(5.5, 1.5), robot_at(0.5, 4.5).to(6.5, 4.5)});
   p.state.stand_for_ever(1);
-  const PartialPlan completion = complete(p.state, {0, 2}, {}, p.never, p.progress);
+  const PartialPlan completion = make_partial_plan(p.state, {0, 2}, {}, p.never, p.progress);
   ASSERT_EQ(robots_of(completion), Robots{0});
   EXPECT_EQ(static_cast<int>(completion.unplanned[0].reason), static_cast<int>(Reason::blocked_by_robots));
   EXPECT_EQ(completion.unplanned[0].blocked_by, Robots{1});
@@ -62,7 +62,7 @@ TEST(Complete, DoesNotNameRobotsThatCouldStay) {
   p.state.stand_for_ever(1);
   p.state.follow(2, through({{2.5, 2.5}, {6.5, 2.5}}));
   ASSERT_EQ(p.state.conflicting_robots(0, p.state.alone(0, p.never)), (Robots{1, 2}));
-  const PartialPlan completion = complete(p.state, {0}, {}, p.never, p.progress);
+  const PartialPlan completion = make_partial_plan(p.state, {0}, {}, p.never, p.progress);
   ASSERT_EQ(robots_of(completion), Robots{0});
   EXPECT_EQ(completion.unplanned[0].blocked_by, Robots{1});
   expect_safe(p.state);
@@ -74,7 +74,7 @@ TEST(Complete, PlansThoseAgainThatCrossedTheStartOfARobotGivenUp) {
              hasty());
   p.state.stand_for_ever(2);
   p.state.follow(0, through({{0.5, 3.5}, {6.5, 3.5}}));
-  const PartialPlan completion = complete(p.state, {0, 1}, {}, p.never, p.progress);
+  const PartialPlan completion = make_partial_plan(p.state, {0, 1}, {}, p.never, p.progress);
   EXPECT_EQ(robots_of(completion), Robots{1});
   ASSERT_TRUE(p.state.trajectory(0));
   EXPECT_GT(p.state.trajectory(0)->cost, 6.0) << "round robot 1";
@@ -87,7 +87,7 @@ TEST(Complete, GivesThoseUpAsWellThatHaveNoOtherWay) {
              {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(3.5, 0.5).to(8.5, 0.5), robot_at(7.5, 0.5)}, hasty());
   p.state.stand_for_ever(2);
   p.state.follow(0, through({{0.5, 0.5}, {5.5, 0.5}}));
-  const PartialPlan completion = complete(p.state, {0, 1}, {}, p.never, p.progress);
+  const PartialPlan completion = make_partial_plan(p.state, {0, 1}, {}, p.never, p.progress);
   ASSERT_EQ(robots_of(completion), (Robots{0, 1}));
   EXPECT_EQ(completion.unplanned[0].blocked_by, Robots{1});
   EXPECT_EQ(completion.unplanned[1].blocked_by, Robots{2});
@@ -98,7 +98,7 @@ TEST(Complete, GivesThoseUpAsWellThatHaveNoOtherWay) {
 TEST(Complete, TriesHopelessRobotsOnceMore) {
   Planning p(hall(), {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(3.5, 2.5).to(5.5, 0.5)});
   p.state.stand_for_ever(1);
-  const PartialPlan completion = complete(p.state, {0}, {1}, p.never, p.progress);
+  const PartialPlan completion = make_partial_plan(p.state, {0}, {1}, p.never, p.progress);
   EXPECT_TRUE(completion.unplanned.empty()) << "nobody is in its way any more";
   EXPECT_TRUE(p.state.trajectory(1));
   expect_safe(p.state);
@@ -106,7 +106,7 @@ TEST(Complete, TriesHopelessRobotsOnceMore) {
 
 TEST(Complete, PlansNobodyOnceItIsStopped) {
   Planning p(hall(), {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(3.5, 2.5).to(5.5, 0.5)});
-  const PartialPlan completion = complete(p.state, {0, 1}, {}, met(), p.progress);
+  const PartialPlan completion = make_partial_plan(p.state, {0, 1}, {}, met(), p.progress);
   ASSERT_EQ(robots_of(completion), (Robots{0, 1}));
   EXPECT_EQ(static_cast<int>(completion.unplanned[0].reason), static_cast<int>(Reason::budget_exhausted));
   EXPECT_TRUE(completion.cut_off);
@@ -120,7 +120,7 @@ TEST(Complete, TakesPlansBackThatCrossARobotLeftUnplannedWhenStopped) {
       hasty());
   p.state.follow(0, through({{0.5, 3.5}, {6.5, 3.5}}));
   p.state.follow(2, through({{0.5, 4.5}, {6.5, 4.5}}));
-  const PartialPlan completion = complete(p.state, {0, 2, 1}, {}, met(), p.progress);
+  const PartialPlan completion = make_partial_plan(p.state, {0, 2, 1}, {}, met(), p.progress);
   EXPECT_EQ(robots_of(completion), (Robots{0, 1})) << "2 crosses nobody";
   EXPECT_TRUE(p.state.trajectory(2));
   expect_safe(p.state);
