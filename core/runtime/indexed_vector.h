@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace fleetplan::core {
+
+/// A vector whose elements are numbered by `Index`: int, or an enumeration over int so that numbers of
+/// different things cannot be mixed up. Indices are 0 to size() - 1.
+template <class T, class Index = int>
+class IndexedVector {
+ public:
+  IndexedVector() = default;
+  explicit IndexedVector(std::size_t size, const T& value = T()) : items_(size, value) {}
+
+  T& operator[](Index index) { return items_[position(index)]; }
+  const T& operator[](Index index) const { return items_[position(index)]; }
+  T& back() { return items_.back(); }
+  const T& back() const { return items_.back(); }
+
+  std::size_t size() const { return items_.size(); }
+  bool empty() const { return items_.empty(); }
+  /// The index of the next element that is added.
+  Index next_index() const { return static_cast<Index>(items_.size()); }
+
+  /// Adds an element and returns its index.
+  Index push_back(T item) {
+    const Index index = next_index();
+    items_.push_back(std::move(item));
+    return index;
+  }
+  void resize(std::size_t size, const T& value = T()) { items_.resize(size, value); }
+  void clear() { items_.clear(); }
+
+  auto begin() { return items_.begin(); }
+  auto end() { return items_.end(); }
+  auto begin() const { return items_.begin(); }
+  auto end() const { return items_.end(); }
+
+ private:
+  static std::size_t position(Index index) { return static_cast<std::size_t>(index); }
+
+  std::vector<T> items_;
+};
+
+}  // namespace fleetplan::core
