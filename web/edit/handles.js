@@ -19,7 +19,10 @@ export function partAt(world, { session, stage, chosen, event }) {
     return { robot: chosen, pose, turns: true, place: knob };
   }
   const start = part(stage.diskAt(world), "start");
-  const goal = part(stage.diskAt(world, (robot) => robot.goal), "goal");
+  const goal = part(
+    stage.diskAt(world, (robot) => robot.goal),
+    "goal",
+  );
   return event?.shiftKey ? (goal ?? start) : (start ?? goal);
 }
 
@@ -34,7 +37,9 @@ const posesOf = (robot) => (robot.goal ? ["goal", "start"] : ["start"]);
  */
 function handleOf(robot, pose, { scale, time }) {
   const { x, y, theta } = robot[pose];
-  const apart = robot.goal ? Math.hypot(robot.goal.x - robot.start.x, robot.goal.y - robot.start.y) : Infinity;
+  const apart = robot.goal
+    ? Math.hypot(robot.goal.x - robot.start.x, robot.goal.y - robot.start.y)
+    : Infinity;
   const longer = pose === "goal" && apart * scale < 2 * STEM ? LONGER : 0;
   const beyondName = pose === "start" && time === 0 && Math.sin(theta) > 0.7 ? NAME : 0;
   const at = (pixels) => {

@@ -1,13 +1,6 @@
 // What can be done to the chosen robot by buttons and keys; each is one step to undo and is told in words.
 
-import {
-  deleteRobot,
-  duplicateRobot,
-  nameOf,
-  removeGoal,
-  robotsOf,
-  setPose,
-} from "../model/edit_robots.js";
+import { deleteRobot, duplicateRobot, nameOf, removeGoal, robotsOf, setPose } from "../model/edit_robots.js";
 import { nearestFreePlace } from "../model/free_place.js";
 import { degrees } from "../ui/format.js";
 
@@ -41,7 +34,8 @@ export class RobotActions {
     const { request, scene } = this.#session;
     if (index === null) return;
     const start = robot && this.#freePlace(robot, robot.start, scene.robots.map(startDisk));
-    const goal = robot?.goal && this.#freePlace(robot, robot.goal, scene.robots.map(goalDisk).filter(Boolean));
+    const goal =
+      robot?.goal && this.#freePlace(robot, robot.goal, scene.robots.map(goalDisk).filter(Boolean));
     this.#session.edit(duplicateRobot(request, index, start, goal));
     const name = this.#name;
     this.#choice.choose(robotsOf(this.#session.request).length - 1);

@@ -16,7 +16,9 @@ export function watchRobotPicker(session, choice) {
     const names = namesOf(session);
     if (names.join("\n") !== listed.join("\n")) {
       listed = names;
-      list.replaceChildren(...names.map((name, at) => element("option", { value: at - 1, textContent: name })));
+      list.replaceChildren(
+        ...names.map((name, at) => element("option", { value: at - 1, textContent: name })),
+      );
       list.options[0].value = "";
     }
     list.value = choice.index ?? "";

@@ -48,7 +48,13 @@ export class Toolbox {
   #button(name) {
     const { label, key } = this.#tools[name];
     const id = `tool-${name}`;
-    const radio = element("input", { type: "radio", name: "tool", id, value: name, class: "visually-hidden" });
+    const radio = element("input", {
+      type: "radio",
+      name: "tool",
+      id,
+      value: name,
+      class: "visually-hidden",
+    });
     radio.addEventListener("change", () => this.#choose(name));
     this.#radios.set(name, radio);
     const face = element("label", { htmlFor: id, title: `${label} (${key})` }, icon(ICONS[name]), label);

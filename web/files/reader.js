@@ -70,7 +70,7 @@ export class Reader {
         whole
           ? `${alone.name} plans robots that ${whole.name} does not have: open it with its own request.`
           : `${alone.name} is an answer without its request, and of other robots than those shown: ` +
-              "open it together with its request.",
+            "open it together with its request.",
       );
     }
     return opened(whole?.name ?? this.#session.name, request, alone.answer);

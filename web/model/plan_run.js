@@ -19,7 +19,8 @@ export class PlanRun {
   hear(progress) {
     this.progress = progress;
     const { elapsed_ms, best } = progress;
-    if (best !== null && best.flowtime !== this.costs.at(-1)?.flowtime) this.costs.push({ elapsed_ms, ...best });
+    if (best !== null && best.flowtime !== this.costs.at(-1)?.flowtime)
+      this.costs.push({ elapsed_ms, ...best });
   }
 
   stop() {

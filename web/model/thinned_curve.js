@@ -9,7 +9,8 @@ export function thinned({ t, gap }, { from, to }, pixels) {
   let pixel = null; // of the last one kept
   for (let k = 0; k < t.length; k += 1) {
     if (t[k] < from && t[k + 1] < from) continue;
-    const own = t[k] < from || t[k] > to ? Math.sign(t[k] - from) * Infinity : pixelOf(t[k], from, to, pixels);
+    const own =
+      t[k] < from || t[k] > to ? Math.sign(t[k] - from) * Infinity : pixelOf(t[k], from, to, pixels);
     const last = kept.length - 1;
     if (own !== pixel) kept.push(k);
     else if (gap[k] < gap[kept[last]]) kept[last] = k;

@@ -8,7 +8,10 @@ import { count, metres, seconds } from "../ui/format.js";
 const TICK = "M4.5 10.5 8.5 14.5 15.5 6";
 const CROSS = "M5 5 15 15M15 5 5 15";
 const MOST = 100; // violations to list; nobody reads more
-const DISTANCES = { robot_collision: "between their centres", obstacle_collision: "from its centre to the wall" };
+const DISTANCES = {
+  robot_collision: "between their centres",
+  obstacle_collision: "from its centre to the wall",
+};
 
 /** Offers to check the session's plan, and shows what came of it. `stage`: see Stage. */
 export function watchCheck(session, stage) {

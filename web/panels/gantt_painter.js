@@ -132,7 +132,8 @@ function paintRows(context, { layout, ids, session, colours }) {
     paintGround(context, layout, theme, top, robot.id === session.hovered, session.marked.has(robot.id));
     paintLabel(context, layout, theme, { top, robot, track, colour: colours.of(robot.index) });
     clipped(context, layout, top, layout.rowHeight, () => {
-      if (track.status === "planned") paintActions(context, layout, theme, top, track, colours.of(robot.index));
+      if (track.status === "planned")
+        paintActions(context, layout, theme, top, track, colours.of(robot.index));
       else paintStatus(context, layout, theme, top, track);
     });
   }

@@ -82,7 +82,11 @@ export class Inspector {
     const swatch = element("span", { class: `swatch${track.status === "unplanned" ? "" : " filled"}` });
     swatch.style.color = this.#colours.of(robot.index);
     this.#state = element("span", { class: `robot-state ${track.status}` });
-    const close = element("button", { type: "button", class: "icon close", title: "Close (Esc)" }, icon(CROSS));
+    const close = element(
+      "button",
+      { type: "button", class: "icon close", title: "Close (Esc)" },
+      icon(CROSS),
+    );
     close.setAttribute("aria-label", "Close");
     close.addEventListener("click", () => this.#session.select(null));
     const title = element("h2", { class: "robot-id", textContent: robot.id, title: robot.id });
@@ -111,7 +115,11 @@ export class Inspector {
   #table(robot, actions) {
     const body = element("tbody");
     this.#rows = actions.map((action, at) => {
-      const words = element("button", { type: "button", class: "action", textContent: actionInWords(action) });
+      const words = element("button", {
+        type: "button",
+        class: "action",
+        textContent: actionInWords(action),
+      });
       words.addEventListener("click", () => this.#session.seek(action.t_start));
       const what = element("td", {}, words);
       if (action.type === "wait") what.append(...this.#blame(robot, actions, at));

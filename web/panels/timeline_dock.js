@@ -51,7 +51,10 @@ export class TimelineDock {
     if (this.#session.player.playing && now - this.#told < EVERY_MS) return;
     this.#told = now;
     const pair = this.#session.answer === null ? null : this.#fleet.nearestAt(this.#session.player.time);
-    setText(this.#closest, pair === null ? "" : `Closest now: ${pair.ids.join(" and ")}, ${metres(pair.gap)}`);
+    setText(
+      this.#closest,
+      pair === null ? "" : `Closest now: ${pair.ids.join(" and ")}, ${metres(pair.gap)}`,
+    );
   }
 
   #tellLeast() {

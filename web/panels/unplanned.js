@@ -40,4 +40,3 @@ function showUnplanned(unplanned, session) {
   );
   box.append(element("h2", { textContent: "Without a plan" }), element("ul", { class: "stuck" }, ...entries));
 }
-

@@ -32,7 +32,8 @@ export function readTheme() {
   const theme = { robotLightness: Number(style.getPropertyValue("--robot-lightness")) };
   for (const name of NAMES) theme[name] = style.getPropertyValue(`--scene-${name}`).trim();
   theme.states = {};
-  for (const state of Object.keys(STATES_IN_WORDS)) theme.states[state] = style.getPropertyValue(`--state-${state}`).trim();
+  for (const state of Object.keys(STATES_IN_WORDS))
+    theme.states[state] = style.getPropertyValue(`--state-${state}`).trim();
   theme.font = getComputedStyle(document.body).fontFamily;
   return theme;
 }

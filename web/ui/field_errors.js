@@ -28,11 +28,7 @@ export function fieldOf(root, pointer) {
   const fields = [...root.querySelectorAll("[data-pointer]")];
   const above = fields.filter((field) => covers(field.dataset.pointer, pointer));
   above.sort((a, b) => b.dataset.pointer.length - a.dataset.pointer.length);
-  return (
-    above[0] ??
-    fields.find((field) => field.dataset.pointer.startsWith(`${pointer}/`)) ??
-    null
-  );
+  return above[0] ?? fields.find((field) => field.dataset.pointer.startsWith(`${pointer}/`)) ?? null;
 }
 
 function covers(own, pointer) {

@@ -40,7 +40,8 @@ export class NumberField {
     const number = typeof value === "number" ? value : undefined;
     const kept = document.activeElement === this.input && Object.is(number, this.#shown);
     this.#shown = number;
-    this.input.placeholder = value === undefined || number !== undefined ? placeholder : JSON.stringify(value);
+    this.input.placeholder =
+      value === undefined || number !== undefined ? placeholder : JSON.stringify(value);
     if (!kept) this.input.value = number ?? "";
     this.#note.dataset.usual = note;
     this.#tell(kept ? this.#refusal : "");

@@ -58,7 +58,9 @@ function framesOf(events) {
   const { pid, tid } = scripts[0];
   const own = (name) =>
     events
-      .filter((event) => event.name === name && event.pid === pid && event.tid === tid && event.tdur !== undefined)
+      .filter(
+        (event) => event.name === name && event.pid === pid && event.tid === tid && event.tdur !== undefined,
+      )
       .sort((a, b) => a.ts - b.ts);
   const tasks = own("RunTask");
   const drawn = [...scripts, ...DRAWING.flatMap(own)];
@@ -90,7 +92,9 @@ if (!(await page.evaluate(() => window.fleetplan.playing))) throw new Error("the
 await browser.close();
 await service.stop();
 
-console.log(`${answer.plans.length} of ${ROBOTS} robots, ${frames.length} frames in ${SECONDS} s, 1440 × 900 pixels`);
+console.log(
+  `${answer.plans.length} of ${ROBOTS} robots, ${frames.length} frames in ${SECONDS} s, 1440 × 900 pixels`,
+);
 for (const part of ["script", "drawn", "all"]) {
   const times = frames.map((frame) => frame[part]);
   const shown = [0.5, 0.95, 0.99].map((share) => `p${share * 100} ${percentile(times, share).toFixed(1)}`);

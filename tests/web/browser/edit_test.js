@@ -81,13 +81,20 @@ test("walls are drawn and erased with the mouse, a stroke in one step", async ()
   await onPage(async (page) => {
     await editing(page);
     await tool(page, "wall");
-    await drag(page, [{ x: 2.5, y: 5.5 }, { x: 2.5, y: 2.5 }, { x: 4.5, y: 2.5 }]);
+    await drag(page, [
+      { x: 2.5, y: 5.5 },
+      { x: 2.5, y: 2.5 },
+      { x: 4.5, y: 2.5 },
+    ]);
     const walled = ["..#.......", "..#.......", "..#.......", "..###.....", "..........", ".........."];
     assert.deepEqual(await rowsOf(page), walled);
     await press(page, { x: 9.5, y: 5.5 });
     assert.equal((await rowsOf(page))[0], "..#......#");
     await tool(page, "erase");
-    await drag(page, [{ x: 2.5, y: 4.5 }, { x: 2.5, y: 3.5 }]);
+    await drag(page, [
+      { x: 2.5, y: 4.5 },
+      { x: 2.5, y: 3.5 },
+    ]);
     const erased = ["..#......#", "..........", "..........", "..###.....", "..........", ".........."];
     assert.deepEqual(await rowsOf(page), erased);
     await page.click("#undo");
@@ -104,11 +111,16 @@ test("walls are drawn and erased with the mouse, a stroke in one step", async ()
 test("what is drawn is painted, and what is undone no longer", async () => {
   await onPage(async (page) => {
     await editing(page);
-    const [wall, floor] = await Promise.all(["wall", "floor"].map((name) => themeColour(page, `--scene-${name}`)));
+    const [wall, floor] = await Promise.all(
+      ["wall", "floor"].map((name) => themeColour(page, `--scene-${name}`)),
+    );
     const painted = async () => {
       await tool(page, "select"); // no cursor of cells is in the way
       const at = [2.8, 7.8].map((x) => ({ x, y: 4.2 }));
-      return coloursAt(page, await page.evaluate((all) => all.map((each) => window.fleetplan.pointOf(each)), at));
+      return coloursAt(
+        page,
+        await page.evaluate((all) => all.map((each) => window.fleetplan.pointOf(each)), at),
+      );
     };
     const draw = async (x) => {
       await tool(page, "wall");
@@ -128,10 +140,16 @@ test("a box of walls is filled with the mouse, and freed with alt", async () => 
   await onPage(async (page) => {
     await editing(page);
     await tool(page, "box");
-    await drag(page, [{ x: 6.5, y: 3.5 }, { x: 3.5, y: 2.5 }]);
+    await drag(page, [
+      { x: 6.5, y: 3.5 },
+      { x: 3.5, y: 2.5 },
+    ]);
     assert.deepEqual((await rowsOf(page)).slice(2, 4), ["...####...", "...####..."]);
     await page.keyboard.down("Alt");
-    await drag(page, [{ x: 4.5, y: 2.5 }, { x: 5.5, y: 3.5 }]);
+    await drag(page, [
+      { x: 4.5, y: 2.5 },
+      { x: 5.5, y: 3.5 },
+    ]);
     await page.keyboard.up("Alt");
     assert.deepEqual((await rowsOf(page)).slice(2, 4), ["...#..#...", "...#..#..."]);
   });
@@ -143,7 +161,10 @@ test("elsewhere than on the Edit tab a drag moves the view", async () => {
     await tool(page, "wall");
     await page.click("#tab-plan");
     const before = await windowPoint(page, { x: 0, y: 0 });
-    await drag(page, [{ x: 2.5, y: 5.5 }, { x: 2.5, y: 2.5 }]);
+    await drag(page, [
+      { x: 2.5, y: 5.5 },
+      { x: 2.5, y: 2.5 },
+    ]);
     assert.deepEqual(await hook(page, "request"), REQUEST);
     assert.notDeepEqual(await windowPoint(page, { x: 0, y: 0 }), before);
     await page.click("#tab-edit");
@@ -154,21 +175,30 @@ test("elsewhere than on the Edit tab a drag moves the view", async () => {
     await page.mouse.move(x + 60, y, { steps: 4 });
     await page.mouse.up({ button: "middle" });
     assert.deepEqual(await hook(page, "request"), REQUEST);
-    assert.ok(Math.abs((await windowPoint(page, { x: 4.5, y: 2.5 })).x - x - 60) < 12, "the middle button too");
+    assert.ok(
+      Math.abs((await windowPoint(page, { x: 4.5, y: 2.5 })).x - x - 60) < 12,
+      "the middle button too",
+    );
   });
 });
 
 test("robots and goals are dragged and turned with the mouse, each in one step", async () => {
   await onPage(async (page) => {
     await editing(page);
-    await drag(page, [{ x: 0.6, y: 0.4 }, { x: 2.7, y: 2.3 }]);
+    await drag(page, [
+      { x: 0.6, y: 0.4 },
+      { x: 2.7, y: 2.3 },
+    ]);
     const expected = structuredClone(REQUEST);
     const [first] = expected.robots;
     first.start = { x: 2.5, y: 2.5 };
     assert.deepEqual(await hook(page, "request"), expected);
     assert.equal(await hook(page, "selected"), "robot-1");
     await tells(page, "robot-1 starts at (2.5, 2.5) m");
-    await drag(page, [{ x: 8.5, y: 0.5 }, { x: 6.5, y: 3.5 }]);
+    await drag(page, [
+      { x: 8.5, y: 0.5 },
+      { x: 6.5, y: 3.5 },
+    ]);
     first.goal = { x: 6.5, y: 3.5, theta: 0 };
     assert.deepEqual(await hook(page, "request"), expected);
     await turn(page, first.start, 0, { x: 2.6, y: 5 });
@@ -189,12 +219,18 @@ test("with alt a robot lands off the middle of a cell, with shift a robot is giv
     const [first, second] = REQUEST.robots;
     await editing(page, { ...REQUEST, robots: [first, { ...second, goal: undefined }] });
     await page.keyboard.down("Alt");
-    await drag(page, [{ x: 0.5, y: 0.5 }, { x: 2.72, y: 2.31 }]);
+    await drag(page, [
+      { x: 0.5, y: 0.5 },
+      { x: 2.72, y: 2.31 },
+    ]);
     await page.keyboard.up("Alt");
     const { start } = await robotAt(page, 0);
     assert.ok(Math.hypot(start.x - 2.72, start.y - 2.31) < 0.05, JSON.stringify(start));
     await page.keyboard.down("Shift");
-    await drag(page, [{ x: 0.5, y: 4.5 }, { x: 5.4, y: 4.6 }]);
+    await drag(page, [
+      { x: 0.5, y: 4.5 },
+      { x: 5.4, y: 4.6 },
+    ]);
     await page.keyboard.up("Shift");
     assert.deepEqual((await robotAt(page, 1)).goal, { x: 5.5, y: 4.5 });
     assert.deepEqual((await robotAt(page, 1)).start, second.start);
@@ -205,7 +241,10 @@ test("robots are added with the mouse, duplicated and deleted", async () => {
   await onPage(async (page) => {
     await editing(page);
     await tool(page, "robot");
-    await drag(page, [{ x: 4.4, y: 1.6 }, { x: 6.6, y: 2.6 }]);
+    await drag(page, [
+      { x: 4.4, y: 1.6 },
+      { x: 6.6, y: 2.6 },
+    ]);
     const added = { id: "robot-3", ...ROBOT, start: { x: 4.5, y: 1.5 }, goal: { x: 6.5, y: 2.5 } };
     assert.deepEqual(await robotAt(page, 2), added);
     await press(page, { x: 4.5, y: 4.5 });
@@ -355,12 +394,18 @@ test("a fault is shown at the robot's field and in the scene, and goes when it i
       await page.waitForSelector("#problem", { state: "hidden" });
       assert.equal(await page.locator("#panel-edit [aria-invalid]").count(), 0);
       assert.equal(await marks({ x: 0.5, y: 4.5 }), 0);
-      await drag(page, [{ x: 0.5, y: 0.5 }, { x: 4.5, y: 0.5 }]);
+      await drag(page, [
+        { x: 0.5, y: 0.5 },
+        { x: 4.5, y: 0.5 },
+      ]);
       await page.waitForSelector("#robot-start[aria-invalid=true]");
       const told = await page.innerText("#robot-start .field-error");
       assert.match(told, /start does not fit: 0 m where 0\.3 m is needed/);
       assert.ok((await marks({ x: 4.5, y: 0.5 })) > 20);
-      await drag(page, [{ x: 4.5, y: 0.5 }, { x: 6.5, y: 2.5 }]);
+      await drag(page, [
+        { x: 4.5, y: 0.5 },
+        { x: 6.5, y: 2.5 },
+      ]);
       await page.waitForSelector("#problem", { state: "hidden" });
       assert.equal(await page.locator("#robot-start[aria-invalid]").count(), 0);
       assert.equal((await pressPlan(page)).status, "solved");
@@ -433,7 +478,10 @@ test("a request is made from nothing: a new map, walls, robots, a plan", async (
       assert.equal((await judged).status(), 422);
       assert.equal(await page.isVisible("#problem"), false, "that robots are yet to come is no fault");
       await tool(page, "robot");
-      await drag(page, [{ x: 0.75, y: 1.25 }, { x: 3.25, y: 1.25 }]);
+      await drag(page, [
+        { x: 0.75, y: 1.25 },
+        { x: 3.25, y: 1.25 },
+      ]);
       const [robot] = (await hook(page, "request")).robots;
       assert.deepEqual([robot.id, robot.radius, robot.goal], ["robot-1", 0.2, { x: 3.25, y: 1.25 }]);
       assert.equal((await pressPlan(page)).status, "solved");
@@ -450,7 +498,10 @@ test("a request without a map, without robots, or with anything else there can b
         await editing(page, JSON.stringify(request));
         for (const name of ["wall", "box", "select"]) {
           await tool(page, name);
-          await drag(page, [{ x: 0.3, y: 0.3 }, { x: 0.7, y: 0.7 }]);
+          await drag(page, [
+            { x: 0.3, y: 0.3 },
+            { x: 0.7, y: 0.7 },
+          ]);
         }
         await tool(page, "robot");
         await press(page, { x: 0.5, y: 0.5 });
@@ -473,7 +524,10 @@ test("an edit while a plan plays drops the plan, and what is dragged stays under
     });
     const { x, y } = await page.evaluate(() => window.fleetplan.poseOf("robot-2"));
     assert.ok(x > 1.5);
-    await drag(page, [{ x, y }, { x: 5.5, y: 2.5 }]);
+    await drag(page, [
+      { x, y },
+      { x: 5.5, y: 2.5 },
+    ]);
     assert.equal(await hook(page, "answer"), null);
     assert.deepEqual((await robotAt(page, 1)).start, { x: 5.5, y: 2.5 });
   });

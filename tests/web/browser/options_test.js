@@ -30,8 +30,11 @@ test("options are set in the request, and those at their default are left out", 
     await requestIs(page, { ...REQUEST, options });
     const answer = await pressPlan(page);
     assert.deepEqual([answer.status, answer.deterministic], ["solved", true]);
-    await page.click('.option:has(#option-mode) .reset');
-    await requestIs(page, { ...REQUEST, options: { seed: 12, max_iterations: 20, any_angle: false, connectivity: 16 } });
+    await page.click(".option:has(#option-mode) .reset");
+    await requestIs(page, {
+      ...REQUEST,
+      options: { seed: 12, max_iterations: 20, any_angle: false, connectivity: 16 },
+    });
     assert.equal(await hook(page, "answer"), null);
     await page.click("#reset-options");
     await requestIs(page, REQUEST);

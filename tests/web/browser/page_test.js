@@ -294,10 +294,9 @@ test("an error that points to a robot selects it", async () => {
 });
 
 test("an address can name an example", async () => {
-  await onPage(
-    async (page) => assert.equal(await page.inputValue("#example"), "partly-solvable"),
-    { hash: "#partly-solvable" },
-  );
+  await onPage(async (page) => assert.equal(await page.inputValue("#example"), "partly-solvable"), {
+    hash: "#partly-solvable",
+  });
 });
 
 test("text that is not JSON is refused on the spot", async () => {

@@ -137,7 +137,10 @@ test("a plan that gets better draws its falling cost", async () => {
     }, events);
     await page.click("#plan");
     await page.waitForSelector("#cost-curve svg");
-    assert.match(await page.getAttribute("#cost-curve svg", "aria-label"), /from 90\.00 s to 72\.50 s \(−19\.4 %\)/);
+    assert.match(
+      await page.getAttribute("#cost-curve svg", "aria-label"),
+      /from 90\.00 s to 72\.50 s \(−19\.4 %\)/,
+    );
     assert.equal(await page.innerText("#so-far"), "2 of 2 robots planned, attempt 3, flowtime 72.50 s");
     const path = await page.getAttribute("#cost-curve path", "d");
     const heights = [...path.matchAll(/V([\d.]+)/g)].map(([, y]) => Number(y));

@@ -225,7 +225,9 @@ test("rows are sorted by cost, by start of movement, and by delay only where the
     assert.equal((await first("cost")).cost, Math.max(...answer.plans.map(({ cost }) => cost)));
     assert.equal(startOf(await first("start")), Math.min(...answer.plans.map(startOf)));
     const bounded = answer.plans.some((plan) => "lower_bound" in plan);
-    const offered = await page.evaluate(() => !document.querySelector("#timeline-sort [value=delay]").disabled);
+    const offered = await page.evaluate(
+      () => !document.querySelector("#timeline-sort [value=delay]").disabled,
+    );
     assert.equal(offered, bounded);
     assert.equal(await page.locator("#legend-bound").isVisible(), bounded);
     if (!bounded) return;
@@ -323,7 +325,9 @@ test("the dock folds, and its divider makes it taller by keyboard and by draggin
 test("a robot's card lists its actions, marks the one under way and leads to each", async () => {
   await onPage(async (page) => {
     const { answer } = await planned(page, "hospital-ward");
-    const plan = answer.plans.reduce((most, each) => (each.actions.length > most.actions.length ? each : most));
+    const plan = answer.plans.reduce((most, each) =>
+      each.actions.length > most.actions.length ? each : most,
+    );
     await page.locator(`.robot[data-robot="${plan.robot}"]`).click();
     const card = page.locator("#inspector");
     await card.waitFor();
@@ -332,9 +336,11 @@ test("a robot's card lists its actions, marks the one under way and leads to eac
     const at = Math.floor(plan.actions.length / 2);
     await card.locator(".action").nth(at).click();
     await hasTime(page, plan.actions[at].t_start);
-    const current = await card.locator("tbody tr").evaluateAll((rows) =>
-      rows.flatMap((row, index) => (row.getAttribute("aria-current") === "step" ? [index] : [])),
-    );
+    const current = await card
+      .locator("tbody tr")
+      .evaluateAll((rows) =>
+        rows.flatMap((row, index) => (row.getAttribute("aria-current") === "step" ? [index] : [])),
+      );
     assert.deepEqual(current, [at]);
     await page.keyboard.press("Escape");
     await card.waitFor({ state: "hidden" });
@@ -492,7 +498,8 @@ test("what is wrong with a plan is listed, and pressing it shows the moment and 
     assert.ok(collision >= 0);
     const entry = page.locator("#check .violation").nth(collision);
     const words = await entry.innerText();
-    for (const part of ["Robots collide", "comer", "waiter", "needed"]) assert.ok(words.includes(part), words);
+    for (const part of ["Robots collide", "comer", "waiter", "needed"])
+      assert.ok(words.includes(part), words);
     await entry.click();
     await hasTime(page, violations[collision].t);
     assert.equal(await hook(page, "selected"), violations[collision].robots[0]);
@@ -506,7 +513,12 @@ test("what is wrong with a plan is listed, and pressing it shows the moment and 
 });
 
 test("on a phone the timeline is folded at first, a tap on a row selects, the card is below", async () => {
-  const phone = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true, colorScheme: "light" };
+  const phone = {
+    viewport: { width: 390, height: 844 },
+    isMobile: true,
+    hasTouch: true,
+    colorScheme: "light",
+  };
   await onPage(async (page) => {
     const request = await choose(page, "crossing");
     await pressPlan(page);

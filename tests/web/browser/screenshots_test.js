@@ -39,7 +39,9 @@ const STATES = {
     const answer = await pressPlan(page);
     const request = await hook(page, "request");
     const [east, west] = answer.plans;
-    const crash = { plans: [east, { ...west, actions: west.actions.slice(0, 1), cost: west.actions[0].t_end }] };
+    const crash = {
+      plans: [east, { ...west, actions: west.actions.slice(0, 1), cost: west.actions[0].t_end }],
+    };
     const buffer = Buffer.from(JSON.stringify({ ...request, ...answer, ...crash }));
     await page.setInputFiles("#file", { name: "crash.plan.json", mimeType: "application/json", buffer });
     await page.locator(".violation[data-kind=robot_collision]").click();

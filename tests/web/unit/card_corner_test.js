@@ -6,7 +6,13 @@ import { cornerFor } from "../../../web/panels/card_corner.js";
 const CARD = { width: 300, height: 200 };
 const SCENE = { width: 1000, height: 600 };
 const MARGIN = { top: 60, side: 10, bottom: 10 };
-const corner = (...points) => cornerFor(CARD, SCENE, MARGIN, points.map(([x, y]) => ({ x, y })));
+const corner = (...points) =>
+  cornerFor(
+    CARD,
+    SCENE,
+    MARGIN,
+    points.map(([x, y]) => ({ x, y })),
+  );
 
 test("a card goes to the upper right, unless it hides something there", () => {
   assert.equal(corner(), "top-right");

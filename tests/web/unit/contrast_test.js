@@ -38,7 +38,9 @@ const SHAPES = [
 async function themes() {
   const css = await readFile(new URL("../../../web/styles/theme.css", import.meta.url), "utf8");
   const [first, second] = css.split("@media (prefers-color-scheme: dark)").map((part) => {
-    return Object.fromEntries([...part.matchAll(/--([\w-]+): #([0-9a-f]{6})/g)].map(([, name, hex]) => [name, hex]));
+    return Object.fromEntries(
+      [...part.matchAll(/--([\w-]+): #([0-9a-f]{6})/g)].map(([, name, hex]) => [name, hex]),
+    );
   });
   return { light: first, dark: { ...first, ...second } };
 }

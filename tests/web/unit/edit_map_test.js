@@ -96,7 +96,13 @@ test("a map grows and is cut on each side while all else stays where it is", () 
     const row = grid.lines.findIndex((line) => line.includes(letter));
     return centreOf(grid, { column: grid.lines[row].indexOf(letter), row });
   };
-  for (const sides of [{ left: 2 }, { right: 1 }, { top: 3 }, { bottom: 2 }, { left: 1, bottom: 1, top: -1 }]) {
+  for (const sides of [
+    { left: 2 },
+    { right: 1 },
+    { top: 3 },
+    { bottom: 2 },
+    { left: 1, bottom: 1, top: -1 },
+  ]) {
     const resized = resize(REQUEST, sides);
     assert.deepEqual(place(resized, "G"), place(REQUEST, "G"), JSON.stringify(sides));
     assert.equal(resized.robots, REQUEST.robots);

@@ -19,7 +19,13 @@ import { snapHeading, snapPoint, stepped, turned } from "../../../web/model/snap
 const REQUEST = {
   map: { rows: ["....."], resolution: 0.5 },
   robots: [
-    { id: "robot-1", radius: 0.2, linear_speed: 1.5, angular_speed: 2, start: { x: 0.25, y: 0.25, theta: 1 } },
+    {
+      id: "robot-1",
+      radius: 0.2,
+      linear_speed: 1.5,
+      angular_speed: 2,
+      start: { x: 0.25, y: 0.25, theta: 1 },
+    },
     { id: "robot-3", start: { x: 1.25, y: 0.25 }, goal: { x: 2.25, y: 0.25, theta: 0 } },
   ],
 };
@@ -72,7 +78,10 @@ test("a new robot goes on with the others' pattern and is like the last", () => 
   const first = deleteRobot(REQUEST, 1);
   assert.equal(addRobot(first, { x: 1, y: 1 }).robots[1].linear_speed, 1.5);
   const withDefaults = { ...REQUEST, robot_defaults: { radius: 0.1, linear_speed: 1, angular_speed: 1 } };
-  assert.deepEqual(addRobot(withDefaults, { x: 1, y: 1 }).robots[2], { id: "robot-4", start: { x: 1, y: 1 } });
+  assert.deepEqual(addRobot(withDefaults, { x: 1, y: 1 }).robots[2], {
+    id: "robot-4",
+    start: { x: 1, y: 1 },
+  });
 });
 
 test("fresh ids are unique and keep to the pattern", () => {

@@ -27,7 +27,8 @@ const EVENTS = [
 
 test("events are read however they are cut into pieces", async () => {
   for (const text of [STREAM, STREAM.replaceAll("\n", "\r\n")]) {
-    for (const size of [1, 2, 3, 7, 64, 10_000]) assert.deepEqual(await eventsOf(text, size), EVENTS, `${size}`);
+    for (const size of [1, 2, 3, 7, 64, 10_000])
+      assert.deepEqual(await eventsOf(text, size), EVENTS, `${size}`);
   }
 });
 

@@ -67,7 +67,13 @@ test("rows are sorted by what is asked for, and as listed where that is equal or
   const track = (cost, lowerBound, start) => ({
     cost,
     lowerBound,
-    actions: start === null ? [] : [{ type: "wait", t_start: 0 }, { type: "translate", t_start: start }],
+    actions:
+      start === null
+        ? []
+        : [
+            { type: "wait", t_start: 0 },
+            { type: "translate", t_start: start },
+          ],
   });
   const tracks = new Map([
     ["a", track(5, 4, 2)],

@@ -20,13 +20,10 @@ test("time and distance are summed by what the robot does", () => {
 
 test("actions are told with as many digits as say something", () => {
   const drive = (length) => actionInWords(action("translate", 0, 1, pose(0, 0), pose(length, 0)));
-  assert.deepEqual([drive(0.0123), drive(0.5), drive(3.24), drive(12), drive(132.4)], [
-    "drive 0.012 m",
-    "drive 0.5 m",
-    "drive 3.2 m",
-    "drive 12 m",
-    "drive 132 m",
-  ]);
+  assert.deepEqual(
+    [drive(0.0123), drive(0.5), drive(3.24), drive(12), drive(132.4)],
+    ["drive 0.012 m", "drive 0.5 m", "drive 3.2 m", "drive 12 m", "drive 132 m"],
+  );
   assert.equal(actionInWords(action("wait", 2, 3.44, pose(0, 0), pose(0, 0))), "wait 1.4 s");
 });
 

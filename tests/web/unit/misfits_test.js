@@ -13,7 +13,16 @@ const REQUEST = { map: { rows: ["..."] }, robots: [a, b, c] };
 test("robots stand at their starts, and those that have goals at these", () => {
   assert.deepEqual(standingAtStarts(REQUEST), { ...REQUEST, plans: [], tolerance: 1e-9 });
   const { robots, plans } = standingAtGoals(REQUEST);
-  assert.deepEqual([robots, plans], [[{ ...a, start: a.goal }, { ...c, start: c.goal }], []]);
+  assert.deepEqual(
+    [robots, plans],
+    [
+      [
+        { ...a, start: a.goal },
+        { ...c, start: c.goal },
+      ],
+      [],
+    ],
+  );
   assert.equal(standingAtGoals({ ...REQUEST, robots: [b] }), null);
 });
 

@@ -62,13 +62,17 @@ test("a follower tells both ends of a span, forward and back, before and after t
 });
 
 test("a follower tells when the motion changes next", () => {
-  const follower = new Follower(motionOf(ROBOT, [action(1, 3, [0, 0], [2, 0]), action(3, 4, [2, 0], [2, 3])]));
+  const follower = new Follower(
+    motionOf(ROBOT, [action(1, 3, [0, 0], [2, 0]), action(3, 4, [2, 0], [2, 3])]),
+  );
   const next = [0, 1, 2, 3, 3.5, 4, 2.5].map((t) => follower.nextKnot(t));
   assert.deepEqual(next, [1, 3, 3, 4, 4, Infinity, 3]);
 });
 
 test("a span that ends where the robot jumps ends before the jump", () => {
-  const follower = new Follower(motionOf(ROBOT, [action(0, 2, [0, 0], [2, 0]), action(2, 3, [5, 5], [6, 5])]));
+  const follower = new Follower(
+    motionOf(ROBOT, [action(0, 2, [0, 0], [2, 0]), action(2, 3, [5, 5], [6, 5])]),
+  );
   follower.look(1, 2);
   assert.deepEqual([follower.endX, follower.endY], [2, 0]);
   follower.look(2, 3);

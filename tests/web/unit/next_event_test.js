@@ -6,7 +6,10 @@ import { eventTimes, nextEvent } from "../../../web/model/next_event.js";
 const action = (t_start, t_end) => ({ t_start, t_end });
 
 test("the events of some tracks are the ends of all their actions, each once", () => {
-  const tracks = [{ actions: [action(0, 1), action(1, 3)] }, { actions: [action(0, 2), action(2, 3 + 1e-9)] }];
+  const tracks = [
+    { actions: [action(0, 1), action(1, 3)] },
+    { actions: [action(0, 2), action(2, 3 + 1e-9)] },
+  ];
   assert.deepEqual(eventTimes(tracks), [0, 1, 2, 3]);
 });
 

@@ -21,7 +21,9 @@ test("setting an option changes no other and not the request it came from", () =
 });
 
 test("an option at its default is left out, and options that are all left out", () => {
-  assert.deepEqual(withOption({ options: { seed: 3, mode: "anytime" } }, seed, 0), { options: { mode: "anytime" } });
+  assert.deepEqual(withOption({ options: { seed: 3, mode: "anytime" } }, seed, 0), {
+    options: { mode: "anytime" },
+  });
   assert.deepEqual(withOption({ robots: [], options: { seed: 3 } }, seed, 0), { robots: [] });
   assert.deepEqual(withOption({ robots: [] }, seed, 0), { robots: [] });
 });

@@ -11,10 +11,12 @@ test("a pointer is split and unescaped", () => {
 test("pointers to a robot and into it name its index", () => {
   assert.equal(robotIndexOf("/robots/12"), 12);
   assert.equal(robotIndexOf("/robots/0/start/x"), 0);
-  for (const other of ["", "/robots", "/robots/-", "/map/rows/3", "/options"]) assert.equal(robotIndexOf(other), null);
+  for (const other of ["", "/robots", "/robots/-", "/map/rows/3", "/options"])
+    assert.equal(robotIndexOf(other), null);
 });
 
 test("pointers to a row of the map name it", () => {
   assert.equal(mapRowOf("/map/rows/7"), 7);
-  for (const other of ["", "/map", "/map/rows", "/map/resolution", "/robots/1"]) assert.equal(mapRowOf(other), null);
+  for (const other of ["", "/map", "/map/rows", "/map/resolution", "/robots/1"])
+    assert.equal(mapRowOf(other), null);
 });

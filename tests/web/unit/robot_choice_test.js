@@ -8,7 +8,11 @@ import { Session } from "../../../web/model/session.js";
 const at = (x) => ({ radius: 0.3, start: { x, y: 0.5 } });
 const REQUEST = {
   map: { rows: ["....."] },
-  robots: [{ id: "a", ...at(0.5) }, { id: "b", ...at(1.5) }, { id: "c", start: { x: 2.5 } }],
+  robots: [
+    { id: "a", ...at(0.5) },
+    { id: "b", ...at(1.5) },
+    { id: "c", start: { x: 2.5 } },
+  ],
 };
 
 /** A session with the request and the choice among its robots. */

@@ -30,8 +30,20 @@ function begin(service = {}) {
   const frames = [];
   const session = new Session(service, (callback) => frames.push(callback));
   const heard = [];
-  for (const name of ["request", "answer", "planning", "problem", "check", "marks", "time", "playback", "said"]) {
-    session.on(name, (detail) => heard.push(detail === undefined ? name : `${name} ${JSON.stringify(detail)}`));
+  for (const name of [
+    "request",
+    "answer",
+    "planning",
+    "problem",
+    "check",
+    "marks",
+    "time",
+    "playback",
+    "said",
+  ]) {
+    session.on(name, (detail) =>
+      heard.push(detail === undefined ? name : `${name} ${JSON.stringify(detail)}`),
+    );
   }
   return { session, heard, frames };
 }

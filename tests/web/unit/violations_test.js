@@ -24,5 +24,8 @@ test("a collision is seen for as long as the two overlap", () => {
   const violations = [{ kind: "robot_collision", robots: ["a", "b"], t: 5 }];
   const seen = (time) => violationsAt(violations, time, motions).length;
   assert.deepEqual([seen(3.9), seen(4.1), seen(5.9), seen(6.1)], [0, 1, 1, 0]);
-  assert.equal(violationsAt([{ kind: "robot_collision", robots: ["a", "gone"], t: 9 }], 5, motions).length, 0);
+  assert.equal(
+    violationsAt([{ kind: "robot_collision", robots: ["a", "gone"], t: 9 }], 5, motions).length,
+    0,
+  );
 });
