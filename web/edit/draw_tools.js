@@ -1,7 +1,7 @@
 // The tools that make cells wall or floor: freehand and as rectangles.
 
 import { cellAt, cellsAlong, cellsBetween, isFree } from "../model/cells.js";
-import { setCells } from "../model/edit_map.js";
+import { setCells } from "../model/edit_request.js";
 import { count } from "../ui/format.js";
 import { CellCursor } from "./cell_cursor.js";
 

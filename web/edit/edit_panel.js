@@ -1,14 +1,15 @@
-// The Edit tab put together.
+// The Edit tab: its tools, its forms, undo and redo.
 
-import { RobotChoice } from "../model/robot_choice.js";
-import { watchDefaultsForm } from "./defaults_form.js";
-import { watchHistoryButtons } from "./history_buttons.js";
-import { MapForm } from "./map_form.js";
-import { watchNewMapForm } from "./new_map_form.js";
+import { RobotChoice } from "../model/selection.js";
+import { byId, element, icon, setText } from "../ui/dom.js";
+import { BoxTool, DrawTool } from "./draw_tools.js";
+import { MapForm, watchNewMapForm } from "./map_form.js";
 import { RobotActions } from "./robot_actions.js";
-import { RobotForm } from "./robot_form.js";
-import { watchRobotPicker } from "./robot_picker.js";
-import { Toolbox } from "./toolbox.js";
+import { RobotForm, watchDefaultsForm, watchRobotPicker } from "./robot_form.js";
+import { RobotTool } from "./robot_tool.js";
+import { SelectTool } from "./select_tool.js";
+
+const TAB = "tab-edit";
 
 export class EditPanel {
   #toolbox;
@@ -35,4 +36,88 @@ export class EditPanel {
   take(tool) {
     this.#toolbox.take(tool);
   }
+}
+
+const ICONS = {
+  select: "M5 3.5 15.5 9.6 10.8 11l-2.2 4.6z",
+  wall: "M3 5h14v10H3zM3 10h14M10 5v5M6.5 10v5M13.5 10v5",
+  erase: "M8 16l-4.5-4.5L11 4l5.5 5.5L10 16zM7.3 7.7l5.5 5.5M8 16h8.5",
+  box: "M3.5 5.5h13v9h-13zM7.5 5.5l-4 4M12 5.5l-8.5 8.5M16.5 5.5l-9 9M16.5 10l-4.5 4.5",
+  robot: "M14.5 11.5a5.5 5.5 0 1 1-6-6M9 11l3-3M14.5 2.5v6M11.5 5.5h6",
+};
+
+export class Toolbox {
+  #tools;
+  #stage;
+  #tabs;
+  #radios = new Map(); // name -> input
+  #chosen = "select";
+
+  /** `choice`: see RobotChoice; `actions`: see RobotActions. */
+  constructor(session, stage, tabs, choice, actions) {
+    this.#stage = stage;
+    this.#tabs = tabs;
+    this.#tools = {
+      select: { label: "Select", key: "V", tool: new SelectTool(session, stage, choice, actions) },
+      wall: { label: "Wall", key: "W", tool: new DrawTool(session, stage, true) },
+      erase: { label: "Erase", key: "E", tool: new DrawTool(session, stage, false) },
+      box: { label: "Box", key: "B", tool: new BoxTool(session, stage) },
+      robot: { label: "Robot", key: "A", tool: new RobotTool(session, stage, choice, actions) },
+    };
+    byId("tools").replaceChildren(...Object.keys(this.#tools).map((name) => this.#button(name)));
+    tabs.onChange(() => this.#refresh());
+    this.#refresh();
+  }
+
+  /** Takes a tool in hand, on the Edit tab, for use with the keyboard. */
+  take(name) {
+    this.#tabs.choose(TAB);
+    this.#choose(name);
+    this.#stage.canvas.focus();
+  }
+
+  #button(name) {
+    const { label, key } = this.#tools[name];
+    const id = `tool-${name}`;
+    const radio = element("input", {
+      type: "radio",
+      name: "tool",
+      id,
+      value: name,
+      class: "visually-hidden",
+    });
+    radio.addEventListener("change", () => this.#choose(name));
+    this.#radios.set(name, radio);
+    const face = element("label", { htmlFor: id, title: `${label} (${key})` }, icon(ICONS[name]), label);
+    return element("div", { class: "tool" }, radio, face);
+  }
+
+  #choose(name) {
+    this.#chosen = name;
+    this.#refresh();
+  }
+
+  #refresh() {
+    const { tool } = this.#tools[this.#chosen];
+    this.#radios.get(this.#chosen).checked = true;
+    setText(byId("tool-help"), tool.help);
+    setText(byId("tool-keys"), tool.keys);
+    const editing = this.#tabs.chosen === TAB;
+    document.documentElement.classList.toggle("editing", editing);
+    this.#stage.setTool(editing ? tool : null);
+  }
+}
+
+export function watchHistoryButtons(session) {
+  const undo = byId("undo");
+  const redo = byId("redo");
+  undo.addEventListener("click", () => session.undo());
+  redo.addEventListener("click", () => session.redo());
+  session.on("request", () => {
+    const focused = document.activeElement;
+    undo.disabled = !session.canUndo;
+    redo.disabled = !session.canRedo;
+    if (focused === undo && undo.disabled) redo.focus(); // the focus would be lost
+    if (focused === redo && redo.disabled) undo.focus();
+  });
 }

@@ -1,7 +1,7 @@
-// The form of the map: its size by each side, the side of a cell, the place of its corner.
+// The forms of the map: its size by each side, the side of a cell, the place of its corner; and a new, empty map.
 
-import { faultOfSize, resize, setOrigin, setResolution } from "../model/edit_map.js";
-import { byId, element } from "../ui/dom.js";
+import { faultOfSize, newMap, resize, setOrigin, setResolution } from "../model/edit_request.js";
+import { byId, element, setText } from "../ui/dom.js";
 import { NumberField } from "../ui/number_field.js";
 
 const SIDES = { left: "column", right: "column", top: "row", bottom: "row" };
@@ -77,4 +77,20 @@ export class MapForm {
     x.show(request?.map?.origin?.x, { placeholder: "0" });
     y.show(request?.map?.origin?.y, { placeholder: "0" });
   }
+}
+
+/** `begin(request)` opens what is made. */
+export function watchNewMapForm(session, begin) {
+  const form = byId("new-map");
+  const fault = byId("new-map-fault");
+  const number = (id) => byId(id).valueAsNumber;
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const [columns, rows, resolution] = ["new-columns", "new-rows", "new-resolution"].map(number);
+    const wrong = resolution > 0 ? faultOfSize(columns, rows, session.limits) : "A cell is larger than 0 m.";
+    setText(fault, wrong ?? "");
+    if (wrong !== null) return;
+    begin(newMap({ columns, rows, resolution, walled: byId("new-walled").checked }));
+    session.say(`A new map of ${columns} columns and ${rows} rows.`);
+  });
 }

@@ -1,7 +1,7 @@
 // What can be done to the chosen robot by buttons and keys; each is one step to undo and is told in words.
 
-import { deleteRobot, duplicateRobot, nameOf, removeGoal, robotsOf, setPose } from "../model/edit_robots.js";
-import { nearestFreePlace } from "../model/free_place.js";
+import { deleteRobot, duplicateRobot, nameOf, removeGoal, robotsOf, setPose } from "../model/edit_request.js";
+import { nearestFreePlace } from "../model/placement.js";
 import { degrees } from "../ui/format.js";
 
 const ROOM = 2.5; // radii between a start and a goal that is put beside it

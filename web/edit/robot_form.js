@@ -1,8 +1,9 @@
-// The form of the chosen robot.
+// The forms of robots: the list to choose one from, the form of the chosen robot, the defaults of all robots.
 
 import { tidy } from "../model/cells.js";
-import { robotsOf, setRobot } from "../model/edit_robots.js";
-import { byId } from "../ui/dom.js";
+import { nameOf, robotsOf, setDefault, setRobot } from "../model/edit_request.js";
+import { robotIndexOf } from "../model/problem.js";
+import { byId, element, setText } from "../ui/dom.js";
 import { NumberField } from "../ui/number_field.js";
 
 export const ROBOT_NUMBERS = [
@@ -11,6 +12,8 @@ export const ROBOT_NUMBERS = [
   { name: "angular_speed", label: "Turning", unit: "rad/s" },
 ];
 const POSES = ["start", "goal"];
+const HOW_TO_CHOOSE = "Choose a robot here, or press one in the scene.";
+const HOW_TO_ADD = "A request needs at least one robot: take the robot tool and press in the scene.";
 
 export class RobotForm {
   #session;
@@ -108,4 +111,47 @@ export class RobotForm {
     const note = known ? `= ${Number(theta.toFixed(4))} rad` : "";
     fields.theta.show(degrees, { placeholder: otherwise, note });
   }
+}
+
+export function watchRobotPicker(session, choice) {
+  const list = byId("edited-robot");
+  list.addEventListener("change", () => choice.choose(list.value === "" ? null : Number(list.value)));
+  let listed = [];
+  session.on("request problem", () => {
+    const names = namesOf(session);
+    if (names.join("\n") !== listed.join("\n")) {
+      listed = names;
+      list.replaceChildren(
+        ...names.map((name, at) => element("option", { value: at - 1, textContent: name })),
+      );
+      list.options[0].value = "";
+    }
+    list.value = choice.index ?? "";
+    list.disabled = names.length === 1;
+    setText(byId("no-robot"), list.disabled ? HOW_TO_ADD : HOW_TO_CHOOSE);
+  });
+  session.on("marks", () => (list.value = choice.index ?? ""));
+}
+
+/** What to call no robot and each robot in turn. */
+function namesOf({ request, problem }) {
+  const faulty = new Set((problem?.errors ?? []).map(({ pointer = "" }) => robotIndexOf(pointer)));
+  const sign = (index) => (faulty.has(index) ? "⚠ " : "");
+  const names = robotsOf(request).map((_, index) => sign(index) + nameOf(request, index));
+  return [names.length > 0 ? "None chosen" : "No robots yet", ...names];
+}
+
+export function watchDefaultsForm(session) {
+  const fields = ROBOT_NUMBERS.map(({ name, label, unit }) => {
+    const take = (value) => session.edit(setDefault(session.request, name, value), `default ${name}`);
+    const field = new NumberField({ label, unit, take, settle: () => session.endGesture() });
+    field.input.dataset.pointer = `/robot_defaults/${name}`;
+    return [name, field];
+  });
+  byId("default-numbers").append(...fields.map(([, { element }]) => element));
+  session.on("request", () => {
+    for (const [name, field] of fields) {
+      field.show(session.request?.robot_defaults?.[name], { placeholder: "none" });
+    }
+  });
 }

@@ -1,8 +1,8 @@
 // The tool that adds robots.
 
 import { centreOf } from "../model/cells.js";
-import { addRobot, nameOf, robotsOf } from "../model/edit_robots.js";
-import { snapPoint } from "../model/snap.js";
+import { addRobot, nameOf, robotsOf } from "../model/edit_request.js";
+import { snapPoint } from "../model/placement.js";
 import { CellCursor } from "./cell_cursor.js";
 
 let gestures = 0; // for a name of each

@@ -1,6 +1,6 @@
 // The tool that moves and turns robots, by mouse, finger and keys.
 
-import { snapHeading, snapPoint, stepped, turned } from "../model/snap.js";
+import { snapHeading, snapPoint, stepped, turned } from "../model/placement.js";
 import { paintHandles, paintPart, partAt } from "./handles.js";
 
 const ARROWS = {

@@ -1,10 +1,12 @@
 // The page's address says what is open: an example by its name (#name), and any other request itself where it is
 // small enough (#r=…), so that it can be bookmarked, sent and loaded again.
 
-import { isLinkState, LONGEST_LINK, writeLinkState } from "./link_state.js";
+import { FileError } from "../model/problem.js";
 
 const REST_MS = 400; // without a further edit
-const LONGEST_TEXT = 2 ** 20; // characters of a request to compress unasked
+const MOST_TO_COMPRESS = 2 ** 20; // characters of a request to compress unasked
+const PREFIX = "#r=";
+const LONGEST_TEXT = 8 * 2 ** 20; // bytes when inflated: more than any fragment of that length can hold
 
 export class Address {
   #session;
@@ -63,11 +65,93 @@ export class Address {
 
   async #showRequest() {
     const { request, text, turn } = this.#session;
-    const fragment = text.length <= LONGEST_TEXT ? await writeLinkState(request) : "";
+    const fragment = text.length <= MOST_TO_COMPRESS ? await writeLinkState(request) : "";
     if (turn === this.#session.turn) put(fragment.length <= LONGEST_LINK ? fragment : "");
   }
 }
 
 function put(fragment) {
   history.replaceState(null, "", `${location.pathname}${location.search}${fragment}`);
+}
+
+export const LONGEST_LINK = 8000; // characters of the fragment; longer addresses get lost in chats and mails
+
+/** Whether the fragment of an address is meant to hold a request. */
+export const isLinkState = (fragment) => fragment.startsWith(PREFIX);
+
+/** The fragment that holds the request, however long it gets. */
+export async function writeLinkState(request) {
+  const deflated = await passedThrough(
+    new CompressionStream("deflate"),
+    new TextEncoder().encode(JSON.stringify(request)),
+    Infinity,
+  );
+  return PREFIX + toBase64Url(deflated);
+}
+
+/** The request that a fragment holds. Rejects with FileError. */
+export async function readLinkState(fragment) {
+  const damaged = "The link is damaged or cut short: ask for it again, or for the request as a file.";
+  const deflated = fromBase64Url(fragment.slice(PREFIX.length));
+  if (deflated === null || deflated.length === 0) throw new FileError(damaged);
+  let bytes;
+  try {
+    bytes = await passedThrough(new DecompressionStream("deflate"), deflated, LONGEST_TEXT);
+  } catch (error) {
+    throw error instanceof FileError ? error : new FileError(damaged);
+  }
+  try {
+    return JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(bytes));
+  } catch {
+    throw new FileError(damaged);
+  }
+}
+
+/** What a transform makes of the bytes. Rejects when that is more than `most` bytes, without making it all. */
+async function passedThrough(transform, bytes, most) {
+  const writer = transform.writable.getWriter();
+  const written = writer.write(bytes).then(() => writer.close());
+  written.catch(() => {}); // reading fails as well then, and tells
+  const chunks = [];
+  let length = 0;
+  const reader = transform.readable.getReader();
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    length += value.length;
+    if (length > most) {
+      await reader.cancel();
+      throw new FileError(`The link holds more than ${most / 2 ** 20} MiB of text, too much for a request.`);
+    }
+    chunks.push(value);
+  }
+  return joined(chunks, length);
+}
+
+function joined(chunks, length) {
+  const all = new Uint8Array(length);
+  let at = 0;
+  for (const chunk of chunks) {
+    all.set(chunk, at);
+    at += chunk.length;
+  }
+  return all;
+}
+
+function toBase64Url(bytes) {
+  let text = "";
+  for (const byte of bytes) text += String.fromCharCode(byte);
+  return btoa(text).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
+}
+
+/** The bytes, or null if the text is no base64 of URLs. */
+function fromBase64Url(text) {
+  if (!/^[\w-]*$/.test(text)) return null;
+  try {
+    return Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), (letter) =>
+      letter.charCodeAt(0),
+    );
+  } catch {
+    return null;
+  }
 }

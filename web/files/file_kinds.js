@@ -1,7 +1,7 @@
 // What to do with the files that were opened or dropped together, told by their names and how they begin.
 
-import { FileError } from "./file_text.js";
-import { isPng } from "./png.js";
+import { FileError } from "../model/problem.js";
+import { isPng } from "./map_image.js";
 
 const BY_ENDING = {
   json: "json",

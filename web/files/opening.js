@@ -1,28 +1,25 @@
 // What to plan is opened here: an example, files, a text, a link. Whatever was chosen last wins.
 
-import { ProblemError } from "../service/problem.js";
-import { FileError } from "./file_text.js";
-import { readLinkState } from "./link_state.js";
+import { FileError, ProblemError } from "../model/problem.js";
+import { readLinkState } from "./address.js";
 import { Reader } from "./reader.js";
 
 export class Opening {
   #session;
   #fetchExample;
-  #dialogs;
   #show;
   #reader;
   #turn = 0; // counts choices, so that a late one does not replace a newer one
 
   /**
-   * `fetchExample(name)` resolves to an example's text. `dialogs`: see ImportDialogs. `show(part)` brings a part of
+   * `fetchExample(name)` resolves to an example's text. `show(part)` brings a part of
    * the page into sight: "plan", "edit" or "problem".
    */
-  constructor(session, fetchExample, dialogs, show) {
+  constructor(session, fetchExample, show) {
     this.#session = session;
     this.#show = show;
     this.#fetchExample = fetchExample;
-    this.#dialogs = dialogs;
-    this.#reader = new Reader(session, dialogs);
+    this.#reader = new Reader(session);
   }
 
   /** Whether anything was chosen yet. */
@@ -59,7 +56,7 @@ export class Opening {
   /** `read` resolves to what to open, see Reader, or to null if it is not to be opened after all. */
   async #choose(read) {
     const turn = (this.#turn += 1);
-    this.#dialogs.dismiss();
+    this.#reader.dismiss();
     try {
       const opened = await read();
       if (turn !== this.#turn || opened === null) return false;

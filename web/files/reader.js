@@ -1,13 +1,13 @@
-// From files to what is to be opened: {name, example: null, text, request, answer or null}.
+// From files to what to open: {name, example: null, text, request, answer or null}. Dialogs ask where there is a choice.
 
-import { imageNamed, sortFiles } from "./file_kinds.js";
-import { FileError } from "./file_text.js";
-import { readImage } from "./image_pixels.js";
-import { readMovingAiMap } from "./movingai_map.js";
-import { readMovingAiScenario } from "./movingai_scen.js";
-import { belongsTo, readDocument } from "./plan_file.js";
-import { about, bytesOf, headOf, textOf } from "./read_file.js";
+import { belongsTo, readDocument } from "../model/plan_file.js";
+import { FileError } from "../model/problem.js";
+import { HEAD_BYTES, imageNamed, sortFiles } from "./file_kinds.js";
+import { readImage } from "./map_image.js";
+import { readMovingAiMap, readMovingAiScenario } from "./movingai.js";
+import { RosMapDialog } from "./ros_dialog.js";
 import { classifyPixels, readRosYaml } from "./ros_map.js";
+import { ScenarioDialog } from "./scenario_dialog.js";
 
 const SPEEDS = { linear_speed: 1, angular_speed: 3.1416 }; // m/s, rad/s
 const CELL_SHARE = 0.4; // radius of robots that go from cell to cell, of a cell's side
@@ -17,10 +17,14 @@ export class Reader {
   #session;
   #dialogs;
 
-  /** `dialogs`: see ImportDialogs. */
-  constructor(session, dialogs) {
+  constructor(session) {
     this.#session = session;
-    this.#dialogs = dialogs;
+    this.#dialogs = new ImportDialogs(session);
+  }
+
+  /** Closes the dialog that is open, if one is. */
+  dismiss() {
+    this.#dialogs.dismiss();
   }
 
   /** What files (File) are together; null if the dialog about them is given up. Rejects with FileError. */
@@ -129,4 +133,73 @@ function readJson(text) {
     throw new FileError(`It is not JSON: ${error.message}.`);
   }
   return readDocument(document);
+}
+
+/** The first bytes of a file, enough to tell its kind. */
+export const headOf = (file) =>
+  reading(file, async () => bytesIn(await file.slice(0, HEAD_BYTES).arrayBuffer()));
+
+export const textOf = (file) => reading(file, () => file.text());
+
+export const bytesOf = (file) => reading(file, async () => bytesIn(await file.arrayBuffer()));
+
+/** What `read` makes of a file's content, or resolves to; the file is named in the FileError it may end with. */
+export function about({ name }, read) {
+  const named = (error) => {
+    throw error instanceof FileError ? new FileError(`${name}: ${error.message}`) : error;
+  };
+  try {
+    const made = read();
+    return made instanceof Promise ? made.catch(named) : made;
+  } catch (error) {
+    return named(error);
+  }
+}
+
+function bytesIn(buffer) {
+  return new Uint8Array(buffer);
+}
+
+async function reading({ name }, read) {
+  try {
+    return await read();
+  } catch {
+    throw new FileError(`${name} cannot be read. Is it a folder, or was it moved or changed meanwhile?`);
+  }
+}
+
+/** The dialogs about files that leave a choice; one at a time. */
+class ImportDialogs {
+  #session;
+  #shown = null;
+
+  constructor(session) {
+    this.#session = session;
+  }
+
+  /** Resolves to a request with robots of a scenario, or to null if that is given up. */
+  scenario(name, map, entries, defaults) {
+    const most = this.#session.limits.max_robots ?? Infinity;
+    return this.#ask(new ScenarioDialog(name, map, entries, defaults, most));
+  }
+
+  /** Resolves to the map of a request, or to null if that is given up. */
+  rosMap(name, grid, warnings) {
+    const most = this.#session.limits.max_cells ?? Infinity;
+    return this.#ask(new RosMapDialog(name, grid, warnings, most));
+  }
+
+  /** Gives up whatever is asked. */
+  dismiss() {
+    this.#shown?.giveUp();
+  }
+
+  async #ask(dialog) {
+    this.#shown = dialog;
+    try {
+      return await dialog.ask();
+    } finally {
+      if (this.#shown === dialog) this.#shown = null;
+    }
+  }
 }

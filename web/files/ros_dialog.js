@@ -1,9 +1,9 @@
 // Asks what to make of a ROS map: its unknown cells, its margin, and how many cells become one.
 
+import { MapPreview } from "../scene/map_raster.js";
 import { element, setText } from "../ui/dom.js";
 import { FormDialog, numberField } from "../ui/form_dialog.js";
 import { metres } from "../ui/format.js";
-import { MapPreview } from "./map_preview.js";
 import {
   countCells,
   mapOfGrid,

@@ -3,9 +3,9 @@
 // A grid here is {columns, rows, cells, resolution, origin}: `cells` row by row from the top, `resolution` in
 // metres, `origin` {x, y} the lower-left corner.
 
-import { plusTimes } from "./exact_decimal.js";
-import { FileError } from "./file_text.js";
-import { readYaml } from "./yaml_lite.js";
+import { FileError } from "../model/problem.js";
+import { plusTimes } from "./text.js";
+import { readYaml } from "./yaml.js";
 
 export const FREE = 0;
 export const OCCUPIED = 1;

@@ -1,11 +1,9 @@
-// The menu that takes away what is shown: as files, as a command line, as a link.
+// The Save menu: what is shown as files, as a command line, as a link.
 
-import { byId, setText } from "../ui/dom.js";
+import { planFile } from "../model/plan_file.js";
+import { byId, makeClosable, setText } from "../ui/dom.js";
 import { count } from "../ui/format.js";
-import { makeClosable } from "../ui/menu.js";
-import { copyText, curlCommand, fileStem, saveBlob, saveText } from "./exports.js";
-import { LONGEST_LINK } from "./link_state.js";
-import { planFile } from "./plan_file.js";
+import { LONGEST_LINK } from "./address.js";
 
 const TOLD_MS = 1500;
 
@@ -59,4 +57,54 @@ async function copyFrom(button, text, session) {
   setText(button, (await copyText(text)) ? "Copied" : "Could not copy");
   session.say(button.textContent);
   setTimeout(() => setText(button, label), TOLD_MS);
+}
+
+/** Saves a text of JSON as a file. */
+export function saveText(name, text) {
+  saveBlob(name, new Blob([text], { type: "application/json" }));
+}
+
+export function saveBlob(name, blob) {
+  const address = URL.createObjectURL(blob);
+  const link = document.createElement("a");
+  link.href = address;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
+/** A file name, without its ending, for a request's name. */
+export function fileStem(name) {
+  return name.replace(/(\.plan)?\.(json|map|scen|ya?ml)$/i, "").replace(/[^\w.-]+/g, "-") || "request";
+}
+
+/** The command that plans the request from a POSIX shell; examples are fetched, other requests inlined. */
+export function curlCommand({ example, text }, base) {
+  const post = `curl -sS ${new URL("v1/plan", base)} -H 'Content-Type: application/json' --data-binary @-`;
+  if (example !== null)
+    return `curl -sS ${new URL(`v1/examples/${encodeURIComponent(example)}`, base)} | ${post}`;
+  return `${post} <<'JSON'\n${text}\nJSON\n`;
+}
+
+/** Whether the text could be put on the clipboard. */
+export async function copyText(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return copyThroughSelection(text); // no clipboard API without a secure context
+  }
+}
+
+function copyThroughSelection(text) {
+  const before = document.activeElement;
+  const area = document.createElement("textarea");
+  area.className = "visually-hidden";
+  area.value = text;
+  document.body.append(area);
+  area.select();
+  const copied = document.execCommand("copy");
+  area.remove();
+  before?.focus();
+  return copied;
 }

@@ -1,11 +1,11 @@
 // Asks how many robots of a scenario to take, and what they are like.
 
+import { MapPreview } from "../scene/map_raster.js";
 import { robotColour } from "../scene/palette.js";
 import { element, setText } from "../ui/dom.js";
 import { FormDialog, numberField } from "../ui/form_dialog.js";
 import { count } from "../ui/format.js";
-import { MapPreview } from "./map_preview.js";
-import { scenarioRequest } from "./movingai_scen.js";
+import { scenarioRequest } from "./movingai.js";
 
 const FIRST_COUNT = 10; // robots, if there are as many
 
@@ -18,7 +18,7 @@ export class ScenarioDialog {
   #dialog;
   #made = null; // of the present fields: {request, passedOver}; null where one is not filled in
 
-  /** `entries` on `map`: see movingai_scen.js. At most `most` robots. `defaults`: those to begin with. */
+  /** `entries` on `map`: see readMovingAiScenario. At most `most` robots. `defaults`: those to begin with. */
   constructor(name, map, entries, defaults, most) {
     this.#map = map;
     this.#entries = entries;

@@ -3,7 +3,9 @@
 
 import { ClearanceSweep } from "./clearance.js";
 import { motionOf } from "./motion.js";
-import { Signals } from "./signal.js";
+import { Signals } from "./signals.js";
+
+const WORKER = new URL("./clearance_worker.js", import.meta.url);
 
 export class FleetMotion {
   #session;
@@ -68,4 +70,22 @@ export class FleetMotion {
     const { robots } = this.#session.scene;
     return [Math.min(first, second), Math.max(first, second)].map((at) => robots[at].id);
   }
+}
+
+/**
+ * A function (motions, told) that calls `told` with clearanceOf the motions, unless it is called again before.
+ */
+export function clearanceJob() {
+  let worker = null;
+  let busy = false;
+  return (motions, told) => {
+    if (busy) worker.terminate();
+    if (busy || worker === null) worker = new Worker(WORKER, { type: "module" });
+    busy = true;
+    worker.onmessage = ({ data }) => {
+      busy = false;
+      told(data);
+    };
+    worker.postMessage(motions);
+  };
 }

@@ -1,5 +1,6 @@
-// A robot's actions in words and figures. Pure. Seconds, metres, radians.
+// A robot's actions in words and figures, and the robot that each wait is for. Pure. Seconds, metres, radians.
 
+import { firstOverlap, motionOf } from "./motion.js";
 import { turnBetween } from "./timeline.js";
 
 const WHOLE_TURN = 2 * Math.PI;
@@ -32,4 +33,33 @@ function short(value) {
   if (value >= 99.95) return value.toFixed(0);
   if (value >= 0.95) return String(Number(value.toFixed(1)));
   return String(Number(value.toPrecision(2)));
+}
+
+/**
+ * The robot that actions[index], a wait of the robot `id`, is for: all that follows is brought forward to the
+ * start of the wait, and followed to the end of the plan. {robot, t} of the first other robot hit and when, or
+ * null if none is. `fleet` is the ids and motions of all robots; `margin` is a distance that counts as hit, 0
+ * for contact.
+ */
+export function waitedFor(id, actions, index, fleet, margin = 0) {
+  const hasty = motionWithout(actions, index, fleet.get(id).radius);
+  const from = actions[index].t_start;
+  const until = actions[actions.length - 1].t_end;
+  let found = null;
+  for (const [other, motion] of fleet) {
+    if (other === id) continue;
+    const t = firstOverlap(hasty, motion, from, found?.t ?? until, margin);
+    if (t !== null && (found === null || t < found.t)) found = { robot: other, t };
+  }
+  return found;
+}
+
+/** How the robot moves from the start of the wait on if it does not wait. */
+function motionWithout(actions, index, radius) {
+  const { t_start, t_end, to } = actions[index];
+  const earlier = t_end - t_start;
+  const rest = actions
+    .slice(index + 1)
+    .map((action) => ({ ...action, t_start: action.t_start - earlier, t_end: action.t_end - earlier }));
+  return motionOf({ start: to, radius }, rest);
 }

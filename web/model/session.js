@@ -16,15 +16,14 @@
 //
 // Nobody changes what they get from here: a request is edited by handing over another one.
 
-import { ProblemError } from "../service/problem.js";
-import { Focus } from "./focus.js";
 import { History } from "./history.js";
+import { planFile } from "./plan_file.js";
 import { PlanRun } from "./plan_run.js";
-import { Playback } from "./playback.js";
-import { planFile } from "../files/plan_file.js";
-import { Player } from "./player.js";
+import { Playback, Player } from "./playback.js";
+import { ProblemError } from "./problem.js";
 import { readScene, readTracks, robotPoseAt, robotStateAt } from "./scene.js";
-import { Signals } from "./signal.js";
+import { Focus } from "./selection.js";
+import { Signals } from "./signals.js";
 
 const EMPTY = { name: "", example: null, text: "", request: null };
 
@@ -156,7 +155,7 @@ export class Session {
     this.#focus.keep(this.#robots);
     this.#setAnswer(null);
     this.#signals.emit("request", { opened });
-    if (opened) this.setProblem(null); // that of an edited request stays until it is judged again, see live_check.js
+    if (opened) this.setProblem(null); // that of an edited request stays until it is judged again, see checks.js
     this.#signals.emit("answer");
     this.#signals.emit("marks");
   }

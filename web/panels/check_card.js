@@ -1,7 +1,7 @@
 // What the service says of the plan shown: valid, or what is wrong with it and when. Pressing a violation shows
 // it.
 
-import { kindInWords } from "../model/violations.js";
+import { kindInWords } from "../model/checks.js";
 import { byId, element, icon } from "../ui/dom.js";
 import { count, metres, seconds } from "../ui/format.js";
 

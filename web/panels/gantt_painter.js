@@ -1,10 +1,8 @@
 // Paints the timeline: the smallest gap over time, an axis of time, and a row a robot. What a robot does is
 // told by form: driving is a full bar, turning half a bar, waiting an open one. Sizes in CSS pixels.
 
-import { rowsSeen, xOf, yOf } from "../model/gantt.js";
-import { thinned } from "../model/thinned_curve.js";
-import { ticks } from "../model/time_range.js";
-import { REASONS } from "./unplanned.js";
+import { rowsSeen, thinned, ticks, xOf, yOf } from "../model/gantt.js";
+import { REASONS } from "./summary.js";
 
 export const STRIP = 44; // the height of the curve above the rows
 export const AXIS = 20; // the height of the axis between
@@ -16,6 +14,7 @@ const LEAST_BAR = 1; // so that a short action is seen at all
 const CONTACT = 1e-6; // metres: nearer is contact, further overlapping a collision
 const FONT = 12;
 const HINT = "Plan to see who moves, turns and waits when";
+const STATUS = { parked: "Parked", ready: "" };
 
 /**
  * `chart` has layout (see model/gantt.js, whose rows begin below the strip and the axis), ids (row by row),
@@ -197,8 +196,6 @@ function paintStatus(context, layout, theme, top, { status, unplanned }) {
   context.fillStyle = unplanned ? theme.danger : theme.muted;
   context.fillText(text, layout.left + PAD, top + layout.rowHeight / 2 + 0.5);
 }
-
-const STATUS = { parked: "Parked", ready: "" };
 
 /** Paints within the part of the chart that is about time. */
 function clipped(context, { left, width }, top, height, paint) {

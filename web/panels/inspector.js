@@ -1,15 +1,13 @@
 // The card of the selected robot: what it costs, how it spends its time, and its actions one by one, with what
 // each wait is for.
 
-import { waitedFor } from "../model/blame.js";
 import { delayOf } from "../model/gantt.js";
-import { actionInWords, totals } from "../model/itinerary.js";
+import { actionInWords, totals, waitedFor } from "../model/itinerary.js";
 import { actionIndexAt } from "../model/timeline.js";
 import { byId, element, icon, scrollWithin, setText } from "../ui/dom.js";
 import { seconds } from "../ui/format.js";
-import { cornerFor } from "./card_corner.js";
-import { robotChip } from "./robot_chip.js";
-import { REASONS } from "./unplanned.js";
+import { robotChip } from "./robot_list.js";
+import { REASONS } from "./summary.js";
 
 const EDITING = "tab-edit"; // whose form has what there is to know of a robot, and needs the scene
 const CROSS = "M5 5 15 15M15 5 5 15";
@@ -20,6 +18,8 @@ const WHY_STILL = {
   planned: "It is at its goal and need not move.",
   ready: "The plan says nothing of it: it stays where it is.",
 };
+
+const CORNERS = ["top-right", "bottom-right", "bottom-left"]; // those liked best first
 
 export class Inspector {
   #session;
@@ -205,4 +205,18 @@ function sharesOf({ moving, turning, waiting, distance }) {
   const words = spent.map(([doing, time]) => `${doing} ${time.toFixed(1)} s`);
   words.push(`${distance.toFixed(1)} m travelled`);
   return element("div", {}, bar, element("p", { class: "note", textContent: words.join(" · ") }));
+}
+
+/**
+ * The corner for a card of some width and height in a scene {width, height}, `margin` {top, side, bottom} away
+ * from its edges, that covers the fewest of the points.
+ */
+export function cornerFor({ width, height }, scene, margin, points) {
+  const covered = CORNERS.map((corner) => {
+    const left = corner.endsWith("left") ? margin.side : scene.width - margin.side - width;
+    const top = corner.startsWith("top") ? margin.top : scene.height - margin.bottom - height;
+    const isUnder = ({ x, y }) => x >= left && x <= left + width && y >= top && y <= top + height;
+    return points.filter(isUnder).length;
+  });
+  return CORNERS[covered.indexOf(Math.min(...covered))];
 }

@@ -1,15 +1,67 @@
-// What went wrong, with each error's place: pressing an error leads there.
+// The problem card, and its errors at their places: robots and rows in the scene, fields in the panels. Pressing a listed
+// error leads to its place.
 
-import { nameOf } from "../model/edit_robots.js";
-import { mapRowOf, robotIndexOf } from "../model/pointer.js";
+import { nameOf, robotsOf } from "../model/edit_request.js";
+import { mapRowOf, robotIndexOf } from "../model/problem.js";
+import { markRow, markWrong } from "../scene/marks.js";
 import { byId, element } from "../ui/dom.js";
+import { fieldOf, showFieldErrors } from "../ui/field_errors.js";
 import { count } from "../ui/format.js";
 
+const FORMS = ["panel-edit", "panel-options"];
 const MOST_ERRORS = 100; // to list; nobody reads more
 
-/** Shows the session's problem. `show(pointer)` leads to the place of an error. */
-export function watchProblem(session, show) {
-  session.on("problem", () => showProblem(session.problem, session.request, show));
+/** Shows the session's problem and marks its errors at their places. `choice`: see RobotChoice. */
+export function watchProblem(session, stage, tabs, choice) {
+  const errors = () => session.problem?.errors ?? [];
+  const forms = FORMS.map((id) => document.getElementById(id));
+
+  const refresh = () => {
+    for (const form of forms) showFieldErrors(form, errors());
+  };
+  session.on("problem marks", refresh); // marks: the form may have turned to another robot
+  session.on("problem", () => stage.redraw());
+
+  stage.addOverlay((context, view) => {
+    for (const { pointer = "" } of errors()) {
+      const disk = diskOf(session, pointer);
+      const row = mapRowOf(pointer);
+      if (row !== null && session.scene.grid) markRow(context, view, session.scene.grid, row);
+      if (disk) markWrong(context, view, disk, disk.radius);
+    }
+  });
+
+  const lead = (pointer) => {
+    const index = robotIndexOf(pointer);
+    const disk = diskOf(session, pointer);
+    if (index !== null) choice.choose(index);
+    if (disk) stage.reveal(disk);
+    refresh();
+    const form = forms.find((each) => fieldOf(each, pointer) !== null);
+    if (form) focusOn(fieldOf(form, pointer), tabs);
+  };
+  session.on("problem", () => showProblem(session.problem, session.request, lead));
+}
+
+/** Leads to a field, or to the first of a group of fields, wherever it is folded away. */
+function focusOn(field, tabs) {
+  tabs.reveal(field);
+  const details = field.closest("details");
+  if (details) details.open = true;
+  const control = field.matches("input, select") ? field : field.querySelector("input, select");
+  control.focus();
+}
+
+/**
+ * Where a robot that an error is about has its start or, if the error is about that, its goal: {x, y, radius}, metres;
+ * null if there is none. A robot may be too faulty to be drawn and yet have a place.
+ */
+function diskOf({ request, scene }, pointer) {
+  const robot = robotsOf(request)[robotIndexOf(pointer)];
+  const pose = (/^\/robots\/\d+\/goal/.test(pointer) && robot?.goal) || robot?.start;
+  if (!Number.isFinite(pose?.x) || !Number.isFinite(pose?.y)) return null;
+  const radius = robot.radius ?? request.robot_defaults?.radius;
+  return { x: pose.x, y: pose.y, radius: radius > 0 ? radius : (scene.grid?.resolution ?? 1) / 2 };
 }
 
 /** Brings the problem into sight where the page is longer than the window, as on a phone. */

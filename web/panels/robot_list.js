@@ -1,4 +1,4 @@
-// The list of robots with what each does now.
+// The list of robots with their current states, and robots named in a text.
 
 import { byId, element, scrollWithin, setText } from "../ui/dom.js";
 import { count, seconds } from "../ui/format.js";
@@ -12,7 +12,7 @@ export class RobotList {
   #rows = new Map(); // id -> {button, state}
   #updated = -Infinity;
 
-  /** `colours`: see scene/robot_colours.js. */
+  /** `colours`: see RobotColours. */
   constructor(session, colours) {
     this.#session = session;
     this.#colours = colours;
@@ -89,4 +89,13 @@ export class RobotList {
   }
 
   #revealed = null;
+}
+
+/** A button that names a robot and selects it. */
+export function robotChip(session, id) {
+  const button = element("button", { type: "button", class: "chip", textContent: id, "data-chip": id });
+  button.addEventListener("click", () => session.select(id));
+  button.addEventListener("pointerenter", () => session.hover(id));
+  button.addEventListener("pointerleave", () => session.hover(null));
+  return button;
 }

@@ -1,7 +1,8 @@
-// The figures of an answer.
+// The outcome of planning: the figures of the answer, and the robots without a plan with the reasons.
 
 import { byId, element, icon } from "../ui/dom.js";
 import { count, metres, milliseconds, seconds } from "../ui/format.js";
+import { robotChip } from "./robot_list.js";
 
 const TICK = "M4.5 10.5 8.5 14.5 15.5 6";
 const CROSS = "M5 5 15 15M15 5 5 15";
@@ -13,8 +14,9 @@ const OUTCOMES = {
   none: { text: "No robot planned", tone: "bad", path: CROSS },
 };
 
-/** The parts of timings_ms beside planning itself, in words. */
 const PARTS = { queue: "queue", parse: "parse", verify: "check", serialize: "write" };
+
+/** The parts of timings_ms beside planning itself, in words. */
 
 /** A sentence that says how planning ended. */
 export function summarize(answer) {
@@ -109,4 +111,42 @@ function warningList(warnings) {
     { class: "warnings", "aria-label": "Warnings" },
     ...texts.map((textContent) => element("li", { textContent })),
   );
+}
+
+/** Reasons of /v1/plan in words. */
+export const REASONS = {
+  start_blocked: "Start blocked",
+  goal_blocked: "Goal blocked",
+  goal_unreachable: "Goal unreachable",
+  blocked_by_robots: "Blocked by other robots",
+  budget_exhausted: "Out of time",
+};
+
+/** Lists the robots that the session's answer leaves without a plan. */
+export function watchUnplanned(session) {
+  session.on("answer", () => showUnplanned(session.answer?.unplanned ?? [], session));
+}
+
+function showUnplanned(unplanned, session) {
+  const box = byId("unplanned");
+  box.hidden = unplanned.length === 0;
+  box.replaceChildren();
+  if (unplanned.length === 0) return;
+  const entries = unplanned.map(({ robot, reason, detail, blocked_by }) =>
+    element(
+      "li",
+      { class: "card" },
+      element(
+        "div",
+        { class: "chips" },
+        robotChip(session, robot),
+        element("span", { class: "reason", textContent: REASONS[reason] ?? reason }),
+      ),
+      detail ? element("p", { textContent: detail }) : null,
+      blocked_by?.length > 0
+        ? element("div", { class: "chips" }, "In the way:", ...blocked_by.map((id) => robotChip(session, id)))
+        : null,
+    ),
+  );
+  box.append(element("h2", { textContent: "Without a plan" }), element("ul", { class: "stuck" }, ...entries));
 }

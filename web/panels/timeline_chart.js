@@ -1,14 +1,12 @@
 // The timeline's chart on the page: it scrolls, zooms, is pointed at and steered by keys. The picture is
 // painted when something in it changes; while a plan plays, only the playhead moves.
 
-import { orderRows, rowAt, scrollToRow, timeAt, xOf } from "../model/gantt.js";
-import { panTime, revealTime, zoomTime } from "../model/time_range.js";
+import { orderRows, panTime, revealTime, rowAt, scrollToRow, timeAt, xOf, zoomTime } from "../model/gantt.js";
 import { byId } from "../ui/dom.js";
 import { seconds } from "../ui/format.js";
-import { wheelFactor, wheelTravel } from "../ui/wheel.js";
+import { wheelFactor, wheelTravel } from "../ui/input.js";
 import { AXIS, paintGantt, STRIP } from "./gantt_painter.js";
-import { watchPinching } from "./pinching.js";
-import { watchScrubbing } from "./scrubbing.js";
+import { watchPinching, watchScrubbing } from "./timeline_gestures.js";
 
 const LABELS = { wide: 132, narrow: 108 }; // pixels for the robots' names
 const NARROW = 560; // pixels

@@ -1,6 +1,6 @@
 // The bar below the scene: play and pause, steps from event to event, scrubber, clock, speed, loop.
 
-import { eventTimes, nextEvent } from "../model/next_event.js";
+import { eventTimes, nextEvent } from "../model/playback.js";
 import { byId, setText } from "../ui/dom.js";
 
 const KEY_STEP = 0.25; // seconds

@@ -1,6 +1,6 @@
 // Pointer, wheel and pinch on the scene, told as camera movements. Positions in CSS pixels within the element.
 
-import { wheelFactor } from "../ui/wheel.js";
+import { wheelFactor } from "../ui/input.js";
 
 const CLICK_SLACK = 4; // pixels: a press that moved less is a click
 const TOUCH_SLACK = 10; // pixels, likewise: before a finger draws, a second one may come to pinch

@@ -1,6 +1,10 @@
 // The map as images, a pixel a cell, made once; drawing it at any zoom is then a matter of a few copies.
 
+import { element } from "../ui/dom.js";
+import { readTheme } from "./palette.js";
+
 const TILE = 2048; // cells a side: canvases of any browser and memory hold that
+const MOST_CELLS = 2 ** 24; // to paint as fast as one types
 
 /** The map of a grid (see readScene) as tiles: blocked cells in the wall's colour, free ones clear. */
 export class MapRaster {
@@ -93,4 +97,39 @@ function rgbaOf(colour) {
   context.fillStyle = colour;
   context.fillRect(0, 0, 1, 1);
   return new Uint32Array(context.getImageData(0, 0, 1, 1).data.buffer)[0];
+}
+
+export class MapPreview {
+  canvas = element("canvas", { class: "map-preview", role: "img" });
+
+  /**
+   * Paints a map of so many cells. `layers` says which in which colour: [{cells, colour}], `cells` row by row
+   * from the top, 0 for none, `colour` a name in the theme. `label` describes it. `mark(context, theme, place)`
+   * may add to it, where place(column, row) is the middle of a cell {x, y} with `cell`, a cell's side, in pixels.
+   */
+  paint({ columns, rows }, layers, label, mark = () => {}) {
+    const { canvas } = this;
+    const ratio = window.devicePixelRatio || 1;
+    canvas.setAttribute("aria-label", label);
+    canvas.width = Math.round(canvas.clientWidth * ratio);
+    canvas.height = Math.round(canvas.clientHeight * ratio);
+    if (canvas.width === 0 || canvas.height === 0) return;
+    const theme = readTheme();
+    const context = canvas.getContext("2d");
+    const cell = Math.min(canvas.width / columns, canvas.height / rows);
+    const left = (canvas.width - columns * cell) / 2;
+    const top = (canvas.height - rows * cell) / 2;
+    context.fillStyle = theme.floor;
+    context.fillRect(left, top, columns * cell, rows * cell);
+    for (const { cells, colour } of columns * rows <= MOST_CELLS ? layers : []) {
+      const raster = new MapRaster();
+      raster.show({ columns, rows, blocked: cells }, theme[colour]);
+      raster.draw(context, left, top, cell);
+    }
+    mark(context, theme, (column, row) => ({
+      x: left + (column + 0.5) * cell,
+      y: top + (row + 0.5) * cell,
+      cell,
+    }));
+  }
 }

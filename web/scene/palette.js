@@ -1,9 +1,12 @@
 // Colours. What the canvas draws with comes from the style sheet's custom properties, so that light and dark
 // are decided in one place; robots get hues of even strength that stay readable on either.
 
+import { Signals } from "../model/signals.js";
+
 // Degrees in OKLCH, ordered so that neighbours differ most; red is kept for what went wrong.
 const HUES = [256, 62, 150, 325, 200, 98, 290, 175, 46, 232, 128, 345];
 const GOLDEN_ANGLE = 137.508;
+const NAMES = ["void", "floor", "wall", "grid", "edge", "ink", "muted", "danger", "accent"];
 
 /** The colour of the robot at an index, as a CSS colour; `lightness` in [0, 1]. */
 export function robotColour(index, lightness) {
@@ -12,8 +15,6 @@ export function robotColour(index, lightness) {
   const shade = lightness + [0, -0.09, 0.08][round % 3];
   return `oklch(${shade.toFixed(3)} 0.145 ${hue.toFixed(1)})`;
 }
-
-const NAMES = ["void", "floor", "wall", "grid", "edge", "ink", "muted", "danger", "accent"];
 
 /** What robots do, see robotStateAt, in words for a legend. */
 export const STATES_IN_WORDS = {
@@ -36,4 +37,30 @@ export function readTheme() {
     theme.states[state] = style.getPropertyValue(`--state-${state}`).trim();
   theme.font = getComputedStyle(document.body).fontFamily;
   return theme;
+}
+
+export class RobotColours {
+  #signals = new Signals();
+  #theme = readTheme();
+
+  constructor() {
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+      this.#theme = readTheme();
+      this.#signals.emit("change");
+    });
+  }
+
+  /** What the canvas paints with, see readTheme. */
+  get theme() {
+    return this.#theme;
+  }
+
+  /** The colour of the robot at an index of the request. */
+  of(index) {
+    return robotColour(index, this.#theme.robotLightness);
+  }
+
+  onChange(listener) {
+    this.#signals.on("change", listener);
+  }
 }

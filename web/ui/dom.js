@@ -1,5 +1,7 @@
 // Building elements: text always goes in as text, styles through the CSSOM.
 
+const SVG = "http://www.w3.org/2000/svg";
+
 /** An element with properties (and `class`, `aria-*`, `data-*` attributes) and children, nodes or strings. */
 export function element(tag, properties = {}, ...children) {
   const made = document.createElement(tag);
@@ -13,8 +15,6 @@ export function element(tag, properties = {}, ...children) {
 }
 
 export const byId = (id) => document.getElementById(id);
-
-const SVG = "http://www.w3.org/2000/svg";
 
 /** An SVG element with attributes. */
 export function svgElement(tag, attributes) {
@@ -45,4 +45,16 @@ export function scrollWithin(box, part, covered = 0) {
   const top = outer.top + covered;
   if (inner.top < top) box.scrollTop -= top - inner.top;
   else if (inner.bottom > outer.bottom) box.scrollTop += inner.bottom - outer.bottom;
+}
+
+export function makeClosable(menu) {
+  addEventListener("pointerdown", (event) => {
+    if (menu.open && !menu.contains(event.target)) menu.open = false;
+  });
+  menu.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape" || !menu.open) return;
+    event.preventDefault();
+    menu.open = false;
+    menu.querySelector("summary").focus();
+  });
 }

@@ -1,9 +1,7 @@
 // Tabs as ARIA's authoring practices want them: arrows move between them, the chosen one alone is in the tab order.
 
-import { Signals } from "../model/signal.js";
-
 export class Tabs {
-  #signals = new Signals();
+  #listeners = [];
   #tabs;
 
   /** `list`: the element with role=tablist; its buttons name their panels by aria-controls. */
@@ -21,7 +19,7 @@ export class Tabs {
 
   /** Calls `listener` when another tab is chosen. */
   onChange(listener) {
-    this.#signals.on("change", listener);
+    this.#listeners.push(listener);
   }
 
   /** Shows the panel of the tab with this id. */
@@ -32,7 +30,7 @@ export class Tabs {
       tab.tabIndex = chosen ? 0 : -1;
       document.getElementById(tab.getAttribute("aria-controls")).hidden = !chosen;
     }
-    this.#signals.emit("change");
+    for (const listener of this.#listeners) listener();
   }
 
   /** Shows the panel that holds an element. */

@@ -4,7 +4,7 @@ import { test } from "node:test";
 import { clearanceOf } from "../../../web/model/clearance.js";
 import { FleetMotion } from "../../../web/model/fleet_motion.js";
 import { readScene, readTracks } from "../../../web/model/scene.js";
-import { Signals } from "../../../web/model/signal.js";
+import { Signals } from "../../../web/model/signals.js";
 
 const REQUEST = {
   map: { rows: ["....."] },

@@ -4,12 +4,17 @@ import { test } from "node:test";
 import {
   clampScroll,
   orderRows,
+  panTime,
+  revealTime,
   rowAt,
   rowsSeen,
   scrollToRow,
+  thinned,
+  ticks,
   timeAt,
   xOf,
   yOf,
+  zoomTime,
 } from "../../../web/model/gantt.js";
 
 const LAYOUT = {
@@ -88,4 +93,57 @@ test("rows are sorted by what is asked for, and as listed where that is equal or
   assert.equal(sorted("start"), "cdaeb");
   assert.equal(sorted("cost"), "ceadb");
   assert.equal(sorted("delay"), "dacbe");
+});
+
+test("zooming keeps the moment under the pointer where it is", () => {
+  assert.deepEqual(zoomTime({ from: 0, to: 8 }, 8, 2, 2), { from: 1, to: 5 });
+  assert.deepEqual(zoomTime({ from: 1, to: 5 }, 8, 2, 0.5), { from: 0, to: 8 });
+});
+
+test("zooming out shows no more than the plan, zooming in no less than there is to see", () => {
+  assert.deepEqual(zoomTime({ from: 6, to: 8 }, 8, 8, 0.01), { from: 0, to: 8 });
+  const closest = zoomTime({ from: 0, to: 8 }, 8, 4, 1e9);
+  assert.ok(Math.abs(closest.to - closest.from - 0.05) < 1e-12);
+  assert.deepEqual(zoomTime({ from: 0, to: 0 }, 0, 0, 2), { from: 0, to: 0 });
+});
+
+test("panning stops at both ends", () => {
+  assert.deepEqual(panTime({ from: 2, to: 4 }, 10, 3), { from: 5, to: 7 });
+  assert.deepEqual(panTime({ from: 2, to: 4 }, 10, 30), { from: 8, to: 10 });
+  assert.deepEqual(panTime({ from: 2, to: 4 }, 10, -3), { from: 0, to: 2 });
+});
+
+test("a moment out of sight is brought into it, one in sight moves nothing", () => {
+  const range = { from: 2, to: 4 };
+  assert.equal(revealTime(range, 10, 4), range);
+  const later = revealTime(range, 10, 5);
+  assert.ok(later.from < 5 && later.to > 5 && later.from > 2);
+  const sooner = revealTime(range, 10, 1);
+  assert.ok(sooner.from < 1 && sooner.to > 1);
+  assert.deepEqual(revealTime(range, 10, 10), { from: 8, to: 10 });
+});
+
+test("ticks are round and as many as there is room for", () => {
+  assert.deepEqual(ticks({ from: 0, to: 44.1 }, 10), { step: 5, times: [0, 5, 10, 15, 20, 25, 30, 35, 40] });
+  assert.deepEqual(ticks({ from: 3, to: 7 }, 4).times, [3, 4, 5, 6, 7]);
+  assert.equal(ticks({ from: 1.03, to: 1.08 }, 6).step, 0.01);
+  assert.deepEqual(ticks({ from: 0, to: 0 }, 5).times, [0]);
+});
+
+const curve = (...points) => ({ t: points.map(([t]) => t), gap: points.map(([, gap]) => gap) });
+
+test("of the points in one pixel the lowest is kept", () => {
+  const points = curve([0, 5], [0.4, 1], [0.9, 3], [1.2, 7], [1.6, 8], [3.5, 2]);
+  assert.deepEqual(thinned(points, { from: 0, to: 4 }, 4), [1, 3, 5]);
+  assert.deepEqual(thinned(points, { from: 0, to: 4 }, 400), [0, 1, 2, 3, 4, 5]);
+});
+
+test("of the points out of sight the nearest on each side is kept, so that lines lead there", () => {
+  const points = curve([0, 5], [1, 4], [2, 3], [3, 2], [4, 1], [5, 0]);
+  assert.deepEqual(thinned(points, { from: 1.5, to: 3.5 }, 10), [1, 2, 3, 4]);
+  assert.deepEqual(thinned(points, { from: 2, to: 3 }, 10), [1, 2, 3, 4]);
+});
+
+test("a plan that takes no time has one point", () => {
+  assert.deepEqual(thinned(curve([0, 5]), { from: 0, to: 0 }, 100), [0]);
 });

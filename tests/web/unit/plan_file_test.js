@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { belongsTo, planFile, readDocument } from "../../../web/files/plan_file.js";
+import { belongsTo, planFile, readDocument } from "../../../web/model/plan_file.js";
 
 const pose = (x) => ({ x, y: 0.5, theta: 0 });
 const REQUEST = {

@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
+import { ProblemError } from "../../../web/model/problem.js";
 import { Session } from "../../../web/model/session.js";
-import { ProblemError } from "../../../web/service/problem.js";
 
 const ROBOT = { id: "a", radius: 0.3, start: { x: 0.5, y: 0.5 }, goal: { x: 2.5, y: 0.5 } };
 const REQUEST = { map: { rows: ["..."] }, robots: [ROBOT] };

@@ -1,0 +1,153 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import {
+  kindInWords,
+  misfitErrors,
+  standingAtGoals,
+  standingAtStarts,
+  violationsAt,
+  watchEdits,
+} from "../../../web/model/checks.js";
+import { ProblemError } from "../../../web/model/problem.js";
+import { Session } from "../../../web/model/session.js";
+
+const motion = (...knots) => ({ radius: 0.5, knots: Float64Array.from(knots) });
+
+test("a kind is told in words, one that is new as it came", () => {
+  assert.equal(kindInWords("robot_collision"), "Robots collide");
+  assert.equal(kindInWords("haunted"), "haunted");
+});
+
+test("a violation is seen about its moment", () => {
+  const violations = [{ kind: "speed", robots: ["a"], t: 4 }];
+  const seen = (time) => violationsAt(violations, time, new Map()).length;
+  assert.deepEqual([seen(3.7), seen(3.8), seen(4.2), seen(4.3)], [0, 1, 1, 0]);
+});
+
+test("a collision is seen for as long as the two overlap", () => {
+  const motions = new Map([
+    ["a", motion(0, 0, 0)],
+    ["b", motion(0, 5, 0, 10, -5, 0)],
+  ]);
+  const violations = [{ kind: "robot_collision", robots: ["a", "b"], t: 5 }];
+  const seen = (time) => violationsAt(violations, time, motions).length;
+  assert.deepEqual([seen(3.9), seen(4.1), seen(5.9), seen(6.1)], [0, 1, 1, 0]);
+  assert.equal(
+    violationsAt([{ kind: "robot_collision", robots: ["a", "gone"], t: 9 }], 5, motions).length,
+    0,
+  );
+});
+
+const [a, b, c] = [
+  { id: "a", start: { x: 0.5, y: 0.5 }, goal: { x: 2.5, y: 0.5, theta: 1 } },
+  { id: "b", start: { x: 1.5, y: 0.5 } },
+  { id: "c", start: { x: 2.5, y: 0.5 }, goal: { x: 0.5, y: 0.5 } },
+];
+const THREE_ROBOTS = { map: { rows: ["..."] }, robots: [a, b, c] };
+
+test("robots stand at their starts, and those that have goals at these", () => {
+  assert.deepEqual(standingAtStarts(THREE_ROBOTS), { ...THREE_ROBOTS, plans: [], tolerance: 1e-9 });
+  const { robots, plans } = standingAtGoals(THREE_ROBOTS);
+  assert.deepEqual(
+    [robots, plans],
+    [
+      [
+        { ...a, start: a.goal },
+        { ...c, start: c.goal },
+      ],
+      [],
+    ],
+  );
+  assert.equal(standingAtGoals({ ...THREE_ROBOTS, robots: [b] }), null);
+});
+
+test("a robot in a wall is told at its start, or at its goal", () => {
+  const violation = { kind: "obstacle_collision", robots: ["c"], distance: 0.1, required: 0.3 };
+  const [error] = misfitErrors(THREE_ROBOTS, [violation], "start");
+  assert.equal(error.pointer, "/robots/2/start");
+  assert.match(error.detail, /start does not fit: 0.1 m where 0.3 m is needed/);
+  assert.equal(misfitErrors(THREE_ROBOTS, [violation], "goal")[0].pointer, "/robots/2/goal");
+});
+
+test("two robots that overlap are told at the later one", () => {
+  const violation = { kind: "robot_collision", robots: ["c", "a"], distance: 0.2, required: 0.6 };
+  const [error] = misfitErrors(THREE_ROBOTS, [violation], "goal");
+  assert.equal(error.pointer, "/robots/2/goal");
+  assert.match(error.detail, /goal overlaps with that of a: 0.2 m where 0.6 m/);
+});
+
+const ROBOT = { id: "a", radius: 0.3, start: { x: 0.5, y: 0.5 }, goal: { x: 2.5, y: 0.5 } };
+const REQUEST = { map: { rows: ["..."] }, robots: [ROBOT] };
+const OPENED = { name: "one", example: null, text: JSON.stringify(REQUEST), request: REQUEST };
+const FITS = { violations: [] };
+
+/**
+ * The problem that a session has when an edit has been judged by `validate(how often it was asked)`; and what
+ * was asked.
+ */
+async function afterEdit(validate, request = { ...REQUEST, options: { seed: 1 } }) {
+  const { session, asked } = watched(validate);
+  session.open(OPENED);
+  session.edit(request);
+  session.edit({ ...request });
+  await rest();
+  return { problem: session.problem, asked };
+}
+
+function watched(validate) {
+  const session = new Session({}, () => {});
+  const asked = [];
+  watchEdits(session, async (text) => validate(asked.push(JSON.parse(text))), 0);
+  return { session, asked };
+}
+
+async function rest() {
+  for (let turn = 0; turn < 3; turn += 1) await new Promise((done) => setTimeout(done, 0));
+}
+
+const refuse = (problem) => () => {
+  throw new ProblemError(problem);
+};
+
+test("after edits the service is asked once about the starts and once about the goals", async () => {
+  const { problem, asked } = await afterEdit(() => FITS);
+  assert.equal(problem, null);
+  assert.deepEqual(
+    asked.map(({ robots, plans }) => [robots[0].start, plans]),
+    [
+      [ROBOT.start, []],
+      [ROBOT.goal, []],
+    ],
+  );
+});
+
+test("what the service refuses is the problem, but not that there are no robots yet", async () => {
+  const radius = { pointer: "/robots/0/radius", code: "out_of_range", detail: "No." };
+  const none = { pointer: "/robots", code: "empty", detail: "None." };
+  const told = await afterEdit(refuse({ title: "Invalid", errors: [radius, none] }));
+  assert.deepEqual(told.problem, { title: "Invalid", errors: [radius] });
+  assert.equal((await afterEdit(refuse({ title: "Invalid", errors: [none] }))).problem, null);
+  assert.equal((await afterEdit(refuse({ title: "Overloaded", status: 503 }))).problem, null);
+});
+
+test("starts and goals that do not fit are told together", async () => {
+  const violation = { kind: "obstacle_collision", robots: ["a"], distance: 0, required: 0.3 };
+  const { problem } = await afterEdit(() => ({ violations: [violation] }));
+  const pointers = problem.errors.map(({ pointer }) => pointer);
+  assert.deepEqual(pointers, ["/robots/0/start", "/robots/0/goal"]);
+});
+
+test("what is opened is not judged, unless undo brought back an edit", async () => {
+  const { session, asked } = watched(() => FITS);
+  session.open(OPENED);
+  await rest();
+  assert.equal(asked.length, 0);
+  session.edit({ ...REQUEST });
+  session.open({ ...OPENED, name: "two" });
+  await rest();
+  assert.equal(asked.length, 0);
+  session.undo();
+  await rest();
+  assert.equal(asked.length, 2);
+});

@@ -1,0 +1,27 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { budgetOf, describeProgress } from "../../../web/panels/planning_panel.js";
+
+const LIMITS = { default_budget_ms: 5000, max_budget_ms: 120_000 };
+
+test("the budget is the request's, the service's default, or its limit", () => {
+  assert.equal(budgetOf({ options: { time_budget_ms: 1500 } }, LIMITS), 1.5);
+  assert.equal(budgetOf({}, LIMITS), 5);
+  assert.equal(budgetOf({ options: { time_budget_ms: 1e9 } }, LIMITS), 120);
+});
+
+test("a budget that is not known is null", () => {
+  assert.equal(budgetOf({}, {}), null);
+  assert.equal(budgetOf(null, {}), null);
+  assert.equal(budgetOf({ options: { time_budget_ms: "long" } }, LIMITS), null);
+  assert.equal(budgetOf({ options: { time_budget_ms: 2000 } }, {}), 2);
+});
+
+test("progress is told in words, the flowtime once there is a plan", () => {
+  assert.equal(describeProgress({ planned: 1, robots: 1, best: null }), "1 of 1 robot planned");
+  assert.equal(
+    describeProgress({ planned: 1200, robots: 2000, best: { flowtime: 12.345, makespan: 3 } }),
+    "1,200 of 2,000 robots planned, flowtime 12.35 s",
+  );
+});

@@ -1,0 +1,27 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { curlCommand, fileStem } from "../../../web/files/save.js";
+
+test("a file's name comes from what was opened, without its ending and what shells dislike", () => {
+  assert.equal(fileStem("corridor-swap"), "corridor-swap");
+  assert.equal(fileStem("night shift.plan.json"), "night-shift");
+  assert.equal(fileStem("Fleet.JSON"), "Fleet");
+  assert.equal(fileStem("arena.map"), "arena");
+  assert.equal(fileStem("arena.map.scen"), "arena.map");
+  assert.equal(fileStem("lab.yaml"), "lab");
+  assert.equal(fileStem("v1.2 (final).json"), "v1.2-final-");
+  assert.equal(fileStem(""), "request");
+});
+
+test("the command line fetches an example, and holds any other request", () => {
+  const base = "http://fleet.example/plans/";
+  const post =
+    "curl -sS http://fleet.example/plans/v1/plan -H 'Content-Type: application/json' --data-binary @-";
+  assert.equal(
+    curlCommand({ example: "hall-100", text: "{}" }, base),
+    `curl -sS http://fleet.example/plans/v1/examples/hall-100 | ${post}`,
+  );
+  const text = `{"robots":[{"id":"o'neill"}]}`;
+  assert.equal(curlCommand({ example: null, text }, base), `${post} <<'JSON'\n${text}\nJSON\n`);
+});

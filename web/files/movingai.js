@@ -1,0 +1,168 @@
+// Maps and scenarios of the MovingAI benchmarks (movingai.com/benchmarks). A map has a header, then a character a cell;
+// a scenario has a line for each start and goal, the first of which become the robots of a request.
+
+import { FileError, quoted } from "../model/problem.js";
+import { linesOf, plusTimes } from "./text.js";
+
+const FREE = ".GS"; // ground, and swamp, which can be entered from ground; a request knows no swamp
+const BLOCKED = "@OTW#"; // out of bounds twice, trees, water; and walls as a request draws them
+const HEADER = { type: /^\S+$/, height: /^[1-9]\d{0,8}$/, width: /^[1-9]\d{0,8}$/ };
+const ENTRY = /^\s*\d+\s+(.+?)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+[\d.eE+-]+\s*$/;
+const SLACK = 1e-10; // metres by which disks may overlap after rounding, well within what the service allows
+
+/** The map of a request that a `.map` text draws, a metre a cell: {rows, resolution}. Throws FileError. */
+export function readMovingAiMap(text) {
+  const lines = linesOf(text);
+  const { width, height, first } = readHeader(lines);
+  const drawn = lines.slice(first);
+  while (drawn.at(-1)?.trim() === "") drawn.pop();
+  if (drawn.length !== height) {
+    throw new FileError(
+      `The header says height ${height}, but ${drawn.length} rows follow "map". ` +
+        "Correct the height, or fetch the map again: it may be cut short.",
+    );
+  }
+  return { rows: drawn.map((line, row) => readRow(line, first + row + 1, width)), resolution: 1 };
+}
+
+/** {width, height, first}: `first` is the index of the line that draws the top row. */
+function readHeader(lines) {
+  const header = {};
+  for (const [index, line] of lines.entries()) {
+    const [, key, value] = /^\s*(\w+)(?:\s+(\S+))?\s*$/.exec(line) ?? [];
+    if (key === "map" && value === undefined) return { ...sizesIn(header), first: index + 1 };
+    if (!Object.hasOwn(HEADER, key) || !HEADER[key].test(value)) {
+      throw new FileError(
+        `Line ${index + 1} is ${quoted(line)}, where the header of a MovingAI map is expected: ` +
+          '"type octile", "height" and "width" with a whole number each, then "map".',
+      );
+    }
+    header[key] = Number(value);
+  }
+  throw new FileError('There is no line "map" that ends the header of a MovingAI map.');
+}
+
+function sizesIn({ width, height }) {
+  const missing = Object.entries({ width, height }).find(([, size]) => size === undefined);
+  if (missing)
+    throw new FileError(
+      `The header names no ${missing[0]}: add a line "${missing[0]} …" before the line "map".`,
+    );
+  return { width, height };
+}
+
+function readRow(line, number, width) {
+  for (let column = 0; column < line.length; column += 1) {
+    if (FREE.includes(line[column]) || BLOCKED.includes(line[column])) continue;
+    throw new FileError(
+      `Line ${number} has ${quoted(line[column])} in column ${column + 1}; free cells are . G and S, ` +
+        "blocked ones @ O T W and #.",
+    );
+  }
+  if (line.length !== width) {
+    throw new FileError(
+      `Line ${number} has ${line.length} cells, but the header says width ${width}; ` +
+        "all rows must be of that length.",
+    );
+  }
+  return line.replaceAll("S", ".");
+}
+
+const COLUMNS =
+  "A line of a scenario has, with tabs between: bucket, map, width, height, start x and y, goal x and y, " +
+  "optimal length.";
+
+/**
+ * What a `.scen` text lists: [{map, width, height, start, goal}], the map's file name, its size in cells, and
+ * two cells {column, row}, row 0 the top one. Throws FileError.
+ */
+export function readMovingAiScenario(text) {
+  const entries = [];
+  for (const [index, line] of linesOf(text).entries()) {
+    if (line.trim() === "" || (entries.length === 0 && /^\s*version\b/.test(line))) continue;
+    entries.push(readEntry(line, index + 1));
+  }
+  if (entries.length === 0) throw new FileError(`There is no start and goal in it. ${COLUMNS}`);
+  const other = entries.find(({ map }) => map !== entries[0].map);
+  if (other)
+    throw new FileError(`It is for two maps, ${entries[0].map} and ${other.map}: make a file for each.`);
+  return entries;
+}
+
+function readEntry(line, number) {
+  const found = ENTRY.exec(line);
+  if (!found) throw new FileError(`Line ${number} is ${quoted(line)}. ${COLUMNS}`);
+  const [width, height, startColumn, startRow, goalColumn, goalRow] = found.slice(2).map(Number);
+  const entry = {
+    map: found[1].split(/[\\/]/).pop(),
+    width,
+    height,
+    start: { column: startColumn, row: startRow },
+    goal: { column: goalColumn, row: goalRow },
+  };
+  for (const which of ["start", "goal"]) {
+    const { column, row } = entry[which];
+    if (column < width && row < height) continue;
+    throw new FileError(
+      `Line ${number} has its ${which} at column ${column}, row ${row} (both from 0), outside the ` +
+        `${width} x ${height} cells that the line itself gives the map.`,
+    );
+  }
+  return entry;
+}
+
+/**
+ * A request on `map` (of a request) for the first `count` entries that are possible for robots as `defaults`
+ * ({radius, linear_speed, angular_speed}; m, m/s, rad/s) say, starts and goals at the cells' centres, goals with
+ * any heading. An entry is passed over when a disk does not fit between the walls or overlaps one taken before:
+ * {request, cells, passedOver: {walls, overlaps}}, `cells` being the entries taken. Throws FileError when the map
+ * is of another size.
+ */
+export function scenarioRequest(map, entries, count, defaults) {
+  const [{ width, height, map: name }] = entries;
+  if (map.rows.length !== height || map.rows[0].length !== width) {
+    throw new FileError(
+      `The scenario is for ${name} of ${width} x ${height} cells, but the map has ` +
+        `${map.rows[0].length} x ${map.rows.length}: open it with its own map.`,
+    );
+  }
+  const passedOver = { walls: 0, overlaps: 0 };
+  const taken = [];
+  const reach = (defaults.radius - SLACK) / map.resolution; // in cells
+  const apart = (a, b) => Math.hypot(a.column - b.column, a.row - b.row) >= 2 * reach;
+  for (const entry of entries) {
+    if (taken.length >= count) break;
+    if (!fits(map.rows, entry.start, reach) || !fits(map.rows, entry.goal, reach)) passedOver.walls += 1;
+    else if (!taken.every((other) => apart(other.start, entry.start) && apart(other.goal, entry.goal)))
+      passedOver.overlaps += 1;
+    else taken.push(entry);
+  }
+  const robots = taken.map(({ start, goal }, index) => ({
+    id: `r${index + 1}`,
+    start: { ...centreOf(map, start), theta: 0 },
+    goal: centreOf(map, goal),
+  }));
+  return { request: { map, robot_defaults: { ...defaults }, robots }, cells: taken, passedOver };
+}
+
+/** Whether a disk of `reach` cells at the cell's centre is clear of blocked cells and of the map's edge. */
+function fits(rows, { column, row }, reach) {
+  const toEdge = Math.min(column, row, rows[0].length - 1 - column, rows.length - 1 - row) + 0.5;
+  if (toEdge < reach) return false;
+  const span = Math.max(0, Math.ceil(reach - 0.5)); // cells away that the disk may touch
+  const gap = (cells) => Math.max(0, Math.abs(cells) - 0.5);
+  for (let down = -span; down <= span; down += 1) {
+    for (let right = -span; right <= span; right += 1) {
+      if (Math.hypot(gap(down), gap(right)) < reach && !".G".includes(rows[row + down][column + right]))
+        return false;
+    }
+  }
+  return true;
+}
+
+function centreOf({ rows, resolution, origin = { x: 0, y: 0 } }, { column, row }) {
+  return {
+    x: plusTimes(origin.x ?? 0, 2 * column + 1, resolution / 2),
+    y: plusTimes(origin.y ?? 0, 2 * (rows.length - row) - 1, resolution / 2),
+  };
+}

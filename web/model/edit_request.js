@@ -1,0 +1,228 @@
+// Edits of a request: each takes a request and returns another one, which shares the unchanged parts. Nothing is
+// changed in place. Robots are identified by their index. Faulty requests are repaired as far as an edit goes; a
+// faulty map is edited as it is drawn, see readScene. Pure.
+
+import { isFree, tidy } from "./cells.js";
+import { readGrid } from "./scene.js";
+
+const FREE = ".";
+const BLOCKED = "#";
+const MOST_CELLS = 4_000_000; // if the service has not said
+const SPEEDS = { linear_speed: 1, angular_speed: 3.1416 }; // m/s, rad/s: where nobody says
+const RADIUS_SHARE = 0.4; // of a cell, likewise
+
+/** The value if it is an object with members, else an empty one. */
+export function objectOf(value) {
+  return value !== null && typeof value === "object" && !Array.isArray(value) ? value : {};
+}
+
+/** The object with a member set, or left out if undefined; the same object if that changes nothing. */
+export function withMember(object, name, value) {
+  if (Object.is(object[name], value)) return object;
+  const changed = { ...object, [name]: value };
+  if (value === undefined) delete changed[name];
+  return changed;
+}
+
+/** The object with several members set or left out. */
+export function withMembers(object, members) {
+  return Object.entries(members).reduce((changed, [name, value]) => withMember(changed, name, value), object);
+}
+
+/**
+ * The request with these cells of its map blocked, or free. Cells that are so already keep their letter.
+ * `known`, the grid of this map or one before, makes it cheap.
+ */
+export function setCells(request, cells, blocked, known = null) {
+  const grid = readGrid(request?.map, known);
+  const columns = new Map(); // row -> columns to change
+  for (const cell of cells) {
+    if (grid === null || isFree(grid, cell) !== blocked) continue;
+    if (!columns.has(cell.row)) columns.set(cell.row, []);
+    columns.get(cell.row).push(cell.column);
+  }
+  if (columns.size === 0) return request;
+  const letter = blocked ? BLOCKED : FREE;
+  const rows = grid.lines.map((line, row) =>
+    columns.has(row) ? withLetters(line, columns.get(row), letter) : line,
+  );
+  return withMap(request, { rows });
+}
+
+function withLetters(line, columns, letter) {
+  const letters = [...line];
+  for (const column of columns) {
+    while (letters.length < column) letters.push(BLOCKED); // what a short row lacks is drawn as wall
+    letters[column] = letter;
+  }
+  return letters.join("");
+}
+
+/**
+ * The request with so many columns or rows of free cells more on each side: {left, right, top, bottom},
+ * negative to cut. The origin moves so that all else stays where it is. A map keeps at least one cell.
+ */
+export function resize(request, { left = 0, right = 0, top = 0, bottom = 0 }) {
+  const grid = readGrid(request?.map, null);
+  if (grid === null || grid.columns + left + right < 1 || grid.rows + top + bottom < 1) return request;
+  if (left === 0 && right === 0 && top === 0 && bottom === 0) return request;
+  const across = grid.lines.map((line) => {
+    const whole = line.padEnd(grid.columns, BLOCKED);
+    return lengthened([...whole], left, right, FREE).join("");
+  });
+  const rows = lengthened(across, top, bottom, FREE.repeat(grid.columns + left + right));
+  const origin = {
+    x: tidy(grid.origin.x - left * grid.resolution),
+    y: tidy(grid.origin.y - bottom * grid.resolution),
+  };
+  const moved = origin.x !== grid.origin.x || origin.y !== grid.origin.y;
+  return withMap(request, moved ? { rows, origin } : { rows });
+}
+
+/** A list with `filler` added, or with items cut, at its begin and end. */
+function lengthened(list, atBegin, atEnd, filler) {
+  const kept = list.slice(Math.max(0, -atBegin), list.length - Math.max(0, -atEnd));
+  const added = (count) => Array(Math.max(0, count)).fill(filler);
+  return [...added(atBegin), ...kept, ...added(atEnd)];
+}
+
+/** The request with another side of a cell, metres; undefined: the default. Robots keep their metres. */
+export function setResolution(request, resolution) {
+  return withMap(request, { resolution });
+}
+
+/** The request with another x or y of the map's lower left corner, metres; undefined: the default. */
+export function setOrigin(request, axis, value) {
+  const origin = withMember(objectOf(request?.map?.origin), axis, value);
+  return withMap(request, { origin: Object.keys(origin).length > 0 ? origin : undefined });
+}
+
+/** A request of a map that has no robots yet: all free or, if `walled`, with a wall around it. */
+export function newMap({ columns, rows, resolution, walled }) {
+  const open = FREE.repeat(columns);
+  const wall = BLOCKED.repeat(columns);
+  const between = columns > 2 ? BLOCKED + FREE.repeat(columns - 2) + BLOCKED : wall;
+  const lines = Array.from({ length: rows }, (_, row) => {
+    if (!walled) return open;
+    return row === 0 || row === rows - 1 ? wall : between;
+  });
+  return { map: { rows: lines, resolution }, robots: [] };
+}
+
+/** Why a map of this size cannot be, in words, or null. `limits`: see Session. */
+export function faultOfSize(columns, rows, limits) {
+  if (!Number.isInteger(columns) || !Number.isInteger(rows)) return "Whole numbers, please.";
+  if (columns < 1 || rows < 1) return "A map has at least one cell.";
+  const most = limits.max_cells ?? MOST_CELLS;
+  if (columns * rows > most) return `The service takes up to ${most.toLocaleString("en")} cells.`;
+  return null;
+}
+
+function withMap(request, changes) {
+  return { ...objectOf(request), map: withMembers(objectOf(request?.map), changes) };
+}
+
+/** The robots that the request lists, whatever they are. */
+export function robotsOf(request) {
+  return Array.isArray(request?.robots) ? request.robots : [];
+}
+
+/** What to call the robot at an index: its id, or "#index". */
+export function nameOf(request, index) {
+  const id = robotsOf(request)[index]?.id;
+  return typeof id === "string" && id !== "" ? id : `#${index}`;
+}
+
+/**
+ * The request with a member of a robot (id, radius, linear_speed, angular_speed) set, or left out if undefined.
+ */
+export function setRobot(request, index, name, value) {
+  return withRobot(request, index, (robot) => withMember(robot, name, value));
+}
+
+/** The request with a default (radius, linear_speed, angular_speed) set, or left out if undefined. */
+export function setDefault(request, name, value) {
+  const defaults = withMember(objectOf(request?.robot_defaults), name, value);
+  const isEmpty = Object.keys(defaults).length === 0;
+  return withMember(objectOf(request), "robot_defaults", isEmpty ? undefined : defaults);
+}
+
+/**
+ * The request with members of a robot's `pose`, "start" or "goal", set: {x, y, theta}, those that are undefined
+ * left out (theta: the start's default, the goal's any heading).
+ */
+export function setPose(request, index, pose, members) {
+  return withRobot(request, index, (robot) => {
+    return withMember(robot, pose, withMembers(objectOf(robot[pose]), members));
+  });
+}
+
+/** The request with a robot that stays where it is. */
+export function removeGoal(request, index) {
+  return withRobot(request, index, (robot) => withMember(robot, "goal", undefined));
+}
+
+/**
+ * The request with one more robot, the last: a start {x, y} and perhaps a goal. Radius and speeds are those of
+ * robot_defaults, else the last robot's, else sensible ones for the map.
+ */
+export function addRobot(request, start, goal = undefined) {
+  const robots = robotsOf(request);
+  const last = objectOf(robots.at(-1));
+  const resolution = request?.map?.resolution ?? 1;
+  const usual = { radius: RADIUS_SHARE * (resolution > 0 ? resolution : 1), ...SPEEDS };
+  const robot = { id: freshId(request) };
+  for (const name of ["radius", "linear_speed", "angular_speed"]) {
+    if (!(request?.robot_defaults?.[name] > 0)) robot[name] = last[name] > 0 ? last[name] : usual[name];
+  }
+  robot.start = start;
+  if (goal !== undefined) robot.goal = goal;
+  return { ...objectOf(request), robots: [...robots, robot] };
+}
+
+/**
+ * The request with a robot once more, the last: its like with an id, start and goal (if it has one) of its own.
+ */
+export function duplicateRobot(request, index, start, goal) {
+  const robots = robotsOf(request);
+  const robot = objectOf(robots[index]);
+  const copy = { ...robot, id: freshId(request, robot.id), start: { ...robot.start, ...start } };
+  if (goal) copy.goal = { ...robot.goal, ...goal };
+  return { ...objectOf(request), robots: [...robots, copy] };
+}
+
+export function deleteRobot(request, index) {
+  return { ...objectOf(request), robots: robotsOf(request).filter((_, at) => at !== index) };
+}
+
+/**
+ * An id that no robot has, of the pattern of `like` or else of the last that ends in a number: robot-4 after
+ * robot-3.
+ */
+export function freshId(request, like = undefined) {
+  const taken = new Set(robotsOf(request).map((robot) => robot?.id));
+  const ids = [...taken].filter((id) => typeof id === "string");
+  const pattern = numbered(like) ?? numbered(ids.findLast((id) => /\d$/.test(id)));
+  const { stem, digits, number } = pattern ?? { stem: like ? `${like}-` : "robot-", digits: 1, number: 0 };
+  let next = number;
+  let id;
+  do {
+    next += 1;
+    id = stem + String(next).padStart(digits, "0");
+  } while (taken.has(id));
+  return id;
+}
+
+/** The parts of an id that ends in a number, or null. */
+function numbered(id) {
+  const found = /^(.*?)(\d{1,9})$/.exec(id ?? "");
+  return found && { stem: found[1], digits: found[2].length, number: Number(found[2]) };
+}
+
+function withRobot(request, index, change) {
+  const robots = robotsOf(request);
+  const robot = objectOf(robots[index]);
+  const changed = change(robot);
+  if (changed === robots[index]) return request;
+  return { ...objectOf(request), robots: robots.map((each, at) => (at === index ? changed : each)) };
+}

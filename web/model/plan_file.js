@@ -1,0 +1,152 @@
+// Plan files: a request and its answer in one JSON document, as POST /v1/validate takes it.
+
+import { FileError, quoted } from "./problem.js";
+
+const TYPES = ["rotate", "translate", "wait"];
+
+/** The document: the members of the answer (or null) beside those of the request. */
+export function planFile(request, answer) {
+  return { ...request, plans: [], ...answer };
+}
+
+/**
+ * What a parsed JSON document is, taken apart: {request, answer}, one of which may be null. A faulty request is
+ * a request, for the service to tell its faults. An answer can be shown and has all that follows from its plans,
+ * but is not called `verified`, as only a check can tell. Throws FileError for what is neither.
+ */
+export function readDocument(document) {
+  if (document === null || typeof document !== "object" || Array.isArray(document)) throw notOurs();
+  const isRequest = "map" in document || "robots" in document;
+  if (!("plans" in document)) {
+    if (isRequest) return { request: document, answer: null };
+    if (document.errors !== undefined && document.title !== undefined)
+      throw new FileError(
+        `It is an error of the service: ${document.title}. Open the request that it is about.`,
+      );
+    throw notOurs();
+  }
+  const request = {};
+  const answer = {};
+  for (const [key, value] of Object.entries(document)) {
+    const owner = Object.hasOwn(OF_ANSWERS, key) ? answer : request;
+    owner[key] = value;
+  }
+  checkAnswer(answer);
+  return { request: isRequest ? request : null, answer: completed(answer) };
+}
+
+/** Whether every robot of the answer is one of the request. */
+export function belongsTo(answer, request) {
+  const listed = Array.isArray(request?.robots) ? request.robots : [];
+  const ids = new Set(listed.map((robot) => robot?.id));
+  return [...answer.plans, ...answer.unplanned].every(({ robot }) => ids.has(robot));
+}
+
+function notOurs() {
+  return new FileError(
+    'It is JSON, but neither a request (with "map" and "robots") nor a plan (with "plans" as well).',
+  );
+}
+
+/** What follows from the plans is taken from there, whatever the document says of it. */
+function completed({ verified: _, ...answer }) {
+  const plans = answer.plans.map((plan) => ({ ...plan, cost: plan.actions.at(-1)?.t_end ?? 0 }));
+  const { unplanned = [], warnings = [] } = answer;
+  const outcome = unplanned.length === 0 ? "solved" : "partial";
+  return {
+    status: plans.length === 0 ? "none" : outcome,
+    ...answer,
+    plans,
+    unplanned,
+    flowtime: plans.reduce((sum, { cost }) => sum + cost, 0),
+    makespan: plans.reduce((most, { cost }) => Math.max(most, cost), 0),
+    warnings,
+  };
+}
+
+/** The members of an answer, each with what its value must be. */
+export const OF_ANSWERS = {
+  status: isText,
+  request_id: isText,
+  plans: isList,
+  unplanned: isList,
+  flowtime: isNumber,
+  makespan: isNumber,
+  lower_bound: (value) => isNumber(value?.flowtime) && isNumber(value.makespan),
+  verified: isFlag,
+  min_clearance: (value) => value === null || isNumber(value),
+  deterministic: isFlag,
+  search: (value) => isNumber(value?.expansions),
+  timings_ms: (value) => isNumber(value?.plan) && isNumber(value.total),
+  warnings: (value) => isList(value) && value.every((each) => isText(each?.detail ?? each)),
+  tolerance: isNumber, // of the check, which comes with the plans
+};
+const OF_UNPLANNED = {
+  robot: isText,
+  reason: isOptional(isText),
+  detail: isOptional(isText),
+  blocked_by: isOptional((value) => isList(value) && value.every(isText)),
+};
+const OF_PLANS = {
+  robot: isText,
+  cost: isOptional(isNumber),
+  lower_bound: isOptional(isNumber),
+  actions: isList,
+};
+const OF_ACTIONS = {
+  type: (value) => TYPES.includes(value),
+  t_start: isNumber,
+  t_end: isNumber,
+  from: isPose,
+  to: isPose,
+};
+
+/** Throws FileError unless an answer's members can be shown. */
+export function checkAnswer(answer) {
+  checkMembers(answer, Object.keys(answer), OF_ANSWERS, "");
+  for (const [index, entry] of (answer.unplanned ?? []).entries()) {
+    checkMembers(entry, Object.keys(OF_UNPLANNED), OF_UNPLANNED, `unplanned[${index}].`);
+  }
+  const seen = new Set();
+  for (const [index, plan] of answer.plans.entries()) {
+    const place = `plans[${index}]`;
+    checkMembers(plan, Object.keys(OF_PLANS), OF_PLANS, `${place}.`);
+    if (seen.has(plan.robot))
+      throw new FileError(`${place} is a second plan of ${plan.robot}; a robot has one.`);
+    seen.add(plan.robot);
+    for (const [number, action] of plan.actions.entries()) {
+      checkMembers(action, Object.keys(OF_ACTIONS), OF_ACTIONS, `${place}.actions[${number}].`);
+    }
+  }
+}
+
+function checkMembers(value, keys, shape, place) {
+  const wrong = keys.find((key) => !shape[key](value?.[key]));
+  if (wrong === undefined) return;
+  const found = value?.[wrong] === undefined ? "missing" : quoted(value[wrong]);
+  throw new FileError(`${place}${wrong} is ${found}, which is not what an answer has there.`);
+}
+
+function isPose(value) {
+  return isNumber(value?.x) && isNumber(value.y) && isNumber(value.theta);
+}
+
+function isOptional(check) {
+  return (value) => value === undefined || check(value);
+}
+
+function isText(value) {
+  return typeof value === "string";
+}
+
+function isFlag(value) {
+  return typeof value === "boolean";
+}
+
+function isList(value) {
+  return Array.isArray(value);
+}
+
+function isNumber(value) {
+  return Number.isFinite(value);
+}

@@ -1,0 +1,44 @@
+// Failures that are shown to people, and the places in a request that they point at. Pure.
+
+/** A failure to show: `problem` has the members of RFC 9457 ("title", "detail", "errors", …). */
+export class ProblemError extends Error {
+  constructor(problem) {
+    super(problem.title);
+    this.name = "ProblemError";
+    this.problem = problem;
+  }
+}
+
+/** The message says what is wrong, where in the file, and what to do; whoever reads the file adds its name. */
+export class FileError extends Error {
+  constructor(message) {
+    super(message);
+    this.name = "FileError";
+  }
+}
+
+/** What a faulty piece of a file looked like, shortened for a message. */
+export function quoted(value) {
+  const text = JSON.stringify(value);
+  return text.length > 30 ? `${text.slice(0, 28)}…` : text;
+}
+
+/** The parts of a pointer, unescaped. */
+export function partsOf(pointer) {
+  return pointer
+    .split("/")
+    .slice(1)
+    .map((part) => part.replaceAll("~1", "/").replaceAll("~0", "~"));
+}
+
+/** The index of the robot that a pointer leads to or into, or null. */
+export function robotIndexOf(pointer) {
+  const [first, index] = partsOf(pointer);
+  return first === "robots" && /^\d+$/.test(index ?? "") ? Number(index) : null;
+}
+
+/** The row of the map that a pointer leads to, 0 the top one, or null. */
+export function mapRowOf(pointer) {
+  const [first, rows, row] = partsOf(pointer);
+  return first === "map" && rows === "rows" && /^\d+$/.test(row ?? "") ? Number(row) : null;
+}

@@ -1,0 +1,95 @@
+// What is painted over the scene on top of the robots: blocking robots, violations of a checked plan, the closest pair.
+
+import { violationsAt } from "../model/checks.js";
+import { byId } from "../ui/dom.js";
+import { metres } from "../ui/format.js";
+import { drawPath, drawTag, markWrong, ring } from "./marks.js";
+
+const TAG_FROM = 56; // pixels between two middles: below, the tag is put beside the line, not on it
+const ASIDE = 22; // pixels
+
+export function showBlockers(session, stage) {
+  stage.addOverlay((context, view) => {
+    const blocked = session.tracks.get(session.selected)?.unplanned;
+    if (!blocked) return;
+    const { theme, screen, scale } = view;
+    const from = screen(session.poseOf(session.selected, view.time));
+    for (const id of blocked.blocked_by ?? []) {
+      const robot = session.robot(id);
+      if (robot === null) continue;
+      const centre = screen(session.poseOf(id, view.time));
+      drawPath(context, [from, centre], theme.danger, { width: 1.5, alpha: 0.9, dashes: [6, 4] });
+      ring(context, centre, robot.radius * scale + 4, theme.danger, { width: 2, alpha: 1, dashes: [6, 3] });
+    }
+  });
+}
+
+/** `fleet`: see FleetMotion. */
+export function showViolations(session, stage, fleet) {
+  session.on("check", () => stage.redraw());
+  stage.addOverlay((context, view) => {
+    const wrong = new Set(
+      violationsAt(session.check?.violations ?? [], view.time, fleet.byId).flatMap(({ robots }) => robots),
+    );
+    for (const id of wrong) {
+      const robot = session.robot(id);
+      if (robot) markWrong(context, view, session.poseOf(id, view.time), robot.radius);
+    }
+  });
+}
+
+export class ClosestOverlay {
+  #session;
+  #stage;
+  #fleet;
+  #button = byId("show-closest");
+  #on = false;
+  #peeking = false;
+
+  /** `fleet`: see FleetMotion. */
+  constructor(session, stage, fleet) {
+    this.#session = session;
+    this.#stage = stage;
+    this.#fleet = fleet;
+    this.#button.addEventListener("click", () => this.toggle());
+    stage.addOverlay((context, view) => this.#paint(context, view));
+  }
+
+  toggle() {
+    this.#on = !this.#on;
+    this.#button.setAttribute("aria-pressed", String(this.#on));
+    this.#stage.redraw();
+  }
+
+  /** Shows the pair for now (true) or no longer. */
+  peek(peeking) {
+    if (peeking === this.#peeking) return;
+    this.#peeking = peeking;
+    this.#stage.redraw();
+  }
+
+  #paint(context, view) {
+    if (!this.#on && !this.#peeking) return;
+    const pair = this.#fleet.nearestAt(view.time);
+    if (pair === null) return;
+    const disks = pair.ids.map((id) => ({
+      ...view.screen(this.#session.poseOf(id, view.time)),
+      radius: this.#session.robot(id).radius * view.scale,
+    }));
+    paintGap(context, view.theme, disks, pair.gap);
+  }
+}
+
+function paintGap(context, theme, [a, b], gap) {
+  for (const disk of [a, b]) {
+    ring(context, disk, disk.radius + 1.5, theme.ink, { width: 1.5, alpha: 0.9, dashes: [] });
+  }
+  drawPath(context, [a, b], theme.ink, { width: 1.5, alpha: 0.95, dashes: [3, 4] });
+  const apart = Math.hypot(b.x - a.x, b.y - a.y);
+  const middle = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
+  const aside = apart - a.radius - b.radius < TAG_FROM ? Math.max(a.radius, b.radius) + ASIDE : 0;
+  // Beside the line, away from the upper side where robots' names are.
+  const [x, y] = apart > 0 ? [-(b.y - a.y) / apart, (b.x - a.x) / apart] : [0, 1];
+  const side = y < 0 ? -1 : 1;
+  drawTag(context, theme, { x: middle.x + x * aside * side, y: middle.y + y * aside * side }, metres(gap));
+}
