@@ -5,7 +5,7 @@
 // radius} of its disk on the canvas, CSS pixels); `pointOf({x, y})` is where a world point is on the canvas.
 
 export function offerHook(session, stage, fleet) {
-  window.fleetplan = Object.freeze({
+  /** @type {any} */ (window).fleetplan = Object.freeze({
     get time() {
       return session.player.time;
     },

@@ -42,7 +42,7 @@ const planButton = new PlanButton(session, transport);
 const edit = new EditPanel(session, stage, tabs, opening);
 watchEdits(session, service.validate);
 new PlanningStatus(session);
-new OptionsPanel(session);
+const options = new OptionsPanel(session, tabs, service.fetchOpenApi);
 new RobotList(session, colours);
 new TimelineDock(session, colours, fleet, transport, (over) => closest.peek(over));
 new Inspector(session, stage, colours, fleet, tabs);
@@ -54,7 +54,7 @@ watchUnplanned(session);
 watchReadout(session);
 watchSaving(session, stage, address);
 watchViewMenu(stage);
-watchProblem(session, stage, tabs, edit.choice);
+watchProblem(session, stage, tabs, edit.choice, () => options.load());
 session.on("said", (text) => setText(byId("announcer"), text));
 
 watchShortcuts({

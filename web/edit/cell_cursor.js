@@ -2,11 +2,14 @@
 
 import { cellAt, centreOf, isInside } from "../model/cells.js";
 
+/** @import {Cell} from "../model/types.js" */
+
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 export class CellCursor {
   #session;
   #stage;
+  /** @type {Cell | null} */
   #cell = null;
   #shown = false;
 
@@ -15,7 +18,10 @@ export class CellCursor {
     this.#stage = stage;
   }
 
-  /** The cell, within the map; null without a map. */
+  /**
+   * The cell, within the map; null without a map.
+   * @returns {Cell | null}
+   */
   get cell() {
     const { grid } = this.#session.scene;
     if (grid === null) return null;
@@ -47,8 +53,12 @@ export class CellCursor {
     return true;
   }
 
-  /** Paints a frame around the cell and, if given, all up to `other`; `sign`: "add" or "remove". */
-  paint(context, { scale, screen, theme }, { other = null, sign }) {
+  /**
+   * Paints a frame around the cell and, if given, all up to `other`; `sign`: "add" or "remove".
+   * @param {{other?: Cell | null, sign: string}} frame
+   */
+  paint(context, { scale, screen, theme }, frame) {
+    const { other = null, sign } = frame;
     const focused = document.activeElement === this.#stage.canvas;
     const { cell } = this;
     if (cell === null || (!this.#shown && !focused && other === null)) return;

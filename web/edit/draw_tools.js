@@ -5,6 +5,8 @@ import { setCells } from "../model/edit_request.js";
 import { count } from "../ui/format.js";
 import { CellCursor } from "./cell_cursor.js";
 
+/** @import {Cell} from "../model/types.js" */
+
 const NO_MAP = "There is no map to draw on yet: begin one under New map.";
 
 let strokes = 0; // for a name of each
@@ -17,6 +19,7 @@ export class DrawTool {
   #cursor;
   #blocked;
   #last = null; // where the stroke has got to
+  /** @type {string | null} */
   #gesture = null;
 
   /** `blocked`: whether it makes walls. */
@@ -78,13 +81,14 @@ export class DrawTool {
     return true;
   }
 
+  /** @param {string | null} gesture */
   #set(cells, gesture = null) {
     const { request, scene } = this.#session;
     this.#session.edit(setCells(request, cells, this.#blocked, scene.grid), gesture);
   }
 
   #tellCell() {
-    const { cell } = this.#cursor;
+    const cell = /** @type {Cell} */ (this.#cursor.cell);
     const state = isFree(this.#session.scene.grid, cell) ? "free" : "wall";
     this.#session.say(`Column ${cell.column + 1}, row ${cell.row + 1} from the top: ${state}.`);
   }
@@ -97,7 +101,8 @@ export class BoxTool {
 
   #session;
   #cursor;
-  #corner = null; // a cell
+  /** @type {Cell | null} */
+  #corner = null;
   #frees = false;
 
   constructor(session, stage) {
@@ -162,7 +167,7 @@ export class BoxTool {
 
   #moved(event) {
     if (!this.#cursor.key(event)) return false;
-    const { column, row } = this.#cursor.cell;
+    const { column, row } = /** @type {Cell} */ (this.#cursor.cell);
     this.#session.say(`Column ${column + 1}, row ${row + 1} from the top.`);
     return true;
   }

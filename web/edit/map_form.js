@@ -36,7 +36,7 @@ export class MapForm {
   /** Takes a size when it is typed to its end: half of it would cut the map. */
   #sizeField(label, dimension, side) {
     const take = (value) => this.#resize({ [side]: value - this.#session.scene.grid[dimension] });
-    return new NumberField({ label, step: 1, required: true, late: true, take });
+    return new NumberField({ label, step: "1", required: true, late: true, take });
   }
 
   #sideButtons(side) {

@@ -142,6 +142,7 @@ function namesOf({ request, problem }) {
 }
 
 export function watchDefaultsForm(session) {
+  /** @type {[string, NumberField][]} */
   const fields = ROBOT_NUMBERS.map(({ name, label, unit }) => {
     const take = (value) => session.edit(setDefault(session.request, name, value), `default ${name}`);
     const field = new NumberField({ label, unit, take, settle: () => session.endGesture() });

@@ -15,6 +15,7 @@ export class RobotTool {
   #choice;
   #actions;
   #cursor;
+  /** @type {any} */
   #pressed = null; // {start, gesture, added} while pressed
 
   /** `choice`: see RobotChoice; `actions`: see RobotActions. */

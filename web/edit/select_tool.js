@@ -21,7 +21,9 @@ export class SelectTool {
   #stage;
   #choice;
   #actions;
-  #hovered = null; // a part
+  /** @type {any} */
+  #hovered = null; // a part, see handles.js
+  /** @type {any} */
   #drag = null; // {pose, turns, offset, gesture, moved}
 
   /** `choice`: see RobotChoice; `actions`: see RobotActions. */

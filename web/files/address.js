@@ -11,7 +11,8 @@ const LONGEST_TEXT = 8 * 2 ** 20; // bytes when inflated: more than any fragment
 export class Address {
   #session;
   #opening;
-  #timer = null;
+  /** @type {number | undefined} */
+  #timer;
   #examples = [];
 
   /** `opening`: see Opening. */

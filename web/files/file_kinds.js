@@ -51,6 +51,7 @@ function kindOfContent(head) {
  * {kind: "ros", yaml, images}. Throws FileError, with the files' names in it, when they are nothing together.
  */
 export function sortFiles(files) {
+  /** @type {Record<string, any[]>} */
   const sorted = { json: [], map: [], scenario: [], yaml: [], image: [] };
   for (const file of files) {
     const kind = kindOf(file);

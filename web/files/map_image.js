@@ -2,6 +2,7 @@
 // are decoded by the browser.
 
 import { FileError } from "../model/problem.js";
+import { contextOf } from "../ui/dom.js";
 
 const MOST_PNG_PIXELS = 2 ** 26; // of a PNG: what browsers decode and hold without trouble
 const SPACE = new Set([9, 10, 11, 12, 13, 32]);
@@ -36,6 +37,7 @@ async function decode(bytes) {
     throw new FileError(`Its ${width} x ${height} pixels are too many to decode; convert it to PGM.`);
   let bitmap;
   try {
+    /** @type {ImageBitmapOptions} */
     const asStored = { colorSpaceConversion: "none", premultiplyAlpha: "none" };
     bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }), asStored);
   } catch {
@@ -44,7 +46,7 @@ async function decode(bytes) {
   const canvas = document.createElement("canvas");
   canvas.width = width;
   canvas.height = height;
-  const context = canvas.getContext("2d", { willReadFrequently: true });
+  const context = contextOf(canvas, { willReadFrequently: true });
   context.drawImage(bitmap, 0, 0);
   bitmap.close();
   return context.getImageData(0, 0, width, height);

@@ -27,6 +27,7 @@ export function readMovingAiMap(text) {
 
 /** {width, height, first}: `first` is the index of the line that draws the top row. */
 function readHeader(lines) {
+  /** @type {any} */
   const header = {};
   for (const [index, line] of lines.entries()) {
     const [, key, value] = /^\s*(\w+)(?:\s+(\S+))?\s*$/.exec(line) ?? [];

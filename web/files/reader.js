@@ -9,6 +9,8 @@ import { RosMapDialog } from "./ros_dialog.js";
 import { classifyPixels, readRosYaml } from "./ros_map.js";
 import { ScenarioDialog } from "./scenario_dialog.js";
 
+/** @import {Answer, Request} from "../model/types.js" */
+
 const SPEEDS = { linear_speed: 1, angular_speed: 3.1416 }; // m/s, rad/s
 const CELL_SHARE = 0.4; // radius of robots that go from cell to cell, of a cell's side
 const INDOOR_RADIUS = 0.2; // metres, of robots on a map that a robot made
@@ -30,6 +32,7 @@ export class Reader {
   /** What files (File) are together; null if the dialog about them is given up. Rejects with FileError. */
   async files(files) {
     const heads = await Promise.all(files.map(headOf));
+    /** @type {any} */
     const sorted = sortFiles(files.map((file, at) => ({ name: file.name, head: heads[at], file })));
     switch (sorted.kind) {
       case "json":
@@ -130,7 +133,7 @@ function readJson(text) {
   try {
     document = JSON.parse(text);
   } catch (error) {
-    throw new FileError(`It is not JSON: ${error.message}.`);
+    throw new FileError(`It is not JSON: ${/** @type {Error} */ (error).message}.`);
   }
   return readDocument(document);
 }
@@ -171,6 +174,7 @@ async function reading({ name }, read) {
 /** The dialogs about files that leave a choice; one at a time. */
 class ImportDialogs {
   #session;
+  /** @type {RosMapDialog | ScenarioDialog | null} */
   #shown = null;
 
   constructor(session) {

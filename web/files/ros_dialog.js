@@ -26,6 +26,7 @@ export class RosMapDialog {
   #trim = element("input", { type: "checkbox", id: "ros-trim", checked: true });
   #merge;
   #dialog;
+  /** @type {any} */
   #made = null; // of the present fields: a grid; null where one is not filled in
 
   /** `grid`: see classifyPixels; at most `most` cells; `warnings` are told. */

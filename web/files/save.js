@@ -97,7 +97,7 @@ export async function copyText(text) {
 }
 
 function copyThroughSelection(text) {
-  const before = document.activeElement;
+  const before = /** @type {HTMLElement | null} */ (document.activeElement);
   const area = document.createElement("textarea");
   area.className = "visually-hidden";
   area.value = text;

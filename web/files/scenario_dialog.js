@@ -16,6 +16,7 @@ export class ScenarioDialog {
   #status = element("p", { class: "dialog-status", role: "status" });
   #fields;
   #dialog;
+  /** @type {any} */
   #made = null; // of the present fields: {request, passedOver}; null where one is not filled in
 
   /** `entries` on `map`: see readMovingAiScenario. At most `most` robots. `defaults`: those to begin with. */

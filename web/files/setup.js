@@ -118,7 +118,7 @@ function watchDrops(open) {
     if (!carriesFiles(event)) return;
     event.preventDefault();
     hint.hidden = true;
-    const files = [...event.dataTransfer.files];
+    const files = [...(event.dataTransfer?.files ?? [])];
     if (files.length > 0) open(files);
   });
 }

@@ -41,7 +41,7 @@ export function setCells(request, cells, blocked, known = null) {
     if (!columns.has(cell.row)) columns.set(cell.row, []);
     columns.get(cell.row).push(cell.column);
   }
-  if (columns.size === 0) return request;
+  if (grid === null || columns.size === 0) return request;
   const letter = blocked ? BLOCKED : FREE;
   const rows = grid.lines.map((line, row) =>
     columns.has(row) ? withLetters(line, columns.get(row), letter) : line,

@@ -5,17 +5,22 @@ import { ClearanceSweep } from "./clearance.js";
 import { motionOf } from "./motion.js";
 import { Signals } from "./signals.js";
 
+/** @import {Motion} from "./types.js" */
+
 const WORKER = new URL("./clearance_worker.js", import.meta.url);
 
 export class FleetMotion {
   #session;
   #signals = new Signals();
+  /** @type {Map<string, Motion> | null} */
   #byId = null;
+  /** @type {ClearanceSweep | null} */
   #sweep = null;
+  /** @type {{time: number | null, pair: {ids: string[], gap: number} | null}} */
   #nearest = { time: null, pair: null };
 
   /** The smallest gap over time, see clearanceOf; null without an answer and until it is worked out. */
-  curve = null;
+  curve = /** @type {any} */ (null);
 
   /** `workOut(motions, told)` tells the curve later, and no more of older motions once it has newer ones. */
   constructor(session, workOut) {

@@ -1,122 +1,63 @@
-// The options of a plan as a person sets them, and editing them in a request. Pure.
+// The options of a plan, as the service's OpenAPI document describes them, and editing them in a request. Pure.
 
-/** Each option of /v1/plan: its default, how it is set, its unit, and what it does. */
-export const OPTIONS = [
-  {
-    name: "mode",
-    label: "Mode",
-    default: "first",
-    choices: { first: "First solution", anytime: "Improve until the budget ends" },
-    help: "First returns as soon as every robot has a plan; improving uses the whole time budget.",
-  },
-  {
-    name: "objective",
-    label: "Objective",
-    default: "flowtime",
-    choices: { flowtime: "Flowtime (sum)", makespan: "Makespan (last)" },
-    help: "What improving lowers: the sum of all arrival times, or the last one.",
-  },
-  {
-    name: "time_budget_ms",
-    label: "Time budget",
-    unit: "ms",
-    default: null, // the service's, see GET /v1/limits
-    unset: "the service's, 5000 ms as a rule",
-    min: 1,
-    step: 1,
-    integer: true,
-    help: "How long the service may take, waiting in its queue included.",
-  },
-  {
-    name: "max_iterations",
-    label: "Improvement steps",
-    default: null,
-    unset: "by the clock",
-    min: 0,
-    step: 1,
-    integer: true,
-    help: "Ends improving after so many steps instead of by the clock: the same plan each time.",
-  },
-  {
-    name: "priority",
-    label: "First order",
-    default: "shortest_first",
-    choices: {
-      shortest_first: "Shortest way first",
-      longest_first: "Longest way first",
-      as_listed: "As listed",
-      random: "Random",
-    },
-    help: "In which order robots are planned at first; later ones yield to earlier ones.",
-  },
-  {
-    name: "reordering",
-    label: "When one fails",
-    default: "raise_failed",
-    choices: { raise_failed: "Plan it first", random: "Shuffle", none: "Go on without it" },
-    help: "What changes in the order when a robot finds no way.",
-  },
-  {
-    name: "seed",
-    label: "Seed",
-    default: 0,
-    min: 0,
-    step: 1,
-    integer: true,
-    help: "The same request and seed give the same plan.",
-  },
-  {
-    name: "start_safe_interval",
-    label: "Start safe interval",
-    unit: "s",
-    default: 3,
-    min: 0,
-    step: 0.5,
-    help: "How long others keep clear of a robot's start, so that it can get away.",
-  },
-  {
-    name: "inflation",
-    label: "Inflation",
-    unit: "m",
-    default: 0,
-    min: 0,
-    step: 0.01,
-    help: "Added to every radius while planning: room for errors of motion.",
-  },
-  {
-    name: "wait_before_move",
-    label: "Wait before a move",
-    unit: "s",
-    default: 0,
-    min: 0,
-    step: 0.1,
-    help: "Robots stand still at least so long before each translation.",
-  },
-  {
-    name: "any_angle",
-    label: "Any angle",
-    default: true,
-    help: "Straight moves in any direction; else only along the grid's edges.",
-  },
-  {
-    name: "connectivity",
-    label: "Connectivity",
-    default: 8,
-    choices: { 4: "4 neighbours", 8: "8 neighbours", 16: "16 neighbours", 32: "32 neighbours" },
-    integer: true,
-    help: "How many neighbours a cell has in the search.",
-  },
-];
+/** @import {Option, Request} from "./types.js" */
 
-/** The value of an option in a request: its own or the default. */
+/** The options in an OpenAPI document, in its order: the members of the schema PlanOptions. */
+export function readOptions(document) {
+  const { schemas } = document.components;
+  return Object.entries(schemas.PlanOptions.properties).map(([name, schema]) =>
+    optionFrom(name, resolved(schema, schemas)),
+  );
+}
+
+/** A schema with the members of the one that it refers to, if any; its own take precedence. */
+function resolved({ $ref, ...schema }, schemas) {
+  return $ref === undefined ? schema : { ...schemas[$ref.split("/").at(-1)], ...schema };
+}
+
+/** @returns {Option} */
+function optionFrom(name, schema) {
+  const types = [schema.type].flat();
+  const unit = schema["x-unit"] ?? (name.endsWith("_ms") ? "ms" : "");
+  const words = schema["x-enumDescriptions"] ?? {};
+  return {
+    name,
+    label: schema.title ?? inWords(name.replace(/_ms$/, "")),
+    unit,
+    type: types.find((type) => type !== "null"),
+    default: schema.default ?? null,
+    choices: schema.enum?.map((value) => ({ value, label: words[value] ?? inWords(String(value)) })) ?? null,
+    min: schema.minimum ?? null,
+    max: schema.maximum <= Number.MAX_SAFE_INTEGER ? schema.maximum : null, // others are no limits in practice
+    description: schema.description ?? "",
+  };
+}
+
+/** An identifier as words: "Shortest first" for shortest_first. */
+function inWords(identifier) {
+  const words = identifier.replaceAll("_", " ");
+  return words.charAt(0).toUpperCase() + words.slice(1);
+}
+
+/**
+ * The value of an option in a request: its own or the default.
+ * @param {Request | null} request
+ * @param {Option} option
+ */
 export function optionOf(request, option) {
   return request?.options?.[option.name] ?? option.default;
 }
 
-/** The request with an option set; the default is left out, and options that are all left out. */
+/**
+ * The request with an option set. A default is omitted, and so are options without members.
+ * @param {Request} request
+ * @param {Option} option
+ * @returns {Request}
+ */
 export function withOption(request, option, value) {
   const options = { ...request.options, [option.name]: value };
   if (value === option.default) delete options[option.name];
+  /** @type {Request} */
   const edited = { ...request, options };
   if (Object.keys(options).length === 0) delete edited.options;
   return edited;

@@ -26,6 +26,7 @@ export function readDocument(document) {
     throw notOurs();
   }
   const request = {};
+  /** @type {any} */
   const answer = {};
   for (const [key, value] of Object.entries(document)) {
     const owner = Object.hasOwn(OF_ANSWERS, key) ? answer : request;

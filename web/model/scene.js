@@ -3,11 +3,15 @@
 
 import { doingAt, pathOf, poseAt } from "./timeline.js";
 
+/** @import {Answer, Grid, Robot, Scene, Track} from "./types.js" */
+
 const FREE = new Set([".", "G"]);
 
 /**
  * The map as {map, lines, columns, rows, resolution, origin, blocked, bounds}; blocked[row * columns + column],
- * top row first. `previous`, a grid or null, spares reading what is the same.
+ * top row first. `previous` spares reading what is the same.
+ * @param {Grid | null} previous
+ * @returns {Grid | null}
  */
 export function readGrid(map, previous) {
   if (previous !== null && map === previous.map) return previous;
@@ -38,6 +42,7 @@ function readCells(lines, columns, previous) {
   return blocked;
 }
 
+/** @returns {Robot[]} */
 function readRobots(request) {
   const listed = Array.isArray(request?.robots) ? request.robots : [];
   const robots = [];
@@ -60,6 +65,8 @@ function readPose(pose) {
 /**
  * The scene of a parsed request: {grid, robots}; the grid is null when there is no map to draw. `previous`, the
  * scene of an earlier request, makes it cheap to read an edited one.
+ * @param {Scene | null} previous
+ * @returns {Scene}
  */
 export function readScene(request, previous = null) {
   const robots = readRobots(request);
@@ -72,6 +79,9 @@ export function readScene(request, previous = null) {
  * What each robot of the scene does, by id: {status, actions, path, cost, lowerBound, unplanned}. The status is
  * "ready" before there is an answer, then "planned", "parked" (it has no goal) or "unplanned"; `lowerBound`,
  * what the robot would cost alone on the map (seconds), is null where the answer does not tell.
+ * @param {Scene} scene
+ * @param {Answer | null} answer
+ * @returns {Map<string, Track>}
  */
 export function readTracks(scene, answer) {
   const plans = new Map((answer?.plans ?? []).map((plan) => [plan.robot, plan]));

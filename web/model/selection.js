@@ -28,6 +28,7 @@ export class Focus {
 
 export class RobotChoice {
   #session;
+  /** @type {number | null} */
   #index = null;
 
   constructor(session) {
@@ -56,7 +57,8 @@ export class RobotChoice {
   }
 
   #followRequest(opened) {
-    if (opened || this.#index >= robotsOf(this.#session.request).length) this.#index = null;
+    const isGone = this.#index !== null && this.#index >= robotsOf(this.#session.request).length;
+    if (opened || isGone) this.#index = null;
     if (this.#session.selected !== null) this.#followSelected();
     else if (this.robot) this.#session.select(this.robot.id); // it was renamed, or can be shown again
   }

@@ -25,6 +25,8 @@ import { readScene, readTracks, robotPoseAt, robotStateAt } from "./scene.js";
 import { Focus } from "./selection.js";
 import { Signals } from "./signals.js";
 
+/** @import {Answer, Check, Limits, Problem, Request, Robot, Scene, Track} from "./types.js" */
+
 const EMPTY = { name: "", example: null, text: "", request: null };
 
 /** What was opened, {name, example, text, request}, and what its request was edited to. */
@@ -37,15 +39,23 @@ export class Session {
   #focus = new Focus();
   #history = new History(documentOf(EMPTY)); // of documents
   #turn = 0; // counts requests and edits, so that what was asked for an older one is dropped
+  /** @type {Map<string, Robot>} */
   #robots = new Map(); // of the scene, by id
 
   player = new Player();
+  /** @type {Scene} */
   scene = readScene(null);
-  tracks = new Map(); // by id, see readTracks
-  answer = null; // parsed, or null
-  planning = null; // a PlanRun while planning, or null
-  problem = null; // of RFC 9457, or null
-  check = null; // what the service says of the plan: {valid, violations, min_clearance}, or null
+  /** @type {Map<string, Track>} */
+  tracks = new Map(); // by id
+  /** @type {Answer | null} */
+  answer = null;
+  /** @type {PlanRun | null} */
+  planning = null; // set while planning
+  /** @type {Problem | null} */
+  problem = null;
+  /** @type {Check | null} */
+  check = null; // of the plan, by the service
+  /** @type {Limits} */
   limits = {}; // what the service takes, see GET /v1/limits; empty until known
 
   /** `service`: see service/client.js. `nextFrame` calls back with the wall clock in milliseconds. */
@@ -225,7 +235,7 @@ export class Session {
   }
 
   #hear(progress) {
-    this.planning.hear(progress);
+    this.planning?.hear(progress);
     this.#signals.emit("planning");
   }
 

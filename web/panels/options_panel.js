@@ -1,18 +1,53 @@
-// The options of the request as a form: each with its default and unit.
+// The options of the request as a form, each with its default, unit and description. The form follows the service's
+// OpenAPI document, which is fetched when the form is needed for the first time.
 
-import { optionOf, OPTIONS, withOption } from "../model/options.js";
+import { optionOf, readOptions, withOption } from "../model/options.js";
+import { ProblemError } from "../model/problem.js";
 import { byId, element, setText } from "../ui/dom.js";
+
+const TAB = "tab-options";
+const STEPS = { m: 0.01, s: 0.1, ms: 1 }; // of the arrows in fields for numbers, by unit
 
 export class OptionsPanel {
   #session;
+  #fetchDocument;
+  #form = byId("options");
+  /** @type {Promise<void> | null} */
+  #loading = null; // a promise, once the form is needed
   #controls = new Map(); // option -> {input, reset}
 
-  constructor(session) {
+  /** `fetchDocument()` resolves to the service's OpenAPI document. */
+  constructor(session, tabs, fetchDocument) {
     this.#session = session;
-    byId("options").replaceChildren(...OPTIONS.map((option) => this.#field(option)));
+    this.#fetchDocument = fetchDocument;
     byId("reset-options").addEventListener("click", () => this.#resetAll());
+    tabs.onChange(() => tabs.chosen === TAB && this.load());
     session.on("request", () => this.#refresh());
-    session.on("limits", () => this.#takeLimits());
+    session.on("limits", () => this.#showLimits());
+  }
+
+  /** Builds the form unless it is there; resolves when that is done. The next call tries again if it failed. */
+  load() {
+    this.#loading ??= this.#build();
+    return this.#loading;
+  }
+
+  async #build() {
+    this.#showNote("Loading the options…");
+    try {
+      const options = readOptions(await this.#fetchDocument());
+      this.#form.replaceChildren(...options.map((option) => this.#field(option)));
+      this.#showLimits();
+      this.#refresh();
+    } catch (error) {
+      if (!(error instanceof ProblemError)) throw error;
+      this.#showNote(`The options could not be loaded: ${error.message}. Open this tab again to retry.`);
+      this.#loading = null;
+    }
+  }
+
+  #showNote(textContent) {
+    this.#form.replaceChildren(element("p", { class: "facts", role: "status", textContent }));
   }
 
   #field(option) {
@@ -24,9 +59,15 @@ export class OptionsPanel {
       textContent: "Reset",
       "aria-label": `Reset ${option.label} to ${inWords(option, option.default)}`,
     });
-    const note = element("small", { id: `${id}-help` }, `${option.help} `, defaultNote(option));
+    const note = element(
+      "small",
+      { id: `${id}-help` },
+      ...withCode(option.description),
+      " ",
+      defaultNote(option),
+    );
     input.setAttribute("aria-details", note.id);
-    input.addEventListener(input.type === "number" ? "input" : "change", () => this.#take(option, input));
+    input.addEventListener(input.type === "number" ? "input" : "change", () => this.#accept(option, input));
     input.addEventListener("change", () => this.#session.endGesture());
     reset.addEventListener("click", () => {
       this.#edit(option, option.default, null);
@@ -39,9 +80,9 @@ export class OptionsPanel {
     return element("div", { class: "field option" }, label, row, note);
   }
 
-  #take(option, input) {
+  #accept(option, input) {
     const value = readInput(option, input);
-    input.setCustomValidity(value === undefined ? "A number, please." : "");
+    input.setCustomValidity(value === undefined ? "Enter a number." : "");
     if (value !== undefined) this.#edit(option, value, `option ${option.name}`);
   }
 
@@ -56,12 +97,16 @@ export class OptionsPanel {
     if (options !== undefined) this.#session.edit(rest);
   }
 
-  /** The service's own default of the budget may differ from the usual one. */
-  #takeLimits() {
+  /** The default of the time budget is a setting of the service. */
+  #showLimits() {
     const { default_budget_ms } = this.#session.limits;
-    const note = byId("option-time_budget_ms-help").querySelector(".default");
-    if (default_budget_ms > 0) setText(note, `Default here: ${default_budget_ms} ms.`);
-    byId("option-time_budget_ms").placeholder = String(default_budget_ms ?? "");
+    const input = byId("option-time_budget_ms");
+    if (input === null || !(default_budget_ms > 0)) return;
+    setText(
+      byId("option-time_budget_ms-help").querySelector(".default"),
+      `Default here: ${default_budget_ms} ms.`,
+    );
+    input.placeholder = String(default_budget_ms);
   }
 
   #refresh() {
@@ -82,22 +127,27 @@ export class OptionsPanel {
 function inputFor(option, id) {
   const common = { id, "data-pointer": `/options/${option.name}` };
   if (option.choices) {
-    const choices = Object.entries(option.choices);
-    return element(
-      "select",
-      common,
-      ...choices.map(([value, textContent]) => element("option", { value, textContent })),
+    const choices = option.choices.map(({ value, label }) =>
+      element("option", { value: String(value), textContent: label }),
     );
+    return element("select", common, ...choices);
   }
-  if (typeof option.default === "boolean") return element("input", { ...common, type: "checkbox" });
-  const { min, step, unset = "" } = option;
-  return element("input", { ...common, type: "number", inputMode: "decimal", min, step, placeholder: unset });
+  if (option.type === "boolean") return element("input", { ...common, type: "checkbox" });
+  return element("input", {
+    ...common,
+    type: "number",
+    inputMode: "decimal",
+    min: option.min ?? "",
+    max: option.max ?? "",
+    step: option.type === "integer" ? 1 : (STEPS[option.unit] ?? "any"),
+    placeholder: option.default === null ? "default" : "",
+  });
 }
 
 /** The value in the input, or undefined if it is none. */
 function readInput(option, input) {
   if (input.type === "checkbox") return input.checked;
-  if (option.choices) return option.integer ? Number(input.value) : input.value;
+  if (option.choices) return option.type === "integer" ? Number(input.value) : input.value;
   if (input.value === "") return input.validity.badInput ? undefined : option.default;
   return Number(input.value);
 }
@@ -107,8 +157,13 @@ function defaultNote(option) {
 }
 
 function inWords(option, value) {
-  if (option.choices) return option.choices[value].toLowerCase();
+  if (option.choices) return option.choices.find((choice) => choice.value === value).label.toLowerCase();
   if (typeof value === "boolean") return value ? "on" : "off";
-  if (value === null) return option.unset;
+  if (value === null) return option.name === "time_budget_ms" ? "a setting of the service" : "none";
   return option.unit ? `${value} ${option.unit}` : String(value);
+}
+
+/** A text with the pieces in backticks as code. */
+function withCode(text) {
+  return text.split("`").map((piece, at) => (at % 2 === 0 ? piece : element("code", { textContent: piece })));
 }

@@ -70,6 +70,7 @@ export class PlanningStatus {
   #bar = byId("budget");
   #soFar = byId("so-far");
   #curve = byId("cost-curve");
+  /** @type {number | null} */
   #timer = null;
 
   constructor(session) {
@@ -106,7 +107,7 @@ export class PlanningStatus {
   }
 
   #end() {
-    clearInterval(this.#timer);
+    clearInterval(this.#timer ?? undefined);
     this.#timer = null;
     this.#elapsed.hidden = this.#box.hidden = true;
   }

@@ -11,8 +11,11 @@ import { count } from "../ui/format.js";
 const FORMS = ["panel-edit", "panel-options"];
 const MOST_ERRORS = 100; // to list; nobody reads more
 
-/** Shows the session's problem and marks its errors at their places. `choice`: see RobotChoice. */
-export function watchProblem(session, stage, tabs, choice) {
+/**
+ * Shows the session's problem and marks its errors at their places. `choice`: see RobotChoice. `loadOptions()`
+ * resolves when the form of the options is there.
+ */
+export function watchProblem(session, stage, tabs, choice, loadOptions) {
   const errors = () => session.problem?.errors ?? [];
   const forms = FORMS.map((id) => document.getElementById(id));
 
@@ -20,7 +23,10 @@ export function watchProblem(session, stage, tabs, choice) {
     for (const form of forms) showFieldErrors(form, errors());
   };
   session.on("problem marks", refresh); // marks: the form may have turned to another robot
-  session.on("problem", () => stage.redraw());
+  session.on("problem", () => {
+    stage.redraw();
+    if (errors().some(isAboutOptions)) loadOptions().then(refresh);
+  });
 
   stage.addOverlay((context, view) => {
     for (const { pointer = "" } of errors()) {
@@ -31,7 +37,8 @@ export function watchProblem(session, stage, tabs, choice) {
     }
   });
 
-  const lead = (pointer) => {
+  const lead = async (pointer) => {
+    if (isAboutOptions({ pointer })) await loadOptions();
     const index = robotIndexOf(pointer);
     const disk = diskOf(session, pointer);
     if (index !== null) choice.choose(index);
@@ -42,6 +49,8 @@ export function watchProblem(session, stage, tabs, choice) {
   };
   session.on("problem", () => showProblem(session.problem, session.request, lead));
 }
+
+const isAboutOptions = ({ pointer = "" }) => pointer.startsWith("/options");
 
 /** Leads to a field, or to the first of a group of fields, wherever it is folded away. */
 function focusOn(field, tabs) {
@@ -57,7 +66,7 @@ function focusOn(field, tabs) {
  * null if there is none. A robot may be too faulty to be drawn and yet have a place.
  */
 function diskOf({ request, scene }, pointer) {
-  const robot = robotsOf(request)[robotIndexOf(pointer)];
+  const robot = robotsOf(request)[robotIndexOf(pointer) ?? -1];
   const pose = (/^\/robots\/\d+\/goal/.test(pointer) && robot?.goal) || robot?.start;
   if (!Number.isFinite(pose?.x) || !Number.isFinite(pose?.y)) return null;
   const radius = robot.radius ?? request.robot_defaults?.radius;

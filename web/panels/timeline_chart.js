@@ -2,7 +2,7 @@
 // painted when something in it changes; while a plan plays, only the playhead moves.
 
 import { orderRows, panTime, revealTime, rowAt, scrollToRow, timeAt, xOf, zoomTime } from "../model/gantt.js";
-import { byId } from "../ui/dom.js";
+import { byId, contextOf } from "../ui/dom.js";
 import { seconds } from "../ui/format.js";
 import { wheelFactor, wheelTravel } from "../ui/input.js";
 import { AXIS, paintGantt, STRIP } from "./gantt_painter.js";
@@ -122,7 +122,7 @@ export class TimelineChart {
       this.#canvas.style.width = `${clientWidth}px`;
       this.#canvas.style.height = `${clientHeight}px`;
     }
-    const context = this.#canvas.getContext("2d");
+    const context = contextOf(this.#canvas);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     paintGantt(context, {
       layout: this.#layout(),

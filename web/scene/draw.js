@@ -3,6 +3,7 @@
 
 import { robotPoseAt, robotStateAt } from "../model/scene.js";
 import { remainingPath } from "../model/timeline.js";
+import { contextOf } from "../ui/dom.js";
 import { MapRaster } from "./map_raster.js";
 import { drawGoal, drawPath, drawRobot, drawStart } from "./marks.js";
 import { robotColour } from "./palette.js";
@@ -16,17 +17,18 @@ export class Painter {
   #canvas;
   #context;
   #backdrop = document.createElement("canvas");
+  /** @type {string | null} */
   #backdropKey = null;
-  #scene = null;
-  #tracks = null;
-  #theme = null;
-  #look = null;
+  #scene = /** @type {any} */ (null);
+  #tracks = /** @type {any} */ (null);
+  #theme = /** @type {any} */ (null);
+  #look = /** @type {any} */ (null);
   #map = new MapRaster();
   #colours = [];
 
   constructor(canvas) {
     this.#canvas = canvas;
-    this.#context = canvas.getContext("2d");
+    this.#context = contextOf(canvas);
   }
 
   /** What to paint from now on, and how: see Stage.look. */
@@ -71,7 +73,7 @@ export class Painter {
     this.#backdropKey = key;
     this.#backdrop.width = width;
     this.#backdrop.height = height;
-    const context = this.#backdrop.getContext("2d", { alpha: false });
+    const context = contextOf(this.#backdrop, { alpha: false });
     context.fillStyle = this.#theme.void;
     context.fillRect(0, 0, width, height);
     if (this.#scene.grid) this.#paintMap(context, camera, viewport, ratio);

@@ -1,6 +1,6 @@
 // The map as images, a pixel a cell, made once; drawing it at any zoom is then a matter of a few copies.
 
-import { element } from "../ui/dom.js";
+import { contextOf, element } from "../ui/dom.js";
 import { readTheme } from "./palette.js";
 
 const TILE = 2048; // cells a side: canvases of any browser and memory hold that
@@ -8,6 +8,7 @@ const MOST_CELLS = 2 ** 24; // to paint as fast as one types
 
 /** The map of a grid (see readScene) as tiles: blocked cells in the wall's colour, free ones clear. */
 export class MapRaster {
+  /** @type {any} */
   #grid = null;
   #wallColour = null;
   #wall = 0; // the colour as the bytes of a pixel
@@ -76,7 +77,7 @@ function changedRows(before, grid) {
 }
 
 function paintRows({ canvas, column, row, columns }, grid, from, to, wall) {
-  const context = canvas.getContext("2d");
+  const context = contextOf(canvas);
   const image = context.createImageData(columns, to - from);
   const pixels = new Uint32Array(image.data.buffer);
   for (let y = from; y < to; y += 1) {
@@ -93,7 +94,7 @@ function paintRows({ canvas, column, row, columns }, grid, from, to, wall) {
 function rgbaOf(colour) {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = 1;
-  const context = canvas.getContext("2d");
+  const context = contextOf(canvas);
   context.fillStyle = colour;
   context.fillRect(0, 0, 1, 1);
   return new Uint32Array(context.getImageData(0, 0, 1, 1).data.buffer)[0];
@@ -107,7 +108,7 @@ export class MapPreview {
    * from the top, 0 for none, `colour` a name in the theme. `label` describes it. `mark(context, theme, place)`
    * may add to it, where place(column, row) is the middle of a cell {x, y} with `cell`, a cell's side, in pixels.
    */
-  paint({ columns, rows }, layers, label, mark = () => {}) {
+  paint({ columns, rows }, layers, label, mark = /** @type {any} */ (null)) {
     const { canvas } = this;
     const ratio = window.devicePixelRatio || 1;
     canvas.setAttribute("aria-label", label);
@@ -115,7 +116,7 @@ export class MapPreview {
     canvas.height = Math.round(canvas.clientHeight * ratio);
     if (canvas.width === 0 || canvas.height === 0) return;
     const theme = readTheme();
-    const context = canvas.getContext("2d");
+    const context = contextOf(canvas);
     const cell = Math.min(canvas.width / columns, canvas.height / rows);
     const left = (canvas.width - columns * cell) / 2;
     const top = (canvas.height - rows * cell) / 2;
@@ -126,7 +127,7 @@ export class MapPreview {
       raster.show({ columns, rows, blocked: cells }, theme[colour]);
       raster.draw(context, left, top, cell);
     }
-    mark(context, theme, (column, row) => ({
+    mark?.(context, theme, (column, row) => ({
       x: left + (column + 0.5) * cell,
       y: top + (row + 0.5) * cell,
       cell,

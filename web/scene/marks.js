@@ -40,7 +40,9 @@ export function drawGoal(context, centre, theta, radius, colour) {
   context.restore();
 }
 
-export function drawPath(context, points, colour, { width, alpha, dashes = [] }) {
+/** @param {{width: number, alpha: number, dashes?: number[]}} line */
+export function drawPath(context, points, colour, line) {
+  const { width, alpha, dashes = [] } = line;
   if (points.length < 2) return;
   context.save();
   context.globalAlpha = alpha;
@@ -172,7 +174,9 @@ export function drawTag(context, theme, { x, y }, text) {
   context.restore();
 }
 
-export function ring(context, centre, radius, colour, { width, alpha, dashes }) {
+/** @param {{width: number, alpha: number, dashes: number[]}} line */
+export function ring(context, centre, radius, colour, line) {
+  const { width, alpha, dashes } = line;
   context.save();
   context.globalAlpha = alpha;
   context.strokeStyle = colour;

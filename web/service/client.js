@@ -21,6 +21,11 @@ export async function fetchLimits() {
   return parseAnswer(await ask("v1/limits"));
 }
 
+/** The OpenAPI document of the service, which describes the options of a request. */
+export async function fetchOpenApi() {
+  return parseAnswer(await ask("v1/openapi.json"));
+}
+
 /**
  * Plans the request, a JSON text. The answer; rejects with AbortError when aborted. Meanwhile `told` hears of
  * progress({elapsed_ms, attempt, planned, robots, best}) and incumbent(text), an answer's text, if the service, or what
@@ -75,7 +80,7 @@ async function unlessCut(receiving) {
   try {
     return await receiving;
   } catch (error) {
-    if (error.name === "AbortError" || error instanceof ProblemError) throw error;
+    if (/** @type {Error} */ (error).name === "AbortError" || error instanceof ProblemError) throw error;
     throw new ProblemError({
       title: "No answer from the service",
       detail: "The connection failed or was cut. Is the service running and reachable from here?",
@@ -146,7 +151,7 @@ function readEvent(block) {
   const data = [];
   let event = "message";
   for (const line of block.split(/\r?\n/)) {
-    const [, field, value] = /^([^:]*):? ?(.*)$/s.exec(line);
+    const [, field, value] = /^([^:]*):? ?(.*)$/s.exec(line) ?? [];
     if (field === "event") event = value;
     if (field === "data") data.push(value);
   }

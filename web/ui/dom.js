@@ -14,7 +14,17 @@ export function element(tag, properties = {}, ...children) {
   return made;
 }
 
+/**
+ * An element of index.html, which decides of what kind it is.
+ * @returns {any}
+ */
 export const byId = (id) => document.getElementById(id);
+
+/**
+ * What to paint on a canvas with.
+ * @returns {CanvasRenderingContext2D}
+ */
+export const contextOf = (canvas, settings = {}) => canvas.getContext("2d", settings);
 
 /** An SVG element with attributes. */
 export function svgElement(tag, attributes) {

@@ -1,5 +1,9 @@
 // Tabs as ARIA's authoring practices want them: arrows move between them, the chosen one alone is in the tab order.
 
+import { byId } from "./dom.js";
+
+const panelOf = (tab) => byId(tab.getAttribute("aria-controls"));
+
 export class Tabs {
   #listeners = [];
   #tabs;
@@ -28,7 +32,7 @@ export class Tabs {
       const chosen = tab.id === id;
       tab.setAttribute("aria-selected", String(chosen));
       tab.tabIndex = chosen ? 0 : -1;
-      document.getElementById(tab.getAttribute("aria-controls")).hidden = !chosen;
+      panelOf(tab).hidden = !chosen;
     }
     for (const listener of this.#listeners) listener();
   }
@@ -36,7 +40,7 @@ export class Tabs {
   /** Shows the panel that holds an element. */
   reveal(part) {
     const tab = this.#tabs.find((each) => {
-      return document.getElementById(each.getAttribute("aria-controls")).contains(part);
+      return panelOf(each).contains(part);
     });
     if (tab) this.choose(tab.id);
   }

@@ -42,6 +42,48 @@ test("options are set in the request, and those at their default are left out", 
   });
 });
 
+test("the form has the options of the service's document, fetched when the tab is opened", async () => {
+  await onPage(async (page, { requested }) => {
+    const asked = () => requested.filter((address) => address.endsWith("/v1/openapi.json")).length;
+    assert.equal(asked(), 0);
+    await page.click("#tab-options");
+    await page.waitForSelector("#option-seed");
+    const { components } = await page.evaluate(async () => (await fetch("v1/openapi.json")).json());
+    const { properties } = components.schemas.PlanOptions;
+    const shown = await page.evaluate(() =>
+      [...document.querySelectorAll("#options [id^=option-]:is(input, select)")].map(({ id }) => id),
+    );
+    assert.deepEqual(
+      shown,
+      Object.keys(properties).map((name) => `option-${name}`),
+    );
+    assert.equal(await page.getAttribute("#option-inflation", "min"), String(properties.inflation.minimum));
+    const modes = await page.evaluate(() =>
+      [...document.getElementById("option-mode").options].map(({ value }) => value),
+    );
+    assert.deepEqual(modes, properties.mode.enum);
+    await page.click("#tab-plan");
+    await page.click("#tab-options");
+    assert.equal(asked(), 2, "one by the form, one by this test");
+  });
+});
+
+test("options that cannot be loaded are reported, and loaded when the tab is opened again", async () => {
+  await onPage(
+    async (page) => {
+      const document = (address) => address.pathname.endsWith("/v1/openapi.json");
+      await page.route(document, (route) => route.abort());
+      await page.click("#tab-options");
+      await page.getByText("The options could not be loaded").waitFor();
+      await page.unroute(document);
+      await page.click("#tab-plan");
+      await page.click("#tab-options");
+      await page.waitForSelector("#option-seed");
+    },
+    { allowed: /ERR_FAILED/ },
+  );
+});
+
 test("typing a value is one step back", async () => {
   await onPage(async (page) => {
     await paste(page, REQUEST);

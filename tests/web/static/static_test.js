@@ -1,4 +1,4 @@
-// The sources of the page and its tests are formatted and free of lint errors.
+// The sources of the page and its tests are formatted, free of lint errors and type-correct.
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
@@ -18,3 +18,5 @@ const run = (script) => {
 test("sources are formatted as Prettier formats them", () => run("format"));
 
 test("ESLint finds no error or warning", () => run("lint"));
+
+test("types agree with the JSDoc comments", () => run("types"));

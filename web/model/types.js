@@ -1,0 +1,148 @@
+// The shapes that several modules share, for the type checker: the service's JSON (see GET /v1/openapi.json) and what the
+// page makes of it. Units: metres, seconds, radians.
+
+/** @typedef {{x: number, y: number}} Position */
+/** @typedef {{x: number, y: number, theta: number}} Pose */
+/** @typedef {{column: number, row: number}} Cell row 0 is the top one */
+
+// The service's JSON
+
+/**
+ * A pose of a request; a start without theta faces 0, a goal without theta allows any heading.
+ * @typedef {{x: number, y: number, theta?: number}} GivenPose
+ */
+
+/**
+ * @typedef {object} RequestRobot
+ * @property {string} id
+ * @property {number} [radius]
+ * @property {number} [linear_speed]
+ * @property {number} [angular_speed]
+ * @property {GivenPose} start
+ * @property {GivenPose} [goal]
+ */
+
+/** @typedef {{rows: string[], resolution?: number, origin?: Position}} RequestMap */
+/** @typedef {{radius?: number, linear_speed?: number, angular_speed?: number}} RobotDefaults */
+
+/**
+ * A request of POST /v1/plan. The page shows and edits faulty ones, too: readers check what they use.
+ * @typedef {object} Request
+ * @property {RequestMap} map
+ * @property {RequestRobot[]} robots
+ * @property {RobotDefaults} [robot_defaults]
+ * @property {Record<string, any>} [options]
+ */
+
+/** @typedef {{type: "rotate" | "translate" | "wait", t_start: number, t_end: number, from: Pose, to: Pose}} Action */
+/** @typedef {{robot: string, cost: number, lower_bound?: number, actions: Action[]}} Plan */
+/** @typedef {{robot: string, reason: string, detail?: string, blocked_by?: string[]}} Unplanned */
+
+/**
+ * The answer of POST /v1/plan. One from a file may lack what is optional here.
+ * @typedef {object} Answer
+ * @property {string} status "solved", "partial" or "none"
+ * @property {Plan[]} plans
+ * @property {Unplanned[]} unplanned
+ * @property {number} flowtime
+ * @property {number} makespan
+ * @property {{flowtime: number, makespan: number}} [lower_bound]
+ * @property {boolean} [verified]
+ * @property {number | null} [min_clearance]
+ * @property {boolean} [deterministic]
+ * @property {{expansions: number}} [search]
+ * @property {Record<string, number>} [timings_ms]
+ * @property {(string | {detail?: string})[]} warnings
+ */
+
+/** @typedef {{kind: string, robots: string[], t: number, distance?: number, required?: number, detail: string}} Violation */
+
+/**
+ * The answer of POST /v1/validate.
+ * @typedef {{valid: boolean, violations: Violation[], truncated?: boolean, min_clearance: number | null}} Check
+ */
+
+/** @typedef {{pointer?: string, code?: string, detail: string}} Fault an error of a Problem, at a JSON Pointer */
+
+/**
+ * A failure in the form of RFC 9457.
+ * @typedef {object} Problem
+ * @property {string} title
+ * @property {string} [detail]
+ * @property {number} [status]
+ * @property {Fault[]} [errors]
+ * @property {number} [retry_after] seconds
+ * @property {string} [request_id]
+ */
+
+/**
+ * The answer of GET /v1/limits; empty until it is known.
+ * @typedef {{default_budget_ms?: number, max_budget_ms?: number, max_robots?: number, max_cells?: number}} Limits
+ */
+
+/** @typedef {{flowtime: number, makespan: number}} Costs */
+
+/**
+ * An event while planning; `best` is null until there is a plan.
+ * @typedef {{elapsed_ms: number, attempt: number, planned: number, robots: number, best: Costs | null}} Progress
+ */
+
+// The scene, see scene.js
+
+/**
+ * A map as it is drawn; `blocked[row * columns + column]` is 1 for a wall, the top row first.
+ * @typedef {object} Grid
+ * @property {RequestMap} map
+ * @property {string[]} lines
+ * @property {number} columns
+ * @property {number} rows
+ * @property {number} resolution
+ * @property {Position} origin
+ * @property {Uint8Array} blocked
+ * @property {Bounds} bounds
+ */
+
+/** @typedef {{left: number, bottom: number, right: number, top: number}} Bounds metres */
+
+/**
+ * A robot as it is drawn, at `index` of the request's robots. A goal's theta is null for any heading.
+ * @typedef {object} Robot
+ * @property {number} index
+ * @property {string} id
+ * @property {string} label what differs from the other robots' ids
+ * @property {number} radius
+ * @property {Pose} start
+ * @property {{x: number, y: number, theta: number | null} | null} goal
+ */
+
+/** @typedef {{grid: Grid | null, robots: Robot[]}} Scene */
+
+/**
+ * What a robot does under an answer; see readTracks.
+ * @typedef {object} Track
+ * @property {"ready" | "planned" | "parked" | "unplanned"} status
+ * @property {Action[]} actions
+ * @property {Position[]} path
+ * @property {number | null} cost
+ * @property {number | null} lowerBound
+ * @property {Unplanned | null} unplanned
+ */
+
+/** @typedef {{radius: number, knots: Float64Array}} Motion see motion.js */
+
+// The options of a request, see options.js
+
+/**
+ * @typedef {object} Option
+ * @property {string} name
+ * @property {string} label
+ * @property {string} unit "" for none
+ * @property {string} type of JSON Schema
+ * @property {any} default null if the service has none, or decides
+ * @property {{value: any, label: string}[] | null} choices
+ * @property {number | null} min
+ * @property {number | null} max
+ * @property {string} description
+ */
+
+export {};
