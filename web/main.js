@@ -55,7 +55,7 @@ watchReadout(session);
 watchSaving(session, stage, address);
 watchViewMenu(stage);
 watchProblem(session, stage, tabs, edit.choice, () => options.load());
-session.on("said", (text) => setText(byId("announcer"), text));
+session.on("announcement", (text) => setText(byId("announcer"), text));
 
 watchShortcuts({
   " ": () => session.togglePlaying(),
@@ -71,11 +71,11 @@ watchShortcuts({
   "+": () => stage.zoomIn(),
   "=": () => stage.zoomIn(),
   "-": () => stage.zoomOut(),
-  v: () => edit.take("select"),
-  w: () => edit.take("wall"),
-  e: () => edit.take("erase"),
-  b: () => edit.take("box"),
-  a: () => edit.take("robot"),
+  v: () => edit.pick("select"),
+  w: () => edit.pick("wall"),
+  e: () => edit.pick("erase"),
+  b: () => edit.pick("box"),
+  a: () => edit.pick("robot"),
   "Control+z": () => session.undo(),
   "Control+Shift+z": () => session.redo(),
   "Control+y": () => session.redo(),

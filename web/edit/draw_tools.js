@@ -7,14 +7,14 @@ import { CellCursor } from "./cell_cursor.js";
 
 /** @import {Cell} from "../model/types.js" */
 
-const NO_MAP = "There is no map to draw on yet: begin one under New map.";
+const NO_MAP = "There is no map to draw on: create one under New map.";
 
 let strokes = 0; // for a name of each
 
 /** Makes cells wall, or floor, where it is drawn. */
 export class DrawTool {
   help;
-  keys = "In the scene also arrows and Enter, with Shift a line.";
+  keys = "Keyboard: arrows and Enter; with Shift, a line.";
   #session;
   #cursor;
   #blocked;
@@ -32,7 +32,7 @@ export class DrawTool {
   }
 
   press(world) {
-    if (this.#session.scene.grid === null) this.#session.say(NO_MAP);
+    if (this.#session.scene.grid === null) this.#session.announce(NO_MAP);
     strokes += 1;
     this.#gesture = `stroke ${strokes}`;
     this.#last = world;
@@ -48,10 +48,10 @@ export class DrawTool {
 
   release(world) {
     this.drag(world);
-    this.letGo();
+    this.abort();
   }
 
-  letGo() {
+  abort() {
     this.#session.endGesture();
   }
 
@@ -77,7 +77,7 @@ export class DrawTool {
     } else {
       return false;
     }
-    this.#tellCell();
+    this.#announceCell();
     return true;
   }
 
@@ -87,17 +87,17 @@ export class DrawTool {
     this.#session.edit(setCells(request, cells, this.#blocked, scene.grid), gesture);
   }
 
-  #tellCell() {
+  #announceCell() {
     const cell = /** @type {Cell} */ (this.#cursor.cell);
     const state = isFree(this.#session.scene.grid, cell) ? "free" : "wall";
-    this.#session.say(`Column ${cell.column + 1}, row ${cell.row + 1} from the top: ${state}.`);
+    this.#session.announce(`Column ${cell.column + 1}, row ${cell.row + 1} from the top: ${state}.`);
   }
 }
 
 /** Fills the rectangle between two corners with walls or, with Alt, frees it. */
 export class BoxTool {
   help = "Drag from corner to corner to fill with wall.";
-  keys = "Alt: to free. In the scene also arrows, and Enter at both corners.";
+  keys = "Alt: erase. Keyboard: arrows, and Enter at both corners.";
 
   #session;
   #cursor;
@@ -113,7 +113,7 @@ export class BoxTool {
 
   press(world) {
     const { grid } = this.#session.scene;
-    if (grid === null) this.#session.say(NO_MAP);
+    if (grid === null) this.#session.announce(NO_MAP);
     this.#corner = grid && cellAt(grid, world);
     return true;
   }
@@ -127,10 +127,10 @@ export class BoxTool {
     this.drag(world, event);
     const { grid } = this.#session.scene;
     if (grid && this.#corner) this.#fill(cellAt(grid, world), event.altKey);
-    this.letGo();
+    this.abort();
   }
 
-  letGo() {
+  abort() {
     this.#corner = null;
     this.#frees = false;
   }
@@ -151,16 +151,16 @@ export class BoxTool {
     const { cell } = this.#cursor;
     if (cell === null) return false;
     if (event.key === "Escape" && this.#corner) {
-      this.letGo();
+      this.abort();
       return true;
     }
     if (event.key !== "Enter" && event.key !== " ") return this.#moved(event);
     if (this.#corner) {
       this.#fill(cell, event.altKey);
-      this.letGo();
+      this.abort();
     } else {
       this.#corner = cell;
-      this.#session.say("First corner set.");
+      this.#session.announce("First corner set.");
     }
     return true;
   }
@@ -168,7 +168,7 @@ export class BoxTool {
   #moved(event) {
     if (!this.#cursor.key(event)) return false;
     const { column, row } = /** @type {Cell} */ (this.#cursor.cell);
-    this.#session.say(`Column ${column + 1}, row ${row + 1} from the top.`);
+    this.#session.announce(`Column ${column + 1}, row ${row + 1} from the top.`);
     return true;
   }
 
@@ -176,6 +176,6 @@ export class BoxTool {
     const { request, scene } = this.#session;
     const cells = cellsBetween(scene.grid, this.#corner, cell);
     this.#session.edit(setCells(request, cells, !frees, scene.grid));
-    this.#session.say(`${count(cells.length, "cell")} made ${frees ? "free" : "wall"}.`);
+    this.#session.announce(`${count(cells.length, "cell")} made ${frees ? "free" : "wall"}.`);
   }
 }

@@ -28,13 +28,13 @@ export class EditPanel {
     watchDefaultsForm(session);
     new MapForm(session);
     watchNewMapForm(session, async (request) => {
-      if (await opening.text("new map", JSON.stringify(request))) this.take("wall");
+      if (await opening.text("new map", JSON.stringify(request))) this.pick("wall");
     });
   }
 
   /** Takes a tool in hand: select, wall, erase, box or robot. */
-  take(tool) {
-    this.#toolbox.take(tool);
+  pick(tool) {
+    this.#toolbox.pick(tool);
   }
 }
 
@@ -70,7 +70,7 @@ export class Toolbox {
   }
 
   /** Takes a tool in hand, on the Edit tab, for use with the keyboard. */
-  take(name) {
+  pick(name) {
     this.#tabs.choose(TAB);
     this.#choose(name);
     this.#stage.canvas.focus();

@@ -8,14 +8,14 @@ const STEM = 22; // pixels from a disk's rim to its handle
 const LONGER = 48; // pixels more for the goal's handle if it would cover the start's
 const NAME = 28; // pixels beyond a disk's top that its name may take
 const KNOB = 6; // pixels, the radius of a handle
-const GRASP = { mouse: 10, touch: 22 }; // pixels around a handle that take hold of it
+const PICK = { mouse: 10, touch: 22 }; // pixels around a handle that take hold of it
 
 /** The part at a world point, or null; `event` says what points there, and with shift that goals go first. */
 export function partAt(world, { session, stage, chosen, event }) {
-  const grasp = (event?.pointerType === "touch" ? GRASP.touch : GRASP.mouse) / stage.scale;
+  const reach = (event?.pointerType === "touch" ? PICK.touch : PICK.mouse) / stage.scale;
   for (const pose of chosen ? posesOf(chosen) : []) {
     const { knob } = handleOf(chosen, pose, { scale: stage.scale, time: session.player.time });
-    if (Math.hypot(knob.x - world.x, knob.y - world.y) > grasp) continue;
+    if (Math.hypot(knob.x - world.x, knob.y - world.y) > reach) continue;
     return { robot: chosen, pose, turns: true, place: knob };
   }
   const start = part(stage.diskAt(world), "start");

@@ -13,7 +13,7 @@ export class MapForm {
   constructor(session) {
     this.#session = session;
     const number = (label, unit, edited) =>
-      new NumberField({ label, unit, late: true, take: (value) => session.edit(edited(value)) });
+      new NumberField({ label, unit, late: true, accept: (value) => session.edit(edited(value)) });
     this.#fields = {
       columns: this.#sizeField("Columns", "columns", "right"),
       rows: this.#sizeField("Rows", "rows", "top"),
@@ -35,8 +35,8 @@ export class MapForm {
 
   /** Takes a size when it is typed to its end: half of it would cut the map. */
   #sizeField(label, dimension, side) {
-    const take = (value) => this.#resize({ [side]: value - this.#session.scene.grid[dimension] });
-    return new NumberField({ label, step: "1", required: true, late: true, take });
+    const accept = (value) => this.#resize({ [side]: value - this.#session.scene.grid[dimension] });
+    return new NumberField({ label, step: "1", required: true, late: true, accept });
   }
 
   #sideButtons(side) {
@@ -62,7 +62,7 @@ export class MapForm {
     const rows = grid.rows + sum("top") + sum("bottom");
     const fault = faultOfSize(columns, rows, this.#session.limits);
     if (fault === null) this.#session.edit(resize(this.#session.request, sides));
-    this.#session.say(fault ?? `The map has ${columns} columns and ${rows} rows.`);
+    this.#session.announce(fault ?? `The map has ${columns} columns and ${rows} rows.`);
     return fault;
   }
 
@@ -87,10 +87,11 @@ export function watchNewMapForm(session, begin) {
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     const [columns, rows, resolution] = ["new-columns", "new-rows", "new-resolution"].map(number);
-    const wrong = resolution > 0 ? faultOfSize(columns, rows, session.limits) : "A cell is larger than 0 m.";
+    const wrong =
+      resolution > 0 ? faultOfSize(columns, rows, session.limits) : "A cell must be larger than 0 m.";
     setText(fault, wrong ?? "");
     if (wrong !== null) return;
     begin(newMap({ columns, rows, resolution, walled: byId("new-walled").checked }));
-    session.say(`A new map of ${columns} columns and ${rows} rows.`);
+    session.announce(`New map of ${columns} columns and ${rows} rows.`);
   });
 }

@@ -22,11 +22,13 @@ export class RobotActions {
   }
 
   /** Says where the chosen robot's "start" or "goal" is now. */
-  tellPose(pose) {
+  announcePose(pose) {
     const at = robotsOf(this.#session.request)[this.#choice.index]?.[pose];
     const place = `(${at?.x}, ${at?.y}) m`;
     const heading = Number.isFinite(at?.theta) ? `, facing ${degrees(at.theta)}` : "";
-    this.#session.say(`${this.#name} ${pose === "goal" ? "has its goal" : "starts"} at ${place}${heading}.`);
+    this.#session.announce(
+      `${this.#name} ${pose === "goal" ? "has its goal" : "starts"} at ${place}${heading}.`,
+    );
   }
 
   duplicate() {
@@ -39,7 +41,7 @@ export class RobotActions {
     this.#session.edit(duplicateRobot(request, index, start, goal));
     const name = this.#name;
     this.#choice.choose(robotsOf(this.#session.request).length - 1);
-    this.#session.say(`${name} duplicated as ${this.#name}.`);
+    this.#session.announce(`${name} duplicated as ${this.#name}.`);
   }
 
   delete() {
@@ -48,7 +50,7 @@ export class RobotActions {
     const name = this.#name;
     this.#choice.choose(null);
     this.#session.edit(deleteRobot(this.#session.request, index));
-    this.#session.say(`${name} deleted.`);
+    this.#session.announce(`${name} deleted.`);
   }
 
   /** Gives the chosen robot a goal beside its start, of any heading. */
@@ -58,12 +60,12 @@ export class RobotActions {
     const goals = scene.robots.map(goalDisk).filter(Boolean);
     const place = robot && this.#freePlace(robot, robot.start, goals, ROOM * robot.radius);
     this.setPose("goal", place ?? { x: 0, y: 0 });
-    this.tellPose("goal");
+    this.announcePose("goal");
   }
 
   removeGoal() {
     this.#session.edit(removeGoal(this.#session.request, this.#choice.index));
-    this.#session.say(`${this.#name} has no goal: it stays at its start.`);
+    this.#session.announce(`${this.#name} has no goal: it stays at its start.`);
   }
 
   get #name() {

@@ -12,8 +12,8 @@ export const ROBOT_NUMBERS = [
   { name: "angular_speed", label: "Turning", unit: "rad/s" },
 ];
 const POSES = ["start", "goal"];
-const HOW_TO_CHOOSE = "Choose a robot here, or press one in the scene.";
-const HOW_TO_ADD = "A request needs at least one robot: take the robot tool and press in the scene.";
+const HOW_TO_CHOOSE = "Select a robot here or in the scene.";
+const HOW_TO_ADD = "A request needs at least one robot: add one with the robot tool.";
 
 export class RobotForm {
   #session;
@@ -49,13 +49,13 @@ export class RobotForm {
   #build() {
     const settle = () => this.#session.endGesture();
     for (const { name, label, unit } of ROBOT_NUMBERS) {
-      const take = (value) => this.#set(name, value);
-      this.#numbers.set(name, new NumberField({ label, unit, take, settle }));
+      const accept = (value) => this.#set(name, value);
+      this.#numbers.set(name, new NumberField({ label, unit, accept, settle }));
     }
     byId("robot-numbers").append(...[...this.#numbers.values()].map(({ element }) => element));
     for (const pose of POSES) {
       const field = (name, described) =>
-        new NumberField({ ...described, take: (value) => this.#setPose(pose, name, value), settle });
+        new NumberField({ ...described, accept: (value) => this.#setPose(pose, name, value), settle });
       const fields = {
         x: field("x", { label: "x", unit: "m", required: true }),
         y: field("y", { label: "y", unit: "m", required: true }),
@@ -138,14 +138,14 @@ function namesOf({ request, problem }) {
   const faulty = new Set((problem?.errors ?? []).map(({ pointer = "" }) => robotIndexOf(pointer)));
   const sign = (index) => (faulty.has(index) ? "⚠ " : "");
   const names = robotsOf(request).map((_, index) => sign(index) + nameOf(request, index));
-  return [names.length > 0 ? "None chosen" : "No robots yet", ...names];
+  return [names.length > 0 ? "None selected" : "No robots yet", ...names];
 }
 
 export function watchDefaultsForm(session) {
   /** @type {[string, NumberField][]} */
   const fields = ROBOT_NUMBERS.map(({ name, label, unit }) => {
-    const take = (value) => session.edit(setDefault(session.request, name, value), `default ${name}`);
-    const field = new NumberField({ label, unit, take, settle: () => session.endGesture() });
+    const accept = (value) => session.edit(setDefault(session.request, name, value), `default ${name}`);
+    const field = new NumberField({ label, unit, accept, settle: () => session.endGesture() });
     field.input.dataset.pointer = `/robot_defaults/${name}`;
     return [name, field];
   });

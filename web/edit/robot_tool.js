@@ -8,8 +8,8 @@ import { CellCursor } from "./cell_cursor.js";
 let gestures = 0; // for a name of each
 
 export class RobotTool {
-  help = "Press where a robot starts and drag to its goal; a mere click adds one that stays.";
-  keys = "Alt: anywhere.";
+  help = "Drag from a start to a goal to add a robot; a click adds one without a goal.";
+  keys = "Alt: no snapping.";
 
   #session;
   #choice;
@@ -43,11 +43,11 @@ export class RobotTool {
 
   release() {
     this.#add();
-    this.#tell();
-    this.letGo();
+    this.#announce();
+    this.abort();
   }
 
-  letGo() {
+  abort() {
     this.#pressed = null;
     this.#session.endGesture();
   }
@@ -81,13 +81,13 @@ export class RobotTool {
     this.#choice.choose(robotsOf(this.#session.request).length - 1);
   }
 
-  #tell() {
+  #announce() {
     const { request } = this.#session;
     const index = robotsOf(request).length - 1;
     const { start, goal } = request.robots[index];
     const where = `(${start.x}, ${start.y}) m`;
     const aim = goal ? `with its goal at (${goal.x}, ${goal.y}) m` : "without a goal";
-    this.#session.say(`${nameOf(request, index)} added at ${where}, ${aim}.`);
+    this.#session.announce(`${nameOf(request, index)} added at ${where}, ${aim}.`);
   }
 
   #snap(world, { altKey }) {

@@ -15,7 +15,7 @@ let gestures = 0; // for a name of each
 
 export class SelectTool {
   help = "Drag robots, goals and the handles that turn them.";
-  keys = "Alt: anywhere, at any heading. Shift: goals first.";
+  keys = "Alt: no snapping. Shift: goals before starts.";
 
   #session;
   #stage;
@@ -62,11 +62,11 @@ export class SelectTool {
   }
 
   release() {
-    if (this.#drag.moved) this.#actions.tellPose(this.#drag.pose);
-    this.letGo();
+    if (this.#drag.moved) this.#actions.announcePose(this.#drag.pose);
+    this.abort();
   }
 
-  letGo() {
+  abort() {
     this.#drag = null;
     this.#session.endGesture();
   }
@@ -115,7 +115,7 @@ export class SelectTool {
     const { grid } = this.#session.scene;
     const place = stepped(grid, robot[pose] ?? robot.start, ARROWS[event.key], event.altKey);
     this.#actions.setPose(pose, place, this.#gestureOf(event));
-    this.#actions.tellPose(pose);
+    this.#actions.announcePose(pose);
     this.#stage.reveal(place);
   }
 
@@ -124,7 +124,7 @@ export class SelectTool {
     if (!robot[pose]) return;
     const { theta } = robot[pose];
     this.#actions.setPose(pose, { theta: theta === null ? 0 : turned(theta, way) }, this.#gestureOf(event));
-    this.#actions.tellPose(pose);
+    this.#actions.announcePose(pose);
   }
 
   /** A key that is held down is one step to undo. */

@@ -92,7 +92,7 @@ export async function writeLinkState(request) {
 
 /** The request that a fragment holds. Rejects with FileError. */
 export async function readLinkState(fragment) {
-  const damaged = "The link is damaged or cut short: ask for it again, or for the request as a file.";
+  const damaged = "The link is damaged or truncated. Ask for a new link, or for the request as a file.";
   const deflated = fromBase64Url(fragment.slice(PREFIX.length));
   if (deflated === null || deflated.length === 0) throw new FileError(damaged);
   let bytes;

@@ -55,7 +55,7 @@ export function sortFiles(files) {
   const sorted = { json: [], map: [], scenario: [], yaml: [], image: [] };
   for (const file of files) {
     const kind = kindOf(file);
-    if (kind === null) throw new FileError(`${file.name} is of no kind known here: ${OPENED}.`);
+    if (kind === null) throw new FileError(`${file.name} is not a supported file: ${OPENED}.`);
     sorted[kind].push(file);
   }
   const kinds = Object.keys(sorted).filter((kind) => sorted[kind].length > 0);
@@ -85,7 +85,7 @@ export function sortFiles(files) {
   }
   const listed = files.map((file) => `${file.name} is ${KINDS[kindOf(file)]}`).join(", ");
   throw new FileError(
-    `These do not go together: ${listed}. Open a request, a plan, a map, a map with its scenario, or a ` +
+    `These files cannot be opened together: ${listed}. Open a request, a plan, a map, a map with its scenario, or a ` +
       "map.yaml with its image.",
   );
 }

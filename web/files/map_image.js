@@ -97,7 +97,7 @@ class HeaderReader {
   number(what, most) {
     const value = this.next();
     if (value >= 1 && value <= most) return value;
-    throw new FileError(`Its header has no ${what} from 1 to ${most}; is it cut short or damaged?`);
+    throw new FileError(`Its header has no ${what} from 1 to ${most}; is it truncated or damaged?`);
   }
 
   /** The next whole number, or NaN where there is none. */
@@ -118,7 +118,7 @@ class HeaderReader {
 
 function plainValues(reader, pixels) {
   const cut = (index) =>
-    new FileError(`It has ${index} of ${pixels} pixels and then something else: it is cut short or damaged.`);
+    new FileError(`It has ${index} of ${pixels} pixels and then something else: it is truncated or damaged.`);
   if (reader.left < 2 * pixels - 1) throw cut("too few");
   const values = new Float64Array(pixels);
   for (let index = 0; index < pixels; index += 1) {
@@ -137,7 +137,7 @@ function rawValues(bytes, headerEnd, pixels, maxval) {
   const first = headerEnd + (crlf ? 2 : 1);
   if (bytes.length < first + size) {
     const left = Math.max(0, bytes.length - first);
-    throw new FileError(`Its pixels need ${size} bytes, but ${left} follow the header: it is cut short.`);
+    throw new FileError(`Its pixels need ${size} bytes, but ${left} follow the header: it is truncated.`);
   }
   if (!wide) return bytes.subarray(first, first + size);
   const view = new DataView(bytes.buffer, bytes.byteOffset + first, size);

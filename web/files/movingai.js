@@ -19,7 +19,7 @@ export function readMovingAiMap(text) {
   if (drawn.length !== height) {
     throw new FileError(
       `The header says height ${height}, but ${drawn.length} rows follow "map". ` +
-        "Correct the height, or fetch the map again: it may be cut short.",
+        "Correct the height, or fetch the map again: it may be truncated.",
     );
   }
   return { rows: drawn.map((line, row) => readRow(line, first + row + 1, width)), resolution: 1 };

@@ -84,7 +84,7 @@ export class Opening {
       session.validate().then((judged) => judged || this.#show("problem"));
     }
     if (Array.isArray(opened.request.robots) && opened.request.robots.length === 0) {
-      session.say(`${opened.name} is open and has no robots yet: place some under Edit.`);
+      session.announce(`${opened.name} is open and has no robots yet: add some under Edit.`);
       this.#show("edit");
     }
   }
@@ -92,5 +92,5 @@ export class Opening {
 
 function asProblem(error) {
   if (!(error instanceof FileError)) return error;
-  return new ProblemError({ title: "That cannot be opened", detail: error.message });
+  return new ProblemError({ title: "Cannot open this", detail: error.message });
 }

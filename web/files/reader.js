@@ -195,7 +195,7 @@ class ImportDialogs {
 
   /** Gives up whatever is asked. */
   dismiss() {
-    this.#shown?.giveUp();
+    this.#shown?.cancel();
   }
 
   async #ask(dialog) {

@@ -49,7 +49,7 @@ export class RosMapDialog {
       notes.length > 0 ? element("ul", { class: "warnings", "aria-label": "Warnings" }, ...notes) : null,
       element("p", { textContent: inWords(grid) }),
       tick(this.#unknownFree, "Unknown cells are free (otherwise blocked)"),
-      tick(this.#trim, "Leave out the unknown margin"),
+      tick(this.#trim, "Crop the unknown margin"),
       this.#merge.field,
       this.#preview.canvas,
       this.#status,
@@ -66,8 +66,8 @@ export class RosMapDialog {
     return (await sent) ? mapOfGrid(this.#made, this.#unknownFree.checked) : null;
   }
 
-  giveUp() {
-    this.#dialog.giveUp();
+  cancel() {
+    this.#dialog.cancel();
   }
 
   #refresh() {

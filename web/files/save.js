@@ -5,7 +5,7 @@ import { byId, makeClosable, setText } from "../ui/dom.js";
 import { count } from "../ui/format.js";
 import { LONGEST_LINK } from "./address.js";
 
-const TOLD_MS = 1500;
+const SHOWN_MS = 1500;
 
 /** `stage`: see Stage; `address`: see Address. */
 export function watchSaving(session, stage, address) {
@@ -45,7 +45,7 @@ function tooLong(length, { grid, robots }) {
   const cells = count((grid?.columns ?? 0) * (grid?.rows ?? 0), "cell");
   return (
     `This request is too large for a link: with ${cells} and ${count(robots.length, "robot")} it would have ` +
-    `${count(length, "character")}, and more than ${LONGEST_LINK.toLocaleString("en")} get lost on the way. ` +
+    `${count(length, "character")}, and links of more than ${LONGEST_LINK.toLocaleString("en")} are often truncated. ` +
     "Save the request and send the file."
   );
 }
@@ -55,8 +55,8 @@ async function copyFrom(button, text, session) {
   const label = button.dataset.label ?? button.textContent;
   button.dataset.label = label;
   setText(button, (await copyText(text)) ? "Copied" : "Could not copy");
-  session.say(button.textContent);
-  setTimeout(() => setText(button, label), TOLD_MS);
+  session.announce(button.textContent);
+  setTimeout(() => setText(button, label), SHOWN_MS);
 }
 
 /** Saves a text of JSON as a file. */

@@ -52,8 +52,8 @@ export class ScenarioDialog {
     return (await sent) ? this.#made.request : null;
   }
 
-  giveUp() {
-    this.#dialog.giveUp();
+  cancel() {
+    this.#dialog.cancel();
   }
 
   #refresh() {
@@ -80,9 +80,9 @@ export class ScenarioDialog {
     const { walls, overlaps } = passedOver;
     const reasons = [];
     if (walls > 0) reasons.push(`${walls} where the disk does not fit`);
-    if (overlaps > 0) reasons.push(`${overlaps} where it overlaps one taken before`);
+    if (overlaps > 0) reasons.push(`${overlaps} where it overlaps an earlier one`);
     const outcome = taken < wanted ? `Only ${count(taken, "robot")} possible.` : `${count(taken, "robot")}.`;
-    return reasons.length > 0 ? `${outcome} Passed over: ${reasons.join(", ")}.` : outcome;
+    return reasons.length > 0 ? `${outcome} Skipped: ${reasons.join(", ")}.` : outcome;
   }
 
   #paint(robots, reach) {

@@ -12,10 +12,10 @@ const CONTACT = 1e-6; // metres that disks may overlap in contact
 const KINDS = {
   robot_collision: "Robots collide",
   obstacle_collision: "Collides with a wall",
-  discontinuity: "Motion is broken",
-  speed: "Faster than the robot can",
-  wrong_start: "Does not begin at the start",
-  wrong_goal: "Does not end at the goal",
+  discontinuity: "Discontinuous motion",
+  speed: "Exceeds the speed limit",
+  wrong_start: "Does not start at the start pose",
+  wrong_goal: "Does not end at the goal pose",
 };
 
 const TOLERANCE = 1e-9; // metres: what planning forgives
@@ -60,16 +60,16 @@ export function standingAtGoals(request) {
 /**
  * The errors, [{pointer, detail}], that the violations of robots standing at their "start" or "goal" amount to.
  */
-export function misfitErrors(request, violations, pose) {
+export function placementErrors(request, violations, pose) {
   const indices = new Map(robotsOf(request).map(({ id }, index) => [id, index]));
   return violations.map(({ kind, robots, distance, required }) => {
     const placed = robots.map((id) => indices.get(id)).sort((a, b) => a - b);
-    const room = `${inMetres(distance)} where ${inMetres(required)} is needed`;
+    const room = `${inMetres(distance)} of the required ${inMetres(required)}`;
     const others = robots.filter((id) => indices.get(id) !== placed.at(-1));
     const detail =
       kind === "robot_collision"
-        ? `The ${pose} overlaps with that of ${others.join(" and ")}: ${room}, from middle to middle.`
-        : `The ${pose} does not fit: ${room}, from its middle to a wall or the edge of the map.`;
+        ? `The ${pose} overlaps that of ${others.join(" and ")}: ${room}, between the centres.`
+        : `The ${pose} does not fit: ${room}, from its centre to a wall or the edge of the map.`;
     return { pointer: `/robots/${placed.at(-1)}/${pose}`, detail };
   });
 }
@@ -100,11 +100,11 @@ async function problemOf(request, validate) {
   try {
     const atStarts = standingAtStarts(request);
     const { violations } = await validate(JSON.stringify(atStarts));
-    const errors = misfitErrors(request, violations, "start");
+    const errors = placementErrors(request, violations, "start");
     const atGoals = standingAtGoals(request);
     if (atGoals) {
       const check = await validate(JSON.stringify(atGoals));
-      errors.push(...misfitErrors(request, check.violations, "goal"));
+      errors.push(...placementErrors(request, check.violations, "goal"));
     }
     if (errors.length === 0) return null;
     return { title: "The request is not valid", errors };

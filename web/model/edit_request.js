@@ -111,10 +111,10 @@ export function newMap({ columns, rows, resolution, walled }) {
 
 /** Why a map of this size cannot be, in words, or null. `limits`: see Session. */
 export function faultOfSize(columns, rows, limits) {
-  if (!Number.isInteger(columns) || !Number.isInteger(rows)) return "Whole numbers, please.";
+  if (!Number.isInteger(columns) || !Number.isInteger(rows)) return "Enter whole numbers.";
   if (columns < 1 || rows < 1) return "A map has at least one cell.";
   const most = limits.max_cells ?? MOST_CELLS;
-  if (columns * rows > most) return `The service takes up to ${most.toLocaleString("en")} cells.`;
+  if (columns * rows > most) return `The service accepts at most ${most.toLocaleString("en")} cells.`;
   return null;
 }
 

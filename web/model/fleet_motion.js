@@ -22,8 +22,8 @@ export class FleetMotion {
   /** The smallest gap over time, see clearanceOf; null without an answer and until it is worked out. */
   curve = /** @type {any} */ (null);
 
-  /** `workOut(motions, told)` tells the curve later, and no more of older motions once it has newer ones. */
-  constructor(session, workOut) {
+  /** `compute(motions, done)` tells the curve later, and no more of older motions once it has newer ones. */
+  constructor(session, compute) {
     this.#session = session;
     session.on("answer", () => {
       const { answer } = session;
@@ -31,7 +31,7 @@ export class FleetMotion {
       this.#nearest = { time: null, pair: null };
       this.#signals.emit("curve");
       if (answer === null) return;
-      workOut([...this.byId.values()], (curve) => {
+      compute([...this.byId.values()], (curve) => {
         if (answer !== session.answer) return;
         this.curve = curve;
         this.#signals.emit("curve");
@@ -78,18 +78,18 @@ export class FleetMotion {
 }
 
 /**
- * A function (motions, told) that calls `told` with clearanceOf the motions, unless it is called again before.
+ * A function (motions, done) that calls `done` with clearanceOf the motions, unless it is called again before.
  */
 export function clearanceJob() {
   let worker = null;
   let busy = false;
-  return (motions, told) => {
+  return (motions, done) => {
     if (busy) worker.terminate();
     if (busy || worker === null) worker = new Worker(WORKER, { type: "module" });
     busy = true;
     worker.onmessage = ({ data }) => {
       busy = false;
-      told(data);
+      done(data);
     };
     worker.postMessage(motions);
   };

@@ -41,14 +41,14 @@ function short(value) {
  * null if none is. `fleet` is the ids and motions of all robots; `margin` is a distance that counts as hit, 0
  * for contact.
  */
-export function waitedFor(id, actions, index, fleet, margin = 0) {
-  const hasty = motionWithout(actions, index, fleet.get(id).radius);
+export function causeOfWait(id, actions, index, fleet, margin = 0) {
+  const shifted = motionWithout(actions, index, fleet.get(id).radius);
   const from = actions[index].t_start;
   const until = actions[actions.length - 1].t_end;
   let found = null;
   for (const [other, motion] of fleet) {
     if (other === id) continue;
-    const t = firstOverlap(hasty, motion, from, found?.t ?? until, margin);
+    const t = firstOverlap(shifted, motion, from, found?.t ?? until, margin);
     if (t !== null && (found === null || t < found.t)) found = { robot: other, t };
   }
   return found;

@@ -125,7 +125,7 @@ function checkMembers(value, keys, shape, place) {
   const wrong = keys.find((key) => !shape[key](value?.[key]));
   if (wrong === undefined) return;
   const found = value?.[wrong] === undefined ? "missing" : quoted(value[wrong]);
-  throw new FileError(`${place}${wrong} is ${found}, which is not what an answer has there.`);
+  throw new FileError(`${place}${wrong} is ${found}, which is not valid in an answer.`);
 }
 
 function isPose(value) {

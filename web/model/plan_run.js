@@ -16,7 +16,7 @@ export class PlanRun {
     return this.#control.signal;
   }
 
-  hear(progress) {
+  record(progress) {
     this.progress = progress;
     const { elapsed_ms, best } = progress;
     if (best !== null && best.flowtime !== this.costs.at(-1)?.flowtime)

@@ -64,14 +64,14 @@ export class Player {
 export class Playback {
   #player;
   #nextFrame;
-  #told;
+  #listener;
   #ticking = false; // a frame is on its way
 
-  /** `nextFrame` calls back with the wall clock, milliseconds; `told` has moved() and ended(). */
-  constructor(player, nextFrame, told) {
+  /** `nextFrame` calls back with the wall clock, milliseconds; `listener` has moved() and ended(). */
+  constructor(player, nextFrame, listener) {
     this.#player = player;
     this.#nextFrame = nextFrame;
-    this.#told = told;
+    this.#listener = listener;
   }
 
   play() {
@@ -86,9 +86,9 @@ export class Playback {
       this.#ticking = false;
       if (!this.#player.playing) return;
       this.#player.tick(milliseconds / 1000);
-      this.#told.moved();
+      this.#listener.moved();
       if (this.#player.playing) this.#tick();
-      else this.#told.ended();
+      else this.#listener.ended();
     });
   }
 }

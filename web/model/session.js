@@ -153,7 +153,7 @@ export class Session {
     take();
     const reopened = this.#opened !== before;
     this.#requestChanged(reopened);
-    this.say(reopened ? `${word}: ${this.name} is open again.` : `${word}.`);
+    this.announce(reopened ? `${word}: ${this.name} is open again.` : `${word}.`);
   }
 
   #requestChanged(opened) {
@@ -219,7 +219,7 @@ export class Session {
     this.#signals.emit("planning");
     try {
       const answer = await this.#service.plan(this.text, run.signal, {
-        progress: (progress) => this.planning === run && this.#hear(progress),
+        progress: (progress) => this.planning === run && this.#onProgress(progress),
         incumbent: (incumbent) => (run.incumbent = incumbent),
       });
       if (this.planning !== run) return false;
@@ -234,8 +234,8 @@ export class Session {
     }
   }
 
-  #hear(progress) {
-    this.planning?.hear(progress);
+  #onProgress(progress) {
+    this.planning?.record(progress);
     this.#signals.emit("planning");
   }
 
@@ -258,7 +258,7 @@ export class Session {
     if (!this.planning) return;
     const text = this.stopPlanning();
     if (text !== null) this.adopt(JSON.parse(text));
-    this.say(`Planning cancelled${text === null ? "" : ": this is the best plan so far"}.`);
+    this.announce(`Planning cancelled${text === null ? "" : ": this is the best plan so far"}.`);
   }
 
   // Faults and words
@@ -275,8 +275,8 @@ export class Session {
     this.#signals.emit("problem");
   }
 
-  say(text) {
-    this.#signals.emit("said", text);
+  announce(text) {
+    this.#signals.emit("announcement", text);
   }
 
   // What is pointed at
@@ -302,7 +302,7 @@ export class Session {
 
   /** Selects a robot, or none (null). */
   select(id) {
-    this.bringOut(id === null ? [] : [id]);
+    this.highlight(id === null ? [] : [id]);
   }
 
   /** Selects a robot, or none if it was selected. */
@@ -311,8 +311,8 @@ export class Session {
   }
 
   /** Selects the first of some robots and brings out all. */
-  bringOut(ids) {
-    this.#focus.bringOut(ids);
+  highlight(ids) {
+    this.#focus.highlight(ids);
     this.#signals.emit("marks");
   }
 

@@ -41,12 +41,12 @@ function showCheck(session, stage) {
     element("h2", {}, icon(check.valid ? TICK : CROSS), check.truncated ? `${title} and more` : title),
     element("p", {
       textContent: check.valid
-        ? `The service checked every motion in continuous time and found nothing wrong.${nearest}`
+        ? `The service checked every motion in continuous time and found no violation.${nearest}`
         : nearest.trim(),
     }),
   );
   if (!check.valid) box.append(violationList(check.violations, session, stage));
-  session.say(box.querySelector("h2").textContent);
+  session.announce(box.querySelector("h2").textContent);
 }
 
 function violationList(violations, session, stage) {
@@ -68,13 +68,15 @@ function violationButton({ kind, robots, t, distance, required, detail }, sessio
     element("span", { class: "violation-time", textContent: seconds(t) }),
     element("span", { class: "violation-robots" }, ...names),
     kind in DISTANCES
-      ? element("span", { textContent: `${metres(distance)} ${DISTANCES[kind]}, ${metres(required)} needed` })
+      ? element("span", {
+          textContent: `${metres(distance)} ${DISTANCES[kind]}, ${metres(required)} required`,
+        })
       : null,
     element("span", { class: "violation-detail", textContent: detail }),
   );
   button.addEventListener("click", () => {
     session.pause();
-    session.bringOut(robots);
+    session.highlight(robots);
     session.seek(t);
     const at = session.poseOf(robots[0]);
     if (at) stage.reveal(at);

@@ -13,7 +13,7 @@ const TICK_WIDTH = 72; // room for a tick's label
 const LEAST_BAR = 1; // so that a short action is seen at all
 const CONTACT = 1e-6; // metres: nearer is contact, further overlapping a collision
 const FONT = 12;
-const HINT = "Plan to see who moves, turns and waits when";
+const HINT = "Plan to see the actions of all robots over time";
 const STATUS = { parked: "Parked", ready: "" };
 
 /**

@@ -2,7 +2,7 @@
 // each wait is for.
 
 import { delayOf } from "../model/gantt.js";
-import { actionInWords, totals, waitedFor } from "../model/itinerary.js";
+import { actionInWords, totals, causeOfWait } from "../model/itinerary.js";
 import { actionIndexAt } from "../model/timeline.js";
 import { byId, element, icon, scrollWithin, setText } from "../ui/dom.js";
 import { seconds } from "../ui/format.js";
@@ -13,10 +13,10 @@ const EDITING = "tab-edit"; // whose form has what there is to know of a robot, 
 const CROSS = "M5 5 15 15M15 5 5 15";
 const MARGIN = { top: 60, side: 12, bottom: 12 }; // pixels around the card: above are the view's buttons
 const COLUMNS = ["", "From, s", "To, s", "What"];
-const WHY_STILL = {
-  parked: "It has no goal and stays where it is.",
-  planned: "It is at its goal and need not move.",
-  ready: "The plan says nothing of it: it stays where it is.",
+const NO_ACTIONS = {
+  parked: "It has no goal and stays at its start.",
+  planned: "It is already at its goal.",
+  ready: "It is not part of the plan and stays at its start.",
 };
 
 const CORNERS = ["top-right", "bottom-right", "bottom-left"]; // those liked best first
@@ -95,7 +95,7 @@ export class Inspector {
 
   #body(robot, track) {
     if (track.unplanned) return [this.#whyUnplanned(track.unplanned)];
-    if (track.actions.length === 0) return [element("p", { textContent: WHY_STILL[track.status] })];
+    if (track.actions.length === 0) return [element("p", { textContent: NO_ACTIONS[track.status] })];
     const sum = totals(track.actions);
     return [costOf(track), sharesOf(sum), this.#table(robot, track.actions)];
   }
@@ -107,7 +107,7 @@ export class Inspector {
     ];
     if (blocked_by?.length > 0) {
       const chips = blocked_by.map((id) => robotChip(this.#session, id));
-      parts.push(element("div", { class: "chips" }, "In the way:", ...chips));
+      parts.push(element("div", { class: "chips" }, "Blocked by:", ...chips));
     }
     return element("div", { class: "why" }, ...parts);
   }
@@ -122,7 +122,7 @@ export class Inspector {
       });
       words.addEventListener("click", () => this.#session.seek(action.t_start));
       const what = element("td", {}, words);
-      if (action.type === "wait") what.append(...this.#blame(robot, actions, at));
+      if (action.type === "wait") what.append(...this.#causeOf(robot, actions, at));
       const row = element(
         "tr",
         { "data-type": action.type },
@@ -140,23 +140,24 @@ export class Inspector {
   }
 
   /** What to write after a wait. */
-  #blame(robot, actions, at) {
-    const hit = waitedFor(robot.id, actions, at, this.#fleet.byId);
-    if (hit) return this.#waitsFor("for", hit);
+  #causeOf(robot, actions, at) {
+    const hit = causeOfWait(robot.id, actions, at, this.#fleet.byId);
+    if (hit) return this.#causeInWords("for", hit);
     const inflation = this.#session.request.options?.inflation ?? 0;
-    const near = inflation > 0 && waitedFor(robot.id, actions, at, this.#fleet.byId, 2 * inflation);
-    if (near) return this.#waitsFor("to keep clear of", near);
+    const near = inflation > 0 && causeOfWait(robot.id, actions, at, this.#fleet.byId, 2 * inflation);
+    if (near) return this.#causeInWords("to keep clear of", near);
     const note = element("span", {
       class: "note",
       textContent: "for no robot",
-      title: "Without this wait no robot would have been hit: a pause before moving, or one for safety",
+      title:
+        "No robot would be hit without this wait: it is a pause before a move, or keeps a safety interval free",
     });
     return [" ", note];
   }
 
-  #waitsFor(why, { robot, t }) {
+  #causeInWords(why, { robot, t }) {
     const chip = robotChip(this.#session, robot);
-    chip.title = `Without this wait the two would meet at ${seconds(t)}`;
+    chip.title = `Without this wait, the two robots would collide at ${seconds(t)}`;
     return [` ${why} `, chip];
   }
 
@@ -186,8 +187,8 @@ function costOf(track) {
       : element("small", {
           textContent:
             delay < 5e-3
-              ? "as quick as alone on the map"
-              : `${seconds(delay)} more than alone on the map (${seconds(track.lowerBound)})`,
+              ? "equal to its lower bound"
+              : `${seconds(delay)} above its lower bound (${seconds(track.lowerBound)})`,
         });
   const cost = element("b", { textContent: seconds(track.cost) });
   return element("p", { class: "cost" }, cost, " to the goal", compared);

@@ -33,7 +33,7 @@ export class PlanButton {
       return;
     }
     const watching = document.activeElement === this.#plan; // which has the focus again from Cancel
-    session.say(summarize(session.answer));
+    session.announce(summarize(session.answer));
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches) session.play();
     if (watching) this.#transport.focusPlay();
   }

@@ -59,7 +59,7 @@ function effort({ timings_ms: timings, search }) {
     "Planned in",
     milliseconds(timings.plan),
     expansions,
-    `${milliseconds(timings.total)} in all`,
+    `${milliseconds(timings.total)} in total`,
   );
 }
 
@@ -83,7 +83,7 @@ function badges(answer, check) {
   if (answer.deterministic === undefined) return list;
   const why = answer.deterministic
     ? "The same request and seed give the same plan"
-    : "The clock decided when to stop: another run may differ";
+    : "The time budget ended the search: another run may differ";
   list.append(badge(answer.deterministic ? "Deterministic" : "Not deterministic", "", null, why));
   return list;
 }
@@ -99,7 +99,7 @@ function figure(name, value, ...notes) {
 
 function bound(value, least) {
   if (!(least > 0)) return [];
-  return [`lower bound ${seconds(least)}`, `${(value / least).toFixed(3)} times that`];
+  return [`lower bound ${seconds(least)}`, `${(value / least).toFixed(2)} × lower bound`];
 }
 
 function warningList(warnings) {
@@ -144,7 +144,7 @@ function showUnplanned(unplanned, session) {
       ),
       detail ? element("p", { textContent: detail }) : null,
       blocked_by?.length > 0
-        ? element("div", { class: "chips" }, "In the way:", ...blocked_by.map((id) => robotChip(session, id)))
+        ? element("div", { class: "chips" }, "Blocked by:", ...blocked_by.map((id) => robotChip(session, id)))
         : null,
     ),
   );

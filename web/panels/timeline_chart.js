@@ -168,7 +168,7 @@ export class TimelineChart {
   #describe() {
     const { selected, player } = this.#session;
     const moment = `at ${player.time.toFixed(2)} of ${seconds(player.duration)}`;
-    const robot = selected === null ? "no robot chosen" : `${selected} ${this.#session.stateOf(selected)}`;
+    const robot = selected === null ? "no robot selected" : `${selected} ${this.#session.stateOf(selected)}`;
     this.#box.setAttribute("aria-label", `Timeline of ${this.#ids.length} robots: ${robot} ${moment}`);
   }
 
@@ -224,23 +224,23 @@ export class TimelineChart {
     const at = this.#ids.indexOf(this.#session.selected);
     const next = at < 0 ? (direction > 0 ? 0 : this.#ids.length - 1) : at + direction;
     this.#session.select(this.#ids[Math.max(0, Math.min(this.#ids.length - 1, next))]);
-    this.#tell();
+    this.#announce();
   }
 
   #step(direction) {
     this.#transport.step(direction);
-    this.#tell();
+    this.#announce();
   }
 
   #goTo(time) {
     this.#session.pause();
     this.#session.seek(time);
-    this.#tell();
+    this.#announce();
   }
 
-  #tell() {
+  #announce() {
     const { selected, player } = this.#session;
     const what = selected === null ? "" : `${selected} ${this.#session.stateOf(selected)}, `;
-    this.#session.say(`${what}${seconds(player.time)}`);
+    this.#session.announce(`${what}${seconds(player.time)}`);
   }
 }

@@ -20,7 +20,7 @@ export class TimelineDock {
   #closest = byId("timeline-closest");
   #least = byId("timeline-least");
   #height = HEIGHT.first;
-  #told = -Infinity;
+  #updated = -Infinity;
 
   /** See TimelineChart. */
   constructor(session, colours, fleet, transport, overStrip) {
@@ -37,8 +37,8 @@ export class TimelineDock {
       this.#sort.querySelector("[value=delay]").disabled = !known;
       byId("legend-bound").hidden = !known;
     });
-    session.on("answer time playback", () => this.#tellClosest());
-    fleet.onCurve(() => this.#tellLeast());
+    session.on("answer time playback", () => this.#showClosest());
+    fleet.onCurve(() => this.#showLeast());
   }
 
   #fold(folded) {
@@ -46,10 +46,10 @@ export class TimelineDock {
     this.#toggle.setAttribute("aria-expanded", String(!folded));
   }
 
-  #tellClosest() {
+  #showClosest() {
     const now = performance.now();
-    if (this.#session.player.playing && now - this.#told < EVERY_MS) return;
-    this.#told = now;
+    if (this.#session.player.playing && now - this.#updated < EVERY_MS) return;
+    this.#updated = now;
     const pair = this.#session.answer === null ? null : this.#fleet.nearestAt(this.#session.player.time);
     setText(
       this.#closest,
@@ -57,7 +57,7 @@ export class TimelineDock {
     );
   }
 
-  #tellLeast() {
+  #showLeast() {
     const { least } = this.#fleet;
     this.#least.hidden = least === null;
     if (least === null) return;
@@ -68,7 +68,7 @@ export class TimelineDock {
   #goToLeast() {
     const { t, ids } = this.#fleet.least;
     this.#session.pause();
-    this.#session.bringOut(ids);
+    this.#session.highlight(ids);
     this.#session.seek(t);
   }
 

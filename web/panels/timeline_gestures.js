@@ -69,10 +69,10 @@ export function watchScrubbing(box, session, chart) {
 }
 
 /**
- * Watches an element. `told(x, factor)`: what is at x stays there and the rest gets larger by the factor, so that
+ * Watches an element. `zoom(x, factor)`: what is at x stays there and the rest gets larger by the factor, so that
  * under both fingers stays what they took.
  */
-export function watchPinching(element, told) {
+export function watchPinching(element, zoom) {
   const fingers = new Map(); // pointer id -> last x
   const within = (event) => event.clientX - element.getBoundingClientRect().left;
 
@@ -87,7 +87,7 @@ export function watchPinching(element, told) {
     if (fingers.size !== 2) return;
     const [resting] = [...fingers].filter(([id]) => id !== event.pointerId).map(([, x]) => x);
     const apart = (x) => Math.max(NEAREST, Math.abs(x - resting));
-    told(resting, apart(now) / apart(before));
+    zoom(resting, apart(now) / apart(before));
   });
   for (const end of ["pointerup", "pointercancel"]) {
     element.addEventListener(end, (event) => fingers.delete(event.pointerId));

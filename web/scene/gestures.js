@@ -8,12 +8,12 @@ const WHEEL_GAIN = 0.002; // see wheelFactor
 const PINCH_GAIN = 0.01; // likewise, of two fingers on a touchpad, which come with ctrlKey
 
 /**
- * Watches an element. `told` has: pan(dx, dy), zoom(pixel, factor), hover(pixel or null), click(pixel); and for
+ * Watches an element. `handlers` has: pan(dx, dy), zoom(pixel, factor), hover(pixel or null), click(pixel); and for
  * presses that are not about the camera: press(pixel, event), which says whether to keep hold of the pointer, then
- * drag(pixel, event) once it has moved enough to be no click, and release(pixel, event), or letGo() when a second
+ * drag(pixel, event) once it has moved enough to be no click, and release(pixel, event), or abort() when a second
  * finger makes it a pinch. The middle button is always about the camera.
  */
-export function watchGestures(element, told) {
+export function watchGestures(element, handlers) {
   const pressed = new Map(); // pointer id -> last position
   let travelled = 0;
   let held = null; // the id of the pointer that is not about the camera
@@ -28,11 +28,11 @@ export function watchGestures(element, told) {
     element.setPointerCapture(event.pointerId);
     if (held !== null) {
       held = null;
-      told.letGo();
+      handlers.abort();
     }
     if (pressed.size === 0) {
       travelled = 0;
-      if (event.button === 0 && told.press(within(event), event)) held = event.pointerId;
+      if (event.button === 0 && handlers.press(within(event), event)) held = event.pointerId;
     }
     pressed.set(event.pointerId, within(event));
   });
@@ -41,17 +41,17 @@ export function watchGestures(element, told) {
     const now = within(event);
     const before = pressed.get(event.pointerId);
     if (!before) {
-      if (event.pointerType === "mouse") told.hover(now);
+      if (event.pointerType === "mouse") handlers.hover(now);
       return;
     }
     travelled += Math.hypot(now.x - before.x, now.y - before.y);
     if (held === event.pointerId) {
       pressed.set(event.pointerId, now);
-      if (travelled > (event.pointerType === "touch" ? TOUCH_SLACK : CLICK_SLACK)) told.drag(now, event);
+      if (travelled > (event.pointerType === "touch" ? TOUCH_SLACK : CLICK_SLACK)) handlers.drag(now, event);
       return;
     }
     if (pressed.size === 1) {
-      if (travelled > CLICK_SLACK) told.pan(now.x - before.x, now.y - before.y);
+      if (travelled > CLICK_SLACK) handlers.pan(now.x - before.x, now.y - before.y);
     } else if (pressed.size === 2) {
       const [other] = [...pressed].filter(([id]) => id !== event.pointerId).map(([, position]) => position);
       pinch(other, before, now);
@@ -61,36 +61,36 @@ export function watchGestures(element, told) {
 
   /** One finger rests at `other`, one moved: half of the move pans, the change of their distance zooms. */
   function pinch(other, before, now) {
-    told.pan((now.x - before.x) / 2, (now.y - before.y) / 2);
+    handlers.pan((now.x - before.x) / 2, (now.y - before.y) / 2);
     const apart = Math.hypot(before.x - other.x, before.y - other.y);
     if (apart < 1) return;
     const middle = { x: (now.x + other.x) / 2, y: (now.y + other.y) / 2 };
-    told.zoom(middle, Math.hypot(now.x - other.x, now.y - other.y) / apart);
+    handlers.zoom(middle, Math.hypot(now.x - other.x, now.y - other.y) / apart);
   }
 
   element.addEventListener("pointerup", (event) => {
     const known = pressed.delete(event.pointerId);
     if (held === event.pointerId) {
       held = null;
-      told.release(within(event), event);
+      handlers.release(within(event), event);
     } else if (known && event.button === 0 && pressed.size === 0 && travelled <= CLICK_SLACK) {
-      told.click(within(event), event);
+      handlers.click(within(event), event);
     }
   });
   element.addEventListener("pointercancel", (event) => {
     pressed.delete(event.pointerId);
     if (held !== event.pointerId) return;
     held = null;
-    told.letGo();
+    handlers.abort();
   });
-  element.addEventListener("pointerleave", () => told.hover(null));
+  element.addEventListener("pointerleave", () => handlers.hover(null));
   element.addEventListener("mousedown", (event) => {
     if (event.button === 1) event.preventDefault(); // browsers would begin to scroll
   });
 
   const onWheel = (event) => {
     event.preventDefault();
-    told.zoom(within(event), wheelFactor(event, event.ctrlKey ? PINCH_GAIN : WHEEL_GAIN));
+    handlers.zoom(within(event), wheelFactor(event, event.ctrlKey ? PINCH_GAIN : WHEEL_GAIN));
   };
   element.addEventListener("wheel", onWheel, { passive: false });
 }

@@ -11,7 +11,7 @@ const SMALLEST_LABEL = 8; // font pixels
 export function drawRobot(context, theme, { centre, theta, radius, colour, label, state, unplanned, name }) {
   const shown = Math.max(radius, SMALLEST_DOT);
   if (name !== null) drawHalo(context, centre, shown, theme);
-  if (unplanned) drawStuck(context, theme, centre, shown, colour);
+  if (unplanned) drawUnplanned(context, theme, centre, shown, colour);
   else drawDisk(context, theme, { centre, theta, radius: shown, colour, label, state });
   if (name !== null) drawName(context, theme, centre, shown, name);
 }
@@ -129,7 +129,7 @@ function drawStateSign(context, theme, centre, radius, state) {
   return true;
 }
 
-function drawStuck(context, theme, centre, radius, colour) {
+function drawUnplanned(context, theme, centre, radius, colour) {
   context.beginPath();
   context.arc(centre.x, centre.y, radius, 0, 2 * Math.PI);
   context.fillStyle = theme.floor;

@@ -16,7 +16,7 @@ const NOWHERE = { left: 0, bottom: 0, right: 1, top: 1 };
 
 /**
  * What a tool may have, all optional: press(world, event) says whether the tool takes the press, then come
- * drag(world, event), unless it is a mere click, and release(world, event), or letGo() if the press became a pinch;
+ * drag(world, event), unless it is a mere click, and release(world, event), or abort() if the press became a pinch;
  * hover(world or null); key(event) says whether it took the key; cursor(world) gives a CSS cursor or null;
  * paint(context, view) paints on top of all else, see addOverlay. World points in metres.
  */
@@ -189,7 +189,7 @@ export class Stage {
       },
       drag: (pixel, event) => this.#pressed.drag?.(world(pixel), event),
       release: (pixel, event) => this.#pressed.release?.(world(pixel), event),
-      letGo: () => this.#pressed.letGo?.(),
+      abort: () => this.#pressed.abort?.(),
     };
   }
 

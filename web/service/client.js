@@ -27,11 +27,11 @@ export async function fetchOpenApi() {
 }
 
 /**
- * Plans the request, a JSON text. The answer; rejects with AbortError when aborted. Meanwhile `told` hears of
+ * Plans the request, a JSON text. The answer; rejects with AbortError when aborted. Meanwhile `listener` hears of
  * progress({elapsed_ms, attempt, planned, robots, best}) and incumbent(text), an answer's text, if the service, or what
  * is between, streams events.
  */
-export async function plan(requestText, signal, told) {
+export async function plan(requestText, signal, listener) {
   const response = await send("v1/plan", {
     method: "POST",
     headers: {
@@ -42,7 +42,7 @@ export async function plan(requestText, signal, told) {
     signal,
   });
   const streams = response.headers.get("Content-Type")?.startsWith("text/event-stream");
-  return parseAnswer(await unlessCut(streams ? lastEvent(response, told) : response.text()));
+  return parseAnswer(await unlessCut(streams ? lastEvent(response, listener) : response.text()));
 }
 
 /** What the service says of a plan file's text: {valid, violations, min_clearance}. */
@@ -53,11 +53,11 @@ export async function validate(text) {
 }
 
 /** The text of the answer that ends a stream. Reads on to its very end, so that the connection serves again. */
-async function lastEvent(response, told) {
+async function lastEvent(response, listener) {
   let answer = null;
   for await (const { event, data } of readEvents(response.body)) {
-    if (event === "progress") told.progress(JSON.parse(data));
-    if (event === "incumbent") told.incumbent(data);
+    if (event === "progress") listener.progress(JSON.parse(data));
+    if (event === "incumbent") listener.incumbent(data);
     if (event === "plan") answer = data;
     if (event === "problem") throw new ProblemError(readProblem(response, data));
   }
@@ -83,7 +83,7 @@ async function unlessCut(receiving) {
     if (/** @type {Error} */ (error).name === "AbortError" || error instanceof ProblemError) throw error;
     throw new ProblemError({
       title: "No answer from the service",
-      detail: "The connection failed or was cut. Is the service running and reachable from here?",
+      detail: "The connection failed or was closed. Is the service running and reachable?",
     });
   }
 }
@@ -105,8 +105,8 @@ function parseAnswer(text) {
   const answer = parseObject(text);
   if (answer !== null) return answer;
   throw new ProblemError({
-    title: "Not an answer of the service",
-    detail: "Something else answered in its place, perhaps a proxy on the way.",
+    title: "Unexpected response",
+    detail: "The response is not JSON. It may come from a proxy.",
   });
 }
 

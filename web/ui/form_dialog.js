@@ -12,13 +12,13 @@ export class FormDialog {
   constructor(title, action, ...body) {
     made += 1;
     const heading = element("h2", { id: `dialog-title-${made}`, textContent: title });
-    const giveUp = element("button", { type: "button", textContent: "Cancel" });
+    const cancel = element("button", { type: "button", textContent: "Cancel" });
     this.#send = element("button", { class: "primary", textContent: action });
-    const buttons = element("div", { class: "dialog-buttons" }, giveUp, this.#send);
+    const buttons = element("div", { class: "dialog-buttons" }, cancel, this.#send);
     const content = element("div", { class: "dialog-body" }, ...body);
     const form = element("form", { method: "dialog", autocomplete: "off" }, heading, content, buttons);
     this.#dialog = element("dialog", { class: "form-dialog", "aria-labelledby": heading.id }, form);
-    giveUp.addEventListener("click", () => this.#dialog.close());
+    cancel.addEventListener("click", () => this.#dialog.close());
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       this.#dialog.close("sent");
@@ -42,7 +42,7 @@ export class FormDialog {
     });
   }
 
-  giveUp() {
+  cancel() {
     this.#dialog.close();
   }
 }

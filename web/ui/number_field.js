@@ -10,14 +10,14 @@ export class NumberField {
   #note;
   #required;
   #shown;
-  #refusal = "";
+  #rejection = "";
 
   /**
-   * `label` and `unit` in words; `take(value)` gets each new number, or undefined when the field is emptied
+   * `label` and `unit` in words; `accept(value)` gets each new number, or undefined when the field is emptied
    * unless it is `required`, and may return why not, in words; `settle()` is called when typing has ended.
    * `late`: takes only then.
    */
-  constructor({ label, unit = "", step = "any", required = false, late = false, take, settle = () => {} }) {
+  constructor({ label, unit = "", step = "any", required = false, late = false, accept, settle = () => {} }) {
     made += 1;
     const id = `number-${made}`;
     this.#required = required;
@@ -27,8 +27,8 @@ export class NumberField {
     const title = element("label", { htmlFor: id }, label);
     if (unit !== "") title.append(" ", element("span", { class: "unit", textContent: unit }));
     this.element = element("div", { class: "part" }, title, this.input, this.#note);
-    const read = () => this.#read(take);
-    this.input.addEventListener("input", () => (late ? this.#tell("") : read()));
+    const read = () => this.#read(accept);
+    this.input.addEventListener("input", () => (late ? this.#showNote("") : read()));
     this.input.addEventListener("change", () => {
       if (late) read();
       settle();
@@ -44,25 +44,25 @@ export class NumberField {
       value === undefined || number !== undefined ? placeholder : JSON.stringify(value);
     if (!kept) this.input.value = number ?? "";
     this.#note.dataset.usual = note;
-    this.#tell(kept ? this.#refusal : "");
+    this.#showNote(kept ? this.#rejection : "");
   }
 
-  #read(take) {
-    this.#tell("");
+  #read(accept) {
+    this.#showNote("");
     if (this.#fault() !== "") return;
     const value = this.input.value === "" ? undefined : Number(this.input.value);
     if (Object.is(value, this.#shown)) return;
     const before = this.#shown;
     this.#shown = value; // what is shown next is what is typed
-    const refusal = take(value) ?? "";
-    if (refusal === "") return;
+    const rejection = accept(value) ?? "";
+    if (rejection === "") return;
     this.#shown = before;
-    this.#tell(refusal);
+    this.#showNote(rejection);
   }
 
   /** Says what is wrong, if something is, else the usual note. */
-  #tell(refusal) {
-    this.#refusal = refusal;
+  #showNote(rejection) {
+    this.#rejection = rejection;
     const fault = this.#fault();
     this.input.setCustomValidity(fault);
     this.#note.classList.toggle("fault", fault !== "");
@@ -72,6 +72,6 @@ export class NumberField {
   #fault() {
     const { value, validity } = this.input;
     const missing = value === "" && this.#required && this.#shown !== undefined;
-    return validity.badInput || missing ? "A number, please." : this.#refusal;
+    return validity.badInput || missing ? "Enter a number." : this.#rejection;
   }
 }

@@ -364,13 +364,13 @@ test("what is no number is told and not taken", async () => {
     await press(page, { x: 0.5, y: 4.5 });
     const field = page.locator('[data-pointer="/robots/1/start/x"]');
     await field.fill("");
-    assert.match(await page.innerText("#robot-start"), /A number, please/);
+    assert.match(await page.innerText("#robot-start"), /Enter a number/);
     assert.deepEqual(await hook(page, "request"), REQUEST);
     await page.mouse.move(400, 300);
     await page.mouse.move(500, 300);
     assert.equal(await field.inputValue(), "");
     await field.fill("3");
-    assert.doesNotMatch(await page.innerText("#robot-start"), /A number, please/);
+    assert.doesNotMatch(await page.innerText("#robot-start"), /Enter a number/);
     assert.equal((await robotAt(page, 1)).start.x, 3);
   });
 });
@@ -400,7 +400,7 @@ test("a fault is shown at the robot's field and in the scene, and goes when it i
       ]);
       await page.waitForSelector("#robot-start[aria-invalid=true]");
       const told = await page.innerText("#robot-start .field-error");
-      assert.match(told, /start does not fit: 0 m where 0\.3 m is needed/);
+      assert.match(told, /start does not fit: 0 m of the required 0\.3 m/);
       assert.ok((await marks({ x: 4.5, y: 0.5 })) > 20);
       await drag(page, [
         { x: 4.5, y: 0.5 },

@@ -334,8 +334,8 @@ test("files that cannot be opened are named, with what to do", async () => {
         { "lab.yaml": YAML.replace("maps/lab.pgm", "lab.png"), "lab.png": png(0, [[0]]).subarray(0, 45) },
         /lab.png: It is damaged/,
       ],
-      [{ "notes.docx": "PK" }, /notes.docx is of no kind known here/],
-      [{ "a.map": MAP, "b.json": "{}" }, /do not go together: a.map is a MovingAI map, b.json is/],
+      [{ "notes.docx": "PK" }, /notes.docx is not a supported file/],
+      [{ "a.map": MAP, "b.json": "{}" }, /cannot be opened together: a.map is a MovingAI map, b.json is/],
     ];
     for (const [files, words] of refused) {
       await drop(page, files);
@@ -443,7 +443,7 @@ test("a request that is too large for a link says so", async () => {
 test("a damaged link is told, and an example stands ready", async () => {
   await onPage(
     async (page) => {
-      assert.match(await problemOn(page), /link is damaged or cut short/);
+      assert.match(await problemOn(page), /link is damaged or truncated/);
       assert.equal((await pressPlan(page)).status, "solved");
     },
     { hash: "#r=eJyrVspNLFCyqlYqys" },

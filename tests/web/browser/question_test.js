@@ -368,7 +368,7 @@ test("a robot's card tells how its time is spent, and its delay where the bound 
       ]) {
         assert.equal(words.includes(`${word} ${sum(type).toFixed(1)} s`), sum(type) > 0, words);
       }
-      assert.equal(words.includes("alone on the map"), lower_bound !== undefined, words);
+      assert.equal(words.includes("its lower bound"), lower_bound !== undefined, words);
     }
   });
 });

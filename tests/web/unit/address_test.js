@@ -29,7 +29,7 @@ test("what else deflates to the same format is read too", async () => {
 
 test("a damaged link is refused, wherever it is damaged", async () => {
   const fragment = await writeLinkState(REQUEST);
-  const damaged = /link is damaged or cut short.*ask for it again/;
+  const damaged = /link is damaged or truncated.*Ask for a new link/;
   for (let length = 3; length < fragment.length; length += 1)
     await assert.rejects(readLinkState(fragment.slice(0, length)), damaged, `cut to ${length}`);
   for (let at = 3; at < fragment.length - 1; at += 1) {

@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import {
   kindInWords,
-  misfitErrors,
+  placementErrors,
   standingAtGoals,
   standingAtStarts,
   violationsAt,
@@ -64,17 +64,17 @@ test("robots stand at their starts, and those that have goals at these", () => {
 
 test("a robot in a wall is told at its start, or at its goal", () => {
   const violation = { kind: "obstacle_collision", robots: ["c"], distance: 0.1, required: 0.3 };
-  const [error] = misfitErrors(THREE_ROBOTS, [violation], "start");
+  const [error] = placementErrors(THREE_ROBOTS, [violation], "start");
   assert.equal(error.pointer, "/robots/2/start");
-  assert.match(error.detail, /start does not fit: 0.1 m where 0.3 m is needed/);
-  assert.equal(misfitErrors(THREE_ROBOTS, [violation], "goal")[0].pointer, "/robots/2/goal");
+  assert.match(error.detail, /start does not fit: 0.1 m of the required 0.3 m/);
+  assert.equal(placementErrors(THREE_ROBOTS, [violation], "goal")[0].pointer, "/robots/2/goal");
 });
 
 test("two robots that overlap are told at the later one", () => {
   const violation = { kind: "robot_collision", robots: ["c", "a"], distance: 0.2, required: 0.6 };
-  const [error] = misfitErrors(THREE_ROBOTS, [violation], "goal");
+  const [error] = placementErrors(THREE_ROBOTS, [violation], "goal");
   assert.equal(error.pointer, "/robots/2/goal");
-  assert.match(error.detail, /goal overlaps with that of a: 0.2 m where 0.6 m/);
+  assert.match(error.detail, /goal overlaps that of a: 0.2 m of the required 0.6 m/);
 });
 
 const ROBOT = { id: "a", radius: 0.3, start: { x: 0.5, y: 0.5 }, goal: { x: 2.5, y: 0.5 } };

@@ -155,8 +155,8 @@ test("a new map is open or walled, of any size", () => {
 test("a size that cannot be is told in words", () => {
   assert.equal(faultOfSize(40, 30, {}), null);
   assert.match(faultOfSize(0, 30, {}), /at least one/);
-  assert.match(faultOfSize(2.5, 30, {}), /Whole numbers/);
-  assert.match(faultOfSize(11, 10, { max_cells: 100 }), /up to 100 cells/);
+  assert.match(faultOfSize(2.5, 30, {}), /Enter whole numbers/);
+  assert.match(faultOfSize(11, 10, { max_cells: 100 }), /at most 100 cells/);
 });
 
 const FLEET = {

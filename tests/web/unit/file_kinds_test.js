@@ -66,7 +66,7 @@ test("files that do not go together are refused with what each is", () => {
     const files = names.split(" ").map((name) => file(name));
     assert.throws(
       () => sortFiles(files),
-      /^FileError: These do not go together: a\.\w+ is a.*Open a request/,
+      /^FileError: These files cannot be opened together: a\.\w+ is a.*Open a request/,
       names,
     );
   }
@@ -74,7 +74,7 @@ test("files that do not go together are refused with what each is", () => {
     () => sortFiles([file("a.json"), file("a.map")]),
     /a.json is a request or a plan, a.map is a MovingAI/,
   );
-  assert.throws(() => sortFiles([file("notes.docx", "PK")]), /notes.docx is of no kind known here: requests/);
+  assert.throws(() => sortFiles([file("notes.docx", "PK")]), /notes.docx is not a supported file: requests/);
   assert.throws(() => sortFiles([file("lab.pgm")]), /lab.pgm is only the image.*together with its map.yaml/);
 });
 

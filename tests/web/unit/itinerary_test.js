@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { actionInWords, totals, waitedFor } from "../../../web/model/itinerary.js";
+import { actionInWords, totals, causeOfWait } from "../../../web/model/itinerary.js";
 import { motionOf } from "../../../web/model/motion.js";
 
 const { PI } = Math;
@@ -66,7 +66,7 @@ const CROSSING = {
 };
 
 test("a wait is for the robot that would be hit without it, when it would be", () => {
-  const found = waitedFor("waiter", CROSSING.waiter, 1, fleetOf(CROSSING));
+  const found = causeOfWait("waiter", CROSSING.waiter, 1, fleetOf(CROSSING));
   assert.equal(found.robot, "passer");
   // Without the wait they are at (t, 0) and (5, 6 - t): 1 m apart first when (5 - t)² + (6 - t)² = 1.
   near(found.t, 5);
@@ -75,29 +75,29 @@ test("a wait is for the robot that would be hit without it, when it would be", (
 test("a touch is no hit", () => {
   const beside = through([0, 5, 1], [12, 5, 1]);
   const { waiter } = CROSSING;
-  assert.equal(waitedFor("waiter", waiter, 1, fleetOf({ waiter, beside })), null);
+  assert.equal(causeOfWait("waiter", waiter, 1, fleetOf({ waiter, beside })), null);
   const nearer = through([0, 5, 0.999], [12, 5, 0.999]);
-  assert.equal(waitedFor("waiter", waiter, 1, fleetOf({ waiter, nearer })).robot, "nearer");
+  assert.equal(causeOfWait("waiter", waiter, 1, fleetOf({ waiter, nearer })).robot, "nearer");
 });
 
 test("with a margin, one that would be passed too closely counts", () => {
   const beside = through([0, 5, 1.1], [12, 5, 1.1]);
   const { waiter } = CROSSING;
-  assert.equal(waitedFor("waiter", waiter, 1, fleetOf({ waiter, beside }), 0.1), null);
-  const found = waitedFor("waiter", waiter, 1, fleetOf({ waiter, beside }), 0.2);
+  assert.equal(causeOfWait("waiter", waiter, 1, fleetOf({ waiter, beside }), 0.1), null);
+  const found = causeOfWait("waiter", waiter, 1, fleetOf({ waiter, beside }), 0.2);
   near(found.t, 5 - Math.sqrt(1.2 ** 2 - 1.1 ** 2));
 });
 
 test("of several it is the one hit first, not the one listed first", () => {
   const later = through([0, 9, 8], [16, 9, -8]);
-  const found = waitedFor("waiter", CROSSING.waiter, 1, fleetOf({ later, ...CROSSING }));
+  const found = causeOfWait("waiter", CROSSING.waiter, 1, fleetOf({ later, ...CROSSING }));
   assert.equal(found.robot, "passer");
 });
 
 test("a hit may come several actions after the wait", () => {
   const waiter = through([0, 0, 0], [3, 0, 0], [5, 2, 0], [6, 2, 0], [9, 2, 3], [10, 3, 3]);
   const passer = through([0, 8, 3], [10, -2, 3]);
-  const found = waitedFor("waiter", waiter, 0, fleetOf({ waiter, passer }));
+  const found = causeOfWait("waiter", waiter, 0, fleetOf({ waiter, passer }));
   assert.equal(found.robot, "passer");
   // Driving up from t = 3, it is at (2, t - 3), the other at (8 - t, 3): (6 - t)² + (6 - t)² = 1.
   near(found.t, 6 - Math.SQRT1_2);
@@ -106,14 +106,14 @@ test("a hit may come several actions after the wait", () => {
 test("one that goes through the place where the robot would have arrived too early is hit there", () => {
   const waiter = through([0, 0, 0], [6, 0, 0], [8, 2, 0]);
   const passer = through([0, 2, 5], [10, 2, -5]);
-  near(waitedFor("waiter", waiter, 0, fleetOf({ waiter, passer })).t, 4);
+  near(causeOfWait("waiter", waiter, 0, fleetOf({ waiter, passer })).t, 4);
 });
 
 test("a wait that keeps nobody from harm is for nobody", () => {
   const { waiter } = CROSSING;
-  assert.equal(waitedFor("waiter", waiter, 1, fleetOf({ waiter })), null);
+  assert.equal(causeOfWait("waiter", waiter, 1, fleetOf({ waiter })), null);
   const gone = through([0, 5, 0], [1, 5, 9], [12, 5, 9]);
-  assert.equal(waitedFor("waiter", waiter, 1, fleetOf({ waiter, gone })), null);
+  assert.equal(causeOfWait("waiter", waiter, 1, fleetOf({ waiter, gone })), null);
   const afterwards = through([0, 30, 0], [14, 30, 0], [40, 4, 0]);
-  assert.equal(waitedFor("waiter", waiter, 1, fleetOf({ waiter, afterwards })), null);
+  assert.equal(causeOfWait("waiter", waiter, 1, fleetOf({ waiter, afterwards })), null);
 });

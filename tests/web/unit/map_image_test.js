@@ -50,7 +50,7 @@ test("what is no graymap, or only a piece of one, is refused with the reason", (
   assert.throws(() => read("P5 1 1 65536\n", 0, 0), /no largest gray/);
   assert.throws(() => read("P5 2 2 255\n", 1, 2, 3), /need 4 bytes, but 3 follow/);
   assert.throws(() => read("P5 100000 100000 255\n"), /too many/);
-  assert.throws(() => read("P2 2 2 255 1 2 3"), /cut short/);
+  assert.throws(() => read("P2 2 2 255 1 2 3"), /truncated/);
   assert.throws(() => read("P2 2 1 255 1 x 3"), /1 of 2 pixels/);
   assert.throws(() => read("P5 2 1 7\n", 7, 8), /Pixel 1, 0 is 8, above the largest gray 7/);
 });

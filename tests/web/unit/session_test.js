@@ -39,7 +39,7 @@ function begin(service = {}) {
     "marks",
     "time",
     "playback",
-    "said",
+    "announcement",
   ]) {
     session.on(name, (detail) =>
       heard.push(detail === undefined ? name : `${name} ${JSON.stringify(detail)}`),
@@ -88,7 +88,7 @@ test("undo brings an edited request back after another one was opened", () => {
   session.undo();
   assert.deepEqual([session.request, session.name, session.edited], [edited, "one", true]);
   assert.ok(heard.includes('request {"opened":true}'));
-  assert.equal(heard.at(-1), 'said "Undone: one is open again."');
+  assert.equal(heard.at(-1), 'announcement "Undone: one is open again."');
   session.undo();
   assert.equal(session.text, OPENED.text);
   session.redo();
@@ -241,7 +241,7 @@ test("playing asks for a frame at a time and tells of the moment until the end",
 test("several robots are brought out together, the first selected", () => {
   const { session } = begin();
   session.open({ ...OPENED, request: { ...REQUEST, robots: [ROBOT, { ...ROBOT, id: "b" }] } });
-  session.bringOut(["b", "a"]);
+  session.highlight(["b", "a"]);
   assert.deepEqual([session.selected, [...session.marked].sort()], ["b", ["a", "b"]]);
   session.select(null);
   assert.equal(session.marked.size, 0);
