@@ -77,7 +77,7 @@ async function redoAll(page) {
   while (await page.isEnabled("#redo")) await page.keyboard.press("Control+Shift+z");
 }
 
-test("walls are drawn and erased with the mouse, a stroke in one step", async () => {
+test("walls are drawn and erased with the mouse, one undo step per stroke", async () => {
   await onPage(async (page) => {
     await editing(page);
     await tool(page, "wall");
@@ -108,7 +108,7 @@ test("walls are drawn and erased with the mouse, a stroke in one step", async ()
   });
 });
 
-test("what is drawn is painted, and what is undone no longer", async () => {
+test("drawn walls are painted until they are undone", async () => {
   await onPage(async (page) => {
     await editing(page);
     const [wall, floor] = await Promise.all(
@@ -155,7 +155,7 @@ test("a box of walls is filled with the mouse, and freed with alt", async () => 
   });
 });
 
-test("elsewhere than on the Edit tab a drag moves the view", async () => {
+test("outside the Edit tab, a drag moves the view", async () => {
   await onPage(async (page) => {
     await editing(page);
     await tool(page, "wall");
@@ -182,7 +182,7 @@ test("elsewhere than on the Edit tab a drag moves the view", async () => {
   });
 });
 
-test("robots and goals are dragged and turned with the mouse, each in one step", async () => {
+test("robots and goals are dragged and turned with the mouse, one undo step each", async () => {
   await onPage(async (page) => {
     await editing(page);
     await drag(page, [
@@ -214,7 +214,7 @@ test("robots and goals are dragged and turned with the mouse, each in one step",
   });
 });
 
-test("with alt a robot lands off the middle of a cell, with shift a robot is given a goal", async () => {
+test("Alt drags without snapping, Shift drags a goal out of a robot", async () => {
   await onPage(async (page) => {
     const [first, second] = REQUEST.robots;
     await editing(page, { ...REQUEST, robots: [first, { ...second, goal: undefined }] });
@@ -325,7 +325,7 @@ test("walls are drawn by keys, freehand and as a box, and robots added", async (
   });
 });
 
-test("the form sets what a robot has, and what is typed is one step back", async () => {
+test("the form edits a robot, and typing a value is one undo step", async () => {
   await onPage(async (page) => {
     await editing(page, { ...REQUEST, robot_defaults: { radius: 0.25 } });
     await press(page, { x: 0.5, y: 4.5 });
@@ -358,7 +358,7 @@ test("the form sets what a robot has, and what is typed is one step back", async
   });
 });
 
-test("what is no number is told and not taken", async () => {
+test("non-numeric input is rejected with a message", async () => {
   await onPage(async (page) => {
     await editing(page);
     await press(page, { x: 0.5, y: 4.5 });
@@ -375,7 +375,7 @@ test("what is no number is told and not taken", async () => {
   });
 });
 
-test("a fault is shown at the robot's field and in the scene, and goes when it is mended", async () => {
+test("a fault is shown at the robot's field and in the scene until it is repaired", async () => {
   await onPage(
     async (page) => {
       await editing(page, { ...REQUEST, map: { rows: [...REQUEST.map.rows.slice(1), "....##...."] } });
@@ -414,7 +414,7 @@ test("a fault is shown at the robot's field and in the scene, and goes when it i
   );
 });
 
-test("a robot that cannot be drawn can be chosen and mended", async () => {
+test("a robot that cannot be drawn can be selected and repaired", async () => {
   await onPage(
     async (page) => {
       const [first, second] = REQUEST.robots;
@@ -435,7 +435,7 @@ test("a robot that cannot be drawn can be chosen and mended", async () => {
   );
 });
 
-test("the map grows and is cut on each side and robots stay where they are", async () => {
+test("the map is enlarged and cut on each side and robots keep their positions", async () => {
   await onPage(async (page) => {
     await editing(page);
     await page.click("summary:text-is('Map')");
@@ -459,7 +459,7 @@ test("the map grows and is cut on each side and robots stay where they are", asy
   });
 });
 
-test("a request is made from nothing: a new map, walls, robots, a plan", async () => {
+test("a request is made from scratch: a new map, walls, robots, a plan", async () => {
   await onPage(
     async (page) => {
       await page.click("#tab-edit");
@@ -490,7 +490,7 @@ test("a request is made from nothing: a new map, walls, robots, a plan", async (
   );
 });
 
-test("a request without a map, without robots, or with anything else there can be edited", async () => {
+test("a request without a valid map or robots can be edited", async () => {
   const noMap = [{ robots: [] }, { robots: "none", map: 3 }, { robots: [null, 7] }];
   for (const request of [...noMap, { map: { rows: ["..."] } }]) {
     await onPage(
@@ -512,7 +512,7 @@ test("a request without a map, without robots, or with anything else there can b
   }
 });
 
-test("an edit while a plan plays drops the plan, and what is dragged stays under the pointer", async () => {
+test("an edit during playback drops the plan, and the dragged robot stays under the pointer", async () => {
   await onPage(async (page) => {
     await editing(page);
     await pressPlan(page);
@@ -533,7 +533,7 @@ test("an edit while a plan plays drops the plan, and what is dragged stays under
   });
 });
 
-test("on phones the tools are at the window's lower edge however far it is scrolled", async () => {
+test("on phones the tools stay at the lower edge of the window", async () => {
   await onPage(
     async (page) => {
       await editing(page);
@@ -547,7 +547,7 @@ test("on phones the tools are at the window's lower edge however far it is scrol
   );
 });
 
-test("the card of a robot leaves the scene to editing", async () => {
+test("the card of a robot is hidden while editing", async () => {
   await onPage(async (page) => {
     await paste(page, REQUEST);
     await pressPlan(page);
@@ -560,7 +560,7 @@ test("the card of a robot leaves the scene to editing", async () => {
   });
 });
 
-test("one finger draws, two zoom and leave no wall", async () => {
+test("one finger draws, two fingers zoom and draw nothing", async () => {
   await onPage(
     async (page) => {
       await editing(page);
@@ -591,7 +591,7 @@ test("one finger draws, two zoom and leave no wall", async () => {
   );
 });
 
-test("an edit of an example is told as one, and undone it is the example again", async () => {
+test("an edited example is marked as edited until the edit is undone", async () => {
   await onPage(async (page) => {
     const request = await choose(page, "corridor-swap");
     await page.click("#tab-edit");
@@ -604,7 +604,7 @@ test("an edit of an example is told as one, and undone it is the example again",
   });
 });
 
-test("opening another request does not lose an edit: undo brings it back", async () => {
+test("undo restores an edited request after another one was opened", async () => {
   await onPage(async (page) => {
     await editing(page);
     await tool(page, "wall");

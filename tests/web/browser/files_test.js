@@ -133,7 +133,7 @@ for (const [way, hand] of Object.entries(WAYS)) {
   });
 }
 
-test("the choices about a ROS map show what becomes of it", async () => {
+test("the dialog of a ROS map previews its choices", async () => {
   await onPage(async (page) => {
     await drop(page, { "lab.yaml": YAML, "lab.pgm": pgm(GRAYS) });
     await page.waitForSelector("dialog[open]");
@@ -151,7 +151,7 @@ test("the choices about a ROS map show what becomes of it", async () => {
   });
 });
 
-test("a ROS map with more cells than the service takes is merged until it fits", async () => {
+test("a ROS map with more cells than the service accepts is merged until it fits", async () => {
   await onPage(async (page) => {
     const rows = Array.from({ length: 20 }, () => Array(30).fill(254));
     await drop(page, { "lab.yaml": YAML, "lab.pgm": pgm(rows) });
@@ -185,7 +185,7 @@ test("a ROS map's image may be a PNG, whose alpha counts as in map_server", asyn
   });
 });
 
-test("a turned ROS map says that it is taken unturned", async () => {
+test("a rotated ROS map is imported unrotated, with a warning", async () => {
   await onPage(async (page) => {
     await drop(page, { "lab.yaml": YAML.replace("0.0]", "0.5]"), "lab.pgm": pgm(GRAYS) });
     await page.waitForSelector("dialog[open]");
@@ -193,7 +193,7 @@ test("a turned ROS map says that it is taken unturned", async () => {
   });
 });
 
-test("a scenario without its map is for the map that is shown, if the size is right", async () => {
+test("a scenario without its map uses the map shown if the size matches", async () => {
   await onPage(async (page) => {
     await drop(page, { "arena.scen": SCENARIO });
     assert.match(
@@ -210,7 +210,7 @@ test("a scenario without its map is for the map that is shown, if the size is ri
   });
 });
 
-test("a dialog that is given up changes nothing and gives the focus back", async () => {
+test("a cancelled dialog changes nothing and returns the focus", async () => {
   await onPage(async (page) => {
     const before = await hook(page, "request");
     await page.focus("#open");
@@ -248,7 +248,7 @@ test("the dialogs fit a phone", async () => {
   );
 });
 
-test("on a phone, what went wrong comes into sight", async () => {
+test("on a phone, a problem is scrolled into view", async () => {
   const phone = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true };
   const isInSight = (page) =>
     page.waitForFunction(() => {
@@ -269,7 +269,7 @@ test("on a phone, what went wrong comes into sight", async () => {
   );
 });
 
-test("files dropped while a dialog is open take its place", async () => {
+test("files dropped while a dialog is open replace it", async () => {
   await onPage(async (page) => {
     await drop(page, { "arena.scen": SCENARIO, "arena.map": MAP });
     await page.waitForSelector("dialog[open]");
@@ -279,7 +279,7 @@ test("files dropped while a dialog is open take its place", async () => {
   });
 });
 
-test("a plan that is wrong is shown, and so is what is wrong with it", async () => {
+test("a faulty plan is shown with its violations", async () => {
   await onPage(async (page) => {
     const fast = [{ ...PLANS[0], cost: 2, actions: [{ ...DRIVE, t_end: 2 }] }];
     await drop(page, { "fast.json": JSON.stringify({ ...TINY, plans: fast, verified: true }) });
@@ -290,7 +290,7 @@ test("a plan that is wrong is shown, and so is what is wrong with it", async () 
   });
 });
 
-test("a plan file that the service cannot check is shown with the service's reasons", async () => {
+test("a plan file that the service cannot check is shown with the reasons", async () => {
   await onPage(
     async (page) => {
       await drop(page, { "odd.json": JSON.stringify({ ...TINY, colour: "red", plans: PLANS }) });
@@ -302,7 +302,7 @@ test("a plan file that the service cannot check is shown with the service's reas
   );
 });
 
-test("an answer is opened with its request, or on the request that is shown", async () => {
+test("an answer is opened with its request, or for the request shown", async () => {
   await onPage(async (page) => {
     const answer = JSON.stringify({ status: "solved", plans: PLANS });
     await drop(page, { "answer.json": answer });
@@ -317,7 +317,7 @@ test("an answer is opened with its request, or on the request that is shown", as
   });
 });
 
-test("files that cannot be opened are named, with what to do", async () => {
+test("files that cannot be opened are named with a remedy", async () => {
   await onPage(async (page) => {
     const before = await hook(page, "request");
     const refused = [
@@ -354,7 +354,7 @@ async function save(page, selector) {
   return { name: download.suggestedFilename(), content: await readFile(await download.path()) };
 }
 
-test("a request and its plan are saved, and what is saved can be opened again", async () => {
+test("a saved request and its plan can be opened again", async () => {
   await onPage(async (page) => {
     const request = await choose(page, "corridor-swap");
     assert.equal(await page.isEnabled("#save-plan"), false);
@@ -395,7 +395,7 @@ async function copied(page, selector) {
   return page.evaluate(() => navigator.clipboard.readText());
 }
 
-test("an example's link has its name, another request's link the request itself", async () => {
+test("a link holds the name of an example, or else the request itself", async () => {
   await onPage(async (page, { url }) => {
     await choose(page, "crossing");
     assert.equal(await copied(page, "#copy-link"), `${url}#crossing`);
@@ -420,7 +420,7 @@ test("an example's link has its name, another request's link the request itself"
   );
 });
 
-test("a request that is too large for a link says so", async () => {
+test("a request that is too large for a link is reported", async () => {
   await onPage(async (page) => {
     let seed = 1;
     const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
@@ -440,7 +440,7 @@ test("a request that is too large for a link says so", async () => {
   });
 });
 
-test("a damaged link is told, and an example stands ready", async () => {
+test("a damaged link is reported, and an example is opened", async () => {
   await onPage(
     async (page) => {
       assert.match(await problemOn(page), /link is damaged or truncated/);
@@ -450,7 +450,7 @@ test("a damaged link is told, and an example stands ready", async () => {
   );
 });
 
-test("the command line that is copied plans the same request", async () => {
+test("the copied command line plans the same request", async () => {
   await onPage(async (page) => {
     await drop(page, { "tiny.json": JSON.stringify(TINY) });
     await requestIs(page, TINY);

@@ -17,7 +17,7 @@ const REQUEST = {
 const requestIs = (page, expected) =>
   page.waitForFunction((text) => JSON.stringify(window.fleetplan.request) === text, JSON.stringify(expected));
 
-test("options are set in the request, and those at their default are left out", async () => {
+test("options are set in the request, and defaults are omitted", async () => {
   await onPage(async (page) => {
     await paste(page, REQUEST);
     await page.click("#tab-options");
@@ -84,7 +84,7 @@ test("options that cannot be loaded are reported, and loaded when the tab is ope
   );
 });
 
-test("typing a value is one step back", async () => {
+test("typing a value is one undo step", async () => {
   await onPage(async (page) => {
     await paste(page, REQUEST);
     await page.click("#tab-options");
@@ -108,7 +108,7 @@ test("the form shows what a request sets", async () => {
   });
 });
 
-test("an edit that the service would refuse is told at its field, and forgotten when mended", async () => {
+test("a fault of an edit is shown at its field until it is repaired", async () => {
   await onPage(
     async (page) => {
       await paste(page, REQUEST);
@@ -157,7 +157,7 @@ test("an error of a robot is marked where the robot is, and one of a row at the 
   );
 });
 
-test("tabs are moved by arrows", async () => {
+test("arrow keys move between tabs", async () => {
   await onPage(async (page) => {
     await page.focus("#tab-plan");
     await page.keyboard.press("ArrowLeft");

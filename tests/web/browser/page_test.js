@@ -26,7 +26,7 @@ const TINY = {
   ],
 };
 
-test("the page loads with the first example drawn and asks nobody else", async () => {
+test("the page loads the first example and requests no other host", async () => {
   await onPage(async (page, { requested, url }) => {
     const { examples } = await page.evaluate(async () => (await fetch("v1/examples")).json());
     const first = await page.evaluate(
@@ -39,7 +39,7 @@ test("the page loads with the first example drawn and asks nobody else", async (
   });
 });
 
-test("one click on a page just opened plans and plays", async () => {
+test("one click on a fresh page plans and plays", async () => {
   await onPage(async (page) => {
     await pressPlan(page);
     await page.waitForFunction(() => window.fleetplan.playing && window.fleetplan.time > 0.2);
@@ -77,7 +77,7 @@ test("every example loads, plans and plays as its plan says", async () => {
   });
 });
 
-test("what is drawn of a deterministic plan is what the service answers anyone", async () => {
+test("the page draws the deterministic plan that the service returns", async () => {
   await onPage(async (page, { url }) => {
     const request = await choose(page, "corridor-swap");
     const shown = await pressPlan(page);
@@ -299,7 +299,7 @@ test("an address can name an example", async () => {
   });
 });
 
-test("text that is not JSON is refused on the spot", async () => {
+test("text that is not JSON is rejected at once", async () => {
   await onPage(async (page) => {
     await paste(page, "{ not json");
     assert.match(await text(page, "#problem"), /not JSON/);
@@ -344,7 +344,7 @@ const SWAP = {
   options: { mode: "anytime", time_budget_ms: 60_000 },
 };
 
-test("planning tells how far it has got, and when it is cancelled the best plan stays", async () => {
+test("planning reports progress, and cancelling keeps the best plan", async () => {
   await onPage(async (page) => {
     await paste(page, SWAP);
     await page.click("#plan");
@@ -365,7 +365,7 @@ test("planning tells how far it has got, and when it is cancelled the best plan 
   });
 });
 
-test("planning that is cancelled before there is a plan leaves none", async () => {
+test("planning that is cancelled before the first plan leaves none", async () => {
   await onPage(async (page) => {
     await page.route("**/v1/plan", () => {}); // is never answered
     await page.click("#plan");
@@ -377,7 +377,7 @@ test("planning that is cancelled before there is a plan leaves none", async () =
   });
 });
 
-test("another request does not get the plan of one that was being planned", async () => {
+test("a plan that arrives late is not shown for another request", async () => {
   await onPage(async (page) => {
     await paste(page, SWAP);
     await page.click("#plan");
@@ -388,7 +388,7 @@ test("another request does not get the plan of one that was being planned", asyn
   });
 });
 
-test("a plan that comes without events is shown all the same", async () => {
+test("a plan that is returned without events is shown", async () => {
   await onPage(async (page) => {
     await page.route("**/v1/plan", (route, request) =>
       route.continue({ headers: { ...request.headers(), accept: "application/json" } }),
@@ -397,7 +397,7 @@ test("a plan that comes without events is shown all the same", async () => {
   });
 });
 
-test("a stream that ends in a problem, or too early, is told in words", async () => {
+test("a stream that ends with a problem, or too early, is reported", async () => {
   await onPage(async (page) => {
     const end = async (body, shown) => {
       await page.route("**/v1/plan", (route) => route.fulfill({ contentType: "text/event-stream", body }));
@@ -416,7 +416,7 @@ test("a stream that ends in a problem, or too early, is told in words", async ()
   });
 });
 
-test("a service that is gone or busy is told in words", async () => {
+test("an unreachable or busy service is reported", async () => {
   await onPage(
     async (page) => {
       await page.route("**/v1/plan", (route) => route.abort());
@@ -473,7 +473,7 @@ test("every control has a name and is reached with the keyboard", async () => {
   });
 });
 
-test("on a desk the page is as high as the window", async () => {
+test("on a desktop the page fills the height of the window", async () => {
   await onPage(async (page) => {
     await choose(page, "warehouse");
     await pressPlan(page);

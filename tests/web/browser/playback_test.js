@@ -45,7 +45,7 @@ test("keys and buttons step from event to event", async () => {
   });
 });
 
-test("with a robot selected the steps are its own", async () => {
+test("with a selected robot, steps go to its own events", async () => {
   await onPage(async (page) => {
     await choose(page, "crossing");
     const answer = await pressPlan(page);
@@ -60,7 +60,7 @@ test("with a robot selected the steps are its own", async () => {
   });
 });
 
-test("coloured by what they do, robots change colour with it", async () => {
+test("coloured by state, robots change colour with their state", async () => {
   await onPage(async (page) => {
     const answer = await planned(page, TURNING);
     await page.click("#view-menu summary");
@@ -82,7 +82,7 @@ test("coloured by what they do, robots change colour with it", async () => {
   });
 });
 
-test("the path behind a robot is painted whole, not when only what remains is wanted, and not at all", async () => {
+test("paths are painted whole, as what remains, or not at all", async () => {
   await onPage(async (page) => {
     const answer = await planned(page, TURNING);
     const [, drive] = answer.plans[0].actions;
@@ -104,7 +104,7 @@ test("the path behind a robot is painted whole, not when only what remains is wa
   });
 });
 
-test("the view's menu closes with Escape and gives the focus back", async () => {
+test("the view menu closes with Escape and returns the focus", async () => {
   await onPage(async (page) => {
     await page.focus("#view-menu summary");
     await page.keyboard.press("Enter");
@@ -115,7 +115,7 @@ test("the view's menu closes with Escape and gives the focus back", async () => 
   });
 });
 
-test("a plan that gets better draws its falling cost", async () => {
+test("the falling cost is drawn while planning", async () => {
   await onPage(async (page) => {
     const costs = [90, 80, 72.5];
     const events = costs.map((flowtime, at) => {

@@ -77,7 +77,7 @@ async function pressRow(page, row, share) {
   await page.locator("#timeline-scroll").click({ position: await placeOf(page, row, share) });
 }
 
-test("in every example the smallest gap over time is the answer's, and two robots are that near", async () => {
+test("in every example the smallest gap over time equals min_clearance", async () => {
   await onPage(async (page) => {
     const { examples } = await page.evaluate(async () => (await fetch("v1/examples")).json());
     for (const { name } of examples) {
@@ -90,7 +90,7 @@ test("in every example the smallest gap over time is the answer's, and two robot
   });
 });
 
-test("the two robots that are closest now are those that comparing all finds", async () => {
+test("the closest robots are those found by comparing all pairs", async () => {
   await onPage(async (page) => {
     const { request, answer } = await planned(page, "crossing");
     const ids = request.robots.map(({ id }) => id);
@@ -108,7 +108,7 @@ test("the two robots that are closest now are those that comparing all finds", a
   });
 });
 
-test("the moment of the smallest gap is one press away", async () => {
+test("a press on the smallest gap goes to its moment", async () => {
   await onPage(async (page) => {
     await planned(page, "hospital-ward");
     await page.waitForFunction(() => window.fleetplan.least);
@@ -119,7 +119,7 @@ test("the moment of the smallest gap is one press away", async () => {
   });
 });
 
-test("pressing a row of the timeline selects its robot and goes to that moment, dragging goes on", async () => {
+test("pressing a row of the timeline selects its robot and seeks; dragging continues", async () => {
   await onPage(async (page) => {
     const { request, answer } = await planned(page, "crossing");
     await pressRow(page, 2, 0.5);
@@ -136,7 +136,7 @@ test("pressing a row of the timeline selects its robot and goes to that moment, 
   });
 });
 
-test("the playhead is where the moment is", async () => {
+test("the playhead is at the current time", async () => {
   await onPage(async (page) => {
     const { answer } = await planned(page, "crossing");
     for (const share of [0.25, 0.9]) {
@@ -166,7 +166,7 @@ async function coloursAround(page, canvasId, { x, y }, half) {
   );
 }
 
-test("pointing at a row tells of its robot in the scene, pointing at a robot brings out its row", async () => {
+test("hovering a row highlights its robot, hovering a robot its row", async () => {
   await onPage(async (page) => {
     const { request } = await planned(page, "crossing");
     const box = await page.locator("#timeline-scroll").boundingBox();
@@ -186,7 +186,7 @@ test("pointing at a row tells of its robot in the scene, pointing at a robot bri
   });
 });
 
-test("by keyboard, arrows choose the robot and go from event to event, and it is told", async () => {
+test("arrow keys select robots and step through events, with announcements", async () => {
   await onPage(async (page) => {
     const { request, answer } = await planned(page, "crossing");
     await page.focus("#timeline-scroll");
@@ -210,7 +210,7 @@ test("by keyboard, arrows choose the robot and go from event to event, and it is
   });
 });
 
-test("rows are sorted by cost, by start of movement, and by delay only where the bound is known", async () => {
+test("rows are sorted by cost, start of movement, and delay if the bound is known", async () => {
   await onPage(async (page) => {
     const { answer } = await planned(page, "warehouse");
     const first = async (by) => {
@@ -236,7 +236,7 @@ test("rows are sorted by cost, by start of movement, and by delay only where the
   });
 });
 
-test("the wheel with control zooms in time around the pointer, a double click shows all again", async () => {
+test("Ctrl and the wheel zoom in time around the pointer, a double click shows all", async () => {
   await onPage(async (page) => {
     const { answer } = await planned(page, "crossing");
     const box = await page.locator("#timeline-scroll").boundingBox();
@@ -255,7 +255,7 @@ test("the wheel with control zooms in time around the pointer, a double click sh
   });
 });
 
-test("two fingers zoom the timeline in time, each keeps its moment, and seek nothing", async () => {
+test("two fingers zoom the timeline, keep their times, and do not seek", async () => {
   await onPage(
     async (page) => {
       const { answer } = await planned(page, "crossing");
@@ -284,7 +284,7 @@ test("two fingers zoom the timeline in time, each keeps its moment, and seek not
   );
 });
 
-test("rows beyond the dock's height scroll, and the selected one comes in sight", async () => {
+test("rows scroll, and the selected one is scrolled into view", async () => {
   await onPage(async (page) => {
     const { request } = await planned(page, "hall-100");
     const last = request.robots.at(-1).id;
@@ -300,7 +300,7 @@ test("rows beyond the dock's height scroll, and the selected one comes in sight"
   });
 });
 
-test("the dock folds, and its divider makes it taller by keyboard and by dragging", async () => {
+test("the dock folds, and its divider is moved by keyboard and by dragging", async () => {
   await onPage(async (page) => {
     await planned(page, "crossing");
     const height = async () => (await page.locator("#timeline-body").boundingBox()).height;
@@ -322,7 +322,7 @@ test("the dock folds, and its divider makes it taller by keyboard and by draggin
   });
 });
 
-test("a robot's card lists its actions, marks the one under way and leads to each", async () => {
+test("the card of a robot lists its actions, marks the current one and seeks to each", async () => {
   await onPage(async (page) => {
     const { answer } = await planned(page, "hospital-ward");
     const plan = answer.plans.reduce((most, each) =>
@@ -348,7 +348,7 @@ test("a robot's card lists its actions, marks the one under way and leads to eac
   });
 });
 
-test("a robot's card tells how its time is spent, and its delay where the bound is known", async () => {
+test("the card of a robot shows how its time is spent, and its delay if the bound is known", async () => {
   await onPage(async (page) => {
     const { answer } = await planned(page, "hospital-ward");
     const moving = answer.plans.filter((plan) => plan.actions.length > 0);
@@ -383,7 +383,7 @@ const BAY = {
   ],
 };
 
-test("a wait names the robot it is for, and pressing the name selects that", async () => {
+test("a wait names the robot that causes it, and pressing the name selects that robot", async () => {
   await onPage(async (page) => {
     await page.click("#paste");
     await page.fill("#paste-text", JSON.stringify(BAY));
@@ -408,7 +408,7 @@ async function dangerAround(page, id) {
   return colours.filter((colour) => colour === DANGER).length;
 }
 
-test("a robot without a plan tells why, and who is in its way is ringed in the scene", async () => {
+test("a robot without a plan shows the reason, and its blockers are ringed in the scene", async () => {
   await onPage(async (page) => {
     const { answer } = await planned(page, "partly-solvable");
     const { robot, blocked_by } = answer.unplanned.find((entry) => entry.blocked_by.length > 0);
@@ -426,7 +426,7 @@ test("a robot without a plan tells why, and who is in its way is ringed in the s
   });
 });
 
-test("the closest pair is joined in the scene when switched on, and while one is at its curve", async () => {
+test("the closest pair is joined in the scene when switched on or while hovering its curve", async () => {
   await onPage(async (page) => {
     const { answer } = await planned(page, "crossing");
     await seek(page, answer.makespan * 0.3);
@@ -452,7 +452,7 @@ test("the closest pair is joined in the scene when switched on, and while one is
   });
 });
 
-test("a plan that the service made is checked on demand, and valid", async () => {
+test("a plan is checked on demand and valid", async () => {
   await onPage(async (page) => {
     await planned(page, "hospital-ward");
     await page.click("#check-plan");
@@ -477,7 +477,7 @@ function withoutWaits(answer, id) {
   return { ...answer, plans };
 }
 
-test("what is wrong with a plan is listed, and pressing it shows the moment and the robots", async () => {
+test("violations are listed, and pressing one shows its moment and robots", async () => {
   await onPage(async (page) => {
     await page.route("**/v1/plan", async (route) => {
       const response = await fetch(new URL("v1/plan", service.url), {
@@ -512,7 +512,7 @@ test("what is wrong with a plan is listed, and pressing it shows the moment and 
   });
 });
 
-test("on a phone the timeline is folded at first, a tap on a row selects, the card is below", async () => {
+test("on a phone the timeline starts folded, a tap on a row selects, the card is below", async () => {
   const phone = {
     viewport: { width: 390, height: 844 },
     isMobile: true,

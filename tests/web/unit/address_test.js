@@ -10,7 +10,7 @@ const REQUEST = {
 };
 const fragmentOf = (bytes) => `#r=${Buffer.from(bytes).toString("base64url")}`;
 
-test("a request goes into a fragment and comes back as it was", async () => {
+test("a request survives the round trip through a link", async () => {
   const fragment = await writeLinkState(REQUEST);
   assert.match(fragment, /^#r=[\w-]+$/);
   assert.equal(isLinkState(fragment), true);
@@ -23,11 +23,11 @@ test("a map of plain walls takes little room", async () => {
   assert.ok((await writeLinkState({ map: { rows }, robots: [] })).length < LONGEST_LINK / 20);
 });
 
-test("what else deflates to the same format is read too", async () => {
+test("other deflate streams are read, too", async () => {
   assert.deepEqual(await readLinkState(fragmentOf(deflateSync('{"robots": []}'))), { robots: [] });
 });
 
-test("a damaged link is refused, wherever it is damaged", async () => {
+test("a damaged link is rejected, wherever the damage is", async () => {
   const fragment = await writeLinkState(REQUEST);
   const damaged = /link is damaged or truncated.*Ask for a new link/;
   for (let length = 3; length < fragment.length; length += 1)
@@ -45,7 +45,7 @@ test("a damaged link is refused, wherever it is damaged", async () => {
   await assert.rejects(readLinkState(fragmentOf(deflateSync(Buffer.from([34, 255, 34])))), damaged);
 });
 
-test("a link that would inflate without bounds is refused before it has", async () => {
+test("a link that inflates beyond the limit is rejected early", async () => {
   const bomb = deflateSync(Buffer.alloc(64 * 2 ** 20, " "));
   await assert.rejects(readLinkState(fragmentOf(bomb)), /more than 8 MiB/);
 });

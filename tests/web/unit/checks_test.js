@@ -14,18 +14,18 @@ import { Session } from "../../../web/model/session.js";
 
 const motion = (...knots) => ({ radius: 0.5, knots: Float64Array.from(knots) });
 
-test("a kind is told in words, one that is new as it came", () => {
+test("a kind of violation is described in words, an unknown one by its name", () => {
   assert.equal(kindInWords("robot_collision"), "Robots collide");
   assert.equal(kindInWords("haunted"), "haunted");
 });
 
-test("a violation is seen about its moment", () => {
+test("a violation is shown around its moment", () => {
   const violations = [{ kind: "speed", robots: ["a"], t: 4 }];
   const seen = (time) => violationsAt(violations, time, new Map()).length;
   assert.deepEqual([seen(3.7), seen(3.8), seen(4.2), seen(4.3)], [0, 1, 1, 0]);
 });
 
-test("a collision is seen for as long as the two overlap", () => {
+test("a collision is shown for as long as the robots overlap", () => {
   const motions = new Map([
     ["a", motion(0, 0, 0)],
     ["b", motion(0, 5, 0, 10, -5, 0)],
@@ -46,7 +46,7 @@ const [a, b, c] = [
 ];
 const THREE_ROBOTS = { map: { rows: ["..."] }, robots: [a, b, c] };
 
-test("robots stand at their starts, and those that have goals at these", () => {
+test("checked robots stand at their starts, or at their goals if they have any", () => {
   assert.deepEqual(standingAtStarts(THREE_ROBOTS), { ...THREE_ROBOTS, plans: [], tolerance: 1e-9 });
   const { robots, plans } = standingAtGoals(THREE_ROBOTS);
   assert.deepEqual(
@@ -62,7 +62,7 @@ test("robots stand at their starts, and those that have goals at these", () => {
   assert.equal(standingAtGoals({ ...THREE_ROBOTS, robots: [b] }), null);
 });
 
-test("a robot in a wall is told at its start, or at its goal", () => {
+test("a robot in a wall is reported at its start or goal", () => {
   const violation = { kind: "obstacle_collision", robots: ["c"], distance: 0.1, required: 0.3 };
   const [error] = placementErrors(THREE_ROBOTS, [violation], "start");
   assert.equal(error.pointer, "/robots/2/start");
@@ -70,7 +70,7 @@ test("a robot in a wall is told at its start, or at its goal", () => {
   assert.equal(placementErrors(THREE_ROBOTS, [violation], "goal")[0].pointer, "/robots/2/goal");
 });
 
-test("two robots that overlap are told at the later one", () => {
+test("overlapping robots are reported at the later one", () => {
   const violation = { kind: "robot_collision", robots: ["c", "a"], distance: 0.2, required: 0.6 };
   const [error] = placementErrors(THREE_ROBOTS, [violation], "goal");
   assert.equal(error.pointer, "/robots/2/goal");
@@ -110,7 +110,7 @@ const refuse = (problem) => () => {
   throw new ProblemError(problem);
 };
 
-test("after edits the service is asked once about the starts and once about the goals", async () => {
+test("after edits, starts and goals are checked once each", async () => {
   const { problem, asked } = await afterEdit(() => FITS);
   assert.equal(problem, null);
   assert.deepEqual(
@@ -122,7 +122,7 @@ test("after edits the service is asked once about the starts and once about the 
   );
 });
 
-test("what the service refuses is the problem, but not that there are no robots yet", async () => {
+test("faults that the service reports are shown, except that there are no robots yet", async () => {
   const radius = { pointer: "/robots/0/radius", code: "out_of_range", detail: "No." };
   const none = { pointer: "/robots", code: "empty", detail: "None." };
   const told = await afterEdit(refuse({ title: "Invalid", errors: [radius, none] }));
@@ -131,14 +131,14 @@ test("what the service refuses is the problem, but not that there are no robots 
   assert.equal((await afterEdit(refuse({ title: "Overloaded", status: 503 }))).problem, null);
 });
 
-test("starts and goals that do not fit are told together", async () => {
+test("starts and goals that do not fit are reported together", async () => {
   const violation = { kind: "obstacle_collision", robots: ["a"], distance: 0, required: 0.3 };
   const { problem } = await afterEdit(() => ({ violations: [violation] }));
   const pointers = problem.errors.map(({ pointer }) => pointer);
   assert.deepEqual(pointers, ["/robots/0/start", "/robots/0/goal"]);
 });
 
-test("what is opened is not judged, unless undo brought back an edit", async () => {
+test("an opened request is not checked, unless undo restored an edit", async () => {
   const { session, asked } = watched(() => FITS);
   session.open(OPENED);
   await rest();

@@ -44,7 +44,7 @@ function gapAt(motions, first, second, t) {
   return Math.hypot(otherX - x, otherY - y) - motions[first].radius - motions[second].radius;
 }
 
-test("two that pass each other are nearest when they are side by side", () => {
+test("robots that pass each other are nearest side by side", () => {
   const curve = clearanceOf([
     motion(0.25, [0, 0, 0], [10, 10, 0]),
     motion(0.5, [0, 10, 1], [10, 0, 1]),
@@ -56,7 +56,7 @@ test("two that pass each other are nearest when they are side by side", () => {
   assert.deepEqual([curve.first[k], curve.second[k]], [0, 1]);
 });
 
-test("every part of a plan has its own smallest gap", () => {
+test("every window of a plan has its own smallest gap", () => {
   const curve = clearanceOf([motion(1, [0, 0, 0], [8, 8, 0]), motion(1, [0, 0, 5], [8, 0, 5])], 4);
   const expected = [3, Math.hypot(2, 5) - 2, Math.hypot(4, 5) - 2, Math.hypot(6, 5) - 2];
   assert.equal(curve.gap.length, 4);
@@ -64,14 +64,14 @@ test("every part of a plan has its own smallest gap", () => {
   assert.deepEqual([...curve.t], [0, 2, 4, 6]);
 });
 
-test("disks that overlap have a negative gap, and one robot or none has no clearance", () => {
+test("overlapping disks have a negative gap; fewer than two robots have no clearance", () => {
   const curve = clearanceOf([motion(1, [0, 0, 0]), motion(1, [0, 0.5, 0])]);
   assert.deepEqual([...curve.gap], [-1.5]);
   assert.equal(clearanceOf([motion(1, [0, 0, 0])]), null);
   assert.equal(clearanceOf([]), null);
 });
 
-test("no pair at any time is nearer than the curve says, and the pair it names is as near as it says", () => {
+test("the curve is a lower bound of all gaps, reached by the pair it names", () => {
   for (const [count, legs, size, seed] of [
     [2, 6, 5, 1],
     [9, 12, 8, 2],
@@ -93,7 +93,7 @@ test("no pair at any time is nearer than the curve says, and the pair it names i
   }
 });
 
-test("the nearest two now are those that comparing all would find, whichever way time goes", () => {
+test("the nearest pair equals the one found by comparing all pairs, forward and backward", () => {
   const motions = wanderers(30, 10, 20, 7);
   const sweep = new ClearanceSweep(motions);
   for (const t of [0, 0.4, 3, 2.9, 11, 0.1, 99]) {

@@ -25,7 +25,7 @@ const EVENTS = [
   { event: "plan", data: '{"a":": b"}' },
 ];
 
-test("events are read however they are cut into pieces", async () => {
+test("events are read regardless of how the stream is split", async () => {
   for (const text of [STREAM, STREAM.replaceAll("\n", "\r\n")]) {
     for (const size of [1, 2, 3, 7, 64, 10_000])
       assert.deepEqual(await eventsOf(text, size), EVENTS, `${size}`);
@@ -38,11 +38,11 @@ test("comments and events without data are left out, lines of data joined", asyn
   ]);
 });
 
-test("an event that was cut off is none", async () => {
+test("an incomplete event is dropped", async () => {
   assert.deepEqual(await eventsOf(`${STREAM}event: plan\ndata: {"a"`, 5), EVENTS);
 });
 
-test("who stops reading ends the stream", async () => {
+test("a reader that stops cancels the stream", async () => {
   let cancelled = false;
   const body = new ReadableStream({
     start: (controller) => controller.enqueue(new TextEncoder().encode(STREAM)),

@@ -30,14 +30,14 @@ const gridOf = (request) => readScene(request).grid;
 const GRID = gridOf({ map: { rows: Array(10).fill(".".repeat(10)) } });
 const names = (cells) => cells.map(({ column, row }) => `${column},${row}`);
 
-test("a cell's middle lies in the cell, the top row first", () => {
+test("the centre of a cell lies in the cell, with the top row first", () => {
   const grid = gridOf(REQUEST);
   assert.deepEqual(centreOf(grid, { column: 0, row: 0 }), { x: 10.25, y: -1.25 });
   assert.deepEqual(cellAt(grid, { x: 10.25, y: -1.25 }), { column: 0, row: 0 });
   assert.deepEqual(cellAt(grid, { x: 11.4, y: -1.9 }), { column: 2, row: 1 });
 });
 
-test("a cell's middle has no digits that only doubles would add", () => {
+test("the centre of a cell has no rounding digits", () => {
   const grid = gridOf({ map: { rows: ["...."], resolution: 0.1 } });
   assert.deepEqual(centreOf(grid, { column: 3, row: 0 }), { x: 0.35, y: 0.05 });
 });
@@ -49,7 +49,7 @@ test("a line covers all cells that it passes, without a gap", () => {
   assert.deepEqual(steep, ["2,3", "2,2", "2,1", "1,1", "1,0"]);
 });
 
-test("a line in any direction ends in the cell that it leads to", () => {
+test("a line in any direction ends in its last cell", () => {
   const ends = [
     [9.5, 9.5],
     [0.5, 9.3],
@@ -69,13 +69,13 @@ test("a line in any direction ends in the cell that it leads to", () => {
   }
 });
 
-test("cells outside the map are left out of lines and rectangles", () => {
+test("lines and rectangles omit cells outside the map", () => {
   assert.deepEqual(names(cellsAlong(GRID, { x: -2.5, y: 0.5 }, { x: 1.5, y: 0.5 })), ["0,9", "1,9"]);
   const corner = cellsBetween(GRID, { column: 1, row: 10 }, { column: -1, row: 8 });
   assert.deepEqual(names(corner), ["0,8", "1,8", "0,9", "1,9"]);
 });
 
-test("cells are blocked and freed, and keep their letter if they are so already", () => {
+test("cells are blocked and freed; unchanged ones keep their letter", () => {
   const all = cellsBetween(gridOf(REQUEST), { column: 0, row: 0 }, { column: 2, row: 1 });
   assert.deepEqual(setCells(REQUEST, all.slice(0, 4), true).map.rows, ["###", "#GT"]);
   assert.deepEqual(setCells(REQUEST, all, true).map.rows, ["###", "##T"]);
@@ -95,12 +95,12 @@ test("an edit shares what it does not change and never changes in place", () => 
   assert.equal(setCells(REQUEST, blockedOrOutside, true), REQUEST);
 });
 
-test("a cell that a short row lacks is drawn as wall and can be freed", () => {
+test("a cell missing from a short row is drawn as a wall and can be freed", () => {
   const request = { map: { rows: [".....", "."] } };
   assert.deepEqual(setCells(request, [{ column: 3, row: 1 }], false).map.rows, [".....", ".##."]);
 });
 
-test("a map grows and is cut on each side while all else stays where it is", () => {
+test("a map is enlarged and cut on each side while positions stay the same", () => {
   const place = (request, letter) => {
     const grid = gridOf(request);
     const row = grid.lines.findIndex((line) => line.includes(letter));
@@ -122,7 +122,7 @@ test("a map grows and is cut on each side while all else stays where it is", () 
   assert.deepEqual(resize(REQUEST, { left: 1, bottom: 2 }).map.origin, { x: 9.5, y: -3 });
 });
 
-test("growing and cutting the same side leads back", () => {
+test("enlarging and cutting the same side restores the map", () => {
   let request = { map: { rows: ["...."], resolution: 0.1 } };
   for (let time = 0; time < 3; time += 1) request = resize(request, { left: 1, bottom: 1 });
   assert.deepEqual(request.map.origin, { x: -0.3, y: -0.3 });
@@ -130,13 +130,13 @@ test("growing and cutting the same side leads back", () => {
   assert.deepEqual(request.map, { rows: ["...."], resolution: 0.1, origin: { x: 0, y: 0 } });
 });
 
-test("a map is never cut to nothing, and without a map there is nothing to resize", () => {
+test("a map keeps at least one cell, and a missing map is not resized", () => {
   assert.equal(resize(REQUEST, { right: -3 }), REQUEST);
   assert.equal(resize(REQUEST, { top: -1, bottom: -1 }), REQUEST);
   assert.equal(resize({ robots: [] }, { left: 1 }).map, undefined);
 });
 
-test("resolution and origin are set or left to their defaults", () => {
+test("resolution and origin are set or reset to their defaults", () => {
   assert.equal(setResolution(REQUEST, 0.2).map.resolution, 0.2);
   assert.ok(!("resolution" in setResolution(REQUEST, undefined).map));
   assert.deepEqual(setOrigin(REQUEST, "x", undefined).map.origin, { y: -2 });
@@ -152,7 +152,7 @@ test("a new map is open or walled, of any size", () => {
   assert.deepEqual(rows(1, 1, true), ["#"]);
 });
 
-test("a size that cannot be is told in words", () => {
+test("an impossible size is rejected with a message", () => {
   assert.equal(faultOfSize(40, 30, {}), null);
   assert.match(faultOfSize(0, 30, {}), /at least one/);
   assert.match(faultOfSize(2.5, 30, {}), /Enter whole numbers/);
@@ -190,7 +190,7 @@ test("an edit that changes nothing is the same request", () => {
   assert.equal(removeGoal(FLEET, 0), FLEET);
 });
 
-test("a robot's members and the defaults are set and left out", () => {
+test("members of robots and defaults are set and removed", () => {
   assert.equal(setRobot(FLEET, 1, "radius", -1).robots[1].radius, -1);
   assert.ok(!("radius" in setRobot(FLEET, 0, "radius", undefined).robots[0]));
   const defaults = setDefault(FLEET, "radius", 0.3);
@@ -199,7 +199,7 @@ test("a robot's members and the defaults are set and left out", () => {
   assert.ok(!("goal" in removeGoal(FLEET, 1).robots[1]));
 });
 
-test("a robot that is no object, or robots that are no list, can be edited", () => {
+test("a robot that is not an object, or robots that are not a list, can be edited", () => {
   assert.deepEqual(setPose({ robots: [7] }, 0, "start", { x: 1 }).robots, [{ start: { x: 1 } }]);
   const placed = setPose({ robots: [{ start: "here" }] }, 0, "start", { y: 1 });
   assert.deepEqual(placed.robots, [{ start: { y: 1 } }]);
@@ -208,7 +208,7 @@ test("a robot that is no object, or robots that are no list, can be edited", () 
   assert.equal(nameOf({ robots: [7] }, 0), "#0");
 });
 
-test("a new robot goes on with the others' pattern and is like the last", () => {
+test("a new robot continues the pattern of ids and copies the last robot", () => {
   const [, , robot] = addRobot(FLEET, { x: 1, y: 1 }, { x: 2, y: 2 }).robots;
   assert.deepEqual(robot, {
     id: "robot-4",
@@ -227,7 +227,7 @@ test("a new robot goes on with the others' pattern and is like the last", () => 
   });
 });
 
-test("fresh ids are unique and keep to the pattern", () => {
+test("new ids are unique and follow the pattern", () => {
   assert.equal(freshId({}), "robot-1");
   assert.equal(freshId(ids("amr-08", "amr-09")), "amr-10");
   assert.equal(freshId(ids("robot-3", "robot-4", "robot-3b", "heavy")), "robot-5");
@@ -237,7 +237,7 @@ test("fresh ids are unique and keep to the pattern", () => {
   assert.equal(freshId(ids("tote-1", "pallet-1"), "tote-1"), "tote-2");
 });
 
-test("a duplicate is the same but for its id and places", () => {
+test("a duplicate differs only in id and positions", () => {
   const [, , copy] = duplicateRobot(FLEET, 1, { x: 0.75, y: 0.25 }, { x: 1.75, y: 0.25 }).robots;
   assert.deepEqual(copy, {
     id: "robot-4",
@@ -248,7 +248,7 @@ test("a duplicate is the same but for its id and places", () => {
   assert.ok(!("goal" in duplicateRobot(FLEET, 0, { x: 0.75, y: 0.25 }, null).robots[2]));
 });
 
-test("the nearest free place is clear of walls, of the map's end and of others", () => {
+test("the nearest free place is clear of walls, map edges and other robots", () => {
   const { grid } = readScene({ map: { rows: ["........", "..#.....", "........", "........"] } });
   const place = (x, y, radius, others = []) => nearestFreePlace(grid, { x, y }, radius, others);
   assert.deepEqual(place(2.5, 0.5, 0.5), { x: 2.5, y: 0.5 });
@@ -260,27 +260,27 @@ test("the nearest free place is clear of walls, of the map's end and of others",
   assert.deepEqual(nearestFreePlace(grid, { x: 5.5, y: 1.5 }, 0.5, [], 2), { x: 7.5, y: 1.5 });
 });
 
-test("places snap to the middle of cells, or finely when free", () => {
+test("positions snap to the centres of cells, or to a fine grid", () => {
   const { grid } = readScene(FLEET);
   assert.deepEqual(snapPoint(grid, { x: 0.61, y: 0.4 }, false), { x: 0.75, y: 0.25 });
   assert.deepEqual(snapPoint(grid, { x: 0.61234, y: 0.4 }, true), { x: 0.612, y: 0.4 });
   assert.deepEqual(snapPoint(null, { x: 0.61234, y: 0.4 }, false), { x: 0.61, y: 0.4 });
 });
 
-test("headings snap to 15 degrees, or to one when free", () => {
+test("headings snap to 15 degrees, or to 1 degree", () => {
   assert.equal(snapHeading(degrees(52), false), degrees(45));
   assert.equal(snapHeading(degrees(52.3), true), degrees(52));
   assert.equal(snapHeading(degrees(-178), false), Math.PI);
   assert.ok(Object.is(snapHeading(degrees(359), false), 0));
 });
 
-test("turning leads to the next 15 degrees either way", () => {
+test("turning goes to the next multiple of 15 degrees", () => {
   assert.ok(Math.abs(turned(0, 1) - degrees(15)) < 1e-12);
   assert.ok(Math.abs(turned(1, -1) - degrees(45)) < 1e-12);
   assert.ok(Math.abs(turned(degrees(180), 1) - degrees(-165)) < 1e-12);
 });
 
-test("a step leads to the next cell, a fine one a tenth of it", () => {
+test("a step moves by a cell, a fine step by a tenth of a cell", () => {
   const { grid } = readScene(FLEET);
   assert.deepEqual(stepped(grid, { x: 0.25, y: 0.25 }, { right: 1, up: 0 }, false), { x: 0.75, y: 0.25 });
   assert.deepEqual(stepped(grid, { x: 0.31, y: 0.25 }, { right: 1, up: 0 }, false), { x: 0.75, y: 0.25 });

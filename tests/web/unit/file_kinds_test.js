@@ -6,7 +6,7 @@ import { ACCEPT, imageNamed, kindOf, sortFiles } from "../../../web/files/file_k
 const file = (name, head = "") => ({ name, head: new TextEncoder().encode(head) });
 const PNG = Uint8Array.from([137, 80, 78, 71, 13, 10, 26, 10, 0, 0, 0, 13]);
 
-test("a file's ending tells its kind", () => {
+test("the extension of a file determines its kind", () => {
   const kinds = [
     "a.json",
     "A.JSON",
@@ -24,7 +24,7 @@ test("a file's ending tells its kind", () => {
   );
 });
 
-test("where the ending tells nothing, the beginning does", () => {
+test("without a known extension, the content determines the kind", () => {
   const known = [
     ['\uFEFF  {"map": 1}', "json"],
     ["type octile\r\nheight 3\r\n", "map"],
@@ -41,7 +41,7 @@ test("where the ending tells nothing, the beginning does", () => {
   assert.equal(kindOf({ name: "download", head: PNG }), "image");
 });
 
-test("files that go together are told apart", () => {
+test("valid combinations of files are recognised", () => {
   const [json, answer, map, scenario, yaml, pgm, png] = [
     ..."a.json a.plan.json b.map b.scen c.yaml c.pgm c.png".split(" ").map((name) => file(name)),
   ];
@@ -54,7 +54,7 @@ test("files that go together are told apart", () => {
   assert.deepEqual(sortFiles([pgm, yaml, png]), { kind: "ros", yaml, images: [pgm, png] });
 });
 
-test("files that do not go together are refused with what each is", () => {
+test("other combinations of files are rejected with the kind of each", () => {
   const refused = [
     "a.json b.json c.json",
     "a.map b.map",
@@ -78,7 +78,7 @@ test("files that do not go together are refused with what each is", () => {
   assert.throws(() => sortFiles([file("lab.pgm")]), /lab.pgm is only the image.*together with its map.yaml/);
 });
 
-test("a map.yaml finds its image among the files, whatever folder it names", () => {
+test("a map.yaml finds its image among the files, regardless of folders", () => {
   const images = [file("lab.pgm"), file("other.png")];
   assert.equal(imageNamed("../maps/lab.pgm", images, "map.yaml"), images[0]);
   assert.equal(imageNamed("maps\\other.png", images, "map.yaml"), images[1]);
@@ -92,7 +92,7 @@ test("a map.yaml finds its image among the files, whatever folder it names", () 
   );
 });
 
-test("an input for files can offer all endings", () => {
+test("the file input accepts all extensions", () => {
   for (const ending of [".json", ".map", ".scen", ".yaml", ".yml", ".pgm", ".png"])
     assert.ok(ACCEPT.split(",").includes(ending), ending);
 });

@@ -32,7 +32,7 @@ class FakeSession extends Signals {
   }
 }
 
-test("the two nearest are named by their ids, at any time and under the present answer", () => {
+test("the nearest pair is reported by ids, at any time and for the current answer", () => {
   const session = new FakeSession();
   const fleet = new FleetMotion(session, () => {});
   assert.deepEqual(fleet.nearestAt(3), { ids: ["mover", "stayer"], gap: 3.5 });
@@ -41,7 +41,7 @@ test("the two nearest are named by their ids, at any time and under the present 
   assert.deepEqual(fleet.nearestAt(1), { ids: ["mover", "stayer"], gap: 2.5 });
 });
 
-test("the curve is told when it is worked out, and not for an answer that is gone", () => {
+test("listeners get a computed curve, unless the answer has been replaced", () => {
   const session = new FakeSession();
   const told = [];
   const fleet = new FleetMotion(session, (motions, tell) => told.push(() => tell(clearanceOf(motions))));

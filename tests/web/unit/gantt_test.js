@@ -28,7 +28,7 @@ const LAYOUT = {
   range: { from: 2, to: 10 },
 };
 
-test("a moment and its pixel lead to each other", () => {
+test("a time maps to a pixel and back", () => {
   assert.equal(xOf(LAYOUT, 2), 100);
   assert.equal(xOf(LAYOUT, 10), 500);
   assert.equal(timeAt(LAYOUT, 300), 6);
@@ -36,11 +36,11 @@ test("a moment and its pixel lead to each other", () => {
   assert.equal(timeAt(LAYOUT, 0), 0);
 });
 
-test("a plan that takes no time has its one moment at the left", () => {
+test("a plan without duration shows its only moment at the left", () => {
   assert.equal(xOf({ ...LAYOUT, range: { from: 0, to: 0 } }, 0), 100);
 });
 
-test("a pixel is on the row drawn there, and on none beside and below the rows", () => {
+test("a pixel maps to the row drawn there, and to none outside the rows", () => {
   assert.equal(yOf(LAYOUT, 1), 40);
   assert.equal(rowAt(LAYOUT, 50), 1);
   assert.equal(rowAt(LAYOUT, 59.9), 1);
@@ -50,7 +50,7 @@ test("a pixel is on the row drawn there, and on none beside and below the rows",
   assert.equal(rowAt({ ...LAYOUT, rows: 3 }, 85), -1);
 });
 
-test("the rows seen include those cut at both ends", () => {
+test("the visible rows include partly visible ones", () => {
   assert.deepEqual(rowsSeen(LAYOUT), { first: 1, end: 7 });
   assert.deepEqual(rowsSeen({ ...LAYOUT, scroll: 0, rows: 2 }), { first: 0, end: 2 });
 });
@@ -61,14 +61,14 @@ test("rows scroll no further than there are rows", () => {
   assert.equal(clampScroll({ ...LAYOUT, rows: 2 }, 10), 0);
 });
 
-test("scrolling to a row moves as little as it takes", () => {
+test("scrolling to a row moves as little as possible", () => {
   assert.equal(scrollToRow(LAYOUT, 3), 30);
   assert.equal(scrollToRow(LAYOUT, 1), 20);
   assert.equal(scrollToRow(LAYOUT, 6), 45);
   assert.equal(scrollToRow(LAYOUT, 11), 145);
 });
 
-test("rows are sorted by what is asked for, and as listed where that is equal or unknown", () => {
+test("rows are sorted by the chosen key; equal and unknown values keep the listed order", () => {
   const track = (cost, lowerBound, start) => ({
     cost,
     lowerBound,
@@ -95,12 +95,12 @@ test("rows are sorted by what is asked for, and as listed where that is equal or
   assert.equal(sorted("delay"), "dacbe");
 });
 
-test("zooming keeps the moment under the pointer where it is", () => {
+test("zooming keeps the time under the pointer in place", () => {
   assert.deepEqual(zoomTime({ from: 0, to: 8 }, 8, 2, 2), { from: 1, to: 5 });
   assert.deepEqual(zoomTime({ from: 1, to: 5 }, 8, 2, 0.5), { from: 0, to: 8 });
 });
 
-test("zooming out shows no more than the plan, zooming in no less than there is to see", () => {
+test("zooming is limited to the duration of the plan and to the shortest range", () => {
   assert.deepEqual(zoomTime({ from: 6, to: 8 }, 8, 8, 0.01), { from: 0, to: 8 });
   const closest = zoomTime({ from: 0, to: 8 }, 8, 4, 1e9);
   assert.ok(Math.abs(closest.to - closest.from - 0.05) < 1e-12);
@@ -113,7 +113,7 @@ test("panning stops at both ends", () => {
   assert.deepEqual(panTime({ from: 2, to: 4 }, 10, -3), { from: 0, to: 2 });
 });
 
-test("a moment out of sight is brought into it, one in sight moves nothing", () => {
+test("revealing a time moves the range only if the time is not visible", () => {
   const range = { from: 2, to: 4 };
   assert.equal(revealTime(range, 10, 4), range);
   const later = revealTime(range, 10, 5);
@@ -123,7 +123,7 @@ test("a moment out of sight is brought into it, one in sight moves nothing", () 
   assert.deepEqual(revealTime(range, 10, 10), { from: 8, to: 10 });
 });
 
-test("ticks are round and as many as there is room for", () => {
+test("ticks are round numbers and fit the available space", () => {
   assert.deepEqual(ticks({ from: 0, to: 44.1 }, 10), { step: 5, times: [0, 5, 10, 15, 20, 25, 30, 35, 40] });
   assert.deepEqual(ticks({ from: 3, to: 7 }, 4).times, [3, 4, 5, 6, 7]);
   assert.equal(ticks({ from: 1.03, to: 1.08 }, 6).step, 0.01);
@@ -132,13 +132,13 @@ test("ticks are round and as many as there is room for", () => {
 
 const curve = (...points) => ({ t: points.map(([t]) => t), gap: points.map(([, gap]) => gap) });
 
-test("of the points in one pixel the lowest is kept", () => {
+test("the lowest point in each pixel is kept", () => {
   const points = curve([0, 5], [0.4, 1], [0.9, 3], [1.2, 7], [1.6, 8], [3.5, 2]);
   assert.deepEqual(thinned(points, { from: 0, to: 4 }, 4), [1, 3, 5]);
   assert.deepEqual(thinned(points, { from: 0, to: 4 }, 400), [0, 1, 2, 3, 4, 5]);
 });
 
-test("of the points out of sight the nearest on each side is kept, so that lines lead there", () => {
+test("the nearest point on each side of the range is kept, so that lines reach its edges", () => {
   const points = curve([0, 5], [1, 4], [2, 3], [3, 2], [4, 1], [5, 0]);
   assert.deepEqual(thinned(points, { from: 1.5, to: 3.5 }, 10), [1, 2, 3, 4]);
   assert.deepEqual(thinned(points, { from: 2, to: 3 }, 10), [1, 2, 3, 4]);

@@ -66,7 +66,7 @@ test("a value that replaces another leaves no step to it and nothing to redo", (
   assert.equal(history.present, "a");
 });
 
-test("a gesture does not go on after an undo", () => {
+test("an undo ends a gesture", () => {
   const history = new History("a");
   history.push("b", "drag");
   history.push("c", "type");

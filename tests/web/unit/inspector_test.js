@@ -14,14 +14,14 @@ const corner = (...points) =>
     points.map(([x, y]) => ({ x, y })),
   );
 
-test("a card goes to the upper right, unless it hides something there", () => {
+test("a card is placed at the upper right, unless it hides something there", () => {
   assert.equal(corner(), "top-right");
   assert.equal(corner([500, 300], [995, 100], [900, 40], [900, 270]), "top-right");
   assert.equal(corner([900, 100]), "bottom-right");
   assert.equal(corner([900, 100], [900, 500]), "bottom-left");
 });
 
-test("where every corner hides something, the one that hides least is taken", () => {
+test("if every corner hides something, the one that hides least is used", () => {
   assert.equal(corner([900, 100], [900, 500], [100, 500]), "top-right");
   assert.equal(corner([900, 100], [900, 120], [900, 500], [100, 500], [100, 520]), "bottom-right");
 });

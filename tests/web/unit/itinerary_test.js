@@ -8,7 +8,7 @@ const { PI } = Math;
 const pose = (x, y, theta = 0) => ({ x, y, theta });
 const action = (type, t_start, t_end, from, to) => ({ type, t_start, t_end, from, to });
 
-test("time and distance are summed by what the robot does", () => {
+test("time and distance are summed by type of action", () => {
   const actions = [
     action("rotate", 0, 0.5, pose(0, 0, 0), pose(0, 0, 1)),
     action("translate", 0.5, 5.5, pose(0, 0, 1), pose(3, 4, 1)),
@@ -19,7 +19,7 @@ test("time and distance are summed by what the robot does", () => {
   assert.deepEqual(totals([]), { moving: 0, turning: 0, waiting: 0, distance: 0 });
 });
 
-test("actions are told with as many digits as say something", () => {
+test("actions are described with the significant digits", () => {
   const drive = (length) => actionInWords(action("translate", 0, 1, pose(0, 0), pose(length, 0)));
   assert.deepEqual(
     [drive(0.0123), drive(0.5), drive(3.24), drive(12), drive(132.4)],
@@ -28,7 +28,7 @@ test("actions are told with as many digits as say something", () => {
   assert.equal(actionInWords(action("wait", 2, 3.44, pose(0, 0), pose(0, 0))), "wait 1.4 s");
 });
 
-test("a turn is told by its angle and side, the shorter way", () => {
+test("a turn is described by its angle and side", () => {
   const turn = (from, to) => actionInWords(action("rotate", 0, 1, pose(0, 0, from), pose(0, 0, to)));
   assert.equal(turn(0, PI / 2), "turn 90° left");
   assert.equal(turn(0, -PI / 4), "turn 45° right");
@@ -65,14 +65,14 @@ const CROSSING = {
   passer: through([0, 5, 6], [12, 5, -6]),
 };
 
-test("a wait is for the robot that would be hit without it, when it would be", () => {
+test("the cause of a wait is the robot that would be hit without it", () => {
   const found = causeOfWait("waiter", CROSSING.waiter, 1, fleetOf(CROSSING));
   assert.equal(found.robot, "passer");
   // Without the wait they are at (t, 0) and (5, 6 - t): 1 m apart first when (5 - t)² + (6 - t)² = 1.
   near(found.t, 5);
 });
 
-test("a touch is no hit", () => {
+test("touching is not a hit", () => {
   const beside = through([0, 5, 1], [12, 5, 1]);
   const { waiter } = CROSSING;
   assert.equal(causeOfWait("waiter", waiter, 1, fleetOf({ waiter, beside })), null);
@@ -80,7 +80,7 @@ test("a touch is no hit", () => {
   assert.equal(causeOfWait("waiter", waiter, 1, fleetOf({ waiter, nearer })).robot, "nearer");
 });
 
-test("with a margin, one that would be passed too closely counts", () => {
+test("with a margin, a robot passed too closely counts as hit", () => {
   const beside = through([0, 5, 1.1], [12, 5, 1.1]);
   const { waiter } = CROSSING;
   assert.equal(causeOfWait("waiter", waiter, 1, fleetOf({ waiter, beside }), 0.1), null);
@@ -88,7 +88,7 @@ test("with a margin, one that would be passed too closely counts", () => {
   near(found.t, 5 - Math.sqrt(1.2 ** 2 - 1.1 ** 2));
 });
 
-test("of several it is the one hit first, not the one listed first", () => {
+test("of several robots, the one hit first is the cause", () => {
   const later = through([0, 9, 8], [16, 9, -8]);
   const found = causeOfWait("waiter", CROSSING.waiter, 1, fleetOf({ later, ...CROSSING }));
   assert.equal(found.robot, "passer");
@@ -103,13 +103,13 @@ test("a hit may come several actions after the wait", () => {
   near(found.t, 6 - Math.SQRT1_2);
 });
 
-test("one that goes through the place where the robot would have arrived too early is hit there", () => {
+test("a robot passing the place of an early arrival is hit there", () => {
   const waiter = through([0, 0, 0], [6, 0, 0], [8, 2, 0]);
   const passer = through([0, 2, 5], [10, 2, -5]);
   near(causeOfWait("waiter", waiter, 0, fleetOf({ waiter, passer })).t, 4);
 });
 
-test("a wait that keeps nobody from harm is for nobody", () => {
+test("a wait that prevents no hit has no cause", () => {
   const { waiter } = CROSSING;
   assert.equal(causeOfWait("waiter", waiter, 1, fleetOf({ waiter })), null);
   const gone = through([0, 5, 0], [1, 5, 9], [12, 5, 9]);

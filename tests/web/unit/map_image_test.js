@@ -10,7 +10,7 @@ const read = (...parts) => {
   return { ...header, values: [...values] };
 };
 
-test("a plain graymap is read, whatever its white space and comments", () => {
+test("a plain graymap is read with any white space and comments", () => {
   const expected = { width: 3, height: 2, maxval: 15, values: [0, 1, 2, 3, 14, 15] };
   assert.deepEqual(read("P2\n3 2\n15\n0 1 2\n3 14 15\n"), expected);
   assert.deepEqual(read("P2 # gray\r\n# by hand\r\n3\t2 #size\n15 0 1 2 # top\n3 14 15"), expected);
@@ -36,12 +36,12 @@ test("a header may end in carriage return and line feed", () => {
   assert.deepEqual(read("P5 2 1 255\r", 10, 8).values, [10, 8]);
 });
 
-test("a raw graymap in the midst of other bytes is read from its own place", () => {
+test("a raw graymap is read from a view into a larger buffer", () => {
   const whole = bytesOf("....P5 1 2 65535\n", 0, 1, 0, 2);
   assert.deepEqual([...readPgm(whole.subarray(4)).values], [1, 2]);
 });
 
-test("what is no graymap, or only a piece of one, is refused with the reason", () => {
+test("other and truncated images are rejected with the reason", () => {
   assert.throws(() => read("P6 1 1 255\n", 1, 2, 3), /of the kind P6.*convert it to PGM/);
   assert.throws(() => read("GIF89a"), /does not begin as a PGM/);
   assert.throws(() => read(""), /does not begin as a PGM/);
@@ -74,7 +74,7 @@ const png = (colourType, ...chunks) =>
     ...chunks.flat(),
   ]);
 
-test("a PNG is known by its first bytes", () => {
+test("a PNG is recognised by its first bytes", () => {
   assert.equal(isPng(png(0)), true);
   assert.equal(isPng(Uint8Array.from([80, 53, 10])), false);
 });
@@ -103,7 +103,7 @@ test("the gray of a colour is the mean of its channels", () => {
   assert.deepEqual([opaque.width, opaque.height], [2, 1]);
 });
 
-test("an alpha channel counts as a fourth colour in the mode trinary alone", () => {
+test("an alpha channel counts as a fourth colour only in trinary mode", () => {
   const rgba = { width: 1, height: 1, data: Uint8ClampedArray.from([0, 0, 0, 255]) };
   const { values, maxval } = grayOfRgba(rgba, { alpha: true, mode: "trinary" });
   assert.equal(values[0] / maxval, 0.25);

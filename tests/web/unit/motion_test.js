@@ -28,7 +28,7 @@ test("a motion has knots only where it changes", () => {
   assert.deepEqual([...motionOf(ROBOT, actions).knots], [0, 0, 0, 2, 0, 0, 4, 2, 0, 9, 2, 0]);
 });
 
-test("a faulty plan's jumps are kept and what goes back in time is left out", () => {
+test("jumps of a faulty plan are kept, steps back in time are dropped", () => {
   const actions = [
     action(0, 2, [0, 0], [2, 0]),
     action(2, 3, [5, 5], [6, 5]),
@@ -47,7 +47,7 @@ test("the times of several motions come sorted and once, with both ends", () => 
   assert.deepEqual([...knotTimes([motionOf(ROBOT, [])], 0)], [0]);
 });
 
-test("a follower tells both ends of a span, forward and back, before and after the motion", () => {
+test("a follower returns both ends of a span, in any order and beyond the motion", () => {
   const actions = [action(1, 3, [0, 0], [2, 0]), action(3, 4, [2, 0], [2, 3])];
   const follower = new Follower(motionOf(ROBOT, actions));
   const at = (t0, t1) => {
@@ -61,7 +61,7 @@ test("a follower tells both ends of a span, forward and back, before and after t
   assert.deepEqual(at(2, 2), [1, 0, 1, 0]);
 });
 
-test("a follower tells when the motion changes next", () => {
+test("a follower returns the next change of the motion", () => {
   const follower = new Follower(
     motionOf(ROBOT, [action(1, 3, [0, 0], [2, 0]), action(3, 4, [2, 0], [2, 3])]),
   );

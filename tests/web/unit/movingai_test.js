@@ -9,14 +9,14 @@ test("a MovingAI map becomes the rows of a request, top row first, a metre a cel
   assert.deepEqual(readMovingAiMap(MAP_TEXT), { rows: [".G@OT", "W.#..", "....."], resolution: 1 });
 });
 
-test("the ends of lines and what follows the last row do not matter", () => {
+test("line endings and trailing blank lines are ignored", () => {
   const expected = readMovingAiMap(MAP_TEXT);
   assert.deepEqual(readMovingAiMap(MAP_TEXT.replaceAll("\n", "\r\n")), expected);
   assert.deepEqual(readMovingAiMap(`${MAP_TEXT}\n\n`), expected);
   assert.deepEqual(readMovingAiMap(MAP_TEXT.trimEnd()), expected);
 });
 
-test("the header may come in another order, but has to be there", () => {
+test("header fields may be in any order, but are required", () => {
   assert.deepEqual(readMovingAiMap("width 2\ntype octile\nheight 1\nmap\n..").rows, [".."]);
   assert.throws(() => readMovingAiMap("type octile\nwidth 2\nmap\n..\n"), /names no height.*"height …"/);
   assert.throws(
@@ -30,14 +30,14 @@ test("the header may come in another order, but has to be there", () => {
   assert.throws(() => readMovingAiMap(""), /Line 1 is ""/);
 });
 
-test("a character of no meaning is named with its line and column", () => {
+test("an unknown character is reported with its line and column", () => {
   assert.throws(
     () => readMovingAiMap(MAP_TEXT.replace("W", "x")),
     /Line 6 has "x" in column 1; free cells are/,
   );
 });
 
-test("a map that is not of the size its header says is refused with the line", () => {
+test("a map whose size differs from its header is rejected with the line", () => {
   assert.throws(() => readMovingAiMap(MAP_TEXT.replace("WS#..", "WS#.")), /Line 6 has 4 cells.*width 5/);
   assert.throws(
     () => readMovingAiMap(MAP_TEXT.replace("height 3", "height 4")),
@@ -79,11 +79,11 @@ test("a scenario lists starts and goals as cells from the top left, and its map 
   assert.deepEqual(readMovingAiScenario(text.replace("version 1\n", "")), expected);
 });
 
-test("a map's name may have spaces", () => {
+test("a map name may contain spaces", () => {
   assert.equal(readMovingAiScenario("version 1\n0\tmy map.map\t6\t4\t1\t2\t3\t3\t2\n")[0].map, "my map.map");
 });
 
-test("a faulty line of a scenario is named, with what it should be", () => {
+test("a faulty line of a scenario is reported with the expected format", () => {
   const text = scenario([
     [0, 0],
     [1, 3],
@@ -114,7 +114,7 @@ test("poses are the centres of cells, y up", () => {
   assert.deepEqual([small.start.x, small.start.y], [-0.825, 2.175]); // as decimals, not as sums of doubles
 });
 
-test("the first so many are taken, in their order", () => {
+test("the first entries are used, in their order", () => {
   const entries = scenario(
     [
       [0, 0],
@@ -140,7 +140,7 @@ test("the first so many are taken, in their order", () => {
   assert.equal(request(entries, 9).request.robots.length, 3);
 });
 
-test("an entry whose start or goal overlaps one taken before is passed over; contact is no overlap", () => {
+test("an entry that overlaps an earlier one is skipped; contact is not overlap", () => {
   const entries = scenario(
     [
       [0, 0],
@@ -167,7 +167,7 @@ test("an entry whose start or goal overlaps one taken before is passed over; con
   );
 });
 
-test("an entry on a wall, or where the disk does not fit between walls and edges, is passed over", () => {
+test("an entry that does not fit between walls and edges is skipped", () => {
   const onWall = scenario([
     [1, 1],
     [5, 3],
@@ -188,7 +188,7 @@ test("an entry on a wall, or where the disk does not fit between walls and edges
   assert.equal(request(besideCorner, 1, { ...DEFAULTS, radius: 1e9 }).request.robots.length, 0);
 });
 
-test("a map of another size is refused with both sizes", () => {
+test("a map of another size is rejected with both sizes", () => {
   const entries = scenario([
     [0, 0],
     [1, 3],

@@ -68,7 +68,7 @@ test("an option that is not set has its default", () => {
   assert.equal(optionOf(null, mode), "first");
 });
 
-test("setting an option changes no other and not the request it came from", () => {
+test("setting an option changes neither other options nor the original request", () => {
   const request = { robots: [], options: { mode: "anytime" } };
   const edited = withOption(request, seed, 3);
   assert.deepEqual(edited, { robots: [], options: { mode: "anytime", seed: 3 } });
@@ -76,7 +76,7 @@ test("setting an option changes no other and not the request it came from", () =
   assert.equal(edited.robots, request.robots);
 });
 
-test("an option at its default is left out, and options that are all left out", () => {
+test("an option at its default is omitted, and so are empty options", () => {
   assert.deepEqual(withOption({ options: { seed: 3, mode: "anytime" } }, seed, 0), {
     options: { mode: "anytime" },
   });

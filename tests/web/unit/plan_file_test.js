@@ -30,23 +30,23 @@ const changed = (change) => {
   return document;
 };
 
-test("a request is a request, be it faulty or only a map", () => {
+test("a request is recognised, even if it is faulty or only a map", () => {
   assert.deepEqual(readDocument(REQUEST), { request: REQUEST, answer: null });
   for (const document of [{ map: 7 }, { robots: [] }, { map: { rows: ["."] }, status: "x" }])
     assert.equal(readDocument(document).request, document);
 });
 
-test("a plan file is taken apart into what was put together", () => {
+test("a plan file is split into its request and answer", () => {
   assert.deepEqual(readDocument(planFile(REQUEST, ANSWER)), { request: REQUEST, answer: ANSWER });
   const strict = { ...ANSWER, tolerance: 1e-3 };
   assert.deepEqual(readDocument(planFile(REQUEST, strict)), { request: REQUEST, answer: strict });
 });
 
-test("what is saved without an answer has no plans, as a check wants it", () => {
+test("a plan file without an answer has an empty list of plans", () => {
   assert.deepEqual(planFile(REQUEST, null), { ...REQUEST, plans: [] });
 });
 
-test("what follows from the plans of a file is taken from there", () => {
+test("costs of an answer are computed from its plans", () => {
   const actions = [{ type: "wait", t_start: 0, t_end: 2.5, from: pose(1.5), to: pose(1.5) }];
   const plans = [
     { robot: "a", cost: 7, actions: ANSWER.plans[0].actions },
@@ -74,7 +74,7 @@ test("what follows from the plans of a file is taken from there", () => {
   assert.equal(readDocument({ plans, unplanned: [{ robot: "d" }] }).answer.status, "partial");
 });
 
-test("members that nobody knows stay with the request, for the service to tell", () => {
+test("unknown members stay in the request, so that the service reports them", () => {
   const { request } = readDocument({ ...planFile(REQUEST, ANSWER), colour: "red" });
   assert.equal(request.colour, "red");
 });
@@ -83,7 +83,7 @@ test("an answer alone has no request", () => {
   assert.deepEqual(readDocument(ANSWER), { request: null, answer: ANSWER });
 });
 
-test("an answer belongs to a request that has all its robots", () => {
+test("an answer matches a request that has all its robots", () => {
   const { answer } = readDocument(ANSWER);
   assert.equal(belongsTo(answer, REQUEST), true);
   assert.equal(belongsTo(answer, { ...REQUEST, robots: [{ id: "b" }] }), false);
@@ -92,14 +92,14 @@ test("an answer belongs to a request that has all its robots", () => {
   assert.equal(belongsTo(answer, null), false);
 });
 
-test("other JSON is refused with what it should be", () => {
+test("other JSON is rejected with the expected format", () => {
   for (const document of [null, 7, "map", [REQUEST], {}, { type: "Feature" }])
     assert.throws(() => readDocument(document), /neither a request \(with "map" and "robots"\) nor a plan/);
   const problem = { title: "Invalid request", errors: [] };
   assert.throws(() => readDocument(problem), /error of the service: Invalid request/);
 });
 
-test("answers that could not be shown are refused with the place", () => {
+test("answers that cannot be shown are rejected with the place of the fault", () => {
   const refused = [
     [(document) => (document.plans = {}), /plans is {}, which is not/],
     [(document) => (document.plans = [null]), /plans\[0\].robot is missing/],

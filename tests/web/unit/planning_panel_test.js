@@ -11,14 +11,14 @@ test("the budget is the request's, the service's default, or its limit", () => {
   assert.equal(budgetOf({ options: { time_budget_ms: 1e9 } }, LIMITS), 120);
 });
 
-test("a budget that is not known is null", () => {
+test("an unknown budget is null", () => {
   assert.equal(budgetOf({}, {}), null);
   assert.equal(budgetOf(null, {}), null);
   assert.equal(budgetOf({ options: { time_budget_ms: "long" } }, LIMITS), null);
   assert.equal(budgetOf({ options: { time_budget_ms: 2000 } }, {}), 2);
 });
 
-test("progress is told in words, the flowtime once there is a plan", () => {
+test("progress is described in words, with the flowtime once there is a plan", () => {
   assert.equal(describeProgress({ planned: 1, robots: 1, best: null }), "1 of 1 robot planned");
   assert.equal(
     describeProgress({ planned: 1200, robots: 2000, best: { flowtime: 12.345, makespan: 3 } }),

@@ -42,7 +42,7 @@ test("playing at the end starts from the beginning", () => {
   assert.equal(player.time, 0);
 });
 
-test("a pause does not count", () => {
+test("time during a pause does not count", () => {
   const player = playing(60);
   player.tick(101);
   player.pause();
@@ -53,7 +53,7 @@ test("a pause does not count", () => {
   assert.equal(player.time, 2);
 });
 
-test("time that goes by unseen does not count", () => {
+test("time while the page is hidden does not count", () => {
   const player = playing(60);
   player.tick(101);
   player.skip();
@@ -91,7 +91,7 @@ test("robots that do nothing have no events", () => {
   assert.deepEqual(eventTimes([{ actions: [] }]), []);
 });
 
-test("steps lead to the next event and the one before, and stay where there is none", () => {
+test("steps go to the next or previous event, and stay if there is none", () => {
   const times = [0, 1, 2.5];
   assert.equal(nextEvent(times, 0.4, 1), 1);
   assert.equal(nextEvent(times, 1, 1), 2.5);

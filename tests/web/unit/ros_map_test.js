@@ -38,7 +38,7 @@ const classify = (yaml, values, { maxval = 255, clear = null } = {}) => [
   ...classifyPixels(readRosYaml(yaml), { width: values.length, height: 1, maxval, values, clear }).cells,
 ];
 
-test("a map.yaml is read, the mode being trinary unless it says otherwise", () => {
+test("a map.yaml is read, with trinary as the default mode", () => {
   assert.deepEqual(readRosYaml(YAML), {
     image: "lab.pgm",
     resolution: 0.05,
@@ -54,19 +54,19 @@ test("a map.yaml is read, the mode being trinary unless it says otherwise", () =
   assert.equal(readRosYaml(`${YAML}mode: scale\n`).mode, "scale");
 });
 
-test("a turned map is taken unturned, and says so", () => {
+test("a rotated map is imported unrotated, with a warning", () => {
   const described = readRosYaml(YAML.replace("0.0]", "0.5]"));
   assert.equal(described.yaw, 0.5);
   assert.match(described.warnings.join(), /turned by 0.5 rad.*unturned/);
 });
 
-test("thresholds that are missing are map_server's, and said", () => {
+test("missing thresholds default to map_server's, with a warning", () => {
   const described = readRosYaml(YAML.replace(/occupied.*\n/, "").replace(/free.*\n/, ""));
   assert.deepEqual([described.occupiedThresh, described.freeThresh], [0.65, 0.196]);
   assert.equal(described.warnings.length, 2);
 });
 
-test("what a map.yaml lacks or has wrong is named", () => {
+test("missing and wrong members of a map.yaml are reported", () => {
   const refused = [
     [YAML.replace(/image.*\n/, ""), /names no image/],
     [YAML.replace(/resolution.*\n/, ""), /resolution is missing/],
@@ -81,7 +81,7 @@ test("what a map.yaml lacks or has wrong is named", () => {
   for (const [text, message] of refused) assert.throws(() => readRosYaml(text), message, text);
 });
 
-test("pixels are free, occupied or unknown as map_server has it", () => {
+test("pixels are free, occupied or unknown as in map_server", () => {
   // (255 - v) / 255 against 0.65 and 0.196: 89 gives 0.651, 90 gives 0.647, 205 gives 0.19608, 206 gives 0.192
   assert.deepEqual(classify(YAML, [0, 89, 90, 205, 206, 255]), [
     OCCUPIED,
@@ -113,18 +113,18 @@ test("a pixel that is exactly at a threshold is unknown", () => {
   ]);
 });
 
-test("grays count by the largest one of the image", () => {
+test("gray levels are relative to the maximum of the image", () => {
   assert.deepEqual(classify(YAML, [0, 30000, 65535], { maxval: 65535 }), [OCCUPIED, UNKNOWN, FREE]);
 });
 
-test("in the mode scale, pixels that are not opaque are unknown", () => {
+test("in scale mode, pixels that are not opaque are unknown", () => {
   const values = [0, 255, 0, 255];
   const clear = [0, 0, 1, 1];
   assert.deepEqual(classify(`${YAML}mode: scale`, values, { clear }), [OCCUPIED, FREE, UNKNOWN, UNKNOWN]);
   assert.deepEqual(classify(YAML, values, { clear }), [OCCUPIED, FREE, OCCUPIED, FREE]);
 });
 
-test("in the mode raw, the gray itself is the percentage occupied, up to 100", () => {
+test("in raw mode, the gray level is the occupancy in percent, up to 100", () => {
   const raw = `${YAML}mode: raw`;
   assert.deepEqual(classify(raw, [0, 19, 20, 65, 66, 100, 101, 255]), [
     FREE,
@@ -142,7 +142,7 @@ test("cells are counted by kind", () => {
   assert.deepEqual(countCells(grid(["?.#", "??."])), [2, 1, 3]);
 });
 
-test("trimming takes off the unknown margin and moves the origin exactly", () => {
+test("trimming removes the unknown margin and moves the origin exactly", () => {
   const trimmed = trimUnknown(grid(["?????", "??.#?", "?????", "??.??", "?????", "?????"]));
   assert.deepEqual(drawn(trimmed), [".#", "??", ".?"]);
   assert.deepEqual(trimmed.origin, { x: -10, y: -4.9 });

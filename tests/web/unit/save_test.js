@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import { curlCommand, fileStem } from "../../../web/files/save.js";
 
-test("a file's name comes from what was opened, without its ending and what shells dislike", () => {
+test("a file name derives from the opened name, without extension and special characters", () => {
   assert.equal(fileStem("corridor-swap"), "corridor-swap");
   assert.equal(fileStem("night shift.plan.json"), "night-shift");
   assert.equal(fileStem("Fleet.JSON"), "Fleet");
@@ -14,7 +14,7 @@ test("a file's name comes from what was opened, without its ending and what shel
   assert.equal(fileStem(""), "request");
 });
 
-test("the command line fetches an example, and holds any other request", () => {
+test("the command line fetches an example and inlines any other request", () => {
   const base = "http://fleet.example/plans/";
   const post =
     "curl -sS http://fleet.example/plans/v1/plan -H 'Content-Type: application/json' --data-binary @-";

@@ -19,7 +19,7 @@ test("the first row is the top of the map", () => {
   assert.deepEqual(grid.bounds, { left: 10, bottom: -2, right: 11, top: -0.5 });
 });
 
-test("a robot takes what it does not say from the defaults", () => {
+test("a robot uses the defaults for members it does not set", () => {
   const { robots } = readScene(REQUEST);
   assert.deepEqual(
     robots.map(({ radius }) => radius),
@@ -35,7 +35,7 @@ test("a robot takes what it does not say from the defaults", () => {
   );
 });
 
-test("labels leave out what all ids begin with but never split a number", () => {
+test("labels omit the common prefix of all ids but never split a number", () => {
   const labels = (...ids) =>
     readScene({ robots: ids.map((id) => ({ id, radius: 1, start: { x: 0, y: 0 } })) }).robots.map(
       ({ label }) => label,
@@ -72,7 +72,7 @@ test("before an answer robots are ready or parked where they start", () => {
   assert.deepEqual(robotPoseAt(scene.robots[0], tracks.get("amr-1"), 5), { x: 10.25, y: -1.25, theta: 1 });
 });
 
-test("an answer tells who moves, who stays and who has no plan", () => {
+test("an answer determines which robots move, stay or have no plan", () => {
   const from = { x: 10.25, y: -1.25, theta: 0 };
   const to = { x: 10.75, y: -1.25, theta: 0 };
   const move = { type: "translate", t_start: 0, t_end: 1, from, to };

@@ -23,7 +23,7 @@ function begin() {
   return { session, choice };
 }
 
-test("the robot selected in the scene is chosen, and none when it is deselected", () => {
+test("the robot selected in the scene is edited, and none once it is deselected", () => {
   const { session, choice } = begin();
   assert.equal(choice.index, null);
   session.select("b");
@@ -32,7 +32,7 @@ test("the robot selected in the scene is chosen, and none when it is deselected"
   assert.equal(choice.index, null);
 });
 
-test("a robot that the scene cannot show is chosen all the same", () => {
+test("a robot that cannot be drawn can be edited", () => {
   const { session, choice } = begin();
   session.select("a");
   choice.choose(2);
@@ -41,7 +41,7 @@ test("a robot that the scene cannot show is chosen all the same", () => {
   assert.equal(choice.index, 2);
 });
 
-test("a robot stays chosen while it is renamed, broken and mended", () => {
+test("the edited robot stays the same while it is renamed, broken and repaired", () => {
   const { session, choice } = begin();
   choice.choose(1);
   session.edit(setRobot(session.request, 1, "id", "carrier"));
@@ -52,7 +52,7 @@ test("a robot stays chosen while it is renamed, broken and mended", () => {
   assert.deepEqual([choice.index, session.selected], [1, "carrier"]);
 });
 
-test("the choice follows its robot to another place of the list, and ends with it", () => {
+test("the edited robot is followed to another index, until it is deleted", () => {
   const { session, choice } = begin();
   choice.choose(1);
   session.edit(deleteRobot(session.request, 0));
@@ -62,7 +62,7 @@ test("the choice follows its robot to another place of the list, and ends with i
   assert.equal(choice.index, null);
 });
 
-test("of two robots of one id the one that is meant is chosen", () => {
+test("of two robots with the same id, the right one is edited", () => {
   const { session, choice } = begin();
   session.edit(setRobot(session.request, 1, "id", "a"));
   choice.choose(0);

@@ -55,7 +55,7 @@ function deferred() {
   return made;
 }
 
-test("what is opened is sent as it came until it is edited", () => {
+test("an opened request is sent unchanged until it is edited", () => {
   const { session } = begin();
   session.open(OPENED);
   assert.equal(session.text, OPENED.text);
@@ -68,7 +68,7 @@ test("what is opened is sent as it came until it is edited", () => {
   assert.equal(session.request, edited);
 });
 
-test("an example is one only while it is unchanged", () => {
+test("a request counts as an example only while it is unchanged", () => {
   const { session } = begin();
   session.open({ ...OPENED, example: "one" });
   session.edit({ ...REQUEST });
@@ -103,7 +103,7 @@ test("opening one request after another without an edit leaves nothing to undo",
   assert.equal(session.canUndo, false);
 });
 
-test("an edit drops the answer and tells of request before answer", () => {
+test("an edit drops the answer and signals the request before the answer", () => {
   const { session, heard } = begin();
   session.open(OPENED);
   session.adopt(ANSWER);
@@ -114,7 +114,7 @@ test("an edit drops the answer and tells of request before answer", () => {
   assert.deepEqual(heard, ["check", 'request {"opened":false}', "answer", "marks"]);
 });
 
-test("a robot stays selected over an edit if it is still there", () => {
+test("a robot stays selected after an edit if it still exists", () => {
   const { session } = begin();
   session.open(OPENED);
   session.select("a");
@@ -124,7 +124,7 @@ test("a robot stays selected over an edit if it is still there", () => {
   assert.equal(session.selected, null);
 });
 
-test("planning ends with its answer, and hears of progress and costs on the way", async () => {
+test("planning records progress and costs, and ends with its answer", async () => {
   const answer = deferred();
   let told;
   const { session } = begin({
@@ -156,7 +156,7 @@ test("planning ends with its answer, and hears of progress and costs on the way"
   assert.deepEqual([session.planning, session.answer], [null, ANSWER]);
 });
 
-test("cancelling keeps the best plan so far, and what comes late is dropped", async () => {
+test("cancelling keeps the best plan so far and drops late answers", async () => {
   const answer = deferred();
   let signal;
   const { session } = begin({
@@ -176,7 +176,7 @@ test("cancelling keeps the best plan so far, and what comes late is dropped", as
   assert.deepEqual(session.answer, ANSWER);
 });
 
-test("an edit while planning stops it and shows no plan of the older request", async () => {
+test("an edit stops planning and shows no plan of the older request", async () => {
   const answer = deferred();
   const { session } = begin({ plan: () => answer.promise });
   session.open(OPENED);
@@ -187,7 +187,7 @@ test("an edit while planning stops it and shows no plan of the older request", a
   assert.equal(session.answer, null);
 });
 
-test("a fault of planning is shown as a problem, and gone with the next attempt", async () => {
+test("a failure of planning is shown as a problem until the next attempt", async () => {
   const problem = { title: "No", errors: [] };
   let refuses = true;
   const { session } = begin({
@@ -222,7 +222,7 @@ test("a check of a plan that is no longer shown is dropped", async () => {
   assert.equal(session.check, null);
 });
 
-test("playing asks for a frame at a time and tells of the moment until the end", () => {
+test("playing requests one frame at a time and signals each moment until the end", () => {
   const { session, heard, frames } = begin();
   session.open(OPENED, ANSWER);
   heard.length = 0;
@@ -238,7 +238,7 @@ test("playing asks for a frame at a time and tells of the moment until the end",
   assert.deepEqual([session.player.time, session.player.playing], [2, false]);
 });
 
-test("several robots are brought out together, the first selected", () => {
+test("several robots are highlighted together, with the first selected", () => {
   const { session } = begin();
   session.open({ ...OPENED, request: { ...REQUEST, robots: [ROBOT, { ...ROBOT, id: "b" }] } });
   session.highlight(["b", "a"]);

@@ -84,7 +84,7 @@ test("where two actions meet the pose is the one they share", () => {
   for (const { t_end, to } of ACTIONS) assert.deepEqual(poseAt(ACTIONS, pose(1, 1), t_end), to);
 });
 
-test("what a robot does is told by the action under way", () => {
+test("the state of a robot is that of its current action", () => {
   const told = [0, 0.49, 0.5, 2.49, 2.5, 3.5, 4.49, 4.5, 9].map((t) => doingAt(ACTIONS, t));
   const expected = [
     "turning",
@@ -110,7 +110,7 @@ test("a path has a corner for each end of a translation", () => {
   assert.deepEqual(pathOf([ACTIONS[0], ACTIONS[2]]), []);
 });
 
-test("the remaining path begins where the robot is and leaves out what is done", () => {
+test("the remaining path starts at the robot's position", () => {
   assert.deepEqual(remainingPath(ACTIONS, pose(1, 1), 1.5), [
     { x: 1, y: 2 },
     { x: 1, y: 3 },

@@ -73,7 +73,7 @@ test("panning moves what is seen by as many pixels", () => {
   nearPoint(toScreen(moved, VIEWPORT, { x: 10, y: 20 }), 430, 288);
 });
 
-test("the map cannot be moved out of sight", () => {
+test("the map cannot be moved out of view", () => {
   const bounds = { left: 0, bottom: 0, right: 8, top: 6 };
   assert.deepEqual(keepInSight({ x: -5, y: 99, scale: 2 }, bounds), { x: 0, y: 6, scale: 2 });
   assert.deepEqual(keepInSight({ x: 3, y: 4, scale: 2 }, bounds), { x: 3, y: 4, scale: 2 });

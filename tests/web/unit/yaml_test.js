@@ -35,7 +35,7 @@ test("comments, blank lines, document marks and any ends of lines are left out",
   assert.deepEqual(readYaml(text), { a: 1, b: "x#y" });
 });
 
-test("quotes keep what is in them", () => {
+test("quoted text is kept unchanged", () => {
   const text = `a: "x # y: [z]" # comment\nb: 'it''s'\n"c d": "\\u00e9\\""\n'e': '1'\n`;
   assert.deepEqual(readYaml(text), { a: "x # y: [z]", b: "it's", "c d": 'é"', e: "1" });
 });
@@ -49,7 +49,7 @@ test("lists come in brackets, on one line or several, or with dashes", () => {
   assert.deepEqual(readYaml(text), { a: [1, -2.5, "x, y", "z"], b: [1, 2, 3], c: [1, "two"], d: [3], e: [] });
 });
 
-test("what goes beyond that is refused with its line", () => {
+test("unsupported YAML is rejected with its line", () => {
   const refused = [
     ["a: 1\nnonsense\n", /Line 2 is "nonsense", where "key: value"/],
     ["a: {b: 1}\n", /Line 1: "{b: 1}" is not understood/],
