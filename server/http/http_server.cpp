@@ -196,7 +196,7 @@ void HttpServer::answer_page(Exchange& exchange, httplib::Response& response) {
     return fill(exchange, response, api::problem_reply(ErrorCode::not_found, detail, exchange.request_id));
   }
   response.set_header("ETag", file->etag);
-  response.set_header("Cache-Control", "no-cache");
+  response.set_header("Cache-Control", file->cache_control);
   response.set_header("Content-Security-Policy", kContentSecurityPolicy);
   response.set_header("Referrer-Policy", "no-referrer");
   response.set_header("Cross-Origin-Opener-Policy", "same-origin");

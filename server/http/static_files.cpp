@@ -17,12 +17,13 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string content_type_of(const fs::path& file) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kTypes{{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kTypes{{
       {".html", "text/html; charset=utf-8"},
       {".css", "text/css; charset=utf-8"},
       {".js", "text/javascript; charset=utf-8"},
       {".mjs", "text/javascript; charset=utf-8"},
       {".json", "application/json"},
+      {".map", "application/json"},
       {".svg", "image/svg+xml"},
       {".png", "image/png"},
       {".jpg", "image/jpeg"},
@@ -44,6 +45,16 @@ std::string etag_of(std::string_view body) {
   std::string etag(1, '"');
   etag += std::to_string(hash) + '-' + std::to_string(body.size()) + '"';
   return etag;
+}
+
+/// Whether the name ends with a content hash as esbuild writes it, such as main-7BDWMQTA.css.
+bool has_content_hash(const fs::path& file) {
+  constexpr std::size_t kLength = 8;
+  const std::string name = file.filename().string();
+  const std::string stem = name.substr(0, name.find('.'));
+  if (stem.size() <= kLength + 1 || stem[stem.size() - kLength - 1] != '-') return false;
+  return std::all_of(stem.end() - kLength, stem.end(),
+                     [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '2' && c <= '7'); });
 }
 
 bool is_plain_name(std::string_view segment) {
@@ -84,12 +95,13 @@ std::optional<StaticFile> StaticFiles::read(std::string_view path) const {
   found.body.assign(std::istreambuf_iterator<char>(stream), {});
   found.content_type = content_type_of(*file);
   found.etag = etag_of(found.body);
+  found.cache_control = has_content_hash(*file) ? "public, max-age=31536000, immutable" : "no-cache";
   return found;
 }
 
 fs::path default_web_root() {
   std::error_code error;
-  if (fs::is_directory(FLEETPLAN_SOURCE_WEB, error)) return FLEETPLAN_SOURCE_WEB;
+  if (fs::is_directory(FLEETPLAN_BUILT_WEB, error)) return FLEETPLAN_BUILT_WEB;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
   if (error) return {};
   const fs::path installed = executable.parent_path().parent_path() / "share" / "fleetplan" / "web";

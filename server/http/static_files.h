@@ -11,7 +11,8 @@ namespace fleetplan::server {
 struct StaticFile {
   std::string content_type;
   std::string body;
-  std::string etag;  // strong, with its quotes
+  std::string etag;           // strong, with its quotes
+  std::string cache_control;  // for a year if its name has a hash of its content, else to be revalidated
 };
 
 /// The files below one folder, and nothing else: no listings, no hidden files, no way out by `..` or a link.
@@ -34,8 +35,8 @@ class StaticFiles {
   std::filesystem::path root_;  // canonical
 };
 
-/// Where the page is when no setting says so: the source's `web`, as known when built, if it exists; else
-/// ../share/fleetplan/web beside the executable; else nowhere (empty).
+/// The folder of the page when no setting names one: the page that was built with this program, if that
+/// folder exists; else ../share/fleetplan/web beside the executable; else none (empty).
 std::filesystem::path default_web_root();
 
 }  // namespace fleetplan::server

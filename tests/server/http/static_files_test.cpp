@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 
 #include "tests/server/support/test_server.h"
@@ -19,6 +20,8 @@ class Page : public testing::Test {
     folder_.write("web/index.html", "<!doctype html>");
     folder_.write("web/style.css", "body {}");
     folder_.write("web/modules/draw.js", "export {};");
+    for (const char* name : kHashed) folder_.write("web/" + std::string(name), "hashed");
+    for (const char* name : kNotHashed) folder_.write("web/" + std::string(name), "not hashed");
     folder_.write("web/.hidden", "secret");
     fs::create_symlink(folder_.path() / "outside.txt", folder_.path() / "web" / "link.txt");
   }
@@ -30,6 +33,12 @@ class Page : public testing::Test {
     settings.web_root = (folder_.path() / "web").string();
     return settings;
   }
+
+  static constexpr std::array kHashed{"main-7BDWMQTA.css", "main-6HKTJ4G5.js",
+                                      "clearance_worker-AG42FM4J.js.map"};
+  static constexpr std::array kNotHashed{"clearance-worker.js", "main-7bdwmqta.css", "main-7BDWMQT.css",
+                                         "main7BDWMQTA.css",    "7BDWMQTA.css",      "main-7BDWMQT8.css",
+                                         "-7BDWMQTA.css"};
 
   support::TemporaryFolder folder_;
 };
@@ -73,6 +82,19 @@ TEST_F(Page, IsNotSentAgainToWhoHasIt) {
   const auto third = client.Get("/style.css", has_it);
   ASSERT_TRUE(third);
   EXPECT_EQ(third->body, "main {}");
+}
+
+TEST_F(Page, IsCachedForAYearOnlyWhereNamesHaveContentHashes) {
+  const TestServer server(settings());
+  auto client = server.client();
+  const auto cache_control = [&](const std::string& name) {
+    const auto result = client.Get("/" + name);
+    return result && result->status == 200 ? result->get_header_value("Cache-Control") : "not sent";
+  };
+  for (const char* name : kHashed) {
+    EXPECT_EQ(cache_control(name), "public, max-age=31536000, immutable") << name;
+  }
+  for (const char* name : kNotHashed) EXPECT_EQ(cache_control(name), "no-cache") << name;
 }
 
 TEST_F(Page, GivesNothingElseAway) {

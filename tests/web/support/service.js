@@ -3,12 +3,10 @@
 import { spawn } from "node:child_process";
 import { createServer } from "node:net";
 import { createInterface } from "node:readline";
-import { fileURLToPath } from "node:url";
 
-const WEB_ROOT = fileURLToPath(new URL("../../../web", import.meta.url));
 const START_MS = 10_000;
 
-/** Starts the server that FLEETPLAN_BIN names: {url, stop}. */
+/** Starts the server that FLEETPLAN_BIN names, with the page that was built with it: {url, stop}. */
 export async function startService(flags = []) {
   const binary = process.env.FLEETPLAN_BIN;
   if (!binary) throw new Error("FLEETPLAN_BIN must name the server binary");
@@ -18,8 +16,6 @@ export async function startService(flags = []) {
     "127.0.0.1",
     "--port",
     port,
-    "--web-root",
-    WEB_ROOT,
     "--log-level",
     "warn",
     ...flags,

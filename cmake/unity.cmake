@@ -1,0 +1,27 @@
+# With CMAKE_UNITY_BUILD, the sources of a folder of these targets are compiled as one, which saves CPU time of a full
+# build. Two sources of a folder then share their unnamed namespace. Those that use one name for different things
+# are listed in `alone` and compiled on their own.
+
+set(alone
+  api/request/.*
+  core/bounds/tangents.cpp
+  core/sipp/cost_to_go.cpp
+  server/http/socket.cpp
+)
+list(JOIN alone "|" alone)
+
+foreach(target fleetplan_core fleetplan_api fleetplan_server)
+  get_target_property(folder ${target} SOURCE_DIR)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source ${sources})
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} OUTPUT_VARIABLE path)
+    cmake_path(RELATIVE_PATH path BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE name)
+    if(name MATCHES "^(${alone})$")
+      continue()  # a source without a group is compiled on its own
+    endif()
+    cmake_path(GET name PARENT_PATH group)
+    string(MAKE_C_IDENTIFIER "${group}" group)
+    set_property(SOURCE ${path} TARGET_DIRECTORY ${target} PROPERTY UNITY_GROUP ${group})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+endforeach()
