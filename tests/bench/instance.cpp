@@ -76,23 +76,4 @@ Instance read_instance(std::string name, const fs::path& file) {
   return {std::move(name), std::move(document)};
 }
 
-std::vector<fs::path> request_files(const std::vector<std::string>& paths) {
-  std::vector<fs::path> files;
-  for (const fs::path path : paths) {
-    if (!fs::is_directory(path)) {
-      if (!fs::exists(path)) throw std::runtime_error("there is no " + path.string());
-      files.push_back(path);
-      continue;
-    }
-    std::vector<fs::path> found;
-    for (const auto& entry : fs::recursive_directory_iterator(path)) {
-      if (entry.path().extension() == ".json" && is_request(read_json_file(entry.path())))
-        found.push_back(entry.path());
-    }
-    std::sort(found.begin(), found.end());
-    files.insert(files.end(), found.begin(), found.end());
-  }
-  return files;
-}
-
 }  // namespace fleetplan::bench

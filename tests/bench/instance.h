@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "tests/bench/workload.h"
 
@@ -32,9 +31,5 @@ Instance make_instance(std::string name, const Workload& workload);
 
 /// Reads a request file; throws std::runtime_error, naming the file, when it cannot be read or is no request.
 Instance read_instance(std::string name, const std::filesystem::path& file);
-
-/// The request files that are meant: each file itself, and of a folder all .json files at any depth that hold
-/// a request, by name. Throws std::runtime_error for what does not exist.
-std::vector<std::filesystem::path> request_files(const std::vector<std::string>& paths);
 
 }  // namespace fleetplan::bench

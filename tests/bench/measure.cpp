@@ -4,12 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <vector>
 
 #include "api/endpoints/plan_endpoint.h"
 #include "api/endpoints/validate_endpoint.h"
 #include "tests/bench/process.h"
-#include "tests/bench/statistics.h"
 
 namespace fleetplan::bench {
 namespace {
@@ -21,13 +21,13 @@ api::RequestContext context(const MeasureOptions& options) {
   api::RequestContext made;
   made.request_id = "bench";
   made.limits.max_budget_ms = static_cast<std::int64_t>(std::ceil(options.budget * 1000.0));
-  // The scaling table goes beyond what the service takes unless told otherwise.
+  // The scaling tables go beyond the default limits of the service.
   made.limits.max_robots = 1'000'000;
   made.limits.max_cells = 1'000'000'000;
   return made;
 }
 
-/// What the checker says against an answer of POST /v1/plan; empty when nothing.
+/// The first violation that the checker finds in an answer of POST /v1/plan; empty if none.
 std::string fault_of(const std::string& body, const json& answer, const MeasureOptions& options) {
   json both = json::parse(body);
   both.update(answer);
@@ -38,19 +38,24 @@ std::string fault_of(const std::string& body, const json& answer, const MeasureO
   return report.at("violations").at(0).at("detail");
 }
 
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return std::midpoint(values[(values.size() - 1) / 2], values[values.size() / 2]);
+}
+
 Measurement read_answer(const std::string& name, std::size_t robots, const json& answer) {
   Measurement made;
-  made.result.file = name;
-  made.result.robots = robots;
-  made.result.solved = answer.at("status") == "solved";
-  made.result.attempts = answer.at("search").at("attempts");
+  made.file = name;
+  made.robots = robots;
+  made.solved = answer.at("status") == "solved";
+  made.attempts = answer.at("search").at("attempts");
   made.planned = answer.at("plans").size();
   made.expansions = answer.at("search").at("expansions");
   made.improvements = answer.at("search").at("improvements");
   made.deterministic = answer.at("deterministic");
-  if (made.result.solved) {
-    made.result.flowtime = answer.at("flowtime").get<double>();
-    made.result.makespan = answer.at("makespan").get<double>();
+  if (made.solved) {
+    made.flowtime = answer.at("flowtime").get<double>();
+    made.makespan = answer.at("makespan").get<double>();
     made.lower_bound = answer.at("lower_bound").at("flowtime").get<double>();
   }
   return made;
@@ -79,15 +84,15 @@ Measurement measure(const std::string& name, std::size_t robots, const std::stri
     made = read_answer(name, robots, answer);
     made.fault = fault_of(body, answer, options);
   } else {
-    made.result.file = name;
-    made.result.robots = robots;
+    made.file = name;
+    made.robots = robots;
     made.fault = answer.value("detail", "no plan");
     for (const json& fault : answer.value("errors", json::array())) {
       made.fault += " " + fault.value("pointer", "") + ": " + fault.value("detail", "");
     }
   }
-  made.result.seconds = median(seconds).value_or(0.0);
-  made.cpu_seconds = median(cpu_seconds_used).value_or(0.0);
+  made.seconds = median(seconds);
+  made.cpu_seconds = median(cpu_seconds_used);
   made.peak_memory = memory;
   return made;
 }

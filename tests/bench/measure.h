@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "tests/bench/result.h"
+#include "tests/bench/measurement.h"
 
 namespace fleetplan::bench {
 
@@ -13,10 +13,9 @@ struct MeasureOptions {
   int repeats = 1;
 };
 
-/// Runs a body of POST /v1/plan in this thread the way a worker of the service does (parse, plan, verify,
-/// write), taking the wall time of that; then has the answer as it was written checked against the request.
-/// The budget is the body's own, `options.budget` only its limit. Of the times the median counts, of the
-/// memory the largest.
+/// Runs a body of POST /v1/plan in this thread as a worker of the service does (parse, plan, verify, write)
+/// and measures the wall time; then checks the written answer against the request. The budget is that of the
+/// body, `options.budget` only its limit. Returns the median of the times and the maximum of the memory.
 Measurement measure(const std::string& name, std::size_t robots, const std::string& body,
                     const MeasureOptions& options);
 

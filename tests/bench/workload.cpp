@@ -1,8 +1,10 @@
 #include "tests/bench/workload.h"
 
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "core/runtime/random.h"
@@ -88,6 +90,18 @@ Recipe hall_with_rectangles() {
   recipe.name = "rects";
   recipe.rectangles = 10;
   return recipe;
+}
+
+Recipe hall(const std::string& name, int side, std::size_t robots) {
+  for (Recipe recipe : {empty_hall(), hall_with_rectangles()}) {
+    if (recipe.name != name) continue;
+    const double area = std::pow(static_cast<double>(side) / recipe.side, 2);
+    recipe.side = side;
+    recipe.rectangles = static_cast<int>(std::lround(recipe.rectangles * area));
+    recipe.robots = robots;
+    return recipe;
+  }
+  throw std::runtime_error("there is no hall " + name);
 }
 
 std::vector<Cell> largest_room(const core::OccupancyGrid& grid, double radius) {

@@ -27,6 +27,10 @@ inline constexpr int kRectangleWidth = 2;
 Recipe empty_hall();
 Recipe hall_with_rectangles();
 
+/// The paper's hall "empty" or "rects" with another side (cells) and number of robots, and with as many
+/// rectangles per cell. Throws std::runtime_error for another name.
+Recipe hall(const std::string& name, int side, std::size_t robots);
+
 /// A map and robots, each with a goal and its heading. An instance of n robots is the first n.
 struct Workload {
   core::OccupancyGrid grid;

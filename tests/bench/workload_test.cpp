@@ -76,6 +76,16 @@ TEST(Workload, WithFewerRobotsIsTheBeginningOfTheLarger) {
   EXPECT_EQ(fingerprint(generate(fewer, 3)), fingerprint(larger));
 }
 
+TEST(Hall, HasAsManyRectanglesPerCellAtAnotherSize) {
+  const Recipe recipe = hall("rects", 128, 15);
+  EXPECT_EQ(recipe.name, "rects");
+  EXPECT_EQ(recipe.side, 128);
+  EXPECT_EQ(recipe.rectangles, 40);
+  EXPECT_EQ(recipe.robots, 15u);
+  EXPECT_EQ(hall("rects", 32, 15).rectangles, 3);
+  EXPECT_EQ(hall("empty", 128, 15).rectangles, 0);
+}
+
 TEST(Workload, HasThePapersMapAndThreeTypesInTurn) {
   for_each_workload([](const Workload& workload, const Recipe&) {
     EXPECT_EQ(workload.grid.columns(), 64);

@@ -1,0 +1,93 @@
+import contextlib
+import io
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import bench
+
+# Stands for fleetplan_bench: echoes its jobs as runs of half a second each, and "bad" ones as invalid.
+PROGRAM = """#!%s
+import json, sys
+print("file,robots,solved,attempts,seconds,flowtime,makespan,cpu_seconds,peak_memory,planned,lower_bound,expansions,"
+      "improvements,deterministic,valid", flush=True)
+for line in sys.stdin:
+    job = json.loads(line)
+    for robots in job["robots"] or [job["workload"]["robots"] if "workload" in job else 7]:
+        valid = int("bad" not in job["name"])
+        print(f"{job['name']},{robots},1,1,0.5,120,30,0.5,1048576,{robots},100,9,0,1,{valid}", flush=True)
+""" % sys.executable
+
+
+class Bench(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.program = self.folder / "program"
+        self.program.write_text(PROGRAM)
+        self.program.chmod(0o755)
+
+    def run_bench(self, *words):
+        """The exit status and the text printed."""
+        with contextlib.redirect_stdout(io.StringIO()) as text, contextlib.redirect_stderr(text):
+            status = bench.main(str(self.program), ["--output", str(self.folder / "out"), *words])
+        return status, text.getvalue()
+
+    def write_request(self, name):
+        file = self.folder / name
+        file.write_text(json.dumps({"map": {}, "robots": []}))
+        return str(file)
+
+    def test_the_papers_workloads_are_measured_and_reported(self):
+        status, text = self.run_bench("--seeds", "1", "--robots", "15,30")
+        self.assertEqual(status, 0)
+        self.assertRegex(text, r"\| 15 +\| +100 % \| 100 % \| +0\.500 \|")
+        self.assertIn("Plans: 4,", text)
+        rows = (self.folder / "out/paper.csv").read_text().splitlines()
+        self.assertEqual(len(rows), 1 + 2 * 2)
+
+    def test_earlier_runs_are_reported_without_measuring(self):
+        _, first = self.run_bench("--seeds", "1", "--robots", "15,30")
+        self.program.unlink()
+        self.assertEqual(self.run_bench("--read", str(self.folder / "out/paper.csv")), (0, first))
+
+    def test_files_have_a_row_each(self):
+        status, text = self.run_bench(self.write_request("a.json"))
+        self.assertEqual(status, 0)
+        self.assertRegex(text, r"a\.json \| +7 \| +7 \| 0\.500 \|")
+
+    def test_runs_are_compared_with_the_reference(self):
+        self.write_request("a.json")
+        reference = self.folder / "reference.csv"
+        reference.write_text("file,robots,solved,attempts,seconds,flowtime,makespan\na.json,7,1,1,1.5,100,20\n")
+        status, text = self.run_bench("--reference", str(reference))
+        self.assertEqual(status, 0)
+        self.assertRegex(text, r"\| a\.json \| +7 \| +1\.50 \| 0\.500 \| +3\.00 x \| +100\.0 \| +120\.0 \| 1\.200 \|")
+
+    def test_scaling_has_three_tables(self):
+        status, text = self.run_bench("--scaling", "--seeds", "1")
+        self.assertEqual(status, 0)
+        self.assertEqual(text.count("| empty solved |"), 3)
+
+    def test_an_invalid_answer_makes_the_exit_status_1(self):
+        status, text = self.run_bench(self.write_request("bad.json"))
+        self.assertEqual(status, 1)
+        self.assertIn("at fault: 1.", text)
+
+    def test_a_failed_measurement_makes_the_exit_status_1(self):
+        self.program.write_text("#!/bin/sh\nexit 1\n")
+        status, text = self.run_bench("--seeds", "1", "--robots", "15")
+        self.assertEqual(status, 1)
+        self.assertIn("the measurement failed", text)
+
+    def test_missing_files_make_the_exit_status_1(self):
+        status, text = self.run_bench("none.json")
+        self.assertEqual(status, 1)
+        self.assertIn("none.json does not exist", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,33 @@
+#include "tests/bench/result_row.h"
+
+#include <optional>
+#include <sstream>
+
+namespace fleetplan::bench {
+namespace {
+
+std::string text(const std::optional<double>& value) {
+  if (!value) return {};
+  std::ostringstream made;
+  made.precision(9);
+  made << *value;
+  return made.str();
+}
+
+}  // namespace
+
+std::string csv_header() {
+  return "file,robots,solved,attempts,seconds,flowtime,makespan,cpu_seconds,peak_memory,planned,lower_bound,"
+         "expansions,improvements,deterministic,valid\n";
+}
+
+std::string csv_row(const Measurement& run) {
+  std::ostringstream row;
+  row << run.file << ',' << run.robots << ',' << run.solved << ',' << run.attempts << ',' << text(run.seconds)
+      << ',' << text(run.flowtime) << ',' << text(run.makespan) << ',' << text(run.cpu_seconds) << ','
+      << run.peak_memory << ',' << run.planned << ',' << text(run.lower_bound) << ',' << run.expansions << ','
+      << run.improvements << ',' << run.deterministic << ',' << run.fault.empty() << '\n';
+  return row.str();
+}
+
+}  // namespace fleetplan::bench
