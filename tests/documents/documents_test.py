@@ -2,13 +2,14 @@
 """Runs the examples of the documents against a server of this build, and compares their tables with it.
 
 Usage: documents_test.py FLEETPLAN_BINARY [unittest arguments]
-Needs curl and jq for the shell examples.
+The shell examples need curl and jq; without them they are skipped.
 """
 
 import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -167,6 +168,7 @@ class Examples(DocumentTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"(?s)\Asolved flowtime \d+\.\d+ s\nleft\n .*\nright\n .*\nparked\n\Z")
 
+    @unittest.skipUnless(shutil.which("curl") and shutil.which("jq"), "needs curl and jq")
     def test_the_shell_examples_with_curl_succeed(self):
         place = SERVICE.removeprefix("http://")
         examples = [(name, block) for name in DOCUMENTS for block in blocks(name, "sh")
