@@ -1,11 +1,11 @@
 # shellcheck shell=bash
-# Shared by the proofs in this folder: what they need, the image, containers that run as in production, checks.
-# Sourced by bash with `set -euo pipefail`. Exit codes: 0 all is as it should be, 1 it is not, 77 skipped.
+# Shared by the tests in this folder: requirements, the image, containers that run as in production, checks.
+# Sourced by bash with `set -euo pipefail`. Exit codes: 0 passed, 1 failed, 77 skipped.
 
 HERE=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
 ROOT=$(cd "$HERE/../.." && pwd -P)
-NAME=fleetplan-test                              # of everything that is made here
-IMAGE=${FLEETPLAN_IMAGE:-$NAME}                  # a ready image, or the one that is built here
+NAME=fleetplan-test                              # of everything that is created here
+IMAGE=${FLEETPLAN_IMAGE:-$NAME}                  # an existing image, or the one that is built here
 DEBIAN_SUITE=${DEBIAN_SUITE:-trixie}
 FAILED=0
 
@@ -13,7 +13,7 @@ say() { printf '%s\n' "$*" >&2; }
 skip() { say "SKIPPED ${0##*/}: $*"; exit 77; }
 die() { say "FAILED ${0##*/}: $*"; exit 1; }
 
-# check DESCRIPTION COMMAND...: says whether the command succeeds, and goes on.
+# check DESCRIPTION COMMAND...: reports whether the command succeeds, and continues.
 check() {
   if "${@:2}"; then
     printf 'ok      %s\n' "$1"
@@ -25,10 +25,10 @@ check() {
 
 figure() { printf 'figure  %s\n' "$*"; }
 
-# conclude: the proof's exit code by its checks.
+# conclude: the exit code of the test by its checks.
 conclude() { [ "$FAILED" = 0 ] || die "$FAILED checks failed"; }
 
-# await SECONDS COMMAND...: until the command succeeds.
+# await SECONDS COMMAND...: repeats the command until it succeeds.
 await() {
   local end=$((SECONDS + $1))
   until "${@:2}"; do
@@ -37,28 +37,28 @@ await() {
   done
 }
 
-# ---------------------------------------------------------------- what must be there
+# ---------------------------------------------------------------- requirements
 
 need_commands() {
   local command
   for command in "$@"; do
-    command -v "$command" >/dev/null || skip "there is no $command here"
+    command -v "$command" >/dev/null || skip "$command is not installed"
   done
 }
 
 need_engine() {
   need_commands docker curl python3
-  docker version >/dev/null 2>&1 || skip "no Docker engine answers (DOCKER_HOST=${DOCKER_HOST:-})"
+  docker version >/dev/null 2>&1 || skip "no Docker engine responds (DOCKER_HOST=${DOCKER_HOST:-})"
 }
 
-# need_compose: Docker Compose with this folder's project and images, as `compose ARGUMENTS`.
+# need_compose: finds Docker Compose; then `compose ARGUMENTS` runs it with the project and image of the tests.
 need_compose() {
   if docker compose version >/dev/null 2>&1; then
     COMPOSE=(docker compose)
   elif command -v docker-compose >/dev/null; then
     COMPOSE=(docker-compose)
   else
-    skip "there is no Docker Compose here"
+    skip "Docker Compose is not installed"
   fi
 }
 
@@ -71,12 +71,12 @@ compose() {
 
 has_image() { docker image inspect "$1" >/dev/null 2>&1 || docker pull -q "$1" >/dev/null 2>&1; }
 
-# need_base: debian:SUITE-slim, made with debootstrap where no registry has it.
+# need_base: pulls debian:SUITE-slim, or makes it with debootstrap if no registry has it.
 need_base() {
   local base=debian:$DEBIAN_SUITE-slim folder mirror
   has_image "$base" && return 0
   if [ "$(id -u)" != 0 ] || ! command -v debootstrap >/dev/null; then
-    skip "$base cannot be pulled, and to make it takes root and debootstrap"
+    skip "$base cannot be pulled; making it needs root and debootstrap"
   fi
   say "making $base"
   folder=$(mktemp -d)
@@ -89,22 +89,22 @@ need_base() {
   rm -rf --one-file-system "$folder" "$folder.log"
 }
 
-# need_image: builds what is to be proven, unless FLEETPLAN_IMAGE names it. The host's network is for engines
-# whose containers have no way out.
+# need_image: builds the image to test, unless FLEETPLAN_IMAGE names it. It uses the network of the host for engines
+# whose containers have no outgoing network.
 need_image() {
   [ -z "${FLEETPLAN_IMAGE:-}" ] || return 0
   need_base
-  say "building the image $IMAGE on $DEBIAN_SUITE; that takes minutes, unless it was built before"
+  say "building the image $IMAGE on $DEBIAN_SUITE; this takes minutes, unless it was built before"
   docker build --network host --build-arg "DEBIAN_SUITE=$DEBIAN_SUITE" -t "$IMAGE" "$ROOT" >"/tmp/$NAME.build.log" 2>&1 ||
     { tail -n 30 "/tmp/$NAME.build.log" >&2; die "the image cannot be built"; }
 }
 
-# need_package_image IMAGE PACKAGE ENTRYPOINT DATA: where no registry has the image, Debian's package of the same
-# program stands in for it, under its name, with a folder for data.
+# need_package_image IMAGE PACKAGE ENTRYPOINT DATA: if no registry has the image, makes one under its name from the
+# Debian package of the same program, with a folder for data.
 need_package_image() {
   has_image "$1" && return 0
   need_base
-  say "making $1 of Debian's package $2"
+  say "making $1 from the Debian package $2"
   docker build --network host -q -t "$1" - >"/tmp/$NAME.build.log" 2>&1 <<EOF || die "see /tmp/$NAME.build.log"
 FROM debian:$DEBIAN_SUITE-slim
 RUN apt-get -q update && apt-get -q -y install --no-install-recommends $2 && install -d -o 65534 -g 65534 $4
@@ -117,16 +117,16 @@ compose_image() { sed -n "s|^    image: \($1.*\)|\1|p" "$ROOT/deploy/compose.yam
 need_haproxy() { need_package_image "$(compose_image haproxy)" haproxy '[]' /var/lib/haproxy; }
 need_prometheus() { need_package_image "$(compose_image prom/prometheus)" prometheus '["/usr/bin/prometheus"]' /prometheus; }
 
-# ---------------------------------------------------------------- containers of their own
+# ---------------------------------------------------------------- single containers
 
-# run NAME [OPTIONS OF DOCKER...]: a container of the image, as in production, on a network of its own.
+# run NAME [OPTIONS OF DOCKER...]: starts a container of the image, as in production, on the network of the tests.
 run() {
   docker network inspect "$NAME" >/dev/null 2>&1 || docker network create "$NAME" >/dev/null
   docker run -d --name "$NAME-$1" --label "$NAME" --network "$NAME" --network-alias "$1" --read-only --cap-drop ALL \
     --security-opt no-new-privileges --publish 127.0.0.1::8080 --publish 127.0.0.1::8081 "${@:2}" "$IMAGE" >/dev/null
 }
 
-# port NAME PORT: where a container's port is on this machine.
+# port NAME PORT: the port of this machine that a container's port is published on.
 port() { docker port "$NAME-$1" "$2" | sed -n '1s/.*://p'; }
 
 url() { printf 'http://127.0.0.1:%s' "$(port "$1" "${2:-8080}")"; }
@@ -139,7 +139,8 @@ REPLICAS=(fleetplan-1 fleetplan-2 fleetplan-3)
 
 container() { compose ps -q "$1"; }
 
-# start_stack [SERVICE...]: the replicas and what is named, until all replicas are healthy and the balancer has them.
+# start_stack [SERVICE...]: starts the replicas, the balancer and the named services, and waits until all replicas are
+# healthy and the balancer uses them.
 start_stack() {
   local replica
   compose up -d "${REPLICAS[@]}" balancer "$@" >/dev/null 2>&1 || die "the stack does not start"
@@ -148,23 +149,23 @@ start_stack() {
   done
   BALANCER=$(compose port balancer 8000)
   BALANCER_PORT=${BALANCER##*:}
-  await 60 balanced 3 || die "the balancer does not find the replicas"
+  await 60 balanced 3 || die "the balancer does not use the replicas"
 }
 
-# metrics SERVICE PORT: what it tells Prometheus, from inside the stack's network.
+# metrics SERVICE PORT: the metrics of a service, from inside the network of the stack.
 metrics() {
   local address
   address=$(docker inspect -f '{{range .NetworkSettings.Networks}}{{.IPAddress}}{{end}}' "$(container "$1")")
   curl -s "http://$address:$2/metrics"
 }
 
-# balancer_metric NAME: of its backend.
+# balancer_metric NAME: the value for the backend of the balancer.
 balancer_metric() { metrics balancer 8404 | sed -n "s/^$1{proxy=\"replicas\"} //p"; }
 
-# balanced COUNT: whether the balancer has so many replicas to send to.
+# balanced COUNT: succeeds if the balancer uses this number of replicas.
 balanced() { [ "$(balancer_metric haproxy_backend_active_servers)" = "$1" ]; }
 
-# start_load ARGUMENTS...: load.py in the background; end_load shows what it saw and fails if a request failed.
+# start_load ARGUMENTS...: runs load.py in the background; end_load prints its result and fails if a request failed.
 start_load() {
   LOAD_RESULT=$(mktemp)
   python3 "$HERE/load.py" --port "$BALANCER_PORT" "$@" >"$LOAD_RESULT" &
@@ -182,7 +183,7 @@ end_load() {
 
 # ---------------------------------------------------------------- in general
 
-# remove_all: everything of these proofs but the images.
+# remove_all: removes everything of these tests except the images.
 remove_all() {
   local containers
   containers=$(docker ps -aq --filter "label=$NAME")
@@ -195,7 +196,7 @@ answers() { curl -fsS -o /dev/null "$1" 2>/dev/null; }
 
 healthy() { [ "$(docker inspect -f '{{.State.Health.Status}}' "$1")" = healthy ]; }
 
-# json EXPRESSION: of the JSON on stdin, in Python, as `it`; a text comes without quotes.
+# json EXPRESSION: a Python expression of the JSON on stdin, which is `it`; prints strings without quotes.
 json() {
   python3 -c "import json, sys; it = json.load(sys.stdin); x = $1; print(x if isinstance(x, str) else json.dumps(x))"
 }

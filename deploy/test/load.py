@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Sends requests from several connections until it is told to end (SIGTERM) or the time is over, and looks at every
-answer. Prints one line of JSON: requests, those that failed with what each kind of failure was, rate, latencies.
+"""Sends requests from several connections until SIGTERM or the end of the time, and checks every response. Prints one
+line of JSON: the number of requests, the failures by kind, the rate, the latencies.
 
-Exit code 0 when no request failed, 1 otherwise.
+Exit code 0 if no request failed, 1 otherwise.
 """
 
 import argparse

@@ -1,4 +1,4 @@
-// Prometheus' configuration and alert rules, judged by its own tool, and against the metrics of a running server.
+// Checks the configuration and alert rules of Prometheus with promtool, and against the metrics of a running server.
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
@@ -17,23 +17,23 @@ function promtool(...words) {
   assert.equal(status, 0, stdout + stderr);
 }
 
-test("promtool has nothing to say about configuration and rules", () => {
+test("promtool accepts the configuration and the rules", () => {
   promtool("check", "config", pathOf("deploy/prometheus/prometheus.yml"));
   promtool("check", "rules", "--lint-fatal", pathOf(RULES));
 });
 
-test("the alerts come when they should, and only then", () => {
+test("the alerts fire when they should, and only then", () => {
   promtool("test", "rules", fileURLToPath(new URL("alerts_test.yml", import.meta.url)));
 });
 
-test("every alert has a severity, a summary and what to do", () => {
+test("every alert has a severity, a summary and a description", () => {
   for (const { alert, labels, annotations } of rules) {
     assert.match(labels.severity, /^(warning|critical)$/, alert);
     assert.ok(annotations.summary && annotations.description, alert);
   }
 });
 
-test("the rules ask for series that the server has", async () => {
+test("the rules use series that the server has", async () => {
   const service = await startService();
   try {
     const metrics = await (await fetch(new URL("/metrics", service.url))).text();

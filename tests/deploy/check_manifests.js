@@ -1,5 +1,5 @@
-// Says what is wrong with the Kubernetes manifests on stdin, as `kubectl kustomize` prints them. Exit code 1 if
-// anything is.
+// Reports the faults of the Kubernetes manifests on stdin, as `kubectl kustomize` prints them. Exit code 1 if there are
+// any.
 
 import { readFileSync } from "node:fs";
 

@@ -1,4 +1,4 @@
-// deploy/compose.yaml, the Dockerfile and HAProxy's configuration, as far as they have to agree with the server.
+// Checks that deploy/compose.yaml, the Dockerfile and the configuration of HAProxy agree with the server.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -12,12 +12,12 @@ const dockerfile = textOf("Dockerfile");
 const haproxy = textOf("deploy/haproxy/haproxy.cfg");
 const prometheus = yamlOf("deploy/prometheus/prometheus.yml");
 
-test("the image's label tells the version", () => {
+test("the label of the image has the version", () => {
   const [, version] = /image\.version="([^"]*)"/.exec(dockerfile);
   assert.equal(`fleetplan ${version}`, said("--version").trim());
 });
 
-test("the environments hold settings only", () => {
+test("the environments contain only settings", () => {
   const known = settingNames();
   const inImage = dockerfile.match(/^ENV .*$/m)[0].match(/FLEETPLAN_[A-Z_]+/g);
   for (const name of [...inImage, ...Object.keys(replica.environment)]) assert.ok(known.has(name), name);
@@ -33,12 +33,12 @@ test("the balancer and Prometheus know the same replicas as the stack", () => {
   assert.deepEqual(targets, replicas.map((name) => `${name}:8081`));
 });
 
-test("replicas have longer to end than delay and drain take together", () => {
+test("replicas have more time to stop than delay and drain together", () => {
   const { FLEETPLAN_DRAIN_DELAY_MS: delay, FLEETPLAN_DRAIN_MS: drain } = replica.environment;
   assert.ok(Number.parseInt(replica.stop_grace_period, 10) * 1000 > delay + drain + 5000);
 });
 
-test("the balancer waits longer than the longest plan takes", () => {
+test("the balancer waits longer than the longest plan", () => {
   const [, seconds] = /^ {2}timeout server (\d+)s$/m.exec(haproxy);
   const [, longest] = /--max-budget-ms \D*(\d+)/.exec(said("--help"));
   assert.ok(Number(seconds) * 1000 > Number(longest));

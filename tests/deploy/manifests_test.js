@@ -1,4 +1,4 @@
-// deploy/kubernetes against the schemas of Kubernetes, and what no schema knows of it.
+// Checks deploy/kubernetes against the schemas of Kubernetes, and what no schema covers.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -14,11 +14,11 @@ const deployment = named("Deployment");
 const pod = deployment.spec.template;
 const [container] = pod.spec.containers;
 
-test("every file of the base is a part of it", () => {
+test("the base lists every file of its folder", () => {
   assert.deepEqual([...listed, "kustomization.yaml"].sort(), namesIn(BASE));
 });
 
-test("the schemas have nothing to say about the base", () => {
+test("the base conforms to the schemas", () => {
   assert.deepEqual(faultsOf(resources), []);
 });
 
@@ -50,7 +50,7 @@ test("everything selects the pods of the deployment", () => {
   assert.deepEqual([kind, name], ["Deployment", deployment.metadata.name]);
 });
 
-test("ports are called by names that the container has", () => {
+test("port names refer to ports of the container", () => {
   const names = new Set(container.ports.map((port) => port.name));
   const used = [
     ...named("Service").spec.ports.map((port) => port.targetPort),
@@ -60,20 +60,20 @@ test("ports are called by names that the container has", () => {
   for (const name of used) assert.ok(names.has(name), name);
 });
 
-test("the environment of the pods holds settings only, which variables for services cannot overwrite", () => {
+test("the environment of the pods contains only settings, which variables for services cannot overwrite", () => {
   const known = settingNames();
   const overlay = yamlOf("deploy/kubernetes/overlays/example/token.yaml").spec.template.spec.containers[0];
   for (const { name } of [...container.env, ...overlay.env]) assert.ok(known.has(name), name);
   assert.equal(pod.spec.enableServiceLinks, false);
 });
 
-test("pods have longer to end than delay and drain take together", () => {
+test("pods have more time to stop than delay and drain together", () => {
   const ms = (name) => Number(container.env.find((entry) => entry.name === name).value);
   const drain = ms("FLEETPLAN_DRAIN_DELAY_MS") + ms("FLEETPLAN_DRAIN_MS");
   assert.ok(pod.spec.terminationGracePeriodSeconds * 1000 > drain + 5000);
 });
 
-test("the example takes the image of this version", () => {
+test("the example uses the image of this version", () => {
   const [{ newTag }] = yamlOf("deploy/kubernetes/overlays/example/kustomization.yaml").images;
   assert.equal(`fleetplan ${newTag}`, said("--version").trim());
 });

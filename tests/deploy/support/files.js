@@ -1,4 +1,4 @@
-// The files of deploy/, and the settings and version of the server that they are for.
+// The files of deploy/, and the settings and version of the server.
 
 import { spawnSync } from "node:child_process";
 import { readdirSync, readFileSync } from "node:fs";
@@ -8,7 +8,7 @@ import { load } from "js-yaml";
 
 const PROJECT = new URL("../../../", import.meta.url);
 
-/** Where a file of the project is, by its path from the project's folder. */
+/** The absolute path of a file of the project. */
 export function pathOf(name) {
   return fileURLToPath(new URL(name, PROJECT));
 }
@@ -33,7 +33,7 @@ export function said(flag) {
   return stdout;
 }
 
-/** The names in the environment of all settings. */
+/** The names of the environment variables of all settings. */
 export function settingNames() {
   return new Set(said("--help").match(/FLEETPLAN_[A-Z_]+/g));
 }

@@ -1,5 +1,5 @@
-// Kubernetes manifests against the schemas of Kubernetes, in two steps: the schemas' own validation, which lets
-// unknown members pass, and TypeScript's types of them, which do not.
+// Checks Kubernetes manifests against the schemas of Kubernetes, in two steps: the validation of the schemas, which
+// accepts unknown members, and their TypeScript types, which do not.
 
 import { createRequire } from "node:module";
 
@@ -13,7 +13,7 @@ export function resourcesOf(text) {
   return loadAll(text).filter((resource) => resource !== null && resource !== undefined);
 }
 
-/** What is wrong with resources: sentences that begin with their kind and name, none for good ones. */
+/** The faults of resources, as sentences that begin with their kind and name. */
 export function faultsOf(resources) {
   const faults = [];
   const sources = new Map();
@@ -49,7 +49,7 @@ function schemaFault(Model, resource) {
   }
 }
 
-/** An object written out where its type is wanted may have no members that the type does not know. */
+/** An object literal of a declared type must not have members that the type does not have. */
 function typed(resource) {
   const { apiVersion, kind } = resource;
   return `import type { I${kind} } from "kubernetes-models/${apiVersion}";
@@ -57,7 +57,7 @@ export const it: I${kind} = ${JSON.stringify(resource)};
 `;
 }
 
-/** What TypeScript says of sources that are not on disk: a Map of {name, text} by path. */
+/** The errors that TypeScript reports for sources in memory: a Map of {name, text} by path. */
 function typeFaults(sources) {
   const options = { strict: true, noEmit: true, skipLibCheck: true, types: [] };
   options.moduleResolution = ts.ModuleResolutionKind.Node10;

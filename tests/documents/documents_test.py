@@ -1,0 +1,293 @@
+#!/usr/bin/env python3
+"""Runs the examples of the documents against a server of this build, and compares their tables with it.
+
+Usage: documents_test.py FLEETPLAN_BINARY [unittest arguments]
+The shell examples need curl and jq; without them they are skipped.
+"""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import urllib.error
+import urllib.request
+
+PROJECT = pathlib.Path(__file__).resolve().parent.parent.parent
+DOCUMENTS = {str(path.relative_to(PROJECT)): path.read_text()
+             for path in [*PROJECT.glob("*.md"), *PROJECT.glob("docs/*.md")]}
+BINARY = None
+SERVICE = "http://localhost:8080"  # as the documents write it
+
+
+def blocks(document, language):
+    """The code blocks of a document in a language."""
+    return re.findall(rf"^```{language}\n(.*?)^```$", DOCUMENTS[document], re.MULTILINE | re.DOTALL)
+
+
+def table(document, header):
+    """The rows of the table whose first row begins with these cells, as lists of cells without the header."""
+    lines = DOCUMENTS[document].splitlines()
+    begin = next((i for i, line in enumerate(lines) if cells(line)[:len(header)] == header), None)
+    assert begin is not None, f"{document} has no table with the columns {header}"
+    rows = []
+    for line in lines[begin + 2:]:
+        if not line.startswith("|"):
+            break
+        rows.append(cells(line))
+    return rows
+
+
+def cells(line):
+    return [cell.strip() for cell in line.strip().strip("|").split("|")] if line.startswith("|") else []
+
+
+def code(cell):
+    """What a cell has in backticks."""
+    return re.findall(r"`([^`]+)`", cell)
+
+
+def anchor(heading):
+    """The anchor that GitHub gives a heading."""
+    return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+
+
+def prose(text):
+    """A document without its code blocks."""
+    return re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL)
+
+
+def values(node, key):
+    """All values of a key anywhere in a JSON document."""
+    if isinstance(node, dict):
+        for name, value in node.items():
+            if name == key:
+                yield value
+            yield from values(value, key)
+    elif isinstance(node, list):
+        for value in node:
+            yield from values(value, key)
+
+
+class DocumentTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = subprocess.Popen([BINARY, "--port", "0", "--log-level", "off"],
+                                      stdout=subprocess.PIPE, text=True)
+        line = cls.server.stdout.readline()
+        cls.url = re.search(r"http://\S+", line).group()
+        cls.openapi = json.loads(cls.get("/v1/openapi.json"))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.terminate()
+        cls.server.wait()
+        cls.server.stdout.close()
+
+    @classmethod
+    def get(cls, path):
+        with urllib.request.urlopen(cls.url + path) as response:
+            return response.read().decode()
+
+    def post(self, path, body):
+        request = urllib.request.Request(self.url + path, json.dumps(body).encode(),
+                                         {"Content-Type": "application/json"})
+        with urllib.request.urlopen(request) as response:
+            return json.load(response)
+
+    def schema(self, name):
+        return self.openapi["components"]["schemas"][name]
+
+    def resolve(self, node):
+        """A schema with what it refers to; its own members have precedence."""
+        if "$ref" not in node:
+            return node
+        target = self.openapi
+        for name in node["$ref"].removeprefix("#/").split("/"):
+            target = target[name]
+        return {**self.resolve(target), **node}
+
+    def assert_shape(self, shown, answer, where="answer"):
+        """The answer has at least the members that are shown, of the same types."""
+        if isinstance(shown, dict):
+            self.assertLessEqual(set(shown), set(answer), where)
+            for key, value in shown.items():
+                self.assert_shape(value, answer[key], f"{where}.{key}")
+        elif isinstance(shown, list):
+            self.assertGreaterEqual(len(answer), len(shown), where)
+            for index, value in enumerate(shown):
+                self.assert_shape(value, answer[index], f"{where}[{index}]")
+        elif isinstance(shown, (int, float)) and not isinstance(shown, bool):
+            self.assertIsInstance(answer, (int, float), where)
+            self.assertNotIsInstance(answer, bool, where)
+        else:
+            self.assertIs(type(answer), type(shown), where)
+
+
+class Examples(DocumentTest):
+    def test_the_first_request_returns_what_is_shown_and_validates(self):
+        (block,) = blocks("README.md", "json")
+        shown = json.loads(block)
+        request = json.loads((PROJECT / "tests/scenarios/corridor-swap.json").read_text())
+        answer = self.post("/v1/plan", request)
+        self.assert_shape(shown, answer)
+        self.assertEqual(shown["status"], answer["status"])
+        self.assertAlmostEqual(shown["flowtime"], answer["flowtime"], delta=1.0)
+        self.assertTrue(self.post("/v1/validate", {**request, **answer})["valid"])
+
+    def test_the_request_of_the_api_page_returns_the_response_below_it(self):
+        request, shown, verdict, _ = map(json.loads, blocks("docs/api.md", "json"))
+        answer = self.post("/v1/plan", request)
+        self.assert_shape(shown, answer)
+        self.assertEqual(set(shown), set(answer))
+        self.assertEqual(shown["status"], answer["status"])
+        self.assertAlmostEqual(shown["flowtime"], answer["flowtime"], delta=0.01)
+        self.assert_shape(self.post("/v1/validate", {**request, **answer}), verdict)
+
+    def test_the_error_of_the_api_page_is_returned_for_the_fault_that_it_shows(self):
+        *_, shown = map(json.loads, blocks("docs/api.md", "json"))
+        request = json.loads(blocks("docs/api.md", "json")[0])
+        request["robots"][0]["linear_speed"] = 0
+        with self.assertRaises(urllib.error.HTTPError) as raised:
+            self.post("/v1/plan", request)
+        with raised.exception as response:
+            answer = json.load(response)
+        self.assert_shape(shown, answer)
+        for member in ("status", "code", "detail", "errors"):
+            self.assertEqual(shown[member], answer[member])
+
+    def test_the_python_example_plans_for_every_robot(self):
+        (program,) = blocks("docs/api.md", "python")
+        self.assertIn(SERVICE, program)
+        done = subprocess.run([sys.executable, "-c", program.replace(SERVICE, self.url)],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"(?s)\Asolved flowtime \d+\.\d+ s\nleft\n .*\nright\n .*\nparked\n\Z")
+
+    @unittest.skipUnless(shutil.which("curl") and shutil.which("jq"), "needs curl and jq")
+    def test_the_shell_examples_with_curl_succeed(self):
+        place = SERVICE.removeprefix("http://")
+        examples = [(name, block) for name in DOCUMENTS for block in blocks(name, "sh")
+                    if re.search(r"^(curl|gzip|jq) ", block, re.MULTILINE)]
+        self.assertIn("README.md", [name for name, _ in examples])
+        for name, block in examples:
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                (pathlib.Path(folder) / "tests").symlink_to(PROJECT / "tests")
+                (pathlib.Path(folder) / ".curlrc").write_text("fail\nsilent\nshow-error\n")
+                done = subprocess.run(
+                    ["bash", "-euo", "pipefail", "-c", block.replace(place, self.url.removeprefix("http://"))],
+                    cwd=folder, env={**os.environ, "CURL_HOME": folder}, capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, block + done.stderr)
+                self.assertNotEqual(done.stdout, "", block)
+
+    def test_the_events_have_the_names_that_are_shown(self):
+        names = {variant["properties"]["event"]["const"] for variant in self.schema("PlanEvent")["oneOf"]}
+        self.assertEqual({code(row[0])[0] for row in table("docs/api.md", ["`event`"])}, names)
+        shown = set(re.findall(r"^event: (\w+)$", DOCUMENTS["docs/api.md"], re.MULTILINE))
+        self.assertLessEqual(shown, names)
+
+
+class ApiTables(DocumentTest):
+    def test_the_options_are_those_of_the_schema(self):
+        request = self.openapi["paths"]["/v1/plan"]["post"]["requestBody"]["content"]["application/json"]["schema"]
+        options = self.resolve(self.resolve(request)["properties"]["options"])["properties"]
+        rows = table("docs/api.md", ["option", "range", "default", "meaning"])
+        self.assertEqual([code(row[0])[0] for row in rows], list(options))
+        budget = json.loads(self.get("/v1/limits"))["default_budget_ms"]  # the only default that is a setting
+        for name, stated, default, _ in rows:
+            name = code(name)[0]
+            with self.subTest(name):
+                option = self.resolve(options[name])
+                self.assert_range(stated, option)
+                shown = json.loads(code(default)[0]) if code(default) and code(default)[0] in ("true", "null") else (
+                    code(default)[0] if code(default) else float(default))
+                self.assertEqual(shown, budget if name == "time_budget_ms" else option["default"])
+
+    def assert_range(self, stated, option):
+        if option["type"] == "boolean":
+            self.assertEqual(code(stated), ["true", "false"])
+            return
+        if "enum" in option:
+            self.assertEqual(code(stated), [str(value) for value in option["enum"]])
+            return
+        least, most = re.match(r"from (\S+?)(?: to ([\w.]+))?(?:,|$)", stated).groups()
+        self.assertEqual(json.loads(least), option["minimum"])
+        self.assertEqual(json.loads(most) if most else sys.float_info.max, option["maximum"])
+        self.assertEqual(code(stated) == ["null"], "null" in option["type"])
+
+    def test_the_paths_are_those_of_the_schema(self):
+        documented = {f"{method.upper()} {path}" for path, operations in self.openapi["paths"].items()
+                      for method in operations}
+        for document in ("README.md", "docs/api.md"):
+            listed = {name for row in table(document, ["method and path"]) for name in code(row[0])
+                      if re.match(r"(GET|POST) ", name)}
+            self.assertEqual(listed - {"GET /"}, documented, document)
+
+    def test_the_errors_are_those_of_the_schema(self):
+        errors = {(value["status"], value["code"]) for value in values(self.openapi["components"], "value")
+                  if isinstance(value, dict) and "code" in value and "request_id" in value}
+        rows = table("docs/api.md", ["status", "`code`"])
+        self.assertEqual({(int(status), code(name)[0]) for status, name, _ in rows}, errors)
+
+    def test_faults_reasons_and_violations_are_those_of_the_schema(self):
+        def listed(header):
+            return {name for row in table("docs/api.md", [header]) for name in code(row[0])}
+        self.assertEqual(listed("`errors[].code`"), set(self.schema("Fault")["properties"]["code"]["enum"]))
+        self.assertEqual(listed("`reason`"), set(self.schema("Unplanned")["properties"]["reason"]["enum"]))
+        self.assertEqual(listed("violation `kind`"), set(self.schema("Violation")["properties"]["kind"]["enum"]))
+
+
+class ConfigurationTables(DocumentTest):
+    def test_the_flags_and_their_defaults_are_those_of_the_help(self):
+        text = subprocess.run([BINARY, "--help"], capture_output=True, text=True, check=True).stdout
+        flags = set(re.findall(r"--[a-z-]+", text)) - {"--help", "--version"}
+        rows = {code(row[0])[0]: row[1] for row in table("docs/configuration.md", ["flag", "default"])}
+        self.assertEqual(set(rows), flags)
+        defaults = dict(re.findall(r"^  (--[a-z-]+) .*=([^=]+?)(?: \.\.\.)? \(Env:", text, re.MULTILINE))
+        self.assertGreater(len(defaults), 12)
+        of_the_machine = {"--workers", "--web-root"}
+        for flag, default in defaults.items():
+            if flag not in of_the_machine:
+                self.assertEqual(rows[flag], default, flag)
+
+    def test_the_metrics_are_those_of_the_service(self):
+        families = set(re.findall(r"^# HELP (fleetplan_\w+)", self.get("/metrics"), re.MULTILINE))
+        rows = table("docs/configuration.md", ["metric"])
+        self.assertEqual({re.match(r"\w+", code(row[0])[0]).group() for row in rows}, families)
+
+
+class Names(unittest.TestCase):
+    def test_the_readme_is_short(self):
+        self.assertLessEqual(len(DOCUMENTS["README.md"].splitlines()), 120)
+
+    def test_every_path_that_is_named_exists(self):
+        folders = "|".join(sorted(p.name for p in PROJECT.iterdir() if p.is_dir() and p.name not in (".git", "build")))
+        for name, text in DOCUMENTS.items():
+            if name == "CHANGELOG.md":
+                continue
+            for path in re.findall(rf"(?<![\w/.@-])((?:{folders})/[\w./-]*\w)", text):
+                self.assertTrue((PROJECT / path).exists(), f"{name} names {path}")
+
+    def test_every_link_leads_to_a_file_and_a_heading(self):
+        for name, text in DOCUMENTS.items():
+            for target in re.findall(r"\]\(([^)\s]+)\)|src=\"([^\"]+)\"", prose(text)):
+                target = "".join(target)
+                if re.match(r"[a-z]+:", target):
+                    continue
+                path, _, heading = target.partition("#")
+                file = (PROJECT / name).parent / path if path else PROJECT / name
+                self.assertTrue(file.exists(), f"{name} links to {target}")
+                if heading:
+                    headings = re.findall(r"^#+ (.*)$", prose(file.read_text()), re.MULTILINE)
+                    self.assertIn(heading, [anchor(h) for h in headings], f"{name} links to {target}")
+
+
+del DocumentTest  # not a test of its own
+
+if __name__ == "__main__":
+    BINARY = sys.argv.pop(1)
+    unittest.main()
