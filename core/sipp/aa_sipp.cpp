@@ -1,7 +1,7 @@
 #include "core/sipp/aa_sipp.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/angle.h"
@@ -20,7 +20,7 @@ enum class Outcome : std::uint8_t { found, exhausted, incomplete, stopped };
 class Search {
  public:
   Search(const Instance& instance, const ReservationTable& table, std::size_t robot, const Vertices& vertices,
-         CostToGo& cost_to_go, const SearchLimits& limits, const StopCondition& stop, SearchState& state)
+         CostToGo& cost_to_go, const SearchLimits& limits, const StopCondition& stop, SearchState state)
       : instance_(instance),
         table_(table),
         robot_(robot),
@@ -31,11 +31,12 @@ class Search {
         cost_to_go_(cost_to_go),
         limits_(limits),
         stop_(stop),
-        state_(state) {}
+        state_(std::move(state)) {}
 
   Outcome run(Pass pass);
   Trajectory trajectory() const;
   std::int64_t expansions() const { return expansions_; }
+  SearchState take_state() { return std::move(state_); }
 
  private:
   /// f orders the open list, `cost` estimates that of the whole path.
@@ -67,7 +68,7 @@ class Search {
   LabelId source_of(const Edge& edge, EdgeKind kind) const {
     return kind == EdgeKind::shortcut ? state_.labels[edge.via].parent : edge.via;
   }
-  const Place& place_of(LabelId label) const { return state_.places[state_.labels[label].place]; }
+  const Place& place_at(LabelId label) const { return state_.places[state_.labels[label].place]; }
   bool is_final(PlaceId place, int interval) const {
     return place == state_.goal && state_.intervals[interval].end == kForever;
   }
@@ -86,7 +87,7 @@ class Search {
   Pass pass_ = Pass::quick;
   bool use_slack_ = false;
   std::int64_t expansions_ = 0;  // of all passes
-  SearchState& state_;
+  SearchState state_;
 };
 
 /// The main loop; see the pseudo-code in the header.
@@ -194,9 +195,9 @@ void Search::settle(const OpenEntry& entry) {
 void Search::expand(LabelId id) {
   ++expansions_;
   const LabelId parent = state_.labels[id].parent;
-  const int before = parent == LabelId::none ? -1 : place_of(parent).vertex;
+  const int before = parent == LabelId::none ? -1 : place_at(parent).vertex;
   if (any_angle_) offer_goal(id);
-  vertices_.for_each_neighbour(place_of(id).vertex, [&](int neighbour) {
+  vertices_.for_each_neighbour(place_at(id).vertex, [&](int neighbour) {
     const PlaceId target = place_of(neighbour);
     if (state_.places[target].never_safe()) return;
     const bool with_shortcut = any_angle_ && parent != LabelId::none && neighbour != before;
@@ -227,7 +228,7 @@ void Search::offer_from(EdgeId id, int interval) {
 
 /// Pushes a move with the lower bound of its arrival. Returns false if it is impossible, too expensive or
 /// dominated.
-bool Search::offer(EdgeId id, EdgeKind kind, int interval, bool next_interval_follows) {
+inline bool Search::offer(EdgeId id, EdgeKind kind, int interval, bool next_interval_follows) {
   const Edge& edge = state_.edges[id];
   const Move& move = edge.move(kind);
   const double departure = EdgeTiming::lower_bound(move, state_.intervals[interval]);
@@ -264,18 +265,18 @@ EdgeId Search::add_edge(LabelId via, PlaceId target, bool with_shortcut) {
       {local, shortcut, via, target, with_shortcut ? Edge::Sight::unknown : Edge::Sight::blocked});
 }
 
-Move Search::move_between(LabelId from, PlaceId target) const {
+inline Move Search::move_between(LabelId from, PlaceId target) const {
   const Label& label = state_.labels[from];
   const MoveSource source{label.arrival, label.heading, label.parent != LabelId::none,
                           state_.intervals[label.interval]};
-  const Displacement d = vertices_.between(place_of(from).vertex, state_.places[target].vertex);
+  const Displacement d = vertices_.between(place_at(from).vertex, state_.places[target].vertex);
   return timing_.move(source, d.heading, d.length);
 }
 
 /// Tests the shortcut against obstacles, once.
 bool Search::shortcut_is_free(Edge& edge) const {
   if (edge.shortcut_sight == Edge::Sight::unknown) {
-    const Position& from = place_of(source_of(edge, EdgeKind::shortcut)).position;
+    const Position& from = place_at(source_of(edge, EdgeKind::shortcut)).position;
     const Position& to = state_.places[edge.target].position;
     const bool free = instance_.sight().may_sweep(from, to, motion_.radius);
     edge.shortcut_sight = free ? Edge::Sight::free : Edge::Sight::blocked;
@@ -293,12 +294,12 @@ std::optional<double> Search::earliest_departure(const OpenEntry& entry) {
     target.end = dominated_from;
     state_.incomplete = state_.incomplete || use_slack_;
   }
-  const Segment path{place_of(source_of(edge, entry.kind)).position, state_.places[edge.target].position};
+  const Segment path{place_at(source_of(edge, entry.kind)).position, state_.places[edge.target].position};
   return timing_.earliest(move, path, target);
 }
 
 /// Returns whether another arrival makes this one superfluous. Records it if only the quick pass thinks so.
-bool Search::is_dominated(int interval, double arrival, double heading, double f) {
+inline bool Search::is_dominated(int interval, double arrival, double heading, double f) {
   if (state_.dominance.empty(interval)) return false;
   // One label per interval suffices as long as the goal is not free yet.
   const bool waiting = pass_ == Pass::quick && f <= state_.goal_free_from;
@@ -309,7 +310,8 @@ bool Search::is_dominated(int interval, double arrival, double heading, double f
   return dominated;
 }
 
-Search::Evaluation Search::evaluate(PlaceId place, int interval, double arrival, double heading) const {
+inline Search::Evaluation Search::evaluate(PlaceId place, int interval, double arrival,
+                                           double heading) const {
   const double h = to_go(place, heading);
   const double cost = std::max(arrival + h, state_.goal_free_from);
   // An arrival at the goal that suffices goes first: while the goal is not free, all f are equal otherwise.
@@ -318,7 +320,7 @@ Search::Evaluation Search::evaluate(PlaceId place, int interval, double arrival,
 }
 
 /// h: an estimate of the seconds from an arrival to rest in the goal pose, without other robots.
-double Search::to_go(PlaceId place, double heading) const {
+inline double Search::to_go(PlaceId place, double heading) const {
   if (place == state_.goal) {
     const auto& goal = *instance_.robot(robot_).goal;
     return goal.theta ? motion_.rotation_time(heading, *goal.theta) : 0.0;
@@ -348,7 +350,7 @@ Trajectory Search::trajectory() const {
   for (LabelId id = state_.goal_label; id != LabelId::none; id = state_.labels[id].parent) path.push_back(id);
   std::reverse(path.begin(), path.end());
   Trajectory trajectory;
-  trajectory.start = place_of(path.front()).position;
+  trajectory.start = place_at(path.front()).position;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const Label& from = state_.labels[path[i - 1]];
     const Label& to = state_.labels[path[i]];
@@ -371,13 +373,14 @@ Trajectory Search::trajectory() const {
 
 SearchResult AaSipp::run(std::size_t robot, const Vertices& vertices, CostToGo& cost_to_go,
                          const SearchLimits& limits, const StopCondition& stop) {
-  Search search(instance_, table_, robot, vertices, cost_to_go, limits, stop, state_);
+  Search search(instance_, table_, robot, vertices, cost_to_go, limits, stop, std::move(state_));
   Outcome outcome = search.run(Pass::quick);
   if (outcome == Outcome::incomplete && limits.thorough) outcome = search.run(Pass::complete);
   SearchResult result;
   if (outcome == Outcome::found) result.trajectory = search.trajectory();
   result.complete = outcome != Outcome::stopped;
   result.expansions = search.expansions();
+  state_ = search.take_state();
   return result;
 }
 
