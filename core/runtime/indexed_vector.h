@@ -25,10 +25,13 @@ class IndexedVector {
   Index next_index() const { return static_cast<Index>(items_.size()); }
 
   /// Adds an element and returns its index.
-  Index push_back(T item) {
-    const Index index = next_index();
+  Index push_back(const T& item) {
+    items_.push_back(item);
+    return last_index();
+  }
+  Index push_back(T&& item) {
     items_.push_back(std::move(item));
-    return index;
+    return last_index();
   }
   void resize(std::size_t size, const T& value = T()) { items_.resize(size, value); }
   void clear() { items_.clear(); }
@@ -39,6 +42,7 @@ class IndexedVector {
   auto end() const { return items_.end(); }
 
  private:
+  Index last_index() const { return static_cast<Index>(items_.size() - 1); }
   static std::size_t position(Index index) { return static_cast<std::size_t>(index); }
 
   std::vector<T> items_;

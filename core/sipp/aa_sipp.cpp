@@ -1,8 +1,8 @@
 #include "core/sipp/aa_sipp.h"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
+#include <utility>
+#include <vector>
 
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
@@ -10,332 +10,378 @@
 namespace fleetplan::core {
 namespace {
 
-/// Candidates between two looks at the clock.
+/// Loop steps between two checks of the stop condition.
 constexpr int kStopStride = 32;
 
-}  // namespace
+enum class Pass : std::uint8_t { quick, complete };
+enum class Outcome : std::uint8_t { found, exhausted, incomplete, stopped };
 
-SearchResult AaSipp::run(std::size_t robot, const Vertices& vertices, CostToGo& cost_to_go,
-                         const SearchLimits& limits, const StopCondition& stop) {
-  robot_ = robot;
-  motion_ = &instance_.motion(robot);
-  timing_.emplace(*motion_, table_, robot);
-  vertices_ = &vertices;
-  cost_to_go_ = &cost_to_go;
-  stop_ = &stop;
-  limits_ = limits;
-  expansions_ = 0;
-  place_of_vertex_.resize(std::max(place_of_vertex_.size(), static_cast<std::size_t>(vertices.count())), -1);
-  Outcome outcome = search(false);
-  if (outcome == Outcome::pruned && limits.thorough) outcome = search(true);
-  SearchResult result;
-  result.expansions = expansions_;
-  result.complete = outcome != Outcome::stopped;
-  if (outcome == Outcome::found) result.trajectory = extract();
-  reset();
-  return result;
-}
+/// The search for one robot: its inputs, and the steps of the pseudo-code on the state.
+class Search {
+ public:
+  Search(const Instance& instance, const ReservationTable& table, std::size_t robot, const Vertices& vertices,
+         CostToGo& cost_to_go, const SearchLimits& limits, const StopCondition& stop, SearchState state)
+      : instance_(instance),
+        table_(table),
+        robot_(robot),
+        motion_(instance.motion(robot)),
+        any_angle_(instance.options().any_angle),
+        timing_(motion_, table, robot),
+        vertices_(vertices),
+        cost_to_go_(cost_to_go),
+        limits_(limits),
+        stop_(stop),
+        state_(std::move(state)) {}
 
-void AaSipp::reset() {
-  for (const Place& place : places_) place_of_vertex_[static_cast<std::size_t>(place.vertex)] = -1;
-  places_.clear();
-  intervals_.clear();
-  labels_.clear();
-  ways_.clear();
-  candidates_.clear();
-  open_.clear();
-  goal_label_ = -1;
-  best_goal_ = -1;
-  best_goal_cost_ = kForever;
-  pruned_ = false;
-}
+  Outcome run(Pass pass);
+  Trajectory trajectory() const;
+  std::int64_t expansions() const { return expansions_; }
+  SearchState take_state() { return std::move(state_); }
 
-AaSipp::Outcome AaSipp::search(bool thorough) {
-  reset();
-  thorough_ = thorough;
-  coarse_ = !thorough && limits_.dominance_slack > 0.0;
-  const double reach = coarse_ ? limits_.dominance_slack * instance_.lattice().spacing() : 0.0;
-  dominance_.begin(*motion_, motion_->translation_time(reach));
-  goal_place_ = place_of(vertices_->goal());
-  const Place& goal = places_[static_cast<std::size_t>(goal_place_)];
-  if (goal.interval_count == 0) return Outcome::exhausted;
-  const SafeInterval& last =
-      intervals_[static_cast<std::size_t>(goal.first_interval + goal.interval_count - 1)];
-  if (last.end < kForever) return Outcome::exhausted;
-  release_ = last.begin;
-  add_start();
-  for (int step = 1; goal_label_ < 0; ++step) {
-    if (open_.empty()) return pruned_ ? Outcome::pruned : Outcome::exhausted;
-    if (step % kStopStride == 0 && stop_->met()) return Outcome::stopped;
+ private:
+  /// f orders the open list, `cost` estimates that of the whole path.
+  struct Evaluation {
+    double f;
+    double h;
+    double cost;
+  };
+
+  bool begin(Pass pass);
+  void label_start();
+  bool goal_entry_suffices() const;
+  void settle(const OpenEntry& entry);
+  void expand(LabelId id);
+  void offer_goal(LabelId from);
+  void offer_from(EdgeId id, int interval);
+  bool offer(EdgeId id, EdgeKind kind, int interval, bool next_interval_follows);
+  void push_timed(OpenEntry entry, double f_lower_bound);
+
+  EdgeId add_edge(LabelId via, PlaceId target, bool with_shortcut);
+  Move move_between(LabelId from, PlaceId target) const;
+  bool shortcut_is_free(Edge& edge) const;
+  std::optional<double> earliest_departure(const OpenEntry& entry);
+  bool is_dominated(int interval, double arrival, double heading, double f);
+  Evaluation evaluate(PlaceId place, int interval, double arrival, double heading) const;
+  double to_go(PlaceId place, double heading) const;
+
+  PlaceId place_of(int vertex);
+  LabelId source_of(const Edge& edge, EdgeKind kind) const {
+    return kind == EdgeKind::shortcut ? state_.labels[edge.via].parent : edge.via;
+  }
+  const Place& place_at(LabelId label) const { return state_.places[state_.labels[label].place]; }
+  bool is_final(PlaceId place, int interval) const {
+    return place == state_.goal && state_.intervals[interval].end == kForever;
+  }
+
+  const Instance& instance_;
+  const ReservationTable& table_;
+  const std::size_t robot_;
+  const Motion& motion_;
+  const bool any_angle_;
+  const EdgeTiming timing_;
+  const Vertices& vertices_;
+  CostToGo& cost_to_go_;
+  const SearchLimits& limits_;
+  const StopCondition& stop_;
+
+  Pass pass_ = Pass::quick;
+  bool use_slack_ = false;
+  std::int64_t expansions_ = 0;  // of all passes
+  SearchState state_;
+};
+
+/// The main loop; see the pseudo-code in the header.
+Outcome Search::run(Pass pass) {
+  if (!begin(pass)) return Outcome::exhausted;
+  label_start();
+  for (int step = 1; state_.goal_label == LabelId::none; ++step) {
+    if (state_.open.empty()) return state_.incomplete ? Outcome::incomplete : Outcome::exhausted;
+    if (step % kStopStride == 0 && stop_.met()) return Outcome::stopped;
     if (expansions_ >= limits_.max_expansions) return Outcome::stopped;
-    if (best_goal_will_do()) {
-      settle(candidates_[static_cast<std::size_t>(best_goal_)]);
-    } else {
-      process(open_.front().candidate);
+    if (goal_entry_suffices()) {
+      settle(state_.open[state_.best_goal_entry]);
+      break;
     }
+
+    const double f = state_.open.min_f();
+    OpenEntry entry = state_.open.pop();
+    if (entry.timed()) {
+      if (state_.dominance.is_dominated(entry.timed_arrival)) continue;
+    } else {
+      Edge& edge = state_.edges[entry.edge];
+      const Move& move = edge.move(entry.kind);
+      const bool free = entry.kind == EdgeKind::local || shortcut_is_free(edge);
+      if (entry.next_interval_follows) offer_from(entry.edge, entry.interval + 1);
+      // An arrival that dominates this one also dominates the local edge after a shortcut.
+      if (is_dominated(entry.interval, entry.arrival, move.heading, f)) continue;
+
+      // Time the edge against the reservations.
+      const double lower_bound = entry.arrival;
+      const auto departure = free ? earliest_departure(entry) : std::nullopt;
+      if (departure) {
+        entry.departure = *departure;
+        entry.arrival = *departure + move.duration;
+      }
+      if (!departure || entry.arrival > lower_bound + kSameTime) {
+        if (entry.kind == EdgeKind::shortcut) offer(entry.edge, EdgeKind::local, entry.interval, false);
+        if (departure) push_timed(entry, f);
+        continue;
+      }
+      state_.dominance.add(entry.interval, entry.arrival, move.heading);
+    }
+    settle(entry);
   }
   return Outcome::found;
 }
 
-int AaSipp::place_of(int vertex) {
-  int& known = place_of_vertex_[static_cast<std::size_t>(vertex)];
-  if (known >= 0) return known;
-  known = static_cast<int>(places_.size());
-  const Position position = vertices_->position(vertex);
-  const auto safe = table_.safe_intervals(robot_, position);
-  CostToGo::Estimate estimate;
-  if (vertex != vertices_->goal()) estimate = cost_to_go_->from(vertex, *stop_);
-  places_.push_back(
-      {vertex, position, estimate, static_cast<int>(intervals_.size()), static_cast<int>(safe.size())});
-  intervals_.insert(intervals_.end(), safe.begin(), safe.end());
-  dominance_.set_interval_count(intervals_.size());
-  return known;
+/// Prepares a pass. Returns false if the goal is never free for good.
+bool Search::begin(Pass pass) {
+  pass_ = pass;
+  use_slack_ = pass == Pass::quick && limits_.dominance_slack > 0.0;
+  state_.clear();
+  state_.place_of_vertex.resize(
+      std::max(state_.place_of_vertex.size(), static_cast<std::size_t>(vertices_.count())), PlaceId::none);
+  const double slack = use_slack_ ? limits_.dominance_slack * instance_.lattice().spacing() : 0.0;
+  state_.dominance.reset(motion_, motion_.translation_time(slack));
+  state_.goal = place_of(vertices_.goal());
+  const Place& goal = state_.places[state_.goal];
+  if (goal.never_safe()) return false;
+  const SafeInterval& last = state_.intervals[goal.end_interval - 1];
+  state_.goal_free_from = last.begin;
+  return last.end == kForever;
 }
 
-void AaSipp::add_start() {
-  const int place = place_of(vertices_->start());
-  const int interval = places_[static_cast<std::size_t>(place)].first_interval;
-  if (places_[static_cast<std::size_t>(place)].interval_count == 0) return;
-  if (intervals_[static_cast<std::size_t>(interval)].begin > 0.0) return;
-  // Who need not go anywhere holds for ever, and is at rest from the beginning.
-  const double t = is_final(place, interval) ? 0.0 : limits_.start_delay;
-  if (!intervals_[static_cast<std::size_t>(interval)].contains(t)) return;
+void Search::label_start() {
+  const PlaceId start = place_of(vertices_.start());
+  if (state_.places[start].never_safe()) return;
+  const int interval = state_.places[start].first_interval;
+  if (state_.intervals[interval].begin > 0.0) return;
+  // A robot that may stay at its start for good rests there from t = 0, whatever the start delay.
+  const double t = is_final(start, interval) ? 0.0 : limits_.start_delay;
+  if (!state_.intervals[interval].contains(t)) return;
   const double heading = instance_.robot(robot_).start.theta;
-  if (!(rank(place, interval, t, heading).cost < limits_.bound)) return;
-  dominance_.add(interval, t, heading);
-  labels_.push_back({t, heading, t, -1, place, interval});
-  if (is_final(place, interval)) {
-    goal_label_ = 0;
-  } else {
-    expand(0);
-  }
-}
-
-double AaSipp::to_go(int place, double heading) const {
-  if (place == goal_place_) {
-    const auto& goal = *instance_.robot(robot_).goal;
-    return goal.theta ? motion_->rotation_time(heading, *goal.theta) : 0.0;
-  }
-  const auto& estimate = places_[static_cast<std::size_t>(place)].estimate;
-  return estimate.seconds + motion_->rotation_time(heading, estimate.heading);
-}
-
-AaSipp::Rank AaSipp::rank(int place, int interval, double arrival, double heading) const {
-  const double h = to_go(place, heading);
-  const double cost = std::max(arrival + h, release_);
-  // At the goal, good enough is first: the order is flat while it is not free, and would leave it for last.
-  if (is_final(place, interval)) return {cost / (1.0 + limits_.suboptimality), h, cost};
-  return {std::max(arrival + limits_.heuristic_weight * h, release_), h, cost};
-}
-
-void AaSipp::push(const Candidate& candidate, const Rank& rank) {
-  const int index = static_cast<int>(candidates_.size());
-  candidates_.push_back(candidate);
-  open_.push_back({rank.key, rank.h, index});
-  std::push_heap(open_.begin(), open_.end(), std::greater<>());
-}
-
-Standing AaSipp::standing_at(int label) const {
-  const Label& l = labels_[static_cast<std::size_t>(label)];
-  return {l.arrival, l.heading, l.parent >= 0, intervals_[static_cast<std::size_t>(l.interval)]};
-}
-
-Position AaSipp::position_of(int label) const {
-  return places_[static_cast<std::size_t>(labels_[static_cast<std::size_t>(label)].place)].position;
-}
-
-bool AaSipp::is_final(int place, int interval) const {
-  return place == goal_place_ && intervals_[static_cast<std::size_t>(interval)].end == kForever;
-}
-
-/// Is the best known way to the goal good enough by now?
-bool AaSipp::best_goal_will_do() const {
-  const double tolerated =
-      limits_.suboptimality + limits_.suboptimality_growth * static_cast<double>(expansions_);
-  return best_goal_ >= 0 && best_goal_cost_ <= (1.0 + tolerated) * open_.front().key;
-}
-
-void AaSipp::process(int index) {
-  const double key = open_.front().key;
-  std::pop_heap(open_.begin(), open_.end(), std::greater<>());
-  open_.pop_back();
-  const Candidate candidate = candidates_[static_cast<std::size_t>(index)];
-  if (candidate.entry < 0) {
-    time_move(candidate, key);
-  } else if (!dominance_.dominated(candidate.entry)) {
-    settle(candidate);
-  }
-}
-
-void AaSipp::time_move(Candidate candidate, double key) {
-  Way& way = ways_[static_cast<std::size_t>(candidate.way)];
-  const bool shortcut = candidate.kind == Kind::shortcut;
-  const bool seen = !shortcut || sees(way);
-  const Move move = shortcut ? way.shortcut : way.local;
-  const int place = way.place;
-  const int interval = candidate.interval;
-  const Label& via = labels_[static_cast<std::size_t>(way.via)];
-  const Segment path{shortcut ? position_of(via.parent) : position_of(way.via),
-                     places_[static_cast<std::size_t>(place)].position};
-  if (candidate.leads) follow(candidate.way, interval + 1);
-  // An arrival that dominates the optimistic one also dominates the way through the expanded label.
-  if (redundant(interval, candidate.arrival, move.heading, key)) return;
-  SafeInterval target = intervals_[static_cast<std::size_t>(interval)];
-  const double useful_until = dominance_.needless_from(interval, move.heading);
-  if (useful_until < target.end) {
-    target.end = useful_until;
-    pruned_ = pruned_ || coarse_;
-  }
-  const auto departure = seen ? timing_->earliest(move, path, target) : std::nullopt;
-  const double optimistic = candidate.arrival;
-  if (departure) {
-    candidate.departure = *departure;
-    candidate.arrival = *departure + move.duration;
-    if (candidate.arrival <= optimistic + kSameTime) {
-      dominance_.add(interval, candidate.arrival, move.heading);
-      return settle(candidate);
-    }
-  }
-  if (shortcut) offer(candidate.way, Kind::local, interval, false);
-  if (!departure || redundant(interval, candidate.arrival, move.heading, key)) return;
-  const Rank ranked = rank(place, interval, candidate.arrival, move.heading);
-  if (!(ranked.cost < limits_.bound)) return;
-  candidate.entry = dominance_.add(interval, candidate.arrival, move.heading);
-  push(candidate, ranked);
-  if (is_final(place, interval) && ranked.cost < best_goal_cost_) {
-    best_goal_ = static_cast<int>(candidates_.size()) - 1;
-    best_goal_cost_ = ranked.cost;
-  }
-}
-
-/// Is an arrival there that makes this one needless, or good enough?
-bool AaSipp::redundant(int interval, double arrival, double heading, double key) {
-  if (dominance_.none_in(interval)) return false;
-  const bool waiting = !thorough_ && key <= release_;  // while the goal is not even free, one label will do
-  const bool dominated = waiting || dominance_.needless_from(interval, heading) <= arrival + kSameTime ||
-                         (motion_->wait_before_move > 0.0 && dominance_.has(interval, arrival, heading));
-  pruned_ = pruned_ || (dominated && (waiting || coarse_));
-  return dominated;
-}
-
-void AaSipp::settle(const Candidate& candidate) {
-  const Way& way = ways_[static_cast<std::size_t>(candidate.way)];
-  const bool shortcut = candidate.kind == Kind::shortcut;
-  const int parent = shortcut ? labels_[static_cast<std::size_t>(way.via)].parent : way.via;
-  const int label = static_cast<int>(labels_.size());
-  const double heading = (shortcut ? way.shortcut : way.local).heading;
-  const int place = way.place;
-  labels_.push_back({candidate.arrival, heading, candidate.departure, parent, place, candidate.interval});
-  if (is_final(place, candidate.interval)) {
-    goal_label_ = label;
+  if (!(evaluate(start, interval, t, heading).cost < limits_.bound)) return;
+  state_.dominance.add(interval, t, heading);
+  const LabelId label = state_.labels.push_back({t, heading, t, LabelId::none, start, interval});
+  if (is_final(start, interval)) {
+    state_.goal_label = label;
   } else {
     expand(label);
   }
 }
 
-void AaSipp::expand(int label) {
+/// Returns whether the cheapest timed path to the goal is within the suboptimality bound.
+bool Search::goal_entry_suffices() const {
+  if (state_.best_goal_entry == EntryId::none) return false;
+  const double suboptimality =
+      limits_.suboptimality + limits_.suboptimality_growth * static_cast<double>(expansions_);
+  return state_.best_goal_cost <= (1.0 + suboptimality) * state_.open.min_f();
+}
+
+/// Makes a label of a timed entry and expands it, unless it is at the goal for good.
+void Search::settle(const OpenEntry& entry) {
+  const Edge& edge = state_.edges[entry.edge];
+  const PlaceId place = edge.target;
+  const LabelId label =
+      state_.labels.push_back({entry.arrival, edge.move(entry.kind).heading, entry.departure,
+                               source_of(edge, entry.kind), place, entry.interval});
+  if (is_final(place, entry.interval)) {
+    state_.goal_label = label;
+  } else {
+    expand(label);
+  }
+}
+
+void Search::expand(LabelId id) {
   ++expansions_;
-  const Label l = labels_[static_cast<std::size_t>(label)];
-  const int vertex = places_[static_cast<std::size_t>(l.place)].vertex;
-  const bool any_angle = instance_.options().any_angle;
-  if (any_angle) shoot_at_goal(label);
-  const int before =
-      l.parent < 0
-          ? -1
-          : places_[static_cast<std::size_t>(labels_[static_cast<std::size_t>(l.parent)].place)].vertex;
-  vertices_->for_each_neighbour(vertex, [&](int neighbour) {
-    const int place = place_of(neighbour);
-    if (places_[static_cast<std::size_t>(place)].interval_count == 0) return;
-    const bool with_shortcut = any_angle && l.parent >= 0 && neighbour != before;
-    follow(add_way(label, place, with_shortcut), places_[static_cast<std::size_t>(place)].first_interval);
+  const LabelId parent = state_.labels[id].parent;
+  const int before = parent == LabelId::none ? -1 : place_at(parent).vertex;
+  if (any_angle_) offer_goal(id);
+  vertices_.for_each_neighbour(place_at(id).vertex, [&](int neighbour) {
+    const PlaceId target = place_of(neighbour);
+    if (state_.places[target].never_safe()) return;
+    const bool with_shortcut = any_angle_ && parent != LabelId::none && neighbour != before;
+    offer_from(add_edge(id, target, with_shortcut), state_.places[target].first_interval);
   });
 }
 
-/// Where the goal is in sight, tries to go there at once, in the interval that it may stay in.
-void AaSipp::shoot_at_goal(int label) {
-  const int from = labels_[static_cast<std::size_t>(label)].place;
-  if (from == goal_place_ || !places_[static_cast<std::size_t>(from)].estimate.straight) return;
-  const Place& goal = places_[static_cast<std::size_t>(goal_place_)];
-  offer(add_way(label, goal_place_, false), Kind::local, goal.first_interval + goal.interval_count - 1,
-        false);
+/// If the goal is in sight, offers the straight move there, in the interval in which the robot may stay.
+void Search::offer_goal(LabelId from) {
+  const PlaceId place = state_.labels[from].place;
+  if (place == state_.goal || !state_.places[place].estimate.straight) return;
+  const int last = state_.places[state_.goal].end_interval - 1;
+  offer(add_edge(from, state_.goal, false), EdgeKind::local, last, false);
 }
 
-int AaSipp::add_way(int via, int place, bool with_shortcut) {
-  const auto move_from = [&](int label) {
-    const int from = places_[static_cast<std::size_t>(labels_[static_cast<std::size_t>(label)].place)].vertex;
-    const Displacement d = vertices_->between(from, places_[static_cast<std::size_t>(place)].vertex);
-    return timing_->move(standing_at(label), d.heading, d.length);
-  };
-  const int parent = labels_[static_cast<std::size_t>(via)].parent;
-  ways_.push_back({move_from(via), with_shortcut ? move_from(parent) : Move{}, via, place,
-                   with_shortcut ? Sight::unknown : Sight::blocked});
-  return static_cast<int>(ways_.size()) - 1;
-}
-
-/// Is the shortcut free of obstacles?
-bool AaSipp::sees(Way& way) {
-  if (way.sight == Sight::unknown) {
-    const int parent = labels_[static_cast<std::size_t>(way.via)].parent;
-    const bool free = instance_.sight().may_sweep(
-        position_of(parent), places_[static_cast<std::size_t>(way.place)].position, motion_->radius);
-    way.sight = free ? Sight::free : Sight::blocked;
-  }
-  return way.sight == Sight::free;
-}
-
-/// Puts the first move into `interval` of the way's place, or a later one, on the open list.
-void AaSipp::follow(int index, int interval) {
-  const Way& way = ways_[static_cast<std::size_t>(index)];
-  const Place& place = places_[static_cast<std::size_t>(way.place)];
-  const int end = place.first_interval + place.interval_count;
-  const bool shortcut = way.sight != Sight::blocked;
-  const double local_latest = way.local.latest + way.local.duration;
-  const double latest =
-      shortcut ? std::max(local_latest, way.shortcut.latest + way.shortcut.duration) : local_latest;
-  for (; interval < end && intervals_[static_cast<std::size_t>(interval)].begin <= latest; ++interval) {
-    if (shortcut && offer(index, Kind::shortcut, interval, true)) return;
-    if (offer(index, Kind::local, interval, true)) return;
+/// Offers the first possible move into `interval` of the edge's target or a later one.
+void Search::offer_from(EdgeId id, int interval) {
+  const Edge& edge = state_.edges[id];
+  const bool shortcut = edge.shortcut_sight != Edge::Sight::blocked;
+  double latest = edge.local.latest + edge.local.duration;
+  if (shortcut) latest = std::max(latest, edge.shortcut.latest + edge.shortcut.duration);
+  const int end = state_.places[edge.target].end_interval;
+  for (; interval < end && state_.intervals[interval].begin <= latest; ++interval) {
+    if (shortcut && offer(id, EdgeKind::shortcut, interval, true)) return;
+    if (offer(id, EdgeKind::local, interval, true)) return;
   }
 }
 
-/// Puts a move on the open list with the earliest arrival it could have, unless it is impossible, too
-/// expensive or dominated.
-bool AaSipp::offer(int index, Kind kind, int interval, bool leads) {
-  const Way& way = ways_[static_cast<std::size_t>(index)];
-  const Move& move = kind == Kind::shortcut ? way.shortcut : way.local;
-  const double departure = EdgeTiming::optimistic(move, intervals_[static_cast<std::size_t>(interval)]);
+/// Pushes a move with the lower bound of its arrival. Returns false if it is impossible, too expensive or
+/// dominated.
+inline bool Search::offer(EdgeId id, EdgeKind kind, int interval, bool next_interval_follows) {
+  const Edge& edge = state_.edges[id];
+  const Move& move = edge.move(kind);
+  const double departure = EdgeTiming::lower_bound(move, state_.intervals[interval]);
   if (departure == kForever) return false;
   const double arrival = departure + move.duration;
-  const Rank ranked = rank(way.place, interval, arrival, move.heading);
-  if (!(ranked.cost < limits_.bound)) return false;
-  if (redundant(interval, arrival, move.heading, ranked.key)) return false;
-  push({arrival, departure, index, interval, -1, kind, leads}, ranked);
+  const Evaluation evaluation = evaluate(edge.target, interval, arrival, move.heading);
+  if (!(evaluation.cost < limits_.bound)) return false;
+  if (is_dominated(interval, arrival, move.heading, evaluation.f)) return false;
+  state_.open.push({arrival, departure, id, interval, ArrivalId::none, kind, next_interval_follows},
+                   evaluation.f, evaluation.h);
   return true;
 }
 
-Trajectory AaSipp::extract() const {
-  std::vector<const Label*> way;
-  for (int l = goal_label_; l >= 0; l = labels_[static_cast<std::size_t>(l)].parent) {
-    way.push_back(&labels_[static_cast<std::size_t>(l)]);
+/// Pushes a move again that arrives later than its lower bound, unless it is dominated or too expensive.
+/// From now on it takes part in dominance.
+void Search::push_timed(OpenEntry entry, double f_lower_bound) {
+  const Edge& edge = state_.edges[entry.edge];
+  const double heading = edge.move(entry.kind).heading;
+  if (is_dominated(entry.interval, entry.arrival, heading, f_lower_bound)) return;
+  const Evaluation evaluation = evaluate(edge.target, entry.interval, entry.arrival, heading);
+  if (!(evaluation.cost < limits_.bound)) return;
+  entry.timed_arrival = state_.dominance.add(entry.interval, entry.arrival, heading);
+  const EntryId id = state_.open.push(entry, evaluation.f, evaluation.h);
+  if (is_final(edge.target, entry.interval) && evaluation.cost < state_.best_goal_cost) {
+    state_.best_goal_entry = id;
+    state_.best_goal_cost = evaluation.cost;
   }
-  std::reverse(way.begin(), way.end());
+}
+
+EdgeId Search::add_edge(LabelId via, PlaceId target, bool with_shortcut) {
+  const Move local = move_between(via, target);
+  const Move shortcut = with_shortcut ? move_between(state_.labels[via].parent, target) : Move{};
+  return state_.edges.push_back(
+      {local, shortcut, via, target, with_shortcut ? Edge::Sight::unknown : Edge::Sight::blocked});
+}
+
+inline Move Search::move_between(LabelId from, PlaceId target) const {
+  const Label& label = state_.labels[from];
+  const MoveSource source{label.arrival, label.heading, label.parent != LabelId::none,
+                          state_.intervals[label.interval]};
+  const Displacement d = vertices_.between(place_at(from).vertex, state_.places[target].vertex);
+  return timing_.move(source, d.heading, d.length);
+}
+
+/// Tests the shortcut against obstacles, once.
+bool Search::shortcut_is_free(Edge& edge) const {
+  if (edge.shortcut_sight == Edge::Sight::unknown) {
+    const Position& from = place_at(source_of(edge, EdgeKind::shortcut)).position;
+    const Position& to = state_.places[edge.target].position;
+    const bool free = instance_.sight().may_sweep(from, to, motion_.radius);
+    edge.shortcut_sight = free ? Edge::Sight::free : Edge::Sight::blocked;
+  }
+  return edge.shortcut_sight == Edge::Sight::free;
+}
+
+/// The earliest departure that arrives in the entry's interval before it would be dominated.
+std::optional<double> Search::earliest_departure(const OpenEntry& entry) {
+  const Edge& edge = state_.edges[entry.edge];
+  const Move& move = edge.move(entry.kind);
+  SafeInterval target = state_.intervals[entry.interval];
+  const double dominated_from = state_.dominance.dominated_from(entry.interval, move.heading);
+  if (dominated_from < target.end) {
+    target.end = dominated_from;
+    state_.incomplete = state_.incomplete || use_slack_;
+  }
+  const Segment path{place_at(source_of(edge, entry.kind)).position, state_.places[edge.target].position};
+  return timing_.earliest(move, path, target);
+}
+
+/// Returns whether another arrival makes this one superfluous. Records it if only the quick pass thinks so.
+inline bool Search::is_dominated(int interval, double arrival, double heading, double f) {
+  if (state_.dominance.empty(interval)) return false;
+  // One label per interval suffices as long as the goal is not free yet.
+  const bool waiting = pass_ == Pass::quick && f <= state_.goal_free_from;
+  const bool dominated =
+      waiting || state_.dominance.dominated_from(interval, heading) <= arrival + kSameTime ||
+      (motion_.wait_before_move > 0.0 && state_.dominance.contains(interval, arrival, heading));
+  state_.incomplete = state_.incomplete || (dominated && (waiting || use_slack_));
+  return dominated;
+}
+
+inline Search::Evaluation Search::evaluate(PlaceId place, int interval, double arrival,
+                                           double heading) const {
+  const double h = to_go(place, heading);
+  const double cost = std::max(arrival + h, state_.goal_free_from);
+  // An arrival at the goal that suffices goes first: while the goal is not free, all f are equal otherwise.
+  if (is_final(place, interval)) return {cost / (1.0 + limits_.suboptimality), h, cost};
+  return {std::max(arrival + limits_.heuristic_weight * h, state_.goal_free_from), h, cost};
+}
+
+/// h: an estimate of the seconds from an arrival to rest in the goal pose, without other robots.
+inline double Search::to_go(PlaceId place, double heading) const {
+  if (place == state_.goal) {
+    const auto& goal = *instance_.robot(robot_).goal;
+    return goal.theta ? motion_.rotation_time(heading, *goal.theta) : 0.0;
+  }
+  const CostToGo::Estimate& estimate = state_.places[place].estimate;
+  return estimate.seconds + motion_.rotation_time(heading, estimate.heading);
+}
+
+/// The place of a vertex, with its safe intervals; computed when the vertex is reached first.
+PlaceId Search::place_of(int vertex) {
+  PlaceId& known = state_.place_of_vertex[vertex];
+  if (known != PlaceId::none) return known;
+  Place place{vertex, vertices_.position(vertex), {}, state_.intervals.next_index(), 0};
+  if (vertex != vertices_.goal()) place.estimate = cost_to_go_.from(vertex, stop_);
+  for (const SafeInterval& safe : table_.safe_intervals(robot_, place.position)) {
+    state_.intervals.push_back(safe);
+  }
+  place.end_interval = state_.intervals.next_index();
+  state_.dominance.set_interval_count(state_.intervals.size());
+  known = state_.places.push_back(place);
+  return known;
+}
+
+/// The path to the goal. Moves that continue straight without a stop are joined.
+Trajectory Search::trajectory() const {
+  std::vector<LabelId> path;
+  for (LabelId id = state_.goal_label; id != LabelId::none; id = state_.labels[id].parent) path.push_back(id);
+  std::reverse(path.begin(), path.end());
   Trajectory trajectory;
-  trajectory.start = places_[static_cast<std::size_t>(way.front()->place)].position;
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    const Position& to = places_[static_cast<std::size_t>(way[i]->place)].position;
-    const bool goes_on = i > 1 && way[i]->departure == way[i - 1]->arrival &&
-                         angle_between(way[i - 1]->heading, way[i]->heading) <= kSameHeading;
-    if (goes_on) {
-      trajectory.moves.back().path.to = to;
-      trajectory.moves.back().t_end = way[i]->arrival;
+  trajectory.start = place_at(path.front()).position;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Label& from = state_.labels[path[i - 1]];
+    const Label& to = state_.labels[path[i]];
+    const Position& target = state_.places[to.place].position;
+    const bool continues =
+        i > 1 && to.departure == from.arrival && angle_between(from.heading, to.heading) <= kSameHeading;
+    if (continues) {
+      trajectory.moves.back().path.to = target;
+      trajectory.moves.back().t_end = to.arrival;
     } else {
-      const Position& from = places_[static_cast<std::size_t>(way[i - 1]->place)].position;
-      trajectory.moves.push_back({{from, to}, way[i]->departure, way[i]->arrival});
+      trajectory.moves.push_back({{state_.places[from.place].position, target}, to.departure, to.arrival});
     }
   }
-  const Label& last = *way.back();
+  const Label& last = state_.labels[path.back()];
   trajectory.cost = last.arrival + to_go(last.place, last.heading);
   return trajectory;
+}
+
+}  // namespace
+
+SearchResult AaSipp::run(std::size_t robot, const Vertices& vertices, CostToGo& cost_to_go,
+                         const SearchLimits& limits, const StopCondition& stop) {
+  Search search(instance_, table_, robot, vertices, cost_to_go, limits, stop, std::move(state_));
+  Outcome outcome = search.run(Pass::quick);
+  if (outcome == Outcome::incomplete && limits.thorough) outcome = search.run(Pass::complete);
+  SearchResult result;
+  if (outcome == Outcome::found) result.trajectory = search.trajectory();
+  result.complete = outcome != Outcome::stopped;
+  result.expansions = search.expansions();
+  state_ = search.take_state();
+  return result;
 }
 
 }  // namespace fleetplan::core

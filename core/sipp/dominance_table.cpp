@@ -9,38 +9,38 @@
 
 namespace fleetplan::core {
 
-void DominanceTable::begin(const Motion& motion, double slack) {
+void DominanceTable::reset(const Motion& motion, double slack) {
   motion_ = &motion;
   slack_ = slack;
   first_.clear();
   arrivals_.clear();
 }
 
-double DominanceTable::needless_from(int interval, double heading) const {
+double DominanceTable::dominated_from(int interval, double heading) const {
   double from = kForever;
-  for (int a = first_[static_cast<std::size_t>(interval)]; a >= 0;) {
-    const Arrival& arrival = arrivals_[static_cast<std::size_t>(a)];
+  for (ArrivalId id = first_[interval]; id != ArrivalId::none;) {
+    const Arrival& arrival = arrivals_[id];
     const double ready = motion_->rotation_time(arrival.heading, heading) + motion_->wait_before_move;
     from = std::min(from, arrival.time + (slack_ > 0.0 ? -slack_ : ready));
-    a = arrival.next;
+    id = arrival.next;
   }
   return from;
 }
 
-bool DominanceTable::has(int interval, double time, double heading) const {
-  for (int a = first_[static_cast<std::size_t>(interval)]; a >= 0;) {
-    const Arrival& arrival = arrivals_[static_cast<std::size_t>(a)];
+bool DominanceTable::contains(int interval, double time, double heading) const {
+  for (ArrivalId id = first_[interval]; id != ArrivalId::none;) {
+    const Arrival& arrival = arrivals_[id];
     if (std::abs(arrival.time - time) <= kSameTime && angle_between(arrival.heading, heading) <= kSameHeading)
       return true;
-    a = arrival.next;
+    id = arrival.next;
   }
   return false;
 }
 
-int DominanceTable::add(int interval, double time, double heading) {
-  int* link = &first_[static_cast<std::size_t>(interval)];
-  while (*link >= 0) {
-    Arrival& arrival = arrivals_[static_cast<std::size_t>(*link)];
+ArrivalId DominanceTable::add(int interval, double time, double heading) {
+  ArrivalId* link = &first_[interval];
+  while (*link != ArrivalId::none) {
+    Arrival& arrival = arrivals_[*link];
     const double ready = motion_->rotation_time(heading, arrival.heading) + motion_->wait_before_move;
     if (time + ready <= arrival.time) {
       arrival.dominated = true;
@@ -49,10 +49,8 @@ int DominanceTable::add(int interval, double time, double heading) {
       link = &arrival.next;
     }
   }
-  const int number = static_cast<int>(arrivals_.size());
-  *link = number;
-  arrivals_.push_back({time, heading, -1, false});
-  return number;
+  *link = arrivals_.next_index();
+  return arrivals_.push_back({time, heading, ArrivalId::none, false});
 }
 
 }  // namespace fleetplan::core

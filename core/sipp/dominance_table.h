@@ -1,51 +1,53 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "core/instance.h"
+#include "core/runtime/indexed_vector.h"
 
 namespace fleetplan::core {
 
-/// One robot's arrivals in safe intervals that others are measured by. Arrival a dominates b of the same
-/// interval if a's time plus the rotation from a's heading to b's, and the added wait if there is one, is no
-/// later than b's time.
+enum class ArrivalId : int { none = -1 };
+
+/// The arrivals of one robot in safe intervals that no other arrival dominates. Arrival a dominates arrival b
+/// in the same interval if a's time, plus the rotation from a's heading to b's, plus the added wait before a
+/// move, is no later than b's time.
 class DominanceTable {
  public:
-  /// Forgets all, for a search of a robot that moves so. `slack` > 0: an arrival that is earlier than another
-  /// by less (seconds) is no better, whatever its heading; 0: only domination counts.
-  void begin(const Motion& motion, double slack);
+  /// Removes all arrivals and intervals, for a search with this motion. `slack` > 0: an arrival also
+  /// dominates others that precede it by less than `slack` seconds, whatever their heading.
+  void reset(const Motion& motion, double slack);
 
-  /// Intervals are numbered from 0 and this is how many there are; never fewer than before.
-  void set_interval_count(std::size_t count) { first_.resize(count, -1); }
+  /// Intervals are numbered from 0. The count never decreases until reset().
+  void set_interval_count(std::size_t count) { first_.resize(count, ArrivalId::none); }
 
-  bool none_in(int interval) const { return first_[static_cast<std::size_t>(interval)] < 0; }
+  bool empty(int interval) const { return first_[interval] == ArrivalId::none; }
 
-  /// DominanceTable with this heading are no better than a known one from then on. Who arrives earlier may
-  /// have to make the added wait that a later one, which passes on, does without.
-  double needless_from(int interval, double heading) const;
+  /// The time from which arrivals with this heading are dominated. The added wait counts: an earlier arrival
+  /// may need it, a later one that continues straight does not.
+  double dominated_from(int interval, double heading) const;
 
-  /// Is the same arrival known?
-  bool has(int interval, double time, double heading) const;
+  /// Returns whether an arrival at the same time with the same heading is in the table.
+  bool contains(int interval, double time, double heading) const;
 
-  /// Adds an arrival and strikes out those that it dominates; its number.
-  int add(int interval, double time, double heading);
+  /// Adds an arrival and removes those that it dominates.
+  ArrivalId add(int interval, double time, double heading);
 
-  /// Was the arrival of this number struck out?
-  bool dominated(int arrival) const { return arrivals_[static_cast<std::size_t>(arrival)].dominated; }
+  /// Returns whether this arrival was removed because one added after it dominates it.
+  bool is_dominated(ArrivalId arrival) const { return arrivals_[arrival].dominated; }
 
  private:
   struct Arrival {
     double time;
     double heading;
-    int next;  // of the same interval, or -1
+    ArrivalId next;  // in the same interval
     bool dominated;
   };
 
   const Motion* motion_ = nullptr;
   double slack_ = 0.0;
-  std::vector<int> first_;  // by interval, or -1
-  std::vector<Arrival> arrivals_;
+  IndexedVector<ArrivalId> first_;  // by interval
+  IndexedVector<Arrival, ArrivalId> arrivals_;
 };
 
 }  // namespace fleetplan::core

@@ -10,61 +10,60 @@
 
 namespace fleetplan::core {
 
-/// Where a move starts from.
-struct Standing {
+/// The state of a robot at the source of a move.
+struct MoveSource {
   double arrival = 0.0;  // seconds
   double heading = 0.0;
-  bool moving = false;    // it arrives by a translation along `heading`
-  SafeInterval interval;  // in which it stands there
+  bool by_translation = false;  // it arrived by a translation along `heading`
+  SafeInterval interval;        // during which it may stand there
 };
 
-/// A straight move that a robot may make from where it stands, into whichever interval of the place it leads
-/// to.
+/// A straight move from a source, into any safe interval of its target.
 struct Move {
   double heading = 0.0;
-  double duration = 0.0;      // seconds, > 0
-  double ready = 0.0;         // when the robot has turned and waited
-  double latest = 0.0;        // when the source's interval ends
-  bool passes_on = false;     // it may depart at `arrival` instead, as it arrives in the move's direction
-  double arrival = kForever;  // at the source
+  double duration = 0.0;            // seconds, > 0
+  double ready = 0.0;               // earliest departure after the rotation and the added wait
+  double latest = 0.0;              // latest departure: the end of the source's safe interval
+  bool continues_straight = false;  // may depart at `arrival` already: the translation before has its heading
+  double arrival = kForever;        // at the source
 };
 
-/// When one robot's moves may depart: after the rotation and the added wait, within the safe intervals of
-/// both ends, clear of everybody on the way. A robot that arrives in the direction of its next move may go on
-/// without the added wait, as both are one translation then.
+/// Departures of one robot's moves (paper, "Estimating the feasibility of the move w.r.t. dynamic obstacles
+/// and computing earliest arrival time" and "Handling rotations"). A move departs after the rotation and the
+/// added wait, within the source's safe interval, arrives within the target's, and touches nobody on the way.
+/// A move that continues straight after a translation needs no added wait, as both are one translation.
 class EdgeTiming {
  public:
   EdgeTiming(const Motion& motion, const ReservationTable& table, std::size_t robot)
       : motion_(motion), table_(table), robot_(robot) {}
 
   /// The move by `distance` metres (> 0) along `heading`.
-  Move move(const Standing& from, double heading, double distance) const {
+  Move move(const MoveSource& from, double heading, double distance) const {
     Move move;
     move.heading = heading;
     move.duration = motion_.translation_time(distance);
     move.ready = from.arrival + motion_.rotation_time(from.heading, heading) + motion_.wait_before_move;
     move.latest = from.interval.end;
-    move.passes_on =
-        from.moving && motion_.wait_before_move > 0.0 && angle_between(from.heading, heading) <= kSameHeading;
+    move.continues_straight = from.by_translation && motion_.wait_before_move > 0.0 &&
+                              angle_between(from.heading, heading) <= kSameHeading;
     move.arrival = from.arrival;
     return move;
   }
 
-  /// The earliest departure that rotation, waits and safe intervals allow, without regard to those on the
-  /// way; kForever if there is none.
-  static double optimistic(const Move& move, const SafeInterval& target) {
+  /// A lower bound of the departure, without regard to robots on the way; kForever if the move is impossible.
+  static double lower_bound(const Move& move, const SafeInterval& target) {
     const double latest = std::min(move.latest, target.end - move.duration);
-    if (passes_on(move, target, latest)) return move.arrival;
+    if (may_continue(move, target, latest)) return move.arrival;
     const double begin = std::max(move.ready, target.begin - move.duration);
     return begin <= latest ? begin : kForever;
   }
 
-  /// The earliest departure along `path`; none if there is none.
+  /// The earliest departure along `path`, if there is one.
   std::optional<double> earliest(const Move& move, const Segment& path, const SafeInterval& target) const;
 
  private:
-  static bool passes_on(const Move& move, const SafeInterval& target, double latest) {
-    return move.passes_on && move.arrival + move.duration >= target.begin && move.arrival <= latest;
+  static bool may_continue(const Move& move, const SafeInterval& target, double latest) {
+    return move.continues_straight && move.arrival + move.duration >= target.begin && move.arrival <= latest;
   }
 
   const Motion& motion_;

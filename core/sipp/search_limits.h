@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "core/geometry/segment.h"
+#include "core/model/trajectory.h"
+
+namespace fleetplan::core {
+
+/// What the search for one robot may settle for.
+struct SearchLimits {
+  double bound = kForever;        // seconds; only trajectories that cost less are accepted
+  double heuristic_weight = 1.2;  // >= 1; weight of h in f = g + weight * h (weighted A*; Pohl, 1970)
+  double suboptimality = 0.01;    // accepts a path to the goal that costs at most (1 + this) * the smallest f
+  double suboptimality_growth = 1e-4;  // added to `suboptimality` with every expansion
+  /// An arrival that precedes another one in its safe interval by less than the time to translate by this
+  /// many lattice spacings counts as dominated, whatever its heading. 0: exact dominance only.
+  double dominance_slack = 0.5;
+  double start_delay = 0.0;  // seconds, >= 0; the robot stays at its start at least this long
+  /// Search again with exact dominance if the quick search finds nothing. The quick search applies
+  /// `dominance_slack`, and keeps only one label per safe interval while f is below the time from which the
+  /// goal is free.
+  bool thorough = true;
+  /// Of both searches together; a search that needs more ends as not complete.
+  std::int64_t max_expansions = std::numeric_limits<std::int64_t>::max();
+};
+
+/// The result of a search for one robot.
+struct SearchResult {
+  std::optional<Trajectory> trajectory;
+  /// Without a trajectory: true if the lattice offers none that costs less than the bound, false if the
+  /// search was cut off.
+  bool complete = true;
+  std::int64_t expansions = 0;
+};
+
+}  // namespace fleetplan::core

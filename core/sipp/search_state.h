@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/geometry/interval.h"
+#include "core/geometry/position.h"
+#include "core/runtime/indexed_vector.h"
+#include "core/sipp/cost_to_go.h"
+#include "core/sipp/dominance_table.h"
+#include "core/sipp/edge_timing.h"
+#include "core/sipp/open_list.h"
+
+namespace fleetplan::core {
+
+enum class PlaceId : int { none = -1 };
+enum class LabelId : int { none = -1 };
+
+/// A vertex that the search has reached, with its safe intervals (paper, "Computing intervals").
+struct Place {
+  int vertex;
+  Position position;
+  CostToGo::Estimate estimate;
+  int first_interval;  // of SearchState::intervals
+  int end_interval;    // one past the last one
+
+  bool never_safe() const { return first_interval == end_interval; }
+};
+
+/// A settled state of the search: a place, one of its safe intervals and a heading, with the arrival g.
+struct Label {
+  double arrival;
+  double heading;
+  double departure;  // from the parent
+  LabelId parent;    // none at the start
+  PlaceId place;
+  int interval;
+};
+
+/// The two ways to reach a place when a label is expanded: from the label or, any-angle, from its parent.
+struct Edge {
+  enum class Sight : std::uint8_t { unknown, free, blocked };
+
+  Move local;
+  Move shortcut;
+  LabelId via;  // the label that is expanded
+  PlaceId target;
+  Sight shortcut_sight;  // blocked if there is no shortcut
+
+  const Move& move(EdgeKind kind) const { return kind == EdgeKind::shortcut ? shortcut : local; }
+};
+
+/// The state of one search.
+struct SearchState {
+  IndexedVector<PlaceId> place_of_vertex;  // none for vertices that were not reached
+  IndexedVector<Place, PlaceId> places;
+  IndexedVector<SafeInterval> intervals;  // of all places
+  IndexedVector<Label, LabelId> labels;
+  IndexedVector<Edge, EdgeId> edges;
+  OpenList open;
+  DominanceTable dominance;
+  PlaceId goal = PlaceId::none;
+  double goal_free_from = 0.0;              // begin of the goal's last safe interval
+  EntryId best_goal_entry = EntryId::none;  // the cheapest timed entry that reaches the goal for good
+  double best_goal_cost = kForever;
+  LabelId goal_label = LabelId::none;
+  bool incomplete = false;  // discarded a move that exact dominance would have kept
+
+  /// Prepares for another search; keeps the memory.
+  void clear() {
+    for (const Place& place : places) place_of_vertex[place.vertex] = PlaceId::none;
+    places.clear();
+    intervals.clear();
+    labels.clear();
+    edges.clear();
+    open.clear();
+    goal = PlaceId::none;
+    best_goal_entry = EntryId::none;
+    best_goal_cost = kForever;
+    goal_label = LabelId::none;
+    incomplete = false;
+  }
+};
+
+}  // namespace fleetplan::core
