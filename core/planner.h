@@ -10,13 +10,20 @@
 namespace fleetplan::core {
 
 /// Plans collision-free timed motions for all robots of the problem (paper, Method), or for as many as it can
-/// until the stop condition is met. The same problem, options and build give the same plan unless
-/// `deterministic` is false; the executor's threads make `anytime` faster and change nothing else, and
-/// neither does the observer, if there is one.
+/// until the stop condition is met:
+///
+///   triage                    robots that cannot move whatever the others do
+///   prioritized planning      a first plan; a safe partial plan if it fails
+///   lower bounds              of each robot alone on the map
+///   large neighbourhood search  in mode `anytime`, until the stop condition is met
+///   collect                   trajectories as actions
+///
+/// The same problem, options and build give the same plan unless `deterministic` is false. The executor's
+/// threads make `anytime` faster; neither they nor the observer, which may be null, change the plan.
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop, Executor& executor,
           Observer* observer = nullptr);
 
-/// In the caller's thread, and nobody watches.
+/// In the caller's thread, without an observer.
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -63,7 +63,7 @@ class Improving {
         stop_(stop),
         firsts_(state.instance().size()) {}
 
-  Improvement run(std::int64_t max_iterations, const BeforeRound& before_round) {
+  LnsResult run(std::int64_t max_iterations, const BeforeRound& before_round) {
     while (max_iterations > 0 && !at_lower_bound() && !result_.cut_off) {
       const std::int64_t count = std::min(kRound, max_iterations);
       max_iterations -= count;
@@ -195,14 +195,14 @@ class Improving {
   AdaptiveChoice sizes_{kSizes.size()};
   AdaptiveChoice efforts_{kEfforts.size()};
   DelayedChoice firsts_;
-  Improvement result_;
+  LnsResult result_;
 };
 
 }  // namespace
 
-Improvement improve(PlanState& state, const std::vector<std::size_t>& movers, const TautBounds& bounds,
-                    Random& random, Executor& executor, const StopCondition& stop,
-                    const BeforeRound& before_round) {
+LnsResult large_neighbourhood_search(PlanState& state, const std::vector<std::size_t>& movers,
+                                     const TautBounds& bounds, Random& random, Executor& executor,
+                                     const StopCondition& stop, const BeforeRound& before_round) {
   std::vector<std::size_t> planned;
   for (const std::size_t robot : movers) {
     if (state.trajectory(robot)) planned.push_back(robot);

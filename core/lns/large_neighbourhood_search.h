@@ -13,14 +13,14 @@
 
 namespace fleetplan::core {
 
-struct Improvement {
+struct LnsResult {
   std::int64_t improvements = 0;  // how often the plan became better
   std::int64_t expansions = 0;    // labels expanded
   bool cut_off = false;           // the clock ended it
 };
 
 /// Called by the caller's thread before every round: the state follows what was found so far.
-using BeforeRound = std::function<void(const Improvement& so_far)>;
+using BeforeRound = std::function<void(const LnsResult& so_far)>;
 
 /// Makes the plan better by adaptive large neighbourhood search (Li et al., MAPF-LNS, IJCAI 2021): chooses a
 /// delayed robot and some others, reroutes it at their expense, and keeps the result if the objective of the
@@ -32,8 +32,8 @@ using BeforeRound = std::function<void(const Improvement& so_far)>;
 /// Works in rounds of a fixed number of iterations that all begin with the same plan and may run on several
 /// threads of the executor; what they found is adopted in their order, unless it clashes with what was
 /// adopted before in the round. So the number of threads changes nothing but the speed.
-Improvement improve(PlanState& state, const std::vector<std::size_t>& movers, const TautBounds& bounds,
-                    Random& random, Executor& executor, const StopCondition& stop,
-                    const BeforeRound& before_round = nullptr);
+LnsResult large_neighbourhood_search(PlanState& state, const std::vector<std::size_t>& movers,
+                                     const TautBounds& bounds, Random& random, Executor& executor,
+                                     const StopCondition& stop, const BeforeRound& before_round = nullptr);
 
 }  // namespace fleetplan::core

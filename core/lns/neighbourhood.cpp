@@ -101,7 +101,7 @@ std::vector<double> Neighbourhoods::distances_to_goal(std::size_t first, Random&
 }
 
 const Trajectory& Neighbourhoods::alone(std::size_t robot) {
-  if (!alone_[robot]) alone_[robot] = state_.alone(robot, stop_);
+  if (!alone_[robot]) alone_[robot] = state_.plan_alone(robot, stop_);
   return *alone_[robot];
 }
 

@@ -34,7 +34,7 @@ Replica::Replica(const Problem& problem, const PlanOptions& options, const Incum
   std::vector<bool> stands(own_fleet_->size(), true);
   for (const std::size_t robot : incumbent.planned()) stands[robot] = false;
   for (std::size_t robot = 0; robot < stands.size(); ++robot) {
-    if (stands[robot]) state_->stand_for_ever(robot);
+    if (stands[robot]) state_->stay_at_start(robot);
   }
 }
 
@@ -43,7 +43,7 @@ void Replica::catch_up() {
   for (const std::size_t robot : incumbent_.planned()) {
     if (versions_[robot] != incumbent_.version(robot)) behind.push_back(robot);
   }
-  for (const std::size_t robot : behind) state_->leave(robot);
+  for (const std::size_t robot : behind) state_->remove(robot);
   for (const std::size_t robot : behind) {
     state_->follow(robot, incumbent_.trajectory(robot));
     versions_[robot] = incumbent_.version(robot);

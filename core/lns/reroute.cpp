@@ -17,7 +17,7 @@ class Reroute {
 
   Rerouting run() {
     const bool found = plan_queue();
-    for (const Change::Part& part : before_) state_.leave(part.robot);
+    for (const Change::Part& part : before_) state_.remove(part.robot);
     for (Change::Part& part : before_) state_.follow(part.robot, std::move(part.trajectory));
     Rerouting result{std::nullopt, searches_, expansions_};
     if (found) result.change = std::move(change_);

@@ -12,14 +12,13 @@ namespace fleetplan::core {
 
 struct PartialPlan {
   std::vector<Unplanned> unplanned;  // ascending
-  bool cut_off = false;
+  bool cut_off = false;              // the stop condition decided something
 };
 
-/// Makes a safe partial plan. Robots of `unsolved` may have a trajectory, those of `given_up` stand at
-/// their starts already. At first all without a trajectory stand for ever, and so do robots whose
-/// trajectories cross a standing one; then they are planned again one after the other among everybody,
-/// standing robots included, as long as that gets anybody a trajectory. So the plan is safe at any moment;
-/// once `stop` is met, nothing is searched any more.
+/// Makes a safe partial plan. Robots of `unsolved` may have a trajectory; those of `given_up` stay at their
+/// starts already. First, all robots without a trajectory stay at their starts, and so do robots whose
+/// trajectories conflict with one that stays. Then those that stay are planned again one by one, as long as
+/// that gives a robot a trajectory. The plan is safe after every step; once `stop` is met, no search starts.
 PartialPlan make_partial_plan(PlanState& state, const std::vector<std::size_t>& unsolved,
                               const std::vector<std::size_t>& given_up, const StopCondition& stop,
                               ProgressReport& progress);

@@ -5,8 +5,8 @@
 namespace fleetplan::core {
 namespace {
 
-/// Memory for the robots' costs-to-go; beyond it they are computed again.
-constexpr std::size_t kMaxGuideBytes = std::size_t{384} << 20;
+/// Memory for the robots' costs-to-go; beyond it they are discarded and computed again.
+constexpr std::size_t kMaxSearchSpaceBytes = std::size_t{384} << 20;
 
 std::vector<double> radii(const Instance& instance) {
   std::vector<double> radii;
@@ -23,57 +23,57 @@ PlanState::PlanState(const Instance& instance)
              instance.problem().grid().resolution(), radii(instance)),
       search_(instance, table_),
       trajectories_(instance.size()),
-      guides_(instance.size()) {}
+      search_spaces_(instance.size()) {}
 
-Trajectory PlanState::standing(std::size_t robot) const {
+Trajectory PlanState::staying(std::size_t robot) const {
   return {instance_.robot(robot).start.position, {}, 0.0};
 }
 
 void PlanState::reserve(std::size_t robot, const std::vector<TimedSegment>& segments) {
-  leave(robot);
+  remove(robot);
   table_.commit(robot, segments);
 }
 
-void PlanState::leave(std::size_t robot) {
+void PlanState::remove(std::size_t robot) {
   table_.remove(robot);
-  if (trajectories_[robot]) --following_;
+  if (trajectories_[robot]) --planned_count_;
   trajectories_[robot].reset();
 }
 
 void PlanState::follow(std::size_t robot, Trajectory trajectory) {
   reserve(robot, timed_segments(trajectory));
   trajectories_[robot] = std::move(trajectory);
-  ++following_;
+  ++planned_count_;
 }
 
-void PlanState::stand_for_ever(std::size_t robot) { reserve(robot, timed_segments(standing(robot))); }
+void PlanState::stay_at_start(std::size_t robot) { reserve(robot, timed_segments(staying(robot))); }
 
-void PlanState::block_start(std::size_t robot, double seconds) {
+void PlanState::reserve_start(std::size_t robot, double seconds) {
   const Position start = instance_.robot(robot).start.position;
-  leave(robot);
+  remove(robot);
   if (seconds > 0.0) table_.commit(robot, {{{start, start}, 0.0, seconds}});
 }
 
-PlanState::Guide& PlanState::guide(std::size_t robot) {
-  if (!guides_[robot]) {
-    forget_other_guides(robot);
-    guides_[robot] = std::make_unique<Guide>(instance_, robot);
+PlanState::SearchSpace& PlanState::search_space(std::size_t robot) {
+  if (!search_spaces_[robot]) {
+    discard_search_spaces_except(robot);
+    search_spaces_[robot] = std::make_unique<SearchSpace>(instance_, robot);
   }
-  return *guides_[robot];
+  return *search_spaces_[robot];
 }
 
-void PlanState::forget_other_guides(std::size_t robot) {
+void PlanState::discard_search_spaces_except(std::size_t robot) {
   std::size_t bytes = 0;
-  for (const auto& guide : guides_) bytes += guide ? guide->cost_to_go.bytes() : 0;
-  if (bytes < kMaxGuideBytes) return;
-  for (std::size_t i = 0; i < guides_.size(); ++i) {
-    if (i != robot) guides_[i].reset();
+  for (const auto& space : search_spaces_) bytes += space ? space->cost_to_go.bytes() : 0;
+  if (bytes < kMaxSearchSpaceBytes) return;
+  for (std::size_t i = 0; i < search_spaces_.size(); ++i) {
+    if (i != robot) search_spaces_[i].reset();
   }
 }
 
 SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
-  Guide& g = guide(robot);
-  SearchResult result = search_.run(robot, g.vertices, g.cost_to_go, limits, stop);
+  SearchSpace& space = search_space(robot);
+  SearchResult result = search_.run(robot, space.vertices, space.cost_to_go, limits, stop);
   expansions_ += result.expansions;
   return result;
 }
@@ -87,20 +87,21 @@ SearchResult PlanState::plan_ignoring(const std::vector<std::size_t>& ignored, s
 }
 
 bool PlanState::goal_reachable(std::size_t robot, const StopCondition& stop) {
-  if (stop.met()) return true;  // not known
-  Guide& g = guide(robot);
-  return g.vertices.start() == g.vertices.goal() ||
-         g.cost_to_go.from(g.vertices.start(), stop).seconds < kForever;
+  if (stop.met()) return true;
+  SearchSpace& space = search_space(robot);
+  const Vertices& vertices = space.vertices;
+  return vertices.start() == vertices.goal() ||
+         space.cost_to_go.from(vertices.start(), stop).seconds < kForever;
 }
 
-Trajectory PlanState::alone(std::size_t robot, const StopCondition& stop) {
+Trajectory PlanState::plan_alone(std::size_t robot, const StopCondition& stop) {
   const OccupancyGrid& grid = instance_.problem().grid();
-  const ReservationTable nobody(grid.width(), grid.height(), grid.width(),
-                                radii(instance_));  // coarse, as it is empty
-  Guide& g = guide(robot);
-  AaSipp search(instance_, nobody);
-  SearchResult result = search.run(robot, g.vertices, g.cost_to_go, {}, stop);
-  return result.trajectory ? std::move(*result.trajectory) : standing(robot);
+  const double cell_size = grid.width();  // coarse, as the table stays empty
+  const ReservationTable empty(grid.width(), grid.height(), cell_size, radii(instance_));
+  SearchSpace& space = search_space(robot);
+  AaSipp search(instance_, empty);
+  SearchResult result = search.run(robot, space.vertices, space.cost_to_go, {}, stop);
+  return result.trajectory ? std::move(*result.trajectory) : staying(robot);
 }
 
 std::vector<std::size_t> PlanState::conflicting_robots(std::size_t robot,
@@ -108,8 +109,8 @@ std::vector<std::size_t> PlanState::conflicting_robots(std::size_t robot,
   return table_.robots_hit(robot, timed_segments(trajectory));
 }
 
-std::vector<std::size_t> PlanState::robots_conflicting_with_standing(std::size_t robot) const {
-  return conflicting_robots(robot, standing(robot));
+std::vector<std::size_t> PlanState::robots_crossing_start(std::size_t robot) const {
+  return conflicting_robots(robot, staying(robot));
 }
 
 }  // namespace fleetplan::core

@@ -16,62 +16,66 @@
 
 namespace fleetplan::core {
 
-/// Who is where at the moment: every robot holds a trajectory, or stands at its start for ever, or blocks its
-/// start for a while, or is not there at all (as at first). Plans one robot among all the others.
+/// The reservations of all robots while a plan is made. A robot has one of: a trajectory, a reservation of
+/// its start for ever, a reservation of its start for some time, or none (the initial state). Plans one robot
+/// among the reservations of the others (paper, section Prioritized planning).
 class PlanState {
  public:
   explicit PlanState(const Instance& instance);
 
   const Instance& instance() const { return instance_; }
 
-  /// Each of these replaces what the robot held before.
+  /// Each of these replaces the robot's reservation.
   void follow(std::size_t robot, Trajectory trajectory);
-  void stand_for_ever(std::size_t robot);
-  void block_start(std::size_t robot, double seconds);
-  void leave(std::size_t robot);
+  void stay_at_start(std::size_t robot);
+  void reserve_start(std::size_t robot, double seconds);
+  void remove(std::size_t robot);
 
-  /// The trajectory that the robot follows, if it does.
+  /// None for a robot that does not follow a trajectory.
   const std::optional<Trajectory>& trajectory(std::size_t robot) const { return trajectories_[robot]; }
 
-  /// How many robots follow a trajectory.
-  std::size_t following() const { return following_; }
+  /// The number of robots that follow a trajectory.
+  std::size_t planned_count() const { return planned_count_; }
 
-  /// Plans a robot (with a goal) that has left; changes nobody's reservation.
+  /// Plans a robot that has a goal and no reservation; changes no reservation.
   SearchResult plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
-  /// The same as if the robots of `ignored` were not there.
+  /// The same without the reservations of the robots of `ignored`.
   SearchResult plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,
                              const SearchLimits& limits, const StopCondition& stop);
 
-  /// May the robot reach its goal on the static map? True when `stop` was met before that was known.
+  /// Whether the static map has a path to the robot's goal; true if `stop` is met before that is known.
   bool goal_reachable(std::size_t robot, const StopCondition& stop);
-  /// The path that the robot would take if it were alone, without regard to time beyond its start.
-  Trajectory alone(std::size_t robot, const StopCondition& stop);
+  /// The trajectory of the robot alone on the map; it stays at its start if there is none.
+  Trajectory plan_alone(std::size_t robot, const StopCondition& stop);
 
-  /// The robots in the way of a trajectory, or of standing at the start for ever; ascending.
+  /// The robots whose reservations conflict with the trajectory, ascending.
   std::vector<std::size_t> conflicting_robots(std::size_t robot, const Trajectory& trajectory) const;
-  std::vector<std::size_t> robots_conflicting_with_standing(std::size_t robot) const;
+  /// The robots whose reservations conflict with the robot's staying at its start, ascending.
+  std::vector<std::size_t> robots_crossing_start(std::size_t robot) const;
 
+  /// Of all searches among reservations.
   std::int64_t expansions() const { return expansions_; }
 
  private:
-  struct Guide {
+  /// What a search for one robot needs of the static map.
+  struct SearchSpace {
     Vertices vertices;
     CostToGo cost_to_go;
-    Guide(const Instance& instance, std::size_t robot)
+    SearchSpace(const Instance& instance, std::size_t robot)
         : vertices(instance, robot), cost_to_go(instance, robot, vertices) {}
   };
 
-  Guide& guide(std::size_t robot);
-  void forget_other_guides(std::size_t robot);
+  SearchSpace& search_space(std::size_t robot);
+  void discard_search_spaces_except(std::size_t robot);
   void reserve(std::size_t robot, const std::vector<TimedSegment>& segments);
-  Trajectory standing(std::size_t robot) const;
+  Trajectory staying(std::size_t robot) const;
 
   const Instance& instance_;
   ReservationTable table_;
   AaSipp search_;
   std::vector<std::optional<Trajectory>> trajectories_;
-  std::size_t following_ = 0;
-  std::vector<std::unique_ptr<Guide>> guides_;
+  std::size_t planned_count_ = 0;
+  std::vector<std::unique_ptr<SearchSpace>> search_spaces_;  // by robot, created on first use
   std::int64_t expansions_ = 0;
 };
 

@@ -9,8 +9,8 @@
 namespace fleetplan::core {
 namespace {
 
-/// How far the way's duration counts for its length: 0 for the distance alone, 1 for the time that it takes.
-/// In the paper's halls a quarter gave the cheapest first solutions; the time fails more often in crowds.
+/// The influence of speed on a robot's rank: 0 to sort by distance, 1 to sort by travel time. In the paper's
+/// halls a quarter gave the cheapest first solutions; travel time fails more often in crowds.
 constexpr double kSpeedWeight = 0.25;
 
 /// The number of orders of `count` robots, or `limit` if that is less.
@@ -23,16 +23,18 @@ std::size_t permutations(std::size_t count, std::size_t limit) {
 }  // namespace
 
 PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> robots, Random& random) {
-  const auto length = [&](std::size_t i) {
+  const auto weighted_distance = [&](std::size_t i) {
     const double distance = (instance.robot(i).goal->position - instance.robot(i).start.position).norm();
     return distance / std::pow(instance.motion(i).linear_speed, kSpeedWeight);
   };
   switch (instance.options().priority) {
     case PlanOptions::Priority::shortest_first:
-      std::stable_sort(robots.begin(), robots.end(), [&](auto a, auto b) { return length(a) < length(b); });
+      std::stable_sort(robots.begin(), robots.end(),
+                       [&](auto a, auto b) { return weighted_distance(a) < weighted_distance(b); });
       break;
     case PlanOptions::Priority::longest_first:
-      std::stable_sort(robots.begin(), robots.end(), [&](auto a, auto b) { return length(a) > length(b); });
+      std::stable_sort(robots.begin(), robots.end(),
+                       [&](auto a, auto b) { return weighted_distance(a) > weighted_distance(b); });
       break;
     case PlanOptions::Priority::random:
       random.shuffle(robots);
@@ -50,7 +52,7 @@ double random_start_delay(const Instance& instance, const PriorityOrder& order, 
 
 OrderSequence::OrderSequence(PlanOptions::Reordering reordering, PriorityOrder first, Random& random)
     : reordering_(reordering), current_(std::move(first)), random_(random) {
-  is_new();
+  mark_tried();
 }
 
 bool OrderSequence::advance(std::size_t failed) {
@@ -58,12 +60,12 @@ bool OrderSequence::advance(std::size_t failed) {
   if (reordering_ == PlanOptions::Reordering::raise_failed) {
     const auto position = std::find(current_.begin(), current_.end(), failed);
     std::rotate(current_.begin(), position, position + 1);
-    if (is_new()) return true;
+    if (mark_tried()) return true;
   }
   const std::size_t all = permutations(current_.size(), tried_.size() + 1);
   while (tried_.size() < all) {
     random_.shuffle(current_);
-    if (is_new()) return true;
+    if (mark_tried()) return true;
   }
   return false;
 }
@@ -71,7 +73,7 @@ bool OrderSequence::advance(std::size_t failed) {
 void OrderSequence::drop(std::size_t robot) {
   std::erase(current_, robot);
   tried_.clear();
-  is_new();
+  mark_tried();
 }
 
 }  // namespace fleetplan::core

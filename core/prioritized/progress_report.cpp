@@ -9,8 +9,8 @@ ProgressReport::ProgressReport(const PlanState& state, Observer* observer)
   }
 }
 
-void ProgressReport::tell() {
-  progress_.planned = parked_ + state_.following();
+void ProgressReport::notify() {
+  progress_.planned = parked_ + state_.planned_count();
   observer_->progressed(progress_);
 }
 

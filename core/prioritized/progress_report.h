@@ -7,10 +7,10 @@
 
 namespace fleetplan::core {
 
-/// Tells an observer, if there is one, how far planning has got.
+/// Reports the progress of planning to an observer, if there is one.
 class ProgressReport {
  public:
-  /// Counts the robots that follow a trajectory in `state`. A null `observer`: nobody watches.
+  /// Counts the robots that follow a trajectory in `state`. `observer` may be null.
   ProgressReport(const PlanState& state, Observer* observer);
 
   /// Another attempt at planning all robots begins.
@@ -18,12 +18,12 @@ class ProgressReport {
     ++progress_.attempts;
     update();
   }
-  /// Other robots may follow a trajectory than before.
+  /// The number of robots with a trajectory may have changed.
   void update() {
-    if (observer_ != nullptr) tell();
+    if (observer_ != nullptr) notify();
   }
   /// There is a plan, or a better one.
-  void found(const Objectives& best) {
+  void plan_found(const Objectives& best) {
     progress_.best = best;
     update();
   }
@@ -31,7 +31,7 @@ class ProgressReport {
   Observer* observer() const { return observer_; }
 
  private:
-  void tell();
+  void notify();
 
   const PlanState& state_;
   Observer* observer_;

@@ -1,26 +1,22 @@
 #include "core/prioritized/repair.h"
 
 #include <algorithm>
-#include <limits>
-#include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace fleetplan::core {
 namespace {
 
-/// A robot that failed more often than this may be in a cycle of robots that raise each other.
-constexpr int kPatience = 3;
-/// A robot that failed more often than this is given up. In the paper's halls with 300 robots none failed
+/// A robot that fails more often than this may be in a cycle of robots that raise each other.
+constexpr int kFailuresBeforeShuffle = 3;
+/// A robot that fails more often than this is given up. In the paper's halls with 300 robots none failed
 /// more than 5 times.
-constexpr int kHopeless = 40;
-/// After so many failures, of any robots, it is quicker to start again with the larger ones first: measured
-/// in the paper's hall with rectangles and 240 to 300 robots, where 10 to 20 made no difference.
-constexpr std::int64_t kMostFailures = 15;
-/// For a first look: there are other ways out when it fails.
-constexpr SearchLimits kQuick{.thorough = false};
-/// At most so many uninvolved robots are taken back along with a cycle.
-constexpr int kMostExtra = 12;
+constexpr int kMaxFailuresOfRobot = 40;
+/// The first search of a robot is incomplete: when it fails, others follow.
+constexpr SearchLimits kQuickSearch{.thorough = false};
+/// The maximum number of robots outside a cycle whose ranks are shuffled along with it.
+constexpr int kMaxExtraRobots = 12;
 
 class Repair {
  public:
@@ -35,75 +31,76 @@ class Repair {
         failures_(state.instance().size(), 0) {
     for (std::size_t k = 0; k < order_.size(); ++k) {
       rank_[order_[k]] = static_cast<std::int64_t>(k);
-      take_back(order_[k]);
+      postpone(order_[k]);
     }
   }
 
-  /// None if there are more than `most_failures` before it is done.
-  std::optional<RepairResult> run(std::int64_t most_failures) {
+  std::optional<OrderingResult> run(std::int64_t max_failures) {
     while (!pending_.empty() && !stop_.met()) {
-      if (result_.attempts > most_failures) return std::nullopt;
+      if (result_.attempts > max_failures) return std::nullopt;
       progress_.update();
       const std::size_t robot = pending_.begin()->second;
       pending_.erase(pending_.begin());
-      state_.leave(robot);
-      SearchResult result = state_.plan(robot, kQuick, stop_);
+      state_.remove(robot);
+      SearchResult result = state_.plan(robot, kQuickSearch, stop_);
       if (result.trajectory) {
         state_.follow(robot, std::move(*result.trajectory));
         continue;
       }
-      if (result.complete) result = after_failure(robot);
+      if (result.complete) result = plan_among_fewer(robot);
       if (result.trajectory) {
-        settle(robot, std::move(*result.trajectory));
+        follow_and_postpone_conflicting(robot, std::move(*result.trajectory));
       } else if (result.complete) {
         give_up(robot);
       } else {
-        take_back(robot);
+        postpone(robot);
         break;
       }
     }
     for (const auto& [rank, robot] : pending_) result_.unsolved.push_back(robot);
+    result_.cut_off = !result_.unsolved.empty();
     return std::move(result_);
   }
 
  private:
-  void take_back(std::size_t robot) {
-    state_.block_start(robot, state_.instance().options().start_safe_interval);
+  void postpone(std::size_t robot) {
+    state_.reserve_start(robot, state_.instance().options().start_safe_interval);
     pending_.insert({rank_[robot], robot});
   }
 
-  /// Follows the trajectory and takes back whatever it crosses.
-  void settle(std::size_t robot, Trajectory trajectory) {
-    std::vector<std::size_t> crossed = state_.conflicting_robots(robot, trajectory);
+  void follow_and_postpone_conflicting(std::size_t robot, Trajectory trajectory) {
+    std::vector<std::size_t> conflicting = state_.conflicting_robots(robot, trajectory);
     state_.follow(robot, std::move(trajectory));
-    std::erase_if(crossed, [&](std::size_t other) { return !state_.trajectory(other); });
-    if (!crossed.empty() && failures_[robot] > kPatience) shuffle_ranks(robot, crossed);
-    for (const std::size_t other : crossed) take_back(other);
+    std::erase_if(conflicting, [&](std::size_t other) { return !state_.trajectory(other); });
+    if (!conflicting.empty() && failures_[robot] > kFailuresBeforeShuffle) {
+      conflicting = shuffle_ranks(robot, std::move(conflicting));
+    }
+    for (const std::size_t other : conflicting) postpone(other);
   }
 
-  /// Plans a robot that found no way among all others: among the higher ranked; or else raised to the top,
-  /// among the larger ones of them, since the smaller more easily find another way; or else among nobody.
-  SearchResult after_failure(std::size_t robot) {
+  /// Steps 1 and 2 for a robot that failed among all others. Smaller robots are ignored before larger ones,
+  /// as they find another path more easily.
+  SearchResult plan_among_fewer(std::size_t robot) {
     ++result_.attempts;
     progress_.next_attempt();
-    if (++failures_[robot] > kHopeless) return {};
+    if (++failures_[robot] > kMaxFailuresOfRobot) return {};
     const double radius = state_.instance().motion(robot).radius;
     const auto is_lower = [&](std::size_t other) { return rank_[other] > rank_[robot]; };
-    const auto lower = followers(is_lower);
-    const auto yielding = followers([&](std::size_t other) {
+    const auto lower = planned_robots(is_lower);
+    const auto lower_or_smaller = planned_robots([&](std::size_t other) {
       return is_lower(other) || state_.instance().motion(other).radius < radius;
     });
-    const auto all = followers([](std::size_t) { return true; });
+    const auto all = planned_robots([](std::size_t) { return true; });
     if (!lower.empty()) {
-      SearchResult result = state_.plan_ignoring(lower, robot, kQuick, stop_);
+      SearchResult result = state_.plan_ignoring(lower, robot, kQuickSearch, stop_);
       if (result.trajectory || !result.complete) return result;
     }
-    rank_[robot] = --top_;
-    if (yielding.size() > lower.size() && yielding.size() < all.size()) {
-      SearchResult result = state_.plan_ignoring(yielding, robot, kQuick, stop_);
+    rank_[robot] = --highest_rank_;
+    if (lower_or_smaller.size() > lower.size() && lower_or_smaller.size() < all.size()) {
+      SearchResult result = state_.plan_ignoring(lower_or_smaller, robot, kQuickSearch, stop_);
       if (result.trajectory || !result.complete) return result;
     }
-    if (failures_[robot] > kPatience) {  // those in its way may need time to get out of it
+    if (failures_[robot] > kFailuresBeforeShuffle) {  // a delay gives the others time to get out of its way
       SearchResult result = state_.plan_ignoring(
           all, robot, {.start_delay = random_start_delay(state_.instance(), order_, random_)}, stop_);
       if (result.trajectory || !result.complete) return result;
@@ -111,9 +108,9 @@ class Repair {
     return state_.plan_ignoring(all, robot, {}, stop_);
   }
 
-  /// The robots with a trajectory that fulfil the condition, by order.
+  /// The robots with a trajectory that satisfy the condition, by order.
   template <class Condition>
-  std::vector<std::size_t> followers(Condition&& condition) const {
+  std::vector<std::size_t> planned_robots(Condition&& condition) const {
     std::vector<std::size_t> found;
     for (const std::size_t other : order_) {
       if (state_.trajectory(other) && condition(other)) found.push_back(other);
@@ -121,24 +118,26 @@ class Repair {
     return found;
   }
 
-  /// Breaks a cycle: the robots involved, and some others the longer it lasts, exchange their ranks at
-  /// random.
-  void shuffle_ranks(std::size_t robot, std::vector<std::size_t>& crossed) {
-    for (int extra = std::min(failures_[robot] - kPatience, kMostExtra); extra > 0; --extra) {
+  /// Breaks a cycle: the robots that conflict with `robot`, and the more others the longer the cycle lasts,
+  /// exchange their ranks at random. Returns all of them.
+  std::vector<std::size_t> shuffle_ranks(std::size_t robot, std::vector<std::size_t> robots) {
+    int extra = std::min(failures_[robot] - kFailuresBeforeShuffle, kMaxExtraRobots);
+    for (; extra > 0; --extra) {
       const std::size_t other = order_[random_.below(order_.size())];
-      const bool known = std::find(crossed.begin(), crossed.end(), other) != crossed.end();
-      if (!known && other != robot && state_.trajectory(other)) crossed.push_back(other);
+      const bool known = std::find(robots.begin(), robots.end(), other) != robots.end();
+      if (!known && other != robot && state_.trajectory(other)) robots.push_back(other);
     }
-    for (std::size_t i = crossed.size(); i > 1; --i) {
-      std::swap(rank_[crossed[i - 1]], rank_[crossed[random_.below(i)]]);
+    for (std::size_t i = robots.size(); i > 1; --i) {
+      std::swap(rank_[robots[i - 1]], rank_[robots[random_.below(i)]]);
     }
+    return robots;
   }
 
   void give_up(std::size_t robot) {
     result_.given_up.push_back(robot);
-    state_.stand_for_ever(robot);
-    for (const std::size_t other : state_.robots_conflicting_with_standing(robot)) {
-      if (state_.trajectory(other)) take_back(other);
+    state_.stay_at_start(robot);
+    for (const std::size_t other : state_.robots_crossing_start(robot)) {
+      if (state_.trajectory(other)) postpone(other);
     }
   }
 
@@ -147,41 +146,18 @@ class Repair {
   Random& random_;
   const StopCondition& stop_;
   ProgressReport& progress_;
-  std::vector<std::int64_t> rank_;  // by robot; smaller is higher
-  std::int64_t top_ = 0;
+  std::vector<std::int64_t> rank_;  // by robot; a smaller rank is a higher priority
+  std::int64_t highest_rank_ = 0;
   std::vector<int> failures_;                               // by robot
   std::set<std::pair<std::int64_t, std::size_t>> pending_;  // rank, robot
-  RepairResult result_;
+  OrderingResult result_;
 };
-
-bool differ_in_size(const Instance& instance, const PriorityOrder& order) {
-  return std::any_of(order.begin(), order.end(), [&](std::size_t robot) {
-    return instance.motion(robot).radius != instance.motion(order.front()).radius;
-  });
-}
-
-PriorityOrder larger_first(const Instance& instance, PriorityOrder order) {
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return instance.motion(a).radius > instance.motion(b).radius;
-  });
-  return order;
-}
 
 }  // namespace
 
-RepairResult plan_with_repair(PlanState& state, const PriorityOrder& order, Random& random,
-                              const StopCondition& stop, ProgressReport& progress) {
-  constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
-  progress.next_attempt();
-  if (!differ_in_size(state.instance(), order)) {
-    return *Repair(state, order, random, stop, progress).run(kAnyNumber);
-  }
-  if (auto result = Repair(state, order, random, stop, progress).run(kMostFailures))
-    return std::move(*result);
-  RepairResult result =
-      *Repair(state, larger_first(state.instance(), order), random, stop, progress).run(kAnyNumber);
-  result.attempts += kMostFailures;
-  return result;
+std::optional<OrderingResult> repair(PlanState& state, const PriorityOrder& order, std::int64_t max_failures,
+                                     Random& random, const StopCondition& stop, ProgressReport& progress) {
+  return Repair(state, order, random, stop, progress).run(max_failures);
 }
 
 }  // namespace fleetplan::core

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <optional>
 
+#include "core/prioritized/ordering_result.h"
 #include "core/prioritized/plan_state.h"
 #include "core/prioritized/priority_order.h"
 #include "core/prioritized/progress_report.h"
@@ -12,19 +12,17 @@
 
 namespace fleetplan::core {
 
-/// How a repair ended.
-struct RepairResult {
-  std::vector<std::size_t> given_up;  // found no way among those that stay, and stand for ever now
-  std::vector<std::size_t> unsolved;  // without a trajectory, by priority; not empty only if `stop` was met
-  std::int64_t attempts = 1;          // one more for every robot that found no way
-};
-
-/// Plans all robots of `order`, which hold nothing yet, and raises the priority of those that fail as the
-/// paper does, but repairs instead of starting again: the failed robot is planned among the higher ranked
-/// alone; if that fails too it is raised to the top, and planned among the larger of the others and, as a
-/// last resort, among nobody but those that stay. Only the trajectories that it crosses there are taken back
-/// and planned again. Where robots keep raising each other, the priorities of those involved are shuffled.
-RepairResult plan_with_repair(PlanState& state, const PriorityOrder& order, Random& random,
-                              const StopCondition& stop, ProgressReport& progress);
+/// Plans all robots of `order` and raises the priority of those that fail (paper, section Prioritized
+/// planning), but repairs the plan instead of starting again:
+///
+/// 1. A robot that fails among all others is planned among those of higher priority only.
+/// 2. If that fails, it gets the highest priority and is planned among the others that are at least as large,
+///    then among none but those that stay at their starts.
+/// 3. The trajectories that conflict with its own are removed, and their robots are planned again.
+///
+/// Where robots keep raising each other, the priorities of those involved are shuffled. A robot that fails at
+/// step 2, or too often, is given up. Returns none if `max_failures` attempts fail before all is done.
+std::optional<OrderingResult> repair(PlanState& state, const PriorityOrder& order, std::int64_t max_failures,
+                                     Random& random, const StopCondition& stop, ProgressReport& progress);
 
 }  // namespace fleetplan::core

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
+#include "core/prioritized/ordering_result.h"
 #include "core/prioritized/plan_state.h"
 #include "core/prioritized/priority_order.h"
 #include "core/prioritized/progress_report.h"
@@ -12,19 +9,11 @@
 
 namespace fleetplan::core {
 
-/// How restarts ended. The state is that of the attempt that got farthest; robots of `unsolved` have no
-/// trajectory.
-struct RestartsResult {
-  std::vector<std::size_t> given_up;  // found no way among those that stay, and stand for ever now
-  std::vector<std::size_t> unsolved;  // by priority
-  std::int64_t attempts = 0;
-  bool cut_off = false;  // false with robots unsolved: no order is left to try, and holding the first robot
-                         // back did not help
-};
-
-/// Plans all robots of `order`, and from the start again in another order whenever one finds no way, until
-/// all have a trajectory, all orders have failed, or `stop` is met.
-RestartsResult plan_with_restarts(PlanState& state, PriorityOrder order, Random& random,
+/// Plans all robots of `order`; whenever one fails, starts again in another order (paper, section Prioritized
+/// planning). Ends when all have a trajectory, all orders have failed, or `stop` is met, and leaves the state
+/// of the attempt that planned the most robots. If all orders fail, tries some random ones with a start delay
+/// of the first robot.
+OrderingResult plan_with_restarts(PlanState& state, PriorityOrder order, Random& random,
                                   const StopCondition& stop, ProgressReport& progress);
 
 }  // namespace fleetplan::core

@@ -24,11 +24,11 @@ class Triage {
     }
     for (std::size_t i = 0; i < instance_.size(); ++i) check_start(i);
     for (std::size_t i = 0; i < instance_.size(); ++i) check_goal(i);
-    for (std::size_t i = 0; i < instance_.size(); ++i) check_way(i);
-    // A robot that stays may stand on another one's goal, which then stays as well.
+    for (std::size_t i = 0; i < instance_.size(); ++i) check_path(i);
+    // A robot that stays may block the goal of another one, which then stays as well.
     for (bool changed = true; changed;) {
       changed = false;
-      for (std::size_t i = 0; i < instance_.size(); ++i) changed = check_standing_on_goal(i) || changed;
+      for (std::size_t i = 0; i < instance_.size(); ++i) changed = check_goal_occupied(i) || changed;
     }
     return std::move(unplanned_);
   }
@@ -36,7 +36,7 @@ class Triage {
  private:
   void stay(std::size_t robot) {
     stays_[robot] = true;
-    state_.stand_for_ever(robot);
+    state_.stay_at_start(robot);
   }
   void give_up(std::size_t robot, Reason reason, const char* detail,
                std::vector<std::size_t> blocked_by = {}) {
@@ -47,11 +47,11 @@ class Triage {
     const double reach = instance_.motion(a).radius + instance_.motion(b).radius - kContactTolerance;
     return (p - q).squaredNorm() < reach * reach;
   }
-  template <class InTheWay>
-  std::vector<std::size_t> others(std::size_t robot, InTheWay&& conflicting_robots) const {
+  template <class Condition>
+  std::vector<std::size_t> others(std::size_t robot, Condition&& condition) const {
     std::vector<std::size_t> found;
     for (std::size_t j = 0; j < instance_.size(); ++j) {
-      if (j != robot && conflicting_robots(j)) found.push_back(j);
+      if (j != robot && condition(j)) found.push_back(j);
     }
     return found;
   }
@@ -63,11 +63,11 @@ class Triage {
       return give_up(i, Reason::start_blocked,
                      "The inflated robot does not fit between the obstacles at its start.");
     }
-    auto near =
+    auto overlapping =
         others(i, [&](std::size_t j) { return overlap(i, start, j, instance_.robot(j).start.position); });
-    if (near.empty()) return;
+    if (overlapping.empty()) return;
     give_up(i, Reason::start_blocked, "The inflated robot overlaps another one at its start.",
-            std::move(near));
+            std::move(overlapping));
   }
 
   void check_goal(std::size_t i) {
@@ -77,30 +77,30 @@ class Triage {
       return give_up(i, Reason::goal_blocked,
                      "The inflated robot does not fit between the obstacles at its goal.");
     }
-    // Of two inflated goals that overlap, the one listed first is served.
-    auto near = others(i, [&](std::size_t j) {
+    // Of two robots whose inflated goals overlap, the first in the list is planned.
+    auto overlapping = others(i, [&](std::size_t j) {
       return j < i && !stays_[j] && overlap(i, goal, j, instance_.robot(j).goal->position);
     });
-    if (near.empty()) return;
+    if (overlapping.empty()) return;
     give_up(i, Reason::goal_blocked, "The inflated robot overlaps another one's goal at its goal.",
-            std::move(near));
+            std::move(overlapping));
   }
 
-  void check_way(std::size_t i) {
+  void check_path(std::size_t i) {
     if (stays_[i] || state_.goal_reachable(i, stop_)) return;
     give_up(i, Reason::goal_unreachable,
             "No way leads from the start to the goal that is wide enough for the robot.");
   }
 
-  bool check_standing_on_goal(std::size_t i) {
+  bool check_goal_occupied(std::size_t i) {
     if (stays_[i]) return false;
     const Position& goal = instance_.robot(i).goal->position;
-    auto near = others(i, [&](std::size_t j) {
+    auto overlapping = others(i, [&](std::size_t j) {
       return stays_[j] && overlap(i, goal, j, instance_.robot(j).start.position);
     });
-    if (near.empty()) return false;
+    if (overlapping.empty()) return false;
     give_up(i, Reason::goal_blocked, "A robot that stays where it is stands in the way at the goal.",
-            std::move(near));
+            std::move(overlapping));
     return true;
   }
 

@@ -9,9 +9,10 @@
 
 namespace fleetplan::core {
 
-/// Finds the robots that stay where they are whatever the others do, and lets them stand for ever: parked
-/// robots, and those that are hopeless on the static map or beside other robots that stay. By robot, why it
-/// is without a plan; none for parked robots and for those that can be planned.
+/// Finds the robots that cannot move whatever the others do, and keeps them at their starts in `state`:
+/// parked robots, and robots whose start or goal is blocked, or whose goal is unreachable, on the static map
+/// or because of robots that stay. Returns by robot why it has no plan; none for parked robots and for those
+/// that are left to be planned.
 std::vector<std::optional<Unplanned>> triage(PlanState& state, const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -1,5 +1,5 @@
-// The arrows server -> api -> core. All headers of the system sit in one folder, so linking cannot enforce
-// them.
+// The layers server -> api -> core and the folders of core. All headers of the system are in one folder, so
+// linking cannot enforce what may be included.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ std::map<std::string, std::string> sources_in(const std::string& folder) {
 
 class Layer : public testing::TestWithParam<std::string> {};
 
-TEST_P(Layer, KeepsToItsRules) {
+TEST_P(Layer, FollowsItsRules) {
   const auto sources = sources_in(GetParam());
   EXPECT_FALSE(sources.empty()) << "nothing was checked";
   for (const auto& [path, text] : sources) EXPECT_THAT(violations(path, text), IsEmpty());
@@ -48,7 +48,7 @@ TEST_P(Layer, KeepsToItsRules) {
 INSTANTIATE_TEST_SUITE_P(Of, Layer, testing::Values("core", "api", "server", "tests"),
                          [](const auto& layer) { return layer.param; });
 
-TEST(SourceRules, LetCoreIncludeItselfEigenAndTheStandardLibraryOnly) {
+TEST(SourceRules, AllowCoreOnlyItselfEigenAndTheStandardLibrary) {
   EXPECT_THAT(violations("core/a.cpp", "#include \"core/a.h\"\n#include <Eigen/Core>\n#include <vector>\n"),
               IsEmpty());
   EXPECT_THAT(violations("core/a.cpp", "#include \"api/response/error.h\"\n"),
@@ -58,7 +58,7 @@ TEST(SourceRules, LetCoreIncludeItselfEigenAndTheStandardLibraryOnly) {
   EXPECT_THAT(violations("core/a.cpp", "#include <unistd.h>\n"), ElementsAre(HasSubstr("<unistd.h>")));
 }
 
-TEST(SourceRules, LetApiIncludeCoreButNotTheServer) {
+TEST(SourceRules, AllowApiToIncludeCoreButNotTheServer) {
   EXPECT_THAT(violations("api/a.cpp", "#include \"core/planner.h\"\n#include <nlohmann/json.hpp>\n"),
               IsEmpty());
   EXPECT_THAT(violations("api/a.cpp", "#include \"server/routes.h\"\n"),
@@ -66,28 +66,62 @@ TEST(SourceRules, LetApiIncludeCoreButNotTheServer) {
   EXPECT_THAT(violations("api/a.cpp", "#include <sys/socket.h>\n"), ElementsAre(HasSubstr("<sys/socket.h>")));
 }
 
-TEST(SourceRules, LetTheServerIncludeAnythingButTests) {
+TEST(SourceRules, AllowTheServerEverythingExceptTests) {
   EXPECT_THAT(violations("server/a.cpp", "#include \"api/response/reply.h\"\n#include <sys/socket.h>\n"),
               IsEmpty());
   EXPECT_THAT(violations("server/a.cpp", "#include \"tests/support/x.h\"\n"),
               ElementsAre(HasSubstr("\"tests/support/x.h\"")));
 }
 
-TEST(SourceRules, WantIncludesRootedAtTheProject) {
+TEST(SourceRules, AllowTheFacadeOnlyOutsideCoreAndInItsSource) {
+  const std::string include = "#include \"core/planner.h\"\n";
+  EXPECT_THAT(violations("core/planner.cpp", include), IsEmpty());
+  EXPECT_THAT(violations("api/endpoints/a.cpp", include), IsEmpty());
+  for (const std::string path :
+       {"core/instance.h", "core/sipp/a.cpp", "core/lns/a.cpp", "core/verify/a.cpp"}) {
+    EXPECT_THAT(violations(path, "#pragma once\n" + include),
+                ElementsAre(path + " must not include \"core/planner.h\""));
+  }
+}
+
+TEST(SourceRules, KeepThePlanningOfAllRobotsOutOfWhatServesOneRobot) {
+  for (const std::string folder : {"geometry", "map", "model", "runtime", "reservation", "bounds", "sipp"}) {
+    const std::string path = "core/" + folder + "/a.cpp";
+    EXPECT_THAT(violations(path, "#include \"core/prioritized/plan_state.h\"\n"),
+                ElementsAre(path + " must not include \"core/prioritized/plan_state.h\""));
+    EXPECT_THAT(violations(path, "#include \"core/lns/incumbent.h\"\n"), ElementsAre(HasSubstr("core/lns/")));
+    EXPECT_THAT(violations(path, "#include \"core/map/lattice.h\"\n"), IsEmpty());
+  }
+  EXPECT_THAT(violations("core/lns/a.cpp", "#include \"core/prioritized/plan_state.h\"\n"), IsEmpty());
+}
+
+TEST(SourceRules, KeepTheSearchOutOfTheChecker) {
+  const std::string path = "core/verify/a.cpp";
+  for (const std::string header :
+       {"core/reservation/reservation_table.h", "core/sipp/aa_sipp.h", "core/prioritized/plan_state.h",
+        "core/lns/incumbent.h", "core/bounds/lower_bound.h", "core/geometry/disk_motion.h"}) {
+    EXPECT_THAT(violations(path, "#include \"" + header + "\"\n"),
+                ElementsAre(path + " must not include \"" + header + "\""));
+  }
+  EXPECT_THAT(violations(path, "#include \"core/geometry/angle.h\"\n#include \"core/model/plan.h\"\n"),
+              IsEmpty());
+}
+
+TEST(SourceRules, RequireIncludesRelativeToTheProject) {
   EXPECT_THAT(violations("core/map/a.cpp", "#include \"../model/robot.h\"\n"), ElementsAre(HasSubstr("../")));
   EXPECT_THAT(violations("core/map/a.cpp", "#include \"core/../api/error.h\"\n"),
               ElementsAre(HasSubstr("..")));
   EXPECT_THAT(violations("core/map/a.cpp", "#include \"b.h\"\n"), ElementsAre(HasSubstr("\"b.h\"")));
 }
 
-TEST(SourceRules, KeepTheEnvironmentAndOutputOutOfCore) {
+TEST(SourceRules, RejectTheEnvironmentAndOutputInCore) {
   EXPECT_THAT(violations("core/a.cpp", "auto* home = std::getenv(\"HOME\");\n"),
               ElementsAre("core/a.cpp must not use getenv"));
   EXPECT_THAT(violations("core/a.cpp", "std::cerr << 1;\n"), ElementsAre(HasSubstr("cerr")));
   EXPECT_THAT(violations("server/a.cpp", "std::getenv(\"HOME\");\n"), IsEmpty());
 }
 
-TEST(SourceRules, LookAtCodeAndNotAtCommentsOrStrings) {
+TEST(SourceRules, IgnoreCommentsAndStrings) {
   EXPECT_THAT(violations("core/a.cpp",
                          "// getenv\n/* cerr\n cout */ const char* s = \"getenv \\\" cerr\"; int my_exit;\n"),
               IsEmpty());
@@ -95,7 +129,7 @@ TEST(SourceRules, LookAtCodeAndNotAtCommentsOrStrings) {
   EXPECT_THAT(violations("core/a.cpp", "int n = 1'000; std::exit('\\'');\n"), ElementsAre(HasSubstr("exit")));
 }
 
-TEST(SourceRules, WantHeadersToBeginWithPragmaOnce) {
+TEST(SourceRules, RequirePragmaOnceAtTheBeginningOfHeaders) {
   EXPECT_THAT(violations("core/a.h", "// A file.\n\n#pragma once\n"), IsEmpty());
   EXPECT_THAT(violations("core/a.h", "#include <vector>\n#pragma once\n"),
               ElementsAre("core/a.h does not begin with #pragma once"));
@@ -103,7 +137,7 @@ TEST(SourceRules, WantHeadersToBeginWithPragmaOnce) {
               ElementsAre(HasSubstr("using namespace")));
 }
 
-TEST(SourceRules, KnowNoOtherFolder) {
+TEST(SourceRules, RejectOtherFolders) {
   EXPECT_THAT(violations("lib/a.cpp", ""), ElementsAre("lib/a.cpp belongs to no layer"));
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using std::string_view;
 
-/// What the files of one folder may include and may not name.
+/// What the files of one layer may include and must not use.
 struct Layer {
   string_view folder;
   std::vector<string_view> own;          // allowed beginnings of "quoted" includes
@@ -20,8 +20,15 @@ struct Layer {
   std::vector<string_view> forbidden;  // identifiers
 };
 
+/// What the files of one folder must not include, although their layer may.
+struct FolderRule {
+  string_view folder;
+  std::vector<string_view> forbidden;  // beginnings of "quoted" includes
+  string_view except;                  // a file that may
+};
+
 const std::vector<Layer>& layers() {
-  // Core talks to nobody: no environment, no output, no exit; and only seeded randomness and a steady clock,
+  // Core has no access to the environment, no output and no exit, only seeded randomness and a steady clock,
   // so that it computes the same plan everywhere.
   static const std::vector<Layer> all = {
       {"core/",
@@ -37,6 +44,28 @@ const std::vector<Layer>& layers() {
        {"getenv", "cout", "cerr", "clog", "printf", "std::exit", "spdlog", "httplib"}},
       {"server/", {"server/", "api/", "core/"}, {}, true, {"rand", "srand"}},
       {"tests/", {"tests/", "server/", "api/", "core/"}, {}, true, {}},
+  };
+  return all;
+}
+
+const std::vector<FolderRule>& folder_rules() {
+  static const std::vector<string_view> all_robots = {"core/prioritized/", "core/lns/"};
+  static const std::vector<FolderRule> all = {
+      // The facade is for callers of core; what it uses does not include it.
+      {"core/", {"core/planner.h"}, "core/planner.cpp"},
+      // What serves the planning of one robot knows nothing of the planning of all.
+      {"core/geometry/", all_robots, {}},
+      {"core/map/", all_robots, {}},
+      {"core/model/", all_robots, {}},
+      {"core/runtime/", all_robots, {}},
+      {"core/reservation/", all_robots, {}},
+      {"core/bounds/", all_robots, {}},
+      {"core/sipp/", all_robots, {}},
+      // The checker is independent: it shares no collision test with the search.
+      {"core/verify/",
+       {"core/reservation/", "core/sipp/", "core/prioritized/", "core/lns/", "core/bounds/",
+        "core/geometry/disk_motion.h"},
+       {}},
   };
   return all;
 }
@@ -119,7 +148,15 @@ bool include_allowed(const Layer& layer, string_view include) {
   return layer.any_third_party || standard_header(name) || starts_with_any(name, layer.third_party);
 }
 
-bool names(string_view code, string_view identifier) {
+/// Whether a rule of the file's folder forbids an include that its layer allows.
+bool forbidden_in_folder(string_view path, string_view include) {
+  const string_view name = include.substr(1, include.size() - 2);
+  return std::any_of(folder_rules().begin(), folder_rules().end(), [&](const FolderRule& rule) {
+    return path.starts_with(rule.folder) && path != rule.except && starts_with_any(name, rule.forbidden);
+  });
+}
+
+bool uses(string_view code, string_view identifier) {
   for (std::size_t at = code.find(identifier); at != string_view::npos; at = code.find(identifier, at + 1)) {
     const std::size_t end = at + identifier.size();
     const bool whole = (at == 0 || !identifier_character(code[at - 1])) &&
@@ -129,7 +166,7 @@ bool names(string_view code, string_view identifier) {
   return false;
 }
 
-/// The first thing in a header that is neither blank nor a comment.
+/// Whether only blanks and comments come before it; comments are blanked out in `code`.
 bool begins_with_pragma_once(string_view code) {
   const std::size_t first = code.find_first_not_of(" \t\r\n");
   return first != string_view::npos && code.substr(first).starts_with("#pragma once");
@@ -151,14 +188,16 @@ std::vector<std::string> violations(string_view path, string_view text) {
   const std::string code = code_only(text);
   for (const string_view line : lines_of(code)) {
     const auto include = included(line);
-    if (include && !include_allowed(*layer, *include)) report("must not include ", *include);
+    if (!include) continue;
+    if (!include_allowed(*layer, *include) || forbidden_in_folder(path, *include))
+      report("must not include ", *include);
   }
   for (const string_view identifier : layer->forbidden) {
-    if (names(code, identifier)) report("must not use ", identifier);
+    if (uses(code, identifier)) report("must not use ", identifier);
   }
   if (path.ends_with(".h")) {
     if (!begins_with_pragma_once(code)) report("does not begin with ", "#pragma once");
-    if (code.find("using namespace") != std::string::npos) report("must not say ", "using namespace");
+    if (code.find("using namespace") != std::string::npos) report("must not use ", "using namespace");
   }
   return found;
 }

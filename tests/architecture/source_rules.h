@@ -6,8 +6,9 @@
 
 namespace fleetplan::architecture {
 
-/// What a source file does that the layering server -> api -> core, or the hygiene of headers, does not
-/// allow; one sentence each. `path` is relative to the project root and decides which rules apply.
+/// The violations of the layering server -> api -> core, of the rules for folders of core, and of the rules
+/// for headers in one source file; a sentence each. `path`, relative to the project root, decides which rules
+/// apply.
 std::vector<std::string> violations(std::string_view path, std::string_view text);
 
 }  // namespace fleetplan::architecture

@@ -42,7 +42,7 @@ void expect_unplanned(const Plan& plan, std::size_t index, Reason reason, const 
   ADD_FAILURE() << "robot " << index << " has a plan";
 }
 
-TEST(Planner, CostsALoneRobotTheStraightLineAndItsTurns) {
+TEST(Planner, PlansALoneRobotAlongTheStraightLine) {
   const Problem problem = support::make_problem(OccupancyGrid(10, 10, 1.0),
                                                 {robot_at(1.5, 1.5).to(4.5, 5.5, kPi).speeds(2.0, kPi / 4)});
   const Plan plan = checked_plan(problem);
@@ -56,7 +56,7 @@ TEST(Planner, CostsALoneRobotTheStraightLineAndItsTurns) {
   EXPECT_EQ(plan.search.improvements, 0);
 }
 
-/// Two robots that want to change places. The bay is nearer to the second one, which has time to get into it.
+/// Two robots that swap places. The bay is nearer to the second one, which has time to enter it.
 Problem swap_with_bay() {
   return support::make_problem(support::ascii_map({"######.##",  //
                                                    "........."}),
@@ -67,11 +67,11 @@ TEST(Planner, SwapsTwoRobotsInACorridorWithAPassingBay) {
   const Plan plan = checked_plan(swap_with_bay());
   EXPECT_TRUE(plan.unplanned.empty());
   EXPECT_GT(plan.objectives.makespan, 9.0);
-  EXPECT_LE(plan.objectives.makespan, 6.0 + 2.0 + 2.0 + 6.0) << "meet, come out of the bay, turn, go on";
+  EXPECT_LE(plan.objectives.makespan, 6.0 + 2.0 + 2.0 + 6.0) << "meet, leave the bay, turn, continue";
 }
 
-TEST(Planner, HoldsOneRobotBackWhereTheOtherIsTooLateForTheBay) {
-  // Whoever is planned first and leaves at once is at the bay no later than the other.
+TEST(Planner, DelaysOneRobotWhereTheOtherIsTooLateForTheBay) {
+  // The robot that is planned first and leaves at once is at the bay no later than the other.
   const Problem problem =
       support::make_problem(support::ascii_map({"####.####",  //
                                                 "........."}),
@@ -81,7 +81,7 @@ TEST(Planner, HoldsOneRobotBackWhereTheOtherIsTooLateForTheBay) {
   EXPECT_TRUE(plan.deterministic);
 }
 
-/// Robots 0 and 1 are at their goals already, in the only way of the others; each has a bay beside it.
+/// Robots 0 and 1 are at their goals and block the only path of the others; each has a bay beside it.
 Problem at_goals_in_the_way(bool both_ways) {
   std::vector<Robot> robots{robot_at(4.5, 0.5).to(4.5, 0.5, 0.0), robot_at(8.5, 0.5).to(8.5, 0.5, 0.0)};
   for (const double x : {0.5, 1.5, 2.5}) robots.push_back(robot_at(x, 0.5).to(x + 9.5, 0.5));
@@ -92,7 +92,7 @@ Problem at_goals_in_the_way(bool both_ways) {
                                robots);
 }
 
-TEST(Planner, LetsRobotsLeaveTheirGoalsForOthersToPass) {
+TEST(Planner, MovesRobotsAwayFromTheirGoalsForOthersToPass) {
   for (const bool both_ways : {false, true}) {
     const Plan plan = checked_plan(at_goals_in_the_way(both_ways));
     ASSERT_TRUE(plan.unplanned.empty()) << both_ways;
@@ -112,7 +112,7 @@ TEST(Planner, PlansOneOfTwoRobotsInACorridorWithoutABay) {
   EXPECT_TRUE(plan.deterministic);
 }
 
-TEST(Planner, BoundsTheCostOfEachRobotByItsWayAlone) {
+TEST(Planner, BoundsTheCostOfEachRobotByItsPathAlone) {
   const Problem problem = support::make_problem(
       support::ascii_map({"........",  //
                           ".###....",  //
@@ -122,14 +122,14 @@ TEST(Planner, BoundsTheCostOfEachRobotByItsWayAlone) {
   const Plan plan = checked_plan(problem);
   ASSERT_EQ(plan.plans.size(), 5u);
   EXPECT_GT(plan.plans[0].lower_bound, 4.0) << "around the wall";
-  EXPECT_NEAR(plan.plans[1].lower_bound, 4.0, 1e-9) << "straight through the first one";
+  EXPECT_NEAR(plan.plans[1].lower_bound, 4.0, 1e-9) << "straight through the first robot";
   EXPECT_EQ(plan.plans[2].lower_bound, 0.0) << "parked";
-  EXPECT_EQ(plan.plans[3].lower_bound, 0.0) << "there already";
+  EXPECT_EQ(plan.plans[3].lower_bound, 0.0) << "at its goal already";
   EXPECT_EQ(plan.plans[4].lower_bound, plan.plans[4].cost) << "only turns";
   EXPECT_GT(plan.plans[4].lower_bound, 0.0);
 }
 
-TEST(Planner, LeavesParkedRobotsAloneAndGoesRoundThem) {
+TEST(Planner, PlansAroundParkedRobots) {
   const Problem problem = support::make_problem(
       OccupancyGrid(9, 5, 1.0), {robot_at(4.5, 2.5), robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(4.5, 4.5)});
   const Plan plan = checked_plan(problem);
@@ -140,13 +140,13 @@ TEST(Planner, LeavesParkedRobotsAloneAndGoesRoundThem) {
   EXPECT_EQ(plan.objectives.flowtime, plan.plans[1].cost);
 }
 
-TEST(Planner, BlamesTheParkedRobotThatShutsTheOnlyWay) {
+TEST(Planner, ReportsTheParkedRobotThatBlocksTheOnlyPath) {
   const Problem problem =
       support::make_problem(OccupancyGrid(9, 1, 1.0), {robot_at(4.5, 0.5), robot_at(0.5, 0.5).to(8.5, 0.5)});
   expect_unplanned(checked_plan(problem), 1, Reason::blocked_by_robots, {0});
 }
 
-TEST(Planner, ReportsPlansInTheOrderOfTheRobotsAndTheRestAside) {
+TEST(Planner, ReturnsPlansAndUnplannedRobotsInTheOrderOfTheRobots) {
   const Problem problem = support::make_problem(
       support::ascii_map({".........",  //
                           ".........",  //
@@ -162,7 +162,7 @@ TEST(Planner, ReportsPlansInTheOrderOfTheRobotsAndTheRestAside) {
   expect_unplanned(plan, 1, Reason::start_blocked, {});
 }
 
-/// Large and small, slow and quick ones that all cross each other's ways.
+/// Large and small, slow and fast robots whose paths all cross.
 Problem crossing_fleet() {
   return support::make_problem(
       OccupancyGrid(16, 16, 1.0),
@@ -172,13 +172,13 @@ Problem crossing_fleet() {
        robot_at(13.3, 13.9).to(2.2, 2.7).radius(0.35).speeds(2.0, 1.0), robot_at(8, 8).to(8, 8, 2.0)});
 }
 
-TEST(Planner, LetsAFleetOfMixedSizesAndSpeedsCross) {
+TEST(Planner, PlansCrossingRobotsOfMixedSizesAndSpeeds) {
   const Plan plan = checked_plan(crossing_fleet());
   EXPECT_TRUE(plan.unplanned.empty());
   EXPECT_TRUE(plan.deterministic);
 }
 
-TEST(Planner, PlansTheSameTwiceToTheLastBit) {
+TEST(Planner, ReturnsTheSamePlanForTheSameProblem) {
   for (const Mode mode : {Mode::first, Mode::anytime}) {
     PlanOptions options;
     options.mode = mode;
@@ -190,7 +190,7 @@ TEST(Planner, PlansTheSameTwiceToTheLastBit) {
   }
 }
 
-TEST(Planner, ImprovesTheFirstPlanOrKeepsItInAnytimeMode) {
+TEST(Planner, NeverMakesTheFirstPlanWorseInAnytimeMode) {
   PlanOptions options;
   const Plan first = checked_plan(crossing_fleet(), options);
   options.mode = Mode::anytime;
@@ -204,7 +204,7 @@ TEST(Planner, ImprovesTheFirstPlanOrKeepsItInAnytimeMode) {
   EXPECT_LE(checked_plan(crossing_fleet(), options).objectives.makespan, first.objectives.makespan);
 }
 
-TEST(Planner, KeepsInflatedRobotsClearOfEachOtherAndOfWalls) {
+TEST(Planner, KeepsInflatedRobotsApartAndClearOfWalls) {
   PlanOptions options;
   options.inflation = 0.09;
   EXPECT_TRUE(checked_plan(swap_with_bay(), options).unplanned.empty()) << "0.49 m fit into the corridor";
@@ -214,7 +214,7 @@ TEST(Planner, KeepsInflatedRobotsClearOfEachOtherAndOfWalls) {
   expect_unplanned(plan, 1, Reason::start_blocked, {});
 }
 
-TEST(Planner, WaitsBeforeEveryMoveWhenAsked) {
+TEST(Planner, WaitsBeforeEveryMoveWithThatOption) {
   PlanOptions options;
   options.wait_before_move = 0.7;
   const Plan plan = checked_plan(swap_with_bay(), options);
@@ -245,22 +245,22 @@ TEST(Planner, PlansOnAFineMapWithRobotsOfSixCells) {
   EXPECT_TRUE(plan.unplanned.empty());
 }
 
-/// No robot finds its way at a glance.
+/// Three robots in a maze, where every search takes long.
 Problem maze_fleet() {
   return support::make_problem(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5), robot_at(27.5, 8.5).to(0.5, 0.5),
                                         robot_at(13.5, 7.5).to(13.5, 1.5)});
 }
 
-TEST(Planner, LeavesEverybodyStandingWhenItIsCancelledBeforeItStarts) {
+TEST(Planner, LeavesAllRobotsUnplannedWhenCancelledBeforeItStarts) {
   PlanOptions options;
-  options.mode = Mode::anytime;  // would go on for ever
+  options.mode = Mode::anytime;  // would not end by itself
   const Plan plan = checked_plan(maze_fleet(), options, met());
   EXPECT_FALSE(plan.deterministic);
   EXPECT_TRUE(plan.plans.empty());
   for (std::size_t i = 0; i < 3; ++i) expect_unplanned(plan, i, Reason::budget_exhausted, {});
 }
 
-TEST(Planner, LeavesEverybodyStandingWhenTheDeadlineHasPassed) {
+TEST(Planner, LeavesAllRobotsUnplannedAfterTheDeadline) {
   const StopCondition late(StopCondition::Clock::now() - std::chrono::seconds(1));
   const Plan plan = checked_plan(maze_fleet(), {}, late);
   EXPECT_FALSE(plan.deterministic);
@@ -268,13 +268,13 @@ TEST(Planner, LeavesEverybodyStandingWhenTheDeadlineHasPassed) {
   EXPECT_EQ(plan.objectives.flowtime, 0.0);
 }
 
-TEST(Planner, NeedsNoClockToEndWhereNobodyCanMove) {
+TEST(Planner, EndsWithoutAClockWhereNoRobotCanMove) {
   const Problem problem = support::make_problem(
       OccupancyGrid(5, 1, 1.0), {robot_at(0.5, 0.5).to(4.5, 0.5), robot_at(4.5, 0.5).to(0.5, 0.5),
                                  robot_at(2.5, 0.5).to(2.5, 0.5, kPi)});
   const Plan plan = checked_plan(problem);
   EXPECT_TRUE(plan.deterministic);
-  EXPECT_GE(plan.plans.size(), 1u) << "one can at least turn round";
+  EXPECT_GE(plan.plans.size(), 1u) << "one can at least rotate in place";
 }
 
 }  // namespace

@@ -67,7 +67,8 @@ TEST(Improve, MakesARoundaboutBetter) {
   Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(60));
   const auto movers = plan_first_solution(p);
   const Value before = value_of(p.state);
-  const Improvement improvement = improve(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
+  const LnsResult improvement =
+      large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
   EXPECT_GT(improvement.improvements, 0);
   EXPECT_FALSE(improvement.cut_off);
   EXPECT_LT(value_of(p.state).flowtime, before.flowtime);
@@ -78,7 +79,7 @@ TEST(Improve, ShortensTheMakespanWhenAsked) {
   Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(60, Objective::makespan));
   const auto movers = plan_first_solution(p);
   const Value before = value_of(p.state);
-  improve(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
+  large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
   EXPECT_LT(value_of(p.state).makespan, before.makespan);
   expect_safe(p.state);
 }
@@ -87,7 +88,9 @@ TEST(Improve, ChangesNothingInNoIterations) {
   Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(0));
   const auto movers = plan_first_solution(p);
   const double before = value_of(p.state).flowtime;
-  EXPECT_EQ(improve(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never).improvements, 0);
+  EXPECT_EQ(large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never)
+                .improvements,
+            0);
   EXPECT_EQ(value_of(p.state).flowtime, before);
 }
 
@@ -95,7 +98,7 @@ TEST(Improve, DoesTheSameAgain) {
   const auto run = [] {
     Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(30));
     const auto movers = plan_first_solution(p);
-    improve(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
+    large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
     Plan plan;
     plan.plans = support::plans_of(p.state);
     return support::exact_text(plan);
@@ -108,15 +111,18 @@ TEST(Improve, EndsByItselfWhenEveryRobotCostsItsLowerBound) {
   Planning p(OccupancyGrid(10, 10, 1.0), {robot_at(1.5, 1.5).to(8.5, 1.5), robot_at(1.5, 8.5).to(8.5, 7.5)},
              options);
   const auto movers = plan_first_solution(p);
-  const Improvement improvement = improve(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
+  const LnsResult improvement =
+      large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
   EXPECT_EQ(improvement.improvements, 0);
   EXPECT_FALSE(improvement.cut_off);
 }
 
 TEST(Improve, EndsAtOnceWithoutAnyPlan) {
   Planning p(OccupancyGrid(10, 10, 1.0), {robot_at(1.5, 1.5).to(8.5, 1.5), robot_at(5.5, 5.5)});
-  EXPECT_FALSE(improve(p.state, {}, bounds_of(p), p.random, p.callers_thread, p.never).cut_off);
-  EXPECT_FALSE(improve(p.state, {0}, bounds_of(p), p.random, p.callers_thread, p.never).cut_off)
+  EXPECT_FALSE(
+      large_neighbourhood_search(p.state, {}, bounds_of(p), p.random, p.callers_thread, p.never).cut_off);
+  EXPECT_FALSE(
+      large_neighbourhood_search(p.state, {0}, bounds_of(p), p.random, p.callers_thread, p.never).cut_off)
       << "it has no plan to improve";
 }
 
@@ -124,7 +130,8 @@ TEST(Improve, ChangesNothingWhenItIsStopped) {
   Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(1000));
   const auto movers = plan_first_solution(p);
   const double before = value_of(p.state).flowtime;
-  const Improvement improvement = improve(p.state, movers, bounds_of(p), p.random, p.callers_thread, met());
+  const LnsResult improvement =
+      large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, met());
   EXPECT_TRUE(improvement.cut_off);
   EXPECT_EQ(value_of(p.state).flowtime, before);
 }
@@ -139,8 +146,8 @@ TEST_P(ImproveRandomFleets, IsNeverWorseAndStaysSafe) {
     const auto movers = plan_first_solution(p);
     const std::size_t planned = support::plans_of(p.state).size();
     const Value before = value_of(p.state);
-    const Improvement improvement =
-        improve(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
+    const LnsResult improvement =
+        large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
     const Value after = value_of(p.state);
     const bool by_makespan = GetParam() == Objective::makespan;
     ASSERT_LE(by_makespan ? after.makespan : after.flowtime, by_makespan ? before.makespan : before.flowtime);

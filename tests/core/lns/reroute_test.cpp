@@ -35,7 +35,7 @@ struct Crossing : Planning {
   }
 
   void apply(Change change) {
-    for (const Change::Part& part : change.parts) state.leave(part.robot);
+    for (const Change::Part& part : change.parts) state.remove(part.robot);
     for (Change::Part& part : change.parts) state.follow(part.robot, std::move(part.trajectory));
   }
 

@@ -12,7 +12,7 @@ using support::robot_at;
 using Reason = Unplanned::Reason;
 using Robots = std::vector<std::size_t>;
 
-/// A hall with a closet; whoever stands in the closet's entrance shuts it.
+/// A hall with a closet; a robot in the closet's entrance blocks it.
 OccupancyGrid hall() {
   return support::ascii_map({".......",  //
                              ".......",  //
@@ -21,107 +21,108 @@ OccupancyGrid hall() {
                              "#####.#"});
 }
 
-Robots robots_of(const PartialPlan& completion) {
+Robots robots_of(const PartialPlan& partial) {
   Robots robots;
-  for (const Unplanned& robot : completion.unplanned) robots.push_back(robot.robot);
+  for (const Unplanned& robot : partial.unplanned) robots.push_back(robot.robot);
   return robots;
 }
 
 /// Robots may drive over each other's starts at once.
-PlanOptions hasty() {
+PlanOptions no_start_interval() {
   PlanOptions options;
   options.start_safe_interval = 0.0;
   return options;
 }
 
-TEST(Complete, PlansEveryRobotThatHasNoTrajectoryYet) {
+TEST(PartialPlan, PlansRobotsWithoutATrajectory) {
   Planning p(hall(), {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(6.5, 2.5).to(0.5, 2.5)});
   p.state.follow(1, through({{6.5, 2.5}, {0.5, 2.5}}, 4.0));
-  const PartialPlan completion = make_partial_plan(p.state, {1, 0}, {}, p.never, p.progress);
-  EXPECT_TRUE(completion.unplanned.empty());
-  EXPECT_FALSE(completion.cut_off);
+  const PartialPlan partial = make_partial_plan(p.state, {1, 0}, {}, p.never, p.progress);
+  EXPECT_TRUE(partial.unplanned.empty());
+  EXPECT_FALSE(partial.cut_off);
   EXPECT_EQ(p.state.trajectory(1)->moves.front().t_start, 4.0) << "it was planned already";
   expect_safe(p.state);
 }
 
-TEST(Complete, GivesARobotUpAndNamesThoseInItsWay) {
+TEST(PartialPlan, ReportsTheRobotsThatBlockAnUnplannedRobot) {
   Planning p(hall(), {robot_at(3.5, 3.5).to(5.5, 0.5), robot_at(5.5, 1.5), robot_at(0.5, 4.5).to(6.5, 4.5)});
-  p.state.stand_for_ever(1);
-  const PartialPlan completion = make_partial_plan(p.state, {0, 2}, {}, p.never, p.progress);
-  ASSERT_EQ(robots_of(completion), Robots{0});
-  EXPECT_EQ(static_cast<int>(completion.unplanned[0].reason), static_cast<int>(Reason::blocked_by_robots));
-  EXPECT_EQ(completion.unplanned[0].blocked_by, Robots{1});
-  EXPECT_FALSE(completion.cut_off);
-  EXPECT_TRUE(p.state.trajectory(2)) << "its neighbour is not taken down";
+  p.state.stay_at_start(1);
+  const PartialPlan partial = make_partial_plan(p.state, {0, 2}, {}, p.never, p.progress);
+  ASSERT_EQ(robots_of(partial), Robots{0});
+  EXPECT_EQ(static_cast<int>(partial.unplanned[0].reason), static_cast<int>(Reason::blocked_by_robots));
+  EXPECT_EQ(partial.unplanned[0].blocked_by, Robots{1});
+  EXPECT_FALSE(partial.cut_off);
+  EXPECT_TRUE(p.state.trajectory(2)) << "its neighbour keeps its plan";
   expect_safe(p.state);
 }
 
-TEST(Complete, DoesNotNameRobotsThatCouldStay) {
-  // Robot 2 crosses the way of robot 0 to the closet that robot 1 shuts.
+TEST(PartialPlan, DoesNotReportRobotsThatDoNotBlock) {
+  // Robot 2 crosses the path of robot 0 to the closet that robot 1 blocks.
   Planning p(hall(), {robot_at(3.5, 3.5).to(5.5, 0.5), robot_at(5.5, 1.5), robot_at(2.5, 2.5).to(6.5, 2.5)});
-  p.state.stand_for_ever(1);
+  p.state.stay_at_start(1);
   p.state.follow(2, through({{2.5, 2.5}, {6.5, 2.5}}));
-  ASSERT_EQ(p.state.conflicting_robots(0, p.state.alone(0, p.never)), (Robots{1, 2}));
-  const PartialPlan completion = make_partial_plan(p.state, {0}, {}, p.never, p.progress);
-  ASSERT_EQ(robots_of(completion), Robots{0});
-  EXPECT_EQ(completion.unplanned[0].blocked_by, Robots{1});
+  ASSERT_EQ(p.state.conflicting_robots(0, p.state.plan_alone(0, p.never)), (Robots{1, 2}));
+  const PartialPlan partial = make_partial_plan(p.state, {0}, {}, p.never, p.progress);
+  ASSERT_EQ(robots_of(partial), Robots{0});
+  EXPECT_EQ(partial.unplanned[0].blocked_by, Robots{1});
   expect_safe(p.state);
 }
 
-TEST(Complete, PlansThoseAgainThatCrossedTheStartOfARobotGivenUp) {
-  // Robot 0 drives straight over the start of 1, which then turns out to stay there.
+TEST(PartialPlan, ReplansRobotsThatCrossedTheStartOfAnUnplannedRobot) {
+  // Robot 0 drives straight over the start of robot 1, which is then found to stay there.
   Planning p(hall(), {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(3.5, 3.5).to(5.5, 0.5), robot_at(5.5, 1.5)},
-             hasty());
-  p.state.stand_for_ever(2);
+             no_start_interval());
+  p.state.stay_at_start(2);
   p.state.follow(0, through({{0.5, 3.5}, {6.5, 3.5}}));
-  const PartialPlan completion = make_partial_plan(p.state, {0, 1}, {}, p.never, p.progress);
-  EXPECT_EQ(robots_of(completion), Robots{1});
+  const PartialPlan partial = make_partial_plan(p.state, {0, 1}, {}, p.never, p.progress);
+  EXPECT_EQ(robots_of(partial), Robots{1});
   ASSERT_TRUE(p.state.trajectory(0));
-  EXPECT_GT(p.state.trajectory(0)->cost, 6.0) << "round robot 1";
+  EXPECT_GT(p.state.trajectory(0)->cost, 6.0) << "around robot 1";
   expect_safe(p.state);
 }
 
-TEST(Complete, GivesThoseUpAsWellThatHaveNoOtherWay) {
-  // In a corridor nobody gets round robot 1, which robot 2 keeps from its goal.
+TEST(PartialPlan, GivesUpRobotsWithoutAPathAroundAnUnplannedRobot) {
+  // No robot can pass robot 1 in the corridor, and robot 2 blocks the goal of robot 1.
   Planning p(OccupancyGrid(9, 1, 1.0),
-             {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(3.5, 0.5).to(8.5, 0.5), robot_at(7.5, 0.5)}, hasty());
-  p.state.stand_for_ever(2);
+             {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(3.5, 0.5).to(8.5, 0.5), robot_at(7.5, 0.5)},
+             no_start_interval());
+  p.state.stay_at_start(2);
   p.state.follow(0, through({{0.5, 0.5}, {5.5, 0.5}}));
-  const PartialPlan completion = make_partial_plan(p.state, {0, 1}, {}, p.never, p.progress);
-  ASSERT_EQ(robots_of(completion), (Robots{0, 1}));
-  EXPECT_EQ(completion.unplanned[0].blocked_by, Robots{1});
-  EXPECT_EQ(completion.unplanned[1].blocked_by, Robots{2});
+  const PartialPlan partial = make_partial_plan(p.state, {0, 1}, {}, p.never, p.progress);
+  ASSERT_EQ(robots_of(partial), (Robots{0, 1}));
+  EXPECT_EQ(partial.unplanned[0].blocked_by, Robots{1});
+  EXPECT_EQ(partial.unplanned[1].blocked_by, Robots{2});
   EXPECT_FALSE(p.state.trajectory(0));
   expect_safe(p.state);
 }
 
-TEST(Complete, TriesHopelessRobotsOnceMore) {
+TEST(PartialPlan, TriesRobotsGivenUpOnceMore) {
   Planning p(hall(), {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(3.5, 2.5).to(5.5, 0.5)});
-  p.state.stand_for_ever(1);
-  const PartialPlan completion = make_partial_plan(p.state, {0}, {1}, p.never, p.progress);
-  EXPECT_TRUE(completion.unplanned.empty()) << "nobody is in its way any more";
+  p.state.stay_at_start(1);
+  const PartialPlan partial = make_partial_plan(p.state, {0}, {1}, p.never, p.progress);
+  EXPECT_TRUE(partial.unplanned.empty()) << "no robot blocks it any more";
   EXPECT_TRUE(p.state.trajectory(1));
   expect_safe(p.state);
 }
 
-TEST(Complete, PlansNobodyOnceItIsStopped) {
+TEST(PartialPlan, PlansNoRobotAfterStop) {
   Planning p(hall(), {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(3.5, 2.5).to(5.5, 0.5)});
-  const PartialPlan completion = make_partial_plan(p.state, {0, 1}, {}, met(), p.progress);
-  ASSERT_EQ(robots_of(completion), (Robots{0, 1}));
-  EXPECT_EQ(static_cast<int>(completion.unplanned[0].reason), static_cast<int>(Reason::budget_exhausted));
-  EXPECT_TRUE(completion.cut_off);
+  const PartialPlan partial = make_partial_plan(p.state, {0, 1}, {}, met(), p.progress);
+  ASSERT_EQ(robots_of(partial), (Robots{0, 1}));
+  EXPECT_EQ(static_cast<int>(partial.unplanned[0].reason), static_cast<int>(Reason::budget_exhausted));
+  EXPECT_TRUE(partial.cut_off);
   expect_safe(p.state);
 }
 
-TEST(Complete, TakesPlansBackThatCrossARobotLeftUnplannedWhenStopped) {
+TEST(PartialPlan, RemovesPlansThatCrossAnUnplannedRobotWhenStopped) {
   Planning p(
       hall(),
       {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(3.5, 3.5).to(5.5, 0.5), robot_at(0.5, 4.5).to(6.5, 4.5)},
-      hasty());
+      no_start_interval());
   p.state.follow(0, through({{0.5, 3.5}, {6.5, 3.5}}));
   p.state.follow(2, through({{0.5, 4.5}, {6.5, 4.5}}));
-  const PartialPlan completion = make_partial_plan(p.state, {0, 2, 1}, {}, met(), p.progress);
-  EXPECT_EQ(robots_of(completion), (Robots{0, 1})) << "2 crosses nobody";
+  const PartialPlan partial = make_partial_plan(p.state, {0, 2, 1}, {}, met(), p.progress);
+  EXPECT_EQ(robots_of(partial), (Robots{0, 1})) << "robot 2 conflicts with no robot";
   EXPECT_TRUE(p.state.trajectory(2));
   expect_safe(p.state);
 }

@@ -10,88 +10,88 @@ namespace {
 using support::robot_at;
 using Robots = std::vector<std::size_t>;
 
-/// Robot 0 wants through the middle of a hall, where robot 1 is.
+/// Robot 0 has to cross the middle of a hall, where robot 1 is.
 struct Hall : Planning {
   Hall()
       : Planning(OccupancyGrid(9, 5, 1.0),
                  {robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(4.5, 2.5).to(4.5, 4.5)}) {}
 
-  /// Who is in the way of driving straight through the middle, which takes 8 s from t = `departure`.
-  Robots in_the_middle(double departure = 0.0) const {
+  /// The robots that conflict with a straight move of 8 s through the middle from t = `departure`.
+  Robots crossing_conflicts(double departure = 0.0) const {
     return state.conflicting_robots(0, through({{0.5, 2.5}, {8.5, 2.5}}, departure));
   }
 };
 
 TEST(PlanState, IsEmptyAtFirst) {
   Hall p;
-  EXPECT_EQ(p.in_the_middle(), Robots{});
+  EXPECT_EQ(p.crossing_conflicts(), Robots{});
   EXPECT_FALSE(p.state.trajectory(1));
   EXPECT_EQ(p.state.expansions(), 0);
 }
 
-TEST(PlanState, ReplacesWhatARobotHeldBefore) {
+TEST(PlanState, ReplacesTheReservationOfARobot) {
   Hall p;
-  p.state.stand_for_ever(1);
-  EXPECT_EQ(p.in_the_middle(), Robots{1});
-  EXPECT_EQ(p.in_the_middle(1000.0), Robots{1});
+  p.state.stay_at_start(1);
+  EXPECT_EQ(p.crossing_conflicts(), Robots{1});
+  EXPECT_EQ(p.crossing_conflicts(1000.0), Robots{1});
   p.state.follow(1, through({{4.5, 2.5}, {4.5, 4.5}}));
   EXPECT_TRUE(p.state.trajectory(1));
-  EXPECT_EQ(p.in_the_middle(), Robots{}) << "it has gone by then";
+  EXPECT_EQ(p.crossing_conflicts(), Robots{}) << "it has gone by then";
   p.state.follow(1, through({{4.5, 2.5}, {4.5, 4.5}}, 3.0));
-  EXPECT_EQ(p.in_the_middle(), Robots{1}) << "it goes too late";
-  p.state.block_start(1, 3.1);
+  EXPECT_EQ(p.crossing_conflicts(), Robots{1}) << "it goes too late";
+  p.state.reserve_start(1, 3.1);
   EXPECT_FALSE(p.state.trajectory(1));
-  EXPECT_EQ(p.in_the_middle(), Robots{}) << "3.2 m take longer";
-  p.state.block_start(1, 3.3);
-  EXPECT_EQ(p.in_the_middle(), Robots{1});
-  p.state.leave(1);
-  EXPECT_EQ(p.in_the_middle(), Robots{});
+  EXPECT_EQ(p.crossing_conflicts(), Robots{}) << "3.2 m take longer";
+  p.state.reserve_start(1, 3.3);
+  EXPECT_EQ(p.crossing_conflicts(), Robots{1});
+  p.state.remove(1);
+  EXPECT_EQ(p.crossing_conflicts(), Robots{});
 }
 
-TEST(PlanState, BlocksAStartForNoTimeNotAtAll) {
+TEST(PlanState, ReservesNothingForZeroSeconds) {
   Hall p;
-  p.state.stand_for_ever(1);
-  p.state.block_start(1, 0.0);
+  p.state.stay_at_start(1);
+  p.state.reserve_start(1, 0.0);
   EXPECT_EQ(p.state.conflicting_robots(0, through({{4.5, 2.5}, {5.5, 2.5}})), Robots{});
 }
 
-TEST(PlanState, KnowsWhoCrossesAStart) {
+TEST(PlanState, FindsRobotsThatCrossAStart) {
   Hall p;
   p.state.follow(0, through({{0.5, 2.5}, {8.5, 2.5}}));
-  EXPECT_EQ(p.state.robots_conflicting_with_standing(1), Robots{0});
+  EXPECT_EQ(p.state.robots_crossing_start(1), Robots{0});
   p.state.follow(0, through({{0.5, 2.5}, {0.5, 4.5}, {8.5, 4.5}}));
-  EXPECT_EQ(p.state.robots_conflicting_with_standing(1), Robots{});
+  EXPECT_EQ(p.state.robots_crossing_start(1), Robots{});
 }
 
-TEST(PlanState, PlansAmongTheOthersWithoutChangingThem) {
+TEST(PlanState, PlansAmongReservationsWithoutChangingThem) {
   Hall p;
-  p.state.stand_for_ever(1);
+  p.state.stay_at_start(1);
   const auto found = p.state.plan(0, {}, p.never).trajectory;
   ASSERT_TRUE(found);
-  EXPECT_GT(found->cost, 8.0) << "round robot 1";
+  EXPECT_GT(found->cost, 8.0) << "around robot 1";
   EXPECT_FALSE(p.state.trajectory(0));
   EXPECT_GT(p.state.expansions(), 0);
   p.state.follow(0, *found);
   support::expect_safe(p.state);
 }
 
-TEST(PlanState, KnowsThePathOfARobotThatIsAlone) {
+TEST(PlanState, PlansARobotAloneOnTheMap) {
   Hall p;
-  p.state.stand_for_ever(1);
-  const Trajectory alone = p.state.alone(0, p.never);
+  p.state.stay_at_start(1);
+  const Trajectory alone = p.state.plan_alone(0, p.never);
   EXPECT_NEAR(alone.cost, 8.0, 1e-12);
   EXPECT_EQ(p.state.conflicting_robots(0, alone), Robots{1});
 }
 
-TEST(PlanState, LeavesARobotThatHasNoWayWhereItIs) {
+TEST(PlanState, PlansARobotWithoutAPathToStayAtItsStart) {
   Planning p(support::ascii_map({"..#..", "..#.."}), {robot_at(0.5, 0.5).to(4.5, 0.5)});
   EXPECT_FALSE(p.state.goal_reachable(0, p.never));
-  const Trajectory alone = p.state.alone(0, p.never);
+  const Trajectory alone = p.state.plan_alone(0, p.never);
   EXPECT_TRUE(alone.moves.empty());
   EXPECT_EQ(alone.start, Position(0.5, 0.5));
 }
 
-TEST(PlanState, ReachesAGoalThatIsTheStart) {
+TEST(PlanState, FindsAGoalAtTheStartReachable) {
   Planning p(support::ascii_map({"##.##", "#####"}), {robot_at(2.5, 1.5).to(2.5, 1.5, 2.0)});
   EXPECT_TRUE(p.state.goal_reachable(0, p.never));
 }

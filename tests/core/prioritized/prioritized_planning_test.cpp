@@ -13,8 +13,8 @@ using Priority = PlanOptions::Priority;
 using Reordering = PlanOptions::Reordering;
 using Robots = std::vector<std::size_t>;
 
-/// Robot 0 has a short way, into the doorway between two rooms, and stays there. Robot 1 has to go through
-/// first. Robot 2 stays on its side.
+/// Robot 0 has a short path into the doorway between two rooms and stays there. Robot 1 has to pass the
+/// doorway first. Robot 2 remains in its room.
 struct Doorway : Planning {
   Doorway(Priority priority, Reordering reordering)
       : Planning(support::ascii_map({"....#....",  //
@@ -42,7 +42,7 @@ PrioritizedResult run(Planning& p) {
   return plan_prioritized(p.state, p.movers(), p.random, p.never, p.never, p.progress);
 }
 
-TEST(Prioritized, PlansInOneAttemptWhereTheFirstOrderWorks) {
+TEST(Prioritized, NeedsOneAttemptWhereTheFirstOrderWorks) {
   Doorway p(Priority::longest_first, Reordering::raise_failed);
   const auto result = run(p);
   EXPECT_TRUE(result.unplanned.empty());
@@ -59,7 +59,7 @@ TEST(Prioritized, RaisesTheRobotThatFailed) {
   expect_safe(p.state);
 }
 
-TEST(Prioritized, FindsAnOrderAtRandom) {
+TEST(Prioritized, FindsARandomOrder) {
   Doorway p(Priority::shortest_first, Reordering::random);
   const auto result = run(p);
   EXPECT_TRUE(result.unplanned.empty());
@@ -68,7 +68,7 @@ TEST(Prioritized, FindsAnOrderAtRandom) {
   expect_safe(p.state);
 }
 
-TEST(Prioritized, PlansTheRestAllTheSameWithoutReordering) {
+TEST(Prioritized, PlansTheOtherRobotsWithoutReordering) {
   Doorway p(Priority::as_listed, Reordering::none);
   const auto result = run(p);
   ASSERT_EQ(robots_of(result), Robots{1});
@@ -79,7 +79,7 @@ TEST(Prioritized, PlansTheRestAllTheSameWithoutReordering) {
   expect_safe(p.state);
 }
 
-TEST(Prioritized, PlansTheOthersBesideARobotThatIsHopelessAmongThoseThatStay) {
+TEST(Prioritized, PlansTheOtherRobotsWhenOneIsBlockedByAParkedRobot) {
   for (const Reordering reordering : {Reordering::raise_failed, Reordering::random, Reordering::none}) {
     Planning p(support::ascii_map({"....#....",  //
                                    ".........",  //
@@ -87,7 +87,7 @@ TEST(Prioritized, PlansTheOthersBesideARobotThatIsHopelessAmongThoseThatStay) {
                {robot_at(4.5, 1.5), robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(8.5, 0.5).to(5.5, 0.5),
                 robot_at(2.5, 2.5).to(0.5, 2.5)},
                Doorway::chosen(Priority::shortest_first, reordering));
-    p.state.stand_for_ever(0);
+    p.state.stay_at_start(0);
     const auto result = run(p);
     ASSERT_EQ(robots_of(result), Robots{1});
     EXPECT_EQ(static_cast<int>(result.unplanned[0].reason),
@@ -98,14 +98,14 @@ TEST(Prioritized, PlansTheOthersBesideARobotThatIsHopelessAmongThoseThatStay) {
   }
 }
 
-TEST(Prioritized, HasNothingToDoWithoutMovers) {
+TEST(Prioritized, PlansNothingWithoutMovers) {
   Planning p(OccupancyGrid(4, 4, 1.0), {robot_at(1, 1)});
   const auto result = plan_prioritized(p.state, {}, p.random, p.never, p.never, p.progress);
   EXPECT_TRUE(result.unplanned.empty());
   EXPECT_FALSE(result.cut_off);
 }
 
-TEST(Prioritized, CompletesWhatItHasWhenTheTimeForAttemptsIsUp) {
+TEST(Prioritized, CompletesAPartialPlanAfterTheTimeForAttempts) {
   Planning p(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5), robot_at(0.5, 1.5).to(0.5, 8.5)});
   const auto result = plan_prioritized(p.state, p.movers(), p.random, met(), p.never, p.progress);
   EXPECT_TRUE(result.unplanned.empty()) << "there is time left to complete";
@@ -113,7 +113,7 @@ TEST(Prioritized, CompletesWhatItHasWhenTheTimeForAttemptsIsUp) {
   expect_safe(p.state);
 }
 
-TEST(Prioritized, LeavesEverybodyStandingWhenAllTimeIsUp) {
+TEST(Prioritized, LeavesAllRobotsUnplannedAfterStop) {
   Planning p(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5), robot_at(0.5, 1.5).to(0.5, 8.5)});
   const auto result = plan_prioritized(p.state, p.movers(), p.random, met(), met(), p.progress);
   EXPECT_EQ(robots_of(result), (Robots{0, 1}));

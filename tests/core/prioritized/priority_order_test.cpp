@@ -32,7 +32,7 @@ TEST(InitialOrder, IsByDistanceOrAsListed) {
   EXPECT_EQ(first_order(Priority::as_listed), (PriorityOrder{0, 1, 2, 3, 4}));
 }
 
-TEST(InitialOrder, AtRandomDependsOnTheSeedOnly) {
+TEST(InitialOrder, AtRandomDependsOnlyOnTheSeed) {
   std::set<PriorityOrder> seen;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     PriorityOrder order = first_order(Priority::random, seed);
@@ -44,7 +44,7 @@ TEST(InitialOrder, AtRandomDependsOnTheSeedOnly) {
   EXPECT_GT(seen.size(), 10u);
 }
 
-TEST(OrderSequence, RaisesTheRobotThatFailedToTheTop) {
+TEST(OrderSequence, GivesAFailedRobotTheHighestPriority) {
   Random random(0);
   OrderSequence orders(Reordering::raise_failed, {0, 1, 2, 3}, random);
   EXPECT_EQ(orders.current(), (PriorityOrder{0, 1, 2, 3}));
@@ -54,7 +54,7 @@ TEST(OrderSequence, RaisesTheRobotThatFailedToTheTop) {
   EXPECT_EQ(orders.current(), (PriorityOrder{3, 2, 0, 1}));
 }
 
-TEST(OrderSequence, ShufflesWhereRaisingLeadsBackToAnOrderThatFailed) {
+TEST(OrderSequence, ShufflesWhereRaisingRepeatsAnOrder) {
   Random random(0);
   OrderSequence orders(Reordering::raise_failed, {0, 1, 2}, random);
   ASSERT_TRUE(orders.advance(1));
@@ -63,14 +63,14 @@ TEST(OrderSequence, ShufflesWhereRaisingLeadsBackToAnOrderThatFailed) {
   EXPECT_TRUE(seen.insert(orders.current()).second) << "raising 0 leads back to the first order";
 }
 
-TEST(OrderSequence, HasOneOrderOnlyWithoutReordering) {
+TEST(OrderSequence, HasOneOrderWithoutReordering) {
   Random random(0);
   OrderSequence orders(Reordering::none, {0, 1, 2}, random);
   EXPECT_FALSE(orders.advance(2));
   EXPECT_EQ(orders.current(), (PriorityOrder{0, 1, 2}));
 }
 
-TEST(OrderSequence, OfOneRobotEndsAtOnce) {
+TEST(OrderSequence, HasOneOrderForOneRobot) {
   Random random(0);
   EXPECT_FALSE(OrderSequence(Reordering::raise_failed, {5}, random).advance(5));
   EXPECT_FALSE(OrderSequence(Reordering::random, {5}, random).advance(5));
@@ -90,7 +90,7 @@ TEST_P(OrderSequenceReordering, TriesEveryOrderOnceAndEnds) {
   }
 }
 
-TEST_P(OrderSequenceReordering, LeavesADroppedRobotOut) {
+TEST_P(OrderSequenceReordering, OmitsADroppedRobot) {
   Random random(1);
   OrderSequence orders(GetParam(), {0, 1, 2, 3}, random);
   ASSERT_TRUE(orders.advance(2));

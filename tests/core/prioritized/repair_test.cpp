@@ -1,7 +1,6 @@
-#include "core/prioritized/repair.h"
-
 #include <gtest/gtest.h>
 
+#include "core/prioritized/repair_or_restart.h"
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
@@ -11,10 +10,8 @@ using support::expect_safe;
 using support::robot_at;
 using Robots = std::vector<std::size_t>;
 
-Random dice() { return Random(7); }
-
-/// Robot 0 comes to rest in the mouth of a dead end before robot 1 is through, if it is planned first.
-Planning mouth() {
+/// Robot 0, if it is planned first, blocks the entrance of a dead end before robot 1 has passed.
+Planning blocked_entrance() {
   return Planning(
       support::ascii_map({"#######.#",  //
                           ".........",  //
@@ -22,46 +19,46 @@ Planning mouth() {
       {robot_at(7.5, 0.5).to(7.5, 1.5), robot_at(0.5, 1.5).to(7.5, 2.5), robot_at(0.5, 0.5).to(2.5, 0.5)});
 }
 
-TEST(Repair, RaisesARobotThatFoundNoWayAndTakesBackOnlyWhatItCrosses) {
-  Planning p = mouth();
-  Random random = dice();
-  const RepairResult result = plan_with_repair(p.state, {2, 0, 1}, random, p.never, p.progress);
+TEST(Repair, RaisesAFailedRobotAndReplansOnlyConflictingRobots) {
+  Planning p = blocked_entrance();
+  Random random(7);
+  const OrderingResult result = repair_or_restart(p.state, {2, 0, 1}, random, p.never, p.progress);
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_TRUE(result.given_up.empty());
   EXPECT_EQ(result.attempts, 2) << "robot 1 failed once";
   for (std::size_t robot = 0; robot < 3; ++robot) EXPECT_TRUE(p.state.trajectory(robot));
-  EXPECT_GT(p.state.trajectory(0)->cost, 7.0) << "it lets robot 1 through";
-  EXPECT_DOUBLE_EQ(p.state.trajectory(2)->cost, 2.0) << "nobody crossed it";
+  EXPECT_GT(p.state.trajectory(0)->cost, 7.0) << "it waits for robot 1";
+  EXPECT_DOUBLE_EQ(p.state.trajectory(2)->cost, 2.0) << "it conflicted with no robot";
   expect_safe(p.state);
 }
 
-TEST(Repair, GivesUpARobotThatHasNoWayAmongThoseThatStayAndPlansTheOthers) {
+TEST(Repair, GivesUpARobotWithoutAPathAmongRobotsThatStay) {
   Planning p(support::ascii_map({"....#....",  //
                                  ".........",  //
                                  "....#...."}),
              {robot_at(4.5, 1.5), robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(8.5, 0.5).to(5.5, 0.5)});
-  p.state.stand_for_ever(0);
-  Random random = dice();
-  const RepairResult result = plan_with_repair(p.state, {1, 2}, random, p.never, p.progress);
+  p.state.stay_at_start(0);
+  Random random(7);
+  const OrderingResult result = repair_or_restart(p.state, {1, 2}, random, p.never, p.progress);
   EXPECT_EQ(result.given_up, Robots{1});
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_TRUE(p.state.trajectory(2));
   expect_safe(p.state);
 }
 
-TEST(Repair, BreaksACycleOfRobotsThatRaiseEachOtherByHoldingOneBack) {
-  // The bay is in the middle: whoever leaves at once is there no later than the other.
+TEST(Repair, BreaksACycleOfRaisedRobotsByAStartDelay) {
+  // The bay is in the middle: without a delay no robot reaches it before the other.
   Planning p(support::ascii_map({"####.####",  //
                                  "........."}),
              {robot_at(0.5, 0.5).to(8.5, 0.5), robot_at(8.5, 0.5, 3.0).to(0.5, 0.5)});
-  Random random = dice();
-  const RepairResult result = plan_with_repair(p.state, {0, 1}, random, p.never, p.progress);
+  Random random(7);
+  const OrderingResult result = repair_or_restart(p.state, {0, 1}, random, p.never, p.progress);
   EXPECT_TRUE(result.unsolved.empty());
-  EXPECT_GT(result.attempts, 4) << "patience comes first";
+  EXPECT_GT(result.attempts, 4) << "a delay is tried only after several failures";
   expect_safe(p.state);
 }
 
-TEST(Repair, GivesUpARobotThatKeepsFailingAndPlansTheOthers) {
+TEST(Repair, GivesUpARobotThatKeepsFailing) {
   // Robots 0 and 1 cannot change places.
   Planning p(
       support::ascii_map({".......##",  //
@@ -69,15 +66,15 @@ TEST(Repair, GivesUpARobotThatKeepsFailingAndPlansTheOthers) {
                           "........."}),
       {robot_at(0.5, 2.5).to(6.5, 2.5), robot_at(6.5, 2.5, 3.0).to(0.5, 2.5), robot_at(0.5, 0.5).to(4.5, 0.5),
        robot_at(1.5, 0.5).to(6.5, 0.5), robot_at(3.5, 0.5).to(8.5, 0.5)});
-  Random random = dice();
-  const RepairResult result = plan_with_repair(p.state, {0, 1, 2, 3, 4}, random, p.never, p.progress);
+  Random random(7);
+  const OrderingResult result = repair_or_restart(p.state, {0, 1, 2, 3, 4}, random, p.never, p.progress);
   EXPECT_TRUE(result.unsolved.empty());
-  EXPECT_EQ(result.given_up, (Robots{1, 0})) << "each stands in the way of the other";
+  EXPECT_EQ(result.given_up, (Robots{1, 0})) << "each blocks the other";
   for (const std::size_t robot : {2u, 3u, 4u}) EXPECT_TRUE(p.state.trajectory(robot));
   expect_safe(p.state);
 }
 
-TEST(Repair, BeginsAgainWithTheLargerOnesWhereManyFail) {
+TEST(Repair, StartsAgainWithLargerRobotsFirstAfterManyFailures) {
   // Robots 0 and 1 cannot change places; 2, the smallest, and 3 would meet in the middle of the hall.
   Planning p(
       support::ascii_map({".......##",  //
@@ -89,8 +86,8 @@ TEST(Repair, BeginsAgainWithTheLargerOnesWhereManyFail) {
                           "........."}),
       {robot_at(0.5, 6.5).to(6.5, 6.5), robot_at(6.5, 6.5, 3.0).to(0.5, 6.5),
        robot_at(2.5, 2.5).to(8.5, 2.5).radius(0.2), robot_at(4.5, 4.5, -1.5707963267948966).to(4.5, 0.5)});
-  Random random = dice();
-  const RepairResult result = plan_with_repair(p.state, {0, 1, 2, 3}, random, p.never, p.progress);
+  Random random(7);
+  const OrderingResult result = repair_or_restart(p.state, {0, 1, 2, 3}, random, p.never, p.progress);
   EXPECT_EQ(result.given_up.size(), 2u);
   ASSERT_TRUE(p.state.trajectory(2) && p.state.trajectory(3));
   EXPECT_NEAR(p.state.trajectory(3)->cost, 4.0, 1e-9);
@@ -98,11 +95,12 @@ TEST(Repair, BeginsAgainWithTheLargerOnesWhereManyFail) {
   expect_safe(p.state);
 }
 
-TEST(Repair, ReturnsTheRobotsWithoutATrajectoryByPriorityWhenItIsStopped) {
-  Planning p = mouth();
-  Random random = dice();
-  const RepairResult result = plan_with_repair(p.state, {2, 0, 1}, random, met(), p.progress);
+TEST(Repair, ReturnsUnsolvedRobotsByPriorityWhenStopped) {
+  Planning p = blocked_entrance();
+  Random random(7);
+  const OrderingResult result = repair_or_restart(p.state, {2, 0, 1}, random, met(), p.progress);
   EXPECT_EQ(result.unsolved, (Robots{2, 0, 1}));
+  EXPECT_TRUE(result.cut_off);
 }
 
 }  // namespace

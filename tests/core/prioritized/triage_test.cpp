@@ -35,13 +35,13 @@ OccupancyGrid rooms() {
                              "....#...."});
 }
 
-TEST(Triage, LetsRobotsThatCanBePlannedPass) {
+TEST(Triage, AcceptsRobotsThatCanBePlanned) {
   Planning p(rooms(), {robot_at(1, 1).to(8, 1), robot_at(8, 2).to(1, 2), robot_at(3, 1)});
   for (const auto& robot : triage(p.state, p.never)) EXPECT_FALSE(robot);
-  EXPECT_EQ(p.state.robots_conflicting_with_standing(0), Robots{}) << "it is not there yet";
+  EXPECT_EQ(p.state.robots_crossing_start(0), Robots{}) << "it has no reservation";
 }
 
-TEST(Triage, LetsParkedRobotsStand) {
+TEST(Triage, KeepsParkedRobotsAtTheirStarts) {
   Planning p(rooms(), {robot_at(1, 1).to(1, 2), robot_at(3, 1)});
   EXPECT_FALSE(triage(p.state, p.never)[1]);
   EXPECT_EQ(p.state.conflicting_robots(0, through({{1, 1}, {3.5, 1}})), Robots{1});
@@ -52,7 +52,7 @@ TEST(Triage, GivesUpARobotThatIsTooWideAtItsStartWhenInflated) {
   const auto result = triage(p.state, p.never);
   expect_given_up(result[0], 0, Reason::start_blocked);
   EXPECT_FALSE(result[1]);
-  EXPECT_EQ(p.state.conflicting_robots(1, through({{3, 2}, {0.5, 1}})), Robots{0}) << "it stands for ever";
+  EXPECT_EQ(p.state.conflicting_robots(1, through({{3, 2}, {0.5, 1}})), Robots{0}) << "it stays at its start";
 }
 
 TEST(Triage, GivesUpRobotsThatOverlapAtTheirStartsWhenInflated) {
@@ -76,7 +76,7 @@ TEST(Triage, GivesUpARobotThatIsTooWideAtItsGoalWhenInflated) {
   expect_given_up(triage(p.state, p.never)[0], 0, Reason::goal_blocked);
 }
 
-TEST(Triage, ServesTheFirstOfTwoGoalsThatOverlapWhenInflated) {
+TEST(Triage, PlansTheFirstOfTwoRobotsWhoseInflatedGoalsOverlap) {
   Planning p(rooms(), {robot_at(1, 1).to(6, 1), robot_at(1, 2).to(6.9, 1), robot_at(3, 2).to(8, 1)},
              inflated(0.06));
   const auto result = triage(p.state, p.never);
@@ -85,27 +85,27 @@ TEST(Triage, ServesTheFirstOfTwoGoalsThatOverlapWhenInflated) {
   EXPECT_FALSE(result[2]);
 }
 
-TEST(Triage, FindsContactWhenInflatedGoodEnough) {
+TEST(Triage, AcceptsContactWhenInflated) {
   Planning p(rooms(), {robot_at(0.5, 0.5).to(0.5, 2.5), robot_at(1.5, 0.5).to(1.5, 2.5)}, inflated(0.1));
   for (const auto& robot : triage(p.state, p.never)) EXPECT_FALSE(robot);
 }
 
-TEST(Triage, GivesUpARobotThatNoWayIsWideEnoughFor) {
+TEST(Triage, GivesUpARobotForWhichNoPathIsWideEnough) {
   Planning p(rooms(), {robot_at(1, 1).to(8, 1).radius(0.6), robot_at(1, 2.4).to(8, 2.4)});
   const auto result = triage(p.state, p.never);
   expect_given_up(result[0], 0, Reason::goal_unreachable);
   EXPECT_FALSE(result[1]);
 }
 
-TEST(Triage, GivesUpARobotWhoseGoalAParkedOneStandsOn) {
+TEST(Triage, GivesUpARobotWhoseGoalIsOccupiedByAParkedRobot) {
   Planning p(rooms(), {robot_at(1, 1).to(6, 1), robot_at(6.5, 1), robot_at(6, 2.5).to(8, 2)});
   const auto result = triage(p.state, p.never);
   expect_given_up(result[0], 0, Reason::goal_blocked, {1});
   EXPECT_FALSE(result[2]);
 }
 
-TEST(Triage, GivesUpWhoeverWantsToThePlaceOfARobotGivenUp) {
-  // 2 wants to the place of 1, which wants to the place of 0, which cannot leave its room.
+TEST(Triage, GivesUpRobotsWhoseGoalsAreOccupiedByRobotsGivenUp) {
+  // The goal of 2 is the start of 1, whose goal is the start of 0, which cannot leave its room.
   Planning p(rooms(), {robot_at(1, 1).to(8, 2).radius(0.6), robot_at(6, 1).to(1, 1),
                        robot_at(8, 0.5).to(6, 1), robot_at(3.3, 2).to(8, 0.5)});
   const auto result = triage(p.state, p.never);
@@ -115,13 +115,13 @@ TEST(Triage, GivesUpWhoeverWantsToThePlaceOfARobotGivenUp) {
   expect_given_up(result[3], 3, Reason::goal_blocked, {2});
 }
 
-TEST(Triage, DoesNotCallAGoalUnreachableWhenItWasStopped) {
+TEST(Triage, DoesNotReportAGoalAsUnreachableWhenStopped) {
   Planning p(support::ascii_map({"..............#.",  //
                                  "..............#.",  //
                                  "..............#."}),
              {robot_at(0.5, 0.5).to(15.5, 0.5).radius(0.2)});
   EXPECT_TRUE(triage(p.state, p.never)[0]);
-  // The way back from the goal has three places only, so that is known at once; not so from the other side.
+  // From the goal only three places are reachable, so the search ends at once; in reverse it does not.
   Planning reversed(support::ascii_map({"..............#.",  //
                                         "..............#.",  //
                                         "..............#.",  //

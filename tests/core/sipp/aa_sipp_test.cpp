@@ -152,7 +152,7 @@ TEST(AaSipp, StepsAsideFromAPlaceOffTheLattice) {
 
 TEST(AaSipp, FindsNoWayPastARobotThatStays) {
   Planning p(crossing(), {robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(4.5, 2.5), robot_at(8.0, 2.5)});
-  p.state.stand_for_ever(1);
+  p.state.stay_at_start(1);
   const SearchResult result = p.state.plan(0, kExact, p.never);
   EXPECT_FALSE(result.trajectory);
   EXPECT_TRUE(result.complete) << "that there is none is proven";
@@ -160,7 +160,7 @@ TEST(AaSipp, FindsNoWayPastARobotThatStays) {
 
 TEST(AaSipp, FindsNoWayToAGoalThatIsTaken) {
   Planning p(OccupancyGrid(9, 5, 1.0), {robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(8.0, 2.5)});
-  p.state.stand_for_ever(1);
+  p.state.stay_at_start(1);
   const SearchResult result = p.state.plan(0, kExact, p.never);
   EXPECT_FALSE(result.trajectory);
   EXPECT_TRUE(result.complete);

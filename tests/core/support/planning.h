@@ -19,13 +19,13 @@
 
 namespace fleetplan::core {
 
-/// A search that settles for nothing dearer than it has to.
+/// An exact search: it accepts no suboptimal cost.
 inline constexpr SearchLimits kExact{
     .heuristic_weight = 1.0, .suboptimality = 0.0, .suboptimality_growth = 0.0, .dominance_slack = 0.0};
 
 struct Planning {
-  explicit Planning(Problem told, const PlanOptions& options = {})
-      : problem(std::move(told)), instance(problem, options), state(instance), random(options.seed) {}
+  explicit Planning(Problem given, const PlanOptions& options = {})
+      : problem(std::move(given)), instance(problem, options), state(instance), random(options.seed) {}
   Planning(OccupancyGrid grid, std::vector<Robot> robots, const PlanOptions& options = {})
       : Planning(support::make_problem(std::move(grid), std::move(robots)), options) {}
   Planning(const Planning&) = delete;
@@ -46,18 +46,17 @@ struct Planning {
   Random random;
   StopCondition never;
   CallerThread callers_thread;
-  ProgressReport progress{state, nullptr};  // nobody watches
+  ProgressReport progress{state, nullptr};  // no observer
 };
 
-/// A stop condition that is met already.
+/// A stop condition that is met.
 inline StopCondition met() {
   std::stop_source source;
   source.request_stop();
   return StopCondition(StopCondition::Clock::time_point::max(), source.get_token());
 }
 
-/// Straight moves through these points, each at a speed of 1 m/s and departing as soon as it can, the first
-/// at `departure`.
+/// Straight moves through these points at 1 m/s, without waits after the first departure.
 inline Trajectory through(const std::vector<Position>& points, double departure = 0.0) {
   Trajectory trajectory{points.front(), {}, departure};
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -68,7 +67,7 @@ inline Trajectory through(const std::vector<Position>& points, double departure 
   return trajectory;
 }
 
-/// One way back and forth, 28 m x 9 m; no search finds it at a glance.
+/// One winding path, 28 m x 9 m, that takes every search long to find.
 inline OccupancyGrid maze() {
   return support::ascii_map({"............................",  //
                              "............................",  //

@@ -1,0 +1,33 @@
+#include "core/prioritized/blocking_robots.h"
+
+#include <utility>
+
+namespace fleetplan::core {
+namespace {
+
+/// About a tenth of a second.
+constexpr std::int64_t kMaxExpansions = 20'000;
+
+}  // namespace
+
+std::vector<std::size_t> BlockingRobots::find(std::size_t robot) {
+  if (stop_.met()) return {};
+  std::vector<std::size_t> blocking = state_.conflicting_robots(robot, state_.plan_alone(robot, stop_));
+  state_.remove(robot);
+  for (std::size_t k = 0; k < blocking.size() && blocking.size() > 1;) {
+    if (stop_.met() || expansions_ > kMaxExpansions) break;
+    const std::int64_t before = state_.expansions();
+    std::vector<std::size_t> fewer = blocking;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+    if (state_.plan_ignoring(fewer, robot, {}, stop_).trajectory) {
+      blocking = std::move(fewer);
+    } else {
+      ++k;
+    }
+    expansions_ += state_.expansions() - before;
+  }
+  state_.stay_at_start(robot);
+  return blocking;
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/prioritized/plan_state.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Finds the robots that keep another one from its goal. The effort for all calls together is limited, to
+/// about a tenth of a second.
+class BlockingRobots {
+ public:
+  BlockingRobots(PlanState& state, const StopCondition& stop) : state_(state), stop_(stop) {}
+
+  /// For a robot that stays at its start and has no path among the others: the robots that conflict with its
+  /// path alone on the map, except those without which the rest would block it as well. Ascending. More than
+  /// necessary when the effort or `stop` ends the search; none if `stop` is met already.
+  std::vector<std::size_t> find(std::size_t robot);
+
+ private:
+  PlanState& state_;
+  const StopCondition& stop_;
+  std::int64_t expansions_ = 0;
+};
+
+}  // namespace fleetplan::core
