@@ -412,8 +412,8 @@ test("a stream that ends in a problem, or too early, is told in words", async ()
     const progress = { elapsed_ms: 1, attempt: 1, planned: 0, robots: 1, best: null };
     const begin = `event: progress\ndata: ${JSON.stringify(progress)}\n\n`;
     await end(begin, "No answer from the service");
-    const problem = { title: "The service has a fault", status: 500, detail: "A bug.", errors: [] };
-    await end(`${begin}event: problem\ndata: ${JSON.stringify(problem)}\n\n`, "The service has a fault");
+    const problem = { title: "Internal Server Error", status: 500, detail: "A bug.", errors: [] };
+    await end(`${begin}event: problem\ndata: ${JSON.stringify(problem)}\n\n`, "Internal Server Error");
   });
 });
 
