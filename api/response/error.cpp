@@ -8,35 +8,40 @@ namespace fleetplan::api {
 
 namespace {
 
-struct Row {
-  ErrorCode code;
-  int status;
-  std::string_view name;
-  std::string_view title;
-};
-
-// In the order of ErrorCode.
-constexpr std::array<Row, 17> kTable{{
-    {ErrorCode::malformed_json, 400, "malformed_json", "The body is not JSON"},
-    {ErrorCode::too_deep, 400, "too_deep", "The JSON is nested too deep"},
-    {ErrorCode::malformed_request, 400, "malformed_request", "The HTTP request is malformed"},
-    {ErrorCode::unauthorized, 401, "unauthorized", "A valid token is required"},
-    {ErrorCode::not_found, 404, "not_found", "There is nothing here"},
-    {ErrorCode::method_not_allowed, 405, "method_not_allowed", "This resource has other methods"},
-    {ErrorCode::not_acceptable, 406, "not_acceptable", "No acceptable form of the answer"},
-    {ErrorCode::request_timeout, 408, "request_timeout", "The request did not come in time"},
-    {ErrorCode::body_too_large, 413, "body_too_large", "The body is too large"},
-    {ErrorCode::target_too_long, 414, "target_too_long", "The request target is too long"},
-    {ErrorCode::unsupported_media_type, 415, "unsupported_media_type", "The body is of another media type"},
-    {ErrorCode::invalid_request, 422, "invalid_request", "The request is not valid"},
-    {ErrorCode::check_unfinished, 422, "check_unfinished", "The check did not end in time"},
-    {ErrorCode::head_too_large, 431, "head_too_large", "The header fields are too large"},
-    {ErrorCode::internal_error, 500, "internal_error", "The service has a fault"},
-    {ErrorCode::overloaded, 503, "overloaded", "The service has too much to do"},
-    {ErrorCode::draining, 503, "draining", "The service is shutting down"},
+constexpr std::array<ErrorRow, 17> kTable{{
+    {ErrorCode::malformed_json, 400, "malformed_json", "Malformed JSON", "The body is not JSON."},
+    {ErrorCode::too_deep, 400, "too_deep", "JSON Nested Too Deep",
+     "The JSON of the body nests deeper than `max_depth` of `GET /v1/limits`."},
+    {ErrorCode::malformed_request, 400, "malformed_request", "Bad Request",
+     "The HTTP request itself is malformed."},
+    {ErrorCode::unauthorized, 401, "unauthorized", "Unauthorized",
+     "The service requires a token, and the request has none or a wrong one."},
+    {ErrorCode::not_found, 404, "not_found", "Not Found", "There is no such path or example."},
+    {ErrorCode::method_not_allowed, 405, "method_not_allowed", "Method Not Allowed",
+     "The path does not support this method."},
+    {ErrorCode::not_acceptable, 406, "not_acceptable", "Not Acceptable",
+     "`Accept` excludes every media type of the answer."},
+    {ErrorCode::request_timeout, 408, "request_timeout", "Request Timeout",
+     "The head or the body of the request did not arrive in time."},
+    {ErrorCode::body_too_large, 413, "body_too_large", "Content Too Large",
+     "The body exceeds `max_body` of `GET /v1/limits`, as sent or decompressed."},
+    {ErrorCode::target_too_long, 414, "target_too_long", "URI Too Long",
+     "The path with its query is longer than 8 KiB."},
+    {ErrorCode::unsupported_media_type, 415, "unsupported_media_type", "Unsupported Media Type",
+     "The body is declared to be something other than JSON, plain or with gzip."},
+    {ErrorCode::invalid_request, 422, "invalid_request", "Invalid Request",
+     "The body is JSON, but not a valid request. `errors` lists all faults (the first hundred, if there are "
+     "more), in the order of the document."},
+    {ErrorCode::check_unfinished, 422, "check_unfinished", "Check Not Finished",
+     "`/v1/validate` could not check the plans within the budget."},
+    {ErrorCode::head_too_large, 431, "head_too_large", "Request Header Fields Too Large",
+     "The head of the request is larger than 32 KiB, or has more than 100 fields."},
+    {ErrorCode::internal_error, 500, "internal_error", "Internal Server Error",
+     "A bug of the service, such as a plan that its checker rejected."},
+    {ErrorCode::overloaded, 503, "overloaded", "Service Unavailable",
+     "The queue is full, or the large bodies being received would take too much memory together."},
+    {ErrorCode::draining, 503, "draining", "Service Unavailable", "The service is shutting down."},
 }};
-
-const Row& row_of(ErrorCode code) { return kTable[static_cast<std::size_t>(code)]; }
 
 constexpr bool is_in_order() {
   for (std::size_t index = 0; index < kTable.size(); ++index) {
@@ -48,20 +53,13 @@ static_assert(is_in_order(), "every ErrorCode has its row, in the order of the e
 
 }  // namespace
 
-std::vector<ErrorCode> error_codes() {
-  std::vector<ErrorCode> codes;
-  codes.reserve(kTable.size());
-  for (const Row& row : kTable) codes.push_back(row.code);
-  return codes;
-}
+std::span<const ErrorRow> error_table() { return kTable; }
 
-int status_of(ErrorCode code) { return row_of(code).status; }
-
-std::string_view name_of(ErrorCode code) { return row_of(code).name; }
+const ErrorRow& row_of(ErrorCode code) { return kTable[static_cast<std::size_t>(code)]; }
 
 Reply problem_reply(ErrorCode code, const std::string& detail, const std::string& request_id,
                     const std::vector<Fault>& faults) {
-  const Row& row = row_of(code);
+  const ErrorRow& row = row_of(code);
   JsonWriter json;
   json.begin_object();
   // A name, not an address: there is no page behind it.

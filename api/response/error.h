@@ -2,6 +2,7 @@
 
 // Errors as RFC 9457 problem details, from one table.
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,11 +39,20 @@ struct Fault {
   std::string detail;   // what is wrong and what would be right
 };
 
-/// All of them, in the order of the table.
-std::vector<ErrorCode> error_codes();
+struct ErrorRow {
+  ErrorCode code;
+  int status;
+  std::string_view name;         // `code` of the answer
+  std::string_view title;        // of RFC 9110 where the status says it all
+  std::string_view description;  // when it is returned, for the OpenAPI document
+};
 
-int status_of(ErrorCode code);
-std::string_view name_of(ErrorCode code);
+/// The table, in the order of ErrorCode. api/openapi.json has a response for each status in it.
+std::span<const ErrorRow> error_table();
+
+const ErrorRow& row_of(ErrorCode code);
+inline int status_of(ErrorCode code) { return row_of(code).status; }
+inline std::string_view name_of(ErrorCode code) { return row_of(code).name; }
 
 /// The error as application/problem+json.
 Reply problem_reply(ErrorCode code, const std::string& detail, const std::string& request_id,

@@ -107,7 +107,7 @@ async function problemOf(request, validate) {
       errors.push(...placementErrors(request, check.violations, "goal"));
     }
     if (errors.length === 0) return null;
-    return { title: "The request is not valid", errors };
+    return { title: "Invalid Request", errors };
   } catch (error) {
     if (!(error instanceof ProblemError)) throw error;
     const errors = (error.problem.errors ?? []).filter((each) => !isWithoutRobots(each));

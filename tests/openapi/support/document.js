@@ -30,6 +30,7 @@ export class Document {
     this.root = root;
     addFormats(this.#ajv);
     this.#ajv.addVocabulary(Object.keys(root)); // which are no keywords of schemas
+    this.#ajv.addVocabulary(["x-unit", "x-enumDescriptions"]);
     this.#ajv.addSchema(closed(root), "document");
   }
 

@@ -411,8 +411,8 @@ test("a stream that ends with a problem, or too early, is reported", async () =>
     const progress = { elapsed_ms: 1, attempt: 1, planned: 0, robots: 1, best: null };
     const begin = `event: progress\ndata: ${JSON.stringify(progress)}\n\n`;
     await end(begin, "No answer from the service");
-    const problem = { title: "The service has a fault", status: 500, detail: "A bug.", errors: [] };
-    await end(`${begin}event: problem\ndata: ${JSON.stringify(problem)}\n\n`, "The service has a fault");
+    const problem = { title: "Internal Server Error", status: 500, detail: "A bug.", errors: [] };
+    await end(`${begin}event: problem\ndata: ${JSON.stringify(problem)}\n\n`, "Internal Server Error");
   });
 });
 

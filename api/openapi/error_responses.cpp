@@ -1,0 +1,149 @@
+#include "api/openapi/error_responses.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/json/fault_list.h"
+#include "api/response/error.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The component of a status, and the header field that it has beside X-Request-Id.
+struct Response {
+  int status;
+  std::string_view component;
+  std::string_view field = {};
+  std::string_view field_component = {};
+};
+
+constexpr std::array<Response, 13> kResponses{{
+    {400, "BadRequest"},
+    {401, "Unauthorized", "WWW-Authenticate", "WwwAuthenticate"},
+    {404, "NotFound"},
+    {405, "MethodNotAllowed", "Allow", "Allow"},
+    {406, "NotAcceptable"},
+    {408, "RequestTimeout"},
+    {413, "BodyTooLarge"},
+    {414, "TargetTooLong"},
+    {415, "UnsupportedMediaType", "Accept-Encoding", "AcceptEncoding"},
+    {422, "InvalidRequest"},
+    {431, "HeadTooLarge"},
+    {500, "InternalError"},
+    {503, "Unavailable", "Retry-After", "RetryAfter"},
+}};
+
+/// An answer of the service. The tests compare it with real ones.
+struct Example {
+  ErrorCode code;
+  std::string_view detail;
+  std::string_view name = {};  // empty: that of the code
+};
+
+constexpr std::array<Example, 18> kExamples{{
+    {ErrorCode::malformed_json,
+     "Not JSON at line 3, column 14 (byte 47): NaN and infinities are not JSON; give a finite number."},
+    {ErrorCode::too_deep, "The JSON nests arrays and objects deeper than the limit of 32 levels."},
+    {ErrorCode::malformed_request, "Content-Length and Transfer-Encoding exclude each other."},
+    {ErrorCode::unauthorized,
+     "Send the service's token as 'Authorization: Bearer ...', or as the password of Basic."},
+    {ErrorCode::not_found,
+     "There is no example 'corridor'; there are: charging-docks, corridor-swap, crossing, hall-100, "
+     "hospital-ward, lab-polygon, partly-solvable, warehouse."},
+    {ErrorCode::method_not_allowed, "'/v1/plan' takes POST, not 'GET'."},
+    {ErrorCode::not_acceptable,
+     "Plans are application/json or text/event-stream, which Accept: 'text/html' excludes: add "
+     "application/json or leave the header out."},
+    {ErrorCode::request_timeout, "The request's head did not come within 10000 ms."},
+    {ErrorCode::body_too_large, "The body has 40000000 bytes; the limit is 33554432."},
+    {ErrorCode::target_too_long, "The request target is longer than 8192 bytes."},
+    {ErrorCode::unsupported_media_type,
+     "The body is declared a web form, as 'curl -d' does: use 'curl --json', or add -H 'Content-Type: "
+     "application/json'."},
+    {ErrorCode::invalid_request, "The request has 2 faults; see errors."},
+    {ErrorCode::check_unfinished,
+     "The plans could not be checked within 5000 ms: give options.time_budget_ms more, as far as /v1/limits "
+     "allows, or send fewer robots or a part of the time."},
+    {ErrorCode::head_too_large, "There are more than 100 header fields."},
+    {ErrorCode::internal_error, "A bug in the service; its log has more under this request_id."},
+    {ErrorCode::overloaded, "All workers are busy and the queue is full: try again later."},
+    {ErrorCode::overloaded, "Too many large requests are being received: try again later.",
+     "overloaded_by_bodies"},
+    {ErrorCode::draining, "The service is shutting down: ask another one."},
+}};
+
+std::vector<Fault> faults_of(ErrorCode code) {
+  if (code != ErrorCode::invalid_request) return {};
+  return {
+      {"/robots/0/linear_speed", fault::kOutOfRange,
+       "linear_speed must be from 1e-09 to 1e+09 metres per second, not 0."},
+      {"/robots/1/start", fault::kStartInObstacle,
+       "The start of robot \"amr-2\" does not fit: its disk overlaps a blocked cell or the edge of the map "
+       "by 0.2 m (radius 0.2 m). Move it or make the robot smaller."}};
+}
+
+Json reference(std::string_view section, std::string_view component) {
+  std::string address = "#/components/";
+  address.append(section).append("/").append(component);
+  return {{"$ref", address}};
+}
+
+Json examples_of(int status) {
+  Json examples;
+  for (const Example& example : kExamples) {
+    if (status_of(example.code) != status) continue;
+    const std::string_view name = example.name.empty() ? name_of(example.code) : example.name;
+    const Reply reply =
+        problem_reply(example.code, std::string(example.detail), "shift-7.plan-42", faults_of(example.code));
+    examples[std::string(name)]["value"] = Json::parse(reply.body);
+  }
+  return examples;
+}
+
+/// When a status is returned: by code, where it has several.
+std::string description_of(const std::vector<ErrorRow>& rows) {
+  if (rows.size() == 1) return std::string(rows.front().description);
+  std::string text;
+  for (const ErrorRow& row : rows) {
+    text += text.empty() ? "`" : " `";
+    text.append(row.name).append("`: ").append(row.description);
+  }
+  return text;
+}
+
+Json response_of(const Response& response) {
+  std::vector<ErrorRow> rows;
+  Json codes = Json::array();
+  for (const ErrorRow& row : error_table()) {
+    if (row.status != response.status) continue;
+    rows.push_back(row);
+    codes.push_back(row.name);
+  }
+  Json headers{{"X-Request-Id", reference("headers", "RequestId")}};
+  if (!response.field.empty()) {
+    headers[std::string(response.field)] = reference("headers", response.field_component);
+  }
+  const Json constraint{
+      {"properties", {{"status", {{"const", response.status}}}, {"code", {{"enum", codes}}}}}};
+  Json content;
+  content["schema"]["allOf"] = Json::array({reference("schemas", "Problem"), constraint});
+  content["examples"] = examples_of(response.status);
+  return {
+      {"description", description_of(rows)}, {"headers", headers}, {"content", {{kProblemJson, content}}}};
+}
+
+}  // namespace
+
+Json error_responses() {
+  Json responses;
+  for (const Response& response : kResponses)
+    responses[std::string(response.component)] = response_of(response);
+  return responses;
+}
+
+}  // namespace fleetplan::api

@@ -1,0 +1,80 @@
+#include "api/request/option_table.h"
+
+#include <array>
+#include <limits>
+
+namespace fleetplan::api {
+
+namespace {
+
+using core::PlanOptions;
+using Word = WordOption::Word;
+
+// A longer budget is clamped to the service's maximum.
+constexpr Range kBudget{1.0, std::numeric_limits<double>::max(), "milliseconds"};
+constexpr std::uint64_t kMostSeed = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kMostIterations = std::numeric_limits<std::int64_t>::max();
+
+constexpr std::array<Word, 2> kModes{{
+    {"first", "First solution"},
+    {"anytime", "Improve until the budget ends"},
+}};
+constexpr std::array<Word, 2> kObjectives{{
+    {"flowtime", "Flowtime (sum)"},
+    {"makespan", "Makespan (maximum)"},
+}};
+constexpr std::array<Word, 4> kPriorities{{
+    {"shortest_first", "Shortest path first"},
+    {"longest_first", "Longest path first"},
+    {"as_listed", "As listed"},
+    {"random", "Random"},
+}};
+constexpr std::array<Word, 3> kReorderings{{
+    {"raise_failed", "Plan the failed robot first"},
+    {"random", "Shuffle"},
+    {"none", "Plan every robot once"},
+}};
+constexpr std::array<int, 4> kConnectivities{4, 8, 16, 32};
+
+template <typename Choice, Choice PlanOptions::*kField>
+constexpr WordOption one_of(std::span<const Word> words) {
+  return {words, [](const PlanOptions& plan) { return static_cast<std::size_t>(plan.*kField); },
+          [](PlanOptions& plan, std::size_t index) { plan.*kField = static_cast<Choice>(index); }};
+}
+
+constexpr std::array<OptionRow, 12> kTable{{
+    {"time_budget_ms", "Time budget", "ms", ServiceOption{kBudget, &ReadOptions::budget_ms, 5000.0},
+     "Milliseconds for the whole answer, counted from the last byte received. `GET /v1/limits` returns the "
+     "default (`default_budget_ms`) and the maximum (`max_budget_ms`); a larger value is clamped, with a "
+     "warning."},
+    {"mode", "Mode", "", one_of<PlanOptions::Mode, &PlanOptions::mode>(kModes),
+     "`first` returns the first solution; `anytime` uses the rest of the budget to improve the objective."},
+    {"objective", "Objective", "", one_of<PlanOptions::Objective, &PlanOptions::objective>(kObjectives),
+     "What `anytime` minimizes: the sum of the robots' costs or their maximum."},
+    {"seed", "Seed", "", NaturalOption{kMostSeed, &PlanOptions::seed}, "Seed of all random choices."},
+    {"priority", "Initial order", "", one_of<PlanOptions::Priority, &PlanOptions::priority>(kPriorities),
+     "The initial order in which robots are planned. Later robots give way to earlier ones."},
+    {"reordering", "After a failure", "",
+     one_of<PlanOptions::Reordering, &PlanOptions::reordering>(kReorderings),
+     "How the order changes when no plan is found for a robot. `none` plans every robot just once."},
+    {"start_safe_interval", "Start safe interval", "s",
+     RealOption{kDuration, &PlanOptions::start_safe_interval},
+     "Seconds for which the starts of robots that are not planned yet are kept free."},
+    {"inflation", "Inflation", "m", RealOption{kLengthOrZero, &PlanOptions::inflation},
+     "Metres added to every radius during planning. A robot that fits only without the inflation stays "
+     "unplanned."},
+    {"wait_before_move", "Wait before a move", "s", RealOption{kDuration, &PlanOptions::wait_before_move},
+     "Seconds that a robot stands still before every translation, already turned."},
+    {"any_angle", "Any angle", "", BooleanOption{&PlanOptions::any_angle},
+     "Allows straight moves between any two cells in line of sight, not only between neighbours."},
+    {"connectivity", "Connectivity", "", CountOption{kConnectivities, &PlanOptions::connectivity},
+     "Number of neighbours of a cell."},
+    {"max_iterations", "Improvement steps", "", BoundOption{kMostIterations, &PlanOptions::max_iterations},
+     "Bounds `anytime` by a number of improvement steps instead of the clock."},
+}};
+
+}  // namespace
+
+std::span<const OptionRow> option_table() { return kTable; }
+
+}  // namespace fleetplan::api

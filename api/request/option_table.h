@@ -1,0 +1,86 @@
+#pragma once
+
+// The options of a request in one table. The parser, the schema PlanOptions of api/openapi.json, and through
+// that the page and the documentation, follow it.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "api/json/read_value.h"
+#include "core/model/plan_options.h"
+
+namespace fleetplan::api {
+
+/// The member `options` of a request.
+struct ReadOptions {
+  core::PlanOptions plan;
+  std::optional<double> budget_ms;  // as requested, >= 1; none: the service's default
+  std::vector<std::string>
+      warnings;  // options that are accepted but do not have the effect they seem to have
+};
+
+/// A real number.
+struct RealOption {
+  Range range;
+  double core::PlanOptions::*field;
+};
+
+/// A real number whose default is a setting of the service.
+struct ServiceOption {
+  Range range;
+  std::optional<double> ReadOptions::*field;
+  double example;
+};
+
+/// A whole number from 0 to `most`.
+struct NaturalOption {
+  std::uint64_t most;
+  std::uint64_t core::PlanOptions::*field;
+};
+
+/// A whole number from 0 to `most`, or null, the default, for no bound.
+struct BoundOption {
+  std::uint64_t most;
+  std::optional<std::int64_t> core::PlanOptions::*field;
+};
+
+/// One of a few numbers.
+struct CountOption {
+  std::span<const int> values;
+  int core::PlanOptions::*field;
+};
+
+struct BooleanOption {
+  bool core::PlanOptions::*field;
+};
+
+/// One of a few words, each with what it means, in the order of the enumeration.
+struct WordOption {
+  struct Word {
+    std::string_view name;
+    std::string_view meaning;
+  };
+  std::span<const Word> words;
+  std::size_t (*get)(const core::PlanOptions&);
+  void (*set)(core::PlanOptions&, std::size_t);
+};
+
+struct OptionRow {
+  std::string_view name;
+  std::string_view title;  // for a form
+  std::string_view unit;   // symbol, e.g. "ms"; empty: none
+  std::variant<RealOption, ServiceOption, NaturalOption, BoundOption, CountOption, BooleanOption, WordOption>
+      type;
+  std::string_view description;  // CommonMark
+};
+
+/// All options. The defaults are those of core::PlanOptions.
+std::span<const OptionRow> option_table();
+
+}  // namespace fleetplan::api
