@@ -1,7 +1,7 @@
 #include <iostream>
 
 #include "server/ops/health_probe.h"
-#include "server/ops/settings.h"
+#include "server/ops/settings/settings.h"
 #include "server/run.h"
 #include "server/service.h"
 

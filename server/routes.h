@@ -1,50 +1,34 @@
 #pragma once
 
-#include <array>
+// The front door: every route of the service with its method, path and handler.
+
+#include <functional>
 #include <string>
-#include <string_view>
+
+#include "api/endpoints/plan_events.h"
+#include "server/http/route_table.h"
+#include "server/http/static_files.h"
+#include "server/ops/settings/settings.h"
+#include "server/service.h"
 
 namespace fleetplan::server {
 
-enum class Endpoint {
-  unknown,
-  plan,
-  validate,
-  example_list,
-  example,
-  limits,
-  openapi,
-  healthz,
-  readyz,
-  metrics,
-  page
+/// What the handlers delegate to.
+struct Backend {
+  const Settings& settings;
+  const Service& service;
+  const StaticFiles& files;
+
+  /// Runs a job with the body of the exchange, see JobRunner::run.
+  std::function<api::Reply(Exchange&, const Service::Endpoint&, api::PlanEvents*)> run_job = {};
+  std::function<bool()> is_ready = {};
+  std::function<std::string()> metrics_text = {};
 };
 
-/// All of them, in their order.
-inline constexpr std::array kEndpoints{Endpoint::unknown,      Endpoint::plan,    Endpoint::validate,
-                                       Endpoint::example_list, Endpoint::example, Endpoint::limits,
-                                       Endpoint::openapi,      Endpoint::healthz, Endpoint::readyz,
-                                       Endpoint::metrics,      Endpoint::page};
+/// Of the main port. The backend has to outlive the routes, here and below.
+RouteTable main_routes(const Backend& backend);
 
-/// Which of the server's ports: all, or health, readiness and metrics only.
-enum class Port { main, admin };
-
-struct Route {
-  Endpoint endpoint = Endpoint::unknown;
-  std::string parameter = {};  // the example's name, the page's file
-};
-
-/// The fixed routes of a port, by decoded path; files of the page are not among them. Others are unknown.
-Route find_route(std::string_view path, Port port);
-
-/// For metrics: its path, e.g. "/v1/examples/{name}"; "/" for all files of the page, "unknown" for what leads
-/// nowhere.
-std::string_view name_of(Endpoint endpoint);
-
-/// Methods of an endpoint as the Allow header has them.
-std::string_view allowed_methods(Endpoint endpoint);
-
-/// Whether the method is among them.
-bool is_allowed(Endpoint endpoint, std::string_view method);
+/// Of the admin port: some of the main port's.
+RouteTable admin_routes(const Backend& backend);
 
 }  // namespace fleetplan::server

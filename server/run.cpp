@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "server/http/http_server.h"
+#include "server/http_server.h"
 #include "server/ops/memory.h"
 #include "server/ops/version.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "server/ops/settings.h"
+#include "server/ops/settings/settings.h"
 #include "server/service.h"
 
 namespace fleetplan::server {

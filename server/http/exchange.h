@@ -7,11 +7,10 @@
 #include <string_view>
 
 #include "api/response/plan_outcome.h"
-#include "server/http/body_memory.h"
-#include "server/http/header_fields.h"
-#include "server/http/request_head.h"
-#include "server/http/socket.h"
-#include "server/routes.h"
+#include "server/http/guard/body_memory.h"
+#include "server/http/guard/request_head.h"
+#include "server/http/guard/socket.h"
+#include "server/http/route_table.h"
 
 namespace fleetplan::server {
 
@@ -24,19 +23,26 @@ struct Exchange {
   Clock::time_point received_at;  // last byte of the body in
   std::string request_id;
   RequestHead head;
-  Route route;
+  const Route* route = nullptr;                            // none: the path is unknown
+  std::string parameter = {};                              // see RouteTable::Match
   std::optional<BodyMemory::Share> memory = std::nullopt;  // for the body
   std::string body;                                        // as sent, perhaps gzip-coded
 
-  HeaderFields fields;  // of the answer, by what the request's head says
+  HeaderFields fields;  // of the answer, beside those that every answer has
   int status = 0;
-  int retry_after_s = 1;   // what a 503 tells; by default another service may have taken this one's place
+  int retry_after_s = 1;   // of a 503; by default another service may have taken this one's place
   bool close = false;      // the connection ends with this answer
   bool abandoned = false;  // the client left: nobody reads an answer
   std::optional<std::uint64_t> streamed = std::nullopt;  // bytes of an answer that went out as an EventStream
   std::optional<double> queue_ms = std::nullopt;
   std::string_view problem;  // see api::Reply
   std::optional<api::PlanOutcome> outcome = std::nullopt;
+};
+
+/// How an answer was sent.
+struct Sent {
+  std::uint64_t bytes = 0;
+  bool usable = true;  // the connection can serve another request
 };
 
 }  // namespace fleetplan::server

@@ -1,10 +1,11 @@
 #include "server/jobs/job_runner.h"
 
 #include <chrono>
+#include <exception>
 #include <string>
 
 #include "api/response/error.h"
-#include "server/http/guarded.h"
+#include "server/http/answer/internal_error.h"
 
 namespace fleetplan::server {
 
@@ -49,10 +50,20 @@ api::Reply JobRunner::compute(Exchange& exchange, const Service::Endpoint& endpo
     job.await_turn(patience);
     exchange.queue_ms = std::chrono::duration<double, std::milli>(Workers::Clock::now() - since).count();
   };
-  api::Reply reply = guarded(log_, exchange.request_id, [&] { return endpoint(exchange.body, context); });
+  api::Reply reply = reply_of(endpoint, exchange, context);
   exchange.abandoned = watched.gone();
   if (exchange.abandoned) reply.status = 499;
   return reply;
+}
+
+/// An exception ends here, so that a stream of events can end with the problem, too.
+api::Reply JobRunner::reply_of(const Service::Endpoint& endpoint, const Exchange& exchange,
+                               const api::RequestContext& context) const {
+  try {
+    return endpoint(exchange.body, context);
+  } catch (...) {
+    return internal_error(log_, exchange.request_id, std::current_exception());
+  }
 }
 
 }  // namespace fleetplan::server

@@ -5,10 +5,10 @@
 #include "api/endpoints/plan_events.h"
 #include "api/response/reply.h"
 #include "server/http/exchange.h"
-#include "server/http/peer_watch.h"
+#include "server/jobs/peer_watch.h"
 #include "server/jobs/workers.h"
 #include "server/ops/request_log.h"
-#include "server/ops/settings.h"
+#include "server/ops/settings/settings.h"
 #include "server/service.h"
 
 namespace fleetplan::server {
@@ -35,6 +35,8 @@ class JobRunner {
  private:
   api::Reply compute(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events,
                      Workers::Job& job);
+  api::Reply reply_of(const Service::Endpoint& endpoint, const Exchange& exchange,
+                      const api::RequestContext& context) const;
 
   const api::Limits limits_;
   const RequestLog& log_;

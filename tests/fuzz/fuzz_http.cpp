@@ -11,8 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "server/http/connection.h"
-#include "server/ops/stop_signal.h"
+#include "server/http/guard/connection.h"
+#include "server/http/guard/stop_signal.h"
+#include "server/routes.h"
 #include "tests/fuzz/require.h"
 #include "tests/fuzz/target.h"
 
@@ -40,9 +41,12 @@ server::Settings settings() {
 Conversation converse(std::string_view bytes, std::size_t packet) {
   static const server::Settings kSettings = settings();
   static const server::StaticFiles kFiles("");
+  static const server::Service kService;
+  static const server::Backend kBackend{kSettings, kService, kFiles};
+  static const server::RouteTable kRoutes = server::main_routes(kBackend);
   static const server::CrossOrigin kCrossOrigin({"https://a.example"});
   static const server::RequestLog kLog(kSettings.log_level);
-  static server::Metrics metrics;
+  static server::Metrics metrics(kRoutes);
   static server::BodyMemory memory(0, 1);
   static server::StopSignal stop;
   std::array<int, 2> ends{};  // packets keep their bounds, so that each is read by itself
@@ -60,13 +64,13 @@ Conversation converse(std::string_view bytes, std::size_t packet) {
   Conversation held;
   std::atomic<bool> draining{false};
   std::atomic<std::size_t> active{0};
-  const auto answer = [&](server::Exchange& exchange, server::ExchangeStream& /*stream*/) {
+  const auto answer = [&](server::Exchange& exchange) {
     held.requests.push_back(exchange.head.method + ' ' + exchange.head.path + '\n' + exchange.body);
-    return true;
+    return server::Sent{};
   };
-  server::Connection(ends[0], {kSettings, server::Port::main, kFiles, kCrossOrigin, kLog, metrics, memory,
-                               draining, active, stop.fd(), answer})
-      .serve();
+  const server::Steps steps(server::Steps::Port::main, kSettings, kRoutes, kCrossOrigin, draining, metrics,
+                            kLog);
+  server::Connection(ends[0], {kSettings, steps, memory, draining, active, stop.fd(), answer}).serve();
   require(active == 0, "an exchange has no end");
 
   std::array<char, 1 << 16> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled by recv

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "server/http/http_library.h"
-#include "server/http/http_server.h"
+#include "server/http/library/http_library.h"
+#include "server/http_server.h"
 
 namespace fleetplan::server {
 namespace {

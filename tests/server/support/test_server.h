@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "server/http/http_library.h"
-#include "server/http/http_server.h"
+#include "server/http/library/http_library.h"
+#include "server/http_server.h"
 
 namespace fleetplan::server {
 

@@ -1,0 +1,131 @@
+#include "server/handlers.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "api/response/error.h"
+#include "server/http/answer/event_stream.h"
+#include "server/http/exchange.h"
+#include "server/http/steps/negotiation.h"
+#include "server/http/text.h"
+#include "server/ops/metrics/metrics_text.h"
+#include "server/ops/version.h"
+
+namespace fleetplan::server {
+
+namespace {
+
+using api::ErrorCode;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kContentSecurityPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src "
+    "'self'; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+api::Reply json_reply(const Json& json) { return {200, api::kJson, json.dump()}; }
+
+api::Reply problem_reply(ErrorCode code, const std::string& detail, const Exchange& exchange) {
+  return api::problem_reply(code, detail, exchange.request_id);
+}
+
+}  // namespace
+
+Handler plan(const Backend& backend) {
+  return [&backend](Exchange& exchange) {
+    const Service::Endpoint& endpoint = backend.service.plan;
+    if (plan_form(exchange.head.field("accept")) == PlanForm::json) {
+      return backend.run_job(exchange, endpoint, nullptr);
+    }
+    EventStream events(exchange);
+    api::Reply reply = backend.run_job(exchange, endpoint, &events);
+    if (events.begun()) events.end(reply);
+    return reply;
+  };
+}
+
+Handler validate(const Backend& backend) {
+  return
+      [&backend](Exchange& exchange) { return backend.run_job(exchange, backend.service.validate, nullptr); };
+}
+
+Handler example_list(const Backend& backend) {
+  return [&backend](Exchange& /*exchange*/) { return backend.service.example_list(); };
+}
+
+Handler example(const Backend& backend) {
+  return [&backend](Exchange& exchange) -> api::Reply {
+    std::string names;
+    for (const auto& example : backend.service.examples) {
+      if (example.name == exchange.parameter) return {200, api::kJson, example.body};
+      names += (names.empty() ? "" : ", ") + example.name;
+    }
+    return problem_reply(
+        ErrorCode::not_found,
+        std::string("There is no example ") + in_quotes(exchange.parameter) + "; there are: " + names + '.',
+        exchange);
+  };
+}
+
+Handler limits(const Backend& backend) {
+  return [&settings = backend.settings](Exchange& /*exchange*/) {
+    const api::Limits& limits = settings.limits;
+    return json_reply({{"max_body", limits.max_body},
+                       {"max_cells", limits.max_cells},
+                       {"max_robots", limits.max_robots},
+                       {"max_depth", limits.max_depth},
+                       {"default_budget_ms", limits.default_budget_ms},
+                       {"min_budget_ms", 1},
+                       {"max_budget_ms", limits.max_budget_ms},
+                       {"workers", settings.workers},
+                       {"queue", settings.queue}});
+  };
+}
+
+Handler openapi(const Backend& backend) {
+  return [&backend](Exchange& /*exchange*/) { return backend.service.openapi(); };
+}
+
+Handler health() {
+  return [](Exchange& /*exchange*/) { return json_reply({{"status", "ok"}, {"version", kVersion}}); };
+}
+
+Handler readiness(const Backend& backend) {
+  return [&backend](Exchange& exchange) {
+    if (backend.is_ready()) return json_reply({{"status", "ready"}});
+    return problem_reply(ErrorCode::draining, "The service is shutting down.", exchange);
+  };
+}
+
+Handler metrics(const Backend& backend) {
+  return [&backend](Exchange& /*exchange*/) -> api::Reply {
+    return {200, kMetricsType, backend.metrics_text()};
+  };
+}
+
+Handler page(const Backend& backend) {
+  return [&files = backend.files](Exchange& exchange) -> api::Reply {
+    auto file = files.read(exchange.parameter);
+    if (!file) {
+      return problem_reply(ErrorCode::not_found,
+                           files.has_root() ? "The page's folder has no such file."
+                                            : "This server has no page: start it with --web-root.",
+                           exchange);
+    }
+    exchange.fields.insert(exchange.fields.end(), {{"ETag", file->etag},
+                                                   {"Cache-Control", file->cache_control},
+                                                   {"Content-Security-Policy", kContentSecurityPolicy},
+                                                   {"Referrer-Policy", "no-referrer"},
+                                                   {"Cross-Origin-Opener-Policy", "same-origin"},
+                                                   {"Cross-Origin-Resource-Policy", "same-origin"}});
+    const bool is_known = exchange.head.field("if-none-match").find(file->etag) != std::string::npos;
+    if (is_known) return {304, "", ""};
+    return {200, file->content_type, std::move(file->body)};
+  };
+}
+
+std::function<bool(std::string_view path)> page_has(const Backend& backend) {
+  return [&backend](std::string_view path) { return backend.files.contains(path); };
+}
+
+}  // namespace fleetplan::server

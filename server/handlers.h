@@ -1,0 +1,42 @@
+#pragma once
+
+// The handlers of the routes: each delegates and replies.
+
+#include <functional>
+#include <string_view>
+
+#include "server/http/route_table.h"
+#include "server/routes.h"
+
+namespace fleetplan::server {
+
+/// A plan as JSON, or as a stream of events if the client prefers that.
+Handler plan(const Backend& backend);
+
+Handler validate(const Backend& backend);
+
+Handler example_list(const Backend& backend);
+
+/// The named example, or a 404 that lists the names there are.
+Handler example(const Backend& backend);
+
+/// What a request may ask for, under the names of the settings.
+Handler limits(const Backend& backend);
+
+Handler openapi(const Backend& backend);
+
+Handler health();
+
+/// 200, or 503 when the server is about to end.
+Handler readiness(const Backend& backend);
+
+/// The format of Prometheus.
+Handler metrics(const Backend& backend);
+
+/// A file of the page.
+Handler page(const Backend& backend);
+
+/// Whether the page has a file, by its path.
+std::function<bool(std::string_view path)> page_has(const Backend& backend);
+
+}  // namespace fleetplan::server

@@ -1,0 +1,111 @@
+#include "server/http/answer/event_stream.h"
+
+#include <array>
+#include <charconv>
+#include <utility>
+
+#include "server/http/answer/answer_text.h"
+
+namespace fleetplan::server {
+
+namespace {
+
+std::string hexadecimal(std::size_t number) {
+  std::array<char, 2 * sizeof number> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, 16).ptr;
+  return {digits.data(), end};
+}
+
+}  // namespace
+
+EventStream::EventStream(Exchange& exchange) : exchange_(exchange), chunked_(!exchange.head.http_1_0) {}
+
+EventStream::~EventStream() { stop_writing(); }
+
+void EventStream::begin(const api::PlanProgress& progress) {
+  progress_ = progress;
+  if (!chunked_) exchange_.close = true;  // which tells the end
+  writer_ = std::thread([this] { write_events(); });
+  begun_ = true;
+}
+
+void EventStream::progress(const api::PlanProgress& progress) {
+  const std::lock_guard lock(mutex_);
+  progress_ = progress;
+}
+
+void EventStream::incumbent(std::string answer) {
+  {
+    const std::lock_guard lock(mutex_);
+    incumbent_ = std::move(answer);
+  }
+  changed_.notify_one();
+}
+
+void EventStream::end(const api::Reply& reply) {
+  stop_writing();
+  if (!failed_ && !exchange_.abandoned) {
+    const std::string last = event(reply.status == 200 ? "plan" : "problem", reply.body);
+    failed_ = !send(chunked_ ? last + "0\r\n\r\n" : last);
+  }
+  if (failed_) exchange_.close = true;
+  exchange_.streamed = sent_;
+}
+
+void EventStream::stop_writing() {
+  if (!writer_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  changed_.notify_one();
+  writer_.join();
+}
+
+void EventStream::write_events() {
+  std::string due = head();
+  std::unique_lock lock(mutex_);
+  do {
+    const api::PlanProgress progress = progress_;
+    const std::optional<std::string> incumbent = std::exchange(incumbent_, std::nullopt);
+    lock.unlock();
+    const std::chrono::duration<double, std::milli> elapsed = Exchange::Clock::now() - exchange_.received_at;
+    due += event("progress", api::write_progress(progress, elapsed.count()));
+    if (incumbent) due += event("incumbent", *incumbent);
+    failed_ = !send(due);
+    due.clear();
+    lock.lock();
+    changed_.wait_for(lock, kPeriod, [&] { return ending_ || incumbent_; });
+  } while (!ending_ && !failed_);
+}
+
+std::string EventStream::head() const {
+  // Caches and proxies are to pass on every event as it comes.
+  HeaderFields fields{
+      {"Content-Type", "text/event-stream"}, {"Cache-Control", "no-store"}, {"X-Accel-Buffering", "no"}};
+  if (chunked_) fields.emplace_back("Transfer-Encoding", "chunked");
+  return answer_head(exchange_, 200, fields);
+}
+
+std::string EventStream::event(std::string_view name, std::string_view data) const {
+  const std::array<std::string_view, 5> parts{"event: ", name, "\ndata: ", data, "\n\n"};
+  std::size_t size = 0;
+  for (const std::string_view part : parts) size += part.size();
+  std::string text;
+  text.reserve(size + 32);
+  if (chunked_) text.append(hexadecimal(size)).append("\r\n");
+  for (const std::string_view part : parts) text.append(part);
+  if (chunked_) text.append("\r\n");
+  return text;
+}
+
+bool EventStream::send(std::string_view text) {
+  if (!exchange_.socket->write_all(text)) {
+    exchange_.socket->hang_up();  // so that the plan is stopped, too
+    return false;
+  }
+  sent_ += text.size();
+  return true;
+}
+
+}  // namespace fleetplan::server

@@ -1,0 +1,199 @@
+#include "server/http/guard/request_head.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "server/http/text.h"
+
+namespace fleetplan::server {
+
+namespace {
+
+using Parsed = std::variant<RequestHead, BadHead>;
+
+bool is_token_char(char c) {
+  constexpr std::string_view kMarks = "!#$%&'*+-.^_`|~";
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+         kMarks.find(c) != std::string_view::npos;
+}
+
+bool is_token(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), is_token_char);
+}
+
+bool is_control(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte < 0x20 || byte == 0x7f;
+}
+
+bool is_field_value_char(char c) { return c == '\t' || !is_control(c); }
+
+/// Takes the next line, without its CR LF, off `rest`.
+std::string_view take_line(std::string_view& rest) {
+  const auto end = rest.find("\r\n");
+  const auto line = rest.substr(0, end);
+  rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 2);
+  return line;
+}
+
+/// The path of a request target in origin-form (`/a?b`) or absolute-form (`http://host/a?b`).
+std::string_view path_of_target(std::string_view target) {
+  const auto scheme = target.find("://");
+  if (!target.starts_with('/') && scheme != std::string_view::npos) {
+    const auto slash = target.find('/', scheme + 3);
+    target = slash == std::string_view::npos ? std::string_view("/") : target.substr(slash);
+  }
+  return target.substr(0, target.find_first_of("?#"));
+}
+
+BadHead target_too_long() {
+  return {"The request target is longer than " + std::to_string(kMaxTargetBytes) + " bytes.",
+          BadHead::Kind::target_too_long};
+}
+
+std::optional<BadHead> parse_request_line(std::string_view line, RequestHead& head) {
+  const auto first = line.find(' ');
+  const auto last = line.rfind(' ');
+  if (first == std::string_view::npos || first == last)
+    return BadHead{"The request line is not of HTTP/1.1."};
+  const auto target = line.substr(first + 1, last - first - 1);
+  const auto version = line.substr(last + 1);
+  if (version != "HTTP/1.1" && version != "HTTP/1.0") {
+    return BadHead{"This server speaks HTTP/1.1 and HTTP/1.0."};
+  }
+  if (target.size() > kMaxTargetBytes) return target_too_long();
+  head.method = line.substr(0, first);
+  head.http_1_0 = version == "HTTP/1.0";
+  head.raw_path = path_of_target(target);
+  if (!is_token(head.method)) return BadHead{"The method is not a token."};
+  if (target.find(' ') != std::string_view::npos || std::any_of(target.begin(), target.end(), is_control)) {
+    return BadHead{"The request target holds a space or a control character."};
+  }
+  auto path = percent_decoded(head.raw_path);
+  if (!path || path->empty()) return BadHead{"The path is empty or not percent-encoded properly."};
+  head.path = std::move(*path);
+  return std::nullopt;
+}
+
+std::optional<BadHead> parse_field(std::string_view line, RequestHead& head) {
+  const auto colon = line.find(':');
+  const auto name = line.substr(0, colon);
+  if (colon == std::string_view::npos || !is_token(name)) {
+    return BadHead{"A header line is not of the form 'name: value'."};
+  }
+  const auto value = trimmed(line.substr(colon + 1));
+  if (!std::all_of(value.begin(), value.end(), is_field_value_char)) {
+    return BadHead{"A header value holds a control character."};
+  }
+  head.fields.emplace_back(lower_case(name), value);
+  return std::nullopt;
+}
+
+std::optional<std::uint64_t> parse_length(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<BadHead> parse_framing(RequestHead& head) {
+  const std::string length = head.field("content-length");
+  if (head.has_field("transfer-encoding")) {
+    if (head.has_field("content-length")) {
+      return BadHead{"Content-Length and Transfer-Encoding exclude each other."};
+    }
+    if (head.http_1_0 || lower_case(head.field("transfer-encoding")) != "chunked") {
+      return BadHead{"The only transfer coding is 'chunked', with HTTP/1.1."};
+    }
+    head.chunked = true;
+  } else if (head.has_field("content-length")) {
+    head.content_length = parse_length(length);
+    if (!head.content_length) return BadHead{"Content-Length must be one number of bytes, not negative."};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string RequestHead::field(std::string_view name) const {
+  std::string joined;
+  bool first = true;
+  for (const auto& [key, value] : fields) {
+    if (key != name) continue;
+    if (!first) joined += ", ";
+    joined += value;
+    first = false;
+  }
+  return joined;
+}
+
+bool RequestHead::has_field(std::string_view name) const {
+  return std::any_of(fields.begin(), fields.end(), [&](const auto& entry) { return entry.first == name; });
+}
+
+bool RequestHead::wants_keep_alive() const {
+  const std::string connection = lower_case(field("connection"));
+  const auto options = split(connection, ',');
+  const auto has = [&](std::string_view option) {
+    return std::find(options.begin(), options.end(), option) != options.end();
+  };
+  return http_1_0 ? has("keep-alive") : !has("close");
+}
+
+std::optional<std::string> percent_decoded(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    char c = text[i];
+    if (c == '%') {
+      if (i + 2 >= text.size()) return std::nullopt;
+      unsigned value = 0;
+      const char* digits = text.data() + i + 1;
+      const auto [end, error] = std::from_chars(digits, digits + 2, value, 16);
+      if (error != std::errc{} || end != digits + 2) return std::nullopt;
+      c = static_cast<char>(value);
+      i += 2;
+    }
+    if (is_control(c)) return std::nullopt;
+    decoded += c;
+  }
+  return decoded;
+}
+
+Parsed parse_request_head(std::string_view text) {
+  RequestHead head;
+  if (auto bad = parse_request_line(take_line(text), head)) return *bad;
+  while (!text.empty()) {
+    const auto line = take_line(text);
+    if (line.empty()) break;
+    if (head.fields.size() == kMaxHeaderFields) {
+      return BadHead{"There are more than " + std::to_string(kMaxHeaderFields) + " header fields.",
+                     BadHead::Kind::too_large};
+    }
+    if (auto bad = parse_field(line, head)) return *bad;
+  }
+  if (auto bad = parse_framing(head)) return *bad;
+  return head;
+}
+
+BadHead too_large_head(std::string_view begun) {
+  if (begun.substr(0, kMaxTargetBytes).find("\r\n") == std::string_view::npos) return target_too_long();
+  return {"The request's head is longer than " + std::to_string(kMaxHeadBytes) + " bytes.",
+          BadHead::Kind::too_large};
+}
+
+HeadScanner::State HeadScanner::scan(std::string_view buffer) {
+  for (; position_ < buffer.size(); ++position_) {
+    if (buffer[position_] != '\n') continue;
+    // A lone LF is where parsers disagree on the end of a line.
+    if (position_ == 0 || buffer[position_ - 1] != '\r') return State::malformed;
+    const bool empty_line = position_ - line_start_ == 1;
+    line_start_ = position_ + 1;
+    if (empty_line) {
+      ++position_;
+      return State::complete;
+    }
+  }
+  return State::incomplete;
+}
+
+}  // namespace fleetplan::server

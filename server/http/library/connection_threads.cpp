@@ -1,0 +1,67 @@
+#include "server/http/library/connection_threads.h"
+
+#include <system_error>
+
+namespace fleetplan::server {
+
+namespace {
+
+constexpr std::chrono::seconds kKeepIdleThread{10};
+
+}  // namespace
+
+ConnectionThreads::~ConnectionThreads() { shutdown(); }
+
+void ConnectionThreads::push(std::function<void()> task) {
+  reap();
+  const std::lock_guard lock(mutex_);
+  tasks_.push_back(std::move(task));
+  if (tasks_.size() > idle_ && threads_.size() < max_threads_) {
+    // The thread cannot look at its own entry before this lock is released.
+    const auto self = threads_.emplace(threads_.end());
+    try {
+      *self = std::thread([this, self] { work(self); });
+    } catch (const std::system_error&) {
+      threads_.erase(self);  // the machine gives no more: the connection waits for one of those there are
+      if (threads_.empty()) throw;
+    }
+  }
+  changed_.notify_one();
+}
+
+void ConnectionThreads::shutdown() {
+  std::unique_lock lock(mutex_);
+  stopping_ = true;
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return threads_.empty(); });
+  lock.unlock();
+  reap();
+}
+
+void ConnectionThreads::reap() {
+  Threads ended;
+  {
+    const std::lock_guard lock(mutex_);
+    ended.swap(ended_);
+  }
+  for (auto& thread : ended) thread.join();
+}
+
+void ConnectionThreads::work(Threads::iterator self) {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    ++idle_;
+    const bool woken = changed_.wait_for(lock, kKeepIdleThread, [&] { return stopping_ || !tasks_.empty(); });
+    --idle_;
+    if (tasks_.empty() && (stopping_ || !woken)) break;
+    const auto task = std::move(tasks_.front());
+    tasks_.pop_front();
+    lock.unlock();
+    task();
+    lock.lock();
+  }
+  ended_.splice(ended_.end(), threads_, self);
+  changed_.notify_all();
+}
+
+}  // namespace fleetplan::server

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "server/http/exchange.h"
+#include "server/http/library/http_library.h"
+#include "server/http/route_table.h"
+#include "server/ops/request_log.h"
+
+namespace fleetplan::server {
+
+/// The adapter to the HTTP library: the only class that derives from the library's server, for the members
+/// that its versions keep protected. It listens with the library, registers the routes there, and hands it
+/// requests that have been read and judged already.
+///
+/// Construct, bind, run (in a thread of its own), stop.
+class LibraryServer final : private httplib::Server {
+ public:
+  /// What the adapter works with. References have to outlive it.
+  struct Context {
+    std::string host;
+    int port;                 // 0: any free one
+    std::size_t connections;  // served at a time; more wait
+    const RouteTable& routes;
+    std::uint64_t max_body;  // bytes, decompressed
+    const RequestLog& log;
+    const std::atomic<bool>& draining;
+    std::function<void(int fd)> serve;  // serves one connection and closes it; called from many threads
+  };
+
+  explicit LibraryServer(Context context);
+  ~LibraryServer() override;
+  LibraryServer(const LibraryServer&) = delete;
+  LibraryServer& operator=(const LibraryServer&) = delete;
+
+  /// Takes the port. The reason if it cannot.
+  std::optional<std::string> bind();
+
+  /// The bound one, also when any free port was asked for.
+  int port() const { return context_.port; }
+
+  /// Accepts until stop(), then waits for the connections to end; after bind().
+  void run();
+
+  /// Ends run(). May be called from any thread.
+  void stop();
+
+  /// Has the library route the request to its handler and send the answer.
+  Sent answer(Exchange& exchange);
+
+ private:
+  void add(const Route& route);
+  void reply_with(api::Reply reply, httplib::Response& response) const;
+  void complete(httplib::Response& response) const;
+  bool process_and_close_socket(socket_t fd) override;
+
+  /// The exchange of this thread. The library passes handlers nothing of ours, but it handles a request from
+  /// begin to end on the thread that hands it over, and each connection has its own thread.
+  static thread_local Exchange* current_;
+
+  Context context_;
+  std::atomic<int> listening_fd_{-1};
+};
+
+}  // namespace fleetplan::server

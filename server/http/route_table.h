@@ -1,0 +1,73 @@
+#pragma once
+
+// The routes of a port, as routes.cpp declares them. The library's routing, the decision before a body is
+// read (404, 405 and its Allow field) and the label of the metrics all come from here.
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/response/reply.h"
+
+namespace fleetplan::server {
+
+struct Exchange;
+
+/// Answers a request that has passed all steps. It may add header fields to those of the exchange.
+using Handler = std::function<api::Reply(Exchange&)>;
+
+/// What distinguishes a route besides its method, path and handler.
+struct RouteTraits {
+  bool without_token = false;      // served to clients that do not send the token
+  bool plans = false;              // returns plans: as JSON or as a stream of events
+  std::vector<int> statuses = {};  // of its answers, beyond those that all routes have
+};
+
+struct Route {
+  std::string method;  // "GET", which includes HEAD, or "POST", which takes a body
+  std::string path;    // as in the OpenAPI document, e.g. "/v1/examples/{name}"
+  Handler handler;
+  RouteTraits traits;
+  std::function<bool(std::string_view path)> contains = {};  // of a folder: whether it has such a file
+
+  bool takes_body() const { return method == "POST"; }
+  bool allows(std::string_view sent_method) const;
+
+  /// The methods as an Allow field lists them.
+  std::string_view allowed_methods() const { return takes_body() ? "POST" : "GET, HEAD"; }
+
+  /// `path` with the part in braces, if any, replaced by a regular expression that matches any text; all else
+  /// matches itself only. Of a folder, all paths below it match.
+  std::string pattern() const;
+};
+
+class RouteTable {
+ public:
+  /// Paths that match a part in braces, or name a file, may have so many bytes. The library matches them with
+  /// std::regex, which recurses for every byte and takes about 400 bytes of stack each time.
+  static constexpr std::size_t kMaxVariablePath = 1024;
+
+  void get(std::string path, Handler handler, RouteTraits traits = {});
+  void post(std::string path, Handler handler, RouteTraits traits = {});
+
+  /// GET of all files of a folder. Declare it last: other routes have precedence.
+  void files(std::string path, std::function<bool(std::string_view path)> contains, Handler handler,
+             RouteTraits traits = {});
+
+  struct Match {
+    const Route* route = nullptr;  // none: the path is unknown
+    std::string parameter = {};    // the text that matched the part in braces; of a file, its path
+  };
+
+  /// By decoded path. The route's method may be another.
+  Match find(std::string_view path) const;
+
+  /// In the order of their declaration.
+  const std::vector<Route>& routes() const { return routes_; }
+
+ private:
+  std::vector<Route> routes_;  // one for each path
+};
+
+}  // namespace fleetplan::server

@@ -1,0 +1,132 @@
+#include "server/http/steps/steps.h"
+
+#include <array>
+#include <utility>
+
+#include "server/http/steps/negotiation.h"
+#include "server/http/steps/request_id.h"
+#include "server/http/text.h"
+
+namespace fleetplan::server {
+
+using api::ErrorCode;
+
+Steps::Steps(Port port, const Settings& settings, const RouteTable& routes, const CrossOrigin& cross_origin,
+             const std::atomic<bool>& draining, Metrics& metrics, const RequestLog& log)
+    : port_(port),
+      settings_(settings),
+      routes_(routes),
+      cross_origin_(cross_origin),
+      draining_(draining),
+      metrics_(metrics),
+      log_(log) {}
+
+void Steps::begin(Exchange& exchange) const {
+  const std::string sent_id = exchange.head.field("x-request-id");
+  if (is_well_formed_request_id(sent_id)) exchange.request_id = sent_id;
+  exchange.fields = cross_origin_.answer_fields(exchange.head);
+  auto match = routes_.find(exchange.head.path);
+  exchange.route = match.route;
+  exchange.parameter = std::move(match.parameter);
+}
+
+std::optional<DirectAnswer> Steps::answer_to_head(const Exchange& exchange) const {
+  static constexpr std::array kInOrder{&Steps::preflight, &Steps::authentication, &Steps::path,
+                                       &Steps::method,    &Steps::content,        &Steps::draining};
+  for (const auto step : kInOrder) {
+    if (auto answer = (this->*step)(exchange)) return answer;
+  }
+  return std::nullopt;
+}
+
+Steps::Answer Steps::preflight(const Exchange& exchange) const {
+  if (exchange.route == nullptr || !cross_origin_.is_preflight(exchange.head)) return std::nullopt;
+  api::Reply no_content{204, "", ""};
+  return DirectAnswer{std::move(no_content),
+                      CrossOrigin::preflight_fields(exchange.route->allowed_methods())};
+}
+
+/// Programs send the token as Bearer; Basic is what browsers can ask a person for.
+Steps::Answer Steps::authentication(const Exchange& exchange) const {
+  const bool open = exchange.route != nullptr && exchange.route->traits.without_token;
+  if (!settings_.token || open || settings_.token->admits(exchange.head.field("authorization"))) {
+    return std::nullopt;
+  }
+  return refusal(exchange, ErrorCode::unauthorized,
+                 "Send the service's token as 'Authorization: Bearer ...', or as the password of Basic.",
+                 {{"WWW-Authenticate", R"(Bearer realm="fleetplan")"},
+                  {"WWW-Authenticate", R"(Basic realm="fleetplan", charset="UTF-8")"}});
+}
+
+Steps::Answer Steps::path(const Exchange& exchange) const {
+  if (exchange.route != nullptr) return std::nullopt;
+  return refusal(exchange, ErrorCode::not_found,
+                 std::string("There is nothing at ") + in_quotes(exchange.head.path) + '.');
+}
+
+Steps::Answer Steps::method(const Exchange& exchange) const {
+  const RequestHead& head = exchange.head;
+  if (exchange.route->allows(head.method)) return std::nullopt;
+  const std::string allowed(exchange.route->allowed_methods());
+  return refusal(exchange, ErrorCode::method_not_allowed,
+                 in_quotes(head.path) + " takes " + allowed + ", not " + in_quotes(head.method) + '.',
+                 {{"Allow", allowed}});
+}
+
+Steps::Answer Steps::content(const Exchange& exchange) const {
+  if (!exchange.route->takes_body()) return std::nullopt;
+  const RequestHead& head = exchange.head;
+  if (const auto fault = content_type_fault(head.field("content-type"))) {
+    return refusal(exchange, ErrorCode::unsupported_media_type, *fault);
+  }
+  const std::string coding = head.field("content-encoding");
+  if (content_coding(coding) == ContentCoding::unknown) {
+    return refusal(
+        exchange, ErrorCode::unsupported_media_type,
+        std::string("The body's Content-Encoding is ") + in_quotes(coding) + ": send it plain or with gzip.",
+        {{"Accept-Encoding", "gzip"}});
+  }
+  const std::string accept = head.field("accept");
+  if (exchange.route->traits.plans && !plan_form(accept)) {
+    return refusal(exchange, ErrorCode::not_acceptable,
+                   std::string("Plans are application/json or text/event-stream, which Accept: ") +
+                       in_quotes(accept) + " excludes: add application/json or leave the header out.");
+  }
+  const std::uint64_t limit = settings_.limits.max_body;
+  if (head.content_length && *head.content_length > limit) {
+    return refusal(exchange, ErrorCode::body_too_large,
+                   "The body has " + std::to_string(*head.content_length) + " bytes; the limit is " +
+                       std::to_string(limit) + ".");
+  }
+  return std::nullopt;
+}
+
+Steps::Answer Steps::draining(const Exchange& exchange) const {
+  if (!draining_ || !exchange.route->takes_body()) return std::nullopt;
+  return refusal(exchange, ErrorCode::draining, "The service is shutting down: ask another one.");
+}
+
+void Steps::end(Exchange& exchange, std::uint64_t bytes_out, const std::string& peer) const {
+  if (exchange.abandoned) {
+    exchange.status = 499;
+    exchange.problem = {};  // no answer went out that could have one
+  }
+  metrics_.count(exchange);
+  const std::chrono::duration<double, std::milli> elapsed = Exchange::Clock::now() - exchange.begun_at;
+  RequestRecord record;
+  record.id = exchange.request_id;
+  record.method = exchange.head.method;
+  record.path = exchange.head.raw_path;
+  record.status = exchange.status;
+  record.bytes_in = exchange.body.size();
+  record.bytes_out = bytes_out;
+  record.ms = elapsed.count();
+  record.queue_ms = exchange.queue_ms;
+  record.problem = exchange.problem;
+  record.outcome = exchange.outcome;
+  record.peer = peer;
+  record.admin = port_ == Port::admin;
+  log_.request(record);
+}
+
+}  // namespace fleetplan::server

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "server/http/guard/body_memory.h"
+#include "server/http/guard/stop_signal.h"
+#include "server/http/library/library_server.h"
+#include "server/http/static_files.h"
+#include "server/http/steps/cors.h"
+#include "server/http/steps/steps.h"
+#include "server/jobs/job_runner.h"
+#include "server/ops/metrics/metrics.h"
+#include "server/ops/request_log.h"
+#include "server/ops/settings/settings.h"
+#include "server/routes.h"
+#include "server/service.h"
+
+namespace fleetplan::server {
+
+/// The service on its main port, and on the admin port if one is set, whose connections have their own
+/// threads. Construct, bind, run (in a thread of its own). To end: announce_end, begin_drain, wait until
+/// idle, cancel_jobs if that takes too long, stop. All but bind and run may be called from any thread.
+class HttpServer {
+ public:
+  HttpServer(const Settings& settings, Service service);
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+
+  /// Takes the ports. The reason if it cannot.
+  std::optional<std::string> bind();
+
+  /// The bound one, also when any free port was asked for.
+  int port() const { return main_.library.port(); }
+  std::optional<int> admin_port() const;
+
+  /// Serves until stop(); after bind().
+  void run();
+
+  /// /readyz answers 503 from now on; everything is still served.
+  void announce_end() { ready_ = false; }
+
+  /// As announce_end. New jobs are refused; those that were accepted continue.
+  void begin_drain() {
+    ready_ = false;
+    draining_ = true;
+  }
+
+  /// No request of the main port is being read, computed or answered.
+  bool idle() const { return main_.exchanges == 0; }
+
+  /// Asks all jobs, now and later, to stop, and waits no longer for requests that are still being sent.
+  void cancel_jobs();
+
+  /// Ends run() once requests under way are answered.
+  void stop();
+
+ private:
+  /// A port with its routes, and what goes on there.
+  struct Endpoint {
+    Endpoint(HttpServer& server, Steps::Port port, int number, std::size_t max_connections,
+             const RouteTable& routes);
+
+    std::atomic<std::size_t> connections{0};
+    std::atomic<std::size_t> exchanges{0};
+    Steps steps;
+    LibraryServer library;
+  };
+
+  void serve(int fd, Endpoint& endpoint);
+  Gauges gauges() const;
+
+  const Settings settings_;
+  const Service service_;
+  const RequestLog log_;
+  const StaticFiles files_;
+  const CrossOrigin cross_origin_;
+  StopSignal stop_signal_;
+  std::atomic<bool> ready_{true};
+  std::atomic<bool> draining_{false};
+  BodyMemory body_memory_;  // of as many large bodies as there may be jobs
+  JobRunner jobs_;
+  const Backend backend_;
+  const RouteTable main_routes_;
+  const RouteTable admin_routes_;
+  Metrics metrics_;
+  Endpoint main_;
+  std::optional<Endpoint> admin_;
+};
+
+}  // namespace fleetplan::server

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "server/http/exchange.h"
+#include "server/http/route_table.h"
+#include "server/ops/metrics/metric_types.h"
+
+namespace fleetplan::server {
+
+/// What the service is doing at the moment.
+struct Gauges {
+  std::size_t connections = 0;        // that are served
+  std::size_t admin_connections = 0;  // the same, of the admin port
+  std::size_t workers = 0;            // jobs that compute at most
+  std::size_t busy = 0;               // jobs that compute
+  std::size_t queued = 0;             // jobs that wait for their turn
+};
+
+/// Counts what the service has done since its start. Thread-safe; counting takes no lock.
+class Metrics {
+ public:
+  /// `routes`: those of the main port; the admin port's are among them.
+  explicit Metrics(const RouteTable& routes);
+
+  /// An exchange that is over.
+  void count(const Exchange& exchange);
+
+  /// Everything as GET /metrics answers it, see MetricsText. All series are there from the start, but for
+  /// those of statuses that are unusual on their route.
+  std::string text(const Gauges& now) const;
+
+ private:
+  static constexpr int kFirstStatus = 100;
+  static constexpr int kStatuses = 500;  // 100 to 599
+  using ByStatus = std::array<Counter, kStatuses>;
+
+  /// The requests of a route, labelled with its path.
+  struct Requests {
+    Requests(std::string path, std::set<int> usual)
+        : label(std::move(path)), usual_statuses(std::move(usual)) {}
+
+    const std::string label;
+    const std::set<int> usual_statuses;
+    ByStatus by_status = {};
+  };
+
+  Requests& requests_of(const Route* route);
+  void count_plan(const api::PlanOutcome& outcome);
+
+  const std::chrono::system_clock::time_point started_at_ = std::chrono::system_clock::now();
+  std::deque<Requests> requests_;                 // those of unknown paths come first
+  std::map<std::string_view, Counter> rejected_;  // by the problem's code
+  Histogram queue_seconds_;
+  Histogram plan_seconds_;
+  std::array<Counter, 4> plans_;  // by PlanOutcome::Status
+  Counter cancelled_;
+  Counter planned_robots_;
+  Counter unplanned_robots_;
+  Counter expansions_;
+};
+
+}  // namespace fleetplan::server

@@ -1,0 +1,207 @@
+#include "server/ops/settings/settings.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+
+#include "server/http/static_files.h"
+#include "server/http/steps/cors.h"
+#include "server/ops/settings/config_file.h"
+#include "server/ops/settings/cpu_count.h"
+#include "server/ops/version.h"
+
+namespace fleetplan::server {
+
+namespace {
+
+constexpr std::size_t kQueuePerWorker = 4;
+constexpr std::int64_t kMaxMs = 86'400'000;  // a day
+
+std::string environment_name(std::string flag) {
+  for (char& c : flag) c = c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return "FLEETPLAN_" + flag;
+}
+
+/// Flags with their environment names, and the values that do not fit Settings as they are.
+class Flags {
+ public:
+  Flags() : app_("Fleetplan: collision-free timed motions for fleets of robots, over HTTP.", "fleetplan") {
+    app_.set_version_flag("--version", std::string("fleetplan ") + kVersion);
+    app_.get_formatter()->column_width(36);
+    settings_.workers = cpus_granted();
+    settings_.web_root = default_web_root().string();
+    add_serving();
+    add_access();
+    add_limits();
+    add_times();
+    app_.add_flag("--healthcheck", settings_.healthcheck,
+                  "Ask the service that runs with the same host and ports whether it is alive: exit 0, or 1")
+        ->configurable(false);
+    config_option_ =
+        add("config", config_, "File of 'flag = value' lines, for what neither flag nor environment says")
+            ->configurable(false);
+  }
+
+  std::variant<Settings, SettingsExit> parse(std::vector<std::string> arguments) {
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    try {
+      app_.parse(std::move(arguments));
+    } catch (const CLI::ParseError& error) {
+      std::ostringstream text;
+      const int code = app_.exit(error, text, text);
+      return SettingsExit{code == 0 ? 0 : 2, text.str()};
+    }
+    if (const auto ignored = ignored_environment()) return bad(*ignored);
+    if (config_option_->count() > 0) {
+      if (const auto fault = apply_config_file(app_, config_)) return bad(*fault);
+    }
+    return finish();
+  }
+
+ private:
+  /// Newer versions of CLI11 pass over a bad value from the environment without a word; what that says, if
+  /// so.
+  std::optional<std::string> ignored_environment() const {
+    for (const CLI::Option* option : app_.get_options()) {
+      const char* value =
+          option->get_envname().empty() ? nullptr : std::getenv(option->get_envname().c_str());
+      if (value == nullptr || *value == '\0' || option->count() > 0) continue;
+      return option->get_envname() + ": '" + value + "' is no value for " + option->get_name();
+    }
+    return std::nullopt;
+  }
+
+  template <typename T>
+  CLI::Option* add(const std::string& flag, T& value, const std::string& description) {
+    return app_.add_option("--" + flag, value, description)
+        ->envname(environment_name(flag))
+        ->capture_default_str();
+  }
+
+  template <typename T>
+  CLI::Option* add_number(const std::string& flag, T& value, T smallest, T largest,
+                          const std::string& description) {
+    return add(flag, value, description)->check(CLI::Range(smallest, largest));
+  }
+
+  void add_serving() {
+    add("host", settings_.host, "Address to listen on");
+    add_number("port", settings_.port, 0, 65535, "Port to listen on, 0 for any free one");
+    admin_ = add_number("admin-port", admin_port_, 0, 65535,
+                        "Port of health, readiness and metrics alone, 0 for any free one")
+                 ->default_str("off");
+    add_number("workers", settings_.workers, 1, 1024,
+               "Planning threads, by default the CPUs granted; idle ones help with anytime plans");
+    queue_ = add_number<std::size_t>("queue", settings_.queue, 0, 100'000, "Jobs that may wait for a worker")
+                 ->default_str("4 for each worker");
+    add_number<std::size_t>("connections", settings_.connections, 1, 65'536, "Connections served at a time");
+    add("log-level", settings_.log_level, "What to log")
+        ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "critical", "off"}));
+    add("web-root", settings_.web_root, "Folder of the page");
+  }
+
+  void add_access() {
+    token_option_ = add("auth-token-file", token_file_,
+                        "File with the token that requests must show, but for health and readiness");
+    add("cors-origin", settings_.cors_origins,
+        "Origins whose pages may use the service from a browser, comma-separated or repeated; * for any")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->default_str("none");
+  }
+
+  void add_limits() {
+    api::Limits& limits = settings_.limits;
+    max_body_ = limits.max_body;
+    add("max-body", max_body_, "Bytes of a body after decompression; KiB, MiB and GiB are understood")
+        ->transform(CLI::AsSizeValue(false))
+        ->default_str("32MiB");
+    add_number<std::int64_t>("max-cells", limits.max_cells, 1, 1'000'000'000, "Cells of a map");
+    add_number<std::size_t>("max-robots", limits.max_robots, 1, 1'000'000, "Robots of a request");
+    add_number("max-depth", limits.max_depth, 4, 512, "Nesting of the JSON");
+  }
+
+  void add_times() {
+    api::Limits& limits = settings_.limits;
+    default_budget_ = add_number<std::int64_t>("default-budget-ms", limits.default_budget_ms, 1, kMaxMs,
+                                               "Time for a plan that names none");
+    add_number<std::int64_t>("max-budget-ms", limits.max_budget_ms, 1, kMaxMs, "Longest time for a plan");
+    add_number<std::int64_t>("idle-timeout-ms", idle_timeout_ms_, 1, kMaxMs,
+                             "An idle connection is closed after this");
+    add_number<std::int64_t>(
+        "read-timeout-ms", read_timeout_ms_, 1, kMaxMs,
+        "A request's head must come within this; its body may pause for so long and fall "
+        "so far behind 100 kB/s");
+    add_number<std::int64_t>("drain-ms", drain_ms_, 0, kMaxMs, "Time for running plans after SIGTERM");
+    add_number<std::int64_t>("drain-delay-ms", drain_delay_ms_, 0, kMaxMs,
+                             "Time before that, not ready but serving, for balancers to take notice");
+  }
+
+  std::variant<Settings, SettingsExit> finish() {
+    if (max_body_ < 1 || max_body_ > (std::uint64_t{1} << 40))
+      return bad("--max-body must be 1 byte to 1 TiB");
+    std::error_code ignored;
+    if (!settings_.web_root.empty() && !std::filesystem::is_directory(settings_.web_root, ignored)) {
+      return bad("--web-root: '" + settings_.web_root + "' is no folder");
+    }
+    if (const auto fault = finish_access()) return bad(*fault);
+    api::Limits& limits = settings_.limits;
+    if (default_budget_->count() > 0 && limits.default_budget_ms > limits.max_budget_ms) {
+      return bad("--default-budget-ms is greater than --max-budget-ms");
+    }
+    limits.default_budget_ms = std::min(limits.default_budget_ms, limits.max_budget_ms);
+    limits.max_body = max_body_;
+    if (queue_->count() == 0) settings_.queue = kQueuePerWorker * static_cast<std::size_t>(settings_.workers);
+    settings_.idle_timeout = std::chrono::milliseconds(idle_timeout_ms_);
+    settings_.read_timeout = std::chrono::milliseconds(read_timeout_ms_);
+    settings_.drain = std::chrono::milliseconds(drain_ms_);
+    settings_.drain_delay = std::chrono::milliseconds(drain_delay_ms_);
+    if (admin_->count() > 0) settings_.admin_port = admin_port_;
+    return settings_;
+  }
+
+  std::optional<std::string> finish_access() {
+    for (const std::string& origin : settings_.cors_origins) {
+      if (const auto fault = origin_fault(origin)) return "--cors-origin: " + *fault;
+    }
+    if (token_option_->count() == 0) return std::nullopt;
+    auto token = AccessToken::from_file(token_file_);
+    if (const auto* fault = std::get_if<std::string>(&token)) {
+      return "--auth-token-file: " + token_file_ + ": " + *fault;
+    }
+    settings_.token = std::get<AccessToken>(std::move(token));
+    return std::nullopt;
+  }
+
+  static SettingsExit bad(const std::string& message) {
+    return {2, message + "\nRun with --help for more information.\n"};
+  }
+
+  CLI::App app_;
+  Settings settings_;
+  std::uint64_t max_body_ = 0;
+  std::int64_t idle_timeout_ms_ = Settings{}.idle_timeout.count();
+  std::int64_t read_timeout_ms_ = Settings{}.read_timeout.count();
+  std::int64_t drain_ms_ = Settings{}.drain.count();
+  std::int64_t drain_delay_ms_ = Settings{}.drain_delay.count();
+  int admin_port_ = 0;
+  std::string token_file_;
+  CLI::Option* token_option_ = nullptr;
+  std::string config_;
+  CLI::Option* config_option_ = nullptr;
+  CLI::Option* admin_ = nullptr;
+  CLI::Option* queue_ = nullptr;
+  CLI::Option* default_budget_ = nullptr;
+};
+
+}  // namespace
+
+std::variant<Settings, SettingsExit> parse_settings(std::vector<std::string> arguments) {
+  return Flags().parse(std::move(arguments));
+}
+
+}  // namespace fleetplan::server

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "api/request/limits.h"
+#include "server/http/steps/access_token.h"
+
+namespace fleetplan::server {
+
+/// Everything an operator may set. The defaults here are those of the flags.
+struct Settings {
+  std::string host = "127.0.0.1";
+  int port = 8080;                               // 0: any free one
+  std::optional<int> admin_port = std::nullopt;  // of health, readiness and metrics; 0: any free one
+  int workers = 1;                               // planning threads; the flag's default: the CPUs granted
+  std::size_t queue = 4;                         // jobs that may wait; the flag's default: 4 for each worker
+  std::size_t connections = 1024;
+  api::Limits limits;
+  std::chrono::milliseconds idle_timeout{1000};    // of a connection between requests
+  std::chrono::milliseconds read_timeout{10'000};  // for a request's head, and see read_body
+  std::chrono::milliseconds drain{10'000};         // for running jobs when asked to end
+  std::chrono::milliseconds drain_delay{0};        // before that: not ready any more, but all is served
+  std::optional<AccessToken> token =
+      std::nullopt;                            // to be shown by all requests but for health and readiness
+  std::vector<std::string> cors_origins = {};  // whose pages may read answers, see CrossOrigin
+  std::string log_level = "info";
+  std::string web_root;      // empty: no page
+  bool healthcheck = false;  // ask the service that runs with these settings, instead of serving
+};
+
+/// The process is to end instead of serving: help, version, or a bad value.
+struct SettingsExit {
+  int code;  // 0, or 2 for a bad value
+  std::string text;
+};
+
+/// From flags (without the program's name), the environment (`FLEETPLAN_` and the flag in capitals; empty is
+/// not set), the file of --config and defaults, in this order of precedence.
+std::variant<Settings, SettingsExit> parse_settings(std::vector<std::string> arguments);
+
+}  // namespace fleetplan::server

@@ -1,0 +1,76 @@
+#include "server/http/guard/body_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+#include <vector>
+
+namespace fleetplan::server {
+namespace {
+
+constexpr std::uint64_t kMegabyte = 1 << 20;
+
+TEST(BodyMemory, IsGivenUntilThereIsNoMoreAndAgainWhenARequestEnds) {
+  BodyMemory memory(kMegabyte, 3);
+  BodyMemory::Share first(memory);
+  EXPECT_TRUE(first.grow_to(3 * kMegabyte));
+  {
+    BodyMemory::Share second(memory);
+    EXPECT_TRUE(second.grow_to(kMegabyte));
+    EXPECT_FALSE(second.grow_to(kMegabyte + 1));
+    EXPECT_FALSE(first.grow_to(4 * kMegabyte));
+  }
+  EXPECT_TRUE(first.grow_to(4 * kMegabyte));
+}
+
+TEST(BodyMemory, IsAlwaysThereForASmallBody) {
+  BodyMemory memory(0, 1);
+  BodyMemory::Share share(memory);
+  EXPECT_TRUE(share.grow_to(BodyMemory::kSmall));
+  EXPECT_FALSE(share.grow_to(BodyMemory::kSmall + 1));
+}
+
+TEST(BodyMemory, IsEnoughForTheLargestBodyAsSentAndAsDecodedOfAnySize) {
+  for (const std::uint64_t size : {std::uint64_t{1}, 2 * BodyMemory::kSmall, kMegabyte + 1}) {
+    BodyMemory memory(size, 1);
+    BodyMemory::Share share(memory);
+    EXPECT_TRUE(share.grow_to(size)) << size;
+    EXPECT_TRUE(share.grow_to(2 * size)) << size;
+  }
+}
+
+TEST(BodyMemory, IsRefusedToNobodyBecauseOfOthersThatAskForTooMuch) {
+  BodyMemory memory(kMegabyte, 1);
+  const std::jthread greedy([&memory](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      BodyMemory::Share share(memory);
+      EXPECT_FALSE(share.grow_to(3 * kMegabyte));
+    }
+  });
+  for (int i = 0; i < 100'000; ++i) {
+    BodyMemory::Share share(memory);
+    ASSERT_TRUE(share.grow_to(2 * kMegabyte));
+  }
+}
+
+TEST(BodyMemory, CountsRightWhateverThreadsAskForIt) {
+  BodyMemory memory(2 * kMegabyte, 3);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 8; ++t) {
+    threads.emplace_back([&] {
+      for (int i = 0; i < 1000; ++i) {
+        BodyMemory::Share share(memory);
+        for (std::uint64_t size = 1; size <= 4; ++size) {
+          if (!share.grow_to(size * kMegabyte)) break;
+        }
+      }
+    });
+  }
+  for (auto& thread : threads) thread.join();
+  BodyMemory::Share all(memory);
+  EXPECT_TRUE(all.grow_to(8 * kMegabyte));
+  EXPECT_FALSE(all.grow_to(8 * kMegabyte + 1));
+}
+
+}  // namespace
+}  // namespace fleetplan::server

@@ -1,0 +1,101 @@
+#include "server/http/guard/request_head.h"
+
+#include <gtest/gtest.h>
+
+namespace fleetplan::server {
+namespace {
+
+RequestHead parsed(const std::string& text) {
+  auto result = parse_request_head(text);
+  const auto* bad = std::get_if<BadHead>(&result);
+  EXPECT_EQ(bad, nullptr) << text << (bad != nullptr ? bad->detail : "");
+  return bad == nullptr ? std::get<RequestHead>(result) : RequestHead{};
+}
+
+bool is_refused(const std::string& text) { return std::holds_alternative<BadHead>(parse_request_head(text)); }
+
+bool is_refused_with_fields(const std::string& fields) {
+  return is_refused("POST / HTTP/1.1\r\n" + fields + "\r\n");
+}
+
+TEST(RequestHead, HasMethodPathWithoutQueryAndFields) {
+  const auto head = parsed("POST /v1/pl%61n?x=1 HTTP/1.1\r\nHost: a\r\nContent-Length:  12 \r\n\r\n");
+  EXPECT_EQ(head.method, "POST");
+  EXPECT_EQ(head.raw_path, "/v1/pl%61n");
+  EXPECT_EQ(head.path, "/v1/plan");
+  EXPECT_EQ(head.field("host"), "a");
+  EXPECT_EQ(head.content_length, 12u);
+  EXPECT_FALSE(head.chunked);
+}
+
+TEST(RequestHead, TakesTheAbsoluteFormOfATarget) {
+  EXPECT_EQ(parsed("GET http://host:80/healthz?q HTTP/1.1\r\n\r\n").path, "/healthz");
+  EXPECT_EQ(parsed("GET http://host HTTP/1.1\r\n\r\n").path, "/");
+}
+
+TEST(RequestHead, JoinsFieldsOfOneName) {
+  EXPECT_EQ(parsed("GET / HTTP/1.1\r\nAccept: a\r\naccept: b\r\n\r\n").field("accept"), "a, b");
+}
+
+TEST(RequestHead, RefusesAContentLengthThatIsNoCount) {
+  EXPECT_TRUE(is_refused_with_fields("Content-Length: -1\r\n"));
+  EXPECT_TRUE(is_refused_with_fields("Content-Length: +1\r\n"));
+  EXPECT_TRUE(is_refused_with_fields("Content-Length: 1x\r\n"));
+  EXPECT_TRUE(is_refused_with_fields("Content-Length: \r\n"));
+  EXPECT_TRUE(is_refused_with_fields("Content-Length: 1\r\nContent-Length: 2\r\n"));
+  EXPECT_TRUE(is_refused_with_fields("Content-Length: 99999999999999999999\r\n"));
+}
+
+TEST(RequestHead, RefusesContentLengthBesideTransferEncoding) {
+  EXPECT_TRUE(is_refused_with_fields("Content-Length: 1\r\nTransfer-Encoding: chunked\r\n"));
+}
+
+TEST(RequestHead, TakesChunkedAndNoOtherTransferCoding) {
+  EXPECT_TRUE(parsed("POST / HTTP/1.1\r\nTransfer-Encoding: Chunked\r\n\r\n").chunked);
+  EXPECT_TRUE(is_refused_with_fields("Transfer-Encoding: gzip, chunked\r\n"));
+  EXPECT_TRUE(is_refused("POST / HTTP/1.0\r\nTransfer-Encoding: chunked\r\n\r\n"));
+}
+
+TEST(RequestHead, RefusesBrokenLines) {
+  EXPECT_TRUE(is_refused("GET /\r\n\r\n"));
+  EXPECT_TRUE(is_refused("GET / HTTP/2.0\r\n\r\n"));
+  EXPECT_TRUE(is_refused("GET /a b HTTP/1.1\r\n\r\n"));
+  EXPECT_TRUE(is_refused("G@T / HTTP/1.1\r\n\r\n"));
+  EXPECT_TRUE(is_refused("GET /%zz HTTP/1.1\r\n\r\n"));
+  EXPECT_TRUE(is_refused("GET /%00 HTTP/1.1\r\n\r\n"));
+  EXPECT_TRUE(is_refused_with_fields("Name : value\r\n"));
+  EXPECT_TRUE(is_refused_with_fields(" folded\r\n"));
+  EXPECT_TRUE(is_refused_with_fields("no colon\r\n"));
+  EXPECT_TRUE(is_refused_with_fields("Name: a\rb\r\n"));
+}
+
+TEST(RequestHead, RefusesTooManyFields) {
+  std::string fields;
+  for (std::size_t i = 0; i < kMaxHeaderFields; ++i) fields += "A: b\r\n";
+  EXPECT_FALSE(is_refused_with_fields(fields));
+  EXPECT_TRUE(is_refused_with_fields(fields + "A: b\r\n"));
+}
+
+TEST(RequestHead, KeepsAliveAsItsVersionAndConnectionFieldSay) {
+  EXPECT_TRUE(parsed("GET / HTTP/1.1\r\n\r\n").wants_keep_alive());
+  EXPECT_FALSE(parsed("GET / HTTP/1.1\r\nConnection: x, Close\r\n\r\n").wants_keep_alive());
+  EXPECT_FALSE(parsed("GET / HTTP/1.0\r\n\r\n").wants_keep_alive());
+  EXPECT_TRUE(parsed("GET / HTTP/1.0\r\nConnection: Keep-Alive\r\n\r\n").wants_keep_alive());
+}
+
+TEST(HeadScanner, FindsTheEmptyLineHoweverTheBytesCome) {
+  const std::string text = "GET / HTTP/1.1\r\nA: b\r\n\r\nbody";
+  HeadScanner scanner;
+  for (std::size_t size = 0; size < 24; ++size) {
+    EXPECT_EQ(scanner.scan(std::string_view(text).substr(0, size)), HeadScanner::State::incomplete) << size;
+  }
+  EXPECT_EQ(scanner.scan(text), HeadScanner::State::complete);
+  EXPECT_EQ(scanner.size(), 24u);
+}
+
+TEST(HeadScanner, RefusesALoneLineFeed) {
+  EXPECT_EQ(HeadScanner().scan("GET / HTTP/1.1\n\n"), HeadScanner::State::malformed);
+}
+
+}  // namespace
+}  // namespace fleetplan::server

@@ -1,0 +1,77 @@
+#include "server/jobs/peer_watch.h"
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace fleetplan::server {
+namespace {
+
+/// A connection whose other end a test may close.
+struct Pair {
+  Pair() { EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()), 0); }
+  ~Pair() { leave(); }
+  Pair(const Pair&) = delete;
+  Pair& operator=(const Pair&) = delete;
+
+  void leave() {
+    if (ends[1] >= 0) ::close(ends[1]);
+    ends[1] = -1;
+  }
+
+  std::array<int, 2> ends{-1, -1};
+};
+
+/// True as soon as `stop` is requested; false after a generous while without that.
+bool is_stopped(const std::stop_source& stop) {
+  std::mutex mutex;
+  std::condition_variable_any never;
+  std::unique_lock lock(mutex);
+  never.wait_for(lock, stop.get_token(), std::chrono::seconds(20), [] { return false; });
+  return stop.stop_requested();
+}
+
+TEST(PeerWatch, StopsWhatAClientThatLeavesWaitedFor) {
+  PeerWatch watch;
+  Pair stays;
+  Pair leaves;
+  const Socket staying(stays.ends[0], -1);
+  const Socket leaving(leaves.ends[0], -1);
+  std::stop_source wanted;
+  std::stop_source unwanted;
+  const PeerWatch::Watched one(watch, staying, wanted);
+  const PeerWatch::Watched other(watch, leaving, unwanted);
+  leaves.leave();
+  EXPECT_TRUE(is_stopped(unwanted));
+  EXPECT_TRUE(other.gone());
+  EXPECT_FALSE(wanted.stop_requested());
+  EXPECT_FALSE(one.gone());
+}
+
+TEST(PeerWatch, IsWokenAgainAfterAVeryShortJob) {
+  PeerWatch watch;
+  for (int i = 0; i < 5; ++i) {
+    std::this_thread::sleep_for(2 * PeerWatch::kPeriod);  // it has nothing to watch and falls asleep
+    {
+      const Pair brief;
+      const Socket socket(brief.ends[0], -1);
+      const PeerWatch::Watched gone_before_it_wakes(watch, socket, std::stop_source());
+    }
+    std::this_thread::sleep_for(2 * PeerWatch::kPeriod);
+    Pair leaves;
+    const std::stop_source unwanted;
+    const Socket leaving(leaves.ends[0], -1);
+    const PeerWatch::Watched watched(watch, leaving, unwanted);
+    leaves.leave();
+    ASSERT_TRUE(is_stopped(unwanted)) << "in round " << i;
+  }
+}
+
+}  // namespace
+}  // namespace fleetplan::server

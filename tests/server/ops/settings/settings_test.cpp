@@ -1,0 +1,153 @@
+#include "server/ops/settings/settings.h"
+
+#include <gtest/gtest.h>
+
+#include "server/ops/settings/cpu_count.h"
+#include "tests/server/support/environment.h"
+#include "tests/support/temporary_file.h"
+
+namespace fleetplan::server {
+namespace {
+
+Settings settings_of(std::vector<std::string> arguments) {
+  auto parsed = parse_settings(std::move(arguments));
+  const auto* exit = std::get_if<SettingsExit>(&parsed);
+  EXPECT_EQ(exit, nullptr) << (exit != nullptr ? exit->text : "");
+  return exit == nullptr ? std::get<Settings>(parsed) : Settings{};
+}
+
+SettingsExit exit_of(std::vector<std::string> arguments) {
+  auto parsed = parse_settings(std::move(arguments));
+  EXPECT_TRUE(std::holds_alternative<SettingsExit>(parsed));
+  const auto* exit = std::get_if<SettingsExit>(&parsed);
+  return exit != nullptr ? *exit : SettingsExit{};
+}
+
+TEST(Settings, HaveTheirDefaults) {
+  const auto settings = settings_of({});
+  EXPECT_EQ(settings.host, "127.0.0.1");
+  EXPECT_EQ(settings.port, 8080);
+  EXPECT_EQ(settings.workers, cpus_granted());
+  EXPECT_EQ(settings.queue, 4u * static_cast<std::size_t>(settings.workers));
+  EXPECT_EQ(settings.connections, 1024u);
+  EXPECT_EQ(settings.limits.max_body, 32u << 20);
+  EXPECT_EQ(settings.limits.max_budget_ms, 120'000);
+  EXPECT_EQ(settings.drain, std::chrono::seconds(10));
+  EXPECT_EQ(settings.log_level, "info");
+  EXPECT_EQ(settings.admin_port, std::nullopt);
+  EXPECT_FALSE(settings.token);
+  EXPECT_TRUE(settings.cors_origins.empty());
+  EXPECT_EQ(settings.drain_delay, std::chrono::milliseconds(0));
+}
+
+TEST(Settings, AskForTheHealthByFlagAlone) {
+  EXPECT_FALSE(settings_of({}).healthcheck);
+  EXPECT_TRUE(settings_of({"--healthcheck"}).healthcheck);
+  const support::TemporaryFile file("healthcheck = true\n");
+  EXPECT_EQ(exit_of({"--config", file.path()}).code, 2);
+}
+
+TEST(Settings, ComeFromFlags) {
+  const auto settings =
+      settings_of({"--port", "9000", "--workers=3", "--max-body", "2MiB", "--idle-timeout-ms", "7"});
+  EXPECT_EQ(settings.port, 9000);
+  EXPECT_EQ(settings.workers, 3);
+  EXPECT_EQ(settings.queue, 12u);
+  EXPECT_EQ(settings.limits.max_body, 2u << 20);
+  EXPECT_EQ(settings.idle_timeout, std::chrono::milliseconds(7));
+}
+
+TEST(Settings, HoldTheTokenOfAFile) {
+  const support::TemporaryFile file("open-sesame\n");
+  const auto settings = settings_of({"--auth-token-file", file.path()});
+  ASSERT_TRUE(settings.token);
+  EXPECT_TRUE(settings.token->admits("Bearer open-sesame"));
+  EXPECT_EQ(exit_of({"--auth-token-file", ""}).code, 2)
+      << "an unset variable of a script must not open the door";
+  EXPECT_EQ(exit_of({"--config", ""}).code, 2);
+  const support::TemporaryFile empty("\n");
+  const auto exit = exit_of({"--auth-token-file", empty.path()});
+  EXPECT_EQ(exit.code, 2);
+  EXPECT_EQ(exit.text.find("--auth-token-file: " + empty.path() + ": it is empty"), 0u) << exit.text;
+}
+
+TEST(Settings, TakeOriginsApartAndTogether) {
+  const std::vector<std::string> both{"https://a.example", "http://b.example:3000"};
+  EXPECT_EQ(settings_of({"--cors-origin", "https://a.example,http://b.example:3000"}).cors_origins, both);
+  EXPECT_EQ(settings_of({"--cors-origin", both[0], "--cors-origin", both[1]}).cors_origins, both);
+  const Environment origins("FLEETPLAN_CORS_ORIGIN", "https://a.example,http://b.example:3000");
+  EXPECT_EQ(settings_of({}).cors_origins, both);
+  EXPECT_EQ(settings_of({"--cors-origin", "*"}).cors_origins, std::vector<std::string>{"*"});
+}
+
+TEST(Settings, ComeFromTheEnvironmentWhichFlagsBeat) {
+  const Environment port("FLEETPLAN_PORT", "9001");
+  const Environment body("FLEETPLAN_MAX_BODY", "4096");
+  const Environment queue("FLEETPLAN_QUEUE", "0");
+  EXPECT_EQ(settings_of({}).port, 9001);
+  EXPECT_EQ(settings_of({}).limits.max_body, 4096u);
+  EXPECT_EQ(settings_of({}).queue, 0u);
+  EXPECT_EQ(settings_of({"--port", "9002"}).port, 9002);
+}
+
+TEST(Settings, TreatAnEmptyEnvironmentValueAsNotSet) {
+  const Environment port("FLEETPLAN_PORT", "");
+  EXPECT_EQ(settings_of({}).port, 8080);
+}
+
+TEST(Settings, RefuseBadValuesNamingTheFlag) {
+  for (const char* argument : {"--port=65536",
+                               "--port=x",
+                               "--workers=0",
+                               "--queue=-1",
+                               "--max-body=0",
+                               "--max-body=-5",
+                               "--max-body=1XB",
+                               "--max-cells=0",
+                               "--max-robots=0",
+                               "--max-depth=0",
+                               "--default-budget-ms=0",
+                               "--max-budget-ms=0",
+                               "--idle-timeout-ms=0",
+                               "--read-timeout-ms=0",
+                               "--drain-ms=-1",
+                               "--log-level=loud",
+                               "--connections=0",
+                               "--web-root=/no/such/folder",
+                               "--default-budget-ms=200000",
+                               "--admin-port=-1",
+                               "--admin-port=off",
+                               "--auth-token-file=/no/such/file",
+                               "--cors-origin=a.example",
+                               "--drain-delay-ms=-1",
+                               "--config=/no/such/file"}) {
+    const auto exit = exit_of({argument});
+    const std::string flag(argument, std::string(argument).find('='));
+    EXPECT_EQ(exit.code, 2) << argument;
+    EXPECT_NE(exit.text.find(flag), std::string::npos) << argument << ": " << exit.text;
+  }
+  EXPECT_EQ(exit_of({"--no-such-flag"}).code, 2);
+  EXPECT_EQ(exit_of({"stray"}).code, 2);
+}
+
+TEST(Settings, RefuseABadEnvironmentValue) {
+  const Environment port("FLEETPLAN_PORT", "many");
+  EXPECT_EQ(exit_of({}).code, 2);
+}
+
+TEST(Settings, CutTheDefaultBudgetToTheLargest) {
+  EXPECT_EQ(settings_of({"--max-budget-ms", "300"}).limits.default_budget_ms, 300);
+}
+
+TEST(Settings, ExplainThemselves) {
+  const auto help = exit_of({"--help"});
+  EXPECT_EQ(help.code, 0);
+  EXPECT_NE(help.text.find("FLEETPLAN_MAX_BODY"), std::string::npos);
+  EXPECT_NE(help.text.find("32MiB"), std::string::npos);
+  const auto version = exit_of({"--version"});
+  EXPECT_EQ(version.code, 0);
+  EXPECT_EQ(version.text, "fleetplan " FLEETPLAN_VERSION "\n");
+}
+
+}  // namespace
+}  // namespace fleetplan::server
