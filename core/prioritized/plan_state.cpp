@@ -21,7 +21,7 @@ PlanState::PlanState(const Instance& instance)
     : instance_(instance),
       table_(instance.problem().grid().width(), instance.problem().grid().height(),
              instance.problem().grid().resolution(), radii(instance)),
-      search_(instance, table_),
+      search_(table_),
       trajectories_(instance.size()),
       guides_(instance.size()) {}
 
@@ -98,7 +98,7 @@ Trajectory PlanState::alone(std::size_t robot, const StopCondition& stop) {
   const ReservationTable nobody(grid.width(), grid.height(), grid.width(),
                                 radii(instance_));  // coarse, as it is empty
   Guide& g = guide(robot);
-  AaSipp search(instance_, nobody);
+  AaSipp search(nobody);
   SearchResult result = search.run(robot, g.vertices, g.cost_to_go, {}, stop);
   return result.trajectory ? std::move(*result.trajectory) : standing(robot);
 }

@@ -58,7 +58,7 @@ class PlanState {
     Vertices vertices;
     CostToGo cost_to_go;
     Guide(const Instance& instance, std::size_t robot)
-        : vertices(instance, robot), cost_to_go(instance, robot, vertices) {}
+        : vertices(instance, robot), cost_to_go(vertices) {}
   };
 
   Guide& guide(std::size_t robot);

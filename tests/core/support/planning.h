@@ -1,6 +1,6 @@
 #pragma once
 
-// A problem with everything that the search needs around it.
+// A problem with its instance and plan state, ready for searches.
 
 #include <string>
 #include <utility>
@@ -19,13 +19,13 @@
 
 namespace fleetplan::core {
 
-/// A search that settles for nothing dearer than it has to.
+/// Limits for a search with exact dominance that returns the cheapest path that it can find.
 inline constexpr SearchLimits kExact{
     .heuristic_weight = 1.0, .suboptimality = 0.0, .suboptimality_growth = 0.0, .dominance_slack = 0.0};
 
 struct Planning {
-  explicit Planning(Problem told, const PlanOptions& options = {})
-      : problem(std::move(told)), instance(problem, options), state(instance), random(options.seed) {}
+  explicit Planning(Problem given, const PlanOptions& options = {})
+      : problem(std::move(given)), instance(problem, options), state(instance), random(options.seed) {}
   Planning(OccupancyGrid grid, std::vector<Robot> robots, const PlanOptions& options = {})
       : Planning(support::make_problem(std::move(grid), std::move(robots)), options) {}
   Planning(const Planning&) = delete;
@@ -46,7 +46,7 @@ struct Planning {
   Random random;
   StopCondition never;
   CallerThread callers_thread;
-  ProgressReport progress{state, nullptr};  // nobody watches
+  ProgressReport progress{state, nullptr};  // no observer
 };
 
 /// A stop condition that is met already.
@@ -56,8 +56,7 @@ inline StopCondition met() {
   return StopCondition(StopCondition::Clock::time_point::max(), source.get_token());
 }
 
-/// Straight moves through these points, each at a speed of 1 m/s and departing as soon as it can, the first
-/// at `departure`.
+/// Straight moves through these points at 1 m/s without waits in between; the first departs at `departure`.
 inline Trajectory through(const std::vector<Position>& points, double departure = 0.0) {
   Trajectory trajectory{points.front(), {}, departure};
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -68,7 +67,7 @@ inline Trajectory through(const std::vector<Position>& points, double departure 
   return trajectory;
 }
 
-/// One way back and forth, 28 m x 9 m; no search finds it at a glance.
+/// A single long path back and forth, 28 m x 9 m.
 inline OccupancyGrid maze() {
   return support::ascii_map({"............................",  //
                              "............................",  //
