@@ -7,21 +7,20 @@
 namespace fleetplan::core {
 namespace {
 
-/// Rotations and waits shorter than this are rounding, radians and seconds; far below what the checker
-/// tolerates.
+/// Radians and seconds; smaller rotations and waits are rounding. Far below the tolerances of the verifier.
 constexpr double kNegligible = 1e-12;
 
 class ActionList {
  public:
   explicit ActionList(const Robot& robot) : robot_(robot), pose_(robot.start) {}
 
-  /// Turns to a heading, then waits until `t_end`.
-  void turn_and_wait(double theta, double t_end) {
+  /// Rotates to a heading, then waits until `t_end`.
+  void rotate_and_wait(double theta, double t_end) {
     const double rotation = std::abs(rotation_between(pose_.theta, theta));
     if (rotation > kNegligible) {
-      double turned = now_ + rotation / robot_.angular_speed;
-      if (std::abs(t_end - turned) <= kNegligible) turned = t_end;
-      append(Action::Type::rotate, turned, {pose_.position, theta});
+      double rotated = now_ + rotation / robot_.angular_speed;
+      if (std::abs(t_end - rotated) <= kNegligible) rotated = t_end;
+      append(Action::Type::rotate, rotated, {pose_.position, theta});
     }
     if (t_end - now_ > kNegligible) append(Action::Type::wait, t_end, pose_);
   }
@@ -50,10 +49,10 @@ std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory)
   ActionList list(robot);
   for (const TimedSegment& move : trajectory.moves) {
     const Position direction = move.path.to - move.path.from;
-    list.turn_and_wait(normalize_angle(std::atan2(direction.y(), direction.x())), move.t_start);
+    list.rotate_and_wait(normalize_angle(std::atan2(direction.y(), direction.x())), move.t_start);
     list.translate(move);
   }
-  if (robot.goal && robot.goal->theta) list.turn_and_wait(*robot.goal->theta, trajectory.cost);
+  if (robot.goal && robot.goal->theta) list.rotate_and_wait(*robot.goal->theta, trajectory.cost);
   return list.take();
 }
 

@@ -8,8 +8,8 @@
 
 namespace fleetplan::core {
 
-/// The trajectory as the actions that the robot executes. It rotates as soon as it has arrived and waits
-/// afterwards, so that a wait before a translation is spent already turned.
+/// The actions that execute the trajectory. The robot rotates as soon as it has arrived and then waits, so
+/// that it already has the next heading while it waits before a translation.
 std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory);
 
 }  // namespace fleetplan::core

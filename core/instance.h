@@ -5,28 +5,17 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/geometry/angle.h"
 #include "core/map/lattice.h"
 #include "core/map/line_of_sight.h"
+#include "core/map/static_moves.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
+#include "core/motion.h"
 
 namespace fleetplan::core {
 
-/// How one robot moves, as the search sees it.
-struct Motion {
-  double radius = 0.0;  // metres, inflation included
-  double linear_speed = 0.0;
-  double angular_speed = 0.0;
-  double wait_before_move = 0.0;  // seconds
-
-  double translation_time(double distance) const { return distance / linear_speed; }
-  /// Seconds to turn from one normalised heading to another, the shorter way.
-  double rotation_time(double from, double to) const { return angle_between(from, to) / angular_speed; }
-};
-
-/// What stays the same while one request is planned: problem, options, lattice, static feasibility. Not
-/// thread-safe, as static moves are computed when first asked for.
+/// A problem with its options, the lattice and the static feasibility of moves: what stays the same while one
+/// request is planned. Not thread-safe, because static moves are computed on first use.
 class Instance {
  public:
   Instance(const Problem& problem, const PlanOptions& options);

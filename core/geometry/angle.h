@@ -17,7 +17,7 @@ inline double normalize_angle(double angle) {
 /// a turn is counter-clockwise.
 inline double rotation_between(double from, double to) { return normalize_angle(to - from); }
 
-/// How far apart two normalised headings are, in [0, pi].
+/// The absolute difference of two normalised headings, in [0, pi].
 inline double angle_between(double a, double b) {
   const double d = std::abs(a - b);
   return d <= std::numbers::pi ? d : 2.0 * std::numbers::pi - d;

@@ -6,13 +6,13 @@
 namespace fleetplan::core {
 namespace {
 
-/// Velocities whose cross product is below this fraction of the product of their lengths count as parallel:
-/// the ellipse is then so long that its extreme points lie outside any rectangle that matters.
+/// Velocities are parallel if their cross product is below this fraction of the product of their lengths: the
+/// extreme points of the ellipse then lie outside any rectangle that can occur.
 constexpr double kParallel = 1e-12;
 
 double cross(const Position& a, const Position& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The part of [0, length] on which |q + v x| < reach. Empty if there is none.
+/// The part of [0, length] on which |q + v x| < reach; empty if there is none.
 UnsafeInterval near_zero(const Position& q, const Position& v, double length, double reach) {
   const double qq = q.squaredNorm() - reach * reach;
   const double vv = v.squaredNorm();
@@ -52,7 +52,7 @@ bool collide(const MovingDisk& a, const MovingDisk& b, double reach) {
   const double rr = reach * reach;
   if (qq < rr) return true;
   const double qv = q.dot(v);
-  if (qv >= 0.0) return false;  // moving apart, or not at all
+  if (qv >= 0.0) return false;  // moving apart, or no relative motion
   const double vv = v.squaredNorm();
   const double length = end - begin;
   if (-qv < vv * length) {  // closest between the two ends
@@ -85,7 +85,7 @@ UnsafeInterval forbidden_departures(const Position& from, const Position& veloci
   if (const auto s = near_zero(q, velocity, duration, reach); !s.empty()) {  // u = 0
     extent.add(-s.end);
     extent.add(-s.begin);
-    if (length == kForever) extent.add(kForever);  // a wait without end: whoever departs later meets it, too
+    if (length == kForever) extent.add(kForever);  // a wait without end blocks later departures, too
   }
   if (length == kForever) return extent.shifted(b.t_start);  // no fourth edge, no ellipse
   const Position ended = q - b.velocity * length;

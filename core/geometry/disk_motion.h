@@ -1,24 +1,24 @@
 #pragma once
 
-// When do two disks collide that each move along a straight line at constant speed? Closed form throughout;
-// `reach` is the distance of the centres below which they collide, the sum of the radii.
+// Collisions of two disks that move along straight lines at constant speed, in closed form. `reach` is the
+// distance of the centres below which they collide: the sum of the radii.
 //
 // Progress along my move is s in [0, d], along the other's segment u in [0, L], both in seconds. The
 // positions collide where |q + va s - vb u| < reach: a convex region (the inside of an ellipse, or a strip
 // when the velocities are parallel) clipped to a rectangle. My departure is t0 + u - s, which is linear. So
-// the departures of my move that collide with one timed segment are one interval, whose ends are found on the
-// rectangle's edges and at the ellipse's two extreme points. Times are exact to about 1e-12 s, except where
-// paths graze each other: there the square root costs half of the digits, but the overlap is of second order
-// in that error and stays below 1e-12 m.
+// the departures of my move that collide with one timed segment are one interval. Its ends lie on the
+// rectangle's edges or at the ellipse's two extreme points. Times are exact to about 1e-12 s, except where
+// paths only touch: there the square root loses half of the digits, but the overlap is of second order in
+// that error and stays below 1e-12 m.
 
 #include "core/geometry/interval.h"
 #include "core/geometry/segment.h"
 
 namespace fleetplan::core {
 
-/// A disk that moves along a timed segment. What the collision tests need, ready computed.
+/// A disk that moves along a timed segment, with its velocity computed once.
 struct MovingDisk {
-  Position from{0.0, 0.0};      // where it is at t_start
+  Position from{0.0, 0.0};      // at t_start
   Position velocity{0.0, 0.0};  // metres per second, zero for a wait
   double t_start = 0.0;
   double t_end = 0.0;  // kForever only with zero velocity
@@ -33,15 +33,16 @@ struct MovingDisk {
   Position at(double t) const { return from + velocity * (t - t_start); }
 };
 
-/// Do the two come closer than `reach` while both segments last? (paper, section on dynamic obstacles)
+/// Returns whether the two come closer than `reach` while both segments last (paper, "Estimating the
+/// feasibility of the move w.r.t. dynamic obstacles").
 bool collide(const MovingDisk& a, const MovingDisk& b, double reach);
 
-/// When `b` is closer than `reach` to the point `p`. Empty if never.
+/// The times at which `b` is closer than `reach` to the point `p`; empty if there are none.
 UnsafeInterval unsafe_interval(const Position& p, const MovingDisk& b, double reach);
 
 /// The departure times t of the move (from, velocity, duration > 0) for which it comes closer than `reach` to
-/// `b`. Its ends may be forbidden themselves, namely where the other's neighbouring segments or the safe
-/// intervals of the move's ends cover them; so use it on contiguous trajectories only.
+/// `b`. An end of the interval may be forbidden itself; then a neighbouring segment of `b` or a safe interval
+/// of the move covers it. Use it on contiguous trajectories only.
 UnsafeInterval forbidden_departures(const Position& from, const Position& velocity, double duration,
                                     const MovingDisk& b, double reach);
 

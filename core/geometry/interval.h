@@ -4,7 +4,7 @@
 
 namespace fleetplan::core {
 
-/// Closed interval [begin, end] of time during which a disk may stand at a place; end may be kForever.
+/// Closed interval [begin, end] of times at which a disk may stand at a position; end may be kForever.
 struct SafeInterval {
   double begin = 0.0;
   double end = kForever;
@@ -12,8 +12,8 @@ struct SafeInterval {
   bool contains(double t) const { return begin <= t && t <= end; }
 };
 
-/// Open interval (begin, end) of times at which disks would overlap, or of departures that lead to that.
-/// Open, since touching disks do not collide.
+/// Open interval (begin, end) of times at which disks overlap, or of departures that lead to an overlap.
+/// Open, because touching disks do not collide.
 struct UnsafeInterval {
   double begin = 0.0;
   double end = 0.0;

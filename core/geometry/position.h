@@ -1,8 +1,8 @@
 #pragma once
 
-// Where things are. Everything in core/ lives in the map frame: metres, origin in the lower-left corner of
-// the map, x right, y up. The API adds and removes the map's world origin, so that planning keeps its
-// precision even where world coordinates are large (UTM).
+// Positions and poses in the map frame, which all of core/ uses: metres, origin in the lower-left corner of
+// the map, x right, y up. The API adds and subtracts the map's world origin, so that planning stays precise
+// even if world coordinates are large (UTM).
 
 #include <Eigen/Core>
 

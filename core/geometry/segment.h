@@ -8,7 +8,7 @@ namespace fleetplan::core {
 
 inline constexpr double kForever = std::numeric_limits<double>::infinity();
 
-/// A straight piece of space; of length 0 for a robot that stands still.
+/// A straight line between two positions; of length 0 for a robot that stands still.
 struct Segment {
   Position from{0.0, 0.0};
   Position to{0.0, 0.0};
@@ -16,8 +16,8 @@ struct Segment {
   double length() const { return (to - from).norm(); }
 };
 
-/// A segment passed at constant speed during [t_start, t_end], seconds. A wait has from == to, and only a
-/// wait may last for ever.
+/// A segment traversed at constant speed during [t_start, t_end], seconds. A wait has from == to; only a wait
+/// may have no end.
 struct TimedSegment {
   Segment path;
   double t_start = 0.0;

@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "core/geometry/tolerance.h"
+#include "core/map/occupancy_grid.h"
 
 namespace fleetplan::core {
 namespace {
 
-/// Moves are rarely longer, and the table fits into a processor's cache.
+/// Columns and rows of the table of displacements: moves are rarely longer, and it fits into a CPU's cache.
 constexpr int kMaxTableSize = 96;
 
 /// The moves in angular order; each doubling inserts the sum of every two neighbours.
@@ -56,7 +57,7 @@ int Lattice::vertex_at(const Position& position) const {
   const int column = static_cast<int>(std::floor(position.x() / spacing_));
   const int row = static_cast<int>(std::floor(position.y() / spacing_));
   if (column < 0 || column >= columns_ || row < 0 || row >= rows_) return -1;
-  const int candidate = vertex({column, row});
+  const int candidate = vertex(column, row);
   return (this->position(candidate) - position).norm() <= kContactTolerance ? candidate : -1;
 }
 
@@ -69,35 +70,11 @@ std::vector<int> Lattice::vertices_near(const Position& position, double distanc
   std::vector<int> near;
   for (int row = row_min; row <= row_max; ++row) {
     for (int column = column_min; column <= column_max; ++column) {
-      const int candidate = vertex({column, row});
+      const int candidate = vertex(column, row);
       if ((this->position(candidate) - position).norm() <= distance) near.push_back(candidate);
     }
   }
   return near;
-}
-
-StaticMoves::StaticMoves(const Lattice& lattice, const LineOfSight& sight, double radius)
-    : lattice_(lattice),
-      sight_(sight),
-      radius_(radius),
-      masks_(static_cast<std::size_t>(lattice.vertex_count())) {}
-
-std::uint32_t StaticMoves::from(int vertex) {
-  Mask& cached = masks_[static_cast<std::size_t>(vertex)];
-  if (cached.known) return cached.steps;
-  const int column = vertex % lattice_.columns();
-  const int row = vertex / lattice_.columns();
-  const Position here = lattice_.position(vertex);
-  std::uint32_t mask = 0;
-  for (std::size_t k = 0; k < lattice_.steps().size(); ++k) {
-    const auto [dc, dr] = lattice_.steps()[k];
-    const int c = column + dc;
-    const int r = row + dr;
-    if (c < 0 || c >= lattice_.columns() || r < 0 || r >= lattice_.rows()) continue;
-    if (sight_.may_sweep(here, lattice_.position(lattice_.vertex({c, r})), radius_)) mask |= 1u << k;
-  }
-  cached = {mask, true};
-  return mask;
 }
 
 }  // namespace fleetplan::core

@@ -1,29 +1,29 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <numbers>
 #include <span>
 #include <vector>
 
-#include "core/map/line_of_sight.h"
-#include "core/map/occupancy_grid.h"
-#include "core/map/paged_array.h"
+#include "core/geometry/position.h"
 
 namespace fleetplan::core {
 
-/// Which way and how far (metres) to go from one place to another; of length 0, heading 0.
+class OccupancyGrid;
+
+/// The heading and the length (metres) of the straight line from one position to another; heading 0 if the
+/// length is 0.
 struct Displacement {
   double heading = 0.0;
   double length = 0.0;
 
-  /// For any two positions.
+  /// Between any two positions.
   static Displacement between(const Position& from, const Position& to);
 };
 
-/// Where robots may stop: a vertex is the centre of a cell, numbered row by row from the bottom. Kept apart
-/// from what is blocked (LineOfSight).
+/// The vertices at which robots may stop: the centres of the cells, numbered row by row from the bottom.
+/// Which cells are blocked is not part of the lattice (see LineOfSight).
 class Lattice {
  public:
   /// One lattice move.
@@ -47,7 +47,7 @@ class Lattice {
     const int row = vertex / columns_;
     return {(column + 0.5) * spacing_, (row + 0.5) * spacing_};
   }
-  int vertex(Cell cell) const { return cell.row * columns_ + cell.column; }
+  int vertex(int column, int row) const { return row * columns_ + column; }
   /// From one vertex to another.
   Displacement between(int from, int to) const {
     const int columns = to % columns_ - from % columns_;
@@ -61,7 +61,7 @@ class Lattice {
     if (rows < 0) d.heading = -d.heading;
     return d;
   }
-  /// The vertex that a position coincides with (to kContactTolerance), or -1.
+  /// The vertex within kContactTolerance of a position, or -1.
   int vertex_at(const Position& position) const;
   /// Vertices within `distance` metres of a position, ascending.
   std::vector<int> vertices_near(const Position& position, double distance) const;
@@ -77,27 +77,6 @@ class Lattice {
   int table_columns_;
   int table_rows_;
   std::vector<Displacement> first_quadrant_;
-};
-
-/// Which lattice moves a disk of one radius may make on the static map; computed when first asked for. Not
-/// thread-safe.
-class StaticMoves {
- public:
-  StaticMoves(const Lattice& lattice, const LineOfSight& sight, double radius);
-
-  /// Bit k is set if step k of the lattice is free of obstacles from `vertex`.
-  std::uint32_t from(int vertex);
-
- private:
-  struct Mask {
-    std::uint32_t steps = 0;
-    bool known = false;
-  };
-
-  const Lattice& lattice_;
-  const LineOfSight& sight_;
-  double radius_;
-  PagedArray<Mask> masks_;
 };
 
 }  // namespace fleetplan::core

@@ -9,14 +9,14 @@
 namespace fleetplan::core {
 namespace {
 
-/// Below this width in columns the exact test is cheaper than halving the capsule once more.
+/// Columns; the exact test of a narrower capsule is cheaper than halving it once more.
 constexpr int kNarrowColumns = 4;
 
 int floor_int(double x) { return static_cast<int>(std::floor(x)); }
-/// The last cell that an open set reaching up to x overlaps.
+/// The last cell that an open set with upper end x overlaps.
 int last_cell(double x) { return static_cast<int>(std::ceil(x)) - 1; }
 
-/// The upper boundary of the swept disk from a to b (a.x <= b.x) of radius r at abscissa x within its shadow.
+/// The upper boundary at abscissa x of the capsule from a to b (a.x <= b.x) of radius r.
 double upper_boundary(const Position& a, const Position& b, double r, double x) {
   const Position d = b - a;
   const double length = d.norm();

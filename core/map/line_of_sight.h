@@ -8,19 +8,20 @@
 
 namespace fleetplan::core {
 
-/// Static feasibility of disks of any radius on the grid, exact, without rasterising per radius (paper,
-/// section on static obstacles). A summed-area table of blocked cells accepts free rectangles at once; near
-/// obstacles the vertical extent of the swept disk within each grid column is exact, since a capsule is
-/// convex: its upper boundary is concave, so its maximum over the column is where it is highest, clamped to
-/// the column.
+/// Static feasibility of disks of any radius on the grid (paper, "Estimating the feasibility of the move
+/// w.r.t. static obstacles"). Exact, without rasterising per radius: a summed-area table of blocked cells
+/// accepts free rectangles at once. Near obstacles the vertical extent of the swept disk in each grid column
+/// is computed. A capsule is convex, so its upper boundary is concave, and its maximum over a column is where
+/// the capsule is highest, clamped to the column.
 class LineOfSight {
  public:
   explicit LineOfSight(const OccupancyGrid& grid);
 
-  /// May a disk stand at `center`? Contact with an obstacle (to within kSearchSlack) is allowed.
+  /// Returns whether a disk may stand at `center`. Contact with an obstacle (to within kSearchSlack) is
+  /// allowed.
   bool disk_fits(const Position& center, double radius) const { return may_sweep(center, center, radius); }
 
-  /// May a disk sweep the segment, its ends included? `radius` > 0 in metres.
+  /// Returns whether a disk may sweep the segment, ends included. `radius` > 0 in metres.
   bool may_sweep(const Position& from, const Position& to, double radius) const;
 
  private:

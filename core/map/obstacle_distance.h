@@ -4,9 +4,8 @@
 
 namespace fleetplan::core {
 
-/// The distance in metres from a position to the nearest blocked point, a blocked cell's or the map's edge,
-/// if it is below `limit` (> 0, metres); `limit` otherwise. Outside the map it is minus the distance to the
-/// map.
+/// The distance in metres from a position to the nearest blocked cell or edge of the map, at most `limit` (>
+/// 0, metres). Outside the map it is minus the distance to the map.
 double obstacle_distance(const OccupancyGrid& grid, const Position& position, double limit);
 
 }  // namespace fleetplan::core

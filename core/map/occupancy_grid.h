@@ -7,15 +7,15 @@
 
 namespace fleetplan::core {
 
-/// A cell of the grid: column 0 is the leftmost, row 0 the bottom one.
+/// A cell of the grid. Column 0 is leftmost, row 0 at the bottom.
 struct Cell {
   int column = 0;
   int row = 0;
   bool operator==(const Cell&) const = default;
 };
 
-/// Which cells are blocked. A blocked cell is a closed square; everything outside the map is blocked as well.
-/// Map frame: cell (c, r) covers [c, c+1] x [r, r+1] times the resolution.
+/// The blocked cells of the map. A blocked cell is a closed square; everything outside the map is blocked as
+/// well. Map frame: cell (c, r) covers [c, c+1] x [r, r+1] times the resolution.
 class OccupancyGrid {
  public:
   /// A free map of `columns` x `rows` cells (both >= 1) of `resolution` metres (> 0) each.
@@ -38,7 +38,7 @@ class OccupancyGrid {
   Position center(Cell cell) const {
     return {(cell.column + 0.5) * resolution_, (cell.row + 0.5) * resolution_};
   }
-  /// The cell that a position lies in; on a border, the cell to the right or above. May be outside the map.
+  /// The cell of a position; on a border, the cell to the right or above. May be outside the map.
   Cell cell_at(const Position& position) const;
 
   std::size_t index(Cell cell) const {

@@ -7,7 +7,8 @@
 
 namespace fleetplan::core {
 
-/// An array of which mostly few places are used: default values, memory only for pages that were touched.
+/// An array of default values that allocates memory only for pages with accessed elements. For large arrays
+/// of which few elements are used.
 template <class T>
 class PagedArray {
  public:
@@ -24,7 +25,7 @@ class PagedArray {
     return (*page)[index & kMask];
   }
 
-  /// Roughly the memory in use.
+  /// Approximate memory in use.
   std::size_t bytes() const { return pages_ * sizeof(Page) + books_.size() * sizeof(books_[0]); }
 
  private:

@@ -21,7 +21,7 @@ PlanState::PlanState(const Instance& instance)
     : instance_(instance),
       table_(instance.problem().grid().width(), instance.problem().grid().height(),
              instance.problem().grid().resolution(), radii(instance)),
-      search_(instance, table_),
+      search_(table_),
       trajectories_(instance.size()),
       search_spaces_(instance.size()) {}
 
@@ -99,7 +99,7 @@ Trajectory PlanState::plan_alone(std::size_t robot, const StopCondition& stop) {
   const double cell_size = grid.width();  // coarse, as the table stays empty
   const ReservationTable empty(grid.width(), grid.height(), cell_size, radii(instance_));
   SearchSpace& space = search_space(robot);
-  AaSipp search(instance_, empty);
+  AaSipp search(empty);
   SearchResult result = search.run(robot, space.vertices, space.cost_to_go, {}, stop);
   return result.trajectory ? std::move(*result.trajectory) : staying(robot);
 }

@@ -62,7 +62,7 @@ class PlanState {
     Vertices vertices;
     CostToGo cost_to_go;
     SearchSpace(const Instance& instance, std::size_t robot)
-        : vertices(instance, robot), cost_to_go(instance, robot, vertices) {}
+        : vertices(instance, robot), cost_to_go(vertices) {}
   };
 
   SearchSpace& search_space(std::size_t robot);

@@ -9,7 +9,7 @@
 
 namespace fleetplan::core {
 
-/// The plane cut into square buckets: which of them a line crosses, and which of them a moving disk comes
+/// The map divided into square buckets; finds those that a line crosses and those that a moving disk comes
 /// near.
 class BucketGrid {
  public:
@@ -22,8 +22,8 @@ class BucketGrid {
 
   std::size_t at(const Position& p) const { return index(column_of(p.x()), row_of(p.y())); }
 
-  /// Calls visit(bucket, enter, exit) for the buckets that the segment crosses, in order, enter and exit as
-  /// fractions of the way; stops early when visit returns false and returns whether it got through.
+  /// Calls visit(bucket, enter, exit) for the buckets that the segment crosses, in order; enter and exit are
+  /// fractions of its length. Stops when visit returns false; returns whether it never did.
   template <class Visit>
   bool walk(const Position& from, const Position& to, Visit&& visit) const {
     int column = column_of(from.x());
@@ -51,7 +51,7 @@ class BucketGrid {
   }
 
   /// Calls visit(bucket, t_begin, t_end) for every bucket that the disk's centre comes within `reach` of,
-  /// with a time window that holds all of that; generous by up to half a bucket's diagonal.
+  /// with a time window that contains all such times. `reach` is exceeded by up to half a bucket's diagonal.
   template <class Visit>
   void cover(const MovingDisk& disk, double reach, Visit&& visit) const {
     const double margin = reach + 0.7072 * size_;  // the bucket's circumscribed circle, rounded up
@@ -96,7 +96,7 @@ class BucketGrid {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
   }
-  /// Where on the way, as a fraction, the line number `border` is crossed.
+  /// The fraction of the segment at which it crosses grid line number `border`.
   double crossing(int border, double from, double delta) const {
     return std::clamp((border * size_ - from) / delta, 0.0, 1.0);
   }

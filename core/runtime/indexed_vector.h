@@ -6,8 +6,8 @@
 
 namespace fleetplan::core {
 
-/// A vector whose elements are numbered by `Index`: int, or an enumeration over int so that numbers of
-/// different things cannot be mixed up. Indices are 0 to size() - 1.
+/// A vector indexed by int, or by an enumeration over int, so that indices of different types cannot be mixed
+/// up. Indices are 0 to size() - 1.
 template <class T, class Index = int>
 class IndexedVector {
  public:

@@ -16,16 +16,14 @@ constexpr int kStopStride = 32;
 enum class Pass : std::uint8_t { quick, complete };
 enum class Outcome : std::uint8_t { found, exhausted, incomplete, stopped };
 
-/// The search for one robot: its inputs, and the steps of the pseudo-code on the state.
+/// The search for one robot: its inputs and its state.
 class Search {
  public:
-  Search(const Instance& instance, const ReservationTable& table, std::size_t robot, const Vertices& vertices,
-         CostToGo& cost_to_go, const SearchLimits& limits, const StopCondition& stop, SearchState state)
-      : instance_(instance),
-        table_(table),
+  Search(const ReservationTable& table, std::size_t robot, const Vertices& vertices, CostToGo& cost_to_go,
+         const SearchLimits& limits, const StopCondition& stop, SearchState state)
+      : table_(table),
         robot_(robot),
-        motion_(instance.motion(robot)),
-        any_angle_(instance.options().any_angle),
+        motion_(vertices.motion()),
         timing_(motion_, table, robot),
         vertices_(vertices),
         cost_to_go_(cost_to_go),
@@ -39,7 +37,7 @@ class Search {
   SearchState take_state() { return std::move(state_); }
 
  private:
-  /// f orders the open list, `cost` estimates that of the whole path.
+  /// f orders the open list; `cost` estimates the cost of the whole path.
   struct Evaluation {
     double f;
     double h;
@@ -49,7 +47,8 @@ class Search {
   bool begin(Pass pass);
   void label_start();
   bool goal_entry_suffices() const;
-  void settle(const OpenEntry& entry);
+  LabelId settle(const OpenEntry& entry);
+  LabelId add_label(const Label& label);
   void expand(LabelId id);
   void offer_goal(LabelId from);
   void offer_from(EdgeId id, int interval);
@@ -58,7 +57,7 @@ class Search {
 
   EdgeId add_edge(LabelId via, PlaceId target, bool with_shortcut);
   Move move_between(LabelId from, PlaceId target) const;
-  bool shortcut_is_free(Edge& edge) const;
+  void test_sight(Edge& edge) const;
   std::optional<double> earliest_departure(const OpenEntry& entry);
   bool is_dominated(int interval, double arrival, double heading, double f);
   Evaluation evaluate(PlaceId place, int interval, double arrival, double heading) const;
@@ -73,11 +72,9 @@ class Search {
     return place == state_.goal && state_.intervals[interval].end == kForever;
   }
 
-  const Instance& instance_;
   const ReservationTable& table_;
   const std::size_t robot_;
   const Motion& motion_;
-  const bool any_angle_;
   const EdgeTiming timing_;
   const Vertices& vertices_;
   CostToGo& cost_to_go_;
@@ -103,6 +100,7 @@ Outcome Search::run(Pass pass) {
       break;
     }
 
+    // Pop the entry with the smallest f.
     const double f = state_.open.min_f();
     OpenEntry entry = state_.open.pop();
     if (entry.timed()) {
@@ -110,14 +108,14 @@ Outcome Search::run(Pass pass) {
     } else {
       Edge& edge = state_.edges[entry.edge];
       const Move& move = edge.move(entry.kind);
-      const bool free = entry.kind == EdgeKind::local || shortcut_is_free(edge);
+      if (entry.kind == EdgeKind::shortcut) test_sight(edge);
       if (entry.next_interval_follows) offer_from(entry.edge, entry.interval + 1);
-      // An arrival that dominates this one also dominates the local edge after a shortcut.
+      // An arrival that dominates a shortcut also dominates the local edge.
       if (is_dominated(entry.interval, entry.arrival, move.heading, f)) continue;
 
       // Time the edge against the reservations.
       const double lower_bound = entry.arrival;
-      const auto departure = free ? earliest_departure(entry) : std::nullopt;
+      const auto departure = earliest_departure(entry);
       if (departure) {
         entry.departure = *departure;
         entry.arrival = *departure + move.duration;
@@ -129,78 +127,23 @@ Outcome Search::run(Pass pass) {
       }
       state_.dominance.add(entry.interval, entry.arrival, move.heading);
     }
-    settle(entry);
+
+    const LabelId label = settle(entry);
+    if (state_.goal_label == LabelId::none) expand(label);
   }
   return Outcome::found;
 }
 
-/// Prepares a pass. Returns false if the goal is never free for good.
-bool Search::begin(Pass pass) {
-  pass_ = pass;
-  use_slack_ = pass == Pass::quick && limits_.dominance_slack > 0.0;
-  state_.clear();
-  state_.place_of_vertex.resize(
-      std::max(state_.place_of_vertex.size(), static_cast<std::size_t>(vertices_.count())), PlaceId::none);
-  const double slack = use_slack_ ? limits_.dominance_slack * instance_.lattice().spacing() : 0.0;
-  state_.dominance.reset(motion_, motion_.translation_time(slack));
-  state_.goal = place_of(vertices_.goal());
-  const Place& goal = state_.places[state_.goal];
-  if (goal.never_safe()) return false;
-  const SafeInterval& last = state_.intervals[goal.end_interval - 1];
-  state_.goal_free_from = last.begin;
-  return last.end == kForever;
-}
-
-void Search::label_start() {
-  const PlaceId start = place_of(vertices_.start());
-  if (state_.places[start].never_safe()) return;
-  const int interval = state_.places[start].first_interval;
-  if (state_.intervals[interval].begin > 0.0) return;
-  // A robot that may stay at its start for good rests there from t = 0, whatever the start delay.
-  const double t = is_final(start, interval) ? 0.0 : limits_.start_delay;
-  if (!state_.intervals[interval].contains(t)) return;
-  const double heading = instance_.robot(robot_).start.theta;
-  if (!(evaluate(start, interval, t, heading).cost < limits_.bound)) return;
-  state_.dominance.add(interval, t, heading);
-  const LabelId label = state_.labels.push_back({t, heading, t, LabelId::none, start, interval});
-  if (is_final(start, interval)) {
-    state_.goal_label = label;
-  } else {
-    expand(label);
-  }
-}
-
-/// Returns whether the cheapest timed path to the goal is within the suboptimality bound.
-bool Search::goal_entry_suffices() const {
-  if (state_.best_goal_entry == EntryId::none) return false;
-  const double suboptimality =
-      limits_.suboptimality + limits_.suboptimality_growth * static_cast<double>(expansions_);
-  return state_.best_goal_cost <= (1.0 + suboptimality) * state_.open.min_f();
-}
-
-/// Makes a label of a timed entry and expands it, unless it is at the goal for good.
-void Search::settle(const OpenEntry& entry) {
-  const Edge& edge = state_.edges[entry.edge];
-  const PlaceId place = edge.target;
-  const LabelId label =
-      state_.labels.push_back({entry.arrival, edge.move(entry.kind).heading, entry.departure,
-                               source_of(edge, entry.kind), place, entry.interval});
-  if (is_final(place, entry.interval)) {
-    state_.goal_label = label;
-  } else {
-    expand(label);
-  }
-}
-
+/// Offers the moves to all neighbours.
 void Search::expand(LabelId id) {
   ++expansions_;
   const LabelId parent = state_.labels[id].parent;
   const int before = parent == LabelId::none ? -1 : place_at(parent).vertex;
-  if (any_angle_) offer_goal(id);
+  if (vertices_.any_angle()) offer_goal(id);
   vertices_.for_each_neighbour(place_at(id).vertex, [&](int neighbour) {
     const PlaceId target = place_of(neighbour);
     if (state_.places[target].never_safe()) return;
-    const bool with_shortcut = any_angle_ && parent != LabelId::none && neighbour != before;
+    const bool with_shortcut = vertices_.any_angle() && parent != LabelId::none && neighbour != before;
     offer_from(add_edge(id, target, with_shortcut), state_.places[target].first_interval);
   });
 }
@@ -258,6 +201,20 @@ void Search::push_timed(OpenEntry entry, double f_lower_bound) {
   }
 }
 
+/// Makes a label of an entry.
+LabelId Search::settle(const OpenEntry& entry) {
+  const Edge& edge = state_.edges[entry.edge];
+  return add_label({entry.arrival, edge.move(entry.kind).heading, entry.departure,
+                    source_of(edge, entry.kind), edge.target, entry.interval});
+}
+
+/// Adds a label. If it is at the goal for good, it is the result.
+LabelId Search::add_label(const Label& label) {
+  const LabelId id = state_.labels.push_back(label);
+  if (is_final(label.place, label.interval)) state_.goal_label = id;
+  return id;
+}
+
 EdgeId Search::add_edge(LabelId via, PlaceId target, bool with_shortcut) {
   const Move local = move_between(via, target);
   const Move shortcut = with_shortcut ? move_between(state_.labels[via].parent, target) : Move{};
@@ -273,18 +230,57 @@ inline Move Search::move_between(LabelId from, PlaceId target) const {
   return timing_.move(source, d.heading, d.length);
 }
 
-/// Tests the shortcut against obstacles, once.
-bool Search::shortcut_is_free(Edge& edge) const {
-  if (edge.shortcut_sight == Edge::Sight::unknown) {
-    const Position& from = place_at(source_of(edge, EdgeKind::shortcut)).position;
-    const Position& to = state_.places[edge.target].position;
-    const bool free = instance_.sight().may_sweep(from, to, motion_.radius);
-    edge.shortcut_sight = free ? Edge::Sight::free : Edge::Sight::blocked;
-  }
-  return edge.shortcut_sight == Edge::Sight::free;
+/// Prepares a pass. Returns false if the goal is never free for good.
+bool Search::begin(Pass pass) {
+  pass_ = pass;
+  use_slack_ = pass == Pass::quick && limits_.dominance_slack > 0.0;
+  state_.clear();
+  state_.place_of_vertex.resize(
+      std::max(state_.place_of_vertex.size(), static_cast<std::size_t>(vertices_.count())), PlaceId::none);
+  const double slack = use_slack_ ? limits_.dominance_slack * vertices_.spacing() : 0.0;
+  state_.dominance.reset(motion_, motion_.translation_time(slack));
+  state_.goal = place_of(vertices_.goal());
+  const Place& goal = state_.places[state_.goal];
+  if (goal.never_safe()) return false;
+  const SafeInterval& last = state_.intervals[goal.end_interval - 1];
+  state_.goal_free_from = last.begin;
+  return last.end == kForever;
 }
 
-/// The earliest departure that arrives in the entry's interval before it would be dominated.
+/// Labels and expands the start, unless the robot cannot be there or the goal is out of bound.
+void Search::label_start() {
+  const PlaceId start = place_of(vertices_.start());
+  if (state_.places[start].never_safe()) return;
+  const int interval = state_.places[start].first_interval;
+  if (state_.intervals[interval].begin > 0.0) return;
+  // A robot that may stay at its start for good rests there from t = 0, whatever the start delay.
+  const double t = is_final(start, interval) ? 0.0 : limits_.start_delay;
+  if (!state_.intervals[interval].contains(t)) return;
+  const double heading = vertices_.start_pose().theta;
+  if (!(evaluate(start, interval, t, heading).cost < limits_.bound)) return;
+  state_.dominance.add(interval, t, heading);
+  const LabelId label = add_label({t, heading, t, LabelId::none, start, interval});
+  if (state_.goal_label == LabelId::none) expand(label);
+}
+
+/// Returns whether the cheapest timed path to the goal is within the suboptimality bound.
+bool Search::goal_entry_suffices() const {
+  if (state_.best_goal_entry == EntryId::none) return false;
+  const double suboptimality =
+      limits_.suboptimality + limits_.suboptimality_growth * static_cast<double>(expansions_);
+  return state_.best_goal_cost <= (1.0 + suboptimality) * state_.open.min_f();
+}
+
+/// Tests the shortcut against obstacles, once.
+void Search::test_sight(Edge& edge) const {
+  if (edge.shortcut_sight != Edge::Sight::unknown) return;
+  const int from = place_at(source_of(edge, EdgeKind::shortcut)).vertex;
+  const bool free = vertices_.in_sight(from, state_.places[edge.target].vertex);
+  edge.shortcut_sight = free ? Edge::Sight::free : Edge::Sight::blocked;
+}
+
+/// The earliest departure that arrives in the entry's interval before its arrival would be dominated; none if
+/// obstacles block the edge.
 std::optional<double> Search::earliest_departure(const OpenEntry& entry) {
   const Edge& edge = state_.edges[entry.edge];
   const Move& move = edge.move(entry.kind);
@@ -294,11 +290,12 @@ std::optional<double> Search::earliest_departure(const OpenEntry& entry) {
     target.end = dominated_from;
     state_.incomplete = state_.incomplete || use_slack_;
   }
+  if (entry.kind == EdgeKind::shortcut && edge.shortcut_sight == Edge::Sight::blocked) return std::nullopt;
   const Segment path{place_at(source_of(edge, entry.kind)).position, state_.places[edge.target].position};
   return timing_.earliest(move, path, target);
 }
 
-/// Returns whether another arrival makes this one superfluous. Records it if only the quick pass thinks so.
+/// Returns whether the arrival is dominated. Sets `incomplete` if the complete pass may keep it.
 inline bool Search::is_dominated(int interval, double arrival, double heading, double f) {
   if (state_.dominance.empty(interval)) return false;
   // One label per interval suffices as long as the goal is not free yet.
@@ -314,7 +311,7 @@ inline Search::Evaluation Search::evaluate(PlaceId place, int interval, double a
                                            double heading) const {
   const double h = to_go(place, heading);
   const double cost = std::max(arrival + h, state_.goal_free_from);
-  // An arrival at the goal that suffices goes first: while the goal is not free, all f are equal otherwise.
+  // A sufficient arrival at the goal goes first: f is constant for many entries while the goal is not free.
   if (is_final(place, interval)) return {cost / (1.0 + limits_.suboptimality), h, cost};
   return {std::max(arrival + limits_.heuristic_weight * h, state_.goal_free_from), h, cost};
 }
@@ -322,8 +319,8 @@ inline Search::Evaluation Search::evaluate(PlaceId place, int interval, double a
 /// h: an estimate of the seconds from an arrival to rest in the goal pose, without other robots.
 inline double Search::to_go(PlaceId place, double heading) const {
   if (place == state_.goal) {
-    const auto& goal = *instance_.robot(robot_).goal;
-    return goal.theta ? motion_.rotation_time(heading, *goal.theta) : 0.0;
+    const auto& goal_heading = vertices_.goal_heading();
+    return goal_heading ? motion_.rotation_time(heading, *goal_heading) : 0.0;
   }
   const CostToGo::Estimate& estimate = state_.places[place].estimate;
   return estimate.seconds + motion_.rotation_time(heading, estimate.heading);
@@ -373,7 +370,7 @@ Trajectory Search::trajectory() const {
 
 SearchResult AaSipp::run(std::size_t robot, const Vertices& vertices, CostToGo& cost_to_go,
                          const SearchLimits& limits, const StopCondition& stop) {
-  Search search(instance_, table_, robot, vertices, cost_to_go, limits, stop, std::move(state_));
+  Search search(table_, robot, vertices, cost_to_go, limits, stop, std::move(state_));
   Outcome outcome = search.run(Pass::quick);
   if (outcome == Outcome::incomplete && limits.thorough) outcome = search.run(Pass::complete);
   SearchResult result;

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 
-#include "core/instance.h"
 #include "core/reservation/reservation_table.h"
 #include "core/runtime/stop_condition.h"
 #include "core/sipp/cost_to_go.h"
@@ -39,14 +38,13 @@ namespace fleetplan::core {
 /// increments waits by a step until a move is free of collisions; here departures have a closed form.
 class AaSipp {
  public:
-  AaSipp(const Instance& instance, const ReservationTable& table) : instance_(instance), table_(table) {}
+  explicit AaSipp(const ReservationTable& table) : table_(table) {}
 
   /// Plans `robot` from its start to its goal (which it has). The robot holds no reservation.
   SearchResult run(std::size_t robot, const Vertices& vertices, CostToGo& cost_to_go,
                    const SearchLimits& limits, const StopCondition& stop);
 
  private:
-  const Instance& instance_;
   const ReservationTable& table_;
   SearchState state_;  // of one search; a member only to reuse its memory
 };

@@ -1,30 +1,86 @@
 #include "core/sipp/cost_to_go.h"
 
+#include <cstdint>
+#include <functional>
+#include <queue>
+#include <vector>
+
 #include "core/geometry/angle.h"
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
+#include "core/map/paged_array.h"
+#include "core/sipp/vertices.h"
 
 namespace fleetplan::core {
 namespace {
 
-/// Expansions between two looks at the clock.
+/// Expansions between two checks of the stop condition.
 constexpr int kStopStride = 64;
 
 }  // namespace
 
-CostToGo::CostToGo(const Instance& instance, std::size_t robot, const Vertices& vertices)
-    : instance_(instance),
-      robot_(robot),
-      motion_(instance.motion(robot)),
-      vertices_(vertices),
-      start_(instance.robot(robot).start.position),
-      nodes_(static_cast<std::size_t>(vertices.count())) {
-  Node& goal = node(vertices_.goal());
-  goal.state = State::closed;
-  vertices_.for_each_neighbour(vertices_.goal(), [&](int vertex) { relax(vertex, vertices_.goal()); });
-}
+class CostToGo::BackwardSearch {
+ public:
+  explicit BackwardSearch(const Vertices& vertices)
+      : motion_(vertices.motion()),
+        vertices_(vertices),
+        start_(vertices.start_pose().position),
+        nodes_(static_cast<std::size_t>(vertices.count())) {
+    Node& goal = node(vertices_.goal());
+    goal.state = State::closed;
+    vertices_.for_each_neighbour(vertices_.goal(), [&](int vertex) { relax(vertex, vertices_.goal()); });
+  }
 
-CostToGo::Estimate CostToGo::via(int vertex, int next) {
+  Estimate from(int vertex, const StopCondition& stop) {
+    if (vertices_.any_angle() && goal_in_sight(vertex)) {
+      Estimate estimate = via(vertex, vertices_.goal());
+      estimate.straight = true;
+      return estimate;
+    }
+    const Node& n = node(vertex);
+    for (int step = 0; n.state != State::closed; ++step) {
+      if (open_.empty()) return {kForever, 0.0, false};
+      if (step % kStopStride == kStopStride - 1 && stop.met()) return via(vertex, vertices_.goal());
+      expand_best();
+    }
+    return {n.seconds, n.heading, false};
+  }
+
+  std::size_t bytes() const { return nodes_.bytes(); }
+
+ private:
+  enum class State : std::uint8_t { unseen, open, closed };
+  struct Node {
+    double seconds = 0.0;
+    double heading = 0.0;
+    std::int32_t next = -1;  // the vertex at which the first translation ends
+    State state = State::unseen;
+    bool sight_known = false;
+    bool in_sight = false;
+  };
+  struct Open {
+    double f;
+    double seconds;
+    std::int32_t vertex;
+    bool operator>(const Open& other) const { return f != other.f ? f > other.f : vertex > other.vertex; }
+  };
+
+  Node& node(int vertex) { return nodes_[static_cast<std::size_t>(vertex)]; }
+  Estimate via(int vertex, int next);
+  bool goal_in_sight(int vertex);
+  void relax(int vertex, int next);
+  void close(int vertex);
+  void expand_best();
+
+  const Motion& motion_;
+  const Vertices& vertices_;
+  Position start_;
+  PagedArray<Node> nodes_;
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
+};
+
+/// The cost from `vertex` with a first translation straight to `next`, which is closed or the goal.
+CostToGo::Estimate CostToGo::BackwardSearch::via(int vertex, int next) {
   const Displacement d = vertices_.between(vertex, next);
   Estimate estimate;
   estimate.heading = d.heading;
@@ -32,25 +88,24 @@ CostToGo::Estimate CostToGo::via(int vertex, int next) {
   if (next != vertices_.goal()) {
     const Node& onward = node(next);
     estimate.seconds += onward.seconds + motion_.rotation_time(estimate.heading, onward.heading);
-    const bool goes_on = angle_between(estimate.heading, onward.heading) <= kSameHeading;
-    if (goes_on) estimate.seconds -= motion_.wait_before_move;  // both are one translation
-  } else if (const auto& goal = *instance_.robot(robot_).goal; goal.theta) {
-    estimate.seconds += motion_.rotation_time(estimate.heading, *goal.theta);
+    const bool continues_straight = angle_between(estimate.heading, onward.heading) <= kSameHeading;
+    if (continues_straight) estimate.seconds -= motion_.wait_before_move;  // both are one translation
+  } else if (const auto& heading = vertices_.goal_heading()) {
+    estimate.seconds += motion_.rotation_time(estimate.heading, *heading);
   }
   return estimate;
 }
 
-bool CostToGo::goal_in_sight(int vertex) {
+bool CostToGo::BackwardSearch::goal_in_sight(int vertex) {
   Node& n = node(vertex);
   if (!n.sight_known) {
     n.sight_known = true;
-    n.in_sight = instance_.sight().may_sweep(vertices_.position(vertex), vertices_.position(vertices_.goal()),
-                                             motion_.radius);
+    n.in_sight = vertices_.in_sight(vertex, vertices_.goal());
   }
   return n.in_sight;
 }
 
-void CostToGo::relax(int vertex, int next) {
+void CostToGo::BackwardSearch::relax(int vertex, int next) {
   Node& n = node(vertex);
   if (n.state == State::closed) return;
   const Estimate estimate = via(vertex, next);
@@ -59,18 +114,15 @@ void CostToGo::relax(int vertex, int next) {
   n.seconds = estimate.seconds;
   n.heading = estimate.heading;
   n.next = next;
-  const double ahead = motion_.translation_time((vertices_.position(vertex) - start_).norm());
-  open_.push({estimate.seconds + ahead, estimate.seconds, vertex});
+  const double to_start = motion_.translation_time((vertices_.position(vertex) - start_).norm());
+  open_.push({estimate.seconds + to_start, estimate.seconds, vertex});
 }
 
-void CostToGo::close(int vertex) {
+void CostToGo::BackwardSearch::close(int vertex) {
   Node& n = node(vertex);
   n.state = State::closed;
-  const bool seen = n.next == vertices_.goal()
-                        ? goal_in_sight(vertex)
-                        : instance_.sight().may_sweep(vertices_.position(vertex), vertices_.position(n.next),
-                                                      motion_.radius);
-  if (seen) return;
+  const bool free = n.next == vertices_.goal() ? goal_in_sight(vertex) : vertices_.in_sight(vertex, n.next);
+  if (free) return;
   // Lazy Theta* (Nash, Koenig, Tovey, AAAI 2010): only now is it known that the shortcut is blocked.
   n.seconds = kForever;
   vertices_.for_each_neighbour(vertex, [&](int neighbour) {
@@ -83,29 +135,23 @@ void CostToGo::close(int vertex) {
   });
 }
 
-void CostToGo::expand_best() {
+void CostToGo::BackwardSearch::expand_best() {
   const Open best = open_.top();
   open_.pop();
   Node& n = node(best.vertex);
   if (n.state == State::closed || best.seconds > n.seconds) return;
   close(best.vertex);
-  const int next = instance_.options().any_angle ? n.next : best.vertex;
+  const int next = vertices_.any_angle() ? n.next : best.vertex;
   vertices_.for_each_neighbour(best.vertex, [&](int neighbour) { relax(neighbour, next); });
 }
 
+CostToGo::CostToGo(const Vertices& vertices) : search_(std::make_unique<BackwardSearch>(vertices)) {}
+CostToGo::~CostToGo() = default;
+
 CostToGo::Estimate CostToGo::from(int vertex, const StopCondition& stop) {
-  if (instance_.options().any_angle && goal_in_sight(vertex)) {
-    Estimate estimate = via(vertex, vertices_.goal());
-    estimate.straight = true;
-    return estimate;
-  }
-  const Node& n = node(vertex);
-  for (int step = 0; n.state != State::closed; ++step) {
-    if (open_.empty()) return {kForever, 0.0, false};
-    if (step % kStopStride == kStopStride - 1 && stop.met()) return via(vertex, vertices_.goal());
-    expand_best();
-  }
-  return {n.seconds, n.heading, false};
+  return search_->from(vertex, stop);
 }
+
+std::size_t CostToGo::bytes() const { return search_->bytes(); }
 
 }  // namespace fleetplan::core

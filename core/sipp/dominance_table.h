@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "core/instance.h"
+#include "core/motion.h"
 #include "core/runtime/indexed_vector.h"
 
 namespace fleetplan::core {

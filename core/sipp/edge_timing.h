@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 
+#include "core/geometry/angle.h"
 #include "core/geometry/interval.h"
 #include "core/geometry/tolerance.h"
-#include "core/instance.h"
+#include "core/motion.h"
 #include "core/reservation/reservation_table.h"
 
 namespace fleetplan::core {

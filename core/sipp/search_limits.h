@@ -15,8 +15,9 @@ struct SearchLimits {
   double heuristic_weight = 1.2;  // >= 1; weight of h in f = g + weight * h (weighted A*; Pohl, 1970)
   double suboptimality = 0.01;    // accepts a path to the goal that costs at most (1 + this) * the smallest f
   double suboptimality_growth = 1e-4;  // added to `suboptimality` with every expansion
-  /// An arrival that precedes another one in its safe interval by less than the time to translate by this
-  /// many lattice spacings counts as dominated, whatever its heading. 0: exact dominance only.
+  /// An arrival also counts as dominated, whatever its heading, if it is later than another one in the same
+  /// safe interval, or earlier by less than the time to translate by this many lattice spacings. 0: exact
+  /// dominance.
   double dominance_slack = 0.5;
   double start_delay = 0.0;  // seconds, >= 0; the robot stays at its start at least this long
   /// Search again with exact dominance if the quick search finds nothing. The quick search applies

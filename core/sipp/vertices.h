@@ -1,22 +1,40 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
-#include "core/instance.h"
+#include "core/geometry/position.h"
+#include "core/map/lattice.h"
+#include "core/motion.h"
 
 namespace fleetplan::core {
 
-/// The vertices that one robot may stop at: the lattice's, and its own start and goal where they lie off the
-/// lattice, each joined to every lattice vertex in sight within two cells.
+class Instance;
+class LineOfSight;
+class StaticMoves;
+
+/// One robot's view of the static map: the vertices that it may stop at and the straight moves between them.
+/// Vertices are those of the lattice, and its own start and goal where they lie off the lattice; these are
+/// linked to every lattice vertex in sight within two cells.
 class Vertices {
  public:
   Vertices(const Instance& instance, std::size_t robot);
 
+  const Motion& motion() const { return motion_; }
+  /// Whether the search may leave the lattice's directions.
+  bool any_angle() const { return any_angle_; }
+  double spacing() const { return lattice_.spacing(); }
+
   int count() const { return lattice_.vertex_count() + static_cast<int>(own_.size()); }
   int start() const { return start_; }
+  const Pose& start_pose() const { return start_pose_; }
   /// -1 for a robot without a goal.
   int goal() const { return goal_; }
+  /// None if the robot may rest at its goal with any heading.
+  const std::optional<double>& goal_heading() const { return goal_heading_; }
+
   Position position(int vertex) const {
     return is_own(vertex) ? own_[own_index(vertex)].position : lattice_.position(vertex);
   }
@@ -27,14 +45,18 @@ class Vertices {
     return lattice_.between(from, to);
   }
 
-  /// Calls visit(vertex) for everything that one static move reaches from `vertex`.
+  /// Returns whether obstacles leave the straight line between two vertices free for the robot (paper,
+  /// "Estimating the feasibility of the move w.r.t. static obstacles").
+  bool in_sight(int from, int to) const;
+
+  /// Calls visit(vertex) for every neighbour that one lattice move or link reaches from `vertex`.
   template <class Visit>
   void for_each_neighbour(int vertex, Visit&& visit) const {
     if (is_own(vertex)) {
       for (const int link : own_[own_index(vertex)].links) visit(link);
       return;
     }
-    std::uint32_t mask = moves_.from(vertex);
+    std::uint32_t mask = free_steps(vertex);
     for (std::size_t k = 0; mask != 0; ++k, mask >>= 1) {
       if ((mask & 1u) != 0)
         visit(vertex + lattice_.steps()[k].rows * lattice_.columns() + lattice_.steps()[k].columns);
@@ -55,10 +77,17 @@ class Vertices {
     return static_cast<std::size_t>(vertex - lattice_.vertex_count());
   }
   static bool linked(const OwnVertex& own, int vertex);
-  int add(const Instance& instance, double radius, const Position& position);
+  int add(const Position& position);
+  /// Bit k is set if step k of the lattice is free of obstacles.
+  std::uint32_t free_steps(int vertex) const;
 
+  const Motion& motion_;
   const Lattice& lattice_;
+  const LineOfSight& sight_;
   StaticMoves& moves_;
+  bool any_angle_;
+  Pose start_pose_;
+  std::optional<double> goal_heading_;
   std::vector<OwnVertex> own_;
   int start_ = -1;
   int goal_ = -1;

@@ -17,7 +17,7 @@ using Type = Action::Type;
 
 constexpr double kPi = std::numbers::pi;
 
-/// The actions, after the checker found that they do what the robot can, without a gap.
+/// The actions, checked by the verifier.
 std::vector<Action> checked_actions(const Robot& robot, const Trajectory& trajectory) {
   const Problem problem = support::make_problem(OccupancyGrid(10, 10, 1.0), {robot});
   const std::vector<Action> actions = to_actions(robot, trajectory);
@@ -31,19 +31,19 @@ std::vector<Type> types(const std::vector<Action>& actions) {
   return types;
 }
 
-TEST(Actions, OfARobotThatNeedNotMoveAreNone) {
+TEST(Actions, AreEmptyIfRobotIsAtGoal) {
   EXPECT_TRUE(checked_actions(robot_at(1, 1, 0.5).to(1, 1), {{1, 1}, {}, 0.0}).empty());
   EXPECT_TRUE(checked_actions(robot_at(1, 1, 0.5).to(1, 1, 0.5), {{1, 1}, {}, 0.0}).empty());
 }
 
-TEST(Actions, AreATurnOnlyWhereOnlyTheHeadingIsWrong) {
+TEST(Actions, AreOneRotationIfOnlyHeadingDiffers) {
   const auto actions = checked_actions(robot_at(1, 1).to(1, 1, -kPi / 2), {{1, 1}, {}, 1.0});
   ASSERT_EQ(types(actions), std::vector<Type>{Type::rotate});
   EXPECT_EQ(actions[0].t_end, 1.0);
   EXPECT_EQ(actions[0].to.theta, -kPi / 2);
 }
 
-TEST(Actions, TurnMoveAndTurnAgain) {
+TEST(Actions, RotateBeforeTranslationAndAtGoal) {
   const Trajectory trajectory{{1, 1}, {{{{1, 1}, {1, 4}}, 1.0, 4.0}}, 5.0};
   const auto actions = checked_actions(robot_at(1, 1).to(1, 4, kPi), trajectory);
   ASSERT_EQ(types(actions), (std::vector<Type>{Type::rotate, Type::translate, Type::rotate}));
@@ -55,28 +55,28 @@ TEST(Actions, TurnMoveAndTurnAgain) {
   EXPECT_EQ(actions[2].to.theta, kPi);
 }
 
-TEST(Actions, LeaveOutATurnThatIsNotNeeded) {
+TEST(Actions, OmitRotationByZero) {
   const Trajectory trajectory{{1, 1}, {{{{1, 1}, {4, 1}}, 0.0, 3.0}}, 3.0};
   EXPECT_EQ(types(checked_actions(robot_at(1, 1).to(4, 1), trajectory)), std::vector<Type>{Type::translate});
 }
 
-TEST(Actions, TurnFirstAndWaitAfterwards) {
+TEST(Actions, RotateBeforeWaiting) {
   const Trajectory trajectory{{1, 1}, {{{{1, 1}, {1, 4}}, 6.0, 9.0}}, 9.0};
   const auto actions = checked_actions(robot_at(1, 1).to(1, 4), trajectory);
   ASSERT_EQ(types(actions), (std::vector<Type>{Type::rotate, Type::wait, Type::translate}));
   EXPECT_DOUBLE_EQ(actions[0].t_end, 1.0);
   EXPECT_EQ(actions[1].t_end, 6.0);
-  EXPECT_DOUBLE_EQ(actions[1].from.theta, kPi / 2) << "already turned";
+  EXPECT_DOUBLE_EQ(actions[1].from.theta, kPi / 2) << "already rotated";
 }
 
-TEST(Actions, WaitWithoutATurnBetweenCollinearMoves) {
+TEST(Actions, WaitWithoutRotationBetweenCollinearMoves) {
   const Trajectory trajectory{{1, 1}, {{{{1, 1}, {3, 1}}, 0.0, 2.0}, {{{3, 1}, {5, 1}}, 4.0, 6.0}}, 6.0};
   EXPECT_EQ(types(checked_actions(robot_at(1, 1).to(5, 1), trajectory)),
             (std::vector<Type>{Type::translate, Type::wait, Type::translate}));
 }
 
-TEST(Actions, TurnTheShorterWayAcrossThePositiveAndNegativeHalfTurn) {
-  // From heading 3 towards (-1, -0.1): across pi, where headings change their sign.
+TEST(Actions, RotateTheShorterWayAcrossPi) {
+  // From heading 3 towards (-1, -0.1): across pi, where headings change sign.
   const Position to(4.0, 4.9);
   const double heading = std::atan2(-0.1, -1.0);
   const double turn = (heading + 2.0 * kPi - 3.0) / (kPi / 2);
@@ -87,14 +87,14 @@ TEST(Actions, TurnTheShorterWayAcrossThePositiveAndNegativeHalfTurn) {
   EXPECT_NEAR(actions[0].to.theta, heading, 1e-12);
 }
 
-TEST(Actions, ReverseByTurningRound) {
+TEST(Actions, RotateByPiBeforeMovingBack) {
   const Trajectory trajectory{{5, 5}, {{{{5, 5}, {3, 5}}, 2.0, 4.0}}, 4.0};
   const auto actions = checked_actions(robot_at(5, 5).to(3, 5), trajectory);
   ASSERT_EQ(types(actions), (std::vector<Type>{Type::rotate, Type::translate}));
   EXPECT_EQ(actions[0].to.theta, kPi);
 }
 
-TEST(Actions, FollowEachOtherWithoutTheSmallestGap) {
+TEST(Actions, LeaveNoGapInTimeOrPose) {
   const double third = 1.0 / 3.0;
   const Trajectory trajectory{
       {1, 1},

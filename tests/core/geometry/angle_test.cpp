@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-TEST(Angle, IsNormalisedIntoTheHalfOpenTurn) {
+TEST(Angle, NormalisesToHalfOpenInterval) {
   EXPECT_EQ(normalize_angle(0.5), 0.5);
   EXPECT_EQ(normalize_angle(kPi), kPi);
   EXPECT_EQ(normalize_angle(-kPi), kPi);
@@ -18,7 +18,7 @@ TEST(Angle, IsNormalisedIntoTheHalfOpenTurn) {
   EXPECT_LE(std::abs(normalize_angle(1e9)), kPi);
 }
 
-TEST(Angle, RotatesTheShorterWayAndHalfATurnCounterClockwise) {
+TEST(Angle, RotatesTheShorterWayAndByPiCounterClockwise) {
   EXPECT_NEAR(rotation_between(3.0, -3.0), 2.0 * kPi - 6.0, 1e-15);
   EXPECT_NEAR(rotation_between(-3.0, 3.0), 6.0 - 2.0 * kPi, 1e-15);
   EXPECT_EQ(rotation_between(0.0, kPi), kPi);

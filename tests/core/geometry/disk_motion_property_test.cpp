@@ -1,4 +1,4 @@
-// The closed forms of disk_motion against plain bisection on thousands of random encounters.
+// The closed forms of disk_motion compared with bisection on random encounters.
 
 #include <gtest/gtest.h>
 
@@ -12,22 +12,22 @@ namespace {
 
 constexpr std::uint64_t kSeed = 20261121;
 constexpr int kCases = 20000;
-/// Metres: the bisection's own error.
-constexpr double kBlur = 1e-9;
+/// Metres: the error of the bisection.
+constexpr double kBisectionError = 1e-9;
 
 class DiskMotionProperty : public testing::Test {
  protected:
   support::Dice dice{kSeed};
 };
 
-TEST_F(DiskMotionProperty, DisksCollideWhenBisectionFindsThemCloserThanReach) {
+TEST_F(DiskMotionProperty, CollideAgreesWithBisection) {
   int collisions = 0;
   for (int k = 0; k < kCases; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", case " << k);
     const Encounter e = random_encounter(dice);
     const MovingDisk mine = e.departing(e.other.t_start + dice.between(-6, 6));
     const double distance = closest(mine, e.other);
-    if (std::abs(distance - e.reach) < kBlur) continue;
+    if (std::abs(distance - e.reach) < kBisectionError) continue;
     ASSERT_EQ(collide(mine, e.other, e.reach), distance < e.reach);
     ASSERT_EQ(collide(e.other, mine, e.reach), distance < e.reach);
     if (distance < e.reach) ++collisions;
@@ -35,7 +35,7 @@ TEST_F(DiskMotionProperty, DisksCollideWhenBisectionFindsThemCloserThanReach) {
   EXPECT_GT(collisions, kCases / 40);
 }
 
-TEST_F(DiskMotionProperty, UnsafeIntervalHoldsJustTheTimesAtWhichTheDiskIsNear) {
+TEST_F(DiskMotionProperty, UnsafeIntervalContainsExactlyTimesWithinReach) {
   int hits = 0;
   for (int k = 0; k < kCases; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", case " << k);
@@ -47,10 +47,10 @@ TEST_F(DiskMotionProperty, UnsafeIntervalHoldsJustTheTimesAtWhichTheDiskIsNear) 
       const double t = e.other.t_start + (last - e.other.t_start) * i / 50;
       const double distance = (e.other.at(t) - e.from).norm();
       if (unsafe.contains(t)) {
-        ASSERT_LT(distance, e.reach + kBlur) << "t = " << t;
+        ASSERT_LT(distance, e.reach + kBisectionError) << "t = " << t;
       }
       const bool inside = t > e.other.t_start && t < e.other.t_end;  // the interval is open
-      if (inside && distance < e.reach - kBlur) {
+      if (inside && distance < e.reach - kBisectionError) {
         ASSERT_TRUE(unsafe.contains(t)) << "t = " << t;
       }
     }
@@ -61,7 +61,7 @@ TEST_F(DiskMotionProperty, UnsafeIntervalHoldsJustTheTimesAtWhichTheDiskIsNear) 
   EXPECT_GT(hits, kCases / 10);
 }
 
-TEST_F(DiskMotionProperty, ForbiddenDeparturesAreJustThoseThatCollide) {
+TEST_F(DiskMotionProperty, ForbiddenDeparturesAreExactlyThoseThatCollide) {
   int hits = 0;
   for (int k = 0; k < kCases; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", case " << k);
@@ -73,29 +73,29 @@ TEST_F(DiskMotionProperty, ForbiddenDeparturesAreJustThoseThatCollide) {
     for (int i = 0; i <= 30; ++i) {
       const double t = first + (last - first) * i / 30;
       if (forbidden.contains(t)) {
-        ASSERT_LT(distance(t), e.reach + kBlur) << "departure " << t;
+        ASSERT_LT(distance(t), e.reach + kBisectionError) << "departure " << t;
       } else {
-        ASSERT_GE(distance(t), e.reach - kBlur) << "departure " << t;
+        ASSERT_GE(distance(t), e.reach - kBisectionError) << "departure " << t;
       }
     }
     if (forbidden.empty()) continue;
     ++hits;
     constexpr double kStep = 1e-7;  // seconds; on either side of the ends
-    ASSERT_GE(distance(forbidden.begin - kStep), e.reach - kBlur);
+    ASSERT_GE(distance(forbidden.begin - kStep), e.reach - kBisectionError);
     if (forbidden.end < kForever) {
-      ASSERT_GE(distance(forbidden.end + kStep), e.reach - kBlur);
+      ASSERT_GE(distance(forbidden.end + kStep), e.reach - kBisectionError);
     }
     if (forbidden.end - forbidden.begin < 4.0 * kStep) continue;
-    ASSERT_LT(distance(forbidden.begin + kStep), e.reach + kBlur);
+    ASSERT_LT(distance(forbidden.begin + kStep), e.reach + kBisectionError);
     if (forbidden.end < kForever) {
-      ASSERT_LT(distance(forbidden.end - kStep), e.reach + kBlur);
+      ASSERT_LT(distance(forbidden.end - kStep), e.reach + kBisectionError);
     }
   }
   EXPECT_GT(hits, kCases / 10);
 }
 
-/// Departures of the other one that collide with mine leaving at `t`: the same encounter told by the other.
-TEST_F(DiskMotionProperty, ForbiddenDeparturesAreTheSameToldByTheOther) {
+/// Departures of the other disk that collide with mine leaving at `t`: the same encounter with roles swapped.
+TEST_F(DiskMotionProperty, ForbiddenDeparturesAreSymmetricInTheTwoDisks) {
   for (int k = 0; k < kCases; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", case " << k);
     const Encounter e = random_encounter(dice);
@@ -111,7 +111,7 @@ TEST_F(DiskMotionProperty, ForbiddenDeparturesAreTheSameToldByTheOther) {
   }
 }
 
-TEST_F(DiskMotionProperty, MirroringAndShiftingChangesNothingElse) {
+TEST_F(DiskMotionProperty, MirroringAndTimeShiftPreserveIntervals) {
   const auto mirror = [](const Position& p) { return Position(-p.x(), p.y()); };
   for (int k = 0; k < kCases; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", case " << k);

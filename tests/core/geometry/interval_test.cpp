@@ -14,20 +14,20 @@ TEST(SafeInterval, ContainsItsEnds) {
   EXPECT_FALSE(interval.contains(2.001));
 }
 
-TEST(SafeInterval, IsAllTimeByDefault) {
+TEST(SafeInterval, IsUnboundedByDefault) {
   EXPECT_TRUE(SafeInterval{}.contains(0.0));
   EXPECT_TRUE(SafeInterval{}.contains(1e300));
   EXPECT_FALSE(SafeInterval{}.contains(-1e-300));
 }
 
-TEST(UnsafeInterval, LeavesItsEndsOut) {
+TEST(UnsafeInterval, ExcludesItsEnds) {
   const UnsafeInterval interval{1.0, 2.0};
   EXPECT_FALSE(interval.contains(1.0));
   EXPECT_TRUE(interval.contains(1.5));
   EXPECT_FALSE(interval.contains(2.0));
 }
 
-TEST(UnsafeInterval, IsEmptyUnlessItBeginsBeforeItEnds) {
+TEST(UnsafeInterval, IsEmptyUnlessBeginIsBeforeEnd) {
   EXPECT_TRUE(UnsafeInterval{}.empty());
   EXPECT_TRUE((UnsafeInterval{1.0, 1.0}.empty()));
   EXPECT_TRUE((UnsafeInterval{2.0, 1.0}.empty()));

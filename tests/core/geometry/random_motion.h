@@ -1,6 +1,6 @@
 #pragma once
 
-// Random pairs of moving disks, and a plain measure of how close they come.
+// Random pairs of moving disks, and their smallest distance by bisection.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace fleetplan::core {
 
 inline Position direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-/// My straight move, and the segment of somebody else.
+/// A straight move of my disk, and a segment of another disk.
 struct Encounter {
   Position from;
   Position velocity;
@@ -33,8 +33,8 @@ struct Encounter {
   }
 };
 
-/// Anything within a few metres: oblique, parallel, antiparallel, almost parallel, equal velocities; the
-/// other one may wait, also for ever.
+/// Velocities are oblique, parallel, antiparallel, almost parallel or equal; the other disk may also wait,
+/// for a while or without end. All within a few metres.
 inline Encounter random_encounter(support::Dice& dice) {
   Encounter e;
   e.from = {dice.between(-3, 3), dice.between(-3, 3)};
@@ -73,8 +73,8 @@ inline Encounter random_encounter(support::Dice& dice) {
   return e;
 }
 
-/// The smallest distance of the centres while both last, by bisection of the convex distance; infinite if
-/// they do not last at the same time.
+/// The smallest distance of the centres while both segments last; infinite if they do not overlap in time.
+/// The distance is convex, so bisection finds its minimum.
 inline double closest(const MovingDisk& a, const MovingDisk& b) {
   double low = std::max(a.t_start, b.t_start);
   double high = std::min(a.t_end, b.t_end);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Distances from obstacles, computed as plainly as possible.
+// Distances from obstacles by brute force, to compare with.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ inline double point_to_segment(const Position& p, const Position& a, const Posit
   return (a + f * d - p).norm();
 }
 
-/// Does the segment meet the closed rectangle? Clips it against the four sides.
+/// Returns whether the segment meets the closed rectangle. Clips it against the four sides.
 inline bool meets(const Position& a, const Position& b, const Position& low, const Position& high) {
   double first = 0.0;
   double last = 1.0;

@@ -2,15 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
 
-#include "tests/core/map/distances.h"
-#include "tests/support/ascii_map.h"
+#include "core/map/occupancy_grid.h"
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
@@ -33,7 +31,7 @@ std::set<std::pair<int, int>> first_quadrant(int connectivity) {
   return quadrant;
 }
 
-TEST(LatticeNeighbourhood, DoublesBySummingEveryTwoNeighbours) {
+TEST(LatticeNeighbourhood, DoublesByAddingNeighbouringSteps) {
   using Steps = std::set<std::pair<int, int>>;
   EXPECT_EQ(first_quadrant(4), (Steps{{1, 0}}));
   EXPECT_EQ(first_quadrant(8), (Steps{{1, 0}, {1, 1}}));
@@ -43,7 +41,7 @@ TEST(LatticeNeighbourhood, DoublesBySummingEveryTwoNeighbours) {
 
 class LatticeSteps : public testing::TestWithParam<int> {};
 
-TEST_P(LatticeSteps, AreDistinctDirectionsInTheFourQuadrantsAlike) {
+TEST_P(LatticeSteps, AreDistinctAndSymmetric) {
   const auto steps = steps_of(GetParam());
   ASSERT_EQ(static_cast<int>(steps.size()), GetParam());
   const std::set<std::pair<int, int>> all(steps.begin(), steps.end());
@@ -60,12 +58,12 @@ INSTANTIATE_TEST_SUITE_P(Connectivities, LatticeSteps, testing::Values(4, 8, 16,
 TEST(Lattice, NumbersCellCentresRowByRow) {
   const Lattice lattice(OccupancyGrid(5, 3, 0.5), 8);
   EXPECT_EQ(lattice.vertex_count(), 15);
-  EXPECT_EQ(lattice.vertex({2, 1}), 7);
+  EXPECT_EQ(lattice.vertex(2, 1), 7);
   EXPECT_EQ(lattice.position(7), Position(1.25, 0.75));
   EXPECT_EQ(lattice.spacing(), 0.5);
 }
 
-TEST(Lattice, FindsTheVertexThatAPositionCoincidesWith) {
+TEST(Lattice, FindsVertexAtPosition) {
   const Lattice lattice(OccupancyGrid(5, 3, 0.5), 8);
   for (int v = 0; v < lattice.vertex_count(); ++v) EXPECT_EQ(lattice.vertex_at(lattice.position(v)), v);
   EXPECT_EQ(lattice.vertex_at({1.25 + 5e-10, 0.75}), 7);
@@ -76,7 +74,7 @@ TEST(Lattice, FindsTheVertexThatAPositionCoincidesWith) {
   EXPECT_EQ(lattice.vertex_at({0.25, 1.75}), -1);
 }
 
-TEST(Lattice, FindsTheVerticesWithinADistance) {
+TEST(Lattice, FindsVerticesWithinDistance) {
   const std::uint64_t seed = 3;
   support::Dice dice(seed);
   for (int k = 0; k < 300; ++k) {
@@ -90,42 +88,6 @@ TEST(Lattice, FindsTheVerticesWithinADistance) {
     }
     ASSERT_EQ(lattice.vertices_near(p, distance), expected);
   }
-}
-
-TEST(StaticMoves, AllowAStepWhereTheDiskMaySweepIt) {
-  const std::uint64_t seed = 5;
-  support::Dice dice(seed);
-  for (int map = 0; map < 24; ++map) {
-    SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << map);
-    const OccupancyGrid grid = support::random_map(dice);
-    const LineOfSight sight(grid);
-    const Lattice lattice(grid, 4 << (map % 4));
-    const double radius = grid.resolution() * dice.between(0.05, 1.5);
-    StaticMoves moves(lattice, sight, radius);
-    for (int k = 0; k < 20; ++k) {
-      const int v = dice.below(lattice.vertex_count());
-      const std::uint32_t mask = moves.from(v);
-      ASSERT_EQ(moves.from(v), mask) << "asked again";
-      for (std::size_t i = 0; i < lattice.steps().size(); ++i) {
-        const auto [columns, rows] = lattice.steps()[i];
-        const Position to =
-            lattice.position(v) + grid.resolution() * Position(static_cast<double>(columns), rows);
-        const double distance = obstacle_distance_of(grid, lattice.position(v), to);
-        if (std::abs(distance - radius) < 1e-8) continue;
-        ASSERT_EQ((mask >> i & 1u) != 0, distance > radius) << "vertex " << v << ", step " << i;
-      }
-    }
-  }
-}
-
-TEST(StaticMoves, DoNotCutCorners) {
-  const OccupancyGrid grid = support::ascii_map({"..",  //
-                                                 ".#"});
-  const LineOfSight sight(grid);
-  const Lattice lattice(grid, 8);
-  StaticMoves moves(lattice, sight, 0.3);
-  const int bottom_left = lattice.vertex({0, 0});
-  EXPECT_EQ(std::popcount(moves.from(bottom_left)), 1) << "only straight up";
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kOverlap = 1e-6;  // metres; more than contact
 
-/// Asks in both directions, which must not matter.
+/// Tests both directions, which must agree.
 bool sees(const OccupancyGrid& grid, const Position& from, const Position& to, double radius) {
   const LineOfSight sight(grid);
   const bool there = sight.may_sweep(from, to, radius);
@@ -21,7 +21,7 @@ bool sees(const OccupancyGrid& grid, const Position& from, const Position& to, d
   return there;
 }
 
-TEST(LineOfSight, OfADiskThatJustFitsAGap) {
+TEST(LineOfSight, AllowsDiskThatJustFitsGap) {
   const OccupancyGrid grid = support::ascii_map({"##.##",  //
                                                  ".....",  //
                                                  "##.##"});
@@ -32,7 +32,7 @@ TEST(LineOfSight, OfADiskThatJustFitsAGap) {
   EXPECT_FALSE(sees(grid, {2.5 - kOverlap, 0.5}, {2.5 - kOverlap, 2.5}, 0.5));
 }
 
-TEST(LineOfSight, PastACornerKeepsTheRadius) {
+TEST(LineOfSight, KeepsRadiusFromCorners) {
   const OccupancyGrid grid = support::ascii_map({".....",  //
                                                  ".....",  //
                                                  "..#..",  //
@@ -46,13 +46,13 @@ TEST(LineOfSight, PastACornerKeepsTheRadius) {
   EXPECT_FALSE(sees(grid, {1, 1}, {4, 4}, 0.01)) << "through it diagonally";
 }
 
-TEST(LineOfSight, BetweenTwoBlocksThatTouchAtACornerIsNone) {
+TEST(LineOfSight, IsBlockedBetweenCellsThatTouchAtCorner) {
   const OccupancyGrid grid = support::ascii_map({".#",  //
                                                  "#."});
   EXPECT_FALSE(sees(grid, {0.5, 1.5}, {1.5, 0.5}, 0.01));
 }
 
-TEST(LineOfSight, EndsAtTheMapsEdge) {
+TEST(LineOfSight, EndsAtMapEdge) {
   const OccupancyGrid grid(4, 3, 0.5);  // 2 m x 1.5 m
   EXPECT_TRUE(sees(grid, {0.2, 0.2}, {1.8, 1.3}, 0.2));
   EXPECT_TRUE(sees(grid, {0.2, 0.2}, {0.2, 1.3}, 0.2));
@@ -63,7 +63,7 @@ TEST(LineOfSight, EndsAtTheMapsEdge) {
   EXPECT_FALSE(sees(grid, {1.0, 1.0}, {1.0, 9.0}, 0.2));
 }
 
-TEST(LineOfSight, OfADiskThatStandsIsWhetherItFits) {
+TEST(LineOfSight, TestsStandingDisk) {
   const OccupancyGrid grid = support::ascii_map({"...",  //
                                                  "..#",  //
                                                  "..."});
@@ -76,7 +76,7 @@ TEST(LineOfSight, OfADiskThatStandsIsWhetherItFits) {
 
 class LineOfSightOnRandomMaps : public testing::TestWithParam<double> {};
 
-TEST_P(LineOfSightOnRandomMaps, AgreesWithTheDistanceToEveryBlockedSquare) {
+TEST_P(LineOfSightOnRandomMaps, AgreesWithDistanceToBlockedCells) {
   const double resolution = GetParam();
   const std::uint64_t seed = 7;
   support::Dice dice(seed);

@@ -12,7 +12,7 @@
 namespace fleetplan::core {
 namespace {
 
-TEST(ObstacleDistance, IsMeasuredToTheNearestBlockedSquare) {
+TEST(ObstacleDistance, IsDistanceToNearestBlockedCell) {
   const OccupancyGrid grid = support::ascii_map({".....",  //
                                                  ".....",  //
                                                  "..#..",  //
@@ -26,7 +26,7 @@ TEST(ObstacleDistance, IsMeasuredToTheNearestBlockedSquare) {
   EXPECT_EQ(obstacle_distance(grid, {5.0, 5.0}, 10.0), 0.0) << "inside";
 }
 
-TEST(ObstacleDistance, IsMeasuredToTheMapsEdgeFromInsideAndOutside) {
+TEST(ObstacleDistance, IsDistanceToMapEdgeFromInsideAndOutside) {
   const OccupancyGrid grid(4, 4, 0.5);
   EXPECT_DOUBLE_EQ(obstacle_distance(grid, {1.0, 0.75}, 10.0), 0.75);
   EXPECT_EQ(obstacle_distance(grid, {2.0, 1.0}, 10.0), 0.0);
@@ -34,13 +34,13 @@ TEST(ObstacleDistance, IsMeasuredToTheMapsEdgeFromInsideAndOutside) {
   EXPECT_DOUBLE_EQ(obstacle_distance(grid, {2.5, 1.0}, 10.0), -0.5);
 }
 
-TEST(ObstacleDistance, LooksNoFartherThanItsLimit) {
+TEST(ObstacleDistance, IsAtMostLimit) {
   const OccupancyGrid grid(100, 100, 1.0);
   EXPECT_EQ(obstacle_distance(grid, {50.0, 50.0}, 3.0), 3.0);
   EXPECT_EQ(obstacle_distance(grid, {2.0, 50.0}, 3.0), 2.0);
 }
 
-TEST(ObstacleDistance, AgreesWithAllSquaresOnRandomMaps) {
+TEST(ObstacleDistance, AgreesWithBruteForceOnRandomMaps) {
   const std::uint64_t seed = 11;
   support::Dice dice(seed);
   for (int map = 0; map < 60; ++map) {

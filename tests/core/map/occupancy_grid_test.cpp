@@ -16,7 +16,7 @@ TEST(OccupancyGrid, CountsRowsFromTheBottom) {
   EXPECT_FALSE(grid.blocked({2, 1}));
 }
 
-TEST(OccupancyGrid, BlocksEverythingOutside) {
+TEST(OccupancyGrid, IsBlockedOutside) {
   const OccupancyGrid grid(3, 2, 1.0);
   for (const Cell cell : {Cell{-1, 0}, Cell{3, 0}, Cell{0, -1}, Cell{0, 2}}) {
     EXPECT_FALSE(grid.inside(cell));
@@ -33,7 +33,7 @@ TEST(OccupancyGrid, MeasuresInMetres) {
   EXPECT_EQ(grid.center({7, 3}), Position(1.875, 0.875));
 }
 
-TEST(OccupancyGrid, GivesABorderToTheCellRightOfAndAboveIt) {
+TEST(OccupancyGrid, BorderBelongsToCellOnRightOrAbove) {
   const OccupancyGrid grid(8, 4, 0.25);
   EXPECT_EQ(grid.cell_at({0.0, 0.0}), (Cell{0, 0}));
   EXPECT_EQ(grid.cell_at({0.25, 0.5}), (Cell{1, 2}));

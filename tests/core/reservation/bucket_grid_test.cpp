@@ -26,9 +26,9 @@ std::vector<Visit> visits(const BucketGrid& grid, const Position& from, const Po
   return all;
 }
 
-TEST(BucketGrid, CutsTheMapIntoSquares) {
+TEST(BucketGrid, DividesMapIntoSquares) {
   const BucketGrid grid(5.0, 2.5, 2.0);
-  EXPECT_EQ(grid.count(), 6u) << "the last ones jut out";
+  EXPECT_EQ(grid.count(), 6u) << "the last ones extend beyond the map";
   EXPECT_EQ(grid.at({0.1, 0.1}), 0u);
   EXPECT_EQ(grid.at({4.9, 0.1}), 2u);
   EXPECT_EQ(grid.at({4.9, 2.4}), 5u);
@@ -36,7 +36,7 @@ TEST(BucketGrid, CutsTheMapIntoSquares) {
   EXPECT_EQ(BucketGrid(0.5, 0.5, 2.0).count(), 1u);
 }
 
-TEST(BucketGrid, WalksAlongARowInBothDirections) {
+TEST(BucketGrid, WalksAlongRowInBothDirections) {
   const BucketGrid grid(8.0, 8.0, 2.0);
   const auto right = visits(grid, {1, 1}, {7, 1});
   ASSERT_EQ(right.size(), 4u);
@@ -49,7 +49,7 @@ TEST(BucketGrid, WalksAlongARowInBothDirections) {
   EXPECT_DOUBLE_EQ(left[1].enter, 1.0 / 6.0);
 }
 
-TEST(BucketGrid, VisitsOneBucketForARobotThatStands) {
+TEST(BucketGrid, VisitsOneBucketForPoint) {
   const auto one = visits(BucketGrid(8.0, 8.0, 2.0), {3, 3}, {3, 3});
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(one[0].bucket, 5u);
@@ -57,7 +57,7 @@ TEST(BucketGrid, VisitsOneBucketForARobotThatStands) {
   EXPECT_EQ(one[0].exit, 1.0);
 }
 
-TEST(BucketGrid, StopsTheWalkWhenAsked) {
+TEST(BucketGrid, StopsWalkWhenVisitReturnsFalse) {
   const BucketGrid grid(8.0, 8.0, 2.0);
   int count = 0;
   EXPECT_FALSE(grid.walk({1, 1}, {7, 7}, [&](std::size_t, double, double) { return ++count < 2; }));
@@ -69,7 +69,7 @@ class RandomBuckets : public testing::Test {
  protected:
   static constexpr std::uint64_t kSeed = 17;
 
-  /// A place on the map, often on the borders of buckets.
+  /// A position on the map, often on the border of a bucket.
   Position place() {
     Position p(dice.between(0, kWidth), dice.between(0, kHeight));
     if (dice.chance(0.2)) p.x() = kSize * dice.below(8);
@@ -84,7 +84,7 @@ class RandomBuckets : public testing::Test {
   BucketGrid grid{kWidth, kHeight, kSize};
 };
 
-TEST_F(RandomBuckets, TheWalkCoversTheLine) {
+TEST_F(RandomBuckets, WalkCoversLine) {
   for (int k = 0; k < 3000; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", line " << k);
     const Position from = place();
@@ -104,7 +104,7 @@ TEST_F(RandomBuckets, TheWalkCoversTheLine) {
   }
 }
 
-TEST_F(RandomBuckets, TheCoverHoldsEveryBucketTheDiskComesNear) {
+TEST_F(RandomBuckets, CoverContainsEveryBucketWithinReach) {
   for (int k = 0; k < 600; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", disk " << k);
     const Position from = place();
@@ -130,7 +130,7 @@ TEST_F(RandomBuckets, TheCoverHoldsEveryBucketTheDiskComesNear) {
   }
 }
 
-TEST_F(RandomBuckets, TheCoverIsGenerousByNoMoreThanABucketsDiagonal) {
+TEST_F(RandomBuckets, CoverExceedsReachByAtMostBucketDiagonal) {
   for (int k = 0; k < 600; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", disk " << k);
     const MovingDisk disk(TimedSegment{{place(), place()}, 0.0, 1.0});

@@ -19,7 +19,8 @@ constexpr double kWidth = 12.0;
 constexpr double kHeight = 9.0;
 constexpr double kRounding = 1e-8;  // seconds
 
-/// Robots of many radii, more than the table keeps apart, some of them with reservations; robot 0 asks.
+/// Robots of many radii, more than the table has classes, some of them with reservations; one of them
+/// queries.
 class RandomReservations : public testing::TestWithParam<int> {
  protected:
   RandomReservations()
@@ -28,21 +29,21 @@ class RandomReservations : public testing::TestWithParam<int> {
         table(kWidth, kHeight, 0.5, radii),
         committed(radii.size()) {
     for (std::size_t robot = 1; robot < radii.size(); ++robot) reserve(robot);
-    for (std::size_t robot = 1; robot < radii.size(); ++robot) {  // take some back, give some anew
+    for (std::size_t robot = 1; robot < radii.size(); ++robot) {  // remove some reservations, renew others
       if (dice.chance(0.6)) continue;
       table.remove(robot);
       committed[robot].clear();
       if (dice.chance(0.5)) reserve(robot);
     }
-    asking = static_cast<std::size_t>(dice.below(static_cast<int>(radii.size())));
-    table.remove(asking);
-    committed[asking].clear();
+    querying = static_cast<std::size_t>(dice.below(static_cast<int>(radii.size())));
+    table.remove(querying);
+    committed[querying].clear();
   }
 
   std::vector<double> random_radii() {
     std::vector<double> random;
-    const bool alike = dice.chance(0.2);
-    for (int i = 1 + dice.below(16); i >= 0; --i) random.push_back(alike ? 0.4 : dice.between(0.05, 1.2));
+    const bool equal = dice.chance(0.2);
+    for (int i = 1 + dice.below(16); i >= 0; --i) random.push_back(equal ? 0.4 : dice.between(0.05, 1.2));
     return random;
   }
 
@@ -67,7 +68,7 @@ class RandomReservations : public testing::TestWithParam<int> {
     table.commit(robot, committed[robot]);
   }
 
-  double reach(std::size_t other) const { return radii[asking] + radii[other] - kSearchSlack; }
+  double reach(std::size_t other) const { return radii[querying] + radii[other] - kSearchSlack; }
 
   /// Merges intervals; those nearer than `gap` belong together.
   static std::vector<UnsafeInterval> merged(std::vector<UnsafeInterval> intervals, double gap) {
@@ -100,10 +101,10 @@ class RandomReservations : public testing::TestWithParam<int> {
   std::vector<double> radii;
   ReservationTable table;
   std::vector<std::vector<TimedSegment>> committed;
-  std::size_t asking = 0;
+  std::size_t querying = 0;
 };
 
-TEST_P(RandomReservations, SafeIntervalsAreWhatAllSegmentsLeave) {
+TEST_P(RandomReservations, SafeIntervalsAreComplementOfUnsafeIntervals) {
   for (int k = 0; k < 40; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << GetParam() << ", position " << k);
     const Position position = place();
@@ -116,7 +117,7 @@ TEST_P(RandomReservations, SafeIntervalsAreWhatAllSegmentsLeave) {
       free_from = hit.end;
     }
     if (free_from < kForever) expected.push_back({free_from, kForever});
-    const auto safe = table.safe_intervals(asking, position);
+    const auto safe = table.safe_intervals(querying, position);
     ASSERT_EQ(safe.size(), expected.size());
     for (std::size_t i = 0; i < safe.size(); ++i) {
       ASSERT_EQ(safe[i].begin, expected[i].begin);
@@ -134,7 +135,7 @@ std::optional<double> first_free(const std::vector<UnsafeInterval>& forbidden, d
   return t;
 }
 
-TEST_P(RandomReservations, EarliestDepartureIsTheFirstThatNoSegmentForbids) {
+TEST_P(RandomReservations, EarliestDepartureIsFirstThatNoSegmentForbids) {
   int delayed = 0;
   for (int k = 0; k < 60; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << GetParam() << ", move " << k);
@@ -146,9 +147,9 @@ TEST_P(RandomReservations, EarliestDepartureIsTheFirstThatNoSegmentForbids) {
     const auto interval = [&](const MovingDisk& disk, double reach) {
       return forbidden_departures(path.from, velocity, duration, disk, reach);
     };
-    // Neighbouring segments forbid neighbouring intervals, whose common end is forbidden as well.
+    // Neighbouring segments forbid adjacent intervals; their common end is forbidden as well.
     const auto expected = first_free(over_all_segments(interval, 1e-9), t_min, t_max);
-    const auto departure = table.earliest_departure(asking, path, duration, t_min, t_max);
+    const auto departure = table.earliest_departure(querying, path, duration, t_min, t_max);
     ASSERT_EQ(departure.has_value(), expected.has_value());
     if (!departure) continue;
     ASSERT_NEAR(*departure, *expected, kRounding);
@@ -157,7 +158,7 @@ TEST_P(RandomReservations, EarliestDepartureIsTheFirstThatNoSegmentForbids) {
   RecordProperty("delayed", delayed);
 }
 
-TEST_P(RandomReservations, RobotsHitAreThoseWithASegmentThatCollides) {
+TEST_P(RandomReservations, RobotsHitAreThoseWithCollidingSegment) {
   for (int k = 0; k < 60; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << GetParam() << ", trajectory " << k);
     const auto segments = timed_segments(random_trajectory());
@@ -169,23 +170,23 @@ TEST_P(RandomReservations, RobotsHitAreThoseWithASegmentThatCollides) {
         }
       }
     }
-    const auto hit = table.robots_hit(asking, segments);
+    const auto hit = table.robots_hit(querying, segments);
     ASSERT_EQ(hit, std::vector<std::size_t>(expected.begin(), expected.end()));
   }
 }
 
-TEST_P(RandomReservations, CommittingAndRemovingLeavesNoTrace) {
+TEST_P(RandomReservations, CommitAndRemoveChangeNothing) {
   std::vector<std::pair<Position, std::vector<SafeInterval>>> before;
   for (int k = 0; k < 40; ++k) {
     const Position position = place();
-    before.emplace_back(position, table.safe_intervals(asking, position));
+    before.emplace_back(position, table.safe_intervals(querying, position));
   }
   for (int round = 0; round < 3; ++round) {
-    table.commit(asking, timed_segments(random_trajectory()));
-    table.remove(asking);
+    table.commit(querying, timed_segments(random_trajectory()));
+    table.remove(querying);
   }
   for (const auto& [position, intervals] : before) {
-    const auto after = table.safe_intervals(asking, position);
+    const auto after = table.safe_intervals(querying, position);
     ASSERT_EQ(after.size(), intervals.size()) << "seed " << GetParam();
     for (std::size_t i = 0; i < after.size(); ++i) {
       ASSERT_EQ(after[i].begin, intervals[i].begin);

@@ -20,7 +20,7 @@ std::vector<TimedSegment> stand(const Position& at) { return timed_segments({at,
 
 using Robots = std::vector<std::size_t>;
 
-TEST(ReservationTable, LetsARobotStandAnywhereWhenItIsEmpty) {
+TEST(ReservationTable, AllowsEverythingIfEmpty) {
   const ReservationTable table = table_of(1);
   const auto safe = table.safe_intervals(0, {5, 5});
   ASSERT_EQ(safe.size(), 1u);
@@ -30,7 +30,7 @@ TEST(ReservationTable, LetsARobotStandAnywhereWhenItIsEmpty) {
   EXPECT_TRUE(table.robots_hit(0, stand({5, 5})).empty());
 }
 
-TEST(ReservationTable, CutsSafeTimeWhereARobotPasses) {
+TEST(ReservationTable, PassingRobotSplitsSafeInterval) {
   ReservationTable table = table_of(2);
   table.commit(1, drive({0.5, 5}, {19.5, 5}, 2.0, 21.0));  // at x = 5 when t = 6.5
   const auto safe = table.safe_intervals(0, {5, 5});
@@ -42,14 +42,14 @@ TEST(ReservationTable, CutsSafeTimeWhereARobotPasses) {
   EXPECT_EQ(table.safe_intervals(0, {5, 6}).size(), 1u) << "in contact beside the path";
 }
 
-TEST(ReservationTable, HasNoSafeTimeWhereARobotStands) {
+TEST(ReservationTable, HasNoSafeIntervalWhereRobotStands) {
   ReservationTable table = table_of(2);
   table.commit(1, stand({5, 5}));
   EXPECT_TRUE(table.safe_intervals(0, {5.9, 5}).empty());
   EXPECT_EQ(table.safe_intervals(0, {6, 5}).size(), 1u) << "in contact";
 }
 
-TEST(ReservationTable, JoinsNeighbouringSegmentsToOneUnsafeTime) {
+TEST(ReservationTable, JoinsUnsafeIntervalsOfNeighbouringSegments) {
   ReservationTable table = table_of(2);
   const Position middle(5, 5);
   table.commit(1,
@@ -60,7 +60,7 @@ TEST(ReservationTable, JoinsNeighbouringSegmentsToOneUnsafeTime) {
   EXPECT_NEAR(safe[1].begin, 7.0, 1e-8);
 }
 
-TEST(ReservationTable, DelaysADepartureUntilThePassingRobotIsJustTouched) {
+TEST(ReservationTable, DelaysDepartureUntilRobotsJustTouch) {
   ReservationTable table = table_of(2);
   table.commit(1, drive({10, 0.5}, {10, 19.5}, 0.0, 19.0));  // crosses y = 10 at t = 9.5
   const Segment path{{2, 10}, {18, 10}};                     // x = 10 after 8 s
@@ -71,7 +71,7 @@ TEST(ReservationTable, DelaysADepartureUntilThePassingRobotIsJustTouched) {
   EXPECT_FALSE(table.earliest_departure(0, path, 16.0, 1.0, 2.9)) << "too late";
 }
 
-TEST(ReservationTable, NeverDepartsThroughARobotThatStays) {
+TEST(ReservationTable, FindsNoDepartureThroughRobotThatStays) {
   ReservationTable table = table_of(2);
   table.commit(1, drive({10, 2}, {10, 10}, 5.0, 13.0));  // and stays
   const Segment path{{2, 10}, {18, 10}};
@@ -79,7 +79,7 @@ TEST(ReservationTable, NeverDepartsThroughARobotThatStays) {
   EXPECT_FALSE(table.earliest_departure(0, path, 16.0, 5.5, kForever));
 }
 
-TEST(ReservationTable, KnowsWhomATrajectoryHits) {
+TEST(ReservationTable, ReturnsRobotsHitByTrajectory) {
   ReservationTable table = table_of(4);
   table.commit(1, stand({5, 5}));
   table.commit(2, drive({10, 1}, {10, 9}, 0.0, 8.0));  // at y = 5 when t = 4
@@ -87,11 +87,11 @@ TEST(ReservationTable, KnowsWhomATrajectoryHits) {
   EXPECT_EQ(table.robots_hit(0, drive({1, 5}, {18, 5}, 0.0, 17.0)), (Robots{1}));
   EXPECT_EQ(table.robots_hit(0, drive({1, 5}, {18, 5}, 0.0, 7.0)), (Robots{1, 2}));
   EXPECT_EQ(table.robots_hit(0, drive({1, 5}, {18, 5.1}, 0.0, 17.0)), (Robots{1, 3}));
-  EXPECT_EQ(table.robots_hit(0, stand({10, 9.9})), (Robots{2})) << "it comes to stay";
-  EXPECT_TRUE(table.robots_hit(2, stand({10, 9.9})).empty()) << "itself does not count";
+  EXPECT_EQ(table.robots_hit(0, stand({10, 9.9})), (Robots{2})) << "it stays there in the end";
+  EXPECT_TRUE(table.robots_hit(2, stand({10, 9.9})).empty()) << "a robot does not hit itself";
 }
 
-TEST(ReservationTable, IsAsBeforeAfterARobotIsRemoved) {
+TEST(ReservationTable, RemoveUndoesCommit) {
   ReservationTable table = table_of(3);
   table.commit(1, drive({0.5, 5}, {19.5, 5}, 2.0, 21.0));
   table.commit(2, stand({5, 5}));
@@ -104,7 +104,7 @@ TEST(ReservationTable, IsAsBeforeAfterARobotIsRemoved) {
   EXPECT_TRUE(table.safe_intervals(0, {7, 7}).empty());
 }
 
-TEST(ReservationTable, BlocksForAWhileOnly) {
+TEST(ReservationTable, FiniteReservationEndsOnTime) {
   ReservationTable table = table_of(2);
   table.commit(1, {{{{5, 5}, {5, 5}}, 0.0, 3.0}});
   const auto safe = table.safe_intervals(0, {5, 5});

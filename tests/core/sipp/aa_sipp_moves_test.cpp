@@ -1,4 +1,4 @@
-// Which moves a search may make: lattice moves, any angle, waits before moves.
+// The moves of a search: lattice moves, any angle, added waits.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ Trajectory plan_first(Planning& p) {
 
 class AaSippConnectivity : public testing::TestWithParam<int> {};
 
-TEST_P(AaSippConnectivity, MovesAlongLatticeStepsOnlyWithoutAnyAngle) {
+TEST_P(AaSippConnectivity, UsesOnlyLatticeStepsWithoutAnyAngle) {
   Planning p(support::ascii_map({"............",  //
                                  "....#.......",  //
                                  "....#..#....",  //
@@ -59,7 +59,7 @@ TEST_P(AaSippConnectivity, MovesAlongLatticeStepsOnlyWithoutAnyAngle) {
   }
 }
 
-TEST_P(AaSippConnectivity, FindsNoWorseAWayAtAnyAngle) {
+TEST_P(AaSippConnectivity, AnyAngleCostsNoMoreThanLatticeMoves) {
   const std::uint64_t seed = 37;
   support::Dice dice(seed);
   int compared = 0;
@@ -71,14 +71,14 @@ TEST_P(AaSippConnectivity, FindsNoWorseAWayAtAnyAngle) {
     PlanOptions options = lattice_only(GetParam());
     options.any_angle = true;
     Planning free(problem, options);
-    const auto slow = lattice.state.plan(0, kExact, lattice.never).trajectory;
-    const auto quick = free.state.plan(0, kExact, free.never).trajectory;
-    ASSERT_EQ(slow.has_value(), quick.has_value()) << "the same places can be reached";
-    if (!slow) continue;
+    const auto on_lattice = lattice.state.plan(0, kExact, lattice.never).trajectory;
+    const auto at_any_angle = free.state.plan(0, kExact, free.never).trajectory;
+    ASSERT_EQ(on_lattice.has_value(), at_any_angle.has_value()) << "the same vertices are reachable";
+    if (!on_lattice) continue;
     ++compared;
     const auto& robot = problem.robots()[0];
     if (free.instance.sight().may_sweep(robot.start.position, robot.goal->position, robot.radius)) {
-      ASSERT_LE(quick->cost, slow->cost + 1e-8);
+      ASSERT_LE(at_any_angle->cost, on_lattice->cost + 1e-8);
     }
   }
   EXPECT_GT(compared, 10);
@@ -86,7 +86,7 @@ TEST_P(AaSippConnectivity, FindsNoWorseAWayAtAnyAngle) {
 
 INSTANTIATE_TEST_SUITE_P(Connectivities, AaSippConnectivity, testing::Values(4, 8, 16, 32));
 
-TEST(AaSippMoves, AreFewerTheMoreDirectionsThereAre) {
+TEST(AaSippMoves, HigherConnectivityCostsLess) {
   double last = kForever;
   for (const int connectivity : {4, 8, 16, 32}) {
     Planning p(OccupancyGrid(12, 12, 1.0), {robot_at(0.5, 0.5).to(9.5, 3.5).speeds(1.0, 100.0)},
@@ -98,14 +98,14 @@ TEST(AaSippMoves, AreFewerTheMoreDirectionsThereAre) {
   EXPECT_NEAR(last, std::hypot(9.0, 3.0) + std::atan2(3.0, 9.0) / 100.0, 1e-9) << "(3, 1) is a step of 32";
 }
 
-TEST(AaSippMoves, AreOneWhereTheyAreCollinear) {
+TEST(AaSippMoves, CollinearMovesAreJoined) {
   Planning p(OccupancyGrid(9, 1, 1.0), {robot_at(0.5, 0.5).to(8.5, 0.5)}, lattice_only(4));
   const Trajectory trajectory = plan_first(p);
   ASSERT_EQ(trajectory.moves.size(), 1u);
   EXPECT_NEAR(trajectory.cost, 8.0, 1e-12);
 }
 
-TEST(AaSippMoves, WaitBeforeTheyBeginButNotWhereTheyGoStraightOn) {
+TEST(AaSippMoves, WaitOnlyBeforeFirstOfCollinearMoves) {
   PlanOptions options = lattice_only(4);
   options.wait_before_move = 1.5;
   Planning p(OccupancyGrid(9, 1, 1.0), {robot_at(0.5, 0.5).to(8.5, 0.5)}, options);
@@ -115,7 +115,7 @@ TEST(AaSippMoves, WaitBeforeTheyBeginButNotWhereTheyGoStraightOn) {
   EXPECT_NEAR(trajectory.cost, 9.5, 1e-12);
 }
 
-TEST(AaSippMoves, WaitAfterEveryTurn) {
+TEST(AaSippMoves, WaitAfterEveryRotation) {
   PlanOptions options = lattice_only(4);
   options.wait_before_move = 1.5;
   Planning p(support::ascii_map({"###.",  //
@@ -124,23 +124,23 @@ TEST(AaSippMoves, WaitAfterEveryTurn) {
              {robot_at(0.5, 0.5).to(3.5, 2.5)}, options);
   const Trajectory trajectory = plan_first(p);
   ASSERT_EQ(trajectory.moves.size(), 2u);
-  EXPECT_NEAR(trajectory.moves[1].t_start, 1.5 + 3.0 + 1.0 + 1.5, 1e-12) << "wait, go, turn, wait";
+  EXPECT_NEAR(trajectory.moves[1].t_start, 1.5 + 3.0 + 1.0 + 1.5, 1e-12) << "wait, translate, rotate, wait";
   EXPECT_NEAR(trajectory.cost, 9.0, 1e-12);
 }
 
-TEST(AaSippMoves, CountAWaitForAnotherRobotAsTheirOwn) {
+TEST(AaSippMoves, WaitForAnotherRobotCountsAsAddedWait) {
   PlanOptions options;
   options.wait_before_move = 2.0;
   Planning p(OccupancyGrid(10, 1, 1.0), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(1.5, 0.5).to(9.5, 0.5)},
              options);
   p.state.follow(1, through({{1.5, 0.5}, {9.5, 0.5}}, 7.0));
-  EXPECT_NEAR(plan_first(p).cost, 11.8, 1e-8) << "0.2 m behind the other one, which leaves at t = 7";
+  EXPECT_NEAR(plan_first(p).cost, 11.8, 1e-8) << "0.2 m behind the other robot, which leaves at t = 7";
 }
 
-/// Robot 0 goes from x = 1.5 to x = 5.5 through a stream of others, of radius 0.3 like itself, that cross its
-/// way upwards: each at the given x and time.
-Planning through_a_stream(const std::vector<std::pair<double, double>>& crossings,
-                          const PlanOptions& options) {
+/// Robot 0 translates from x = 1.5 to x = 5.5. The others cross its path upwards, each at the given x and
+/// time. All have radius 0.3.
+Planning with_crossing_robots(const std::vector<std::pair<double, double>>& crossings,
+                              const PlanOptions& options) {
   constexpr double kRow = 30.5;
   std::vector<Robot> robots{robot_at(1.5, kRow).to(5.5, kRow).radius(0.3)};
   for (const auto& [x, t] : crossings) {
@@ -149,22 +149,22 @@ Planning through_a_stream(const std::vector<std::pair<double, double>>& crossing
   return Planning(OccupancyGrid(8, 62, 1.0), robots, options);
 }
 
-TEST(AaSippMoves, GoOnAtOnceWhereWhoCameEarlierWouldHaveToWait) {
+TEST(AaSippMoves, LaterArrivalContinuesStraightIfEarlierOneMustWait) {
   PlanOptions options = lattice_only(4);
   options.wait_before_move = 10.0;
-  // Beyond x = 3.5 the way is free for who leaves it at about 15.35 s, and then only after 22 s. Who is there
-  // at 12 s and stops for its wait is too late.
+  // Beyond x = 3.5 the path is free for a departure from there at about 15.35 s, and then only after 22 s. A
+  // robot that arrives there at 12 s and makes the added wait is too late.
   const std::vector<std::pair<double, double>> crossings{{2.5, 13.5}, {4.2, 12.2}, {4.2, 13.65}, {4.2, 15.05},
                                                          {4.2, 17.1}, {4.2, 18.7}, {4.2, 20.3},  {4.2, 21.9}};
-  Planning p = through_a_stream(crossings, options);
+  Planning p = with_crossing_robots(crossings, options);
   for (std::size_t k = 1; k < p.instance.size(); ++k) {
     const auto& robot = p.instance.robot(k);
     p.state.follow(k, through({robot.start.position, robot.goal->position}));
   }
-  EXPECT_NEAR(plan_first(p).cost, 13.5 + 0.6 * std::sqrt(2.0) + 3.0, 1e-6) << "close behind the first one";
+  EXPECT_NEAR(plan_first(p).cost, 13.5 + 0.6 * std::sqrt(2.0) + 3.0, 1e-6) << "close behind the first robot";
 }
 
-TEST(AaSippMoves, AreSpreadOverTimeBySlowTurns) {
+TEST(AaSippMoves, SlowRotationDelaysDeparture) {
   Planning p(OccupancyGrid(10, 10, 1.0), {robot_at(1.5, 1.5, kPi).to(4.5, 1.5).speeds(1.0, 0.1)});
   EXPECT_NEAR(plan_first(p).cost, 3.0 + 10.0 * kPi, 1e-9);
 }

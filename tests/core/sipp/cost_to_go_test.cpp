@@ -16,10 +16,10 @@ using support::robot_at;
 
 constexpr double kPi = std::numbers::pi;
 
-/// The robot's estimate from its start.
+/// The estimate for robot 0 from its start.
 CostToGo::Estimate from_start(Planning& p, const StopCondition& stop = {}) {
   const Vertices vertices(p.instance, 0);
-  CostToGo cost_to_go(p.instance, 0, vertices);
+  CostToGo cost_to_go(vertices);
   return cost_to_go.from(vertices.start(), stop);
 }
 
@@ -29,23 +29,23 @@ OccupancyGrid wall() {
                              "..#.."});
 }
 
-TEST(CostToGo, IsAStraightLineInTheOpen) {
+TEST(CostToGo, EqualsStraightLineWithoutObstacles) {
   Planning p(OccupancyGrid(10, 10, 1.0), {robot_at(1.5, 1.5, 2.0).to(5.2, 6.3).speeds(2.0, 1.0)});
   const auto estimate = from_start(p);
   EXPECT_TRUE(estimate.straight);
-  EXPECT_DOUBLE_EQ(estimate.seconds, std::hypot(3.7, 4.8) / 2.0) << "without the turn at the start";
+  EXPECT_DOUBLE_EQ(estimate.seconds, std::hypot(3.7, 4.8) / 2.0) << "without the rotation at the start";
   EXPECT_DOUBLE_EQ(estimate.heading, std::atan2(4.8, 3.7));
 }
 
-TEST(CostToGo, CountsTheTurnAtTheGoalAndTheWaitBeforeTheMove) {
+TEST(CostToGo, IncludesGoalRotationAndAddedWait) {
   PlanOptions options;
   options.wait_before_move = 1.5;
   Planning p(OccupancyGrid(10, 10, 1.0), {robot_at(1.5, 1.5).to(5.5, 1.5, -2.0).speeds(1.0, 1.0)}, options);
   EXPECT_DOUBLE_EQ(from_start(p).seconds, 4.0 + 2.0 + 1.5);
 }
 
-TEST(CostToGo, GoesRoundAWallAlongTheLattice) {
-  // Up 2 m, right 2 m, down 2 m, with two quarter turns of a second each.
+TEST(CostToGo, GoesAroundWallAlongLattice) {
+  // Up 2 m, right 2 m, down 2 m, with two quarter turns of one second each.
   Planning p(wall(), {robot_at(1.5, 0.5).to(3.5, 0.5, -kPi / 2).radius(0.5)});
   const auto estimate = from_start(p);
   EXPECT_FALSE(estimate.straight);
@@ -53,7 +53,7 @@ TEST(CostToGo, GoesRoundAWallAlongTheLattice) {
   EXPECT_NEAR(estimate.heading, kPi / 2, 1e-12);
 }
 
-TEST(CostToGo, TakesLatticeMovesOnlyWithoutAnyAngle) {
+TEST(CostToGo, UsesOnlyLatticeMovesWithoutAnyAngle) {
   PlanOptions options;
   options.any_angle = false;
   options.connectivity = 4;
@@ -63,7 +63,7 @@ TEST(CostToGo, TakesLatticeMovesOnlyWithoutAnyAngle) {
   EXPECT_GE(estimate.seconds, 7.0 + 1.0) << "4 right, 3 up, a quarter turn";
 }
 
-TEST(CostToGo, IsForeverWhereThereIsNoWay) {
+TEST(CostToGo, IsInfiniteIfGoalIsUnreachable) {
   const OccupancyGrid closed = support::ascii_map({"..#..",  //
                                                    "..#..",  //
                                                    "..#.."});
@@ -74,25 +74,25 @@ TEST(CostToGo, IsForeverWhereThereIsNoWay) {
   EXPECT_EQ(from_start(wide).seconds, kForever) << "too wide for the gap above the wall";
 }
 
-TEST(CostToGo, IsAStraightLinesWhenItIsStopped) {
+TEST(CostToGo, EqualsStraightLineWhenStopped) {
   Planning p(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5)});
   EXPECT_GT(from_start(p).seconds, 90.0);
   EXPECT_NEAR(from_start(p, met()).seconds, std::hypot(27.0, 8.0), 1e-9);
 }
 
-TEST(CostToGo, IsTheSameInWhateverOrderVerticesAreAskedFor) {
+TEST(CostToGo, DoesNotDependOnOrderOfQueries) {
   Planning p(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5)});
   const Vertices vertices(p.instance, 0);
-  CostToGo asked_once(p.instance, 0, vertices);
-  const auto last = asked_once.from(vertices.start(), p.never);
-  CostToGo asked_often(p.instance, 0, vertices);
+  CostToGo queried_once(vertices);
+  const auto last = queried_once.from(vertices.start(), p.never);
+  CostToGo queried_often(vertices);
   for (int v = vertices.count() - 1; v >= 0; --v) {
-    if (v != vertices.goal()) asked_often.from(v, p.never);
+    if (v != vertices.goal()) queried_often.from(v, p.never);
   }
-  EXPECT_EQ(asked_often.from(vertices.start(), p.never).seconds, last.seconds);
+  EXPECT_EQ(queried_often.from(vertices.start(), p.never).seconds, last.seconds);
 }
 
-TEST(CostToGo, IsNeverBelowTheLowerBoundOnRandomProblems) {
+TEST(CostToGo, IsAtLeastLowerBoundOnRandomProblems) {
   const std::uint64_t seed = 31;
   support::Dice dice(seed);
   for (int k = 0; k < 200; ++k) {

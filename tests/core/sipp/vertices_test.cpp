@@ -20,7 +20,7 @@ std::vector<int> neighbours(const Vertices& vertices, int vertex) {
   return all;
 }
 
-TEST(Vertices, AreTheLatticesWhereStartAndGoalAreCellCentres) {
+TEST(Vertices, AddsNoneIfStartAndGoalAreOnLattice) {
   const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.5, 2.5).to(6.5, 4.5)});
   const Vertices vertices(p.instance, 0);
   EXPECT_EQ(vertices.count(), 48);
@@ -29,7 +29,7 @@ TEST(Vertices, AreTheLatticesWhereStartAndGoalAreCellCentres) {
   EXPECT_EQ(neighbours(vertices, 17).size(), 8u);
 }
 
-TEST(Vertices, HaveOwnOnesWhereStartAndGoalLieOffTheLattice) {
+TEST(Vertices, AddsStartAndGoalOffLattice) {
   const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.2, 2.7).to(6.51, 4.5)});
   const Vertices vertices(p.instance, 0);
   EXPECT_EQ(vertices.count(), 50);
@@ -39,19 +39,19 @@ TEST(Vertices, HaveOwnOnesWhereStartAndGoalLieOffTheLattice) {
   EXPECT_EQ(vertices.position(49), Position(6.51, 4.5));
 }
 
-TEST(Vertices, AreOneWhereStartAndGoalAreTheSame) {
+TEST(Vertices, SharesOneVertexForEqualStartAndGoal) {
   const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.2, 2.7).to(1.2, 2.7, 1.0)});
   const Vertices vertices(p.instance, 0);
   EXPECT_EQ(vertices.start(), vertices.goal());
   EXPECT_EQ(vertices.count(), 49);
 }
 
-TEST(Vertices, OfAParkedRobotHaveNoGoal) {
+TEST(Vertices, HasNoGoalForParkedRobot) {
   const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.2, 2.7)});
   EXPECT_EQ(Vertices(p.instance, 0).goal(), -1);
 }
 
-TEST(Vertices, JoinANearbyStartAndGoalDirectly) {
+TEST(Vertices, LinksNearbyStartAndGoalDirectly) {
   const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.2, 2.7).to(2.3, 3.1)});
   const Vertices vertices(p.instance, 0);
   const auto from_start = neighbours(vertices, vertices.start());
@@ -60,7 +60,7 @@ TEST(Vertices, JoinANearbyStartAndGoalDirectly) {
   EXPECT_TRUE(std::binary_search(from_goal.begin(), from_goal.end(), vertices.start()));
 }
 
-TEST(Vertices, DoNotJoinAStartAndGoalOutOfSight) {
+TEST(Vertices, DoesNotLinkStartAndGoalOutOfSight) {
   const Planning p(support::ascii_map({"...",  //
                                        "###",  //
                                        "..."}),
@@ -69,7 +69,7 @@ TEST(Vertices, DoNotJoinAStartAndGoalOutOfSight) {
   EXPECT_EQ(neighbours(vertices, vertices.start()), (std::vector<int>{0, 1, 2}));
 }
 
-TEST(Vertices, LinkOwnOnesToAllOfTheLatticeInSightWithinTwoCellsAndBack) {
+TEST(Vertices, LinksOwnVerticesBothWaysWithLatticeInSightWithinTwoCells) {
   const std::uint64_t seed = 23;
   support::Dice dice(seed);
   for (int k = 0; k < 60; ++k) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// A problem with everything that the search needs around it.
+// A problem with its instance and plan state, ready for searches.
 
 #include <string>
 #include <utility>
@@ -19,7 +19,7 @@
 
 namespace fleetplan::core {
 
-/// An exact search: it accepts no suboptimal cost.
+/// Limits for a search with exact dominance that returns the cheapest path that it can find.
 inline constexpr SearchLimits kExact{
     .heuristic_weight = 1.0, .suboptimality = 0.0, .suboptimality_growth = 0.0, .dominance_slack = 0.0};
 
@@ -56,7 +56,7 @@ inline StopCondition met() {
   return StopCondition(StopCondition::Clock::time_point::max(), source.get_token());
 }
 
-/// Straight moves through these points at 1 m/s, without waits after the first departure.
+/// Straight moves through these points at 1 m/s without waits in between; the first departs at `departure`.
 inline Trajectory through(const std::vector<Position>& points, double departure = 0.0) {
   Trajectory trajectory{points.front(), {}, departure};
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -67,7 +67,7 @@ inline Trajectory through(const std::vector<Position>& points, double departure 
   return trajectory;
 }
 
-/// One winding path, 28 m x 9 m, that takes every search long to find.
+/// A single long path back and forth, 28 m x 9 m.
 inline OccupancyGrid maze() {
   return support::ascii_map({"............................",  //
                              "............................",  //

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/geometry/angle.h"
+
+namespace fleetplan::core {
+
+/// How one robot moves, with the plan's options applied.
+struct Motion {
+  double radius = 0.0;            // metres, inflation included
+  double linear_speed = 0.0;      // metres per second
+  double angular_speed = 0.0;     // radians per second
+  double wait_before_move = 0.0;  // seconds
+
+  double translation_time(double distance) const { return distance / linear_speed; }
+  /// Seconds to turn from one normalised heading to another, the shorter way.
+  double rotation_time(double from, double to) const { return angle_between(from, to) / angular_speed; }
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,97 @@
+#include "core/reservation/segment_index.h"
+
+#include <cmath>
+#include <utility>
+
+namespace fleetplan::core {
+namespace {
+
+/// More classes cost memory and commit time, fewer cost longer bucket lists.
+constexpr std::size_t kMaxLayers = 6;
+/// Buckets of all layers together, to bound memory on huge maps.
+constexpr double kMaxBuckets = 1.5e6;
+
+/// The class radii, ascending: the distinct radii if they are few, else evenly spread quantiles.
+std::vector<double> class_radii(std::vector<double> radii) {
+  std::sort(radii.begin(), radii.end());
+  radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
+  if (radii.size() <= kMaxLayers) return radii;
+  std::vector<double> chosen;
+  for (std::size_t k = 1; k <= kMaxLayers; ++k) chosen.push_back(radii[k * radii.size() / kMaxLayers - 1]);
+  return chosen;
+}
+
+double bucket_size(double width, double height, double cell_size, const std::vector<double>& radii) {
+  std::vector<double> sorted = radii;
+  std::sort(sorted.begin(), sorted.end());
+  const double typical = sorted.empty() ? cell_size : sorted[sorted.size() / 2];
+  const auto layers = static_cast<double>(class_radii(radii).size());
+  return std::max({cell_size, typical, std::sqrt(width * height * layers / kMaxBuckets)});
+}
+
+}  // namespace
+
+SegmentIndex::SegmentIndex(double width, double height, double cell_size, std::vector<double> radii)
+    : radii_(std::move(radii)),
+      grid_(width, height, bucket_size(width, height, cell_size, radii_)),
+      layer_of_(radii_.size()),
+      held_(radii_.size()),
+      ignored_(radii_.size(), 0) {
+  const std::vector<double> classes = class_radii(radii_);
+  for (const double radius : classes) layers_.push_back({radius, std::vector<Bucket>(grid_.count())});
+  for (std::size_t i = 0; i < radii_.size(); ++i) {
+    const auto it = std::lower_bound(classes.begin(), classes.end(), radii_[i]);
+    layer_of_[i] = static_cast<std::size_t>(it - classes.begin());
+  }
+}
+
+SegmentIndex::DiskId SegmentIndex::store(std::size_t robot, const TimedSegment& segment) {
+  const Occupant occupant{MovingDisk(segment), radii_[robot], robot};
+  if (vacant_.empty()) return occupants_.push_back(occupant);
+  const DiskId id = vacant_.back();
+  vacant_.pop_back();
+  occupants_[id] = occupant;
+  return id;
+}
+
+void SegmentIndex::enter(Layer& layer, DiskId id) {
+  const Occupant& occupant = occupants_[id];
+  const bool endless = occupant.disk.t_end == kForever;
+  grid_.cover(
+      occupant.disk, occupant.radius + layer.radius, [&](std::size_t index, double t_begin, double t_end) {
+        Bucket& bucket = layer.buckets[index];
+        if (endless) {
+          bucket.resting.push_back(id);
+          return;
+        }
+        const auto later = std::upper_bound(bucket.passing.begin(), bucket.passing.end(), t_begin,
+                                            [](double t, const Entry& entry) { return t < entry.t_begin; });
+        bucket.passing.insert(later, {t_begin, t_end, id});
+        bucket.longest = std::max(bucket.longest, t_end - t_begin);
+      });
+}
+
+void SegmentIndex::add(std::size_t robot, const std::vector<TimedSegment>& segments) {
+  for (const TimedSegment& segment : segments) {
+    const DiskId id = store(robot, segment);
+    held_[robot].push_back(id);
+    for (Layer& layer : layers_) enter(layer, id);
+  }
+}
+
+void SegmentIndex::remove(std::size_t robot) {
+  for (const DiskId id : held_[robot]) {
+    const Occupant& occupant = occupants_[id];
+    for (Layer& layer : layers_) {
+      grid_.cover(occupant.disk, occupant.radius + layer.radius, [&](std::size_t index, double, double) {
+        Bucket& bucket = layer.buckets[index];
+        std::erase(bucket.resting, id);
+        std::erase_if(bucket.passing, [id](const Entry& entry) { return entry.id == id; });
+      });
+    }
+    vacant_.push_back(id);
+  }
+  held_[robot].clear();
+}
+
+}  // namespace fleetplan::core

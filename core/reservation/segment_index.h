@@ -1,0 +1,98 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "core/geometry/disk_motion.h"
+#include "core/geometry/segment.h"
+#include "core/reservation/bucket_grid.h"
+#include "core/runtime/indexed_vector.h"
+
+namespace fleetplan::core {
+
+/// The timed segments of robots, indexed in space and time.
+///
+/// Robots are sorted into a few classes of radii. For each class there is a layer of buckets. A segment is
+/// entered into every bucket of a layer where it could touch a robot of that class, with the time window in
+/// which it could. A query therefore only visits the buckets on its own centre line, and there only entries
+/// of the right time, however long the source interval is.
+class SegmentIndex {
+ public:
+  /// A robot on one of its segments.
+  struct Occupant {
+    MovingDisk disk;
+    double radius = 0.0;
+    std::size_t robot = 0;
+  };
+
+  /// As for ReservationTable.
+  SegmentIndex(double width, double height, double cell_size, std::vector<double> radii);
+
+  double radius(std::size_t robot) const { return radii_[robot]; }
+  const BucketGrid& grid() const { return grid_; }
+
+  void add(std::size_t robot, const std::vector<TimedSegment>& segments);
+  /// Removes all segments of a robot.
+  void remove(std::size_t robot);
+  /// Visits leave out the segments of an ignored robot.
+  void ignore(std::size_t robot, bool ignored) { ignored_[robot] = ignored; }
+
+  /// Calls visit(occupant) for everything in this bucket of the grid that could touch `robot` there within
+  /// the open time window, until it returns false. Returns whether it never did.
+  template <class Visit>
+  bool visit(std::size_t robot, std::size_t bucket, double t_begin, double t_end, Visit&& visit) const {
+    return visit_bucket(layers_[layer_of_[robot]].buckets[bucket], t_begin, t_end, visit);
+  }
+
+ private:
+  /// Shorter lists are scanned from the front.
+  static constexpr std::size_t kShortList = 16;
+
+  enum class DiskId : int {};
+  struct Entry {
+    double t_begin;
+    double t_end;
+    DiskId id;
+  };
+  struct Bucket {
+    std::vector<Entry> passing;   // by t_begin
+    std::vector<DiskId> resting;  // without end
+    double longest = 0.0;         // the longest duration of an entry that was ever in `passing`
+  };
+  struct Layer {
+    double radius;  // of the largest robot in the class
+    std::vector<Bucket> buckets;
+  };
+
+  DiskId store(std::size_t robot, const TimedSegment& segment);
+  void enter(Layer& layer, DiskId id);
+
+  template <class Visit>
+  bool visit_bucket(const Bucket& bucket, double t_begin, double t_end, Visit& visit) const {
+    const auto pass = [&](const Occupant& occupant) { return ignored_[occupant.robot] || visit(occupant); };
+    for (const DiskId id : bucket.resting) {
+      if (occupants_[id].disk.t_start < t_end && !pass(occupants_[id])) return false;
+    }
+    auto entry = bucket.passing.begin();
+    if (bucket.passing.size() > kShortList) {
+      entry = std::lower_bound(bucket.passing.begin(), bucket.passing.end(), t_begin - bucket.longest,
+                               [](const Entry& e, double t) { return e.t_begin < t; });
+    }
+    for (; entry != bucket.passing.end() && entry->t_begin < t_end; ++entry) {
+      if (entry->t_end > t_begin && !pass(occupants_[entry->id])) return false;
+    }
+    return true;
+  }
+
+  std::vector<double> radii_;  // by robot
+  BucketGrid grid_;
+  std::vector<Layer> layers_;
+  std::vector<std::size_t> layer_of_;  // by robot
+  IndexedVector<Occupant, DiskId> occupants_;
+  std::vector<DiskId> vacant_;
+  std::vector<std::vector<DiskId>> held_;  // by robot
+  std::vector<char> ignored_;              // by robot; not bool, for speed
+};
+
+}  // namespace fleetplan::core
