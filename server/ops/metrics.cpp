@@ -78,7 +78,7 @@ void write_process(MetricsText& text, std::chrono::system_clock::time_point star
 }  // namespace
 
 Metrics::Metrics() {
-  for (const api::ErrorRow& row : api::error_table()) rejected_[row.name];
+  for (const api::ErrorCode code : api::error_codes()) rejected_[api::name_of(code)];
 }
 
 void Metrics::count(const Exchange& exchange) {
