@@ -7,7 +7,7 @@
 
 namespace fleetplan::api {
 
-/// The request files of tests/scenarios, by name; made at build time (embed_examples.cmake).
+/// The request files of tests/scenarios, by name; embedded at build time (embed_examples.cmake).
 std::span<const Example> embedded_examples();
 
 /// Their index.json: `[{"name", "title", "description"}]` in the order of display; empty if there is none.

@@ -7,7 +7,7 @@
 
 namespace fleetplan::api {
 
-/// A ready request of GET /v1/examples.
+/// An example request of GET /v1/examples.
 struct Example {
   std::string_view name;  // file name in tests/scenarios without .json
   std::string_view body;  // the request, JSON

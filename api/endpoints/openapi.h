@@ -7,8 +7,7 @@
 
 namespace fleetplan::api {
 
-/// The OpenAPI 3.1 document of the whole service, JSON. Its source is the folder api/openapi, joined at build
-/// time (embed_openapi.cmake).
+/// The OpenAPI 3.1 document of the whole service: api/openapi.json, embedded at build time.
 std::string_view openapi_document();
 
 /// GET /v1/openapi.json.

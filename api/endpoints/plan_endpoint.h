@@ -9,15 +9,15 @@
 
 namespace fleetplan::api {
 
-/// What plans: core::plan, or a stand-in.
+/// The planner: core::plan, or a stub in tests.
 using Planner = std::function<core::Plan(const core::Problem&, const core::PlanOptions&,
                                          const core::StopCondition&, core::Observer*)>;
 
 /// POST /v1/plan: parse -> plan -> verify -> write. Never throws for what a client sent; a plan that the
-/// checker refuses becomes a 500. What happens meanwhile is told to the context's events.
+/// checker rejects becomes a 500. Reports progress to the context's events.
 Reply plan_endpoint(std::string_view body, const RequestContext& context);
 
-/// The same with another planner.
+/// The same with any planner.
 Reply plan_with(const Planner& planner, std::string_view body, const RequestContext& context);
 
 }  // namespace fleetplan::api

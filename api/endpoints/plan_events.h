@@ -7,13 +7,13 @@
 
 namespace fleetplan::api {
 
-/// How far a request's plan has got.
+/// The progress of a request's plan.
 struct PlanProgress {
   std::size_t robots = 0;  // of the request
   core::Progress planner = {};
 };
 
-/// Takes what happens while a plan is made (`text/event-stream`). Called by the thread that plans, which
+/// Receives the events while a plan is made (`text/event-stream`). Called by the planning thread, which
 /// waits meanwhile: an implementation must not wait for a client.
 class PlanEvents {
  public:
@@ -22,14 +22,13 @@ class PlanEvents {
   PlanEvents& operator=(const PlanEvents&) = delete;
   virtual ~PlanEvents() = default;
 
-  /// The request is valid: from now on, whatever comes of it is an event. Called at most once, before the
-  /// others.
+  /// The request is valid: from now on, every outcome is an event. Called at most once, before the others.
   virtual void begin(const PlanProgress& progress) = 0;
 
-  /// The newest state, often; who comes later may forget those before.
+  /// The newest state, called often; it replaces the earlier ones.
   virtual void progress(const PlanProgress& progress) = 0;
 
-  /// A better plan was found: a whole answer, as JSON, which has passed the check.
+  /// A better plan was found: a whole answer, as JSON, whose plan has passed the check.
   virtual void incumbent(std::string answer) = 0;
 };
 

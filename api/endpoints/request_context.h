@@ -12,7 +12,7 @@
 
 namespace fleetplan::api {
 
-/// What an endpoint knows of its request beside the body.
+/// What an endpoint gets of its request beside the body.
 struct RequestContext {
   using Clock = std::chrono::steady_clock;
 
@@ -20,11 +20,11 @@ struct RequestContext {
   Clock::time_point received_at = Clock::now();  // last byte of the body in
   std::stop_token stop;                          // the client is gone or the server drains
   Limits limits;
-  core::Executor* executor = nullptr;  // of more threads than the caller's, if there are any
-  PlanEvents* events = nullptr;        // who wants to hear how a plan gets on, if anybody
+  core::Executor* executor = nullptr;  // of further threads; null: the caller's alone
+  PlanEvents* events = nullptr;        // receives the progress of a plan; may be null
 
-  /// To be called once, when the request is known to be good: returns when computing may begin or `stop` is
-  /// met, whichever comes first. Empty: at once.
+  /// Called once, when the request is known to be valid: returns when computing may begin or `stop` is met,
+  /// whichever comes first. Empty: at once.
   std::function<void(const core::StopCondition& stop)> await_turn;
 };
 

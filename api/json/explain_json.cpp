@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "api/json/text.h"
+#include "api/json/fault_text.h"
 
 namespace fleetplan::api {
 
@@ -61,7 +61,7 @@ std::string reason(std::string_view body, std::size_t start, std::size_t stop) {
   if (last < 0x20 && rest.starts_with('"'))
     return "a raw control character in a string; escape it as \\u00XX";
   if (last < 0x20 && last != '\n' && last != '\r' && last != '\t') return "a control character";
-  if (rest.starts_with('\'')) return "strings and keys want double quotes, not single ones";
+  if (rest.starts_with('\'')) return "strings and keys need double quotes, not single quotes";
   if (rest.starts_with("//") || rest.starts_with("/*") || rest.starts_with('#')) {
     return "JSON has no comments";
   }

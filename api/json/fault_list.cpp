@@ -1,33 +1,21 @@
 #include "api/json/fault_list.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace fleetplan::api {
 
 namespace {
 
-// Enough to answer with the first hundred in order; a hostile body must not make us hoard millions.
-constexpr std::size_t kMostKept = 10'000;
-constexpr std::size_t kMostBytes = 4 << 20;  // a pointer may be as long as the keys in the body
+constexpr std::size_t kMostKept = 10'000;    // many more than an answer lists
+constexpr std::size_t kMostBytes = 4 << 20;  // a pointer can be as long as the keys in the document
 
 }  // namespace
 
 bool FaultList::full() const { return placed_.size() >= kMostKept || bytes_ >= kMostBytes; }
 
-void FaultList::add(const JsonValue& value, const JsonPath& path, const char* code, std::string detail) {
-  add(value.begins(), full() ? Fault{} : Fault{path.pointer(), code, std::move(detail)});
-}
-
-void FaultList::add_missing(const JsonValue& object, const JsonPath& member, std::string detail) {
-  add(object.ends(), full() ? Fault{} : Fault{member.pointer(), fault::kMissing, std::move(detail)});
-}
-
-void FaultList::add(std::uint32_t place, Fault fault) {
-  ++count_;
-  if (full()) return;
-  bytes_ += fault.pointer.size() + fault.detail.size();
-  placed_.push_back({place, std::move(fault)});
+void FaultList::keep(Placed placed) {
+  bytes_ += placed.fault.pointer.size() + placed.fault.detail.size();
+  placed_.push_back(std::move(placed));
 }
 
 std::vector<Fault> FaultList::first(std::size_t most) const {

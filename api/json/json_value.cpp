@@ -7,7 +7,7 @@ namespace fleetplan::api {
 
 namespace {
 
-// Beyond 2^53 a double no longer tells neighbouring whole numbers apart.
+// Beyond 2^53 doubles cannot distinguish neighbouring whole numbers.
 constexpr double kLargestExactWhole = 9007199254740992.0;
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
 
-// A JSON document in memory. Beside its content every value knows its place in the document, so that faults
-// can be told in the order in which a reader meets them.
+// A JSON document in memory. Every value knows its place in the document, so that faults can be located and
+// reported in the order of the document.
 
 #include <cstddef>
 #include <cstdint>

@@ -42,7 +42,7 @@ JsonWriter& JsonWriter::value(double number) {
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size() - 2, number + 0.0).ptr;
   const std::string_view digits(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
   raw(digits);
-  // A real number stays one for clients that tell 5 from 5.0.
+  // A real number stays one for clients that distinguish 5 from 5.0.
   if (digits.find_first_of(".e") == std::string_view::npos) text_ += ".0";
   return *this;
 }

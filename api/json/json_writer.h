@@ -12,8 +12,8 @@ namespace fleetplan::api {
 template <typename T>
 concept WholeNumber = std::integral<T> && !std::same_as<T, bool>;
 
-/// Writes JSON text from front to back, without a tree in memory; commas come by themselves. Numbers are the
-/// shortest that read back the same, never -0.0; what is not finite is null.
+/// Writes JSON text from front to back, without a tree in memory; adds the commas. Numbers are the shortest
+/// that read back the same, never -0.0; non-finite numbers become null.
 class JsonWriter {
  public:
   JsonWriter& begin_object();

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "api/json/explain_json.h"
-#include "api/json/text.h"
+#include "api/json/fault_text.h"
+#include "api/json/location.h"
 
 namespace fleetplan::api {
 
@@ -138,10 +139,11 @@ bool Builder::key(Json::string_t& key) {
   const bool duplicate = came_before(frame, key);
   frame.members.keys.push_back(std::move(key));
   if (duplicate) {
-    faults_.add(clock_, faults_.full() ? Fault{}
-                                       : Fault{pointer(), fault::kDuplicate,
-                                               "The key " + in_quotes(frame.members.keys.back()) +
-                                                   " is there twice in this object; keep one of them."});
+    faults_.add(clock_, [&] {
+      return Fault{pointer(), fault::kDuplicate,
+                   "The key " + in_quotes(frame.members.keys.back()) +
+                       " occurs twice in this object; keep one of them."};
+    });
   }
   return true;
 }
@@ -182,13 +184,13 @@ std::size_t number_end(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// A body whose numbers that are too large for a double are replaced by 0, and which they were.
+/// A body in which 0 replaces the numbers that are too large for a double, and the indices of these numbers.
 struct Tamed {
   std::string body;
   std::vector<std::size_t> overflowing;
 };
 
-/// The parser stops at a number that is too large; so that it is told with all other faults, a body that
+/// The parser stops at a number that is too large; to report it together with all other faults, a body that
 /// has one is read a second time without them.
 Tamed tame_overflowing(std::string_view body) {
   Tamed tamed{std::string(body), {}};
@@ -213,25 +215,25 @@ Tamed tame_overflowing(std::string_view body) {
 
 JsonError error_of(const Builder& builder, std::string_view body, int max_depth) {
   if (builder.too_deep()) {
-    return {ErrorCode::too_deep, "The JSON nests arrays and objects deeper than the limit of " +
-                                     std::to_string(max_depth) + " levels."};
+    return {JsonError::Kind::too_deep, "The JSON nests arrays and objects deeper than the limit of " +
+                                           std::to_string(max_depth) + " levels."};
   }
   if (builder.too_many()) {
-    return {ErrorCode::invalid_request,
+    return {JsonError::Kind::too_large,
             "The JSON holds more than " + std::to_string(kMostValues) + " values, which no request needs."};
   }
-  return {ErrorCode::malformed_json, explain_malformed(body, builder.error_position())};
+  return {JsonError::Kind::malformed, explain_malformed(body, builder.error_position())};
 }
 
 }  // namespace
 
-std::variant<JsonDocument, JsonError> read_json(std::string_view body, int max_depth) {
+Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth) {
   if (body.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-    return JsonError{ErrorCode::malformed_json, "The body is empty; send the request as a JSON object."};
+    return JsonError{JsonError::Kind::malformed, "The body is empty; send the request as a JSON object."};
   }
   // The parser takes a NUL for the end of the input and would not see what follows.
   if (const std::size_t nul = body.find('\0'); nul != std::string_view::npos) {
-    return JsonError{ErrorCode::malformed_json, explain_malformed(body, nul + 1)};
+    return JsonError{JsonError::Kind::malformed, explain_malformed(body, nul + 1)};
   }
   Builder builder(max_depth, {});
   if (nlohmann::json::sax_parse(body.begin(), body.end(), &builder)) return builder.take();

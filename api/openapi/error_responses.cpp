@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "api/json/fault_list.h"
 #include "api/response/error.h"
 
 namespace fleetplan::api {
@@ -67,8 +66,8 @@ constexpr std::array<Example, 18> kExamples{{
      "application/json'."},
     {ErrorCode::invalid_request, "The request has 2 faults; see errors."},
     {ErrorCode::check_unfinished,
-     "The plans could not be checked within 5000 ms: give options.time_budget_ms more, as far as /v1/limits "
-     "allows, or send fewer robots or a part of the time."},
+     "The plans could not be checked within 5000 ms: increase options.time_budget_ms, up to max_budget_ms of "
+     "/v1/limits, or send fewer robots or a shorter part of the plans."},
     {ErrorCode::head_too_large, "There are more than 100 header fields."},
     {ErrorCode::internal_error, "A bug in the service; its log has more under this request_id."},
     {ErrorCode::overloaded, "All workers are busy and the queue is full: try again later."},

@@ -6,13 +6,13 @@
 #include <utility>
 #include <variant>
 
-#include "api/json/text.h"
+#include "api/json/fault_text.h"
 
 namespace fleetplan::api {
 
 namespace {
 
-/// Of a gap that may be as small as a nanometre: three digits that matter.
+/// With three significant digits: a gap may be as small as a nanometre.
 std::string metres(double length) {
   std::array<char, 32> buffer{};
   const auto result =
@@ -21,7 +21,7 @@ std::string metres(double length) {
 }
 
 /// The robot's id, or its number when it has none.
-std::string called(const std::vector<ReadRobot>& robots, std::size_t index) {
+std::string name_of(const std::vector<ReadRobot>& robots, std::size_t index) {
   const std::string& id = robots[index].robot.id;
   return id.empty() ? "number " + std::to_string(index) : in_quotes(id);
 }
@@ -37,47 +37,42 @@ std::string overlap(const char* poses, const std::string& earlier, const std::st
          " overlap: the gap between their disks is " + metres(gap) + "; move them apart.";
 }
 
-/// `of`: which of the robots the problem's are.
+/// `indices`: of the problem's robots in `robots`.
 void add_geometry_fault(const core::ProblemFault& found, const std::vector<ReadRobot>& robots,
-                        const std::vector<std::size_t>& of, FaultList& faults) {
+                        const std::vector<std::size_t>& indices) {
   using Kind = core::ProblemFault::Kind;
-  const std::size_t index = of[found.robot];
-  const ReadRobot& read = robots[index];
-  const std::string name = called(robots, index);
-  const auto other = [&] { return called(robots, of[found.other]); };
-  const auto add = [&](bool start, const char* code, std::string detail) {
-    const std::string pointer = "/robots/" + std::to_string(index) + (start ? "/start" : "/goal");
-    faults.add(start ? read.start_at : read.goal_at, {pointer, code, std::move(detail)});
-  };
+  const ReadRobot& read = robots[indices[found.robot]];
+  const std::string name = name_of(robots, indices[found.robot]);
+  const auto other = [&] { return name_of(robots, indices[found.other]); };
   switch (found.kind) {
     case Kind::start_in_obstacle:
-      return add(true, fault::kStartInObstacle, in_obstacle("start", name, read.robot.radius, found.gap));
+      return read.start.fault(fault::kStartInObstacle,
+                              in_obstacle("start", name, read.robot.radius, found.gap));
     case Kind::goal_in_obstacle:
-      return add(false, fault::kGoalInObstacle, in_obstacle("goal", name, read.robot.radius, found.gap));
+      return read.goal.fault(fault::kGoalInObstacle, in_obstacle("goal", name, read.robot.radius, found.gap));
     case Kind::starts_overlap:
-      return add(true, fault::kStartsOverlap, overlap("starts", other(), name, found.gap));
+      return read.start.fault(fault::kStartsOverlap, overlap("starts", other(), name, found.gap));
     case Kind::goals_overlap:
-      return add(false, fault::kGoalsOverlap, overlap("goals", other(), name, found.gap));
+      return read.goal.fault(fault::kGoalsOverlap, overlap("goals", other(), name, found.gap));
   }
 }
 
 }  // namespace
 
-std::optional<core::Problem> make_problem(core::OccupancyGrid grid, std::vector<ReadRobot> robots,
-                                          FaultList& faults) {
+std::optional<core::Problem> make_problem(core::OccupancyGrid grid, std::vector<ReadRobot> robots) {
   std::vector<core::Robot> placed;
-  std::vector<std::size_t> of;
+  std::vector<std::size_t> indices;
   for (std::size_t index = 0; index < robots.size(); ++index) {
     if (!robots[index].placed) continue;
     placed.push_back(robots[index].robot);
-    of.push_back(index);
+    indices.push_back(index);
   }
   auto made = core::Problem::create(std::move(grid), std::move(placed));
-  if (const auto* found = std::get_if<std::vector<core::ProblemFault>>(&made)) {
-    for (const core::ProblemFault& one : *found) add_geometry_fault(one, robots, of, faults);
+  if (auto* problem = std::get_if<core::Problem>(&made)) return std::move(*problem);
+  for (const auto& found : std::get<std::vector<core::ProblemFault>>(made)) {
+    add_geometry_fault(found, robots, indices);
   }
-  if (!faults.empty()) return std::nullopt;
-  return std::get<core::Problem>(std::move(made));
+  return std::nullopt;
 }
 
 }  // namespace fleetplan::api

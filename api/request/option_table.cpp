@@ -3,6 +3,8 @@
 #include <array>
 #include <limits>
 
+#include "api/request/ranges.h"
+
 namespace fleetplan::api {
 
 namespace {

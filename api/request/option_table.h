@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "api/json/read_value.h"
+#include "api/json/json_reader.h"
 #include "core/model/plan_options.h"
 
 namespace fleetplan::api {

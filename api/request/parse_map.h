@@ -3,9 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "api/json/fault_list.h"
-#include "api/json/json_path.h"
-#include "api/json/json_value.h"
+#include "api/json/json_reader.h"
 #include "api/request/world_frame.h"
 #include "core/map/occupancy_grid.h"
 
@@ -18,8 +16,7 @@ struct WorldMap {
 };
 
 /// Reads the member `map`: rows from the top, `.` and `G` free, `#`, `@`, `O`, `T`, `W` blocked, at most
-/// `max_cells` of them. Nothing, and faults, when it is no map.
-std::optional<WorldMap> parse_map(const JsonValue& value, const JsonPath& path, std::int64_t max_cells,
-                                  FaultList& faults);
+/// `max_cells` cells. Nothing when it has a fault.
+std::optional<WorldMap> parse_map(const JsonReader& member, std::int64_t max_cells);
 
 }  // namespace fleetplan::api

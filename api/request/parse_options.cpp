@@ -1,113 +1,109 @@
 #include "api/request/parse_options.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
-#include <limits>
+#include <string>
 #include <string_view>
-#include <utility>
+#include <variant>
+#include <vector>
 
-#include "api/json/object_reader.h"
-#include "api/json/text.h"
+#include "api/json/fault_text.h"
 
 namespace fleetplan::api {
 
 namespace {
 
-using core::PlanOptions;
+/// "4, 8, 16 or 32".
+std::string alternatives(std::span<const int> values) {
+  std::string text;
+  for (std::size_t index = 0; index < values.size(); ++index) {
+    if (index > 0) text += index + 1 == values.size() ? " or " : ", ";
+    text += std::to_string(values[index]);
+  }
+  return text;
+}
 
-constexpr std::array<std::string_view, 12> kMembers{
-    "time_budget_ms",      "mode",      "objective",        "seed",      "priority",     "reordering",
-    "start_safe_interval", "inflation", "wait_before_move", "any_angle", "connectivity", "max_iterations"};
+/// Reads one member into the options, according to its row in the table.
+class OptionReader {
+ public:
+  explicit OptionReader(const JsonReader& options) : json_(options) {}
 
-constexpr std::pair<std::string_view, PlanOptions::Mode> kModes[] = {{"first", PlanOptions::Mode::first},
-                                                                     {"anytime", PlanOptions::Mode::anytime}};
-constexpr std::pair<std::string_view, PlanOptions::Objective> kObjectives[] = {
-    {"flowtime", PlanOptions::Objective::flowtime}, {"makespan", PlanOptions::Objective::makespan}};
-constexpr std::pair<std::string_view, PlanOptions::Priority> kPriorities[] = {
-    {"shortest_first", PlanOptions::Priority::shortest_first},
-    {"longest_first", PlanOptions::Priority::longest_first},
-    {"as_listed", PlanOptions::Priority::as_listed},
-    {"random", PlanOptions::Priority::random}};
-constexpr std::pair<std::string_view, PlanOptions::Reordering> kReorderings[] = {
-    {"raise_failed", PlanOptions::Reordering::raise_failed},
-    {"random", PlanOptions::Reordering::random},
-    {"none", PlanOptions::Reordering::none}};
-constexpr std::array<std::uint64_t, 4> kConnectivities{4, 8, 16, 32};
+  void read(const OptionRow& row) {
+    const JsonReader member = json_.find(row.name);
+    if (member) std::visit([&](const auto& option) { read(option, member); }, row.type);
+  }
+  ReadOptions options() const { return options_; }
 
-// Longer ones are clamped to the server's anyway.
-constexpr Range kBudget{1.0, std::numeric_limits<double>::max(), "milliseconds"};
+ private:
+  template <typename Value>
+  void set(Value core::PlanOptions::*field, const std::optional<Value>& value) {
+    if (value) options_.plan.*field = *value;
+  }
+  void read(const RealOption& option, const JsonReader& member) {
+    set(option.field, member.number(option.range));
+  }
+  void read(const ServiceOption& option, const JsonReader& member) {
+    options_.*option.field = member.number(option.range);
+  }
+  void read(const NaturalOption& option, const JsonReader& member) {
+    set(option.field, member.natural(option.most));
+  }
+  void read(const BoundOption& option, const JsonReader& member) {
+    if (member.is_null()) return;
+    if (const auto bound = member.natural(option.most)) {
+      options_.plan.*option.field = static_cast<std::int64_t>(*bound);
+    }
+  }
+  void read(const BooleanOption& option, const JsonReader& member) { set(option.field, member.boolean()); }
+  void read(const CountOption& option, const JsonReader& member);
+  void read(const WordOption& option, const JsonReader& member);
 
-template <typename Choice, std::size_t kCount>
-void choose(const ObjectReader& reader, std::string_view key,
-            const std::pair<std::string_view, Choice> (&choices)[kCount], Choice& chosen, FaultList& faults) {
-  if (const JsonValue* member = reader.find(key)) {
-    chosen = read_choice(*member, reader.path(key), choices, faults).value_or(chosen);
+  JsonReader json_;
+  ReadOptions options_;
+};
+
+void OptionReader::read(const CountOption& option, const JsonReader& member) {
+  const auto natural = member.natural();
+  const auto same = [&](int value) { return natural && *natural == static_cast<std::uint64_t>(value); };
+  const auto found = std::find_if(option.values.begin(), option.values.end(), same);
+  if (found != option.values.end()) {
+    options_.plan.*option.field = *found;
+  } else {
+    member.must_be(member.is_number() ? fault::kOutOfRange : fault::kWrongType, alternatives(option.values));
   }
 }
 
-int parse_connectivity(const JsonValue& value, const JsonPath& path, FaultList& faults) {
-  const auto natural = value.natural();
-  if (natural &&
-      std::find(kConnectivities.begin(), kConnectivities.end(), *natural) != kConnectivities.end()) {
-    return static_cast<int>(*natural);
-  }
-  faults.add(value, path, value.number() ? fault::kOutOfRange : fault::kWrongType,
-             "connectivity must be 4, 8, 16 or 32, not " + described(value) + ".");
-  return PlanOptions{}.connectivity;
-}
-
-void parse_max_iterations(const ObjectReader& reader, ReadOptions& options, FaultList& faults) {
-  const JsonValue* member = reader.find("max_iterations");
-  if (member == nullptr || member->is_null()) return;
-  constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  const auto iterations = read_natural(*member, reader.path("max_iterations"), kMost, faults);
-  if (!iterations) return;
-  options.plan.max_iterations = static_cast<std::int64_t>(*iterations);
-  if (options.plan.mode == PlanOptions::Mode::first) {
-    options.warnings.emplace_back("max_iterations has no effect: it bounds the mode \"anytime\" only.");
-  }
+void OptionReader::read(const WordOption& option, const JsonReader& member) {
+  std::vector<std::string_view> words;
+  for (const WordOption::Word& word : option.words) words.push_back(word.name);
+  if (const auto index = member.word(words)) option.set(options_.plan, *index);
 }
 
 }  // namespace
 
-ReadOptions parse_options(const JsonValue& value, const JsonPath& path, FaultList& faults) {
-  ReadOptions options;
-  PlanOptions& plan = options.plan;
-  const ObjectReader reader(value, path, kMembers, faults);
-  if (const JsonValue* budget = reader.find("time_budget_ms")) {
-    options.budget_ms = read_number(*budget, reader.path("time_budget_ms"), kBudget, faults);
+ReadOptions parse_options(const JsonReader& member) {
+  std::vector<std::string_view> names;
+  for (const OptionRow& row : option_table()) names.push_back(row.name);
+  OptionReader reader(member.object(names));
+  for (const OptionRow& row : option_table()) reader.read(row);
+  ReadOptions options = reader.options();
+  if (options.plan.max_iterations && options.plan.mode == core::PlanOptions::Mode::first) {
+    options.warnings.emplace_back("max_iterations has no effect: it bounds the mode \"anytime\" only.");
   }
-  choose(reader, "mode", kModes, plan.mode, faults);
-  choose(reader, "objective", kObjectives, plan.objective, faults);
-  if (const JsonValue* seed = reader.find("seed")) {
-    constexpr auto kMost = std::numeric_limits<std::uint64_t>::max();
-    plan.seed = read_natural(*seed, reader.path("seed"), kMost, faults).value_or(plan.seed);
-  }
-  choose(reader, "priority", kPriorities, plan.priority, faults);
-  choose(reader, "reordering", kReorderings, plan.reordering, faults);
-  plan.start_safe_interval = reader.number_or("start_safe_interval", kDuration, plan.start_safe_interval);
-  plan.inflation = reader.number_or("inflation", kLengthOrZero, plan.inflation);
-  plan.wait_before_move = reader.number_or("wait_before_move", kDuration, plan.wait_before_move);
-  if (const JsonValue* any_angle = reader.find("any_angle")) {
-    plan.any_angle = read_boolean(*any_angle, reader.path("any_angle"), faults).value_or(plan.any_angle);
-  }
-  if (const JsonValue* connectivity = reader.find("connectivity")) {
-    plan.connectivity = parse_connectivity(*connectivity, reader.path("connectivity"), faults);
-  }
-  parse_max_iterations(reader, options, faults);
   return options;
 }
 
-std::chrono::nanoseconds effective_budget(ReadOptions& options, const Limits& limits) {
-  const auto most = static_cast<double>(limits.max_budget_ms);
+std::chrono::nanoseconds effective_budget(const ReadOptions& options, const Limits& limits) {
   const double wanted = options.budget_ms.value_or(static_cast<double>(limits.default_budget_ms));
-  if (options.budget_ms && wanted > most) {
-    options.warnings.push_back("time_budget_ms was clamped from " + number_text(wanted) + " to " +
-                               std::to_string(limits.max_budget_ms) + ", the most that this service grants.");
-  }
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
-      std::chrono::duration<double, std::milli>(std::min(wanted, most)));
+      std::chrono::duration<double, std::milli>(std::min(wanted, static_cast<double>(limits.max_budget_ms))));
+}
+
+std::optional<std::string> budget_warning(const ReadOptions& options, const Limits& limits) {
+  if (!options.budget_ms || *options.budget_ms <= static_cast<double>(limits.max_budget_ms)) {
+    return std::nullopt;
+  }
+  return "time_budget_ms was clamped from " + number_text(*options.budget_ms) + " to " +
+         std::to_string(limits.max_budget_ms) + ", the maximum of this service.";
 }
 
 }  // namespace fleetplan::api

@@ -1,20 +1,22 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
+#include <string>
 
-#include "api/json/fault_list.h"
-#include "api/json/json_path.h"
-#include "api/json/json_value.h"
+#include "api/json/json_reader.h"
 #include "api/request/limits.h"
 #include "api/request/option_table.h"
 
 namespace fleetplan::api {
 
-/// Reads `options`; what is left out has its default.
-ReadOptions parse_options(const JsonValue& value, const JsonPath& path, FaultList& faults);
+/// Reads the member `options`, by the table of options; what is left out has its default.
+ReadOptions parse_options(const JsonReader& member);
 
-/// The smaller of the budget that the options want, or the default one, and the service's largest. Where that
-/// is less than was wanted, it adds a warning.
-std::chrono::nanoseconds effective_budget(ReadOptions& options, const Limits& limits);
+/// The requested budget, or the default one, but at most the service's maximum.
+std::chrono::nanoseconds effective_budget(const ReadOptions& options, const Limits& limits);
+
+/// The warning of a budget that is less than requested.
+std::optional<std::string> budget_warning(const ReadOptions& options, const Limits& limits);
 
 }  // namespace fleetplan::api

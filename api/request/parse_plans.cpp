@@ -8,65 +8,53 @@
 #include <unordered_set>
 #include <utility>
 
-#include "api/json/object_reader.h"
-#include "api/json/text.h"
+#include "api/json/fault_text.h"
+#include "api/request/ranges.h"
 #include "core/geometry/angle.h"
 
 namespace fleetplan::api {
 
 namespace {
 
-// `lower_bound` is of an answer of /v1/plan, and nobody reads it here.
+// `lower_bound` belongs to an answer of /v1/plan and is ignored.
 constexpr std::array<std::string_view, 4> kMembers{"robot", "cost", "lower_bound", "actions"};
 constexpr std::array<std::string_view, 5> kActionMembers{"type", "t_start", "t_end", "from", "to"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
+constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};  // as in core::Action::Type
 
-constexpr std::pair<std::string_view, core::Action::Type> kTypes[] = {
-    {"rotate", core::Action::Type::rotate},
-    {"translate", core::Action::Type::translate},
-    {"wait", core::Action::Type::wait}};
+// Any finite time: a plan that begins before 0 is a violation to report, not a fault of the request.
+constexpr Range kTime{-1e30, 1e30, "seconds"};
 
-// Any moment that is a number will do: a plan that begins before 0 is judged, not refused.
-constexpr Range kMoment{-1e30, 1e30, "seconds"};
-
-core::Pose parse_pose(const ObjectReader& action, std::string_view key, const WorldFrame& frame,
-                      FaultList& faults) {
-  const JsonValue* member = action.require(key);
-  if (member == nullptr) return {};
-  const JsonPath path = action.path(key);
-  const ObjectReader reader(*member, path, kPoseMembers, faults);
-  const double x = reader.require_number("x", kCoordinate).value_or(0.0);
-  const double y = reader.require_number("y", kCoordinate).value_or(0.0);
-  const double theta = reader.require_number("theta", kAnyAngle).value_or(0.0);
+core::Pose parse_pose(const JsonReader& member, const WorldFrame& frame) {
+  const JsonReader pose = member.object(kPoseMembers);
+  const double x = pose.require("x").number(kCoordinate).value_or(0.0);
+  const double y = pose.require("y").number(kCoordinate).value_or(0.0);
+  const double theta = pose.require("theta").number(kAnyAngle).value_or(0.0);
   return {frame.to_map({x, y}), core::normalize_angle(theta)};
 }
 
-core::Action parse_action(const JsonValue& value, const JsonPath& path, const WorldFrame& frame,
-                          FaultList& faults) {
+core::Action parse_action(const JsonReader& item, const WorldFrame& frame) {
+  const JsonReader json = item.object(kActionMembers);
   core::Action action;
-  const ObjectReader reader(value, path, kActionMembers, faults);
-  if (const JsonValue* type = reader.require("type")) {
-    action.type = read_choice(*type, reader.path("type"), kTypes, faults).value_or(action.type);
+  if (const auto type = json.require("type").word(kTypes)) {
+    action.type = static_cast<core::Action::Type>(*type);
   }
-  action.t_start = reader.require_number("t_start", kMoment).value_or(0.0);
-  action.t_end = reader.require_number("t_end", kMoment).value_or(0.0);
-  action.from = parse_pose(reader, "from", frame, faults);
-  action.to = parse_pose(reader, "to", frame, faults);
+  action.t_start = json.require("t_start").number(kTime).value_or(0.0);
+  action.t_end = json.require("t_end").number(kTime).value_or(0.0);
+  action.from = parse_pose(json.require("from"), frame);
+  action.to = parse_pose(json.require("to"), frame);
   return action;
 }
 
-core::RobotPlan parse_plan(const ObjectReader& reader, const WorldFrame& frame, FaultList& faults) {
+core::RobotPlan parse_plan(const JsonReader& json, const WorldFrame& frame) {
   core::RobotPlan plan;
-  if (const JsonValue* actions = reader.require("actions")) {
-    const JsonPath path = reader.path("actions");
-    if (const JsonValue::Array* items = read_array(*actions, path, faults)) {
-      plan.actions.reserve(items->size());
-      for (std::size_t index = 0; index < items->size(); ++index) {
-        plan.actions.push_back(parse_action((*items)[index], path / index, frame, faults));
-      }
-    }
+  const JsonReader actions = json.require("actions").array();
+  plan.actions.reserve(actions.size());
+  for (std::size_t index = 0; index < actions.size(); ++index) {
+    plan.actions.push_back(parse_action(actions.item(index), frame));
   }
-  plan.cost = reader.number_or("cost", kMoment, plan.actions.empty() ? 0.0 : plan.actions.back().t_end);
+  const double end = plan.actions.empty() ? 0.0 : plan.actions.back().t_end;
+  plan.cost = json.find("cost").number(kTime).value_or(end);
   return plan;
 }
 
@@ -79,17 +67,16 @@ class Roster {
   }
 
   /// The index of the robot that a plan is for, if there is one that has no plan yet.
-  std::optional<std::size_t> assign(const JsonValue& value, const JsonPath& path, FaultList& faults) {
-    const auto id = read_name(value, path, faults);
+  std::optional<std::size_t> assign(const JsonReader& robot) {
+    const auto id = robot.name();
     if (!id) return std::nullopt;
     const auto found = robots_.find(*id);
     if (found == robots_.end()) {
-      faults.add(value, path, fault::kUnknownRobot, "There is no robot " + in_quotes(*id) + " in robots.");
+      robot.fault(fault::kUnknownRobot, "There is no robot " + in_quotes(*id) + " in robots.");
       return std::nullopt;
     }
     if (!planned_.insert(found->second).second) {
-      faults.add(value, path, fault::kDuplicate,
-                 "Robot " + in_quotes(*id) + " has a plan already; give one.");
+      robot.fault(fault::kDuplicate, "Robot " + in_quotes(*id) + " already has a plan; give only one.");
       return std::nullopt;
     }
     return found->second;
@@ -102,20 +89,15 @@ class Roster {
 
 }  // namespace
 
-std::vector<core::RobotPlan> parse_plans(const JsonValue& value, const JsonPath& path,
-                                         const std::vector<ReadRobot>& robots, const WorldFrame& frame,
-                                         FaultList& faults) {
+std::vector<core::RobotPlan> parse_plans(const JsonReader& member, const std::vector<ReadRobot>& robots,
+                                         const WorldFrame& frame) {
   std::vector<core::RobotPlan> plans;
-  const JsonValue::Array* items = read_array(value, path, faults);
-  if (items == nullptr) return plans;
   Roster roster(robots);
-  for (std::size_t index = 0; index < items->size(); ++index) {
-    const JsonPath plan_path = path / index;
-    const ObjectReader reader((*items)[index], plan_path, kMembers, faults);
-    core::RobotPlan plan = parse_plan(reader, frame, faults);
-    const JsonValue* robot = reader.require("robot");
-    if (robot == nullptr) continue;
-    if (const auto owner = roster.assign(*robot, reader.path("robot"), faults)) {
+  const JsonReader items = member.array();
+  for (std::size_t index = 0; index < items.size(); ++index) {
+    const JsonReader json = items.item(index).object(kMembers);
+    core::RobotPlan plan = parse_plan(json, frame);
+    if (const auto owner = roster.assign(json.require("robot"))) {
       plan.robot = *owner;
       plans.push_back(std::move(plan));
     }

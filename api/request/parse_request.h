@@ -3,14 +3,14 @@
 #include <chrono>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
+#include "api/json/result.h"
 #include "api/request/limits.h"
-#include "api/request/parse_fleet.h"
 #include "api/request/world_frame.h"
+#include "api/response/error.h"
+#include "core/model/plan_options.h"
 #include "core/model/problem.h"
-#include "core/planner.h"
 
 namespace fleetplan::api {
 
@@ -23,7 +23,7 @@ struct PlanRequest {
   std::vector<std::string> warnings;
 };
 
-/// Reads a body of POST /v1/plan: the request, or all that is wrong with it.
-std::variant<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits);
+/// Reads a body of POST /v1/plan.
+Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits);
 
 }  // namespace fleetplan::api

@@ -1,13 +1,14 @@
 #include "api/request/parse_robots.h"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
-#include "api/json/object_reader.h"
-#include "api/json/text.h"
+#include "api/json/fault_text.h"
+#include "api/request/ranges.h"
 #include "core/geometry/angle.h"
 
 namespace fleetplan::api {
@@ -18,121 +19,109 @@ constexpr std::array<std::string_view, 6> kMembers{"id",    "radius", "linear_sp
                                                    "start", "goal"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
 
-// What a robot is made of, and may take from the defaults.
+// The members that `robot_defaults` can give as well.
 constexpr std::array<std::string_view, 3> kTraits{"radius", "linear_speed", "angular_speed"};
-constexpr std::array<Range, 3> kTraitRanges{
-    {kLength, {kSmallest, kLargest, "metres per second"}, {kSmallest, kLargest, "radians per second"}}};
+constexpr std::array<Range, 3> kTraitRanges{kLength, kLinearSpeed, kAngularSpeed};
 
-/// The defaults of all robots: what is given, and what of it is good.
+/// Which traits are given, and the valid ones among them.
 struct Traits {
   std::array<bool, 3> given{};
   std::array<std::optional<double>, 3> values;
 };
 
-Traits parse_traits(const ObjectReader& reader, FaultList& faults) {
+Traits parse_traits(const JsonReader& json) {
   Traits traits;
   for (std::size_t trait = 0; trait < kTraits.size(); ++trait) {
-    const JsonValue* member = reader.find(kTraits[trait]);
-    if (member == nullptr) continue;
-    traits.given[trait] = true;
-    traits.values[trait] = read_number(*member, reader.path(kTraits[trait]), kTraitRanges[trait], faults);
+    const JsonReader member = json.find(kTraits[trait]);
+    traits.given[trait] = static_cast<bool>(member);
+    traits.values[trait] = member.number(kTraitRanges[trait]);
   }
   return traits;
 }
 
-/// A robot's own traits, completed by the defaults. What neither gives is missing; what the defaults give
-/// wrongly has been told there.
-Traits completed(Traits traits, const Traits& defaults, const ObjectReader& reader) {
+/// A robot's traits, completed by the defaults. What neither gives is missing; an invalid default is a fault
+/// already.
+Traits parse_traits(const JsonReader& robot, const Traits& defaults) {
+  Traits traits = parse_traits(robot);
   for (std::size_t trait = 0; trait < kTraits.size(); ++trait) {
     if (traits.given[trait]) continue;
     if (defaults.given[trait]) {
       traits.values[trait] = defaults.values[trait];
     } else {
-      reader.require(kTraits[trait], ", here and in robot_defaults; give it in one of them");
+      robot.require(kTraits[trait], ", here and in robot_defaults; give it in one of them");
     }
   }
   return traits;
 }
 
-/// A pose with or without a heading, in the map frame.
-std::optional<core::Goal> parse_pose(const JsonValue& value, const JsonPath& path, const WorldFrame& frame,
-                                     FaultList& faults) {
-  const std::size_t before = faults.count();
-  const ObjectReader reader(value, path, kPoseMembers, faults);
-  const auto x = reader.require_number("x", kCoordinate);
-  const auto y = reader.require_number("y", kCoordinate);
+/// A pose with or without a heading, in the map frame. Nothing when it is absent or has a fault.
+std::optional<core::Goal> parse_pose(const JsonReader& member, const WorldFrame& frame) {
+  const std::size_t before = member.fault_count();
+  const JsonReader json = member.object(kPoseMembers);
+  const auto x = json.require("x").number(kCoordinate);
+  const auto y = json.require("y").number(kCoordinate);
+  const auto theta = json.find("theta").number(kAnyAngle);
+  if (!x || !y || member.fault_count() != before) return std::nullopt;
   core::Goal pose;
-  if (const JsonValue* theta = reader.find("theta")) {
-    if (const auto angle = read_number(*theta, reader.path("theta"), kAnyAngle, faults)) {
-      pose.theta = core::normalize_angle(*angle);
-    }
-  }
-  if (!x || !y || faults.count() != before) return std::nullopt;
   pose.position = frame.to_map({*x, *y});
+  if (theta) pose.theta = core::normalize_angle(*theta);
   return pose;
 }
 
-ReadRobot parse_robot(const JsonValue& value, const JsonPath& path, const Traits& defaults,
-                      const WorldFrame& frame, FaultList& faults) {
+ReadRobot parse_robot(const JsonReader& item, const Traits& defaults, const WorldFrame& frame) {
+  const JsonReader json = item.object(kMembers);
   ReadRobot read;
+  if (!json) return read;
   core::Robot& robot = read.robot;
-  const ObjectReader reader(value, path, kMembers, faults);
-  if (!reader.is_object()) return read;
-  if (const JsonValue* id = reader.require("id")) {
-    robot.id = read_name(*id, reader.path("id"), faults).value_or("");
-  }
-  const Traits traits = completed(parse_traits(reader, faults), defaults, reader);
+  robot.id = json.require("id").name().value_or("");
+  const Traits traits = parse_traits(json, defaults);
   robot.radius = traits.values[0].value_or(1.0);
   robot.linear_speed = traits.values[1].value_or(1.0);
   robot.angular_speed = traits.values[2].value_or(1.0);
-  std::optional<core::Goal> start;
-  if (const JsonValue* pose = reader.require("start", "; give {\"x\", \"y\"} and, if you like, \"theta\"")) {
-    read.start_at = pose->begins();
-    const JsonPath start_path = reader.path("start");
-    start = parse_pose(*pose, start_path, frame, faults);
-    if (start) robot.start = {start->position, start->theta.value_or(0.0)};
-  }
-  if (const JsonValue* pose = reader.find("goal")) {
-    read.goal_at = pose->begins();
-    const JsonPath goal_path = reader.path("goal");
-    robot.goal = parse_pose(*pose, goal_path, frame, faults);
-  }
+  read.start = json.require("start", "; give {\"x\", \"y\"} and optionally \"theta\"");
+  const auto start = parse_pose(read.start, frame);
+  if (start) robot.start = {start->position, start->theta.value_or(0.0)};
+  read.goal = json.find("goal");
+  robot.goal = parse_pose(read.goal, frame);
   read.placed = start.has_value() && traits.values[0].has_value();
   return read;
 }
 
-}  // namespace
-
-std::vector<ReadRobot> parse_robots(const JsonValue& robots, const JsonPath& robots_path,
-                                    const JsonValue* defaults, const JsonPath& defaults_path,
-                                    const WorldFrame& frame, std::size_t max_robots, FaultList& faults) {
-  Traits common;
-  if (defaults != nullptr) {
-    common = parse_traits(ObjectReader(*defaults, defaults_path, kTraits, faults), faults);
-  }
-  std::vector<ReadRobot> read;
-  const JsonValue::Array* items = read_array(robots, robots_path, faults);
-  if (items == nullptr) return read;
-  if (items->empty()) faults.add(robots, robots_path, fault::kEmpty, "robots must hold at least one robot.");
-  if (items->size() > max_robots) {
-    faults.add(robots, robots_path, fault::kOutOfRange,
-               "There are " + std::to_string(items->size()) + " robots; this service takes at most " +
-                   std::to_string(max_robots) + ".");
-    return read;
-  }
+/// Reports every id that an earlier robot has.
+void report_duplicate_ids(const std::vector<ReadRobot>& robots, const JsonReader& items) {
   std::unordered_map<std::string, std::size_t> owner;  // of each id, the first robot that has it
-  for (std::size_t index = 0; index < items->size(); ++index) {
-    const JsonValue& item = (*items)[index];
-    const JsonPath path = robots_path / index;
-    read.push_back(parse_robot(item, path, common, frame, faults));
-    const std::string& id = read.back().robot.id;
+  for (std::size_t index = 0; index < robots.size(); ++index) {
+    const std::string& id = robots[index].robot.id;
     if (id.empty()) continue;
     const auto [first, is_new] = owner.emplace(id, index);
     if (is_new) continue;
-    faults.add(*item.find("id"), path / "id", fault::kDuplicate,
-               "Robots " + std::to_string(first->second) + " and " + std::to_string(index) +
-                   " (from 0) both have the id " + in_quotes(id) + "; ids must be unique.");
+    items.item(index).find("id").fault(
+        fault::kDuplicate, "Robots " + std::to_string(first->second) + " and " + std::to_string(index) +
+                               " (from 0) both have the id " + in_quotes(id) + "; ids must be unique.");
   }
+}
+
+}  // namespace
+
+std::vector<ReadRobot> parse_robots(const JsonReader& robots, const JsonReader& defaults,
+                                    const WorldFrame& frame, std::size_t max_robots) {
+  if (!robots) return {};
+  const Traits common = parse_traits(defaults.object(kTraits));
+  const JsonReader items = robots.array();
+  if (!items) return {};
+  if (items.size() == 0) items.fault(fault::kEmpty, "robots must contain at least one robot.");
+  if (items.size() > max_robots) {
+    items.fault(fault::kOutOfRange, "There are " + std::to_string(items.size()) +
+                                        " robots; this service accepts at most " +
+                                        std::to_string(max_robots) + ".");
+    return {};
+  }
+  std::vector<ReadRobot> read;
+  read.reserve(items.size());
+  for (std::size_t index = 0; index < items.size(); ++index) {
+    read.push_back(parse_robot(items.item(index), common, frame));
+  }
+  report_duplicate_ids(read, items);
   return read;
 }
 

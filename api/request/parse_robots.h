@@ -1,30 +1,25 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <optional>
 #include <vector>
 
-#include "api/json/fault_list.h"
-#include "api/json/json_path.h"
-#include "api/json/json_value.h"
+#include "api/json/json_reader.h"
 #include "api/request/world_frame.h"
 #include "core/model/robot.h"
 
 namespace fleetplan::api {
 
-/// A robot as far as it could be read. One with faults elsewhere still has a place: where `placed` says that
-/// its radius and start are good, it can be held against the map and the other robots.
+/// A robot as far as it could be read. `placed`: its radius and start are valid, so that it can be compared
+/// with the map and the other robots, whatever faults it has elsewhere.
 struct ReadRobot {
-  core::Robot robot;           // in the map frame; `goal` only if it is good
-  bool placed = false;         // radius and start are good
-  std::uint32_t start_at = 0;  // where the poses are in the document, for the order of faults
-  std::uint32_t goal_at = 0;
+  core::Robot robot;  // in the map frame; `goal` only if it is valid
+  bool placed = false;
+  JsonReader start;
+  JsonReader goal;
 };
 
-/// Reads `robots` and `robot_defaults` (may be null: not given). At most `max_robots`, at least one.
-std::vector<ReadRobot> parse_robots(const JsonValue& robots, const JsonPath& robots_path,
-                                    const JsonValue* defaults, const JsonPath& defaults_path,
-                                    const WorldFrame& frame, std::size_t max_robots, FaultList& faults);
+/// Reads `robots` and `robot_defaults` (may be absent). At most `max_robots`, at least one.
+std::vector<ReadRobot> parse_robots(const JsonReader& robots, const JsonReader& defaults,
+                                    const WorldFrame& frame, std::size_t max_robots);
 
 }  // namespace fleetplan::api

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/json/fault.h"
 #include "api/response/reply.h"
 
 namespace fleetplan::api {
@@ -32,13 +33,6 @@ enum class ErrorCode {
   draining,                // 503, shutting down
 };
 
-/// One fault of a request's content.
-struct Fault {
-  std::string pointer;  // RFC 6901 JSON Pointer to the smallest thing that is wrong
-  std::string code;     // e.g. "out_of_range"
-  std::string detail;   // what is wrong and what would be right
-};
-
 struct ErrorRow {
   ErrorCode code;
   int status;
@@ -50,12 +44,25 @@ struct ErrorRow {
 /// The table, in the order of ErrorCode. api/openapi.json has a response for each status in it.
 std::span<const ErrorRow> error_table();
 
+/// The codes of the table, in its order.
+std::vector<ErrorCode> error_codes();
+
 const ErrorRow& row_of(ErrorCode code);
 inline int status_of(ErrorCode code) { return row_of(code).status; }
 inline std::string_view name_of(ErrorCode code) { return row_of(code).name; }
 
+/// Why a request cannot be read.
+struct RequestError {
+  ErrorCode code = ErrorCode::invalid_request;
+  std::string detail;
+  std::vector<Fault> faults;
+};
+
 /// The error as application/problem+json.
 Reply problem_reply(ErrorCode code, const std::string& detail, const std::string& request_id,
                     const std::vector<Fault>& faults = {});
+inline Reply problem_reply(const RequestError& error, const std::string& request_id) {
+  return problem_reply(error.code, error.detail, request_id, error.faults);
+}
 
 }  // namespace fleetplan::api

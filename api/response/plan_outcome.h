@@ -11,10 +11,9 @@ struct Plan;
 
 namespace fleetplan::api {
 
-/// What became of a valid request to plan, for those who watch the service; an answer tells all of it in
-/// full.
+/// The outcome of a valid request to plan, for metrics and the log.
 struct PlanOutcome {
-  /// solved: every robot has a plan; partial: some; none. refused: by the checker, a bug.
+  /// solved: every robot has a plan; partial: some have; none: no robot has. refused: by the checker, a bug.
   enum class Status { solved, partial, none, refused };
   Status status = Status::none;
   std::size_t planned = 0;      // robots
@@ -25,10 +24,10 @@ struct PlanOutcome {
   std::optional<double> plan_seconds = std::nullopt;
 };
 
-/// As answers, metrics and the log have it, e.g. "solved".
+/// As in answers, metrics and the log, e.g. "solved".
 std::string_view name_of(PlanOutcome::Status status);
 
-/// How much of a plan is there, taking it that the checker accepts it.
+/// The status of a plan that the checker accepts.
 PlanOutcome::Status status_of(const core::Plan& plan);
 
 PlanOutcome outcome_of(const core::Plan& plan, std::optional<double> plan_seconds);

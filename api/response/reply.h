@@ -11,13 +11,13 @@ namespace fleetplan::api {
 inline constexpr const char* kJson = "application/json";
 inline constexpr const char* kProblemJson = "application/problem+json";
 
-/// What goes back to the client; no sockets here.
+/// An answer to a client, without any socket.
 struct Reply {
   int status = 200;
   std::string content_type = kJson;
   std::string body;
 
-  // For those who watch the service, not for the client.
+  // For metrics and the log, not for the client.
   std::string_view problem = {};  // the error's code, e.g. "not_found"; empty: none
   std::optional<PlanOutcome> outcome = std::nullopt;
 };

@@ -33,7 +33,7 @@ std::string_view name_of(core::Violation::Kind kind) {
 
 }  // namespace
 
-std::optional<double> told_clearance(const core::VerifyReport& report) {
+std::optional<double> reported_clearance(const core::VerifyReport& report) {
   const bool contact = report.min_clearance && std::abs(*report.min_clearance) <= core::kContactTolerance;
   return contact ? 0.0 : report.min_clearance;
 }
@@ -56,7 +56,7 @@ std::string write_report(const core::VerifyReport& report, const std::vector<cor
     json.end_object();
   }
   json.end_array();
-  json.member("min_clearance", told_clearance(report));
+  json.member("min_clearance", reported_clearance(report));
   if (written < report.violations.size()) json.member("truncated", true);
   json.end_object();
   return json.take();

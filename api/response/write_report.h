@@ -9,12 +9,11 @@
 
 namespace fleetplan::api {
 
-/// The smallest clearance as it is told, metres: contact, which the search leaves to within
-/// kContactTolerance, is 0.
-std::optional<double> told_clearance(const core::VerifyReport& report);
+/// The smallest clearance as answers report it, metres: contact, to within kContactTolerance, is 0.
+std::optional<double> reported_clearance(const core::VerifyReport& report);
 
-/// The answer of POST /v1/validate. Of very many violations only the first thousand are written, and
-/// `"truncated": true` says so.
+/// The answer of POST /v1/validate. It contains at most the first thousand violations, with
+/// `"truncated": true` if there are more.
 std::string write_report(const core::VerifyReport& report, const std::vector<core::Robot>& robots);
 
 }  // namespace fleetplan::api

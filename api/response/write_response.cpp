@@ -42,8 +42,9 @@ std::string_view name_of(core::Unplanned::Reason reason) {
   return "budget_exhausted";
 }
 
-void write_pose(JsonWriter& json, std::string_view key, const core::Pose& pose, const WorldFrame& frame) {
-  const core::Position position = frame.to_world(pose.position);
+void write_pose(JsonWriter& json, std::string_view key, const core::Pose& pose,
+                const core::Position& origin) {
+  const core::Position position = pose.position + origin;
   json.key(key).begin_object();
   json.member("x", position.x()).member("y", position.y());
   json.member("theta", core::normalize_angle(pose.theta));
@@ -59,8 +60,8 @@ void write_plan(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPla
     json.begin_object();
     json.member("type", name_of(action.type));
     json.member("t_start", action.t_start).member("t_end", action.t_end);
-    write_pose(json, "from", action.from, verified.frame);
-    write_pose(json, "to", action.to, verified.frame);
+    write_pose(json, "from", action.from, verified.origin);
+    write_pose(json, "to", action.to, verified.origin);
     json.end_object();
   }
   json.end_array().end_object();
@@ -79,7 +80,7 @@ void write_timings(JsonWriter& json, const Stages& stages) {
   const auto milliseconds = [](Stages::Time from, Stages::Time to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
   };
-  const Stages::Time now = RequestContext::Clock::now();
+  const Stages::Time now = Stages::Clock::now();
   json.key("timings_ms").begin_object();
   json.member("queue", milliseconds(stages.parsed, stages.started));
   json.member("parse", milliseconds(stages.received, stages.parsed));
@@ -90,7 +91,7 @@ void write_timings(JsonWriter& json, const Stages& stages) {
   json.end_object();
 }
 
-/// What is told of the plan as a whole.
+/// The members about the plan as a whole.
 void write_summary(JsonWriter& json, const VerifiedPlan& verified) {
   const core::Plan& plan = verified.plan;
   json.member("flowtime", plan.objectives.flowtime).member("makespan", plan.objectives.makespan);
@@ -98,7 +99,7 @@ void write_summary(JsonWriter& json, const VerifiedPlan& verified) {
   json.member("flowtime", plan.lower_bound.flowtime).member("makespan", plan.lower_bound.makespan);
   json.end_object();
   json.member("verified", verified.report.valid());
-  json.member("min_clearance", told_clearance(verified.report));
+  json.member("min_clearance", reported_clearance(verified.report));
   json.member("deterministic", plan.deterministic);
   json.key("search").begin_object();
   json.member("attempts", plan.search.attempts).member("expansions", plan.search.expansions);

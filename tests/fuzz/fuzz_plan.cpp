@@ -29,12 +29,12 @@ api::RequestContext context_now() {
 /// Every robot is in `plans` or in `unplanned`, once.
 void require_all_robots(const Json& request, const Json& answer) {
   std::multiset<std::string> wanted;
-  std::multiset<std::string> told;
+  std::multiset<std::string> answered;
   for (const Json& robot : request.at("robots")) wanted.insert(robot.at("id").get<std::string>());
   for (const char* member : {"plans", "unplanned"}) {
-    for (const Json& entry : answer.at(member)) told.insert(entry.at("robot").get<std::string>());
+    for (const Json& entry : answer.at(member)) answered.insert(entry.at("robot").get<std::string>());
   }
-  require(wanted == told, "an answer has other robots than its request", answer.dump());
+  require(wanted == answered, "an answer has other robots than its request", answer.dump());
 }
 
 void require_bounded_costs(const Json& answer) {

@@ -1,8 +1,7 @@
-// Any text as the body of both endpoints' requests: parsed into a valid problem, or refused properly.
+// Any text as the body of both endpoints' requests is parsed into a valid problem or rejected properly.
 
 #include <nlohmann/json.hpp>
 #include <string_view>
-#include <variant>
 
 #include "api/endpoints/validate_endpoint.h"
 #include "api/request/parse_request.h"
@@ -25,15 +24,15 @@ void require_within(const api::PlanRequest& request, const api::Limits& limits) 
   for (const core::Robot& robot : robots) require(!robot.id.empty(), "a robot has no id");
 }
 
-/// True when the body is JSON, whatever it says: if not, the other endpoint has no other reader to refuse it.
+/// True when the body is JSON. Otherwise the other endpoint would reject it in the same reader.
 bool try_plan_request(std::string_view body, const api::Limits& limits) {
   const auto parsed = api::parse_request(body, limits);
-  if (const auto* error = std::get_if<api::RequestError>(&parsed)) {
-    require_proper_refusal(body, api::problem_reply(error->code, error->detail, "id", error->faults));
-    return error->code == api::ErrorCode::invalid_request;
+  if (!parsed) {
+    require_proper_refusal(body, api::problem_reply(parsed.failure(), "id"));
+    return parsed.failure().code == api::ErrorCode::invalid_request;
   }
-  require_within(std::get<api::PlanRequest>(parsed), limits);
-  require(nlohmann::json::accept(body), "what was taken is not JSON");
+  require_within(*parsed, limits);
+  require(nlohmann::json::accept(body), "an accepted body is not JSON");
   return true;
 }
 

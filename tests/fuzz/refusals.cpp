@@ -19,7 +19,7 @@ void require_a_place(const Json& document, const Json& fault, const std::string&
 
 /// The library's own reading of a document keeps the last of two members with the same key, the service the
 /// first.
-bool tells_a_duplicate(const Json& faults) {
+bool has_a_duplicate(const Json& faults) {
   for (const Json& fault : faults) {
     if (fault.at("code") == "duplicate") return true;
   }
@@ -40,7 +40,7 @@ void require_proper_refusal(std::string_view body, const api::Reply& reply) {
   const bool late = problem.at("code") == "check_unfinished";
   require(faults.empty() == late, "a refusal names no fault, or one where time is to blame", reply.body);
   const Json document = Json::parse(body, nullptr, false);  // discarded where a number is too large for it
-  if (document.is_discarded() || tells_a_duplicate(faults)) return;
+  if (document.is_discarded() || has_a_duplicate(faults)) return;
   for (const Json& fault : faults) require_a_place(document, fault, reply.body);
 }
 

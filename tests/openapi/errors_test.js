@@ -1,4 +1,4 @@
-// Every error of the table, provoked: its status, code, header fields and body are what the document says.
+// Provokes every error of the table and compares its status, code, header fields and body with the document.
 
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
@@ -17,7 +17,7 @@ const POSTS = ["/v1/plan", "/v1/validate"];
 const seen = new Set();
 const texts = new Set();
 
-/** What a problem says, whatever its numbers, and without the request's name. */
+/** The text of a problem without numbers and without the request's id. */
 function textOf({ request_id, ...problem }) {
   return JSON.stringify(problem).replaceAll(/\d+/g, "#");
 }
@@ -47,7 +47,7 @@ test("404: no such path, no such example", async () => {
   expectProblem(await client.post("/v1/plans", {}), 404, "not_found");
 });
 
-test("405: every path has the methods that the document tells, and no others", async () => {
+test("405: every path has the documented methods, and no others", async () => {
   for (const [template, operations] of Object.entries(document.root.paths)) {
     const path = template.replace("{name}", "crossing");
     const allowed = operations.post ? ["POST"] : ["GET", "HEAD"];
@@ -60,13 +60,13 @@ test("405: every path has the methods that the document tells, and no others", a
   }
 });
 
-test("406: a plan in none of the forms there are", async () => {
+test("406: a plan in no supported media type", async () => {
   for (const accept of ["text/html", "image/*, application/json;q=0", "application/xml"]) {
     expectProblem(await client.post("/v1/plan", BUSY, { Accept: accept }), 406, "not_acceptable");
   }
 });
 
-test("408: a head or a body that does not come", async () => {
+test("408: a head or a body that does not arrive", async () => {
   const head = "POST /v1/plan HTTP/1.1\r\nHost: here\r\n";
   expectProblem(await client.sendRaw("POST", "/v1/plan", head), 408, "request_timeout");
   const body = `${head}Content-Length: 10\r\n\r\n{`;
@@ -219,7 +219,7 @@ test("503: more large bodies at once than there is memory for", async () => {
   for (const answer of refused) expectProblem(answer, 503, "overloaded");
 });
 
-test("503: the service shuts down, while what it began is answered", async () => {
+test("503: the service shuts down, and still answers the requests it has begun", async () => {
   const { client: last, stop } = await separateService([]);
   const running = last.post("/v1/plan", BUSY);
   await new Promise((resolve) => setTimeout(resolve, 300));
@@ -233,12 +233,12 @@ test("503: the service shuts down, while what it began is answered", async () =>
   await stopped;
 });
 
-test("every error of the table was provoked, but for the one that is a bug", () => {
+test("every error of the table was provoked, except the one that is a bug", () => {
   const codes = [...document.problemCodes().keys()].filter((code) => code !== "internal_error");
   assert.deepEqual([...seen].sort(), codes.sort());
 });
 
-test("the document's examples are answers that were seen, but for their numbers", () => {
+test("the document's examples equal answers of the service, except for numbers", () => {
   for (const example of document.problems()) {
     if (example.code === "internal_error") continue;
     assert.ok(texts.has(textOf(example)), `never answered: ${example.detail}`);

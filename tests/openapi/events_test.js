@@ -11,7 +11,7 @@ const EVENTS = { Accept: "text/event-stream" };
 const example = async (name) => (await client.get(`/v1/examples/${name}`)).json;
 const lasting = ({ timings_ms, request_id, ...rest }) => rest;
 
-test("a plan that takes its time tells its progress, better plans and the answer", async () => {
+test("a long-running plan sends its progress, better plans and the answer", async () => {
   const request = await example("warehouse");
   request.options = { ...request.options, mode: "anytime", max_iterations: null, time_budget_ms: 2500 };
   const { status, events } = await client.post("/v1/plan", request, EVENTS);
@@ -21,9 +21,9 @@ test("a plan that takes its time tells its progress, better plans and the answer
   assert.equal(kinds.at(-1), "plan");
   assert.equal(kinds.filter((kind) => ["plan", "problem"].includes(kind)).length, 1);
 
-  const told = events.filter(({ event }) => event === "progress").map(({ data }) => data);
-  for (const { planned, robots } of told) assert.ok(planned <= robots && robots === request.robots.length);
-  const elapsed = told.map(({ elapsed_ms }) => elapsed_ms);
+  const progress = events.filter(({ event }) => event === "progress").map(({ data }) => data);
+  for (const { planned, robots } of progress) assert.ok(planned <= robots && robots === request.robots.length);
+  const elapsed = progress.map(({ elapsed_ms }) => elapsed_ms);
   assert.deepEqual(
     elapsed,
     [...elapsed].sort((a, b) => a - b),

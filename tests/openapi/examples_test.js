@@ -1,4 +1,4 @@
-// The ready requests and the document's examples are what the schemas say, and so are the answers to them.
+// The example requests, the document's examples and the answers to them match the schemas.
 
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
@@ -14,12 +14,12 @@ const scenarios = readdirSync(SCENARIOS)
 const { document, client } = await openSession();
 const { paths } = document.root;
 
-/** An answer without what differs from run to run or with every change of the search. */
+/** An answer without the members that differ from run to run or with every change of the search. */
 function lasting({ timings_ms, request_id, search, ...rest }) {
   return rest;
 }
 
-test("every scenario is a ready request and listed", async () => {
+test("every scenario is an example request and listed", async () => {
   const list = await client.get("/v1/examples");
   assert.deepEqual(list.json.examples.map(({ name }) => name).sort(), scenarios.sort());
   for (const name of scenarios) {
@@ -29,7 +29,7 @@ test("every scenario is a ready request and listed", async () => {
 });
 
 for (const name of scenarios) {
-  test(`${name}: request, answer, and both together for validation are what the schemas say`, async () => {
+  test(`${name}: request, answer, and both together for validation match the schemas`, async () => {
     const request = JSON.parse(readFileSync(new URL(`${name}.json`, SCENARIOS), "utf8"));
     assert.deepEqual(document.faultsOfComponent("PlanRequest", request), []);
     const answer = await client.post("/v1/plan", request);
@@ -43,7 +43,7 @@ for (const name of scenarios) {
 }
 
 for (const path of ["/v1/plan", "/v1/validate"]) {
-  test(`the document's examples for ${path} are answered as it says`, async () => {
+  test(`the document's examples for ${path} get the documented answers`, async () => {
     const { requestBody, responses } = paths[path].post;
     const requests = requestBody.content["application/json"].examples;
     const answers = responses["200"].content["application/json"].examples;

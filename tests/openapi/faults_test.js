@@ -12,7 +12,7 @@ const seen = new Set();
 const POSE = { x: 0.5, y: 0.5, theta: 0 };
 const WAIT = { type: "wait", t_start: 0, t_end: 1, from: POSE, to: POSE };
 
-/** A good request; `change` spoils it. */
+/** A valid request, modified by `change`. */
 function request(change) {
   const good = {
     map: { rows: ["....#", "....."], resolution: 1, origin: { x: 0, y: 0 } },
@@ -166,7 +166,7 @@ const CASES = {
 };
 
 for (const [name, [path, body, expected]] of Object.entries(CASES)) {
-  test(`${name} is told at its place`, async () => {
+  test(`${name} is reported at its place`, async () => {
     const { status, json } = await client.post(path, body);
     assert.equal(status, 422);
     assert.deepEqual(
@@ -181,6 +181,6 @@ for (const [name, [path, body, expected]] of Object.entries(CASES)) {
   });
 }
 
-test("every code of a fault that is documented was provoked", () => {
+test("every documented fault code was provoked", () => {
   assert.deepEqual([...seen].sort(), [...document.root.components.schemas.Fault.properties.code.enum].sort());
 });

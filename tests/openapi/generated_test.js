@@ -1,4 +1,4 @@
-// Requests made from the document's schemas, good ones and spoiled ones: no 500, no hang-up, no answer outside the
+// Requests made from the document's schemas, valid and invalid ones: no 500, no hang-up, no answer outside the
 // document, and never another judgement than the schemas'. FLEETPLAN_RUNS sets how many of each kind,
 // FLEETPLAN_SEED from which seed.
 
@@ -131,8 +131,8 @@ for (const [path, { component, plausible }] of Object.entries(KINDS)) {
   const raw = valuesOfComponent(document, component);
   property("plausible requests are served", path, plausible.map(textOf), [200]);
   property("requests of any values that fit the schema are judged as it says", path, raw.map(textOf), [422]);
-  property("requests spoiled at one place are refused there", path, spoiledValues(plausible), [400, 422]);
-  property("requests with spoiled bytes are refused", path, spoiledBytes(plausible), [400]);
+  property("requests that are invalid at one place are rejected there", path, spoiledValues(plausible), [400, 422]);
+  property("requests with modified bytes are rejected", path, spoiledBytes(plausible), [400]);
 }
 
 const plans = KINDS["/v1/plan"].plausible.map(textOf);

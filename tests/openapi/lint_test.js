@@ -1,4 +1,4 @@
-// The document is an OpenAPI 3.1 document without a fault that a linter knows of.
+// The document passes a linter of OpenAPI 3.1.
 
 import { spawnSync } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";

@@ -60,7 +60,7 @@ Metrics::Metrics(const RouteTable& routes) {
   // The path is unknown, or the head was refused before the path was looked up.
   requests_.emplace_back("unknown", std::set<int>{400, 401, 404, 408, 414, 431});
   for (const Route& route : routes.routes()) requests_.emplace_back(route.path, usual_statuses(route));
-  for (const api::ErrorRow& row : api::error_table()) rejected_[row.name];
+  for (const api::ErrorCode code : api::error_codes()) rejected_[api::name_of(code)];
 }
 
 Metrics::Requests& Metrics::requests_of(const Route* route) {

@@ -39,7 +39,7 @@ std::vector<std::string> keys_of(const Json& object) {
   return keys;
 }
 
-TEST(PlanEndpoint, PlansForRobotsThatHardlyMoveFarFromTheOrigin) {
+TEST(PlanEndpoint, PlansTinyMovesFarFromTheOrigin) {
   const Json answer = planned(Json::parse(R"({
     "map": {"rows": ["......", "......", "......"], "resolution": 0.05, "origin": {"x": 10000, "y": 3}},
     "robots": [{"id": "a", "radius": 0.0025, "linear_speed": 1e-9, "angular_speed": 0.5,
@@ -53,7 +53,7 @@ TEST(PlanEndpoint, SwapsTwoRobotsAroundAWall) {
   EXPECT_EQ(answer["request_id"], "test-7");
   EXPECT_EQ(answer["verified"], true);
   EXPECT_EQ(answer["deterministic"], true);
-  EXPECT_GE(answer["min_clearance"].get<double>(), 0.0) << "contact is told as 0";
+  EXPECT_GE(answer["min_clearance"].get<double>(), 0.0) << "contact is reported as 0";
   ASSERT_EQ(answer["plans"].size(), 2U);
   EXPECT_EQ(answer["plans"][0]["robot"], "a");
   EXPECT_EQ(answer["plans"][1]["robot"], "b");
@@ -63,7 +63,7 @@ TEST(PlanEndpoint, SwapsTwoRobotsAroundAWall) {
   EXPECT_EQ(last["t_end"], answer["plans"][1]["cost"]);
 }
 
-TEST(PlanEndpoint, TellsTheLowerBoundOfEachRobotAndTheirSumAndMaximum) {
+TEST(PlanEndpoint, ReturnsTheLowerBoundOfEachRobotAndTheirSumAndMaximum) {
   Json request = swap_request();
   request["robots"].push_back(Json::parse(R"({"id": "parked", "start": {"x": 4.5, "y": 0.5}})"));
   const Json answer = planned(request);
@@ -82,7 +82,7 @@ TEST(PlanEndpoint, TellsTheLowerBoundOfEachRobotAndTheirSumAndMaximum) {
   EXPECT_EQ(answer["lower_bound"]["makespan"], most);
 }
 
-TEST(PlanEndpoint, AnswersWithTheMembersOfTheContractInTheirOrder) {
+TEST(PlanEndpoint, ReturnsTheDocumentedMembersInOrder) {
   const Json answer = planned(swap_request());
   EXPECT_THAT(keys_of(answer),
               ElementsAre("status", "request_id", "plans", "unplanned", "flowtime", "makespan", "lower_bound",
@@ -97,7 +97,7 @@ TEST(PlanEndpoint, AnswersWithTheMembersOfTheContractInTheirOrder) {
               ElementsAre("queue", "parse", "plan", "verify", "serialize", "total"));
 }
 
-TEST(PlanEndpoint, AnswersInTheClientsWorld) {
+TEST(PlanEndpoint, ReturnsPositionsInTheClientsWorld) {
   Json request = swap_request();
   request["map"]["origin"] = {{"x", -100.0}, {"y", 1000.0}};
   for (auto& robot : request["robots"]) {
@@ -113,7 +113,7 @@ TEST(PlanEndpoint, AnswersInTheClientsWorld) {
   EXPECT_NEAR(actions.back()["to"]["x"].get<double>(), -91.5, 1e-9);
 }
 
-TEST(PlanEndpoint, TellsParkedRobotsAndNoClearanceOfOne) {
+TEST(PlanEndpoint, ReturnsParkedRobotsAndNoClearanceOfOneRobot) {
   Json request = swap_request();
   request["robots"].erase(1);
   request["robots"][0].erase("goal");
@@ -125,7 +125,7 @@ TEST(PlanEndpoint, TellsParkedRobotsAndNoClearanceOfOne) {
   EXPECT_EQ(answer["flowtime"], 0.0);
 }
 
-TEST(PlanEndpoint, TellsWhyARobotIsUnplanned) {
+TEST(PlanEndpoint, ReturnsTheReasonOfAnUnplannedRobot) {
   Json request = swap_request();
   request["map"]["rows"] = {"....#....", "....#....", "....#....", "....#...."};
   const Json answer = planned(request);
@@ -136,7 +136,7 @@ TEST(PlanEndpoint, TellsWhyARobotIsUnplanned) {
   EXPECT_EQ(answer["unplanned"][0]["reason"], "goal_unreachable");
 }
 
-TEST(PlanEndpoint, GivesTimingsWhoseTotalIsNoLessThanTheirSum) {
+TEST(PlanEndpoint, ReturnsTimingsWhoseTotalIsAtLeastTheirSum) {
   RequestContext late = context();
   late.await_turn = [](const core::StopCondition&) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -171,7 +171,7 @@ TEST(PlanEndpoint, DoesNotPlanWhenTheBudgetIsSpentInTheQueue) {
   EXPECT_EQ(json_of(plan_with(never, request.dump(), late))["status"], "none");
 }
 
-TEST(PlanEndpoint, WaitsForItsTurnUntilThePlannerWouldHaveToEnd) {
+TEST(PlanEndpoint, WaitsForItsTurnUntilThePlanningDeadline) {
   Json request = swap_request();
   request["options"] = {{"time_budget_ms", 60'000}};
   RequestContext busy = context();
@@ -181,7 +181,7 @@ TEST(PlanEndpoint, WaitsForItsTurnUntilThePlannerWouldHaveToEnd) {
   EXPECT_EQ(json_of(plan_endpoint(request.dump(), busy))["status"], "solved");
 }
 
-TEST(PlanEndpoint, SendsWhoCannotBePlannedBeforeTheEndOfTheServiceElsewhere) {
+TEST(PlanEndpoint, ReportsDrainingWhenTheServiceStopsBeforePlanning) {
   std::stop_source end;
   RequestContext waiting = context();
   waiting.stop = end.get_token();
@@ -191,13 +191,13 @@ TEST(PlanEndpoint, SendsWhoCannotBePlannedBeforeTheEndOfTheServiceElsewhere) {
   EXPECT_EQ(json_of(reply)["code"], "draining");
 }
 
-TEST(PlanEndpoint, TellsFaultsWithoutWaitingForATurn) {
+TEST(PlanEndpoint, ReportsFaultsWithoutWaitingForATurn) {
   RequestContext busy = context();
   busy.await_turn = [](const core::StopCondition&) { ADD_FAILURE() << "waited"; };
   EXPECT_EQ(plan_endpoint("{}", busy).status, 422);
 }
 
-TEST(PlanEndpoint, GivesThePlannerWhatIsLeftOfTheBudget) {
+TEST(PlanEndpoint, GivesThePlannerTheRestOfTheBudget) {
   Json request = swap_request();
   request["options"] = {{"time_budget_ms", 60'000}, {"seed", 42}};
   const RequestContext now = context();
@@ -211,13 +211,13 @@ TEST(PlanEndpoint, GivesThePlannerWhatIsLeftOfTheBudget) {
   EXPECT_EQ(plan_with(planner, request.dump(), now).status, 200);
 }
 
-TEST(PlanEndpoint, TellsOfAClampedBudget) {
+TEST(PlanEndpoint, WarnsOfAClampedBudget) {
   Json request = swap_request();
   request["options"] = {{"time_budget_ms", 500'000}};
   EXPECT_THAT(planned(request)["warnings"][0].get<std::string>(), HasSubstr("clamped"));
 }
 
-TEST(PlanEndpoint, NeverReturnsAPlanThatTheCheckerRefuses) {
+TEST(PlanEndpoint, NeverReturnsAPlanThatTheCheckerRejects) {
   const Planner through_the_wall = [](const core::Problem& problem, const auto&, const auto&, auto*) {
     const core::Pose start = problem.robots()[0].start;
     const core::Pose goal{problem.robots()[0].goal->position, 0.0};
@@ -233,7 +233,7 @@ TEST(PlanEndpoint, NeverReturnsAPlanThatTheCheckerRefuses) {
   EXPECT_EQ(json_of(reply)["request_id"], "test-7");
 }
 
-TEST(PlanEndpoint, RefusesAPlanThatCrossesAnUnplannedRobot) {
+TEST(PlanEndpoint, RejectsAPlanThatCrossesAnUnplannedRobot) {
   Json request = swap_request();
   request["map"]["rows"] = {"........."};
   request["robots"][0]["start"]["y"] = 0.5;
@@ -251,7 +251,7 @@ TEST(PlanEndpoint, RefusesAPlanThatCrossesAnUnplannedRobot) {
   EXPECT_EQ(plan_with(across, request.dump(), context()).status, 500);
 }
 
-TEST(PlanEndpoint, AnswersErrorsAsProblems) {
+TEST(PlanEndpoint, ReturnsErrorsAsProblems) {
   const auto code = [](const std::string& body) {
     const Reply reply = plan_endpoint(body, context());
     EXPECT_EQ(reply.content_type, "application/problem+json");

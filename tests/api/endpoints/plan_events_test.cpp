@@ -1,4 +1,4 @@
-// What is told while a plan is made.
+// The events while a plan is made.
 
 #include "api/endpoints/plan_events.h"
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "api/endpoints/plan_endpoint.h"
-#include "api/endpoints/plan_watch.h"
+#include "api/endpoints/progress_reporter.h"
 #include "api/endpoints/validate_endpoint.h"
 #include "tests/api/support/requests.h"
 
@@ -18,15 +18,15 @@ namespace {
 class Events : public PlanEvents {
  public:
   void begin(const PlanProgress& progress) override { begun.push_back(progress); }
-  void progress(const PlanProgress& progress) override { told.push_back(progress); }
+  void progress(const PlanProgress& progress) override { received.push_back(progress); }
   void incumbent(std::string answer) override { incumbents.push_back(Json::parse(answer)); }
 
   std::vector<PlanProgress> begun;
-  std::vector<PlanProgress> told;
+  std::vector<PlanProgress> received;
   std::vector<Json> incumbents;
 };
 
-RequestContext told_to(Events& events) {
+RequestContext context_with(Events& events) {
   RequestContext context;
   context.request_id = "test-8";
   context.events = &events;
@@ -46,7 +46,7 @@ Json without_timings(Json answer) {
   return answer;
 }
 
-TEST(WriteProgress, TellsTheMembersOfTheContract) {
+TEST(WriteProgress, WritesTheDocumentedMembers) {
   EXPECT_EQ(write_progress({3}, 0.5), R"({"elapsed_ms":0.5,"attempt":0,"planned":0,"robots":3,"best":null})");
   EXPECT_EQ(write_progress({12, {4, 11, core::Objectives{80.5, 20.0}}}, 1250.0),
             R"({"elapsed_ms":1250.0,"attempt":4,"planned":11,"robots":12,)"
@@ -58,20 +58,20 @@ TEST(PlanEvents, DoNotBeginForARequestWithFaults) {
   no_way["robots"][0]["start"]["x"] = -1.0;
   for (const std::string& body : {std::string("{"), std::string("[]"), no_way.dump()}) {
     Events events;
-    EXPECT_GE(plan_endpoint(body, told_to(events)).status, 400);
+    EXPECT_GE(plan_endpoint(body, context_with(events)).status, 400);
     EXPECT_TRUE(events.begun.empty());
-    EXPECT_TRUE(events.told.empty());
+    EXPECT_TRUE(events.received.empty());
   }
 }
 
-TEST(PlanEvents, BeginOnceAndEndWithTheFiguresOfTheAnswer) {
+TEST(PlanEvents, BeginOnceAndEndWithTheNumbersOfTheAnswer) {
   Events events;
-  const Json answer = json_of(plan_endpoint(anytime_request().dump(), told_to(events)));
+  const Json answer = json_of(plan_endpoint(anytime_request().dump(), context_with(events)));
   ASSERT_EQ(events.begun.size(), 1U);
   EXPECT_EQ(events.begun[0].robots, 2U);
-  ASSERT_FALSE(events.told.empty());
-  for (const PlanProgress& progress : events.told) EXPECT_EQ(progress.robots, 2U);
-  const core::Progress& last = events.told.back().planner;
+  ASSERT_FALSE(events.received.empty());
+  for (const PlanProgress& progress : events.received) EXPECT_EQ(progress.robots, 2U);
+  const core::Progress& last = events.received.back().planner;
   EXPECT_EQ(last.planned, 2U);
   EXPECT_EQ(last.attempts, answer["search"]["attempts"].get<std::int64_t>());
   ASSERT_TRUE(last.best);
@@ -79,19 +79,19 @@ TEST(PlanEvents, BeginOnceAndEndWithTheFiguresOfTheAnswer) {
   EXPECT_EQ(last.best->makespan, answer["makespan"].get<double>());
 }
 
-TEST(PlanEvents, ChangeNoAnswer) {
+TEST(PlanEvents, DoNotChangeTheAnswer) {
   for (const Json& request : {swap_request(), anytime_request()}) {
     Events events;
-    const Json told = json_of(plan_endpoint(request.dump(), told_to(events)));
-    EXPECT_EQ(told["deterministic"], true);
-    EXPECT_EQ(without_timings(told), without_timings(json_of(plan_endpoint(request.dump(), {}))));
+    const Json answer = json_of(plan_endpoint(request.dump(), context_with(events)));
+    EXPECT_EQ(answer["deterministic"], true);
+    EXPECT_EQ(without_timings(answer), without_timings(json_of(plan_endpoint(request.dump(), {}))));
   }
 }
 
-TEST(PlanEvents, HaveIncumbentsThatAreWholeAndValidAnswers) {
+TEST(PlanEvents, HaveIncumbentsThatAreCompleteAnswers) {
   Events events;
   const Json request = anytime_request();
-  const Json answer = json_of(plan_endpoint(request.dump(), told_to(events)));
+  const Json answer = json_of(plan_endpoint(request.dump(), context_with(events)));
   ASSERT_FALSE(events.incumbents.empty());
   for (const Json& incumbent : events.incumbents) {
     EXPECT_EQ(incumbent["status"], "solved");
@@ -110,22 +110,22 @@ TEST(PlanEvents, HaveIncumbentsThatAreWholeAndValidAnswers) {
   }
 }
 
-TEST(PlanEvents, AreNoIncumbentsWhereTheFirstSolutionIsTheAnswer) {
+TEST(PlanEvents, HaveNoIncumbentWhenTheFirstSolutionIsTheAnswer) {
   Events events;
-  EXPECT_EQ(plan_endpoint(swap_request().dump(), told_to(events)).status, 200);
+  EXPECT_EQ(plan_endpoint(swap_request().dump(), context_with(events)).status, 200);
   EXPECT_TRUE(events.incumbents.empty());
 }
 
-TEST(PlanEvents, BeginAlsoWhenTheBudgetIsSpentAlready) {
+TEST(PlanEvents, BeginEvenWhenTheBudgetIsSpent) {
   Events events;
-  RequestContext late = told_to(events);
+  RequestContext late = context_with(events);
   late.received_at -= std::chrono::minutes(2);
   EXPECT_EQ(json_of(plan_endpoint(anytime_request().dump(), late))["status"], "none");
   EXPECT_EQ(events.begun.size(), 1U);
   EXPECT_TRUE(events.incumbents.empty());
 }
 
-TEST(PlanEvents, NeverHaveAnIncumbentThatTheCheckerRefuses) {
+TEST(PlanEvents, NeverHaveAnIncumbentThatTheCheckerRejects) {
   const Planner shows_a_crash = [](const core::Problem& problem, const core::PlanOptions& options,
                                    const core::StopCondition& stop, core::Observer* observer) {
     core::Plan through_the_wall;
@@ -139,30 +139,30 @@ TEST(PlanEvents, NeverHaveAnIncumbentThatTheCheckerRefuses) {
     return core::plan(problem, options, stop);
   };
   Events events;
-  const Reply reply = plan_with(shows_a_crash, anytime_request().dump(), told_to(events));
+  const Reply reply = plan_with(shows_a_crash, anytime_request().dump(), context_with(events));
   EXPECT_EQ(reply.status, 500);
   EXPECT_EQ(json_of(reply)["code"], "internal_error");
   EXPECT_TRUE(events.incumbents.empty());
 }
 
-TEST(PlanWatch, WantsPlansAtMostOnceASecond) {
+TEST(ProgressReporter, WantsPlansAtMostOnceASecond) {
   Events events;
   const auto answer = [](const core::Plan&) { return Reply{200, kJson, "{}"}; };
-  PlanWatch watch(events, 1, PlanWatch::Clock::time_point::max(), answer);
+  ProgressReporter watch(events, 1, ProgressReporter::Clock::time_point::max(), answer);
   ASSERT_TRUE(watch.wants_plan());
-  const auto begin = PlanWatch::Clock::now();
+  const auto begin = ProgressReporter::Clock::now();
   watch.show({});
   EXPECT_EQ(events.incumbents.size(), 1U);
   while (!watch.wants_plan()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  EXPECT_GE(PlanWatch::Clock::now() - begin, std::chrono::seconds(1));
+  EXPECT_GE(ProgressReporter::Clock::now() - begin, std::chrono::seconds(1));
 }
 
-TEST(PlanWatch, WantsNoPlanWhenTheLastOneIsNear) {
+TEST(ProgressReporter, WantsNoPlanShortlyBeforeTheDeadline) {
   Events events;
   const auto answer = [](const core::Plan&) { return Reply{}; };
-  const auto soon = PlanWatch::Clock::now() + PlanWatch::kLastBit;
-  EXPECT_FALSE(PlanWatch(events, 1, soon, answer).wants_plan());
-  EXPECT_TRUE(PlanWatch(events, 1, soon + std::chrono::minutes(1), answer).wants_plan());
+  const auto soon = ProgressReporter::Clock::now() + ProgressReporter::kQuietEnd;
+  EXPECT_FALSE(ProgressReporter(events, 1, soon, answer).wants_plan());
+  EXPECT_TRUE(ProgressReporter(events, 1, soon + std::chrono::minutes(1), answer).wants_plan());
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ TEST(ValidateEndpoint, AcceptsAGoodPlan) {
   EXPECT_NEAR(answer["min_clearance"].get<double>(), 4.4, 1e-9);
 }
 
-TEST(ValidateEndpoint, AcceptsTheAnswerOfAPlanThatLastsForAges) {
+TEST(ValidateEndpoint, AcceptsTheAnswerOfAVeryLongPlan) {
   Json request = Json::parse(R"({
     "map": {"rows": ["....."], "resolution": 1e8},
     "robots": [{"id": "a", "radius": 1.0, "linear_speed": 1e-9, "angular_speed": 1e-9,
@@ -79,13 +79,13 @@ TEST(ValidateEndpoint, AcceptsAWholeAnswerAddedToItsRequest) {
   EXPECT_EQ(validated(request)["valid"], true);
 }
 
-TEST(ValidateEndpoint, TakesTheEndOfTheLastActionForTheCost) {
+TEST(ValidateEndpoint, UsesTheEndOfTheLastActionAsCost) {
   Json request = drive_request();
   request["plans"][0].erase("cost");
   EXPECT_EQ(validated(request)["valid"], true);
 }
 
-TEST(ValidateEndpoint, DoesNotLookAtTheLowerBoundOfAPlan) {
+TEST(ValidateEndpoint, IgnoresTheLowerBoundOfAPlan) {
   Json request = drive_request();
   for (const Json& bound : {Json(3.0), Json(1e9), Json("none"), Json()}) {
     request["plans"][0]["lower_bound"] = bound;
@@ -93,7 +93,7 @@ TEST(ValidateEndpoint, DoesNotLookAtTheLowerBoundOfAPlan) {
   }
 }
 
-TEST(ValidateEndpoint, TellsARobotThatIsTooFast) {
+TEST(ValidateEndpoint, ReportsARobotThatIsTooFast) {
   Json request = drive_request();
   action(request)["t_end"] = 1.5;
   request["plans"][0]["cost"] = 1.5;
@@ -107,7 +107,7 @@ TEST(ValidateEndpoint, TellsARobotThatIsTooFast) {
   EXPECT_FALSE(violation["detail"].get<std::string>().empty());
 }
 
-TEST(ValidateEndpoint, TellsACollisionWithARobotThatHasNoPlan) {
+TEST(ValidateEndpoint, ReportsACollisionWithARobotThatHasNoPlan) {
   Json request = drive_request();
   request["robots"][1]["start"]["x"] = 2.5;
   const Json answer = validated(request);
@@ -116,14 +116,14 @@ TEST(ValidateEndpoint, TellsACollisionWithARobotThatHasNoPlan) {
   EXPECT_NEAR(answer["violations"][0]["t"].get<double>(), 2.0, 1e-6);
 }
 
-TEST(ValidateEndpoint, JudgesStartsThatOverlapInsteadOfRefusingThem) {
+TEST(ValidateEndpoint, ReportsOverlappingStartsAsViolations) {
   Json request = drive_request();
   request["plans"] = Json::array();
   request["robots"][1]["start"]["x"] = 0.7;
   EXPECT_THAT(kinds_of(validated(request)), ElementsAre("robot_collision"));
 }
 
-TEST(ValidateEndpoint, TellsAWallAndAWrongGoal) {
+TEST(ValidateEndpoint, ReportsAWallAndAWrongGoal) {
   Json request = drive_request();
   action(request)["to"]["x"] = 4.5;
   action(request)["t_end"] = 4.0;
@@ -132,7 +132,7 @@ TEST(ValidateEndpoint, TellsAWallAndAWrongGoal) {
               testing::UnorderedElementsAre("obstacle_collision", "wrong_goal"));
 }
 
-TEST(ValidateEndpoint, JudgesByTheToleranceGiven) {
+TEST(ValidateEndpoint, UsesTheGivenTolerance) {
   Json request = drive_request();
   action(request)["from"]["x"] = 0.505;
   EXPECT_EQ(validated(request)["valid"], false);
@@ -142,7 +142,7 @@ TEST(ValidateEndpoint, JudgesByTheToleranceGiven) {
   EXPECT_THAT(faults_of_validation(request), ElementsAre(testing::Pair("/tolerance", "out_of_range")));
 }
 
-TEST(ValidateEndpoint, TellsFaultsOfThePlans) {
+TEST(ValidateEndpoint, ReportsFaultsOfThePlans) {
   Json request = drive_request();
   action(request)["type"] = "fly";
   action(request)["to"].erase("theta");
@@ -162,7 +162,7 @@ TEST(ValidateEndpoint, TellsFaultsOfThePlans) {
                                                    {"/plan", "unknown_key"}}));
 }
 
-TEST(ValidateEndpoint, WantsPlans) {
+TEST(ValidateEndpoint, RequiresPlans) {
   EXPECT_EQ(faults_of_validation(swap_request()), (Faults{{"/plans", "missing"}}));
 }
 
@@ -190,7 +190,7 @@ Json heap_request(int robots, int actions) {
   return request;
 }
 
-TEST(ValidateEndpoint, GivesUpWhenTheBudgetIsNotEnough) {
+TEST(ValidateEndpoint, StopsWhenTheBudgetIsSpent) {
   RequestContext context;
   context.limits.default_budget_ms = 1;
   const Reply reply = validate_endpoint(heap_request(200, 100).dump(), context);
@@ -201,14 +201,14 @@ TEST(ValidateEndpoint, GivesUpWhenTheBudgetIsNotEnough) {
   EXPECT_EQ(validate_endpoint(patient.dump(), context).status, 200);
 }
 
-TEST(ValidateEndpoint, TakesNoLessThanTheDefaultBudget) {
+TEST(ValidateEndpoint, HasAtLeastTheDefaultBudget) {
   Json request = drive_request();
   request["options"] = {{"time_budget_ms", 1}};
   request["plans"][0]["actions"] = heap_request(1, 2000)["plans"][0]["actions"];
   EXPECT_EQ(validate_endpoint(request.dump(), {}).status, 200);
 }
 
-TEST(ValidateEndpoint, StopsWhenItIsAskedTo) {
+TEST(ValidateEndpoint, StopsOnRequest) {
   std::stop_source stop;
   stop.request_stop();
   RequestContext context;
@@ -218,7 +218,7 @@ TEST(ValidateEndpoint, StopsWhenItIsAskedTo) {
   EXPECT_EQ(json_of(reply)["code"], "draining");
 }
 
-TEST(ValidateEndpoint, WritesAThousandViolationsAtMost) {
+TEST(ValidateEndpoint, ReturnsAtMostAThousandViolations) {
   Json request = drive_request();
   const Json jump = action(request);
   for (int count = 0; count < 1100; ++count) request["plans"][0]["actions"].push_back(jump);

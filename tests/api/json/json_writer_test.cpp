@@ -32,7 +32,7 @@ TEST(JsonWriter, KeepsRealNumbersReal) {
 
 TEST(JsonWriter, WritesNoNegativeZero) { EXPECT_EQ(written(-0.0), "0.0"); }
 
-TEST(JsonWriter, WritesNullForWhatIsNotFinite) {
+TEST(JsonWriter, WritesNullForNonFiniteNumbers) {
   EXPECT_EQ(written(std::numeric_limits<double>::infinity()), "null");
   EXPECT_EQ(written(std::numeric_limits<double>::quiet_NaN()), "null");
 }

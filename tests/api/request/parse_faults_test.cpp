@@ -30,7 +30,7 @@ Json& robot(Json& request, std::size_t index) { return request["robots"][index];
 
 class OneFault : public testing::TestWithParam<Case> {};
 
-TEST_P(OneFault, IsToldWhereItIs) {
+TEST_P(OneFault, IsReportedAtItsPlace) {
   Json request = swap_request();
   GetParam().spoil(request);
   const auto faults = faults_of(request.dump());
@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(OfTheDocument, OneFault,
                                          Case{"UnknownKey", [](Json& r) { r["option"] = 1; }, "/option",
                                               "unknown_key", "did you mean \"options\"?"},
                                          Case{"UnknownKeyEscaped", [](Json& r) { r["a/b~c"] = 1; },
-                                              "/a~1b~0c", "unknown_key", "what is:"}),
+                                              "/a~1b~0c", "unknown_key", "known members:"}),
                          [](const auto& one) { return one.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"GoalIsNull", [](Json& r) { robot(r, 1)["goal"] = nullptr; }, "/robots/1/goal", "wrong_type",
              "must be an object, not null"},
         Case{"ThetaIsNull", [](Json& r) { robot(r, 1)["goal"]["theta"] = nullptr; }, "/robots/1/goal/theta",
-             "wrong_type", "leave it out"},
+             "wrong_type", "omit it"},
         Case{"RadiusIsNegative", [](Json& r) { robot(r, 0)["radius"] = -1; }, "/robots/0/radius",
              "out_of_range", "not -1"},
         Case{"DefaultSpeedIsZero", [](Json& r) { r["robot_defaults"]["linear_speed"] = 0; },
@@ -153,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"NotAnObject", [](Json& r) { r["options"] = nullptr; }, "/options", "wrong_type", "null"}),
     [](const auto& one) { return one.param.name; });
 
-TEST(Faults, TellANumberTooLargeWhereItIs) {
+TEST(Faults, ReportATooLargeNumberAtItsPlace) {
   std::string body = swap_request().dump();
   body.replace(body.find("8.5"), 3, "1e999");
   const auto faults = faults_of(body);
@@ -161,7 +161,7 @@ TEST(Faults, TellANumberTooLargeWhereItIs) {
   EXPECT_THAT(faults.front().detail, HasSubstr("too large"));
 }
 
-TEST(Faults, TellTheTraitsThatNeitherRobotNorDefaultsGive) {
+TEST(Faults, ReportTraitsMissingInRobotAndDefaults) {
   Json request = swap_request();
   request.erase("robot_defaults");
   robot(request, 0)["radius"] = 0.3;
@@ -172,7 +172,7 @@ TEST(Faults, TellTheTraitsThatNeitherRobotNorDefaultsGive) {
                   Pair("/robots/1/angular_speed", "missing")));
 }
 
-TEST(Faults, TellWhatIsTooMuchForTheLimits) {
+TEST(Faults, ReportSizesBeyondTheLimits) {
   Limits limits;
   limits.max_cells = 35;
   limits.max_robots = 1;
@@ -186,7 +186,7 @@ TEST(Faults, TellWhatIsTooMuchForTheLimits) {
   EXPECT_THAT(detail_of(swap_request(), limits), HasSubstr("9 x 4 = 36 cells"));
 }
 
-TEST(Faults, AreToldAllAtOnceInTheOrderOfTheDocument) {
+TEST(Faults, AreReportedTogetherInTheOrderOfTheDocument) {
   const std::string body = R"({
     "options": {"mode": "slow", "seed": 1, "seed": 2},
     "robots": [
@@ -204,7 +204,7 @@ TEST(Faults, AreToldAllAtOnceInTheOrderOfTheDocument) {
                           Pair("/robots/4/id", "duplicate"), Pair("/map/colour", "unknown_key")));
 }
 
-TEST(Faults, OfOneRobotDoNotHideThoseOfOthers) {
+TEST(Faults, OfOneRobotDoNotHideFaultsOfOthers) {
   Json request = swap_request();
   robot(request, 0)["start"] = {{"x", "left"}, {"y", 1}};
   robot(request, 1)["goal"] = at(4.5, 1.5);
@@ -218,19 +218,19 @@ TEST(Faults, OfOneRobotDoNotHideThoseOfOthers) {
   EXPECT_THAT(faults[2].detail, HasSubstr("\"b\" and number 2"));
 }
 
-TEST(Faults, AreToldUpToAHundredAndCounted) {
+TEST(Faults, AreListedUpToAHundredAndCounted) {
   Json request = swap_request();
   request["robots"] = Json::array();
   for (int index = 0; index < 150; ++index) request["robots"].push_back(1);
   const auto result = parse_request(request.dump(), {});
-  const auto& error = std::get<RequestError>(result);
+  const RequestError& error = result.failure();
   EXPECT_EQ(error.code, ErrorCode::invalid_request);
   EXPECT_EQ(error.faults.size(), 100U);
   EXPECT_EQ(error.faults.back().pointer, "/robots/99");
   EXPECT_THAT(error.detail, HasSubstr("150 faults"));
 }
 
-TEST(Faults, CountTheCharactersOfAnIdNotItsBytes) {
+TEST(Faults, CountCharactersOfAnIdInsteadOfBytes) {
   Json request = swap_request();
   std::string id;
   for (int i = 0; i < 256; ++i) id += "ä";
@@ -238,14 +238,14 @@ TEST(Faults, CountTheCharactersOfAnIdNotItsBytes) {
   EXPECT_THAT(brief_faults_of(request), IsEmpty());
 }
 
-TEST(Faults, NameRobotsInAnyLanguage) {
+TEST(Faults, ContainIdsInAnyLanguage) {
   Json request = swap_request();
   robot(request, 0)["id"] = "Wägelchen 🚚";
   robot(request, 1)["id"] = "Wägelchen 🚚";
   EXPECT_THAT(detail_of(request), HasSubstr("Wägelchen 🚚"));
 }
 
-TEST(Faults, AllowContact) {
+TEST(Faults, DoNotIncludeContact) {
   Json request = swap_request();
   robot(request, 1)["start"] = at(0.5, 2.1);
   EXPECT_THAT(brief_faults_of(request), IsEmpty());

@@ -20,7 +20,7 @@ constexpr double kPi = std::numbers::pi;
 
 PlanRequest parsed(const Json& request, const Limits& limits = {}) {
   auto result = parse_request(request.dump(), limits);
-  return std::get<PlanRequest>(std::move(result));
+  return std::move(*result);
 }
 
 TEST(ParseRequest, ReadsTheMapFromTheTopRowDown) {
@@ -78,7 +78,7 @@ TEST(ParseRequest, MovesPositionsIntoTheMapFrame) {
   EXPECT_EQ(read.frame.to_world({0.5, 1.5}), core::Position(500'000.5, -18.5));
 }
 
-TEST(ParseRequest, HasTheDefaultsOfTheContract) {
+TEST(ParseRequest, HasTheDocumentedDefaults) {
   const PlanRequest read = parsed(swap_request());
   EXPECT_EQ(read.options.mode, core::PlanOptions::Mode::first);
   EXPECT_EQ(read.options.objective, core::PlanOptions::Objective::flowtime);
@@ -117,7 +117,7 @@ TEST(ParseRequest, ReadsEveryOption) {
   EXPECT_THAT(read.warnings, IsEmpty());
 }
 
-TEST(ParseRequest, TakesNullForNoMaximumOfIterations) {
+TEST(ParseRequest, ReadsNullAsNoBoundOfIterations) {
   Json request = swap_request();
   request["options"] = {{"max_iterations", nullptr}};
   EXPECT_FALSE(parsed(request).options.max_iterations);
@@ -133,7 +133,7 @@ TEST(ParseRequest, ClampsTheBudgetWithAWarning) {
   EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("clamped from 1e+300 to 700")));
 }
 
-TEST(ParseRequest, KeepsTheDefaultBudgetWithinTheLimitToo) {
+TEST(ParseRequest, ClampsTheDefaultBudgetWithoutAWarning) {
   Limits limits;
   limits.max_budget_ms = 700;
   const PlanRequest read = parsed(swap_request(), limits);
@@ -141,7 +141,7 @@ TEST(ParseRequest, KeepsTheDefaultBudgetWithinTheLimitToo) {
   EXPECT_THAT(read.warnings, IsEmpty());
 }
 
-TEST(ParseRequest, WarnsOfMaxIterationsThatHasNoEffect) {
+TEST(ParseRequest, WarnsWhenMaxIterationsHasNoEffect) {
   Json request = swap_request();
   request["options"] = {{"max_iterations", 10}};
   EXPECT_THAT(parsed(request).warnings, ElementsAre(HasSubstr("max_iterations has no effect")));

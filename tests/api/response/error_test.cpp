@@ -12,7 +12,7 @@ namespace {
 
 constexpr ErrorCode kLast = ErrorCode::draining;
 
-TEST(Errors, HaveACompleteRowEach) {
+TEST(Errors, HaveACompleteRowForEachCode) {
   std::set<std::string> names;
   for (int code = 0; code <= static_cast<int>(kLast); ++code) {
     const Json body = json_of(problem_reply(static_cast<ErrorCode>(code), "Because.", "id-1"));
@@ -27,7 +27,7 @@ TEST(Errors, HaveACompleteRowEach) {
   }
 }
 
-TEST(Errors, HaveTheStatusOfTheContract) {
+TEST(Errors, HaveTheDocumentedStatus) {
   const std::vector<std::tuple<ErrorCode, int, std::string>> rows{
       {ErrorCode::malformed_json, 400, "malformed_json"},
       {ErrorCode::too_deep, 400, "too_deep"},
@@ -58,7 +58,7 @@ TEST(Errors, HaveTheStatusOfTheContract) {
   }
 }
 
-TEST(Errors, TellEveryFault) {
+TEST(Errors, ListEveryFault) {
   const Json body = json_of(problem_reply(ErrorCode::invalid_request, "Two.", "i",
                                           {{"/a", "missing", "A \"quoted\" word."}, {"/b~1c", "x", "y"}}));
   EXPECT_EQ(body["errors"], Json::parse(R"([

@@ -1,4 +1,4 @@
-// What a reply tells those who watch the service.
+// The outcome of a plan for metrics and the log.
 
 #include "api/response/plan_outcome.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 using Status = PlanOutcome::Status;
 
-TEST(PlanOutcome, IsThatOfTheAnswer) {
+TEST(PlanOutcome, MatchesTheAnswer) {
   const Reply reply = plan_endpoint(swap_request().dump(), {});
   const Json answer = json_of(reply);
   ASSERT_TRUE(reply.outcome);
@@ -28,7 +28,7 @@ TEST(PlanOutcome, IsThatOfTheAnswer) {
   EXPECT_TRUE(reply.problem.empty());
 }
 
-TEST(PlanOutcome, HasNoTimeForPlanningWhenTheBudgetWasSpentInTheQueue) {
+TEST(PlanOutcome, HasNoPlanningTimeWhenTheBudgetWasSpentInTheQueue) {
   RequestContext late;
   late.received_at = RequestContext::Clock::now() - std::chrono::hours(1);
   const Reply reply = plan_endpoint(swap_request().dump(), late);
@@ -38,7 +38,7 @@ TEST(PlanOutcome, HasNoTimeForPlanningWhenTheBudgetWasSpentInTheQueue) {
   EXPECT_FALSE(reply.outcome->plan_seconds);
 }
 
-TEST(PlanOutcome, IsRefusedWhenTheCheckerRefusesThePlan) {
+TEST(PlanOutcome, IsRefusedWhenTheCheckerRejectsThePlan) {
   const Planner nobody = [](const core::Problem&, const auto&, const auto&, auto*) {
     core::Plan plan;
     plan.plans = {{0, 0.0, {}}, {1, 0.0, {}}};  // both are to stay where they are, away from their goals
@@ -50,13 +50,13 @@ TEST(PlanOutcome, IsRefusedWhenTheCheckerRefusesThePlan) {
   EXPECT_EQ(reply.outcome->status, Status::refused);
 }
 
-TEST(PlanOutcome, IsNotThereForAFault) {
+TEST(PlanOutcome, IsAbsentForAnInvalidRequest) {
   const Reply reply = plan_endpoint("{}", {});
   EXPECT_EQ(reply.problem, "invalid_request");
   EXPECT_FALSE(reply.outcome);
 }
 
-TEST(PlanOutcome, IsPartialWhenSomeRobotsHaveAPlanAndNoneWhenNobodyHas) {
+TEST(PlanOutcome, IsPartialWhenSomeRobotsHaveAPlanAndNoneWhenNoRobotHas) {
   core::Plan plan;
   plan.unplanned.emplace_back();
   EXPECT_EQ(status_of(plan), Status::none);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Requests to spoil, and what is said about them.
+// Requests to modify, and their faults.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -30,8 +30,7 @@ using Faults = std::vector<std::pair<std::string, std::string>>;  // pointer and
 /// The faults of a body that is JSON.
 inline std::vector<Fault> faults_of(const std::string& body, const Limits& limits = {}) {
   const auto parsed = parse_request(body, limits);
-  const auto* error = std::get_if<RequestError>(&parsed);
-  return error != nullptr ? error->faults : std::vector<Fault>{};
+  return parsed ? std::vector<Fault>{} : parsed.failure().faults;
 }
 
 inline Faults brief(const std::vector<Fault>& faults) {

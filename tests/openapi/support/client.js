@@ -1,12 +1,12 @@
-// Requests to the service, as bytes when need be, and answers held to the document.
+// Sends requests, as raw bytes where needed, and compares the answers with the document.
 
 import assert from "node:assert/strict";
 import { Agent, request } from "node:http";
 import { connect } from "node:net";
 
 const PATIENCE_MS = 30_000;
-/** Header fields with a meaning for programs: not to be sent where they are not documented. */
-const TELLING = ["allow", "retry-after", "www-authenticate", "accept-encoding"];
+/** Header fields with a meaning for programs. They must be documented where they are sent. */
+const CONTROL_FIELDS = ["allow", "retry-after", "www-authenticate", "accept-encoding"];
 
 /** A client of the service at `url`, whose answers the document has to have: anything else is a failed assertion. */
 export class Client {
@@ -110,15 +110,15 @@ function checked(document, answer) {
   const header = (name) => document.at([...documented.steps, "headers", name]);
   for (const name of Object.keys(documented.value.headers)) {
     const value = headers[name.toLowerCase()];
-    const told = header(name);
+    const documentedHeader = header(name);
     if (value === undefined) {
-      assert.ok(!told.value.required, `no ${name}: ${asked}`);
+      assert.ok(!documentedHeader.value.required, `no ${name}: ${asked}`);
     } else {
-      assert.deepEqual(document.faultsOf([...told.steps, "schema"], value), [], `${name} of ${asked}`);
+      assert.deepEqual(document.faultsOf([...documentedHeader.steps, "schema"], value), [], `${name} of ${asked}`);
     }
   }
   const names = Object.keys(documented.value.headers).map((name) => name.toLowerCase());
-  for (const name of TELLING)
+  for (const name of CONTROL_FIELDS)
     assert.ok(!headers[name] || names.includes(name), `${name} is not documented: ${asked}`);
 
   const [type] = headers["content-type"].split(";");

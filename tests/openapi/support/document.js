@@ -1,4 +1,4 @@
-// The OpenAPI document of a running service, and what it says about answers and requests.
+// The OpenAPI document of a running service, and the schemas of its answers and requests.
 
 import Ajv2020 from "ajv/dist/2020.js";
 import addFormats from "ajv-formats";
@@ -12,7 +12,7 @@ export async function fetchDocument(url) {
   return answer.json();
 }
 
-/** Answers may get more members later, so their schemas are open; but what the tests see has to be told. */
+/** Schemas of answers are open for later members; but all members that the tests see must be documented. */
 function closed(schema) {
   if (Array.isArray(schema)) return schema.map(closed);
   if (schema === null || typeof schema !== "object") return schema;
@@ -22,7 +22,7 @@ function closed(schema) {
 }
 
 export class Document {
-  // Conditions say nothing of types: what is of another type is refused by the schema proper.
+  // Conditions need no types: the schema itself rejects other types.
   #ajv = new Ajv2020({ allErrors: true, allowUnionTypes: true, strictTypes: false });
   #validators = new Map();
 

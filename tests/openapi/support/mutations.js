@@ -1,4 +1,4 @@
-// Requests spoiled at one place.
+// Requests that are invalid at one place.
 
 import fc from "fast-check";
 
@@ -6,7 +6,7 @@ import { Members, Raw, textOf } from "./text.js";
 
 const TOO_DEEP = 40;
 
-/** What does not belong almost anywhere. */
+/** Values that are invalid almost everywhere. */
 const STRANGE = [
   null,
   true,
@@ -32,7 +32,7 @@ const STRANGE = [
   "#".repeat(5000),
 ];
 
-/** What is not JSON. */
+/** Texts that are not JSON. */
 const NO_JSON = [
   "NaN",
   "-Infinity",

@@ -1,4 +1,4 @@
-#include "api/json/text.h"
+#include "api/json/fault_text.h"
 
 #include <algorithm>
 #include <array>
@@ -68,13 +68,15 @@ std::string described(const JsonValue& value) {
   return value.array() != nullptr ? "an array" : "an object";
 }
 
-std::string alternatives(std::span<const std::string_view> words) {
+std::string listed(std::span<const std::string_view> words) {
   std::string text;
-  for (std::size_t index = 0; index < words.size(); ++index) {
-    if (index > 0) text += index + 1 == words.size() ? " or " : ", ";
-    text += in_quotes(words[index]);
-  }
+  for (const std::string_view word : words) text += (text.empty() ? "" : ", ") + in_quotes(word);
   return text;
+}
+
+std::string alternatives(std::span<const std::string_view> words) {
+  if (words.size() < 2) return listed(words);
+  return listed(words.first(words.size() - 1)) + " or " + in_quotes(words.back());
 }
 
 std::string suggestion(std::string_view text, std::span<const std::string_view> words) {

@@ -1,4 +1,4 @@
-#include "api/json/text.h"
+#include "api/json/fault_text.h"
 
 #include <gtest/gtest.h>
 
@@ -10,14 +10,14 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kWords{"radius", "linear_speed", "goal"};
 
-TEST(Suggestion, FindsTheKeyThatWasMeant) {
+TEST(Suggestion, FindsTheIntendedKey) {
   EXPECT_EQ(suggestion("raduis", kWords), "; did you mean \"radius\"?");
   EXPECT_EQ(suggestion("linearSpeed", kWords), "; did you mean \"linear_speed\"?");
   EXPECT_EQ(suggestion("GOAL", kWords), "; did you mean \"goal\"?");
   EXPECT_EQ(suggestion("linear", kWords), "; did you mean \"linear_speed\"?");
 }
 
-TEST(Suggestion, IsSilentWhenNothingIsNear) {
+TEST(Suggestion, IsEmptyWhenNoWordIsClose) {
   EXPECT_EQ(suggestion("colour", kWords), "");
   EXPECT_EQ(suggestion("", kWords), "");
   EXPECT_EQ(suggestion(std::string(1'000'000, 'r'), kWords), "");

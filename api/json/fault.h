@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+namespace fleetplan::api {
+
+/// One fault of a request's content.
+struct Fault {
+  std::string pointer;  // RFC 6901 JSON Pointer to the smallest value that is wrong
+  std::string code;     // one of those below
+  std::string detail;   // what is wrong and what would be right
+};
+
+/// The values of `errors[].code`.
+namespace fault {
+inline constexpr const char* kWrongType = "wrong_type";
+inline constexpr const char* kMissing = "missing";
+inline constexpr const char* kUnknownKey = "unknown_key";
+inline constexpr const char* kUnknownValue = "unknown_value";
+inline constexpr const char* kUnknownRobot = "unknown_robot";
+inline constexpr const char* kDuplicate = "duplicate";
+inline constexpr const char* kOutOfRange = "out_of_range";
+inline constexpr const char* kEmpty = "empty";
+inline constexpr const char* kBadMapRow = "bad_map_row";
+inline constexpr const char* kStartInObstacle = "start_in_obstacle";
+inline constexpr const char* kGoalInObstacle = "goal_in_obstacle";
+inline constexpr const char* kStartsOverlap = "starts_overlap";
+inline constexpr const char* kGoalsOverlap = "goals_overlap";
+}  // namespace fault
+
+}  // namespace fleetplan::api

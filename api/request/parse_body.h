@@ -1,0 +1,47 @@
+#pragma once
+
+// What the requests of both endpoints share: reading the body, and the map, the robots and the options in it.
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "api/json/json_reader.h"
+#include "api/request/limits.h"
+#include "api/request/parse_map.h"
+#include "api/request/parse_options.h"
+#include "api/request/parse_robots.h"
+#include "api/response/error.h"
+
+namespace fleetplan::api {
+
+/// `map`, `robots` (with `robot_defaults`) and `options` of a request, as far as they could be read.
+struct Fleet {
+  std::optional<WorldMap> map;
+  std::vector<ReadRobot> robots;
+  ReadOptions options;
+};
+
+/// Reads them from the root of the document.
+Fleet parse_fleet(const JsonReader& root, const Limits& limits);
+
+RequestError request_error(const JsonError& error);
+/// The error with all faults, the first hundred one by one. There must be one.
+RequestError request_error(const FaultList& faults);
+
+/// Reads a body whose root has these members. `parse` gets a reader of the root and returns an optional
+/// request, which is empty only when it reported faults. Returns the request if the document has no fault at
+/// all.
+template <typename Request, typename Parse>
+Result<Request, RequestError> parse_body(std::string_view body, const Limits& limits,
+                                         std::span<const std::string_view> members, const Parse& parse) {
+  auto document = read_json(body, limits.max_depth);
+  if (!document) return request_error(document.failure());
+  std::optional<Request> request = parse(JsonReader(*document).object(members));
+  if (!document->faults.empty()) return request_error(document->faults);
+  return std::move(*request);
+}
+
+}  // namespace fleetplan::api

@@ -1,0 +1,50 @@
+#include "api/request/parse_validate_request.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "api/request/parse_body.h"
+#include "api/request/parse_plans.h"
+#include "api/request/ranges.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+// The members of a request to validate, then those that an answer of /v1/plan adds, which are ignored.
+constexpr std::array<std::string_view, 18> kMembers{
+    "map",      "robot_defaults", "robots",        "options",  "plans",      "tolerance",
+    "status",   "request_id",     "unplanned",     "flowtime", "makespan",   "lower_bound",
+    "verified", "min_clearance",  "deterministic", "search",   "timings_ms", "warnings"};
+
+constexpr double kDefaultTolerance = 1e-6;  // metres, seconds, radians; allows for rounded decimals
+constexpr Range kTolerance{0.0, kLargest, "(metres, seconds and radians)"};
+
+/// At least the default budget: the options may be those of the plan's request, which allowed less.
+std::chrono::nanoseconds check_budget(ReadOptions options, const Limits& limits) {
+  const auto least = static_cast<double>(limits.default_budget_ms);
+  if (options.budget_ms) options.budget_ms = std::max(*options.budget_ms, least);
+  return effective_budget(options, limits);
+}
+
+}  // namespace
+
+Result<ValidateRequest, RequestError> parse_validate_request(std::string_view body, const Limits& limits) {
+  const auto parse = [&](const JsonReader& root) -> std::optional<ValidateRequest> {
+    Fleet fleet = parse_fleet(root, limits);
+    const double tolerance = root.find("tolerance").number(kTolerance).value_or(kDefaultTolerance);
+    const WorldFrame frame = fleet.map ? fleet.map->frame : WorldFrame{};
+    auto plans = parse_plans(root.require("plans"), fleet.robots, frame);
+    if (!fleet.map) return std::nullopt;
+    std::vector<core::Robot> robots;
+    robots.reserve(fleet.robots.size());
+    for (ReadRobot& robot : fleet.robots) robots.push_back(std::move(robot.robot));
+    return ValidateRequest{std::move(fleet.map->grid), std::move(robots), std::move(plans), tolerance,
+                           check_budget(fleet.options, limits)};
+  };
+  return parse_body<ValidateRequest>(body, limits, kMembers, parse);
+}
+
+}  // namespace fleetplan::api

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <chrono>
+#include <string_view>
+#include <vector>
+
+#include "api/json/result.h"
+#include "api/request/limits.h"
+#include "api/response/error.h"
+#include "core/map/occupancy_grid.h"
+#include "core/model/plan.h"
+#include "core/model/robot.h"
+
+namespace fleetplan::api {
+
+/// A readable body of POST /v1/validate. Robots may overlap obstacles and each other: the checker reports
+/// that.
+struct ValidateRequest {
+  core::OccupancyGrid grid;
+  std::vector<core::Robot> robots;
+  std::vector<core::RobotPlan> plans;
+  double tolerance = 0.0;             // metres, seconds and radians
+  std::chrono::nanoseconds budget{};  // of the check
+};
+
+/// Reads a body of POST /v1/validate.
+Result<ValidateRequest, RequestError> parse_validate_request(std::string_view body, const Limits& limits);
+
+}  // namespace fleetplan::api
