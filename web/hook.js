@@ -1,8 +1,9 @@
-// Scripting surface, read-only, for tests and the curious: `window.fleetplan` has `time`, `duration` (seconds),
-// `playing`, `request`, `answer` and `check` (parsed JSON or null), `selected` (id or null), `closest` ({ids,
-// gap} of the two robots that are closest now, metres) and `least` ({t, gap, ids} when two are closest in all
-// of the plan), `poseOf(id)` (the pose drawn now, metres and radians), `stateOf(id)` and `screenOf(id)` ({x, y,
-// radius} of its disk on the canvas, CSS pixels); `pointOf({x, y})` is where a world point is on the canvas.
+// Scripting surface, read-only, for tests and scripts: `window.fleetplan` has `time`, `duration`
+// (seconds), `playing`, `request`, `answer` and `check` (parsed JSON or null), `selected` (id or null),
+// `closest` ({ids, gap} of the two robots that are closest now, metres) and `least` ({t, gap, ids} when two
+// are closest in all of the plan), `poseOf(id)` (the pose drawn now, metres and radians), `stateOf(id)` and
+// `screenOf(id)` ({x, y, radius} of its disk on the canvas, CSS pixels); `pointOf({x, y})` is where a world
+// point is on the canvas.
 
 export function offerHook(session, stage, fleet) {
   /** @type {any} */ (window).fleetplan = Object.freeze({

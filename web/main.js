@@ -1,4 +1,4 @@
-// Puts the page together. Each feature attaches to the session and knows nothing of the others.
+// Puts the page together. Each feature attaches to the session and is independent of the others.
 
 import { EditPanel } from "./edit/edit_panel.js";
 import { Address } from "./files/address.js";

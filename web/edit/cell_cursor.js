@@ -1,4 +1,4 @@
-// The cell that a tool is at: under the mouse, or moved by the arrow keys.
+// The cell that a tool works on: under the mouse, or moved by the arrow keys.
 
 import { cellAt, centreOf, isInside } from "../model/cells.js";
 
@@ -32,7 +32,7 @@ export class CellCursor {
     };
   }
 
-  /** The mouse is at a world point, or has gone (null). */
+  /** The mouse is at a world point, or has left (null). */
   hover(world) {
     const { grid } = this.#session.scene;
     const cell = world && grid && cellAt(grid, world);
@@ -41,7 +41,7 @@ export class CellCursor {
     this.#stage.redraw();
   }
 
-  /** Whether an arrow key moved it. */
+  /** Moves it if an arrow key was pressed; returns whether it did. */
   key({ key, ctrlKey, metaKey, altKey }) {
     if (!(key in ARROWS) || ctrlKey || metaKey || altKey || this.cell === null) return false;
     const [right, down] = ARROWS[key];

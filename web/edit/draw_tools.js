@@ -1,4 +1,4 @@
-// The tools that make cells wall or floor: freehand and as rectangles.
+// The tools that turn cells into walls or floor: freehand and as rectangles.
 
 import { cellAt, cellsAlong, cellsBetween, isFree } from "../model/cells.js";
 import { setCells } from "../model/edit_request.js";
@@ -9,16 +9,16 @@ import { CellCursor } from "./cell_cursor.js";
 
 const NO_MAP = "There is no map to draw on: create one under New map.";
 
-let strokes = 0; // for a name of each
+let strokes = 0; // for unique names
 
-/** Makes cells wall, or floor, where it is drawn. */
+/** Turns cells into walls, or floor, along a stroke. */
 export class DrawTool {
   help;
   keys = "Keyboard: arrows and Enter; with Shift, a line.";
   #session;
   #cursor;
   #blocked;
-  #last = null; // where the stroke has got to
+  #last = null; // the last point of the stroke
   /** @type {string | null} */
   #gesture = null;
 
@@ -94,7 +94,7 @@ export class DrawTool {
   }
 }
 
-/** Fills the rectangle between two corners with walls or, with Alt, frees it. */
+/** Fills the rectangle between two corners with walls or, with Alt, with floor. */
 export class BoxTool {
   help = "Drag from corner to corner to fill with wall.";
   keys = "Alt: erase. Keyboard: arrows, and Enter at both corners.";

@@ -32,7 +32,7 @@ export class EditPanel {
     });
   }
 
-  /** Takes a tool in hand: select, wall, erase, box or robot. */
+  /** Selects a tool: select, wall, erase, box or robot. */
   pick(tool) {
     this.#toolbox.pick(tool);
   }
@@ -69,7 +69,7 @@ export class Toolbox {
     this.#refresh();
   }
 
-  /** Takes a tool in hand, on the Edit tab, for use with the keyboard. */
+  /** Selects a tool on the Edit tab and focuses the scene for the keyboard. */
   pick(name) {
     this.#tabs.choose(TAB);
     this.#choose(name);

@@ -1,16 +1,19 @@
-// What of the robots can be taken hold of in the scene: disks, goals and, of the chosen robot, handles that
-// turn its start and goal. A part is {robot, pose: "start" or "goal", turns: whether it is the handle, place:
+// What can be dragged in the scene: disks, goals and, for the selected robot, handles that
+// rotate its start and goal. A part is {robot, pose: "start" or "goal", turns: whether it is a handle, place:
 // {x, y}}.
 
 import { ring } from "../scene/marks.js";
 
 const STEM = 22; // pixels from a disk's rim to its handle
-const LONGER = 48; // pixels more for the goal's handle if it would cover the start's
-const NAME = 28; // pixels beyond a disk's top that its name may take
+const LONGER = 48; // additional pixels for the goal's handle if it would cover the start's
+const NAME = 28; // pixels above a disk that its name may occupy
 const KNOB = 6; // pixels, the radius of a handle
-const PICK = { mouse: 10, touch: 22 }; // pixels around a handle that take hold of it
+const PICK = { mouse: 10, touch: 22 }; // pixels around a handle that pick it
 
-/** The part at a world point, or null; `event` says what points there, and with shift that goals go first. */
+/**
+ * The part at a world point, or null; `event` gives the type of pointer; with Shift, goals come before
+ * starts.
+ */
 export function partAt(world, { session, stage, chosen, event }) {
   const reach = (event?.pointerType === "touch" ? PICK.touch : PICK.mouse) / stage.scale;
   for (const pose of chosen ? posesOf(chosen) : []) {
@@ -26,13 +29,13 @@ export function partAt(world, { session, stage, chosen, event }) {
   return event?.shiftKey ? (goal ?? start) : (start ?? goal);
 }
 
-/** The part that a disk ({robot, place} or null) of a robot at one of its poses is, or null. */
+/** The part for a disk ({robot, place} or null) at one of the poses, or null. */
 const part = (disk, pose) => disk && { ...disk, pose, turns: false };
 
 const posesOf = (robot) => (robot.goal ? ["goal", "start"] : ["start"]);
 
 /**
- * The handle that turns a pose, world points: {rim, knob}, where its stem begins and ends. A goal of any
+ * The handle that rotates a pose: {rim, knob}, the world points of its stem. A goal of any
  * heading has it to the right. At time 0 the robot is at its start, with its name above it.
  */
 function handleOf(robot, pose, { scale, time }) {
@@ -49,7 +52,7 @@ function handleOf(robot, pose, { scale, time }) {
   return { rim: at(beyondName), knob: at(beyondName + longer + STEM) };
 }
 
-/** Paints the handles of the chosen robot. */
+/** Paints the handles of the selected robot. */
 export function paintHandles(context, view, robot) {
   const { screen, theme } = view;
   context.save();
@@ -74,7 +77,7 @@ export function paintHandles(context, view, robot) {
   context.restore();
 }
 
-/** Rings what would be taken hold of. */
+/** Rings the part that a press would drag. */
 export function paintPart(context, { scale, screen, theme }, { robot, turns, place }) {
   const radius = turns ? KNOB + 3 : Math.max(robot.radius * scale, 4) + 4;
   ring(context, screen(place), radius, theme.accent, { width: 2, alpha: 1, dashes: [] });

@@ -1,4 +1,5 @@
-// The forms of the map: its size by each side, the side of a cell, the place of its corner; and a new, empty map.
+// The forms of the map: its size by each side, the side of a cell, the place of its corner; and a new, empty
+// map.
 
 import { faultOfSize, newMap, resize, setOrigin, setResolution } from "../model/edit_request.js";
 import { byId, element, setText } from "../ui/dom.js";
@@ -33,7 +34,7 @@ export class MapForm {
     this.#refresh();
   }
 
-  /** Takes a size when it is typed to its end: half of it would cut the map. */
+  /** Accepts a size only when it is complete: a partly typed one would cut the map. */
   #sizeField(label, dimension, side) {
     const accept = (value) => this.#resize({ [side]: value - this.#session.scene.grid[dimension] });
     return new NumberField({ label, step: "1", required: true, late: true, accept });
@@ -54,7 +55,7 @@ export class MapForm {
     return element("div", { class: `side-${side}` }, button("−", -1, "Cut"), name, button("+", 1, "Add"));
   }
 
-  /** Resizes the map; why not in words, or null. */
+  /** Resizes the map; returns the reason if that is impossible, else null. */
   #resize(sides) {
     const { grid } = this.#session.scene;
     const sum = (name) => sides[name] ?? 0;
@@ -79,7 +80,7 @@ export class MapForm {
   }
 }
 
-/** `begin(request)` opens what is made. */
+/** `begin(request)` opens the new request. */
 export function watchNewMapForm(session, begin) {
   const form = byId("new-map");
   const fault = byId("new-map-fault");

@@ -1,10 +1,10 @@
-// What can be done to the chosen robot by buttons and keys; each is one step to undo and is told in words.
+// Actions on the selected robot by buttons and keys; each is one undo step and is announced.
 
 import { deleteRobot, duplicateRobot, nameOf, removeGoal, robotsOf, setPose } from "../model/edit_request.js";
 import { nearestFreePlace } from "../model/placement.js";
 import { degrees } from "../ui/format.js";
 
-const ROOM = 2.5; // radii between a start and a goal that is put beside it
+const ROOM = 2.5; // radii between a start and its new goal
 
 export class RobotActions {
   #session;
@@ -16,12 +16,12 @@ export class RobotActions {
     this.#choice = choice;
   }
 
-  /** Moves or turns the chosen robot's "start" or "goal": sets the members {x, y, theta} that are given. */
+  /** Moves or rotates the "start" or "goal" of the selected robot: sets the given members {x, y, theta}. */
   setPose(pose, members, gesture = null) {
     this.#session.edit(setPose(this.#session.request, this.#choice.index, pose, members), gesture);
   }
 
-  /** Says where the chosen robot's "start" or "goal" is now. */
+  /** Announces where the "start" or "goal" of the selected robot is now. */
   announcePose(pose) {
     const at = robotsOf(this.#session.request)[this.#choice.index]?.[pose];
     const place = `(${at?.x}, ${at?.y}) m`;
@@ -53,7 +53,7 @@ export class RobotActions {
     this.#session.announce(`${name} deleted.`);
   }
 
-  /** Gives the chosen robot a goal beside its start, of any heading. */
+  /** Gives the selected robot a goal beside its start, with any heading. */
   addGoal() {
     const { robot } = this.#choice;
     const { scene } = this.#session;
@@ -72,9 +72,7 @@ export class RobotActions {
     return nameOf(this.#session.request, this.#choice.index);
   }
 
-  /**
-   * The nearest place for a robot that is free of walls and of `others`; where there is none, the point itself.
-   */
+  /** The nearest place for a robot that is clear of walls and `others`; the point itself if there is none. */
   #freePlace({ radius }, point, others, beyond = 0) {
     const { grid } = this.#session.scene;
     const found = grid && nearestFreePlace(grid, point, radius, others, beyond);

@@ -1,4 +1,5 @@
-// The forms of robots: the list to choose one from, the form of the chosen robot, the defaults of all robots.
+// The forms of robots: the list to select one from, the form of the selected robot, the defaults of all
+// robots.
 
 import { tidy } from "../model/cells.js";
 import { nameOf, robotsOf, setDefault, setRobot } from "../model/edit_request.js";
@@ -133,7 +134,7 @@ export function watchRobotPicker(session, choice) {
   session.on("marks", () => (list.value = choice.index ?? ""));
 }
 
-/** What to call no robot and each robot in turn. */
+/** The names in the list: for no robot, then for each robot. */
 function namesOf({ request, problem }) {
   const faulty = new Set((problem?.errors ?? []).map(({ pointer = "" }) => robotIndexOf(pointer)));
   const sign = (index) => (faulty.has(index) ? "⚠ " : "");

@@ -5,7 +5,7 @@ import { addRobot, nameOf, robotsOf } from "../model/edit_request.js";
 import { snapPoint } from "../model/placement.js";
 import { CellCursor } from "./cell_cursor.js";
 
-let gestures = 0; // for a name of each
+let gestures = 0; // for unique names
 
 export class RobotTool {
   help = "Drag from a start to a goal to add a robot; a click adds one without a goal.";

@@ -1,4 +1,4 @@
-// The tool that moves and turns robots, by mouse, finger and keys.
+// The tool that moves and rotates robots, by mouse, finger and keys.
 
 import { snapHeading, snapPoint, stepped, turned } from "../model/placement.js";
 import { paintHandles, paintPart, partAt } from "./handles.js";
@@ -11,7 +11,7 @@ const ARROWS = {
 };
 const TURNS = { t: ["start", 1], T: ["start", -1], g: ["goal", 1], G: ["goal", -1] };
 
-let gestures = 0; // for a name of each
+let gestures = 0; // for unique names
 
 export class SelectTool {
   help = "Drag robots, goals and the handles that turn them.";
@@ -127,7 +127,7 @@ export class SelectTool {
     this.#actions.announcePose(pose);
   }
 
-  /** A key that is held down is one step to undo. */
+  /** A key that is held down makes one undo step. */
   #gestureOf({ key, repeat }) {
     if (!repeat) gestures += 1;
     return `key ${key} ${gestures}`;

@@ -1,12 +1,12 @@
-// The page's address says what is open: an example by its name (#name), and any other request itself where it is
-// small enough (#r=…), so that it can be bookmarked, sent and loaded again.
+// The page's address identifies what is open: an example by its name (#name), any other request by its
+// content if it is small enough (#r=…), so that it can be bookmarked and shared.
 
 import { FileError } from "../model/problem.js";
 
 const REST_MS = 400; // without a further edit
-const MOST_TO_COMPRESS = 2 ** 20; // characters of a request to compress unasked
+const MOST_TO_COMPRESS = 2 ** 20; // characters: longer requests are not compressed after each edit
 const PREFIX = "#r=";
-const LONGEST_TEXT = 8 * 2 ** 20; // bytes when inflated: more than any fragment of that length can hold
+const LONGEST_TEXT = 8 * 2 ** 20; // bytes when inflated
 
 export class Address {
   #session;
@@ -23,7 +23,7 @@ export class Address {
     addEventListener("hashchange", () => this.#follow());
   }
 
-  /** Opens what the address says, or else the first of the examples ([{name}]). */
+  /** Opens what the address identifies, or else the first of the examples ([{name}]). */
   async begin(examples) {
     this.#examples = examples;
     if (this.#opening.begun) return;
@@ -36,7 +36,7 @@ export class Address {
     if (first && (await this.#opening.example(first.name)) && problem) this.#session.setProblem(problem);
   }
 
-  /** An address that opens the session's request: {address, length}, the length being that of the fragment. */
+  /** An address that opens the session's request: {address, length}, with the length of the fragment. */
   async link() {
     const { example, request } = this.#session;
     const fragment = example === null ? await writeLinkState(request) : `#${example}`;
@@ -60,7 +60,7 @@ export class Address {
       put(`#${example}`);
       return;
     }
-    if (!isLinkState(location.hash)) put(""); // no example any longer
+    if (!isLinkState(location.hash)) put(""); // it is no longer the example
     this.#timer = setTimeout(() => this.#showRequest(), REST_MS);
   }
 
@@ -75,12 +75,12 @@ function put(fragment) {
   history.replaceState(null, "", `${location.pathname}${location.search}${fragment}`);
 }
 
-export const LONGEST_LINK = 8000; // characters of the fragment; longer addresses get lost in chats and mails
+export const LONGEST_LINK = 8000; // characters of the fragment; longer addresses are often truncated
 
-/** Whether the fragment of an address is meant to hold a request. */
+/** Whether the fragment of an address has the form of a request. */
 export const isLinkState = (fragment) => fragment.startsWith(PREFIX);
 
-/** The fragment that holds the request, however long it gets. */
+/** The fragment that holds the request, of any length. */
 export async function writeLinkState(request) {
   const deflated = await passedThrough(
     new CompressionStream("deflate"),
@@ -108,11 +108,11 @@ export async function readLinkState(fragment) {
   }
 }
 
-/** What a transform makes of the bytes. Rejects when that is more than `most` bytes, without making it all. */
+/** The output of a transform for the bytes. Rejects as soon as it exceeds `most` bytes. */
 async function passedThrough(transform, bytes, most) {
   const writer = transform.writable.getWriter();
   const written = writer.write(bytes).then(() => writer.close());
-  written.catch(() => {}); // reading fails as well then, and tells
+  written.catch(() => {}); // reading fails as well, and rejects
   const chunks = [];
   let length = 0;
   const reader = transform.readable.getReader();
@@ -145,7 +145,7 @@ function toBase64Url(bytes) {
   return btoa(text).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
-/** The bytes, or null if the text is no base64 of URLs. */
+/** The bytes, or null if the text is not base64url. */
 function fromBase64Url(text) {
   if (!/^[\w-]*$/.test(text)) return null;
   try {

@@ -1,4 +1,4 @@
-// What to do with the files that were opened or dropped together, told by their names and how they begin.
+// The kinds of files opened or dropped together, by their names and first bytes.
 
 import { FileError } from "../model/problem.js";
 import { isPng } from "./map_image.js";
@@ -23,10 +23,10 @@ const OPENED =
   "requests and plans (.json), MovingAI maps and scenarios (.map, .scen), " +
   "ROS maps (.yaml with .pgm or .png)";
 
-/** The endings of names of files that can be opened, for an <input>'s `accept`. */
+/** The extensions of files that can be opened, for an <input>'s `accept`. */
 export const ACCEPT = [...Object.keys(BY_ENDING).map((ending) => `.${ending}`), "application/json"].join(",");
 
-/** How many bytes of its beginning, `head`, tell a file's kind. */
+/** The number of first bytes, `head`, that determine the kind of a file. */
 export const HEAD_BYTES = 512;
 
 /** The kind of a file {name, head}: "json", "map", "scenario", "yaml" or "image"; or null. */
@@ -36,7 +36,7 @@ export function kindOf({ name, head }) {
 }
 
 function kindOfContent(head) {
-  const text = new TextDecoder().decode(head); // which leaves out a byte order mark
+  const text = new TextDecoder().decode(head); // which drops a byte order mark
   if (/^P[25]\s/.test(text) || isPng(head)) return "image";
   if (text.includes("\0")) return null;
   if (/^\s*\{/.test(text)) return "json";
@@ -48,7 +48,7 @@ function kindOfContent(head) {
 /**
  * What files [{name, head: Uint8Array}] opened together are:
  * {kind: "json", files: one or two}, {kind: "map", map}, {kind: "scenario", scenario, map: or null} or
- * {kind: "ros", yaml, images}. Throws FileError, with the files' names in it, when they are nothing together.
+ * {kind: "ros", yaml, images}. Throws FileError, with the files' names in it, for other combinations.
  */
 export function sortFiles(files) {
   /** @type {Record<string, any[]>} */
@@ -90,7 +90,7 @@ export function sortFiles(files) {
   );
 }
 
-/** The file that a map.yaml means by its `image`, in whatever folder. Throws FileError if it is not there. */
+/** The file that a map.yaml names as its `image`, in any folder. Throws FileError if it is not there. */
 export function imageNamed(path, images, yamlName) {
   const name = path.split(/[\\/]/).pop();
   const found = images.find((image) => image.name === name);

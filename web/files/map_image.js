@@ -1,17 +1,19 @@
-// The gray pixels of a map's image: portable graymaps (netpbm's PGM), plain and raw, 8 and 16 bits, are read here; PNGs
-// are decoded by the browser.
+// The gray pixels of a map's image: portable graymaps (netpbm's PGM), plain and raw, 8 and 16 bits, are read
+// here; PNGs are decoded by the browser.
 
 import { FileError } from "../model/problem.js";
 import { contextOf } from "../ui/dom.js";
 
-const MOST_PNG_PIXELS = 2 ** 26; // of a PNG: what browsers decode and hold without trouble
+const MOST_PNG_PIXELS = 2 ** 26; // of a PNG: supported by all browsers
 const SPACE = new Set([9, 10, 11, 12, 13, 32]);
 const HASH = 35;
-const MOST_PIXELS = 2 ** 28; // more is no map but a mistake
+const MOST_PIXELS = 2 ** 28; // more is a mistake
 const SIGNATURE = [137, 80, 78, 71, 13, 10, 26, 10];
 const WITH_ALPHA = new Set([4, 6]); // colour types: gray and colour, each with alpha
 
-/** The pixels for classifyPixels, and `warnings` about them. `mode`: see readRosYaml. Rejects with FileError. */
+/**
+ * The pixels for classifyPixels, and `warnings` about them. `mode`: see readRosYaml. Rejects with FileError.
+ */
 export async function readImage(bytes, mode) {
   if (!isPng(bytes)) return { ...readPgm(bytes), warnings: [] };
   const alpha = hasAlpha(bytes);
@@ -30,7 +32,7 @@ export async function readImage(bytes, mode) {
   return { ...pixels, warnings };
 }
 
-/** 8-bit RGBA of a PNG, as the file has them: {width, height, data}. */
+/** The 8-bit RGBA of a PNG, as stored: {width, height, data}. */
 async function decode(bytes) {
   const { width, height } = sizeOf(bytes);
   if (width * height > MOST_PNG_PIXELS)
@@ -148,7 +150,7 @@ export function isPng(bytes) {
   return SIGNATURE.every((byte, index) => bytes[index] === byte);
 }
 
-/** {width, height} in pixels, as the header says. */
+/** {width, height} in pixels, from the header. */
 export function sizeOf(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   return bytes.length < 24
@@ -170,7 +172,7 @@ export function hasAlpha(bytes) {
 
 /**
  * The gray pixels, for classifyPixels, of 8-bit RGBA ones: the mean of the colours. In the mode "trinary"
- * map_server counts the alpha channel, where the image has one, as a fourth colour; so do we.
+ * map_server counts an alpha channel as a fourth colour, and so does this function.
  */
 export function grayOfRgba({ width, height, data }, { alpha, mode }) {
   const values = new Uint16Array(width * height); // sums, as means would be rounded

@@ -1,16 +1,17 @@
-// Maps and scenarios of the MovingAI benchmarks (movingai.com/benchmarks). A map has a header, then a character a cell;
-// a scenario has a line for each start and goal, the first of which become the robots of a request.
+// Maps and scenarios of the MovingAI benchmarks (movingai.com/benchmarks). A map has a header, then a
+// character per cell; a scenario has a line for each start and goal, the first of which become the robots of
+// a request.
 
 import { FileError, quoted } from "../model/problem.js";
 import { linesOf, plusTimes } from "./text.js";
 
-const FREE = ".GS"; // ground, and swamp, which can be entered from ground; a request knows no swamp
-const BLOCKED = "@OTW#"; // out of bounds twice, trees, water; and walls as a request draws them
+const FREE = ".GS"; // ground, and swamp, which can be entered from ground
+const BLOCKED = "@OTW#"; // out of bounds (two letters), trees, water; and the wall of a request
 const HEADER = { type: /^\S+$/, height: /^[1-9]\d{0,8}$/, width: /^[1-9]\d{0,8}$/ };
 const ENTRY = /^\s*\d+\s+(.+?)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+[\d.eE+-]+\s*$/;
-const SLACK = 1e-10; // metres by which disks may overlap after rounding, well within what the service allows
+const SLACK = 1e-10; // metres by which disks may overlap after rounding, below the tolerance of the service
 
-/** The map of a request that a `.map` text draws, a metre a cell: {rows, resolution}. Throws FileError. */
+/** The map of a request for a `.map` text, a metre per cell: {rows, resolution}. Throws FileError. */
 export function readMovingAiMap(text) {
   const lines = linesOf(text);
   const { width, height, first } = readHeader(lines);
@@ -74,8 +75,8 @@ const COLUMNS =
   "optimal length.";
 
 /**
- * What a `.scen` text lists: [{map, width, height, start, goal}], the map's file name, its size in cells, and
- * two cells {column, row}, row 0 the top one. Throws FileError.
+ * The entries of a `.scen` text: [{map, width, height, start, goal}], the map's file name, its size in cells,
+ * and two cells {column, row}, row 0 the top one. Throws FileError.
  */
 export function readMovingAiScenario(text) {
   const entries = [];
@@ -113,11 +114,11 @@ function readEntry(line, number) {
 }
 
 /**
- * A request on `map` (of a request) for the first `count` entries that are possible for robots as `defaults`
- * ({radius, linear_speed, angular_speed}; m, m/s, rad/s) say, starts and goals at the cells' centres, goals with
- * any heading. An entry is passed over when a disk does not fit between the walls or overlaps one taken before:
- * {request, cells, passedOver: {walls, overlaps}}, `cells` being the entries taken. Throws FileError when the map
- * is of another size.
+ * A request on `map` (of a request) for the first `count` entries that are possible for robots with
+ * `defaults` ({radius, linear_speed, angular_speed}; m, m/s, rad/s), starts and goals at the cells' centres,
+ * goals with any heading. An entry is skipped if a disk does not fit between the walls or overlaps an earlier
+ * one: {request, cells, passedOver: {walls, overlaps}}, with `cells` the entries used. Throws FileError when
+ * the map is of another size.
  */
 export function scenarioRequest(map, entries, count, defaults) {
   const [{ width, height, map: name }] = entries;

@@ -1,4 +1,4 @@
-// What to plan is opened here: an example, files, a text, a link. Whatever was chosen last wins.
+// Opening what to plan: an example, files, a text, a link. The last choice wins.
 
 import { FileError, ProblemError } from "../model/problem.js";
 import { readLinkState } from "./address.js";
@@ -22,13 +22,13 @@ export class Opening {
     this.#reader = new Reader(session);
   }
 
-  /** Whether anything was chosen yet. */
+  /** Whether anything was opened yet. */
   get begun() {
     return this.#turn > 0;
   }
 
-  // Each of these resolves to whether it is open now; if not, the session has the problem, or it was given up or
-  // something newer was chosen.
+  // Each of these resolves to whether it is open now; if not, the session has the problem, or it was
+  // cancelled or replaced by a newer choice.
 
   example(name) {
     return this.#choose(async () => {
@@ -37,7 +37,7 @@ export class Opening {
     });
   }
 
-  /** Opens what files (File) are together, after asking where there is a choice. */
+  /** Opens files (File) that belong together, after a dialog if there is a choice. */
   files(files) {
     return this.#choose(() => this.#reader.files(files));
   }
@@ -53,7 +53,7 @@ export class Opening {
     });
   }
 
-  /** `read` resolves to what to open, see Reader, or to null if it is not to be opened after all. */
+  /** `read` resolves to what to open, see Reader, or to null if that was cancelled. */
   async #choose(read) {
     const turn = (this.#turn += 1);
     this.#reader.dismiss();
@@ -80,7 +80,7 @@ export class Opening {
       session.open(opened, answer);
     }
     if (answer !== null) {
-      this.#show("plan"); // where the outcome of the check will be
+      this.#show("plan"); // which shows the result of the check
       session.validate().then((judged) => judged || this.#show("problem"));
     }
     if (Array.isArray(opened.request.robots) && opened.request.robots.length === 0) {

@@ -1,4 +1,5 @@
-// From files to what to open: {name, example: null, text, request, answer or null}. Dialogs ask where there is a choice.
+// From files to what to open: {name, example: null, text, request, answer or null}. Dialogs ask where there
+// is a choice.
 
 import { belongsTo, readDocument } from "../model/plan_file.js";
 import { FileError } from "../model/problem.js";
@@ -12,8 +13,8 @@ import { ScenarioDialog } from "./scenario_dialog.js";
 /** @import {Answer, Request} from "../model/types.js" */
 
 const SPEEDS = { linear_speed: 1, angular_speed: 3.1416 }; // m/s, rad/s
-const CELL_SHARE = 0.4; // radius of robots that go from cell to cell, of a cell's side
-const INDOOR_RADIUS = 0.2; // metres, of robots on a map that a robot made
+const CELL_SHARE = 0.4; // default radius on MovingAI maps, of a cell's side
+const INDOOR_RADIUS = 0.2; // metres, default radius on ROS maps
 
 export class Reader {
   #session;
@@ -29,7 +30,7 @@ export class Reader {
     this.#dialogs.dismiss();
   }
 
-  /** What files (File) are together; null if the dialog about them is given up. Rejects with FileError. */
+  /** What files (File) contain together; null if their dialog is cancelled. Rejects with FileError. */
   async files(files) {
     const heads = await Promise.all(files.map(headOf));
     /** @type {any} */
@@ -48,7 +49,7 @@ export class Reader {
     }
   }
 
-  /** What a JSON text is. Throws FileError. */
+  /** What a JSON text contains. Throws FileError. */
   text(name, text) {
     return this.#documents([{ name, text }]);
   }
@@ -138,7 +139,7 @@ function readJson(text) {
   return readDocument(document);
 }
 
-/** The first bytes of a file, enough to tell its kind. */
+/** The first bytes of a file, enough to determine its kind. */
 export const headOf = (file) =>
   reading(file, async () => bytesIn(await file.slice(0, HEAD_BYTES).arrayBuffer()));
 
@@ -146,7 +147,7 @@ export const textOf = (file) => reading(file, () => file.text());
 
 export const bytesOf = (file) => reading(file, async () => bytesIn(await file.arrayBuffer()));
 
-/** What `read` makes of a file's content, or resolves to; the file is named in the FileError it may end with. */
+/** The result of `read`, or what it resolves to; adds the name of the file to a FileError. */
 export function about({ name }, read) {
   const named = (error) => {
     throw error instanceof FileError ? new FileError(`${name}: ${error.message}`) : error;
@@ -171,7 +172,7 @@ async function reading({ name }, read) {
   }
 }
 
-/** The dialogs about files that leave a choice; one at a time. */
+/** The dialogs about files with a choice; one at a time. */
 class ImportDialogs {
   #session;
   /** @type {RosMapDialog | ScenarioDialog | null} */
@@ -181,19 +182,19 @@ class ImportDialogs {
     this.#session = session;
   }
 
-  /** Resolves to a request with robots of a scenario, or to null if that is given up. */
+  /** Resolves to a request with robots of a scenario, or to null if it is cancelled. */
   scenario(name, map, entries, defaults) {
     const most = this.#session.limits.max_robots ?? Infinity;
     return this.#ask(new ScenarioDialog(name, map, entries, defaults, most));
   }
 
-  /** Resolves to the map of a request, or to null if that is given up. */
+  /** Resolves to the map of a request, or to null if it is cancelled. */
   rosMap(name, grid, warnings) {
     const most = this.#session.limits.max_cells ?? Infinity;
     return this.#ask(new RosMapDialog(name, grid, warnings, most));
   }
 
-  /** Gives up whatever is asked. */
+  /** Cancels the current dialog. */
   dismiss() {
     this.#shown?.cancel();
   }

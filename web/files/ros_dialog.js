@@ -1,4 +1,4 @@
-// Asks what to make of a ROS map: its unknown cells, its margin, and how many cells become one.
+// The dialog of a ROS map: its unknown cells, its margin, and how many cells are merged.
 
 import { MapPreview } from "../scene/map_raster.js";
 import { element, setText } from "../ui/dom.js";
@@ -14,7 +14,7 @@ import {
   UNKNOWN,
 } from "./ros_map.js";
 
-const MOST_MERGED = 100; // cells a side made one
+const MOST_MERGED = 100; // cells per side that are merged into one
 
 export class RosMapDialog {
   #whole;
@@ -27,9 +27,9 @@ export class RosMapDialog {
   #merge;
   #dialog;
   /** @type {any} */
-  #made = null; // of the present fields: a grid; null where one is not filled in
+  #made = null; // a grid for the current fields; null while one is invalid
 
-  /** `grid`: see classifyPixels; at most `most` cells; `warnings` are told. */
+  /** `grid`: see classifyPixels; at most `most` cells; `warnings` are shown. */
   constructor(name, grid, warnings, most) {
     this.#whole = grid;
     this.#trimmed = trimUnknown(grid);
@@ -59,7 +59,7 @@ export class RosMapDialog {
     }
   }
 
-  /** Resolves to the map of a request, or to null if it was given up. */
+  /** Resolves to the map of a request, or to null if it was cancelled. */
   async ask() {
     const sent = this.#dialog.ask();
     this.#refresh();
@@ -88,7 +88,7 @@ export class RosMapDialog {
     const size = `${columns} × ${rows} = ${total} cells of ${metres(resolution)}`;
     const most = this.#most.toLocaleString("en");
     if (cells.length > this.#most)
-      return `${size}: the service takes at most ${most}. Merge at least ${smallestFactor(source, this.#most)}.`;
+      return `${size}: the service accepts at most ${most}. Merge at least ${smallestFactor(source, this.#most)}.`;
     const counts = countCells(this.#made);
     const blocked = counts[OCCUPIED] + (this.#unknownFree.checked ? 0 : counts[UNKNOWN]);
     const limit = Number.isFinite(this.#most) ? ` (at most ${most})` : "";

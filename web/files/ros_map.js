@@ -1,4 +1,4 @@
-// Maps of ROS: what map_server makes of a map.yaml and its image, as the map of a request.
+// Maps of ROS: a map.yaml and its image as the map of a request, interpreted as in map_server.
 //
 // A grid here is {columns, rows, cells, resolution, origin}: `cells` row by row from the top, `resolution` in
 // metres, `origin` {x, y} the lower-left corner.
@@ -11,13 +11,13 @@ export const FREE = 0;
 export const OCCUPIED = 1;
 export const UNKNOWN = 2;
 
-const OCCUPIED_THRESH = 0.65; // what map_server's own files have
+const OCCUPIED_THRESH = 0.65; // as in the files that map_server writes
 const FREE_THRESH = 0.196;
 const MODES = ["trinary", "scale", "raw"];
 
 /**
- * What a map.yaml says: {image, resolution, origin: {x, y}, yaw, negate, occupiedThresh, freeThresh, mode,
- * warnings}. Throws FileError.
+ * The content of a map.yaml: {image, resolution, origin: {x, y}, yaw, negate, occupiedThresh, freeThresh,
+ * mode, warnings}. Throws FileError.
  */
 export function readRosYaml(text) {
   const given = readYaml(text);
@@ -69,7 +69,7 @@ function thresholdIn(given, key, otherwise, warnings) {
 }
 
 /**
- * The grid of FREE, OCCUPIED and UNKNOWN cells that map_server makes of gray pixels {width, height, maxval,
+ * The grid of FREE, OCCUPIED and UNKNOWN cells for gray pixels, as in map_server: {width, height, maxval,
  * values, clear}: `clear`, if any, has a 1 for each pixel that is not opaque.
  */
 export function classifyPixels(described, { width, height, maxval, values, clear = null }) {
@@ -121,14 +121,14 @@ export function trimUnknown(grid) {
 }
 
 /**
- * The grid with `factor` × `factor` cells made one, from the lower-left corner on, which stays where it is:
- * occupied if any is occupied or not on the map, otherwise unknown if any is.
+ * The grid with `factor` × `factor` cells merged into one, starting at the lower-left corner, which stays in
+ * place: occupied if any is occupied or not on the map, otherwise unknown if any is.
  */
 export function mergeCells(grid, factor) {
   const columns = Math.ceil(grid.columns / factor);
   const rows = Math.ceil(grid.rows / factor);
   const cells = new Uint8Array(columns * rows);
-  const beyond = rows * factor - grid.rows; // rows of the top merged row that are none of the map
+  const beyond = rows * factor - grid.rows; // rows of the top merged row beyond the map
   for (let row = 0; row < grid.rows; row += 1) {
     const target = Math.floor((row + beyond) / factor) * columns;
     for (let column = 0; column < grid.columns; column += 1) {
@@ -150,7 +150,7 @@ export function smallestFactor({ columns, rows }, most) {
   return factor;
 }
 
-/** The map of a request as the grid has it; unknown cells are blocked or, if `unknownFree`, free. */
+/** The grid as the map of a request; unknown cells are blocked or, if `unknownFree`, free. */
 export function mapOfGrid({ columns, rows, cells, resolution, origin }, unknownFree) {
   const letters = [];
   letters[FREE] = ".";

@@ -1,4 +1,4 @@
-// The Save menu: what is shown as files, as a command line, as a link.
+// The Save menu: files, a command line, a link.
 
 import { planFile } from "../model/plan_file.js";
 import { byId, makeClosable, setText } from "../ui/dom.js";
@@ -29,7 +29,7 @@ export function watchSaving(session, stage, address) {
     saveText(`${stem()}.plan.json`, JSON.stringify(planFile(session.request, session.answer)));
   });
   picture.addEventListener("click", () => {
-    stage.paint(); // whatever is due with the next frame
+    stage.paint(); // with all pending changes
     stage.canvas.toBlob((blob) => saveBlob(`${stem()}.png`, blob), "image/png");
   });
   curl.addEventListener("click", () => copyFrom(curl, curlCommand(session, document.baseURI), session));
@@ -50,7 +50,7 @@ function tooLong(length, { grid, robots }) {
   );
 }
 
-/** Copies a text and says so on the button that was pressed. */
+/** Copies a text and confirms it on the button. */
 async function copyFrom(button, text, session) {
   const label = button.dataset.label ?? button.textContent;
   button.dataset.label = label;
@@ -73,7 +73,7 @@ export function saveBlob(name, blob) {
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
-/** A file name, without its ending, for a request's name. */
+/** A file name, without extension, for a request's name. */
 export function fileStem(name) {
   return name.replace(/(\.plan)?\.(json|map|scen|ya?ml)$/i, "").replace(/[^\w.-]+/g, "-") || "request";
 }
@@ -86,7 +86,7 @@ export function curlCommand({ example, text }, base) {
   return `${post} <<'JSON'\n${text}\nJSON\n`;
 }
 
-/** Whether the text could be put on the clipboard. */
+/** Copies a text to the clipboard; returns whether that succeeded. */
 export async function copyText(text) {
   try {
     await navigator.clipboard.writeText(text);

@@ -1,4 +1,4 @@
-// Asks how many robots of a scenario to take, and what they are like.
+// The dialog of a scenario: the number of robots, their radius and speeds.
 
 import { MapPreview } from "../scene/map_raster.js";
 import { robotColour } from "../scene/palette.js";
@@ -7,7 +7,7 @@ import { FormDialog, numberField } from "../ui/form_dialog.js";
 import { count } from "../ui/format.js";
 import { scenarioRequest } from "./movingai.js";
 
-const FIRST_COUNT = 10; // robots, if there are as many
+const FIRST_COUNT = 10; // robots at first, if there are as many
 
 export class ScenarioDialog {
   #map;
@@ -17,9 +17,9 @@ export class ScenarioDialog {
   #fields;
   #dialog;
   /** @type {any} */
-  #made = null; // of the present fields: {request, passedOver}; null where one is not filled in
+  #made = null; // {request, cells, passedOver} for the current fields; null while one is invalid
 
-  /** `entries` on `map`: see readMovingAiScenario. At most `most` robots. `defaults`: those to begin with. */
+  /** `entries` on `map`: see readMovingAiScenario. At most `most` robots. `defaults`: initial values. */
   constructor(name, map, entries, defaults, most) {
     this.#map = map;
     this.#entries = entries;
@@ -45,7 +45,7 @@ export class ScenarioDialog {
       input.addEventListener("input", () => this.#refresh());
   }
 
-  /** Resolves to the request, or to null if it was given up. */
+  /** Resolves to the request, or to null if it was cancelled. */
   async ask() {
     const sent = this.#dialog.ask();
     this.#refresh();

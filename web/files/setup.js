@@ -32,14 +32,14 @@ export class Setup {
     this.#form.addEventListener("submit", (event) => this.#onPaste(event));
     watchDrops((files) => opening.files(files));
     session.on("request", () => this.#refresh());
-    session.on("problem", () => this.#showChosen()); // what was chosen may not have come
+    session.on("problem", () => this.#showChosen()); // the chosen example may have failed to load
   }
 
-  /** Lists the examples and opens what the address says. `address`: see Address. */
+  /** Lists the examples and opens what the address identifies. `address`: see Address. */
   async begin(service, address) {
     service.fetchLimits().then(
       (limits) => this.#session.setLimits(limits),
-      () => {}, // only the limits are not told then
+      () => {}, // the page works without limits
     );
     try {
       this.#examples = await service.listExamples();
@@ -74,7 +74,7 @@ export class Setup {
     byId("scene").setAttribute("aria-label", `Map of ${size} with ${count(robots.length, "robot")}`);
   }
 
-  /** Shows which example is chosen; a request of one's own, or an edited one, by its name. */
+  /** Shows which example is chosen; other and edited requests by their names. */
   #showChosen() {
     const { request, example, name, edited } = this.#session;
     if (request === null) return;

@@ -1,6 +1,6 @@
 // Text files: their lines, and exact sums of the decimal numbers in them.
 
-/** The lines of a text, whatever system ended them. */
+/** The lines of a text, with any line endings. */
 export const linesOf = (text) => text.split(/\r\n|\r|\n/);
 
 /** `base` + `count` × `step`, where `count` is a whole number. Finite numbers only. */
@@ -10,7 +10,7 @@ export function plusTimes(base, count, step) {
   return Number(`${sum}e-${digits}`);
 }
 
-/** Digits after the point in the shortest writing of the number. */
+/** Digits after the point in the shortest decimal form of the number. */
 function decimalsOf(value) {
   const [mantissa, exponent = "0"] = String(value).split("e");
   const written = mantissa.split(".")[1]?.length ?? 0;

@@ -1,4 +1,4 @@
-// As much YAML as a map's description needs: one mapping of keys to scalars and lists of scalars.
+// The subset of YAML that a map.yaml needs: one mapping of keys to scalars and lists of scalars.
 
 import { FileError, quoted } from "../model/problem.js";
 import { linesOf } from "./text.js";
@@ -11,7 +11,7 @@ const NUMBER = /^[-+]?(\d[\d_]*(\.\d*)?|\.\d+)([eE][-+]?\d+)?$/;
 export function readYaml(text) {
   const lines = logicalLines(text);
   const found = {};
-  let key = null; // whose value, a list, follows on lines of its own
+  let key = null; // whose value is a list on the following lines
   for (const { number, content } of lines) {
     const item = /^\s*-(?:\s+(.*))?$/.exec(content);
     if (item && key !== null) {
@@ -30,7 +30,7 @@ export function readYaml(text) {
   return found;
 }
 
-/** What is on lines, without comments: [{number, content}]; a list in brackets that spans lines is one. */
+/** The lines without comments: [{number, content}]; a list in brackets that spans lines is joined. */
 function logicalLines(text) {
   const lines = [];
   let open = null;

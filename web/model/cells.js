@@ -7,7 +7,7 @@ export function cellAt({ origin, resolution, rows }, point) {
   return { column: Math.floor((point.x - origin.x) / resolution), row: rows - 1 - above };
 }
 
-/** The middle of a cell, metres, free of the last digits that doubles add. */
+/** The middle of a cell, metres, without rounding digits. */
 export function centreOf({ origin, resolution, rows }, { column, row }) {
   return {
     x: tidy(origin.x + (column + 0.5) * resolution),
@@ -19,7 +19,7 @@ export function isInside({ columns, rows }, { column, row }) {
   return column >= 0 && column < columns && row >= 0 && row < rows;
 }
 
-/** Whether a cell can be driven on; outside the map none can. */
+/** Whether a cell is free; cells outside the map are not. */
 export function isFree(grid, cell) {
   return isInside(grid, cell) && grid.blocked[cell.row * grid.columns + cell.column] === 0;
 }
@@ -46,7 +46,7 @@ export function cellsAlong(grid, from, to) {
   }
 }
 
-/** When, as a share of the segment, a coordinate next crosses a line of the grid, and how long a cell takes. */
+/** The fraction of the segment at which a coordinate next crosses a grid line, and the fraction per cell. */
 function walk(start, length, cell) {
   if (length === 0) return { next: Infinity, each: Infinity };
   const into = start / cell - Math.floor(start / cell);

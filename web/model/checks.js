@@ -1,13 +1,13 @@
-// The service's check (POST /v1/validate): of an edited request, soon after each edit, and its violations in words.
-// No DOM; the service is passed in.
+// The service's check (POST /v1/validate): of an edited request, soon after each edit, and its violations in
+// words. No DOM; the service is passed in.
 
 import { robotsOf } from "./edit_request.js";
 import { Follower } from "./motion.js";
 import { ProblemError } from "./problem.js";
 
-const SEEN = 0.25; // seconds before and after its moment for which a violation can be seen
+const SEEN = 0.25; // seconds before and after its time for which a violation is shown
 
-const CONTACT = 1e-6; // metres that disks may overlap in contact
+const CONTACT = 1e-6; // metres that disks in contact may overlap
 
 const KINDS = {
   robot_collision: "Robots collide",
@@ -18,7 +18,7 @@ const KINDS = {
   wrong_goal: "Does not end at the goal pose",
 };
 
-const TOLERANCE = 1e-9; // metres: what planning forgives
+const TOLERANCE = 1e-9; // metres: the tolerance of planning
 const REST_MS = 350; // without a further edit
 
 /** A kind of violation in words. */
@@ -26,7 +26,7 @@ export function kindInWords(kind) {
   return KINDS[kind] ?? kind;
 }
 
-/** The violations to be seen at a time: robots that overlap then, and all whose moment is near. */
+/** The violations to show at a time: overlaps at that time, and all violations near it. */
 export function violationsAt(violations, time, motions) {
   return violations.filter(
     ({ kind, robots, t }) =>
@@ -45,21 +45,19 @@ function overlap(motions, ids, time) {
   return Math.hypot(other.x - one.x, other.y - one.y) < a.radius + b.radius - CONTACT;
 }
 
-/** What to have checked for a request's starts: its robots, standing there. */
+/** The plan file that checks the starts of a request: its robots stand there. */
 export function standingAtStarts(request) {
   return { ...request, plans: [], tolerance: TOLERANCE };
 }
 
-/** What to have checked for its goals: the robots that have one, standing there; null if none has. */
+/** The plan file that checks the goals: the robots with goals stand there; null if there are none. */
 export function standingAtGoals(request) {
   const robots = robotsOf(request).filter(({ goal }) => goal !== undefined);
   if (robots.length === 0) return null;
   return { ...standingAtStarts(request), robots: robots.map((robot) => ({ ...robot, start: robot.goal })) };
 }
 
-/**
- * The errors, [{pointer, detail}], that the violations of robots standing at their "start" or "goal" amount to.
- */
+/** The errors, [{pointer, detail}], for the violations of robots standing at their "start" or "goal". */
 export function placementErrors(request, violations, pose) {
   const indices = new Map(robotsOf(request).map(({ id }, index) => [id, index]));
   return violations.map(({ kind, robots, distance, required }) => {
@@ -77,8 +75,8 @@ export function placementErrors(request, violations, pose) {
 const inMetres = (value) => `${Number(value.toFixed(4))} m`;
 
 /**
- * Has the service judge the session's request when edits have rested so many milliseconds. `validate(text)`:
- * see service/client.js.
+ * Checks the session's request when there was no edit for `rest` milliseconds. `validate(text)`: see
+ * service/client.js.
  */
 export function watchEdits(session, validate, rest = REST_MS) {
   let timer = null;
@@ -95,7 +93,7 @@ async function judge(session, validate) {
   if (stillShown) session.setProblem(problem);
 }
 
-/** What is wrong with a request, or null. */
+/** The problem of a request, or null. */
 async function problemOf(request, validate) {
   try {
     const atStarts = standingAtStarts(request);
@@ -111,9 +109,9 @@ async function problemOf(request, validate) {
   } catch (error) {
     if (!(error instanceof ProblemError)) throw error;
     const errors = (error.problem.errors ?? []).filter((each) => !isWithoutRobots(each));
-    return errors.length > 0 ? { ...error.problem, errors } : null; // others are not about the request
+    return errors.length > 0 ? { ...error.problem, errors } : null; // others do not concern the request
   }
 }
 
-/** That a request has no robots yet is no fault while it is being made. */
+/** A request without robots is not reported while it is being edited. */
 const isWithoutRobots = ({ pointer, code }) => pointer === "/robots" && ["empty", "missing"].includes(code);

@@ -1,15 +1,15 @@
-// How near the robots come to each other over time, exactly: between two times at which any motion changes all
-// move evenly, and the least distance of two that do has a formula. Pure. Gaps in metres between the disks,
+// The exact clearance of robots over time: between two times at which any motion changes, all move at
+// constant speed, and the least distance of two has a closed form. Pure. Gaps in metres between the disks,
 // negative where they overlap.
 
 import { Follower, knotTimes, lastKnot, sortedOnce } from "./motion.js";
 
-const SAMPLES = 600; // windows that a plan is cut into at least, so that the curve can be drawn
+const SAMPLES = 600; // least number of windows, so that the curve is smooth
 
 /**
- * The smallest gap of any two motions, window by window: {t, gap, first, second, least} of equally long arrays,
- * where t[k] is the moment in window k when motions first[k] and second[k] are `gap[k]` apart, which none are
- * nearer in that window. `least` is the k of the smallest gap of all. Null with fewer than two motions.
+ * The smallest gap of any two motions, window by window: {t, gap, first, second, least} of equally long
+ * arrays, where t[k] is the moment in window k when motions first[k] and second[k] are `gap[k]` apart, the
+ * nearest in that window. `least` is the k of the smallest gap of all. Null with fewer than two motions.
  */
 export function clearanceOf(motions, samples = SAMPLES) {
   if (motions.length < 2) return null;
@@ -37,9 +37,9 @@ export function clearanceOf(motions, samples = SAMPLES) {
 }
 
 /**
- * Finds the nearest two of at least two motions, now or in a window of time. It sweeps the boxes of all motions
- * from left to right, whose order hardly changes from one call to the next, and looks closely at pairs whose
- * boxes are nearer than the least gap found so far.
+ * Finds the nearest two of at least two motions, now or in a window of time. It sweeps the boxes of all
+ * motions from left to right, whose order hardly changes between calls, and compares pairs whose boxes are
+ * nearer than the least gap found so far.
  */
 export class ClearanceSweep {
   #followers;
@@ -60,18 +60,18 @@ export class ClearanceSweep {
     this.#order = Int32Array.from(motions, (_, at) => at);
   }
 
-  /** The two nearest at a moment: {t, gap, first, second}, with the positions of the two among the motions. */
+  /** The two nearest at a moment: {t, gap, first, second}, with the indices of the two motions. */
   nearestAt(t) {
     return this.nearestIn(t, t);
   }
 
-  /** The two nearest in a window inside which no motion changes, at the moment when they are. */
+  /** The two nearest in a window inside which no motion changes, and when. */
   nearestIn(t0, t1) {
     this.#place(t0, t1);
     sortBy(this.#order, this.#left);
     const { first, second } = this.#nearest;
     this.#nearest = { t: t0, gap: Infinity, first, second };
-    this.#compare(first, second, t0, t1); // those nearest before are near now: the rest is soon ruled out
+    this.#compare(first, second, t0, t1); // the previous pair is still near, which rules out most others
     const [left, right, bottom, top, order] = [this.#left, this.#right, this.#bottom, this.#top, this.#order];
     for (let i = 0; i < order.length; i += 1) {
       const a = order[i];
@@ -110,13 +110,15 @@ export class ClearanceSweep {
   }
 }
 
-/** Where on its way, in [0, 1], a point that moves from (x, y) by (wayX, wayY) is nearest to the origin. */
+/**
+ * The fraction in [0, 1] at which a point that moves from (x, y) by (wayX, wayY) is nearest to the origin.
+ */
 function closestShare(x, y, wayX, wayY) {
   const squared = wayX * wayX + wayY * wayY;
   return squared > 0 ? Math.min(1, Math.max(0, -(x * wayX + y * wayY) / squared)) : 0;
 }
 
-/** Sorts by insertion, which is quick for what is nearly sorted. */
+/** Insertion sort, which is fast on nearly sorted input. */
 function sortBy(order, keys) {
   for (let i = 1; i < order.length; i += 1) {
     const moved = order[i];

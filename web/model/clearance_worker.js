@@ -1,4 +1,4 @@
-// Works the clearance out beside the page, which so never stutters: takes motions, answers clearanceOf them.
+// A worker that computes clearanceOf the motions it receives, to keep the page responsive.
 
 import { clearanceOf } from "./clearance.js";
 

@@ -1,22 +1,22 @@
-// Edits of a request: each takes a request and returns another one, which shares the unchanged parts. Nothing is
-// changed in place. Robots are identified by their index. Faulty requests are repaired as far as an edit goes; a
-// faulty map is edited as it is drawn, see readScene. Pure.
+// Edits of a request: each takes a request and returns another one, which shares the unchanged parts. Nothing
+// is changed in place. Robots are identified by their index. Faulty requests are repaired as far as an edit
+// goes; a faulty map is edited as it is drawn, see readScene. Pure.
 
 import { isFree, tidy } from "./cells.js";
 import { readGrid } from "./scene.js";
 
 const FREE = ".";
 const BLOCKED = "#";
-const MOST_CELLS = 4_000_000; // if the service has not said
-const SPEEDS = { linear_speed: 1, angular_speed: 3.1416 }; // m/s, rad/s: where nobody says
-const RADIUS_SHARE = 0.4; // of a cell, likewise
+const MOST_CELLS = 4_000_000; // until the limits are known
+const SPEEDS = { linear_speed: 1, angular_speed: 3.1416 }; // m/s, rad/s: defaults
+const RADIUS_SHARE = 0.4; // of a cell
 
-/** The value if it is an object with members, else an empty one. */
+/** The value if it is an object, else an empty object. */
 export function objectOf(value) {
   return value !== null && typeof value === "object" && !Array.isArray(value) ? value : {};
 }
 
-/** The object with a member set, or left out if undefined; the same object if that changes nothing. */
+/** The object with a member set, or removed if undefined; the same object if nothing changes. */
 export function withMember(object, name, value) {
   if (Object.is(object[name], value)) return object;
   const changed = { ...object, [name]: value };
@@ -24,14 +24,14 @@ export function withMember(object, name, value) {
   return changed;
 }
 
-/** The object with several members set or left out. */
+/** The object with several members set or removed. */
 export function withMembers(object, members) {
   return Object.entries(members).reduce((changed, [name, value]) => withMember(changed, name, value), object);
 }
 
 /**
- * The request with these cells of its map blocked, or free. Cells that are so already keep their letter.
- * `known`, the grid of this map or one before, makes it cheap.
+ * The request with these cells of its map blocked, or free. Unchanged cells keep their letter. `known`, the
+ * grid of this map or an earlier one, saves reading it again.
  */
 export function setCells(request, cells, blocked, known = null) {
   const grid = readGrid(request?.map, known);
@@ -52,15 +52,15 @@ export function setCells(request, cells, blocked, known = null) {
 function withLetters(line, columns, letter) {
   const letters = [...line];
   for (const column of columns) {
-    while (letters.length < column) letters.push(BLOCKED); // what a short row lacks is drawn as wall
+    while (letters.length < column) letters.push(BLOCKED); // missing cells of a short row are drawn as walls
     letters[column] = letter;
   }
   return letters.join("");
 }
 
 /**
- * The request with so many columns or rows of free cells more on each side: {left, right, top, bottom},
- * negative to cut. The origin moves so that all else stays where it is. A map keeps at least one cell.
+ * The request with columns or rows of free cells added on each side: {left, right, top, bottom}, negative to
+ * cut. The origin moves so that all positions stay the same. A map keeps at least one cell.
  */
 export function resize(request, { left = 0, right = 0, top = 0, bottom = 0 }) {
   const grid = readGrid(request?.map, null);
@@ -79,14 +79,14 @@ export function resize(request, { left = 0, right = 0, top = 0, bottom = 0 }) {
   return withMap(request, moved ? { rows, origin } : { rows });
 }
 
-/** A list with `filler` added, or with items cut, at its begin and end. */
+/** A list with `filler` added, or items removed, at its start and end. */
 function lengthened(list, atBegin, atEnd, filler) {
   const kept = list.slice(Math.max(0, -atBegin), list.length - Math.max(0, -atEnd));
   const added = (count) => Array(Math.max(0, count)).fill(filler);
   return [...added(atBegin), ...kept, ...added(atEnd)];
 }
 
-/** The request with another side of a cell, metres; undefined: the default. Robots keep their metres. */
+/** The request with another cell size, metres; undefined: the default. Robots keep their positions. */
 export function setResolution(request, resolution) {
   return withMap(request, { resolution });
 }
@@ -97,7 +97,7 @@ export function setOrigin(request, axis, value) {
   return withMap(request, { origin: Object.keys(origin).length > 0 ? origin : undefined });
 }
 
-/** A request of a map that has no robots yet: all free or, if `walled`, with a wall around it. */
+/** A request with a new map and no robots: all free or, if `walled`, with a wall around it. */
 export function newMap({ columns, rows, resolution, walled }) {
   const open = FREE.repeat(columns);
   const wall = BLOCKED.repeat(columns);
@@ -109,7 +109,7 @@ export function newMap({ columns, rows, resolution, walled }) {
   return { map: { rows: lines, resolution }, robots: [] };
 }
 
-/** Why a map of this size cannot be, in words, or null. `limits`: see Session. */
+/** Why a map of this size is invalid, in words, or null. `limits`: see Session. */
 export function faultOfSize(columns, rows, limits) {
   if (!Number.isInteger(columns) || !Number.isInteger(rows)) return "Enter whole numbers.";
   if (columns < 1 || rows < 1) return "A map has at least one cell.";
@@ -122,25 +122,26 @@ function withMap(request, changes) {
   return { ...objectOf(request), map: withMembers(objectOf(request?.map), changes) };
 }
 
-/** The robots that the request lists, whatever they are. */
+/** The robots of the request, valid or not. */
 export function robotsOf(request) {
   return Array.isArray(request?.robots) ? request.robots : [];
 }
 
-/** What to call the robot at an index: its id, or "#index". */
+/** The name of the robot at an index: its id, or "#index". */
 export function nameOf(request, index) {
   const id = robotsOf(request)[index]?.id;
   return typeof id === "string" && id !== "" ? id : `#${index}`;
 }
 
 /**
- * The request with a member of a robot (id, radius, linear_speed, angular_speed) set, or left out if undefined.
+ * The request with a member of a robot (id, radius, linear_speed, angular_speed) set, or removed if
+ * undefined.
  */
 export function setRobot(request, index, name, value) {
   return withRobot(request, index, (robot) => withMember(robot, name, value));
 }
 
-/** The request with a default (radius, linear_speed, angular_speed) set, or left out if undefined. */
+/** The request with a default (radius, linear_speed, angular_speed) set, or removed if undefined. */
 export function setDefault(request, name, value) {
   const defaults = withMember(objectOf(request?.robot_defaults), name, value);
   const isEmpty = Object.keys(defaults).length === 0;
@@ -148,8 +149,8 @@ export function setDefault(request, name, value) {
 }
 
 /**
- * The request with members of a robot's `pose`, "start" or "goal", set: {x, y, theta}, those that are undefined
- * left out (theta: the start's default, the goal's any heading).
+ * The request with members of a robot's `pose`, "start" or "goal", set: {x, y, theta}, undefined
+ * ones removed (theta: the default of a start, any heading of a goal).
  */
 export function setPose(request, index, pose, members) {
   return withRobot(request, index, (robot) => {
@@ -157,14 +158,14 @@ export function setPose(request, index, pose, members) {
   });
 }
 
-/** The request with a robot that stays where it is. */
+/** The request with a robot without a goal. */
 export function removeGoal(request, index) {
   return withRobot(request, index, (robot) => withMember(robot, "goal", undefined));
 }
 
 /**
- * The request with one more robot, the last: a start {x, y} and perhaps a goal. Radius and speeds are those of
- * robot_defaults, else the last robot's, else sensible ones for the map.
+ * The request with a new robot at the end, with a start {x, y} and an optional goal. Radius and speeds are
+ * those of robot_defaults, else of the last robot, else defaults for the map.
  */
 export function addRobot(request, start, goal = undefined) {
   const robots = robotsOf(request);
@@ -180,9 +181,7 @@ export function addRobot(request, start, goal = undefined) {
   return { ...objectOf(request), robots: [...robots, robot] };
 }
 
-/**
- * The request with a robot once more, the last: its like with an id, start and goal (if it has one) of its own.
- */
+/** The request with a copy of a robot at the end, with its own id, start and goal (if it has one). */
 export function duplicateRobot(request, index, start, goal) {
   const robots = robotsOf(request);
   const robot = objectOf(robots[index]);
@@ -196,7 +195,7 @@ export function deleteRobot(request, index) {
 }
 
 /**
- * An id that no robot has, of the pattern of `like` or else of the last that ends in a number: robot-4 after
+ * An unused id that continues the pattern of `like`, or else of the last id with a number: robot-4 after
  * robot-3.
  */
 export function freshId(request, like = undefined) {

@@ -1,5 +1,5 @@
-// How all robots of the session move under its answer, for whoever asks how near they come. No DOM; whoever
-// works the curve out is passed in.
+// The motions of all robots under the session's answer, and their clearance. No DOM; the computation of the
+// curve is passed in.
 
 import { ClearanceSweep } from "./clearance.js";
 import { motionOf } from "./motion.js";
@@ -19,10 +19,10 @@ export class FleetMotion {
   /** @type {{time: number | null, pair: {ids: string[], gap: number} | null}} */
   #nearest = { time: null, pair: null };
 
-  /** The smallest gap over time, see clearanceOf; null without an answer and until it is worked out. */
+  /** The smallest gap over time, see clearanceOf; null without an answer and until it is computed. */
   curve = /** @type {any} */ (null);
 
-  /** `compute(motions, done)` tells the curve later, and no more of older motions once it has newer ones. */
+  /** `compute(motions, done)` passes the curve to `done` later, unless it is called again before. */
   constructor(session, compute) {
     this.#session = session;
     session.on("answer", () => {
@@ -39,7 +39,7 @@ export class FleetMotion {
     });
   }
 
-  /** `listener` is called when there is another curve, or none. */
+  /** `listener` is called when the curve changes. */
   onCurve(listener) {
     this.#signals.on("curve", listener);
   }
@@ -64,7 +64,7 @@ export class FleetMotion {
     return this.#nearest.pair;
   }
 
-  /** When two robots come nearest to each other in all of the plan: {t, gap, ids}, or null. */
+  /** The smallest gap of the plan: {t, gap, ids}, or null. */
   get least() {
     if (this.curve === null) return null;
     const { t, gap, first, second, least } = this.curve;
@@ -78,7 +78,8 @@ export class FleetMotion {
 }
 
 /**
- * A function (motions, done) that calls `done` with clearanceOf the motions, unless it is called again before.
+ * A function (motions, done) that computes clearanceOf the motions in a worker and passes it to `done`,
+ * unless it is called again before.
  */
 export function clearanceJob() {
   let worker = null;

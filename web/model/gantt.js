@@ -1,17 +1,17 @@
-// The geometry of the timeline's chart: a row a robot, time to the right. Pure. Pixels from the upper left
-// corner; a layout is {left, width, top, height, rowHeight, scroll, rows, range}: where the rows are seen, how
-// far they are scrolled, how many there are, and the stretch of time {from, to} they show.
+// The geometry of the timeline's chart: a row per robot, time to the right. Pure. Pixels from the upper left
+// corner; a layout is {left, width, top, height, rowHeight, scroll, rows, range}: where the rows are, how
+// far they are scrolled, how many there are, and the range of time {from, to} they show.
 
-const SHORTEST = 0.05; // seconds that fill the timeline when zoomed in all the way
+const SHORTEST = 0.05; // seconds: the shortest range
 const STEPS = [1, 2, 5];
 const SLACK = 1e-9; // of a step: rounding must not lose the last tick
 
-/** Where a moment is from left to right. */
+/** The x of a time. */
 export function xOf({ left, width, range }, t) {
   return left + ((t - range.from) / (range.to - range.from || 1)) * width;
 }
 
-/** The moment at a pixel, which may lie outside of what is shown. */
+/** The time at a pixel, possibly outside the range. */
 export function timeAt({ left, width, range }, x) {
   return range.from + ((x - left) / Math.max(1, width)) * (range.to - range.from);
 }
@@ -28,7 +28,7 @@ export function rowAt({ top, height, rowHeight, scroll, rows }, y) {
   return row < rows ? row : -1;
 }
 
-/** The rows that are seen at least in part: {first, end}. */
+/** The rows that are at least partly visible: {first, end}. */
 export function rowsSeen({ height, rowHeight, scroll, rows }) {
   return {
     first: Math.max(0, Math.floor(scroll / rowHeight)),
@@ -36,12 +36,12 @@ export function rowsSeen({ height, rowHeight, scroll, rows }) {
   };
 }
 
-/** The nearest sensible value to scroll to. */
+/** The nearest valid scroll position. */
 export function clampScroll({ height, rowHeight, rows }, scroll) {
   return Math.max(0, Math.min(rows * rowHeight - height, scroll));
 }
 
-/** How far to scroll, no more than it takes, so that a row is wholly seen. */
+/** The scroll position, with the least change, at which a row is fully visible. */
 export function scrollToRow(layout, row) {
   const { height, rowHeight, scroll } = layout;
   const least = (row + 1) * rowHeight - height;
@@ -50,9 +50,7 @@ export function scrollToRow(layout, row) {
 
 const FIRST_MOVE = (track) => track.actions.find(({ type }) => type !== "wait")?.t_start ?? Infinity;
 
-/**
- * What rows can be sorted by: a number for each robot's track, smallest first; as listed where that is equal.
- */
+/** The keys for sorting rows: a number per track, ascending; ties keep the listed order. */
 const SORT_KEYS = {
   listed: () => 0,
   start: FIRST_MOVE,
@@ -60,7 +58,7 @@ const SORT_KEYS = {
   delay: (track) => -delayOf(track),
 };
 
-/** How much later than alone on the map a robot arrives, seconds; -Infinity where that is not known. */
+/** The cost above the lower bound, seconds; -Infinity if unknown. */
 export function delayOf({ cost, lowerBound }) {
   return Number.isFinite(cost) && Number.isFinite(lowerBound) ? cost - lowerBound : -Infinity;
 }
@@ -73,19 +71,19 @@ export function orderRows(robots, tracks, by) {
   return keyed.map(({ id }) => id);
 }
 
-/** Zooms by `factor` (above 1 shows less); the moment `anchor` stays where it is. */
+/** Zooms by `factor` (above 1 shows less); the time `anchor` stays in place. */
 export function zoomTime({ from, to }, duration, anchor, factor) {
   const length = Math.min(duration, Math.max(Math.min(SHORTEST, duration), (to - from) / factor));
   const share = to > from ? (anchor - from) / (to - from) : 0;
   return within(anchor - share * length, length, duration);
 }
 
-/** Shows what is `shift` seconds later, as far as there is something. */
+/** Moves the range by `shift` seconds, within the plan. */
 export function panTime({ from, to }, duration, shift) {
   return within(from + shift, to - from, duration);
 }
 
-/** Moves the range no further than it takes for t to be seen; the same range if it is. */
+/** Moves the range so that it includes t; returns the same range if it does already. */
 export function revealTime(range, duration, t) {
   if (t >= range.from && t <= range.to) return range;
   const length = range.to - range.from;
@@ -97,7 +95,7 @@ function within(from, length, duration) {
   return { from: begin, to: begin + length };
 }
 
-/** Round times to mark in the range: {step, times}, at most `most` and some if there is room for them. */
+/** Round times to mark in the range: {step, times}, at most `most` of them. */
 export function ticks({ from, to }, most) {
   const least = (to - from) / Math.max(1, most);
   if (!(least > 0)) return { step: 1, times: [from] };
@@ -110,8 +108,8 @@ export function ticks({ from, to }, most) {
 }
 
 /**
- * The positions of the points of {t, gap}, ascending in t, to draw for the times in a range that is some pixels
- * wide: the lowest in each pixel, and one on either side of the range to lead there.
+ * The indices of the points of {t, gap}, ascending in t, to draw for a range of time with a width in pixels:
+ * the lowest in each pixel, and one on either side of the range.
  */
 export function thinned({ t, gap }, { from, to }, pixels) {
   const kept = [];

@@ -1,4 +1,4 @@
-// Undo and redo over values that are never changed in place. Pure.
+// Undo and redo of immutable values. Pure.
 
 const MOST = 500; // steps back
 
@@ -24,7 +24,7 @@ export class History {
     return this.#future.length > 0;
   }
 
-  /** A new present. Those that follow one another with the same `gesture` (not null) are one step. */
+  /** A new present value. Consecutive ones with the same `gesture` (not null) are one step. */
   push(value, gesture = null) {
     if (gesture === null || gesture !== this.#gesture) {
       this.#past.push(this.#present);
@@ -34,14 +34,14 @@ export class History {
     this.#gesture = gesture;
   }
 
-  /** Another present without a step back to this one. */
+  /** Replaces the present value without an undo step. */
   replace(value) {
     this.#gesture = null;
     this.#future = [];
     this.#present = value;
   }
 
-  /** The present as it is now is a step of its own. */
+  /** Ends the gesture: the next value is a new step. */
   endGesture() {
     this.#gesture = null;
   }

@@ -1,4 +1,4 @@
-// A robot's actions in words and figures, and the robot that each wait is for. Pure. Seconds, metres, radians.
+// A robot's actions in words and figures, and the cause of each wait. Pure. Seconds, metres, radians.
 
 import { firstOverlap, motionOf } from "./motion.js";
 import { turnBetween } from "./timeline.js";
@@ -6,7 +6,7 @@ import { turnBetween } from "./timeline.js";
 const WHOLE_TURN = 2 * Math.PI;
 const SHARES = { translate: "moving", rotate: "turning", wait: "waiting" };
 
-/** How long a robot moves, turns and waits, seconds, and how far it goes, metres. */
+/** The time of moving, turning and waiting, seconds, and the distance, metres. */
 export function totals(actions) {
   const sum = { moving: 0, turning: 0, waiting: 0, distance: 0 };
   for (const action of actions) {
@@ -16,7 +16,7 @@ export function totals(actions) {
   return sum;
 }
 
-/** What an action does: "drive 3.2 m", "turn 90° left", "wait 1.4 s". */
+/** An action in words: "drive 3.2 m", "turn 90° left", "wait 1.4 s". */
 export function actionInWords(action) {
   if (action.type === "translate") return `drive ${short(lengthOf(action))} m`;
   if (action.type === "wait") return `wait ${short(action.t_end - action.t_start)} s`;
@@ -28,7 +28,7 @@ function lengthOf({ from, to }) {
   return Math.hypot(to.x - from.x, to.y - from.y);
 }
 
-/** With as many digits as tell something: 132, 13.2, 0.02. */
+/** With the significant digits: 132, 13.2, 0.02. */
 function short(value) {
   if (value >= 99.95) return value.toFixed(0);
   if (value >= 0.95) return String(Number(value.toFixed(1)));
@@ -36,10 +36,9 @@ function short(value) {
 }
 
 /**
- * The robot that actions[index], a wait of the robot `id`, is for: all that follows is brought forward to the
- * start of the wait, and followed to the end of the plan. {robot, t} of the first other robot hit and when, or
- * null if none is. `fleet` is the ids and motions of all robots; `margin` is a distance that counts as hit, 0
- * for contact.
+ * The robot that causes actions[index], a wait of the robot `id`. The following actions are shifted to the
+ * start of the wait; the cause is the first other robot hit until the end of the plan: {robot, t}, or null.
+ * `fleet` maps ids to motions; `margin` is a distance that counts as a hit, 0 for contact.
  */
 export function causeOfWait(id, actions, index, fleet, margin = 0) {
   const shifted = motionWithout(actions, index, fleet.get(id).radius);
@@ -54,7 +53,7 @@ export function causeOfWait(id, actions, index, fleet, margin = 0) {
   return found;
 }
 
-/** How the robot moves from the start of the wait on if it does not wait. */
+/** The motion of the robot from the start of the wait if it does not wait. */
 function motionWithout(actions, index, radius) {
   const { t_start, t_end, to } = actions[index];
   const earlier = t_end - t_start;

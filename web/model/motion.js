@@ -1,11 +1,11 @@
-// Where the middle of a robot is, as a broken line through time: knots (t, x, y) with even motion in between.
-// Two knots at one time are a jump, which only a faulty plan has. Pure. Times in seconds, lengths in metres.
+// The centre of a robot over time, as a polyline: knots (t, x, y) with constant velocity in between. Two
+// knots at one time are a jump, which occurs only in faulty plans. Pure. Times in seconds, lengths in metres.
 
-const CONTACT = 1e-9; // metres that disks may overlap in contact, which rounding makes of none
+const CONTACT = 1e-9; // metres: overlaps below this are rounding errors
 
 /**
- * The motion of a robot {start, radius} that executes `actions`: {radius, knots}, the knots one after the other
- * as t, x, y, t, x, y, …
+ * The motion of a robot {start, radius} that executes `actions`: {radius, knots}, the knots one after the
+ * other as t, x, y, t, x, y, …
  */
 export function motionOf(robot, actions) {
   const knots = [];
@@ -18,8 +18,7 @@ export function motionOf(robot, actions) {
 }
 
 /**
- * Appends a knot; one that says nothing new is left out, as is what in a faulty plan goes back in time or
- * nowhere.
+ * Appends a knot. Omits redundant ones, and those of a faulty plan that go back in time or are not finite.
  */
 function addKnot(knots, t, { x, y }) {
   const end = knots.length;
@@ -58,22 +57,20 @@ export function sortedOnce(numbers) {
   return sorted.subarray(0, length);
 }
 
-/** Follows a motion through time. `x`, `y` and `endX`, `endY` are where it is at both ends of a span. */
+/** Follows a motion through time. `x`, `y` and `endX`, `endY` are its positions at both ends of a span. */
 export class Follower {
   x = 0;
   y = 0;
   endX = 0;
   endY = 0;
   #knots;
-  #at = 0; // the knot that begins the piece the span is on
+  #at = 0; // the index of the knot before the span
 
   constructor({ knots }) {
     this.#knots = knots;
   }
 
-  /**
-   * Looks at the span from t0 to t1, inside which no knot may lie; quick if it is near the one looked at last.
-   */
+  /** Moves to the span from t0 to t1, which must not contain a knot; fast if it is near the previous span. */
   look(t0, t1) {
     this.#seek(t0);
     const knots = this.#knots;
@@ -91,14 +88,14 @@ export class Follower {
     this.endX = end === 1 ? knots[at + 4] : x + (knots[at + 4] - x) * end;
     this.endY = end === 1 ? knots[at + 5] : y + (knots[at + 5] - y) * end;
   }
-  /** When the motion changes next after t; Infinity if it does not. */
+  /** The time of the next knot after t; Infinity if there is none. */
   nextKnot(t) {
     this.#seek(t);
     const at = this.#knots[this.#at] > t ? this.#at : this.#at + 3;
     return this.#knots[at] ?? Infinity;
   }
 
-  /** To the last knot that is not after t; the first if there is none. */
+  /** Moves to the last knot at or before t, or to the first one. */
   #seek(t) {
     const knots = this.#knots;
     while (this.#at > 0 && knots[this.#at] > t) this.#at -= 3;
@@ -106,7 +103,7 @@ export class Follower {
   }
 }
 
-/** The first time in [from, until] when two motions are nearer to each other than `margin`, or null. */
+/** The first time in [from, until] at which two motions are closer than `margin`, or null. */
 export function firstOverlap(motion, other, from, until, margin = 0) {
   const reach = motion.radius + other.radius + margin - CONTACT;
   const [a, b] = [new Follower(motion), new Follower(other)];
@@ -124,8 +121,8 @@ export function firstOverlap(motion, other, from, until, margin = 0) {
 }
 
 /**
- * How much of its way, in [0, 1], a point that moves from (x, y) by (wayX, wayY) goes until it is in reach, or
- * null.
+ * The fraction in [0, 1] at which a point that moves from (x, y) by (wayX, wayY) comes within reach of the
+ * origin, or null.
  */
 function shareUntil(reach, x, y, wayX, wayY) {
   if (reach <= 0) return null;
@@ -135,6 +132,6 @@ function shareUntil(reach, x, y, wayX, wayY) {
   const nearing = -(x * wayX + y * wayY);
   const under = nearing * nearing - squared * beyond;
   if (nearing <= 0 || under <= 0) return null;
-  const share = beyond / (nearing + Math.sqrt(under)); // of the two roots the first, without cancellation
+  const share = beyond / (nearing + Math.sqrt(under)); // the first root, without cancellation
   return share < 1 ? share : null;
 }

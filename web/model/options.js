@@ -1,4 +1,5 @@
-// The options of a plan, as the service's OpenAPI document describes them, and editing them in a request. Pure.
+// The options of a plan, as the service's OpenAPI document describes them, and editing them in a request.
+// Pure.
 
 /** @import {Option, Request} from "./types.js" */
 
@@ -28,7 +29,7 @@ function optionFrom(name, schema) {
     default: schema.default ?? null,
     choices: schema.enum?.map((value) => ({ value, label: words[value] ?? inWords(String(value)) })) ?? null,
     min: schema.minimum ?? null,
-    max: schema.maximum <= Number.MAX_SAFE_INTEGER ? schema.maximum : null, // others are no limits in practice
+    max: schema.maximum <= Number.MAX_SAFE_INTEGER ? schema.maximum : null, // larger ones are no limits
     description: schema.description ?? "",
   };
 }

@@ -1,12 +1,12 @@
-// Where robots are placed: snapped to the middle of a cell and round headings, and where there is room. Pure.
+// Where robots are placed: snapped to the middle of a cell and round headings, and nearby free places. Pure.
 
 import { cellAt, centreOf, isFree, tidy } from "./cells.js";
 
 const HEADING = Math.PI / 12; // radians: 15 degrees
-const FINE = 0.01; // of a cell: the digits that a hand can mean
+const FINE = 0.01; // of a cell: the precision of a hand
 const CONTACT = 1e-9; // metres: touching is not a collision
 
-/** The middle of the nearest cell; if `free`, the point itself in round metres. Without a grid: likewise. */
+/** The middle of the nearest cell; if `free`, the point itself in round metres. Without a grid: the same. */
 export function snapPoint(grid, point, free) {
   if (grid && !free) return centreOf(grid, cellAt(grid, point));
   const step = 10 ** Math.floor(Math.log10((grid?.resolution ?? 1) * FINE));
@@ -28,7 +28,7 @@ export function turned(theta, way) {
   return normalised(next * HEADING);
 }
 
-/** A point moved by steps of a share of a cell; a whole step leads from cell to cell. */
+/** A point moved by a cell, from centre to centre, or by a fraction of a cell if `fine`. */
 export function stepped(grid, point, { right, up }, fine) {
   const size = (grid?.resolution ?? 1) * (fine ? 0.1 : 1);
   const moved = { x: tidy(point.x + right * size), y: tidy(point.y + up * size) };

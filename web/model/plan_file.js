@@ -10,9 +10,9 @@ export function planFile(request, answer) {
 }
 
 /**
- * What a parsed JSON document is, taken apart: {request, answer}, one of which may be null. A faulty request is
- * a request, for the service to tell its faults. An answer can be shown and has all that follows from its plans,
- * but is not called `verified`, as only a check can tell. Throws FileError for what is neither.
+ * Splits a parsed JSON document: {request, answer}, one of which may be null. A request may be faulty, as the
+ * service reports its faults. An answer can be shown; its costs are computed from its plans, and it has no
+ * `verified`, as it has not been checked yet. Throws FileError for other documents.
  */
 export function readDocument(document) {
   if (document === null || typeof document !== "object" || Array.isArray(document)) throw notOurs();
@@ -49,7 +49,7 @@ function notOurs() {
   );
 }
 
-/** What follows from the plans is taken from there, whatever the document says of it. */
+/** The answer with all figures that follow from its plans, regardless of those in the document. */
 function completed({ verified: _, ...answer }) {
   const plans = answer.plans.map((plan) => ({ ...plan, cost: plan.actions.at(-1)?.t_end ?? 0 }));
   const { unplanned = [], warnings = [] } = answer;
@@ -65,7 +65,7 @@ function completed({ verified: _, ...answer }) {
   };
 }
 
-/** The members of an answer, each with what its value must be. */
+/** The members of an answer, with a check of the value of each. */
 export const OF_ANSWERS = {
   status: isText,
   request_id: isText,
@@ -80,7 +80,7 @@ export const OF_ANSWERS = {
   search: (value) => isNumber(value?.expansions),
   timings_ms: (value) => isNumber(value?.plan) && isNumber(value.total),
   warnings: (value) => isList(value) && value.every((each) => isText(each?.detail ?? each)),
-  tolerance: isNumber, // of the check, which comes with the plans
+  tolerance: isNumber, // of the check
 };
 const OF_UNPLANNED = {
   robot: isText,

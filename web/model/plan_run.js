@@ -1,17 +1,17 @@
-// What is known of one planning while it lasts. Pure.
+// A run of planning and its progress. Pure.
 
 export class PlanRun {
   #control = new AbortController();
-  progress = null; // the service's last, see client.js
-  costs = []; // the best so far, each lower than the one before: [{elapsed_ms, flowtime, makespan}]
+  progress = null; // the latest one
+  costs = []; // of each new best plan: [{elapsed_ms, flowtime, makespan}]
   incumbent = null; // the text of the best answer so far
 
-  /** `budget`: how long it may take, seconds, or null if that is not known. */
+  /** `budget`: the time budget, seconds, or null if unknown. */
   constructor(budget) {
     this.budget = budget;
   }
 
-  /** What ends the request when it is aborted. */
+  /** Aborts the request. */
   get signal() {
     return this.#control.signal;
   }

@@ -1,5 +1,5 @@
-// The clock of a plan: playing it frame by frame, and stepping from event to event. No DOM; the caller passes in
-// the wall clock and the screen's frames.
+// The clock of a plan: playing it frame by frame, and stepping from event to event. No DOM; the caller passes
+// in the wall clock and the screen's frames.
 
 const SAME = 1e-6; // seconds: actions of two robots that end together are one moment
 
@@ -11,14 +11,14 @@ export class Player {
   playing = false;
   #last = null; // wall clock at the last tick, seconds
 
-  /** Takes a plan of the given length, at rest at its start. */
+  /** Starts over with a plan of the given duration, paused. */
   reset(duration) {
     this.duration = duration;
     this.time = 0;
     this.pause();
   }
 
-  /** Plays; from the start when it was at the end. */
+  /** Plays; from the start if it was at the end. */
   play() {
     if (this.duration <= 0) return;
     if (this.time >= this.duration) this.time = 0;
@@ -36,7 +36,7 @@ export class Player {
     else this.play();
   }
 
-  /** Forgets what the wall clock showed: time that goes by unseen does not count. */
+  /** Forgets the wall clock: time while the page is hidden does not count. */
   skip() {
     this.#last = null;
   }
@@ -65,7 +65,7 @@ export class Playback {
   #player;
   #nextFrame;
   #listener;
-  #ticking = false; // a frame is on its way
+  #ticking = false; // a frame is requested
 
   /** `nextFrame` calls back with the wall clock, milliseconds; `listener` has moved() and ended(). */
   constructor(player, nextFrame, listener) {
@@ -93,7 +93,7 @@ export class Playback {
   }
 }
 
-/** The beginnings and ends of all actions of some tracks, ascending, seconds. */
+/** The starts and ends of all actions of some tracks, ascending, seconds. */
 export function eventTimes(tracks) {
   const times = [];
   for (const { actions } of tracks) for (const { t_start, t_end } of actions) times.push(t_start, t_end);

@@ -9,7 +9,9 @@ export class ProblemError extends Error {
   }
 }
 
-/** The message says what is wrong, where in the file, and what to do; whoever reads the file adds its name. */
+/**
+ * The message states what is wrong, where in the file, and a remedy; the reader adds the name of the file.
+ */
 export class FileError extends Error {
   constructor(message) {
     super(message);
@@ -17,7 +19,7 @@ export class FileError extends Error {
   }
 }
 
-/** What a faulty piece of a file looked like, shortened for a message. */
+/** A faulty piece of a file, shortened for a message. */
 export function quoted(value) {
   const text = JSON.stringify(value);
   return text.length > 30 ? `${text.slice(0, 28)}…` : text;

@@ -1,5 +1,5 @@
-// What there is to draw of a request and its answer. Reads requests generously: a faulty one is drawn as far as
-// it makes sense, since telling its faults is the service's part.
+// What to draw of a request and its answer. Faulty requests are drawn as far
+// as possible; the service reports their faults.
 
 import { doingAt, pathOf, poseAt } from "./timeline.js";
 
@@ -8,8 +8,8 @@ import { doingAt, pathOf, poseAt } from "./timeline.js";
 const FREE = new Set([".", "G"]);
 
 /**
- * The map as {map, lines, columns, rows, resolution, origin, blocked, bounds}; blocked[row * columns + column],
- * top row first. `previous` spares reading what is the same.
+ * The map as {map, lines, columns, rows, resolution, origin, blocked, bounds}; blocked[row * columns +
+ * column], top row first. `previous` saves reading unchanged parts.
  * @param {Grid | null} previous
  * @returns {Grid | null}
  */
@@ -63,8 +63,8 @@ function readPose(pose) {
 }
 
 /**
- * The scene of a parsed request: {grid, robots}; the grid is null when there is no map to draw. `previous`, the
- * scene of an earlier request, makes it cheap to read an edited one.
+ * The scene of a parsed request: {grid, robots}; the grid is null when there is no map to draw. `previous`,
+ * the scene of an earlier request, makes it cheap to read an edited one.
  * @param {Scene | null} previous
  * @returns {Scene}
  */
@@ -76,9 +76,9 @@ export function readScene(request, previous = null) {
 }
 
 /**
- * What each robot of the scene does, by id: {status, actions, path, cost, lowerBound, unplanned}. The status is
- * "ready" before there is an answer, then "planned", "parked" (it has no goal) or "unplanned"; `lowerBound`,
- * what the robot would cost alone on the map (seconds), is null where the answer does not tell.
+ * The track of each robot of the scene, by id: {status, actions, path, cost, lowerBound, unplanned}. The
+ * status is "ready" before there is an answer, then "planned", "parked" (it has no goal) or "unplanned";
+ * `lowerBound`, the lower bound of its cost (seconds), is null if the answer lacks it.
  * @param {Scene} scene
  * @param {Answer | null} answer
  * @returns {Map<string, Track>}
@@ -112,12 +112,12 @@ export function robotPoseAt(robot, track, t) {
   return poseAt(track.actions, robot.start, t);
 }
 
-/** One word for what a robot does at t. */
+/** The state of a robot at t, one word. */
 export function robotStateAt(track, t) {
   return track.status === "planned" ? doingAt(track.actions, t) : track.status;
 }
 
-/** How many leading characters all ids share, never splitting a number nor leaving an id empty. */
+/** The length of the common prefix of all ids, without splitting a number or leaving an id empty. */
 function commonPrefixLength(ids) {
   if (ids.length < 2) return 0;
   let length = 0;

@@ -5,20 +5,20 @@ import { robotsOf } from "./edit_request.js";
 export class Focus {
   hovered = null;
   selected = null;
-  highlighted = new Set(); // further ones, such as both robots of a collision
+  highlighted = new Set(); // others, such as the second robot of a collision
 
-  /** The ids of all of them. */
+  /** All ids. */
   get all() {
     return new Set([this.hovered, this.selected, ...this.highlighted].filter((id) => id !== null));
   }
 
-  /** Selects the first of these ids and brings out the others. */
+  /** Selects the first of these ids and highlights the others. */
   highlight(ids) {
     this.selected = ids[0] ?? null;
     this.highlighted = new Set(ids.slice(1));
   }
 
-  /** Forgets robots that are not there any longer; `known` has those that are. */
+  /** Drops the robots that are not in `known`. */
   keep(known) {
     if (!known.has(this.hovered)) this.hovered = null;
     if (!known.has(this.selected)) this.selected = null;
@@ -38,19 +38,18 @@ export class RobotChoice {
   }
 
   /**
-   * Its place in the request's robots, or null. Whoever shows it listens to the session's "request" and
-   * "marks".
+   * The index among the request's robots, or null. It changes only with the session's "request" and "marks".
    */
   get index() {
     return this.#index;
   }
 
-  /** As it is in the scene, or null. */
+  /** The robot in the scene, or null. */
   get robot() {
     return this.#session.scene.robots.find((robot) => robot.index === this.#index) ?? null;
   }
 
-  /** Chooses the robot at a place of the request's robots, or none (null). */
+  /** Selects the robot at an index of the request's robots, or none (null). */
   choose(index) {
     this.#index = index;
     this.#session.select(this.robot?.id ?? null);
@@ -60,12 +59,12 @@ export class RobotChoice {
     const isGone = this.#index !== null && this.#index >= robotsOf(this.#session.request).length;
     if (opened || isGone) this.#index = null;
     if (this.#session.selected !== null) this.#followSelected();
-    else if (this.robot) this.#session.select(this.robot.id); // it was renamed, or can be shown again
+    else if (this.robot) this.#session.select(this.robot.id); // it was renamed or became valid
   }
 
   #followMarks() {
     if (this.#session.selected !== null) this.#followSelected();
-    else if (this.robot) this.#index = null; // someone deselected it
+    else if (this.robot) this.#index = null; // it was deselected
   }
 
   #followSelected() {

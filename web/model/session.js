@@ -1,20 +1,20 @@
-// What the page is about: a request, its answer, the moment, what is pointed at. Features attach here and know
-// nothing of one another. No DOM; the service and the screen's frames are passed in.
+// The state of the page: a request, its answer, the current time, the selection. Features attach here and are
+// independent of each other. No DOM; the service and the screen's frames are passed in.
 //
 // Features listen with on(names, listener):
-//   request   another request or an edit of it: `request`, `scene` and `tracks` are new. Told: {opened}, whether
-//             another one was opened, or is open again by undo or redo, (true) or the same was edited (false)
-//   answer    another answer, or none: `answer`, `tracks` and the player are new; comes after every "request" too
-//   planning  planning began, got on or ended: `planning`
+//   request   another request or an edit of it: `request`, `scene` and `tracks` are new. Detail: {opened},
+//             whether another one was opened or restored by undo or redo (true), or this one was edited (false)
+//   answer    another answer, or none: `answer`, `tracks` and the player are new; follows every "request", too
+//   planning  planning started, progressed or ended: `planning`
 //   problem   a fault to show, or none: `problem`
-//   check     the plan was judged, or is no longer: `check`
-//   marks     other robots are hovered, selected or brought out
-//   time      another moment, by playing (each frame) or by seeking
-//   playback  playing began or ended
+//   check     the plan was checked, or the check was dropped: `check`
+//   marks     other robots are hovered, selected or highlighted
+//   time      another time, by playing (each frame) or by seeking
+//   playback  playing started or ended
 //   limits    `limits` are known
-//   said      something for those who listen to the page. Told: the text
+//   announcement  something for screen readers. Detail: the text
 //
-// Nobody changes what they get from here: a request is edited by handing over another one.
+// The state is never changed in place: an edit passes another request.
 
 import { History } from "./history.js";
 import { planFile } from "./plan_file.js";
@@ -29,7 +29,7 @@ import { Signals } from "./signals.js";
 
 const EMPTY = { name: "", example: null, text: "", request: null };
 
-/** What was opened, {name, example, text, request}, and what its request was edited to. */
+/** What was opened, {name, example, text, request}, and its request with the edits. */
 const documentOf = (opened, request = opened.request) => ({ opened, request });
 
 export class Session {
@@ -38,7 +38,7 @@ export class Session {
   #playback;
   #focus = new Focus();
   #history = new History(documentOf(EMPTY)); // of documents
-  #turn = 0; // counts requests and edits, so that what was asked for an older one is dropped
+  #turn = 0; // counts requests and edits, so that late results for an older one are dropped
   /** @type {Map<string, Robot>} */
   #robots = new Map(); // of the scene, by id
 
@@ -56,7 +56,7 @@ export class Session {
   /** @type {Check | null} */
   check = null; // of the plan, by the service
   /** @type {Limits} */
-  limits = {}; // what the service takes, see GET /v1/limits; empty until known
+  limits = {}; // see GET /v1/limits; empty until known
 
   /** `service`: see service/client.js. `nextFrame` calls back with the wall clock in milliseconds. */
   constructor(service, nextFrame) {
@@ -86,12 +86,12 @@ export class Session {
     return this.#history.present.request;
   }
 
-  /** What the request is called: an example's or a file's name. */
+  /** The name of the request: an example's or a file's name. */
   get name() {
     return this.#opened.name;
   }
 
-  /** The name of the example that this is, unchanged; or null. */
+  /** The name of the example if this is one and unchanged, or null. */
   get example() {
     return this.edited ? null : this.#opened.example;
   }
@@ -100,7 +100,7 @@ export class Session {
     return this.request !== this.#opened.request;
   }
 
-  /** The request as JSON: the very text that was opened, until it is edited. */
+  /** The request as JSON: the opened text, until it is edited. */
   get text() {
     return this.edited ? JSON.stringify(this.request) : this.#opened.text;
   }
@@ -119,8 +119,8 @@ export class Session {
   }
 
   /**
-   * Shows another request: {name, example: its name or null, text, request}, with an answer or null. Undo brings the
-   * one before it back if that was edited.
+   * Shows another request: {name, example: its name or null, text, request}, with an answer or null. Undo
+   * restores the previous one if that was edited.
    */
   open(opened, answer = null) {
     if (this.edited) this.#history.push(documentOf(opened));
@@ -129,7 +129,10 @@ export class Session {
     if (answer !== null) this.adopt(answer);
   }
 
-  /** Edits the request. Edits in a row with the same `gesture` (a drag, typing in one field) are undone as one. */
+  /**
+   * Edits the request. Edits in a row with the same `gesture` (a drag, typing in one field) are one undo
+   * step.
+   */
   edit(request, gesture = null) {
     if (request === this.request) return;
     this.#history.push(documentOf(this.#opened, request), gesture);
@@ -165,14 +168,14 @@ export class Session {
     this.#focus.keep(this.#robots);
     this.#setAnswer(null);
     this.#signals.emit("request", { opened });
-    if (opened) this.setProblem(null); // that of an edited request stays until it is judged again, see checks.js
+    if (opened) this.setProblem(null); // after an edit it stays until the next check, see checks.js
     this.#signals.emit("answer");
     this.#signals.emit("marks");
   }
 
   // The answer
 
-  /** Shows an answer of the present request, at its start. */
+  /** Shows an answer of the current request, at time 0. */
   adopt(answer) {
     this.#setAnswer(answer);
     this.#signals.emit("answer");
@@ -187,7 +190,9 @@ export class Session {
     this.#setCheck(null);
   }
 
-  /** Has the service judge the plan, see `check`; true when it did. Faults are shown as a problem. */
+  /**
+   * Has the service check the plan, see `check`; resolves to whether it did. Failures are shown as a problem.
+   */
   async validate() {
     const turn = this.#turn;
     const { answer } = this;
@@ -208,7 +213,7 @@ export class Session {
 
   // Planning
 
-  /** Plans the request; resolves when that has ended, to whether there is an answer. `budget`: see PlanRun. */
+  /** Plans the request; resolves at the end to whether there is an answer. `budget`: see PlanRun. */
   async plan(budget = null) {
     if (this.planning || this.request === null) return false;
     const run = new PlanRun(budget);
@@ -244,7 +249,7 @@ export class Session {
     this.#signals.emit("planning");
   }
 
-  /** Stops planning; the text of the best answer so far, or null. */
+  /** Stops planning; returns the text of the best answer so far, or null. */
   stopPlanning() {
     if (!this.planning) return null;
     const { incumbent } = this.planning;
@@ -261,9 +266,9 @@ export class Session {
     this.announce(`Planning cancelled${text === null ? "" : ": this is the best plan so far"}.`);
   }
 
-  // Faults and words
+  // Problems and announcements
 
-  /** Shows what a ProblemError is about; other errors are bugs and go on. */
+  /** Shows the problem of a ProblemError; rethrows other errors, which are bugs. */
   fail(error) {
     if (!(error instanceof ProblemError)) throw error;
     this.setProblem(error.problem);
@@ -279,7 +284,7 @@ export class Session {
     this.#signals.emit("announcement", text);
   }
 
-  // What is pointed at
+  // Selection
 
   get hovered() {
     return this.#focus.hovered;
@@ -289,7 +294,7 @@ export class Session {
     return this.#focus.selected;
   }
 
-  /** The ids of all robots to bring out. */
+  /** The ids of all highlighted robots. */
   get marked() {
     return this.#focus.all;
   }
@@ -310,7 +315,7 @@ export class Session {
     this.select(id === this.selected ? null : id);
   }
 
-  /** Selects the first of some robots and brings out all. */
+  /** Selects the first of some robots and highlights all. */
   highlight(ids) {
     this.#focus.highlight(ids);
     this.#signals.emit("marks");
@@ -327,12 +332,12 @@ export class Session {
     return robot && robotPoseAt(robot, this.tracks.get(id), time);
   }
 
-  /** What a robot does at a time, one word; null if there is no such robot. */
+  /** The state of a robot at a time, one word; null if there is no such robot. */
   stateOf(id, time = this.player.time) {
     return this.tracks.has(id) ? robotStateAt(this.tracks.get(id), time) : null;
   }
 
-  // The moment
+  // Time
 
   seek(time) {
     this.player.seek(time);

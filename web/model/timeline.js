@@ -15,7 +15,7 @@ export function turnBetween(from, to) {
   return normalizeAngle(normalizeAngle(to) - normalizeAngle(from));
 }
 
-/** The index of the action that is under way at t; the later one where two meet. `actions` is not empty. */
+/** The index of the action at t; the later one where two meet. `actions` is not empty. */
 export function actionIndexAt(actions, t) {
   let low = 0;
   let high = actions.length - 1;
@@ -47,7 +47,7 @@ export function poseAt(actions, start, t) {
 
 const DOING = { rotate: "turning", translate: "moving", wait: "waiting" };
 
-/** What the robot does at t: "turning", "moving", "waiting" or, after its last action, "arrived". */
+/** The state of the robot at t: "turning", "moving", "waiting" or, after its last action, "arrived". */
 export function doingAt(actions, t) {
   if (actions.length === 0 || t >= actions[actions.length - 1].t_end) return "arrived";
   return DOING[actions[actionIndexAt(actions, t)].type] ?? "waiting";
@@ -64,7 +64,7 @@ export function pathOf(actions) {
   return corners;
 }
 
-/** The corners of what is left of the path at t, from where the robot is. */
+/** The corners of the remaining path at t, starting at the robot. */
 export function remainingPath(actions, start, t) {
   const { x, y } = poseAt(actions, start, t);
   const corners = [{ x, y }];

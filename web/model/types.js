@@ -1,5 +1,5 @@
-// The shapes that several modules share, for the type checker: the service's JSON (see GET /v1/openapi.json) and what the
-// page makes of it. Units: metres, seconds, radians.
+// The shapes that several modules share, for the type checker: the service's JSON (see GET /v1/openapi.json)
+// and what the page makes of it. Units: metres, seconds, radians.
 
 /** @typedef {{x: number, y: number}} Position */
 /** @typedef {{x: number, y: number, theta: number}} Pose */
@@ -34,7 +34,10 @@
  * @property {Record<string, any>} [options]
  */
 
-/** @typedef {{type: "rotate" | "translate" | "wait", t_start: number, t_end: number, from: Pose, to: Pose}} Action */
+/**
+ * @typedef {{type: "rotate" | "translate" | "wait", t_start: number, t_end: number, from: Pose, to: Pose}}
+ * Action
+ */
 /** @typedef {{robot: string, cost: number, lower_bound?: number, actions: Action[]}} Plan */
 /** @typedef {{robot: string, reason: string, detail?: string, blocked_by?: string[]}} Unplanned */
 
@@ -55,14 +58,23 @@
  * @property {(string | {detail?: string})[]} warnings
  */
 
-/** @typedef {{kind: string, robots: string[], t: number, distance?: number, required?: number, detail: string}} Violation */
+/**
+ * @typedef {{kind: string, robots: string[], t: number, distance?: number, required?: number, detail:
+ * string}} Violation
+ */
 
 /**
  * The answer of POST /v1/validate.
- * @typedef {{valid: boolean, violations: Violation[], truncated?: boolean, min_clearance: number | null}} Check
+ * @typedef {object} Check
+ * @property {boolean} valid
+ * @property {Violation[]} violations
+ * @property {boolean} [truncated]
+ * @property {number | null} min_clearance
  */
 
-/** @typedef {{pointer?: string, code?: string, detail: string}} Fault an error of a Problem, at a JSON Pointer */
+/**
+ * @typedef {{pointer?: string, code?: string, detail: string}} Fault an error of a Problem, at a JSON Pointer
+ */
 
 /**
  * A failure in the form of RFC 9457.
@@ -77,14 +89,23 @@
 
 /**
  * The answer of GET /v1/limits; empty until it is known.
- * @typedef {{default_budget_ms?: number, max_budget_ms?: number, max_robots?: number, max_cells?: number}} Limits
+ * @typedef {object} Limits
+ * @property {number} [default_budget_ms]
+ * @property {number} [max_budget_ms]
+ * @property {number} [max_robots]
+ * @property {number} [max_cells]
  */
 
 /** @typedef {{flowtime: number, makespan: number}} Costs */
 
 /**
  * An event while planning; `best` is null until there is a plan.
- * @typedef {{elapsed_ms: number, attempt: number, planned: number, robots: number, best: Costs | null}} Progress
+ * @typedef {object} Progress
+ * @property {number} elapsed_ms
+ * @property {number} attempt
+ * @property {number} planned
+ * @property {number} robots
+ * @property {Costs | null} best
  */
 
 // The scene, see scene.js

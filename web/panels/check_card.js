@@ -1,4 +1,4 @@
-// What the service says of the plan shown: valid, or what is wrong with it and when. Pressing a violation shows
+// The service's check of the plan shown: valid, or its violations. Pressing a violation shows
 // it.
 
 import { kindInWords } from "../model/checks.js";
@@ -7,13 +7,13 @@ import { count, metres, seconds } from "../ui/format.js";
 
 const TICK = "M4.5 10.5 8.5 14.5 15.5 6";
 const CROSS = "M5 5 15 15M15 5 5 15";
-const MOST = 100; // violations to list; nobody reads more
+const MOST = 100; // violations to list
 const DISTANCES = {
   robot_collision: "between their centres",
   obstacle_collision: "from its centre to the wall",
 };
 
-/** Offers to check the session's plan, and shows what came of it. `stage`: see Stage. */
+/** Checks the session's plan on demand and shows the result. `stage`: see Stage. */
 export function watchCheck(session, stage) {
   const button = byId("check-plan");
   button.addEventListener("click", async () => {

@@ -1,5 +1,6 @@
-// Paints the timeline: the smallest gap over time, an axis of time, and a row a robot. What a robot does is
-// told by form: driving is a full bar, turning half a bar, waiting an open one. Sizes in CSS pixels.
+// Paints the timeline: the smallest gap over time, an axis of time, and a row per robot. The type of an
+// action is shown by form: driving is a full bar, turning half a bar, waiting an open one. Sizes in CSS
+// pixels.
 
 import { rowsSeen, thinned, ticks, xOf, yOf } from "../model/gantt.js";
 import { REASONS } from "./summary.js";
@@ -9,8 +10,8 @@ export const AXIS = 20; // the height of the axis between
 
 const PAD = 8;
 const SWATCH = 5; // radius
-const TICK_WIDTH = 72; // room for a tick's label
-const LEAST_BAR = 1; // so that a short action is seen at all
+const TICK_WIDTH = 72; // pixels per tick label
+const LEAST_BAR = 1; // so that short actions are visible
 const CONTACT = 1e-6; // metres: nearer is contact, further overlapping a collision
 const FONT = 12;
 const HINT = "Plan to see the actions of all robots over time";
@@ -70,7 +71,7 @@ function paintStripLabel(context, layout, theme, curve) {
   context.fillText(`0 to ${largestGap(curve, layout.range).toFixed(1)} m`, PAD, STRIP / 2 + 8);
 }
 
-/** The curve on a square root's scale, which spreads small gaps; below it what is contact or worse. */
+/** The curve on a square-root scale, which spreads small gaps; below it contacts and overlaps. */
 function paintCurve(context, layout, theme, curve) {
   if (curve === null) return;
   const { t, gap } = curve;
@@ -97,7 +98,7 @@ function paintCurve(context, layout, theme, curve) {
   shown.forEach((k, at) => paintContact(context, layout, theme, curve, [k, shown[at + 1]], bottom));
 }
 
-/** Marks contact below the curve and, over all its height, overlap; to the next moment where it goes on. */
+/** Marks contact below the curve and overlap over its whole height, up to the next point if it continues. */
 function paintContact(context, layout, theme, { t, gap }, [k, next], bottom) {
   if (gap[k] > CONTACT) return;
   const overlap = gap[k] < -CONTACT;
@@ -163,7 +164,7 @@ function paintLabel(context, { left, rowHeight }, theme, { top, robot, track, co
   context.fillText(shortened(context, robot.id, room), 2 * PAD + 2 * SWATCH, middle + 0.5);
 }
 
-/** The text, or its end (ids differ there) if it is too long. */
+/** The text, or its end if it is too long, as ids differ there. */
 function shortened(context, text, room) {
   if (context.measureText(text).width <= room) return text;
   let from = 1;
@@ -197,7 +198,7 @@ function paintStatus(context, layout, theme, top, { status, unplanned }) {
   context.fillText(text, layout.left + PAD, top + layout.rowHeight / 2 + 0.5);
 }
 
-/** Paints within the part of the chart that is about time. */
+/** Paints within the time axis of the chart. */
 function clipped(context, { left, width }, top, height, paint) {
   context.save();
   context.beginPath();

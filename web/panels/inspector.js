@@ -1,5 +1,5 @@
-// The card of the selected robot: what it costs, how it spends its time, and its actions one by one, with what
-// each wait is for.
+// The card of the selected robot: its cost, how it spends its time, and its actions, with the
+// cause of each wait.
 
 import { delayOf } from "../model/gantt.js";
 import { actionInWords, totals, causeOfWait } from "../model/itinerary.js";
@@ -9,7 +9,7 @@ import { seconds } from "../ui/format.js";
 import { robotChip } from "./robot_list.js";
 import { REASONS } from "./summary.js";
 
-const EDITING = "tab-edit"; // whose form has what there is to know of a robot, and needs the scene
+const EDITING = "tab-edit"; // whose form shows the robot instead
 const CROSS = "M5 5 15 15M15 5 5 15";
 const MARGIN = { top: 60, side: 12, bottom: 12 }; // pixels around the card: above are the view's buttons
 const COLUMNS = ["", "From, s", "To, s", "What"];
@@ -19,7 +19,7 @@ const NO_ACTIONS = {
   ready: "It is not part of the plan and stays at its start.",
 };
 
-const CORNERS = ["top-right", "bottom-right", "bottom-left"]; // those liked best first
+const CORNERS = ["top-right", "bottom-right", "bottom-left"]; // in order of preference
 
 export class Inspector {
   #session;
@@ -29,7 +29,7 @@ export class Inspector {
   #tabs;
   #box = byId("inspector");
   #shown = null; // the id of the robot shown
-  #state = null; // the element that says what it does now
+  #state = null; // the element with its current state
   #rows = []; // of the table, one an action
   #current = -1; // the row of the action under way
 
@@ -70,7 +70,7 @@ export class Inspector {
     );
   }
 
-  /** What the card should not hide: where the robot is and goes, and who is in its way. */
+  /** What the card should not hide: the robot, its path and goal, and its blockers. */
   #placesOf(robot, track) {
     const blockers = track.unplanned?.blocked_by ?? [];
     const goal = robot.goal === null ? [] : [robot.goal];
@@ -139,7 +139,7 @@ export class Inspector {
     return element("div", { class: "actions", tabIndex: 0, role: "region", "aria-label": "Actions" }, table);
   }
 
-  /** What to write after a wait. */
+  /** The text after a wait. */
   #causeOf(robot, actions, at) {
     const hit = causeOfWait(robot.id, actions, at, this.#fleet.byId);
     if (hit) return this.#causeInWords("for", hit);
@@ -194,7 +194,7 @@ function costOf(track) {
   return element("p", { class: "cost" }, cost, " to the goal", compared);
 }
 
-/** How the time is spent, as a bar and in words. */
+/** The shares of moving, turning and waiting, as a bar and in words. */
 function sharesOf({ moving, turning, waiting, distance }) {
   const spent = Object.entries({ moving, turning, waiting }).filter(([, time]) => time > 0);
   const bar = element("div", { class: "shares", "aria-hidden": "true" });
@@ -209,8 +209,8 @@ function sharesOf({ moving, turning, waiting, distance }) {
 }
 
 /**
- * The corner for a card of some width and height in a scene {width, height}, `margin` {top, side, bottom} away
- * from its edges, that covers the fewest of the points.
+ * The corner for a card of some width and height in a scene {width, height}, `margin` {top, side, bottom}
+ * away from its edges, that covers the fewest of the points.
  */
 export function cornerFor({ width, height }, scene, margin, points) {
   const covered = CORNERS.map((corner) => {

@@ -1,5 +1,5 @@
-// The options of the request as a form, each with its default, unit and description. The form follows the service's
-// OpenAPI document, which is fetched when the form is needed for the first time.
+// The options of the request as a form, each with its default, unit and description. The form follows the
+// service's OpenAPI document, which is fetched when the form is needed for the first time.
 
 import { optionOf, readOptions, withOption } from "../model/options.js";
 import { ProblemError } from "../model/problem.js";
@@ -26,7 +26,9 @@ export class OptionsPanel {
     session.on("limits", () => this.#showLimits());
   }
 
-  /** Builds the form unless it is there; resolves when that is done. The next call tries again if it failed. */
+  /**
+   * Builds the form unless it is there; resolves when that is done. The next call tries again if it failed.
+   */
   load() {
     this.#loading ??= this.#build();
     return this.#loading;

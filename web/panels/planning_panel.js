@@ -32,7 +32,7 @@ export class PlanButton {
       if (session.problem !== null) revealProblem();
       return;
     }
-    const watching = document.activeElement === this.#plan; // which has the focus again from Cancel
+    const watching = document.activeElement === this.#plan; // which regains the focus from Cancel
     session.announce(summarize(session.answer));
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches) session.play();
     if (watching) this.#transport.focusPlay();
@@ -49,14 +49,14 @@ export class PlanButton {
   }
 }
 
-/** Seconds that planning a request may take, or null if that is not known. `limits` are those of the service. */
+/** The time budget of a request, seconds, or null if unknown. `limits` are those of the service. */
 export function budgetOf(request, limits) {
   const asked = request?.options?.time_budget_ms ?? limits.default_budget_ms;
   if (!(asked > 0)) return null;
   return Math.min(asked, limits.max_budget_ms ?? asked) / 1000;
 }
 
-/** How far planning has got, in words. */
+/** The progress of planning, in words. */
 export function describeProgress({ attempt, planned, robots, best }) {
   const done = `${planned.toLocaleString("en")} of ${count(robots, "robot")} planned`;
   const again = attempt > 1 ? `, attempt ${attempt.toLocaleString("en")}` : "";
@@ -113,7 +113,7 @@ export class PlanningStatus {
   }
 }
 
-/** Draws the costs, [{elapsed_ms, flowtime}], up to now; hidden until there are two, as one is no curve. */
+/** Draws the costs, [{elapsed_ms, flowtime}], up to now; hidden until there are two. */
 export function drawCosts(box, costs, now_ms) {
   box.hidden = costs.length < 2;
   if (box.hidden) return;

@@ -1,5 +1,5 @@
-// The problem card, and its errors at their places: robots and rows in the scene, fields in the panels. Pressing a listed
-// error leads to its place.
+// The problem card, and its errors at their places: robots and rows in the scene, fields in the panels.
+// Pressing a listed error leads to its place.
 
 import { nameOf, robotsOf } from "../model/edit_request.js";
 import { mapRowOf, robotIndexOf } from "../model/problem.js";
@@ -9,11 +9,11 @@ import { fieldOf, showFieldErrors } from "../ui/field_errors.js";
 import { count } from "../ui/format.js";
 
 const FORMS = ["panel-edit", "panel-options"];
-const MOST_ERRORS = 100; // to list; nobody reads more
+const MOST_ERRORS = 100; // to list
 
 /**
- * Shows the session's problem and marks its errors at their places. `choice`: see RobotChoice. `loadOptions()`
- * resolves when the form of the options is there.
+ * Shows the session's problem and marks its errors at their places. `choice`: see RobotChoice.
+ * `loadOptions()` resolves when the form of the options is there.
  */
 export function watchProblem(session, stage, tabs, choice, loadOptions) {
   const errors = () => session.problem?.errors ?? [];
@@ -22,7 +22,7 @@ export function watchProblem(session, stage, tabs, choice, loadOptions) {
   const refresh = () => {
     for (const form of forms) showFieldErrors(form, errors());
   };
-  session.on("problem marks", refresh); // marks: the form may have turned to another robot
+  session.on("problem marks", refresh); // marks: the form may show another robot now
   session.on("problem", () => {
     stage.redraw();
     if (errors().some(isAboutOptions)) loadOptions().then(refresh);
@@ -52,7 +52,7 @@ export function watchProblem(session, stage, tabs, choice, loadOptions) {
 
 const isAboutOptions = ({ pointer = "" }) => pointer.startsWith("/options");
 
-/** Leads to a field, or to the first of a group of fields, wherever it is folded away. */
+/** Focuses a field, or the first of a group of fields, and unfolds what hides it. */
 function focusOn(field, tabs) {
   tabs.reveal(field);
   const details = field.closest("details");
@@ -62,8 +62,8 @@ function focusOn(field, tabs) {
 }
 
 /**
- * Where a robot that an error is about has its start or, if the error is about that, its goal: {x, y, radius}, metres;
- * null if there is none. A robot may be too faulty to be drawn and yet have a place.
+ * The disk at the start of the robot that an error points to, or at its goal if it points there: {x, y,
+ * radius}, metres; null if there is none. A robot that is too faulty to be drawn may still have one.
  */
 function diskOf({ request, scene }, pointer) {
   const robot = robotsOf(request)[robotIndexOf(pointer) ?? -1];
@@ -73,7 +73,7 @@ function diskOf({ request, scene }, pointer) {
   return { x: pose.x, y: pose.y, radius: radius > 0 ? radius : (scene.grid?.resolution ?? 1) / 2 };
 }
 
-/** Brings the problem into sight where the page is longer than the window, as on a phone. */
+/** Scrolls the problem into view on pages longer than the window, as on a phone. */
 export function revealProblem() {
   byId("problem").scrollIntoView({ block: "center" });
 }
@@ -111,7 +111,7 @@ function errorList(errors, request, show) {
   return list;
 }
 
-/** What a pointer leads to, as a person would say. */
+/** The place that a pointer leads to, in words. */
 function placeInWords(pointer, request) {
   const index = robotIndexOf(pointer);
   if (index !== null) return nameOf(request, index);

@@ -16,9 +16,9 @@ const OUTCOMES = {
 
 const PARTS = { queue: "queue", parse: "parse", verify: "check", serialize: "write" };
 
-/** The parts of timings_ms beside planning itself, in words. */
+/** The parts of timings_ms other than planning, in words. */
 
-/** A sentence that says how planning ended. */
+/** A sentence about the outcome of planning. */
 export function summarize(answer) {
   const outcome = OUTCOMES[answer.status]?.text ?? answer.status;
   const planned = `${count(answer.plans.length, "robot")} planned`;
@@ -26,7 +26,7 @@ export function summarize(answer) {
   return `${outcome}: ${planned}${failed}, flowtime ${seconds(answer.flowtime)}.`;
 }
 
-/** Shows the figures of the session's answer; a plan from a file may lack some. */
+/** Shows the figures of the session's answer; a plan from a file may lack some of them. */
 export function watchSummary(session) {
   session.on("answer check", () => showSummary(session));
 }
@@ -63,7 +63,7 @@ function effort({ timings_ms: timings, search }) {
   );
 }
 
-/** What else the service's time went into. */
+/** The service's time besides planning. */
 function otherTimings(timings) {
   const parts = Object.entries(PARTS).map(([part, words]) => `${words} ${(timings[part] ?? 0).toFixed(2)}`);
   return element("p", { class: "facts", textContent: `${parts.join(" · ")} ms` });

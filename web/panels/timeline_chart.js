@@ -1,5 +1,5 @@
-// The timeline's chart on the page: it scrolls, zooms, is pointed at and steered by keys. The picture is
-// painted when something in it changes; while a plan plays, only the playhead moves.
+// The timeline's chart on the page: scrolling, zooming, pointing and keys. The picture is
+// painted when its content changes; during playback only the playhead moves.
 
 import { orderRows, panTime, revealTime, rowAt, scrollToRow, timeAt, xOf, zoomTime } from "../model/gantt.js";
 import { byId, contextOf } from "../ui/dom.js";
@@ -28,14 +28,14 @@ export class TimelineChart {
   #sortedBy = "listed";
   #ids = []; // row by row
   #range = { from: 0, to: 0 };
-  #size = { clientWidth: 0, clientHeight: 0 }; // of the box: asking it each frame would have it laid out anew
+  #size = { clientWidth: 0, clientHeight: 0 }; // of the box, kept to avoid a layout in each frame
   #scroll = 0;
   #scheduled = false;
-  #revealed = null; // the selected robot when its row was last brought in sight
+  #revealed = null; // the selected robot whose row was revealed last
 
   /**
-   * `fleet`: see FleetMotion; `transport`: see Transport. `overStrip(whether)` hears of the pointer on the curve of the
-   * smallest gap.
+   * `fleet`: see FleetMotion; `transport`: see Transport. `overStrip(whether)` is called as the pointer
+   * enters and leaves the curve of the smallest gap.
    */
   constructor(session, colours, fleet, transport, overStrip) {
     this.#session = session;
@@ -143,7 +143,7 @@ export class TimelineChart {
     this.#playhead.style.transform = `translateX(${x.toFixed(1)}px)`;
   }
 
-  /** Keeps up with the moment: turns the page when it leaves what is shown. */
+  /** Follows the current time: moves the range when the time leaves it. */
   #follow() {
     const { time, duration } = this.#session.player;
     const range = revealTime(this.#range, duration, time);
@@ -193,7 +193,7 @@ export class TimelineChart {
     const travel = wheelTravel(event);
     const across = event.shiftKey ? travel.down || travel.across : travel.across;
     const down = event.shiftKey ? 0 : travel.down;
-    if (Math.abs(across) <= Math.abs(down)) return; // the rows scroll by themselves
+    if (Math.abs(across) <= Math.abs(down)) return; // the browser scrolls the rows
     event.preventDefault();
     const shift = (across / this.#layout().width) * (this.#range.to - this.#range.from);
     this.#setRange(panTime(this.#range, this.#session.player.duration, shift));

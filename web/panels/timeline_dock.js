@@ -1,12 +1,12 @@
-// The dock of the timeline below the scene: it folds, is drawn to a height, says which robots are closest now,
-// and how rows are sorted.
+// The dock of the timeline below the scene: folding, height, the robots that are closest now,
+// and the order of the rows.
 
 import { delayOf } from "../model/gantt.js";
 import { byId, setText } from "../ui/dom.js";
 import { metres } from "../ui/format.js";
 import { TimelineChart } from "./timeline_chart.js";
 
-const EVERY_MS = 100; // between updates of the words while playing
+const EVERY_MS = 100; // between updates of the text while playing
 const HEIGHT = { least: 110, first: 216, step: 24 }; // pixels of the chart
 const MOST_OF_WINDOW = 0.6;
 

@@ -1,14 +1,14 @@
 // Gestures on the timeline, by mouse or finger: press, drag and hover to seek, two fingers to zoom.
 
 const TAP_SLACK = 6; // pixels
-const NEAREST = 16; // pixels: fingers that are nearer than that, above one another, zoom nothing
+const NEAREST = 16; // pixels: the least horizontal distance of two fingers that counts
 
 /**
- * Watches the scrolling box of a chart. `chart` has timeAt(x) and robotAt(y), in pixels within the box and null
- * where there is none, and over(y or null), which hears where the pointer is.
+ * Watches the scrolling box of a chart. `chart` has timeAt(x) and robotAt(y), in pixels within the box and
+ * null where there is none, and over(y or null), called with the position of the pointer.
  */
 export function watchScrubbing(box, session, chart) {
-  let pressed = null; // {x, resume, moved} of the press at hand
+  let pressed = null; // {x, resume, moved} of the current press
   const within = (event) => {
     const { left, top } = box.getBoundingClientRect();
     return { x: event.clientX - left - box.clientLeft, y: event.clientY - top - box.clientTop };
@@ -28,9 +28,9 @@ export function watchScrubbing(box, session, chart) {
   box.addEventListener("pointerdown", (event) => {
     if (!event.isPrimary) return release();
     const place = within(event);
-    if (event.button !== 0 || place.x >= box.clientWidth) return; // the scroll bar is the browser's
+    if (event.button !== 0 || place.x >= box.clientWidth) return; // the browser handles the scroll bar
     pressed = { x: place.x, resume: session.player.playing, moved: false };
-    if (event.pointerType === "touch") return; // perhaps it scrolls
+    if (event.pointerType === "touch") return; // it may become a scroll
     box.setPointerCapture(event.pointerId);
     session.pause();
     point(place);
@@ -69,8 +69,8 @@ export function watchScrubbing(box, session, chart) {
 }
 
 /**
- * Watches an element. `zoom(x, factor)`: what is at x stays there and the rest gets larger by the factor, so that
- * under both fingers stays what they took.
+ * Watches an element for two fingers. `zoom(x, factor)` scales by the factor around x, so that both fingers
+ * stay over the same times.
  */
 export function watchPinching(element, zoom) {
   const fingers = new Map(); // pointer id -> last x

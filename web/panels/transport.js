@@ -17,7 +17,7 @@ export class Transport {
   #loop = byId("loop");
   #previous = byId("previous-event");
   #next = byId("next-event");
-  #events = new Map(); // event times by robot's id, null for those of all
+  #events = new Map(); // event times by robot id, null for all robots
   #resume = false; // playing was interrupted by dragging the scrubber
 
   constructor(session) {

@@ -1,5 +1,5 @@
-// Paints a scene on a canvas. What stands still while a plan plays (map, starts, goals, paths) is painted on a
-// backdrop once for each camera; a frame is a copy of it, the robots, and what overlays add.
+// Paints a scene on a canvas. What does not move during playback (map, starts, goals, paths) is painted on a
+// backdrop once for each camera; a frame is a copy of it, the robots and the overlays.
 
 import { robotPoseAt, robotStateAt } from "../model/scene.js";
 import { remainingPath } from "../model/timeline.js";
@@ -9,7 +9,7 @@ import { drawGoal, drawPath, drawRobot, drawStart } from "./marks.js";
 import { robotColour } from "./palette.js";
 import { toScreen } from "./view.js";
 
-const GRID_LINES_FROM = 14; // pixels a cell: below, lines would only grey the floor
+const GRID_LINES_FROM = 14; // pixels per cell: below, lines would only darken the floor
 const NAME_ROOM = 40; // pixels beside a robot that its marks may take
 const FAINT = { width: 1.25, alpha: 0.34 };
 
@@ -43,8 +43,9 @@ export class Painter {
   }
 
   /**
-   * Paints the moment `time`; `marked` are the ids to bring out. `overlays` are functions (context, view) where view
-   * has camera, viewport, time, marked, theme, scale (pixels a metre) and screen(point), all in CSS pixels.
+   * Paints the moment `time`; `marked` are the ids to bring out. `overlays` are functions (context, view)
+   * where view has camera, viewport, time, marked, theme, scale (pixels per metre) and screen(point), all in
+   * CSS pixels.
    */
   paint({ camera, viewport, ratio, time, marked, overlays }) {
     if (!this.#scene || viewport.width === 0) return;
@@ -148,7 +149,7 @@ export class Painter {
     }
   }
 
-  /** `name`: what to write beside the robot at this place of the scene, or null. */
+  /** `name`: the text beside the robot at this index of the scene, or null. */
   #paintRobot(context, { viewport, time, scale, screen }, at, name) {
     const robot = this.#scene.robots[at];
     const track = this.#tracks.get(robot.id);

@@ -1,17 +1,17 @@
-// Pointer, wheel and pinch on the scene, told as camera movements. Positions in CSS pixels within the element.
+// Pointer, wheel and pinch on the scene, as camera movements. Positions in CSS pixels within the element.
 
 import { wheelFactor } from "../ui/input.js";
 
 const CLICK_SLACK = 4; // pixels: a press that moved less is a click
-const TOUCH_SLACK = 10; // pixels, likewise: before a finger draws, a second one may come to pinch
+const TOUCH_SLACK = 10; // pixels, likewise: a second finger may follow to pinch
 const WHEEL_GAIN = 0.002; // see wheelFactor
 const PINCH_GAIN = 0.01; // likewise, of two fingers on a touchpad, which come with ctrlKey
 
 /**
- * Watches an element. `handlers` has: pan(dx, dy), zoom(pixel, factor), hover(pixel or null), click(pixel); and for
- * presses that are not about the camera: press(pixel, event), which says whether to keep hold of the pointer, then
- * drag(pixel, event) once it has moved enough to be no click, and release(pixel, event), or abort() when a second
- * finger makes it a pinch. The middle button is always about the camera.
+ * Watches an element. `handlers` has: pan(dx, dy), zoom(pixel, factor), hover(pixel or null), click(pixel);
+ * and for presses that are not about the camera: press(pixel, event), which returns whether to capture the
+ * pointer, then drag(pixel, event) once it has moved too far for a click, and release(pixel, event), or
+ * abort() when a second finger makes it a pinch. The middle button is always about the camera.
  */
 export function watchGestures(element, handlers) {
   const pressed = new Map(); // pointer id -> last position
@@ -59,7 +59,7 @@ export function watchGestures(element, handlers) {
     pressed.set(event.pointerId, now);
   });
 
-  /** One finger rests at `other`, one moved: half of the move pans, the change of their distance zooms. */
+  /** One finger rests at `other`, one moved: half of the motion pans, the change of the distance zooms. */
   function pinch(other, before, now) {
     handlers.pan((now.x - before.x) / 2, (now.y - before.y) / 2);
     const apart = Math.hypot(before.x - other.x, before.y - other.y);

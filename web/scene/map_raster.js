@@ -1,10 +1,10 @@
-// The map as images, a pixel a cell, made once; drawing it at any zoom is then a matter of a few copies.
+// The map as images with one pixel per cell, made once, so that drawing it at any zoom takes a few copies.
 
 import { contextOf, element } from "../ui/dom.js";
 import { readTheme } from "./palette.js";
 
-const TILE = 2048; // cells a side: canvases of any browser and memory hold that
-const MOST_CELLS = 2 ** 24; // to paint as fast as one types
+const TILE = 2048; // cells per side: supported by the canvases of all browsers
+const MOST_CELLS = 2 ** 24; // larger previews would be slower than typing
 
 /** The map of a grid (see readScene) as tiles: blocked cells in the wall's colour, free ones clear. */
 export class MapRaster {
@@ -14,7 +14,9 @@ export class MapRaster {
   #wall = 0; // the colour as the bytes of a pixel
   #tiles = []; // [{canvas, column, row, columns, rows}]
 
-  /** What to draw from now on; `grid` may be null. Of an edited grid only the rows that differ are made again. */
+  /**
+   * What to draw from now on; `grid` may be null. Only the changed rows of an edited grid are painted again.
+   */
   show(grid, wallColour) {
     const before = this.#grid;
     if (grid === before && wallColour === this.#wallColour) return;
@@ -30,7 +32,9 @@ export class MapRaster {
     }
   }
 
-  /** Draws it; `left`, `top` is the map's upper left corner and `cell` a cell's side, in the context's pixels. */
+  /**
+   * Draws it; `left`, `top` is the map's upper left corner and `cell` a cell's side, in the context's pixels.
+   */
   draw(context, left, top, cell) {
     context.imageSmoothingEnabled = cell < 1;
     context.imageSmoothingQuality = "high";
@@ -42,7 +46,7 @@ export class MapRaster {
     }
   }
 
-  /** Paints the rows from one to another, which is not painted. */
+  /** Paints the rows from `begin` to before `end`. */
   #paint(begin, end) {
     for (const tile of this.#tiles) {
       const from = Math.max(begin, tile.row);
@@ -67,7 +71,7 @@ function tilesOf(grid) {
   return tiles;
 }
 
-/** From the first row that differs to after the last one. */
+/** The range of rows that differ: from the first to after the last one. */
 function changedRows(before, grid) {
   let begin = 0;
   let end = grid.rows;
@@ -104,9 +108,10 @@ export class MapPreview {
   canvas = element("canvas", { class: "map-preview", role: "img" });
 
   /**
-   * Paints a map of so many cells. `layers` says which in which colour: [{cells, colour}], `cells` row by row
-   * from the top, 0 for none, `colour` a name in the theme. `label` describes it. `mark(context, theme, place)`
-   * may add to it, where place(column, row) is the middle of a cell {x, y} with `cell`, a cell's side, in pixels.
+   * Paints a map of this size. `layers` are the cells in each colour: [{cells, colour}], `cells` row by row
+   * from the top, 0 for none, `colour` a name in the theme. `label` describes it. `mark(context, theme,
+   * place)` may add to it, where place(column, row) is the middle of a cell {x, y} with `cell`, a cell's
+   * side, in pixels.
    */
   paint({ columns, rows }, layers, label, mark = /** @type {any} */ (null)) {
     const { canvas } = this;

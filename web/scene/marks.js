@@ -1,12 +1,12 @@
 // The marks of a scene: robots, starts, goals, paths. Positions and sizes in CSS pixels, angles in radians,
 // counter-clockwise as in the world.
 
-const SMALLEST_DOT = 2.5; // a robot of fewer pixels is shown as a dot of this radius
+const SMALLEST_DOT = 2.5; // pixels: the least radius of a robot
 const SMALLEST_LABEL = 8; // font pixels
 
 /**
- * A robot as a disk with a wedge where it heads and, where there is room, its label or, if `state` is not null,
- * the sign of what it does; one without a plan is hollow and crossed out.
+ * A robot as a disk with a wedge for its heading and, if there is room, its label or, if `state` is not null,
+ * the sign of its state; one without a plan is hollow and crossed out.
  */
 export function drawRobot(context, theme, { centre, theta, radius, colour, label, state, unplanned, name }) {
   const shown = Math.max(radius, SMALLEST_DOT);
@@ -16,13 +16,13 @@ export function drawRobot(context, theme, { centre, theta, radius, colour, label
   if (name !== null) drawName(context, theme, centre, shown, name);
 }
 
-/** Where a robot stood at first: a faint ring. */
+/** The start of a robot: a faint ring. */
 export function drawStart(context, centre, radius, colour) {
   if (radius < SMALLEST_DOT) return;
   ring(context, centre, radius - 0.5, colour, { width: 1, alpha: 0.45, dashes: [2, 3] });
 }
 
-/** A goal: a ring and, if the heading matters, a tick across it where the robot will face. */
+/** A goal: a ring and, if the heading matters, a tick in the direction of the heading. */
 export function drawGoal(context, centre, theta, radius, colour) {
   const shown = Math.max(radius, SMALLEST_DOT);
   const width = Math.min(2, Math.max(1, shown / 6));
@@ -86,7 +86,7 @@ function drawDisk(context, theme, { centre, theta, radius, colour, label, state 
   context.restore();
 }
 
-/** Writes the label in the disk if there is room; whether it did. */
+/** Writes the label in the disk if there is room; returns whether it did. */
 function drawLabel(context, theme, centre, radius, label) {
   const widest = Math.min(15, radius * 0.82);
   if (widest < SMALLEST_LABEL) return false;
@@ -102,7 +102,10 @@ function drawLabel(context, theme, centre, radius, label) {
   return true;
 }
 
-/** Two bars for waiting, a turn's arc, a tick for arrived; moving is the wedge alone. Whether it drew one. */
+/**
+ * Two bars for waiting, a turn's arc, a tick for arrived; moving is the wedge alone. Returns whether it drew
+ * a sign.
+ */
 function drawStateSign(context, theme, centre, radius, state) {
   const size = radius * 0.42;
   if (size < 2 || !["waiting", "turning", "arrived", "parked"].includes(state)) return false;
@@ -158,7 +161,7 @@ function drawName(context, theme, centre, radius, name) {
   drawTag(context, theme, { x: centre.x, y: centre.y - radius - 17 }, name);
 }
 
-/** A short text on a ground of its own, in the middle of a point. */
+/** A short text on its own background, centred at a point. */
 export function drawTag(context, theme, { x, y }, text) {
   context.save();
   context.font = `600 12px ${theme.font}`;
@@ -196,7 +199,7 @@ export function markWrong(context, { scale, screen, theme }, point, radius) {
   drawExclamation(context, theme, x + rim * 0.75, y - rim * 0.75);
 }
 
-/** Brings out a row of the map, 0 the top one. */
+/** Marks a row of the map, 0 the top one. */
 export function markRow(context, { scale, screen, theme }, { bounds, resolution }, row) {
   const corner = screen({ x: bounds.left, y: bounds.top - row * resolution });
   const width = (bounds.right - bounds.left) * scale;

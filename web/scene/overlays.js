@@ -1,11 +1,11 @@
-// What is painted over the scene on top of the robots: blocking robots, violations of a checked plan, the closest pair.
+// Overlays on the scene: blocking robots, violations of a checked plan, the closest pair.
 
 import { violationsAt } from "../model/checks.js";
 import { byId } from "../ui/dom.js";
 import { metres } from "../ui/format.js";
 import { drawPath, drawTag, markWrong, ring } from "./marks.js";
 
-const TAG_FROM = 56; // pixels between two middles: below, the tag is put beside the line, not on it
+const TAG_FROM = 56; // pixels between two disks: below, the tag is beside the line, not on it
 const ASIDE = 22; // pixels
 
 export function showBlockers(session, stage) {
@@ -61,7 +61,7 @@ export class ClosestOverlay {
     this.#stage.redraw();
   }
 
-  /** Shows the pair for now (true) or no longer. */
+  /** Shows the pair temporarily (true) or no longer. */
   peek(peeking) {
     if (peeking === this.#peeking) return;
     this.#peeking = peeking;
@@ -88,7 +88,7 @@ function paintGap(context, theme, [a, b], gap) {
   const apart = Math.hypot(b.x - a.x, b.y - a.y);
   const middle = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
   const aside = apart - a.radius - b.radius < TAG_FROM ? Math.max(a.radius, b.radius) + ASIDE : 0;
-  // Beside the line, away from the upper side where robots' names are.
+  // Below the line, as the names of robots are above them.
   const [x, y] = apart > 0 ? [-(b.y - a.y) / apart, (b.x - a.x) / apart] : [0, 1];
   const side = y < 0 ? -1 : 1;
   drawTag(context, theme, { x: middle.x + x * aside * side, y: middle.y + y * aside * side }, metres(gap));

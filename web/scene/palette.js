@@ -1,9 +1,9 @@
-// Colours. What the canvas draws with comes from the style sheet's custom properties, so that light and dark
-// are decided in one place; robots get hues of even strength that stay readable on either.
+// Colours. The canvas uses the style sheet's custom properties, so that light and dark
+// are decided in one place; robots get hues of equal strength that are readable on both.
 
 import { Signals } from "../model/signals.js";
 
-// Degrees in OKLCH, ordered so that neighbours differ most; red is kept for what went wrong.
+// Degrees in OKLCH, ordered so that neighbours differ most; red is reserved for errors.
 const HUES = [256, 62, 150, 325, 200, 98, 290, 175, 46, 232, 128, 345];
 const GOLDEN_ANGLE = 137.508;
 const NAMES = ["void", "floor", "wall", "grid", "edge", "ink", "muted", "danger", "accent"];
@@ -16,7 +16,7 @@ export function robotColour(index, lightness) {
   return `oklch(${shade.toFixed(3)} 0.145 ${hue.toFixed(1)})`;
 }
 
-/** What robots do, see robotStateAt, in words for a legend. */
+/** The states of robots, see robotStateAt, as texts of a legend. */
 export const STATES_IN_WORDS = {
   moving: "moving: an arrow",
   turning: "turning: an arc",
@@ -27,7 +27,7 @@ export const STATES_IN_WORDS = {
   unplanned: "without a plan: a cross",
 };
 
-/** The canvas's colours under the present theme; `states` are those of robots by what they do. */
+/** The canvas's colours under the present theme; `states` are those of robots by state. */
 export function readTheme() {
   const style = getComputedStyle(document.documentElement);
   const theme = { robotLightness: Number(style.getPropertyValue("--robot-lightness")) };
@@ -50,7 +50,7 @@ export class RobotColours {
     });
   }
 
-  /** What the canvas paints with, see readTheme. */
+  /** The colours of the canvas, see readTheme. */
   get theme() {
     return this.#theme;
   }

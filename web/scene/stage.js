@@ -1,5 +1,5 @@
-// The scene on the page: canvas, camera, gestures and keys. Features add overlays, which paint on top of each frame,
-// and a tool, which may take presses and keys from the camera.
+// The scene on the page: canvas, camera, gestures and keys. Features add overlays, which paint on top of each
+// frame, and a tool, which may handle presses and keys before the camera.
 
 import { robotPoseAt } from "../model/scene.js";
 import { byId } from "../ui/dom.js";
@@ -7,18 +7,18 @@ import { Painter } from "./draw.js";
 import { watchGestures } from "./gestures.js";
 import { fit, keepInSight, panBy, scaleLimits, toScreen, toWorld, zoomAt } from "./view.js";
 
-const MARGIN = 24; // pixels left free around a fitted map
+const MARGIN = 24; // pixels around a fitted map
 const HEADROOM = 64; // pixels above it, where the view's buttons are
 const KEY_PAN = 60; // pixels
 const KEY_ZOOM = 1.4;
-const REACH = 6; // pixels around a small robot that still pick it
+const REACH = 6; // pixels: the least radius for picking a robot
 const NOWHERE = { left: 0, bottom: 0, right: 1, top: 1 };
 
 /**
- * What a tool may have, all optional: press(world, event) says whether the tool takes the press, then come
- * drag(world, event), unless it is a mere click, and release(world, event), or abort() if the press became a pinch;
- * hover(world or null); key(event) says whether it took the key; cursor(world) gives a CSS cursor or null;
- * paint(context, view) paints on top of all else, see addOverlay. World points in metres.
+ * The members of a tool, all optional: press(world, event) returns whether the tool handles the press,
+ * followed by drag(world, event), unless it is a click, and release(world, event), or abort() if the press
+ * became a pinch; hover(world or null); key(event) returns whether it handled the key; cursor(world) returns
+ * a CSS cursor or null; paint(context, view) paints on top, see addOverlay. World points in metres.
  */
 export class Stage {
   #session;
@@ -27,11 +27,11 @@ export class Stage {
   #painter = new Painter(this.#canvas);
   #viewport = { width: 0, height: 0 };
   #camera = { x: 0, y: 0, scale: 1 };
-  #fitted = true; // the camera follows the viewport until someone moves it
+  #fitted = true; // the camera fits the viewport until it is moved
   #look = { colours: "robot", paths: "whole" };
   #overlays = [];
   #tool = {};
-  #pressed = {}; // the tool that took the press
+  #pressed = {}; // the tool that handles the press
   #scheduled = false;
 
   /** `colours`: see RobotColours. */
@@ -56,15 +56,15 @@ export class Stage {
     this.redraw();
   }
 
-  /** The tool in hand from now on; null: none. */
+  /** Sets the current tool; null: none. */
   setTool(tool) {
     this.#tool = tool ?? {};
-    this.#canvas.setAttribute("role", tool?.key ? "application" : "img"); // screen readers leave it its keys
+    this.#canvas.setAttribute("role", tool?.key ? "application" : "img"); // screen readers pass its keys
     this.#canvas.style.cursor = "";
     this.redraw();
   }
 
-  /** How things are shown: {colours: "robot" or "state", paths: "whole", "remaining" or "none"}. */
+  /** The display options: {colours: "robot" or "state", paths: "whole", "remaining" or "none"}. */
   get look() {
     return this.#look;
   }
@@ -74,7 +74,7 @@ export class Stage {
     this.#show();
   }
 
-  /** Pixels a metre. */
+  /** Pixels per metre. */
   get scale() {
     return this.#camera.scale;
   }
@@ -97,7 +97,7 @@ export class Stage {
     this.#zoom(this.#middle(), 1 / KEY_ZOOM);
   }
 
-  /** Moves the camera, if need be, so that a world point is well in sight. */
+  /** Moves the camera if necessary so that a world point is visible. */
   reveal(point) {
     const { x, y } = this.screenOf(point, 0);
     const { width, height } = this.#viewport;
@@ -121,8 +121,8 @@ export class Stage {
   }
 
   /**
-   * The robot whose disk, now or put at placeOf(robot) ({x, y} or null), is at a world point, the nearest: {robot,
-   * place}, or null.
+   * The robot whose disk, now or put at placeOf(robot) ({x, y} or null), is at a world point, the nearest:
+   * {robot, place}, or null.
    */
   diskAt(world, placeOf = (robot) => this.#poseNow(robot)) {
     let found = null;
@@ -142,7 +142,7 @@ export class Stage {
     return robotPoseAt(robot, tracks.get(robot.id), player.time);
   }
 
-  /** How near to the middle of a disk of this radius a pointer has to be to be on it, metres. */
+  /** The distance from the centre of a disk of this radius within which a pointer picks it, metres. */
   reach(radius) {
     return Math.max(radius, REACH / this.#camera.scale);
   }
@@ -184,7 +184,7 @@ export class Stage {
       press: (pixel, event) => {
         this.#pressed = this.#tool;
         const taken = this.#tool.press?.(world(pixel), event) ?? false;
-        if (taken) this.#session.hover(null); // what lies under a drag is not what it is about
+        if (taken) this.#session.hover(null); // a drag does not highlight the robots below it
         return taken;
       },
       drag: (pixel, event) => this.#pressed.drag?.(world(pixel), event),

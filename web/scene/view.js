@@ -1,9 +1,9 @@
-// The camera: between the world (metres, x right, y up) and the screen (CSS pixels, x right, y down). Pure.
-// A camera is {x, y, scale}: the world point in the middle of the viewport and pixels per metre. A viewport is
+// The camera: between the world (metres, x right, y up) and the screen (CSS pixels, x right, y down). Pure. A
+// camera is {x, y, scale}: the world point in the middle of the viewport and pixels per metre. A viewport is
 // {width, height}, bounds are {left, bottom, right, top}.
 
-const LARGEST_CELL = 240; // pixels: how far one can zoom in
-const SMALLEST_SHARE = 0.5; // of the fitted scale: how far one can zoom out
+const LARGEST_CELL = 240; // pixels: the limit of zooming in
+const SMALLEST_SHARE = 0.5; // of the fitted scale: the limit of zooming out
 
 export function toScreen(camera, viewport, point) {
   return {
@@ -20,8 +20,8 @@ export function toWorld(camera, viewport, pixel) {
 }
 
 /**
- * The camera that shows all of the bounds in the middle of the viewport less its insets, pixels {left, top, right,
- * bottom} to keep clear.
+ * The camera that shows all of the bounds in the middle of the viewport less its insets, pixels {left, top,
+ * right, bottom} to keep clear.
  */
 export function fit(bounds, viewport, insets) {
   const width = Math.max(bounds.right - bounds.left, 1e-9);
@@ -53,12 +53,12 @@ export function zoomAt(camera, viewport, pixel, factor, limits) {
   };
 }
 
-/** Moves what is seen by dx, dy pixels. */
+/** Moves the view by dx, dy pixels. */
 export function panBy(camera, dx, dy) {
   return { ...camera, x: camera.x - dx / camera.scale, y: camera.y + dy / camera.scale };
 }
 
-/** Keeps the middle of the viewport within the bounds, so that the map cannot be lost. */
+/** Keeps the middle of the viewport within the bounds, so that the map stays in view. */
 export function keepInSight(camera, bounds) {
   return {
     ...camera,

@@ -1,4 +1,4 @@
-// The service's HTTP interface. Addresses are relative to the page, so that it also works below a path.
+// The service's HTTP interface. Addresses are relative to the page, so that it works below any path.
 
 import { ProblemError } from "../model/problem.js";
 
@@ -16,7 +16,7 @@ export async function fetchExample(name) {
   return text;
 }
 
-/** What the service takes: {default_budget_ms, max_budget_ms, …}. */
+/** The limits of the service: {default_budget_ms, max_budget_ms, …}. */
 export async function fetchLimits() {
   return parseAnswer(await ask("v1/limits"));
 }
@@ -27,9 +27,9 @@ export async function fetchOpenApi() {
 }
 
 /**
- * Plans the request, a JSON text. The answer; rejects with AbortError when aborted. Meanwhile `listener` hears of
- * progress({elapsed_ms, attempt, planned, robots, best}) and incumbent(text), an answer's text, if the service, or what
- * is between, streams events.
+ * Plans the request, a JSON text. Resolves to the answer; rejects with AbortError when aborted. Meanwhile
+ * `listener` gets progress({elapsed_ms, attempt, planned, robots, best}) and incumbent(text), an answer's
+ * text, if the service, or a proxy in between, streams events.
  */
 export async function plan(requestText, signal, listener) {
   const response = await send("v1/plan", {
@@ -45,14 +45,14 @@ export async function plan(requestText, signal, listener) {
   return parseAnswer(await unlessCut(streams ? lastEvent(response, listener) : response.text()));
 }
 
-/** What the service says of a plan file's text: {valid, violations, min_clearance}. */
+/** The service's check of a plan file's text: {valid, violations, min_clearance}. */
 export async function validate(text) {
   const headers = { "Content-Type": "application/json" };
   const response = await send("v1/validate", { method: "POST", headers, body: text });
   return parseAnswer(await unlessCut(response.text()));
 }
 
-/** The text of the answer that ends a stream. Reads on to its very end, so that the connection serves again. */
+/** The text of the answer that ends a stream. Reads to the end, so that the connection can be reused. */
 async function lastEvent(response, listener) {
   let answer = null;
   for await (const { event, data } of readEvents(response.body)) {
@@ -69,7 +69,7 @@ async function ask(address) {
   return unlessCut((await send(address)).text());
 }
 
-/** The response, if it is no error. */
+/** The response; rejects with ProblemError if it is an error. */
 async function send(address, init) {
   const response = await unlessCut(fetch(address, init));
   if (!response.ok) throw new ProblemError(readProblem(response, await unlessCut(response.text())));
@@ -119,12 +119,12 @@ function parseObject(text) {
   }
 }
 
-/** The events of a body (a ReadableStream of bytes) as they come: {event, data}; comments are left out. */
+/** The events of a body (a ReadableStream of bytes) as they arrive: {event, data}; comments are omitted. */
 export async function* readEvents(body) {
   const decoder = new TextDecoder();
   const reader = body.getReader();
-  let parts = []; // of the event at hand, which may be long and come in many pieces
-  let tail = ""; // of them; an end may lie across pieces
+  let parts = []; // of the current event, which may arrive in many pieces
+  let tail = ""; // their last characters, as an end may be split across pieces
   try {
     for (;;) {
       const { done, value } = await reader.read();
@@ -143,7 +143,7 @@ export async function* readEvents(body) {
       }
     }
   } finally {
-    await reader.cancel().catch(() => {}); // whoever stops reading wants no more
+    await reader.cancel().catch(() => {}); // when the caller stops early
   }
 }
 

@@ -1,4 +1,4 @@
-// Building elements: text always goes in as text, styles through the CSSOM.
+// Building elements: texts are set as text, styles through the CSSOM.
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -15,13 +15,13 @@ export function element(tag, properties = {}, ...children) {
 }
 
 /**
- * An element of index.html, which decides of what kind it is.
+ * An element of index.html, by its id.
  * @returns {any}
  */
 export const byId = (id) => document.getElementById(id);
 
 /**
- * What to paint on a canvas with.
+ * The 2D context of a canvas.
  * @returns {CanvasRenderingContext2D}
  */
 export const contextOf = (canvas, settings = {}) => canvas.getContext("2d", settings);
@@ -46,8 +46,8 @@ export function setText(target, text) {
 }
 
 /**
- * Scrolls `box`, and nothing around it, so that `part` is in sight. `covered`: pixels at its top that are
- * hidden below a head that stays.
+ * Scrolls `box`, and nothing around it, so that `part` is in sight. `covered`: the height in pixels of a
+ * sticky head at its top.
  */
 export function scrollWithin(box, part, covered = 0) {
   const outer = box.getBoundingClientRect();

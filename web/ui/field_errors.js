@@ -1,5 +1,6 @@
-// Errors at the fields they are about. A field, or a group of fields, says what it edits by data-pointer, a JSON Pointer
-// into the request; an error is shown where the pointer is the error's own, or the nearest above.
+// Errors at the fields they are about. A field, or a group of fields, names what it edits in data-pointer, a
+// JSON Pointer into the request; an error is shown at the field with the same pointer, or with the nearest
+// one above.
 
 import { element } from "./dom.js";
 
@@ -23,7 +24,7 @@ export function showFieldErrors(root, errors) {
   }
 }
 
-/** The field within `root` that is about what a pointer leads to, or null. */
+/** The field within `root` for a pointer, or null. */
 export function fieldOf(root, pointer) {
   const fields = [...root.querySelectorAll("[data-pointer]")];
   const above = fields.filter((field) => covers(field.dataset.pointer, pointer));

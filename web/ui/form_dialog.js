@@ -1,4 +1,4 @@
-// A form in a modal dialog. Escape gives it up, Enter sends it, and the focus goes back to where it was.
+// A form in a modal dialog. Escape cancels it, Enter submits it, and the focus returns to where it was.
 
 import { element } from "./dom.js";
 
@@ -8,7 +8,7 @@ export class FormDialog {
   #dialog;
   #send;
 
-  /** `title` is its heading, `action` what the sending button says, `body` what is between. */
+  /** `title` is its heading, `action` the label of the submit button, `body` the content. */
   constructor(title, action, ...body) {
     made += 1;
     const heading = element("h2", { id: `dialog-title-${made}`, textContent: title });
@@ -25,12 +25,12 @@ export class FormDialog {
     });
   }
 
-  /** Whether it can be sent. */
+  /** Whether it can be submitted. */
   set ready(ready) {
     this.#send.disabled = !ready;
   }
 
-  /** Shows it; resolves to whether it was sent. */
+  /** Shows it; resolves to whether it was submitted. */
   ask() {
     document.body.append(this.#dialog);
     this.#dialog.showModal();
@@ -47,7 +47,9 @@ export class FormDialog {
   }
 }
 
-/** A number to fill in: {field, input}, with its unit and a note. `limits`: min, max and step of the <input>. */
+/**
+ * A number to fill in: {field, input}, with its unit and a note. `limits`: min, max and step of the <input>.
+ */
 export function numberField(id, label, unit, value, limits, note = "") {
   const input = element("input", { id, type: "number", required: true, step: "any", ...limits });
   input.value = String(value);

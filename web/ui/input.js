@@ -1,9 +1,11 @@
 // Keyboard shortcuts for the whole page, and the wheel.
 
 const LINE = 16; // pixels
-const MOST = 240; // pixels of one event of the wheel that zoom
+const MOST = 240; // pixels per wheel event that count for zooming
 
-/** `actions` maps KeyboardEvent.key, with "Control+" (which ⌘ also is) and "Shift+" where held, to a function. */
+/**
+ * `actions` maps KeyboardEvent.key, with "Control+" (which ⌘ also is) and "Shift+" where held, to a function.
+ */
 export function watchShortcuts(actions) {
   addEventListener("keydown", (event) => {
     if (event.defaultPrevented || event.altKey) return;
@@ -14,7 +16,7 @@ export function watchShortcuts(actions) {
   });
 }
 
-/** Shift is named with Control only, as alone it makes another key. */
+/** Shift is named only with Control; alone it changes the key itself. */
 function nameOf({ key, ctrlKey, metaKey, shiftKey }) {
   if (!ctrlKey && !metaKey) return key;
   return `Control+${shiftKey ? "Shift+" : ""}${key.length === 1 ? key.toLowerCase() : key}`;
@@ -34,7 +36,7 @@ export function wheelTravel({ deltaX, deltaY, deltaMode }) {
   return { across: deltaX * unit, down: deltaY * unit };
 }
 
-/** The factor that an event of the wheel zooms by, above 1 to show less. `gain`: what a pixel adds to its logarithm. */
+/** The factor that an event of the wheel zooms by, above 1 to show less. `gain`: its logarithm per pixel. */
 export function wheelFactor(event, gain) {
   const { down } = wheelTravel(event);
   return Math.exp(-Math.max(-MOST, Math.min(MOST, down)) * gain);

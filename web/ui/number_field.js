@@ -1,4 +1,4 @@
-// A field for a number. What is typed stays as it is typed; what is no number is not taken, and that is told.
+// A field for a number. Typed text stays as it is. Rejects non-numeric input with a message.
 
 import { element, setText } from "./dom.js";
 
@@ -14,8 +14,8 @@ export class NumberField {
 
   /**
    * `label` and `unit` in words; `accept(value)` gets each new number, or undefined when the field is emptied
-   * unless it is `required`, and may return why not, in words; `settle()` is called when typing has ended.
-   * `late`: takes only then.
+   * unless it is `required`, and may return the reason of a rejection; `settle()` is called when typing has
+   * ended. `late`: accepts only then.
    */
   constructor({ label, unit = "", step = "any", required = false, late = false, accept, settle = () => {} }) {
     made += 1;
@@ -35,7 +35,7 @@ export class NumberField {
     });
   }
 
-  /** Shows a value: a number, undefined for none, or what stands there instead of a number. */
+  /** Shows a value: a number, undefined for none, or another value that stands in its place. */
   show(value, { placeholder = "", note = "" } = {}) {
     const number = typeof value === "number" ? value : undefined;
     const kept = document.activeElement === this.input && Object.is(number, this.#shown);
@@ -53,14 +53,14 @@ export class NumberField {
     const value = this.input.value === "" ? undefined : Number(this.input.value);
     if (Object.is(value, this.#shown)) return;
     const before = this.#shown;
-    this.#shown = value; // what is shown next is what is typed
+    this.#shown = value; // so that the refresh keeps the typed text
     const rejection = accept(value) ?? "";
     if (rejection === "") return;
     this.#shown = before;
     this.#showNote(rejection);
   }
 
-  /** Says what is wrong, if something is, else the usual note. */
+  /** Shows the fault, if there is one, else the usual note. */
   #showNote(rejection) {
     this.#rejection = rejection;
     const fault = this.#fault();

@@ -1,4 +1,4 @@
-// Tabs as ARIA's authoring practices want them: arrows move between them, the chosen one alone is in the tab order.
+// Tabs after ARIA's authoring practices: arrows move between them, only the chosen one is in the tab order.
 
 import { byId } from "./dom.js";
 

@@ -498,7 +498,7 @@ test("violations are listed, and pressing one shows its moment and robots", asyn
     assert.ok(collision >= 0);
     const entry = page.locator("#check .violation").nth(collision);
     const words = await entry.innerText();
-    for (const part of ["Robots collide", "comer", "waiter", "needed"])
+    for (const part of ["Robots collide", "comer", "waiter", "required"])
       assert.ok(words.includes(part), words);
     await entry.click();
     await hasTime(page, violations[collision].t);

@@ -1,4 +1,4 @@
-// Headless Chromium and pages that remember what went wrong in them.
+// Headless Chromium, and pages that record errors.
 
 import { chromium } from "playwright-core";
 
@@ -12,7 +12,7 @@ const FLAGS = [
   "--disable-sync",
 ];
 
-/** What Chromium says when it drops all it is loading since a network interface of the machine came or went. */
+/** Chromium's error when a network interface of the machine appeared or disappeared. */
 const DISTURBED = /ERR_NETWORK_CHANGED/;
 
 export function startBrowser() {
@@ -20,8 +20,8 @@ export function startBrowser() {
 }
 
 /**
- * A page that has loaded `url` and its first request, in a context of its own: {page, complaints, requested, close}.
- * `complaints` collects console errors and warnings and uncaught exceptions, `requested` every address asked for.
+ * A page that has loaded `url` and its first request, in its own context: {page, complaints, requested, close}.
+ * `complaints` collects console errors, warnings and uncaught exceptions, `requested` every requested address.
  */
 export async function openPage(browser, url, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
@@ -55,7 +55,7 @@ async function begin(page, url) {
   await page.waitForFunction(() => window.fleetplan?.request);
 }
 
-/** Chooses an example and waits until it is the one drawn. */
+/** Chooses an example and waits until it is drawn. */
 export async function choose(page, name) {
   const expected = await page.evaluate(
     async (example) => (await fetch(`v1/examples/${example}`)).json(),
@@ -76,7 +76,7 @@ export async function pressPlan(page) {
   return page.evaluate(() => window.fleetplan.answer);
 }
 
-/** Moves the scrubber to a time as a person would by dragging it. */
+/** Moves the scrubber to a time as dragging it does. */
 export function seek(page, time) {
   return page.evaluate((value) => {
     const scrubber = document.getElementById("scrubber");

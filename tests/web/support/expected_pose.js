@@ -1,4 +1,4 @@
-// Where a plan says a robot is, worked out here on its own: the page must agree, so it shares no code with it.
+// The pose of a robot under a plan, computed without code of the page, which must agree.
 
 const TURN = 2 * Math.PI;
 

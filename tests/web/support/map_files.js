@@ -1,4 +1,4 @@
-// Files of maps for tests: images made byte by byte, and ways to hand files to the page.
+// Files of maps for tests: images made byte by byte, and ways to pass files to the page.
 
 import { deflateSync } from "node:zlib";
 
@@ -45,7 +45,7 @@ function crc32(bytes) {
   return (crc ^ 0xffffffff) >>> 0;
 }
 
-/** The two ways to hand the page files, {name: content}, a text or a Buffer each. */
+/** The two ways to pass files to the page, {name: content}, a text or a Buffer each. */
 export const WAYS = {
   "through the file dialog": (page, files) =>
     page.setInputFiles(

@@ -1,4 +1,4 @@
-// Runs of steps on fresh pages against a server and a browser of the test file's own.
+// Steps on fresh pages, with a server and a browser per test file.
 
 import assert from "node:assert/strict";
 import { after, before } from "node:test";
@@ -7,8 +7,9 @@ import { openPage, startBrowser } from "./browser.js";
 import { startService } from "./service.js";
 
 /**
- * Starts server (with these flags) and browser before the tests of a file and stops them after. The result runs
- * `steps(page, opened)` on a fresh page; afterwards the page must not have complained but for `allowed`, a regular expression.
+ * Starts a server (with these flags) and a browser before the tests of a file and stops them afterwards. Returns a
+ * function that runs `steps(page, opened)` on a fresh page; the page must have no complaints other than those that
+ * match `allowed`, a regular expression.
  */
 export function pagesFor(flags = []) {
   const running = {};
@@ -32,10 +33,10 @@ export function pagesFor(flags = []) {
   };
 }
 
-/** What Chromium itself notes when the service refuses a request. */
+/** Chromium's message when the service rejects a request. */
 export const REFUSED = /status of 422/;
 
-/** Pastes a request, an object or a text, as a person would. */
+/** Pastes a request, an object or a text. */
 export async function paste(page, request) {
   await page.click("#paste");
   await page.fill("#paste-text", typeof request === "string" ? request : JSON.stringify(request));
@@ -44,7 +45,7 @@ export async function paste(page, request) {
 
 export const hook = (page, name) => page.evaluate((member) => window.fleetplan[member], name);
 
-/** Waits until the moment shown is this one, seconds. */
+/** Waits until the page shows this time, seconds. */
 export const hasTime = (page, time) =>
   page.waitForFunction((t) => Math.abs(window.fleetplan.time - t) < 1e-9, time);
 
@@ -57,7 +58,7 @@ export async function coloursAt(page, places) {
   });
 }
 
-/** How many pixels within so many CSS pixels of a canvas place are painted in a colour, "r,g,b". */
+/** The number of pixels of a colour, "r,g,b", within `reach` CSS pixels of a canvas place. */
 export async function countColour(page, colour, place, reach) {
   const { pixels, width, scale } = await sceneOf(page);
   const wanted = colour.split(",").map(Number);
@@ -79,7 +80,7 @@ export function themeColour(page, name) {
   }, name);
 }
 
-/** What is painted on the scene: {pixels (RGBA bytes), width (device pixels), scale (of them a CSS pixel)}. */
+/** The painted scene: {pixels (RGBA bytes), width (device pixels), scale (device pixels per CSS pixel)}. */
 async function sceneOf(page) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   const { text, width, scale } = await page.evaluate(() => {
