@@ -5,7 +5,6 @@
 set(alone
   api/request/.*
   core/bounds/tangents.cpp
-  core/sipp/cost_to_go.cpp
   server/http/socket.cpp
 )
 list(JOIN alone "|" alone)
