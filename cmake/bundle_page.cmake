@@ -9,13 +9,14 @@ set(source ${work}/source)  # a copy, in which references to workers are replace
 set(page ${work}/page)
 file(REMOVE_RECURSE ${work})
 file(COPY ${SOURCE}/ DESTINATION ${source})
+file(WRITE ${work}/tsconfig.json "{}")  # instead of one that esbuild would find in this or an outer folder
 
 # Bundles the file `entry` into `page`; `name` is set to the name of the result.
 function(bundle entry name)
   execute_process(
     COMMAND ${ESBUILD} ${entry} --bundle --minify --format=esm --charset=utf8 --sourcemap --loader:.svg=copy
             --loader:.png=copy --entry-names=[name]-[hash] --asset-names=[name]-[hash] --outdir=${page}
-            --metafile=${work}/metafile.json --log-level=warning
+            --metafile=${work}/metafile.json --tsconfig=${work}/tsconfig.json --log-level=warning
     WORKING_DIRECTORY ${work}
     COMMAND_ERROR_IS_FATAL ANY)
   file(READ ${work}/metafile.json metafile)

@@ -13,7 +13,12 @@ import { pathOf, said, textOf } from "./support/files.js";
 const BUILD = join(dirname(process.env.FLEETPLAN_BIN), "..");
 const NOTICE = textOf("NOTICE");
 /** The packages that NOTICE lists, with their licences. */
-const NOTICED = new Map([...NOTICE.matchAll(/^ {2}\S+ +(\S+) +(lib\S+|nlohmann\S+) /gm)].map(([, licence, name]) => [name, licence]));
+const NOTICED = new Map(
+  [...NOTICE.matchAll(/^ {2}\S+ +(\S+) +(lib\S+|nlohmann\S+) /gm)].map(([, licence, name]) => [
+    name,
+    licence,
+  ]),
+);
 
 let root;
 before(() => {
@@ -47,8 +52,12 @@ test("the program has a stack protector and checked functions of libc", () => {
 });
 
 test("the page is a bundle", () => {
-  const names = readdirSync(join(root, "usr/local/share/fleetplan/web")).filter((name) => !name.endsWith(".map"));
-  const [index, ...others] = names.sort((a, b) => (a === "index.html" ? -1 : b === "index.html" ? 1 : a.localeCompare(b)));
+  const names = readdirSync(join(root, "usr/local/share/fleetplan/web")).filter(
+    (name) => !name.endsWith(".map"),
+  );
+  const [index, ...others] = names.sort((a, b) =>
+    a === "index.html" ? -1 : b === "index.html" ? 1 : a.localeCompare(b),
+  );
   assert.equal(index, "index.html");
   assert.ok(others.length >= 4 && others.length <= 10, others.join(" "));
   for (const name of others) assert.match(name, /-[A-Z2-7]{8}\.\w+$/);
@@ -72,7 +81,9 @@ test("the bill of materials lists the libraries of NOTICE and every shared libra
   assert.equal(`${metadata.component.name} ${metadata.component.version}`, said("--version").trim());
   assert.deepEqual(metadata.component.licenses, [{ license: { id: "Apache-2.0" } }]);
   const linked = (linkage) =>
-    components.filter(({ properties }) => properties.some(({ value }) => value === linkage)).map(({ name }) => name);
+    components
+      .filter(({ properties }) => properties.some(({ value }) => value === linkage))
+      .map(({ name }) => name);
   assert.deepEqual(linked("compiled in").sort(), [...NOTICED.keys()].sort());
   assert.deepEqual(linked("shared library").sort(), readdirSync(join(root, "var/lib/dpkg/status.d")).sort());
   for (const { name, version, licenses, purl } of components) {

@@ -53,7 +53,12 @@ async function printTimings(page) {
     performance
       .getEntries()
       .filter(({ entryType }) => entryType === "navigation" || entryType === "resource")
-      .map(({ name, startTime, responseEnd, transferSize }) => ({ name, startTime, responseEnd, transferSize })),
+      .map(({ name, startTime, responseEnd, transferSize }) => ({
+        name,
+        startTime,
+        responseEnd,
+        transferSize,
+      })),
   );
   for (const { name, startTime, responseEnd, transferSize } of entries) {
     const times = [startTime, responseEnd].map((time) => String(Math.round(time)).padStart(6)).join("");
@@ -78,6 +83,10 @@ await service.stop();
 
 console.log("1.4 Mbit/s, 150 ms a round trip; until the first example is drawn and can be planned:");
 for (const [name, results] of Object.entries(loads)) {
-  const [ms, requests, bytes] = ["ms", "requests", "bytes"].map((key) => median(results.map((result) => result[key])));
-  console.log(`${name.padEnd(6)} load ${(ms / 1000).toFixed(2)} s, ${requests} requests, ${(bytes / 1000).toFixed(0)} kB`);
+  const [ms, requests, bytes] = ["ms", "requests", "bytes"].map((key) =>
+    median(results.map((result) => result[key])),
+  );
+  console.log(
+    `${name.padEnd(6)} load ${(ms / 1000).toFixed(2)} s, ${requests} requests, ${(bytes / 1000).toFixed(0)} kB`,
+  );
 }

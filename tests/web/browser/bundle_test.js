@@ -20,7 +20,8 @@ async function planAndClear(page) {
 }
 
 /** The files of the page among the addresses asked for, without the service's answers. */
-const filesIn = (requested) => [...new Set(requested)].filter((address) => !new URL(address).pathname.startsWith("/v1/"));
+const filesIn = (requested) =>
+  [...new Set(requested)].filter((address) => !new URL(address).pathname.startsWith("/v1/"));
 
 test("the bundle is a page, a script, a style sheet, an icon and a worker, immutable but for the page", async () => {
   await onBundle(async (page, { requested, url }) => {

@@ -11,15 +11,7 @@ export async function startService(flags = []) {
   const binary = process.env.FLEETPLAN_BIN;
   if (!binary) throw new Error("FLEETPLAN_BIN must name the server binary");
   const port = String(await freePort());
-  const all = [
-    "--host",
-    "127.0.0.1",
-    "--port",
-    port,
-    "--log-level",
-    "warn",
-    ...flags,
-  ];
+  const all = ["--host", "127.0.0.1", "--port", port, "--log-level", "warn", ...flags];
   const child = spawn(binary, all, { stdio: ["ignore", "pipe", "inherit"] });
   const ended = new Promise((resolve) => child.once("exit", resolve));
   try {
