@@ -272,6 +272,10 @@ class Names(unittest.TestCase):
             for path in re.findall(rf"(?<![\w/.@-])((?:{folders})/[\w./-]*\w)", text):
                 self.assertTrue((PROJECT / path).exists(), f"{name} names {path}")
 
+    def test_the_constants_of_the_method_are_in_the_files_that_it_names(self):
+        for constant, _, file, _ in table("docs/method.md", ["constant", "value", "file"]):
+            self.assertIn(f"double {code(constant)[0]} = ", (PROJECT / code(file)[0]).read_text())
+
     def test_every_link_leads_to_a_file_and_a_heading(self):
         for name, text in DOCUMENTS.items():
             for target in re.findall(r"\]\(([^)\s]+)\)|src=\"([^\"]+)\"", prose(text)):
