@@ -38,7 +38,7 @@ Objectives objectives_of(const PlanState& state) {
 }
 
 Plan collect_plan(const PlanState& state, const std::vector<std::optional<Unplanned>>& unplanned,
-                  const TautBounds& bounds) {
+                  const TautPathBounds& bounds) {
   Plan plan;
   for (std::size_t i = 0; i < state.instance().size(); ++i) {
     if (unplanned[i]) {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/bounds/taut_bounds.h"
+#include "core/bounds/taut_path_bounds.h"
 #include "core/model/plan.h"
 #include "core/prioritized/plan_state.h"
 
@@ -17,6 +17,6 @@ Objectives objectives_of(const PlanState& state);
 
 /// The plan without its search statistics: every robot is unplanned, follows its trajectory, or is parked.
 Plan collect_plan(const PlanState& state, const std::vector<std::optional<Unplanned>>& unplanned,
-                  const TautBounds& bounds);
+                  const TautPathBounds& bounds);
 
 }  // namespace fleetplan::core

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/bounds/taut_bounds.h"
+#include "core/bounds/taut_path_bounds.h"
 #include "core/collect_plan.h"
 #include "core/instance.h"
 #include "core/lns/large_neighbourhood_search.h"
@@ -91,8 +91,8 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   progress.plan_found(objectives_of(state));
 
   const bool anytime = options.mode == PlanOptions::Mode::anytime;
-  const TautBounds bounds(instance, movers, costs_of(state),
-                          anytime ? after_share(stop, kBoundsShare) : stop);
+  const TautPathBounds bounds(instance, movers, costs_of(state),
+                              anytime ? after_share(stop, kBoundsShare) : stop);
   const std::int64_t expansions = state.expansions();
   const auto current_plan = [&](const LnsResult& lns) {
     Plan plan = collect_plan(state, unplanned, bounds);

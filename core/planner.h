@@ -12,11 +12,11 @@ namespace fleetplan::core {
 /// Plans collision-free timed motions for all robots of the problem (paper, Method), or for as many as it can
 /// until the stop condition is met:
 ///
-///   triage                    robots that cannot move whatever the others do
-///   prioritized planning      a first plan; a safe partial plan if it fails
-///   lower bounds              of each robot alone on the map
-///   large neighbourhood search  in mode `anytime`, until the stop condition is met
-///   collect                   trajectories as actions
+/// 1. Triage: finds the robots that cannot move whatever the others do.
+/// 2. Prioritized planning: a first plan, or a safe partial plan.
+/// 3. Lower bounds of the cost of each robot alone on the map.
+/// 4. Large neighbourhood search, in mode `anytime`: improves the plan until the stop condition is met.
+/// 5. Collects the trajectories as actions.
 ///
 /// The same problem, options and build give the same plan unless `deterministic` is false. The executor's
 /// threads make `anytime` faster; neither they nor the observer, which may be null, change the plan.

@@ -6,17 +6,17 @@
 
 namespace fleetplan::core {
 
-/// From a pose to the goal with nothing in the way, seconds: the straight line, the rotation into its
-/// direction and from there to the goal heading. The added wait is left out.
+/// The cost from a pose to the goal without obstacles, seconds: the straight line, the rotation into its
+/// direction and from there to the goal heading. The wait before moves is not included.
 ///
-/// Why no detour turns less: the headings of a path sweep an arc. If the arc contains the straight direction,
-/// it has been turned to on the way. If not, the displacement is a positive combination of headings at angles
-/// a and b on either side of it with a + b < pi, and the arc joins them the back way, over 2 pi - a - b > a +
+/// No detour turns less: the headings of a path sweep an arc. If the arc contains the straight direction, the
+/// path has turned to it. If not, the displacement is a positive combination of headings at angles a and b on
+/// either side of it with a + b < pi, and the arc connects them the other way round, over 2 pi - a - b > a +
 /// b.
 double straight_cost(const Pose& from, const Goal& goal, const Motion& motion);
 
-/// No plan for this robot (it has a goal) can cost less, seconds, walls left out: the straight cost and the
-/// added wait. Exact where the goal is in sight; elsewhere TautBounds knows better.
+/// A lower bound of the cost of a robot with a goal, seconds, obstacles ignored: the straight cost and one
+/// wait before a move. Exact where the goal is in sight; elsewhere TautPathBounds is tighter.
 double lower_bound(const Robot& robot, const Motion& motion);
 
 }  // namespace fleetplan::core

@@ -5,9 +5,9 @@
 namespace fleetplan::core {
 namespace {
 
-/// Of a moving average, the share of the latest try.
-constexpr double kLatest = 0.02;
-/// Even a way that gained nothing lately counts like one that gained this share of what the best did.
+/// The share of the latest try in a moving average.
+constexpr double kLatestShare = 0.02;
+/// An alternative without recent gain counts as if its rate were this share of the best rate.
 constexpr double kLeastShare = 0.1;
 
 }  // namespace
@@ -22,7 +22,7 @@ std::vector<double> AdaptiveChoice::weights() const {
   std::vector<double> weights;
   weights.reserve(records_.size());
   for (const Record& record : records_) {
-    // In proportion to the rate is the effort, not the number of tries.
+    // The effort, not the number of tries, is proportional to the rate.
     if (best == 0.0 || record.effort == 0.0) {
       weights.push_back(record.effort == 0.0 ? -1.0 : 1.0 / record.effort);
     } else {
@@ -31,26 +31,26 @@ std::vector<double> AdaptiveChoice::weights() const {
   }
   const double most = *std::max_element(weights.begin(), weights.end());
   for (double& weight : weights) {
-    if (weight < 0.0) weight = most > 0.0 ? most : 1.0;  // not tried yet: as good as the best
+    if (weight < 0.0) weight = most > 0.0 ? most : 1.0;  // not tried yet: equal to the best
   }
   return weights;
 }
 
 std::size_t AdaptiveChoice::choose(Random& random) const {
   const std::vector<double> weights = this->weights();
-  double left = 0.0;
-  for (const double weight : weights) left += weight;
-  left *= random.unit();
-  for (std::size_t way = 0; way < weights.size(); ++way) {
-    left -= weights[way];
-    if (left < 0.0) return way;
+  double remaining = 0.0;
+  for (const double weight : weights) remaining += weight;
+  remaining *= random.unit();
+  for (std::size_t alternative = 0; alternative < weights.size(); ++alternative) {
+    remaining -= weights[alternative];
+    if (remaining < 0.0) return alternative;
   }
   return weights.size() - 1;
 }
 
-void AdaptiveChoice::learn(std::size_t way, double gain, double effort) {
-  Record& record = records_[way];
-  const double share = record.effort == 0.0 ? 1.0 : kLatest;
+void AdaptiveChoice::learn(std::size_t alternative, double gain, double effort) {
+  Record& record = records_[alternative];
+  const double share = record.effort == 0.0 ? 1.0 : kLatestShare;
   record.gain += share * (gain - record.gain);
   record.effort += share * (effort - record.effort);
 }

@@ -7,22 +7,21 @@
 
 namespace fleetplan::core {
 
-/// Chooses among a few ways of doing something by what each gained lately for its effort (adaptive large
-/// neighbourhood search; Ropke and Pisinger, 2006), so that effort goes where it pays; none is ever
-/// forgotten.
+/// Chooses among a few alternatives by their recent gain per effort (adaptive large neighbourhood search;
+/// Ropke and Pisinger, 2006). Every alternative keeps a positive probability.
 class AdaptiveChoice {
  public:
-  /// Among `count` >= 1 ways, all equally good so far.
+  /// Of `count` >= 1 alternatives, all equal at first.
   explicit AdaptiveChoice(std::size_t count) : records_(count) {}
 
   std::size_t choose(Random& random) const;
 
-  /// What `way` gained (>= 0) at what effort (> 0), in any units.
-  void learn(std::size_t way, double gain, double effort);
+  /// The gain (>= 0) and effort (> 0) of one try of the alternative, in any units.
+  void learn(std::size_t alternative, double gain, double effort);
 
  private:
-  struct Record {
-    double gain = 0.0;    // moving averages of one try
+  struct Record {  // moving averages over tries
+    double gain = 0.0;
     double effort = 0.0;  // 0: not tried yet
   };
 

@@ -7,22 +7,22 @@
 
 namespace fleetplan::core {
 
-/// Chooses which robot is to become better: more likely the more delayed it is, and the less often it was
-/// tried in vain lately.
+/// Chooses the robot that an iteration is to make cheaper: with a probability that grows with its delay and
+/// falls with its recent failures.
 class DelayedChoice {
  public:
-  /// Among robots 0 to count - 1, none tried yet.
+  /// For robots 0 to count - 1.
   explicit DelayedChoice(std::size_t count) : failures_(count, 0.0) {}
 
-  /// One of `robots`, with delays[k] >= 0 seconds that of robots[k]; not empty.
+  /// Returns one of `robots` (not empty); delays[k] >= 0 is the delay of robots[k] in seconds.
   std::size_t choose(const std::vector<std::size_t>& robots, const std::vector<double>& delays,
                      Random& random) const;
 
-  /// What came of trying the robot.
+  /// Whether an iteration made the robot cheaper.
   void learn(std::size_t robot, bool gained);
 
  private:
-  std::vector<double> failures_;  // by robot, those before a gain counting less
+  std::vector<double> failures_;  // by robot; those before a gain count less
 };
 
 }  // namespace fleetplan::core

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/bounds/taut_bounds.h"
+#include "core/bounds/taut_path_bounds.h"
 #include "core/prioritized/plan_state.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/random.h"
@@ -14,26 +14,32 @@
 namespace fleetplan::core {
 
 struct LnsResult {
-  std::int64_t improvements = 0;  // how often the plan became better
+  std::int64_t improvements = 0;  // times that the plan became better
   std::int64_t expansions = 0;    // labels expanded
-  bool cut_off = false;           // the clock ended it
+  bool cut_off = false;           // the stop condition ended it
 };
 
-/// Called by the caller's thread before every round: the state follows what was found so far.
+/// Called by the caller's thread before every round, with the state updated to the incumbent.
 using BeforeRound = std::function<void(const LnsResult& so_far)>;
 
-/// Makes the plan better by adaptive large neighbourhood search (Li et al., MAPF-LNS, IJCAI 2021): chooses a
-/// delayed robot and some others, reroutes it at their expense, and keeps the result if the objective of the
-/// options fell: the flowtime; or the makespan, or the flowtime without a longer makespan. Which robots, how
-/// many, and how hard to search follows from what paid off lately by expansions, not by the clock. Ends when
-/// `stop` is met, after the options' max_iterations, or when the objective is at its lower bound; `bounds`
-/// has those of the movers that have a trajectory; all other robots stand at their starts for ever.
+/// Improves the plan by adaptive large neighbourhood search (Li et al., MAPF-LNS, IJCAI 2021; Ropke and
+/// Pisinger, 2006). An iteration
 ///
-/// Works in rounds of a fixed number of iterations that all begin with the same plan and may run on several
-/// threads of the executor; what they found is adopted in their order, unless it clashes with what was
-/// adopted before in the round. So the number of threads changes nothing but the speed.
+/// 1. chooses a delayed robot, the neighbourhood, its size and the search effort by their recent success,
+/// 2. destroys: selects the neighbourhood (see neighbourhood.h),
+/// 3. repairs: plans its robots again (see replan.h), and
+/// 4. accepts the change if the objective falls: the flowtime; or the makespan, or the flowtime without a
+///    longer makespan.
+///
+/// Success is measured per expansion, not per second. Ends when `stop` is met, after the options'
+/// max_iterations, or when the objective is at its lower bound. `bounds` contains those of the movers that
+/// have a trajectory; all other robots stay at their starts.
+///
+/// Works in rounds of a fixed number of iterations, which all start from the same incumbent and may run on
+/// several threads of the executor. Their changes are accepted in order, except those that conflict with a
+/// change accepted earlier in the round. So the number of threads changes only the speed.
 LnsResult large_neighbourhood_search(PlanState& state, const std::vector<std::size_t>& movers,
-                                     const TautBounds& bounds, Random& random, Executor& executor,
+                                     const TautPathBounds& bounds, Random& random, Executor& executor,
                                      const StopCondition& stop, const BeforeRound& before_round = nullptr);
 
 }  // namespace fleetplan::core

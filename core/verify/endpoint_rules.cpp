@@ -5,22 +5,22 @@
 #include <string>
 
 #include "core/geometry/angle.h"
-#include "core/verify/wording.h"
+#include "core/verify/quantity_text.h"
 
 namespace fleetplan::core {
 namespace {
 
-/// A pose against the one that it ought to be; `what` is a sentence's beginning, `which` the place it names.
-std::optional<Violation> check_pose(const Violation& blank, const Pose& pose, const Goal& due,
+/// Compares a pose with the required one. The detail begins with `what` and names the required pose `which`.
+std::optional<Violation> check_pose(const Violation& blank, const Pose& pose, const Goal& required,
                                     double tolerance, const std::string& what, const std::string& which) {
   Violation violation = blank;
-  const double away = (pose.position - due.position).norm();
+  const double away = (pose.position - required.position).norm();
   if (away > tolerance) {
     violation.distance = away;
     violation.detail = what + " " + metres(away) + " from the robot's " + which;
     return violation;
   }
-  const double turn = due.theta ? std::abs(rotation_between(pose.theta, *due.theta)) : 0.0;
+  const double turn = required.theta ? std::abs(rotation_between(pose.theta, *required.theta)) : 0.0;
   if (turn > tolerance) {
     violation.distance = turn;
     violation.detail = what + " with a heading " + radians(turn) + " from that of the robot's " + which;
@@ -33,8 +33,8 @@ std::optional<Violation> check_pose(const Violation& blank, const Pose& pose, co
 
 std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan, double tolerance) {
   std::vector<Violation> violations;
-  const bool stands = plan.actions.empty();
-  if (!stands) {
+  const bool stays = plan.actions.empty();
+  if (!stays) {
     const Violation blank{Violation::Kind::wrong_start, {plan.robot}, 0.0, 0.0, 0.0, ""};
     const Goal start{robot.start.position, robot.start.theta};
     const auto wrong =
@@ -42,11 +42,11 @@ std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan
     if (wrong) violations.push_back(*wrong);
   }
   const Violation blank{
-      Violation::Kind::wrong_goal, {plan.robot}, stands ? 0.0 : plan.actions.back().t_end, 0.0, 0.0, ""};
-  const Pose& rest = stands ? robot.start : plan.actions.back().to;
-  const Goal due = robot.goal.value_or(Goal{robot.start.position, std::nullopt});
+      Violation::Kind::wrong_goal, {plan.robot}, stays ? 0.0 : plan.actions.back().t_end, 0.0, 0.0, ""};
+  const Pose& rest = stays ? robot.start : plan.actions.back().to;
+  const Goal required = robot.goal.value_or(Goal{robot.start.position, std::nullopt});
   const std::string place = robot.goal ? "goal" : "start, where it is parked";
-  const auto wrong = check_pose(blank, rest, due, tolerance, "the plan ends", place);
+  const auto wrong = check_pose(blank, rest, required, tolerance, "the plan ends", place);
   if (wrong) violations.push_back(*wrong);
   return violations;
 }

@@ -8,9 +8,9 @@
 
 namespace fleetplan::core {
 
-/// Whether a plan begins at the robot's start (`wrong_start`) and rests at its goal (`wrong_goal`), each at
-/// most once: the position if that is wrong, else the heading. A parked robot must rest at its start, in any
-/// heading.
+/// Checks that a plan begins at the robot's start (`wrong_start`) and rests at its goal (`wrong_goal`).
+/// Reports each at most once: the position if that is wrong, otherwise the heading. A parked robot must rest
+/// at its start, in any heading.
 std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan, double tolerance);
 
 }  // namespace fleetplan::core

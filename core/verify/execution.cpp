@@ -23,14 +23,14 @@ std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan) {
         legs.push_back({now, action.t_start, here, here});
         now = action.t_start;
       }
-      const Leg told{action.t_start, std::max(action.t_start, action.t_end), action.from.position,
-                     action.to.position};
-      // Wholly in the past, or without duration: the whole way at once.
-      const Position from = told.t_end > now ? position_at(told, now) : told.from;
-      const double until = std::max(now, told.t_end);
-      legs.push_back({now, until, from, told.to});
+      const Leg planned{action.t_start, std::max(action.t_start, action.t_end), action.from.position,
+                        action.to.position};
+      // An action that is entirely in the past, or without duration, takes place at once.
+      const Position from = planned.t_end > now ? position_at(planned, now) : planned.from;
+      const double until = std::max(now, planned.t_end);
+      legs.push_back({now, until, from, planned.to});
       now = until;
-      here = told.to;
+      here = planned.to;
     }
   }
   legs.push_back({now, std::numeric_limits<double>::infinity(), here, here});

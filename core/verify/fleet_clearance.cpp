@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Where the disk of a robot is within a time window.
-struct Reach {
+/// The bounding box of the disk of a robot within a time window.
+struct Box {
   std::size_t robot = 0;
   double left = kInfinity, right = -kInfinity, bottom = kInfinity, top = -kInfinity;
 
@@ -28,16 +28,16 @@ struct Reach {
   }
 };
 
-/// Goes through time window by window. In each it sweeps the boxes of all robots from left to right and looks
-/// closely at the pairs whose boxes are nearer than the least gap so far, or near enough to overlap.
+/// Sweep and prune in every time window: sweeps the boxes of all robots from left to right and compares the
+/// pairs whose boxes are nearer than the least gap so far, or near enough to overlap.
 class ClearanceSweep {
  public:
   ClearanceSweep(const std::vector<std::vector<Leg>>& legs_by_robot, const std::vector<double>& radii,
-                 double tolerance, std::size_t most_overlaps, const StopCondition& stop)
+                 double tolerance, std::size_t max_overlaps, const StopCondition& stop)
       : legs_(legs_by_robot),
         radii_(radii),
         tolerance_(tolerance),
-        most_overlaps_(most_overlaps),
+        max_overlaps_(max_overlaps),
         stop_(stop),
         current_leg_(radii.size(), 0),
         slack_(rounding_of_boxes()) {}
@@ -49,12 +49,12 @@ class ClearanceSweep {
       if (stop_.met()) return std::nullopt;
       sweep({boundaries[k], k + 1 < boundaries.size() ? boundaries[k + 1] : kInfinity});
     }
-    if (stop_.cancelled()) return std::nullopt;  // perhaps in the midst of a window
+    if (stop_.cancelled()) return std::nullopt;  // a window may be incomplete
     return FleetClearance{least_, std::move(overlaps_)};
   }
 
  private:
-  /// Far more than boxes and gaps are off by, so that which pairs are skipped never decides the result.
+  /// Far more than the rounding of boxes and gaps, so that skipped pairs never influence the result.
   double rounding_of_boxes() const {
     double largest = 0.0;
     for (const std::vector<Leg>& legs : legs_) {
@@ -70,42 +70,42 @@ class ClearanceSweep {
   double interesting_gap() const { return std::max(least_, -tolerance_) + slack_; }
 
   void sweep(const TimeSpan& window) {
-    const std::vector<Reach> reaches = reaches_in(window);
-    for (std::size_t i = 0; i < reaches.size() && !stop_.cancelled(); ++i) {
-      const Reach& a = reaches[i];
-      for (std::size_t j = i + 1; j < reaches.size(); ++j) {
-        const Reach& b = reaches[j];
-        const double enough = interesting_gap();
-        if (b.left - a.right > enough) break;
-        if (std::max(b.bottom - a.top, a.bottom - b.top) > enough) continue;
+    const std::vector<Box> boxes = boxes_in(window);
+    for (std::size_t i = 0; i < boxes.size() && !stop_.cancelled(); ++i) {
+      const Box& a = boxes[i];
+      for (std::size_t j = i + 1; j < boxes.size(); ++j) {
+        const Box& b = boxes[j];
+        const double limit = interesting_gap();
+        if (b.left - a.right > limit) break;
+        if (std::max(b.bottom - a.top, a.bottom - b.top) > limit) continue;
         compare(std::min(a.robot, b.robot), std::max(a.robot, b.robot), window);
       }
     }
   }
 
-  std::vector<Reach> reaches_in(const TimeSpan& window) {
-    std::vector<Reach> reaches(radii_.size());
+  std::vector<Box> boxes_in(const TimeSpan& window) {
+    std::vector<Box> boxes(radii_.size());
     for (std::size_t robot = 0; robot < radii_.size(); ++robot) {
       const std::vector<Leg>& legs = legs_[robot];
       while (legs[current_leg_[robot]].t_end <= window.begin) ++current_leg_[robot];
-      Reach& reach = reaches[robot];
-      reach.robot = robot;
+      Box& box = boxes[robot];
+      box.robot = robot;
       for (std::size_t k = current_leg_[robot]; k < legs.size() && legs[k].t_begin < window.end; ++k) {
-        reach.include(position_at(legs[k], window.begin));
-        reach.include(position_at(legs[k], window.end));
+        box.include(position_at(legs[k], window.begin));
+        box.include(position_at(legs[k], window.end));
       }
-      reach.left -= radii_[robot];
-      reach.right += radii_[robot];
-      reach.bottom -= radii_[robot];
-      reach.top += radii_[robot];
+      box.left -= radii_[robot];
+      box.right += radii_[robot];
+      box.bottom -= radii_[robot];
+      box.top += radii_[robot];
     }
-    std::sort(reaches.begin(), reaches.end(), [](const Reach& a, const Reach& b) {
+    std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) {
       return a.left != b.left ? a.left < b.left : a.robot < b.robot;
     });
-    return reaches;
+    return boxes;
   }
 
-  /// Both robots leg by leg through the window.
+  /// Compares two robots leg by leg through the window.
   void compare(std::size_t first, std::size_t second, const TimeSpan& window) {
     const double contact = radii_[first] + radii_[second];
     const double allowed = contact - tolerance_;
@@ -120,13 +120,13 @@ class ClearanceSweep {
                                   position_at(*b, until) - position_at(*a, until)};
       const double squared = least_squared_distance(motion);
       least_squared = std::min(least_squared, squared);
-      if (allowed > 0.0 && squared < allowed * allowed) note_overlap(first, second, motion, allowed);
+      if (allowed > 0.0 && squared < allowed * allowed) record_overlap(first, second, motion, allowed);
       now = until;
     }
     least_ = std::min(least_, std::sqrt(least_squared) - contact);
   }
 
-  void note_overlap(std::size_t first, std::size_t second, const RelativeMotion& motion, double allowed) {
+  void record_overlap(std::size_t first, std::size_t second, const RelativeMotion& motion, double allowed) {
     const std::optional<TimeSpan> span = span_closer_than(motion, allowed);
     if (!span) return;
     const ClosestMoment closest = closest_moment(motion);
@@ -135,10 +135,10 @@ class ClearanceSweep {
     if (latest != latest_overlap_.end() && overlaps_[latest->second].t_end == span->begin) {
       Overlap& overlap = overlaps_[latest->second];
       overlap.t_end = span->end;
-      // Two that move alike come nearer by rounding alone: that is no later, deeper moment.
+      // Robots with equal velocities come nearer only by rounding: that is not a later, deeper moment.
       if (closest.distance < overlap.distance - kContactTolerance) overlap.t_deepest = closest.t;
       overlap.distance = std::min(overlap.distance, closest.distance);
-    } else if (overlaps_.size() < most_overlaps_) {
+    } else if (overlaps_.size() < max_overlaps_) {
       latest_overlap_[pair] = overlaps_.size();
       overlaps_.push_back({first, second, span->begin, span->end, closest.t, closest.distance});
     }
@@ -147,21 +147,21 @@ class ClearanceSweep {
   const std::vector<std::vector<Leg>>& legs_;
   const std::vector<double>& radii_;
   double tolerance_;
-  std::size_t most_overlaps_;
+  std::size_t max_overlaps_;
   const StopCondition& stop_;
-  std::vector<std::size_t> current_leg_;  // by robot, the first that has not ended when the window begins
+  std::vector<std::size_t> current_leg_;  // by robot, the first that ends after the beginning of the window
   double slack_;
   double least_ = kInfinity;
   std::vector<Overlap> overlaps_;
-  std::unordered_map<std::uint64_t, std::size_t> latest_overlap_;  // by pair, which overlap of it is the last
+  std::unordered_map<std::uint64_t, std::size_t> latest_overlap_;  // by pair, the index of its last overlap
 };
 
 }  // namespace
 
 std::optional<FleetClearance> fleet_clearance(const std::vector<std::vector<Leg>>& legs_by_robot,
                                               const std::vector<double>& radii, double tolerance,
-                                              std::size_t most_overlaps, const StopCondition& stop) {
-  return ClearanceSweep(legs_by_robot, radii, tolerance, most_overlaps, stop).run();
+                                              std::size_t max_overlaps, const StopCondition& stop) {
+  return ClearanceSweep(legs_by_robot, radii, tolerance, max_overlaps, stop).run();
 }
 
 }  // namespace fleetplan::core

@@ -7,15 +7,15 @@
 #include <utility>
 
 #include "core/geometry/angle.h"
-#include "core/verify/wording.h"
+#include "core/verify/quantity_text.h"
 
 namespace fleetplan::core {
 namespace {
 
 using Kind = Violation::Kind;
 
-// Squares and products of such numbers stay far from overflow; the slowest robot on the longest way of the
-// largest map takes less.
+// Squares and products of such numbers stay far from overflow; even the slowest robot on the longest path of
+// the largest map takes less time.
 constexpr double kLargestUsable = 1e30;
 
 bool usable(double number) { return std::abs(number) <= kLargestUsable; }  // false for NaN too
@@ -24,13 +24,13 @@ bool usable(const Pose& pose) {
   return usable(pose.position.x()) && usable(pose.position.y()) && usable(pose.theta);
 }
 
-std::string name_of(std::size_t action) { return "actions[" + std::to_string(action) + "]"; }
+std::string action_name(std::size_t action) { return "actions[" + std::to_string(action) + "]"; }
 
 double distance_between(const Pose& a, const Pose& b) { return (b.position - a.position).norm(); }
 
 double turn_between(const Pose& a, const Pose& b) { return std::abs(rotation_between(a.theta, b.theta)); }
 
-/// Goes through the actions of one plan and gathers what is wrong.
+/// Checks the actions of one plan in order.
 class MotionCheck {
  public:
   MotionCheck(const Robot& robot, const RobotPlan& plan, double tolerance)
@@ -38,10 +38,10 @@ class MotionCheck {
 
   std::vector<Violation> run() {
     for (std::size_t k = 0; k < plan_.actions.size(); ++k) {
-      check_when_it_begins(k);
-      if (k > 0) check_where_it_begins(k);
-      check_what_it_does(k);
-      check_how_fast(k);
+      check_times(k);
+      if (k > 0) check_start_pose(k);
+      check_type(k);
+      check_speed(k);
     }
     check_cost();
     return std::move(violations_);
@@ -54,58 +54,58 @@ class MotionCheck {
     violations_.push_back({kind, {plan_.robot}, t, distance, required, detail});
   }
 
-  void check_when_it_begins(std::size_t k) {
+  void check_times(std::size_t k) {
     const Action& action = plan_.actions[k];
-    const double due = k == 0 ? 0.0 : plan_.actions[k - 1].t_end;
-    if (differ(action.t_start, due)) {
-      report(Kind::discontinuity, action.t_start, action.t_start, due,
-             name_of(k) + " starts at t = " + seconds(action.t_start) +
+    const double required = k == 0 ? 0.0 : plan_.actions[k - 1].t_end;
+    if (differ(action.t_start, required)) {
+      report(Kind::discontinuity, action.t_start, action.t_start, required,
+             action_name(k) + " starts at t = " + seconds(action.t_start) +
                  (k == 0 ? ", but a plan starts at t = " : ", but the action before ends at t = ") +
-                 seconds(due));
+                 seconds(required));
     }
     if (action.t_end < action.t_start - tolerance_) {
       report(Kind::discontinuity, action.t_start, action.t_end, action.t_start,
-             name_of(k) + " ends at t = " + seconds(action.t_end) +
+             action_name(k) + " ends at t = " + seconds(action.t_end) +
                  ", before it starts at t = " + seconds(action.t_start));
     }
   }
 
-  void check_where_it_begins(std::size_t k) {
+  void check_start_pose(std::size_t k) {
     const Action& action = plan_.actions[k];
     const Pose& before = plan_.actions[k - 1].to;
     const double jump = distance_between(before, action.from);
     if (jump > tolerance_) {
       report(Kind::discontinuity, action.t_start, jump, 0.0,
-             name_of(k) + " starts " + metres(jump) + " from where the action before ends");
+             action_name(k) + " starts " + metres(jump) + " from where the action before ends");
     }
     const double turn = turn_between(before, action.from);
     if (turn > tolerance_) {
       report(Kind::discontinuity, action.t_start, turn, 0.0,
-             name_of(k) + " starts with a heading " + radians(turn) +
+             action_name(k) + " starts with a heading " + radians(turn) +
                  " from that with which the action before ends");
     }
   }
 
-  void check_what_it_does(std::size_t k) {
+  void check_type(std::size_t k) {
     const Action& action = plan_.actions[k];
-    const double way = distance_between(action.from, action.to);
-    if (action.type != Action::Type::translate && way > tolerance_) {
-      report(Kind::discontinuity, action.t_start, way, 0.0,
-             name_of(k) +
+    const double distance = distance_between(action.from, action.to);
+    if (action.type != Action::Type::translate && distance > tolerance_) {
+      report(Kind::discontinuity, action.t_start, distance, 0.0,
+             action_name(k) +
                  (action.type == Action::Type::wait ? " waits, but moves by " : " rotates, but moves by ") +
-                 metres(way));
+                 metres(distance));
     }
     const double turn = turn_between(action.from, action.to);
     if (action.type != Action::Type::rotate && turn > tolerance_) {
       report(
           Kind::discontinuity, action.t_start, turn, 0.0,
-          name_of(k) +
+          action_name(k) +
               (action.type == Action::Type::wait ? " waits, but turns by " : " translates, but turns by ") +
               radians(turn));
     }
   }
 
-  void check_how_fast(std::size_t k) {
+  void check_speed(std::size_t k) {
     const Action& action = plan_.actions[k];
     if (action.type == Action::Type::translate) {
       check_duration(k, distance_between(action.from, action.to), robot_.linear_speed, "m/s");
@@ -115,9 +115,9 @@ class MotionCheck {
     }
   }
 
-  /// An action that takes less time than it must, or leads further than it can: what is off by no more than
-  /// the tolerance in one of the two is fine, as a slow robot's poses that are rounded mean much time.
-  /// Infinite speeds are told as durations instead.
+  /// Reports an action that takes less time than necessary by more than the tolerance, and leads farther than
+  /// possible by more than the tolerance: for a slow robot, rounded poses may amount to much time. Infinite
+  /// speeds are reported as durations.
   void check_duration(std::size_t k, double amount, double top_speed, const char* unit) {
     const Action& action = plan_.actions[k];
     const double duration = std::max(0.0, action.t_end - action.t_start);
@@ -127,24 +127,25 @@ class MotionCheck {
     const double speed = amount / duration;
     if (usable(speed)) {
       report(Kind::speed, action.t_start, speed, top_speed,
-             name_of(k) + " goes at " + in_words(speed, unit) + ", but the robot can do no more than " +
-                 in_words(top_speed, unit));
+             action_name(k) + " goes at " + quantity_text(speed, unit) +
+                 ", but the robot can do no more than " + quantity_text(top_speed, unit));
     } else {
       report(Kind::speed, action.t_start, duration, least,
-             name_of(k) + " takes " + seconds(duration) + ", but the robot needs at least " + seconds(least));
+             action_name(k) + " takes " + seconds(duration) + ", but the robot needs at least " +
+                 seconds(least));
     }
   }
 
-  /// Judged by how far a translation leads off the line of its heading, so that very short ones may be
+  /// Measures how far a translation leads off the line of its heading, so that very short ones may be
   /// rounded.
   void check_direction(std::size_t k) {
     const Action& action = plan_.actions[k];
-    const Position way = action.to.position - action.from.position;
+    const Position d = action.to.position - action.from.position;
     const double theta = action.from.theta;
-    const double sideways = std::abs(way.x() * std::sin(theta) - way.y() * std::cos(theta));
+    const double sideways = std::abs(d.x() * std::sin(theta) - d.y() * std::cos(theta));
     if (sideways > tolerance_) {
       report(Kind::speed, action.t_start, sideways, 0.0,
-             name_of(k) + " moves " + metres(sideways) +
+             action_name(k) + " moves " + metres(sideways) +
                  " sideways, but the robot can only move along its heading");
     }
   }
@@ -189,7 +190,7 @@ std::optional<Violation> find_unusable_number(std::size_t index, const Robot& ro
   for (std::size_t k = 0; k < plan->actions.size(); ++k) {
     const Action& action = plan->actions[k];
     if (!usable(action.t_start) || !usable(action.t_end) || !usable(action.from) || !usable(action.to)) {
-      return violation(latest, name_of(k));
+      return violation(latest, action_name(k));
     }
     latest = action.t_end;
   }

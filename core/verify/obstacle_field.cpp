@@ -8,12 +8,13 @@
 
 namespace fleetplan::core {
 
-/// The search for the blocked cell nearest to a segment: blocks of cells are halved until they are all free
-/// or all blocked, and dropped when they lie too far away.
-class ObstacleField::Descent {
+/// Branch and bound for the blocked cell nearest to a segment: blocks of cells are halved until they are all
+/// free or all blocked, and dropped when they are too far away.
+class ObstacleField::NearestCellSearch {
  public:
-  /// Only what is nearer than `limit`, or as near and earlier, is found.
-  Descent(const ObstacleField& field, const Position& from, const Position& to, const NearestPoint& limit)
+  /// Finds only cells nearer than `limit`, or as near and earlier on the segment.
+  NearestCellSearch(const ObstacleField& field, const Position& from, const Position& to,
+                    const NearestPoint& limit)
       : field_(field),
         from_(from),
         to_(to),
@@ -28,7 +29,7 @@ class ObstacleField::Descent {
     const std::int64_t blocked = field_.blocked_in(block);
     if (blocked == 0) return;
     const Rectangle rectangle = field_.rectangle(block);
-    if (at_least_away(rectangle) > nearest_.distance) return;
+    if (distance_bound(rectangle) > nearest_.distance) return;
     if (blocked == block.cells()) {
       consider(nearest_to_rectangle(from_, to_, rectangle));
       return;
@@ -40,8 +41,9 @@ class ObstacleField::Descent {
     } else {
       one.last_row = other.first_row = std::midpoint(block.first_row, block.last_row);
     }
-    // The nearer half first, as what it holds makes the other one more likely to be dropped.
-    if (at_least_away(field_.rectangle(other)) < at_least_away(field_.rectangle(one))) std::swap(one, other);
+    // The nearer half first, as its result may exclude the other one.
+    if (distance_bound(field_.rectangle(other)) < distance_bound(field_.rectangle(one)))
+      std::swap(one, other);
     visit(one);
     visit(other);
   }
@@ -51,9 +53,9 @@ class ObstacleField::Descent {
   }
 
  private:
-  /// Never more than the distance between rectangle and segment, but for rounding: that between rectangle and
-  /// the segment's box, or its line.
-  double at_least_away(const Rectangle& rectangle) const {
+  /// A lower bound, up to rounding, of the distance between rectangle and segment: the distance to the
+  /// segment's bounding box, or to its line.
+  double distance_bound(const Rectangle& rectangle) const {
     const double dx = std::max({rectangle.low.x() - high_.x(), low_.x() - rectangle.high.x(), 0.0});
     const double dy = std::max({rectangle.low.y() - high_.y(), low_.y() - rectangle.high.y(), 0.0});
     const Position half = 0.5 * (rectangle.high - rectangle.low);
@@ -103,19 +105,19 @@ std::optional<NearestObstacle> ObstacleField::nearest(const Position& from, cons
   const NearestPoint edge = nearest_edge(from, to);
   if (edge.distance < reach) nearest = NearestObstacle{edge, true};
 
-  // Beyond the edge of the map the distance is 0 already: what is left is the way within.
+  // Beyond the edge of the map the distance is 0; what remains is the part inside.
   const Stretch inside = stretch_inside(from, to, {Position(0.0, 0.0), Position(width_, height_)});
   if (inside.empty() || reach <= 0.0) return nearest;
   const Position enters = inside.first > 0.0 ? Position(from + inside.first * (to - from)) : from;
   const Position leaves = inside.last < 1.0 ? Position(from + inside.last * (to - from)) : to;
   const Block around = block_around(enters, leaves, reach);
   if (blocked_in(around) == 0) return nearest;
-  // A cell must be nearer than the edge, or as near at an earlier moment of the way within.
+  // A cell must be nearer than the edge, or as near at an earlier point of the part inside.
   NearestPoint limit{reach, 0.0};
   if (nearest) limit = {edge.distance, inside.last > 0.0 ? edge.fraction / inside.last : 0.0};
-  Descent descent(*this, enters, leaves, limit);
-  descent.visit(around);
-  if (const std::optional<NearestPoint> cell = descent.result()) {
+  NearestCellSearch search(*this, enters, leaves, limit);
+  search.visit(around);
+  if (const std::optional<NearestPoint> cell = search.result()) {
     const double fraction = inside.first + cell->fraction * (inside.last - inside.first);
     nearest = NearestObstacle{{cell->distance, fraction}, false};
   }

@@ -10,33 +10,33 @@
 
 namespace fleetplan::core {
 
-/// The blocked point that comes nearest to a segment.
+/// The obstacle nearest to a segment.
 struct NearestObstacle {
   NearestPoint point;
-  bool is_edge = false;  // the edge of the map, or what is beyond it, rather than a blocked cell
+  bool is_edge = false;  // the edge of the map or the area beyond it, not a blocked cell
 };
 
-/// All that is blocked: the cells of a map, and everything outside it.
+/// All obstacles: the blocked cells of a map, and everything outside it.
 class ObstacleField {
  public:
   /// Reads the map once; linear in its cells.
   explicit ObstacleField(const OccupancyGrid& grid);
 
-  /// The first moment at which a point on its way from `from` to `to` (maybe the same) is nearest to anything
-  /// blocked, if that is nearer than `reach` metres. Off by a few ulp of the largest coordinate. Work grows
-  /// with the number of blocked cells within `reach` of the part of the way inside the map, never with its
+  /// The first point of the segment from `from` to `to` (possibly equal) that is nearest to an obstacle, if
+  /// that is nearer than `reach` metres. The error is a few ulp of the largest coordinate. Work grows with
+  /// the number of blocked cells within `reach` of the part of the segment inside the map, not with its
   /// length.
   std::optional<NearestObstacle> nearest(const Position& from, const Position& to, double reach) const;
 
  private:
-  /// Columns and rows from (first) to, but not including, (last).
+  /// Columns and rows from first (included) to last (excluded).
   struct Block {
     int first_column, last_column, first_row, last_row;
     std::int64_t cells() const {
       return static_cast<std::int64_t>(last_column - first_column) * (last_row - first_row);
     }
   };
-  class Descent;
+  class NearestCellSearch;
 
   NearestPoint nearest_edge(const Position& from, const Position& to) const;
   std::int64_t blocked_in(const Block& block) const;

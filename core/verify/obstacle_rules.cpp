@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/geometry/tolerance.h"
-#include "core/verify/wording.h"
+#include "core/verify/quantity_text.h"
 
 namespace fleetplan::core {
 namespace {
@@ -33,22 +33,22 @@ std::vector<Violation> check_obstacles(const ObstacleField& field, std::size_t r
                                        const std::vector<Leg>& legs, double tolerance) {
   std::vector<Violation> violations;
   const double reach = radius - tolerance;
-  const Leg* overlapping = nullptr;  // the leg before, if it overlaps something
+  const Leg* overlapping = nullptr;  // the previous leg, if it overlaps an obstacle
   for (const Leg& leg : legs) {
     const std::optional<NearestObstacle> nearest = field.nearest(leg.from, leg.to, reach);
     if (!nearest) {
       overlapping = nullptr;
       continue;
     }
-    // Along a wall rounding alone makes one moment the deepest: it is so from the beginning then.
+    // Along a wall only rounding makes one moment the deepest; the overlap then begins with the leg.
     const double distance = nearest->point.distance;
     const std::optional<NearestObstacle> at_first = field.nearest(leg.from, leg.from, reach);
     const bool from_the_beginning = at_first && at_first->point.distance <= distance + kContactTolerance;
     const double t = time_at(leg, from_the_beginning ? 0.0 : nearest->point.fraction);
 
-    const bool goes_on = overlapping != nullptr && overlapping->to == leg.from && at_first;
+    const bool continues = overlapping != nullptr && overlapping->to == leg.from && at_first;
     overlapping = &leg;
-    if (!goes_on) {
+    if (!continues) {
       violations.push_back(overlap_with(*nearest, robot, radius, t));
     } else if (distance < violations.back().distance - kContactTolerance) {
       violations.back() = overlap_with(*nearest, robot, radius, t);

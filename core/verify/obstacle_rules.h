@@ -9,8 +9,8 @@
 
 namespace fleetplan::core {
 
-/// Where a disk overlaps what is blocked by more than the tolerance: one violation a leg, and one for all
-/// legs through which the overlap goes on. `legs` as `execute` makes them.
+/// Reports where a disk overlaps obstacles by more than the tolerance: one violation for each leg, or one for
+/// consecutive legs through which the overlap continues. `legs` are a result of `execute`.
 std::vector<Violation> check_obstacles(const ObstacleField& field, std::size_t robot, double radius,
                                        const std::vector<Leg>& legs, double tolerance);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Two points that both move straight at constant speed, seen from one of them.
+// The motion of a point relative to another one, both straight at constant speed.
 
 #include <optional>
 
@@ -8,8 +8,8 @@
 
 namespace fleetplan::core {
 
-/// The displacement from one point to another, linear in time. from == to where neither moves, or both alike;
-/// t_end may then be infinite.
+/// The displacement from one point to another, linear in time. If neither moves, or both have the same
+/// velocity, from == to, and t_end may be infinite.
 struct RelativeMotion {
   double t_begin = 0.0;
   double t_end = 0.0;
@@ -17,7 +17,7 @@ struct RelativeMotion {
   Position to{0.0, 0.0};
 };
 
-/// When and how near, the first such moment if there are several.
+/// The time and distance of the closest approach; the first such time if there are several.
 struct ClosestMoment {
   double t = 0.0;
   double distance = 0.0;  // metres
@@ -28,16 +28,16 @@ struct TimeSpan {
   double end = 0.0;
 };
 
-/// The least squared distance, m^2. The distance is off by no more than a few ulp of the larger coordinate.
+/// The least squared distance, m^2. The error of the distance is a few ulp of the larger coordinate.
 double least_squared_distance(const RelativeMotion& motion);
 
-/// The moment of least distance, as exact as `least_squared_distance`; its time is that of the beginning
-/// where the points come nearer by no more than kContactTolerance, as rounding alone makes them.
+/// The moment of least distance, as exact as `least_squared_distance`. Where the points come nearer by at
+/// most kContactTolerance, which may be rounding, it is the beginning.
 ClosestMoment closest_moment(const RelativeMotion& motion);
 
-/// The open span in which the distance is less than `distance` (none where it never is). A span that begins
-/// or ends inside the motion is off by a few ulp of the coordinates over the speed, and by the square root of
-/// that where the approach is tangential; one that covers an end of the motion begins or ends exactly there.
+/// The open time span in which the distance is less than `distance`; none if it never is. If the span begins
+/// or ends inside the motion, its error is a few ulp of the coordinates divided by the speed, or the square
+/// root of that where the approach is tangential; at an end of the motion it is exact.
 std::optional<TimeSpan> span_closer_than(const RelativeMotion& motion, double distance);
 
 }  // namespace fleetplan::core

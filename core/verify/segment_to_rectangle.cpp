@@ -24,7 +24,7 @@ NearestPoint nearer_or_earlier(const NearestPoint& a, const NearestPoint& b) {
   return a.fraction <= b.fraction ? a : b;
 }
 
-/// What of `stretch` has its coordinate, linear from `from` to `to`, between `low` and `high`.
+/// The part of `stretch` whose coordinate, linear from `from` to `to`, is between `low` and `high`.
 Stretch narrowed(const Stretch& stretch, double from, double to, double low, double high) {
   const double way = to - from;
   if (way == 0.0) return from < low || from > high ? Stretch{1.0, 0.0} : stretch;
@@ -47,7 +47,7 @@ NearestPoint nearest_to_rectangle(const Position& from, const Position& to, cons
   const Stretch inside = stretch_inside(from, to, rectangle);
   if (!inside.empty()) return {0.0, inside.first};
 
-  // Two convex shapes apart: a corner of one of them is nearest to the other.
+  // For two disjoint convex shapes, a corner of one of them is nearest to the other.
   const NearestPoint at_end{distance_to_rectangle(to, rectangle), 1.0};
   NearestPoint nearest = nearer_or_earlier(at_start, at_end);
   const auto [left, bottom] = std::pair{rectangle.low.x(), rectangle.low.y()};

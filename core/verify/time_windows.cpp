@@ -7,13 +7,13 @@
 namespace fleetplan::core {
 namespace {
 
-// Fewer windows would be long, and the boxes in them large, where plans have few actions.
+// With fewer windows, plans of few actions would have long windows with large boxes.
 constexpr std::size_t kFewestWindows = 64;
-// More would cost more than they save, as each looks at every robot.
+// More would cost more than they save, as each window visits every robot.
 constexpr std::size_t kMostWindows = 4096;
 constexpr std::size_t kWindowsPerLeg = 2;
 
-std::vector<double> times_when_legs_end(const std::vector<std::vector<Leg>>& legs_by_robot) {
+std::vector<double> leg_end_times(const std::vector<std::vector<Leg>>& legs_by_robot) {
   std::vector<double> times;
   for (const std::vector<Leg>& legs : legs_by_robot) {
     for (const Leg& leg : legs) {
@@ -27,7 +27,7 @@ std::vector<double> times_when_legs_end(const std::vector<std::vector<Leg>>& leg
 }  // namespace
 
 std::vector<double> time_windows(const std::vector<std::vector<Leg>>& legs_by_robot) {
-  const std::vector<double> times = times_when_legs_end(legs_by_robot);
+  const std::vector<double> times = leg_end_times(legs_by_robot);
   std::vector<double> boundaries{0.0};
   if (times.empty() || times.back() <= 0.0) return boundaries;
 
@@ -35,7 +35,7 @@ std::vector<double> time_windows(const std::vector<std::vector<Leg>>& legs_by_ro
   const std::size_t wanted = std::min(kWindowsPerLeg * legs_per_robot, kMostWindows);
   const std::size_t parts = (kFewestWindows + wanted - 1) / wanted;
   for (std::size_t k = 1; k <= wanted; ++k) {
-    // The k-th quantile, so that a robot that takes for ever does not put all others into one window.
+    // The k-th quantile, so that one very slow robot does not put all others into one window.
     const double end = times[(times.size() - 1) * k / wanted];
     const double begin = boundaries.back();
     for (std::size_t part = 1; part <= parts; ++part) {

@@ -6,8 +6,8 @@
 
 namespace fleetplan::core {
 
-/// Boundaries that cut the time of all legs into windows in which each robot has about half a leg: ascending,
-/// the first 0, the last the moment from which everybody rests for ever. Only 0 if nobody ever moves.
+/// The boundaries of time windows in which each robot has about half a leg: ascending, the first is 0, the
+/// last the time at which all robots have come to rest. Only 0 if no robot ever moves.
 std::vector<double> time_windows(const std::vector<std::vector<Leg>>& legs_by_robot);
 
 }  // namespace fleetplan::core

@@ -12,7 +12,7 @@
 #include "core/verify/fleet_clearance.h"
 #include "core/verify/motion_rules.h"
 #include "core/verify/obstacle_rules.h"
-#include "core/verify/wording.h"
+#include "core/verify/quantity_text.h"
 
 namespace fleetplan::core {
 namespace {

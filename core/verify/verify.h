@@ -15,55 +15,59 @@
 
 namespace fleetplan::core {
 
-/// More overlaps of robots than this are not listed one by one: a fleet heaped up in one place has millions.
+/// The maximum number of overlaps of robots in a report: many robots in one place have millions.
 inline constexpr std::size_t kMostCollisions = 10'000;
 
-/// Something that a plan does wrong. All numbers are finite.
+/// A violation of the rules by a plan. All numbers are finite.
 ///
-/// - robot_collision: two disks overlap; one for each time that they do so without a break. Distance between
-///   the centres, and the sum of the radii.
-/// - obstacle_collision: a disk overlaps a blocked cell or leaves the map; one an action, and one for all
-///   actions through which it goes on. Distance from the centre (0: inside), and the radius.
-/// - discontinuity: actions that do not follow each other in time or space, or do not do what their type
-/// says,
-///   or a cost that is not the last t_end. A gap or jump and 0, or a time and what it had to be. Also a
-///   number that is not finite, or beyond 1e30: nothing else is then checked of that robot.
-/// - speed: faster than the robot; the speed and the robot's, or for an action that takes no time the
-/// duration
-///   and the least one, seconds. Or a translation that leads off the line of its heading (which may be
-///   forwards or backwards); by how many metres, and 0.
-/// - wrong_start, wrong_goal: how far the first or the resting pose is from where it ought to be, and 0.
-///   Parked robots must rest at their start, in any heading. A robot without a plan is unplanned, and fine.
+/// - robot_collision: two disks overlap; one violation for each uninterrupted overlap. The distance is that
+/// of
+///   the centres, the required one the sum of the radii.
+/// - obstacle_collision: a disk overlaps a blocked cell or leaves the map; one violation for each action, or
+/// one
+///   for consecutive actions through which the overlap continues. The distance is that from the centre (0:
+///   inside), the required one the radius.
+/// - discontinuity: a gap in time or position, an action that contradicts its type, or a cost other than the
+/// last
+///   t_end. The gap or jump and 0, or a time and the required time. Also a number that is not finite, or
+///   beyond 1e30: no other check is then made of that robot.
+/// - speed: faster than the robot. The speed and the robot's, or for an action without duration the duration
+/// and
+///   the least one, seconds. Also a translation that leads off the line of its heading (forwards or
+///   backwards); by how many metres, and 0.
+/// - wrong_start, wrong_goal: the distance of the first or the resting pose from the required one, and 0.
+/// Parked
+///   robots must rest at their start, in any heading. A robot without a plan is unplanned, which is allowed.
 struct Violation {
   enum class Kind { robot_collision, obstacle_collision, discontinuity, speed, wrong_start, wrong_goal };
   Kind kind;
   std::vector<std::size_t> robots;  // indices, ascending; two for robot_collision, one otherwise
-  double t = 0.0;         // seconds; for a collision, when the overlap is deepest for the first time
-  double distance = 0.0;  // what was measured: metres, radians, seconds or metres (radians) per second
-  double required = 0.0;  // what it had to be, same unit
-  std::string detail;     // a sentence for people, with units; names no robots by index
+  double t = 0.0;                   // seconds; of a collision, the first time at which the overlap is deepest
+  double distance = 0.0;            // measured: metres, radians, seconds or metres (radians) per second
+  double required = 0.0;            // the limit or required value, same unit
+  std::string detail;               // a sentence for people, with units; names no robots by index
 };
 
 /// The outcome of a check.
 struct VerifyReport {
   std::vector<Violation> violations;  // by time, then kind, then robots
-  // Metres: smallest gap between two bare disks over all time; none below two (usable) robots.
+  // Metres: smallest gap between two disks without inflation over all time; none for fewer than two (usable)
+  // robots.
   std::optional<double> min_clearance;
   bool valid() const { return violations.empty(); }
 };
 
-/// Checks `plans` (at most one a robot, any order) against the map and robots: robot against robot, robot
-/// against obstacle and map edge, continuity, speeds, start and goal. A robot without a plan stands at its
-/// start for ever; one with a plan rests where its last action ends. `tolerance` (>= 0) in metres, seconds
-/// and radians. Robots need not form a valid Problem: starts that overlap or stand in an obstacle are
-/// violations at t = 0. Exact in continuous time but for rounding, a few ulp of the largest coordinate
-/// (1e-13 m on a map of 1 km). Throws std::invalid_argument on a plan of no robot or a second one of the
-/// same.
+/// Checks `plans` (at most one for each robot, in any order) against the map and robots: robot against robot,
+/// robot against obstacle and map edge, continuity, speeds, start and goal. A robot without a plan stays at
+/// its start; one with a plan rests where its last action ends. `tolerance` (>= 0) in metres, seconds and
+/// radians. Robots need not form a valid Problem: starts that overlap or are in an obstacle are violations at
+/// t = 0. Exact in continuous time up to rounding, a few ulp of the largest coordinate (1e-13 m on a map of 1
+/// km). Throws std::invalid_argument if a plan belongs to no robot, or two belong to the same one.
 VerifyReport verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                     const std::vector<RobotPlan>& plans, double tolerance);
 
-/// The same, but nothing if `stop` is met before the check is done. Thousands of robots that mill about in
-/// one place take minutes.
+/// The same, but returns none if `stop` is met first. Thousands of robots that move in one small area take
+/// minutes.
 std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                    const std::vector<RobotPlan>& plans, double tolerance,
                                    const StopCondition& stop);

@@ -7,7 +7,7 @@
 namespace fleetplan::core {
 namespace {
 
-/// How often each robot is chosen in 1000 times.
+/// How often each robot is chosen in 1000 draws.
 std::map<std::size_t, int> chosen(const DelayedChoice& choice, const std::vector<std::size_t>& robots,
                                   const std::vector<double>& delays) {
   Random random(3);
@@ -16,7 +16,7 @@ std::map<std::size_t, int> chosen(const DelayedChoice& choice, const std::vector
   return chosen;
 }
 
-TEST(DelayedChoice, PrefersTheMoreDelayedAndLeavesOutWhoIsInTime) {
+TEST(DelayedChoice, ChoosesInProportionToDelay) {
   const DelayedChoice choice(8);
   auto times = chosen(choice, {2, 5, 7}, {1.0, 0.0, 3.0});
   EXPECT_NEAR(times[2], 250, 60);
@@ -24,7 +24,7 @@ TEST(DelayedChoice, PrefersTheMoreDelayedAndLeavesOutWhoIsInTime) {
   EXPECT_NEAR(times[7], 750, 60);
 }
 
-TEST(DelayedChoice, PrefersWhoWasTriedLessInVain) {
+TEST(DelayedChoice, PrefersRobotsWithFewerFailures) {
   DelayedChoice choice(2);
   choice.learn(1, false);
   choice.learn(1, false);
@@ -32,7 +32,7 @@ TEST(DelayedChoice, PrefersWhoWasTriedLessInVain) {
   EXPECT_NEAR(chosen(choice, {0, 1}, {1.0, 1.0})[1], 200, 60);
 }
 
-TEST(DelayedChoice, ForgivesFailuresAfterAGain) {
+TEST(DelayedChoice, ReducesFailuresAfterAGain) {
   DelayedChoice choice(2);
   for (int k = 0; k < 8; ++k) choice.learn(0, false);
   const int before = chosen(choice, {0, 1}, {1.0, 1.0})[0];
@@ -40,7 +40,7 @@ TEST(DelayedChoice, ForgivesFailuresAfterAGain) {
   EXPECT_GT(chosen(choice, {0, 1}, {1.0, 1.0})[0], before + 20);
 }
 
-TEST(DelayedChoice, ChoosesSomebodyWhenNobodyIsDelayed) {
+TEST(DelayedChoice, ChoosesARobotWithoutDelays) {
   EXPECT_EQ(chosen(DelayedChoice(4), {1, 3}, {0.0, 0.0})[3], 1000);
 }
 

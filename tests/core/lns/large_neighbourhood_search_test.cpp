@@ -31,7 +31,7 @@ Value value_of(const PlanState& state) {
   return value;
 }
 
-/// Plans as core::plan does before it improves.
+/// Plans as core::plan does before large neighbourhood search.
 std::vector<std::size_t> plan_first_solution(Planning& p) {
   const auto given_up = triage(p.state, p.never);
   std::vector<std::size_t> movers = p.movers();
@@ -40,7 +40,7 @@ std::vector<std::size_t> plan_first_solution(Planning& p) {
   return movers;
 }
 
-TautBounds bounds_of(const Planning& p) {
+TautPathBounds bounds_of(const Planning& p) {
   return {p.instance, p.movers(), std::vector<double>(p.instance.size(), kForever), p.never};
 }
 
@@ -63,19 +63,19 @@ std::vector<Robot> roundabout() {
   return robots;
 }
 
-TEST(Improve, MakesARoundaboutBetter) {
+TEST(LargeNeighbourhoodSearch, LowersTheFlowtime) {
   Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(60));
   const auto movers = plan_first_solution(p);
   const Value before = value_of(p.state);
-  const LnsResult improvement =
+  const LnsResult result =
       large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
-  EXPECT_GT(improvement.improvements, 0);
-  EXPECT_FALSE(improvement.cut_off);
+  EXPECT_GT(result.improvements, 0);
+  EXPECT_FALSE(result.cut_off);
   EXPECT_LT(value_of(p.state).flowtime, before.flowtime);
   expect_safe(p.state);
 }
 
-TEST(Improve, ShortensTheMakespanWhenAsked) {
+TEST(LargeNeighbourhoodSearch, LowersTheMakespanWithThatObjective) {
   Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(60, Objective::makespan));
   const auto movers = plan_first_solution(p);
   const Value before = value_of(p.state);
@@ -84,7 +84,7 @@ TEST(Improve, ShortensTheMakespanWhenAsked) {
   expect_safe(p.state);
 }
 
-TEST(Improve, ChangesNothingInNoIterations) {
+TEST(LargeNeighbourhoodSearch, ChangesNothingWithoutIterations) {
   Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(0));
   const auto movers = plan_first_solution(p);
   const double before = value_of(p.state).flowtime;
@@ -94,7 +94,7 @@ TEST(Improve, ChangesNothingInNoIterations) {
   EXPECT_EQ(value_of(p.state).flowtime, before);
 }
 
-TEST(Improve, DoesTheSameAgain) {
+TEST(LargeNeighbourhoodSearch, ReturnsTheSamePlanForTheSameSeed) {
   const auto run = [] {
     Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(30));
     const auto movers = plan_first_solution(p);
@@ -106,18 +106,18 @@ TEST(Improve, DoesTheSameAgain) {
   EXPECT_EQ(run(), run());
 }
 
-TEST(Improve, EndsByItselfWhenEveryRobotCostsItsLowerBound) {
+TEST(LargeNeighbourhoodSearch, EndsWhenEveryRobotIsAtItsLowerBound) {
   PlanOptions options;  // neither iterations nor a clock
   Planning p(OccupancyGrid(10, 10, 1.0), {robot_at(1.5, 1.5).to(8.5, 1.5), robot_at(1.5, 8.5).to(8.5, 7.5)},
              options);
   const auto movers = plan_first_solution(p);
-  const LnsResult improvement =
+  const LnsResult result =
       large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
-  EXPECT_EQ(improvement.improvements, 0);
-  EXPECT_FALSE(improvement.cut_off);
+  EXPECT_EQ(result.improvements, 0);
+  EXPECT_FALSE(result.cut_off);
 }
 
-TEST(Improve, EndsAtOnceWithoutAnyPlan) {
+TEST(LargeNeighbourhoodSearch, EndsAtOnceWithoutTrajectories) {
   Planning p(OccupancyGrid(10, 10, 1.0), {robot_at(1.5, 1.5).to(8.5, 1.5), robot_at(5.5, 5.5)});
   EXPECT_FALSE(
       large_neighbourhood_search(p.state, {}, bounds_of(p), p.random, p.callers_thread, p.never).cut_off);
@@ -126,19 +126,19 @@ TEST(Improve, EndsAtOnceWithoutAnyPlan) {
       << "it has no plan to improve";
 }
 
-TEST(Improve, ChangesNothingWhenItIsStopped) {
+TEST(LargeNeighbourhoodSearch, ChangesNothingWhenStopped) {
   Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(1000));
   const auto movers = plan_first_solution(p);
   const double before = value_of(p.state).flowtime;
-  const LnsResult improvement =
+  const LnsResult result =
       large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, met());
-  EXPECT_TRUE(improvement.cut_off);
+  EXPECT_TRUE(result.cut_off);
   EXPECT_EQ(value_of(p.state).flowtime, before);
 }
 
-class ImproveRandomFleets : public testing::TestWithParam<Objective> {};
+class LnsRandomFleets : public testing::TestWithParam<Objective> {};
 
-TEST_P(ImproveRandomFleets, IsNeverWorseAndStaysSafe) {
+TEST_P(LnsRandomFleets, NeverMakesAPlanWorseOrUnsafe) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     support::Dice dice(seed);
@@ -146,20 +146,20 @@ TEST_P(ImproveRandomFleets, IsNeverWorseAndStaysSafe) {
     const auto movers = plan_first_solution(p);
     const std::size_t planned = support::plans_of(p.state).size();
     const Value before = value_of(p.state);
-    const LnsResult improvement =
+    const LnsResult result =
         large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
     const Value after = value_of(p.state);
     const bool by_makespan = GetParam() == Objective::makespan;
     ASSERT_LE(by_makespan ? after.makespan : after.flowtime, by_makespan ? before.makespan : before.flowtime);
-    if (improvement.improvements == 0) {
+    if (result.improvements == 0) {
       ASSERT_EQ(after.flowtime, before.flowtime);
     }
-    ASSERT_EQ(support::plans_of(p.state).size(), planned) << "nobody loses its plan";
+    ASSERT_EQ(support::plans_of(p.state).size(), planned) << "every robot keeps a plan";
     expect_safe(p.state);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Objectives, ImproveRandomFleets,
+INSTANTIATE_TEST_SUITE_P(Objectives, LnsRandomFleets,
                          testing::Values(Objective::flowtime, Objective::makespan));
 
 }  // namespace

@@ -13,8 +13,8 @@ using testing::ElementsAre;
 using testing::SizeIs;
 using testing::UnorderedElementsAre;
 
-/// Robot 0 goes round robot 1, which stands on its straight way; robot 2 passes near robot 0's goal; robot 3
-/// is far from everybody, and robot 4 is parked.
+/// Robot 0 passes around robot 1, which stands on its straight path; robot 2 passes near robot 0's goal;
+/// robot 3 is far from all others, and robot 4 is parked.
 struct Hall : Planning {
   Hall()
       : Planning(
@@ -28,39 +28,39 @@ struct Hall : Planning {
     state.stay_at_start(4);
   }
 
-  std::vector<std::size_t> around(std::size_t first, Neighbourhood kind, std::size_t size) {
-    return Neighbourhoods(state, movers(), never).around(first, kind, size, random);
+  std::vector<std::size_t> select(std::size_t first, Neighbourhood kind, std::size_t size) {
+    return NeighbourhoodSelection(state, movers(), never).select(first, kind, size, random);
   }
 };
 
-TEST(Neighbourhoods, OfOneRobotAreThatRobot) {
+TEST(NeighbourhoodSelection, OfSizeOneIsTheFirstRobot) {
   Hall p;
   for (std::size_t kind = 0; kind < kNeighbourhoods; ++kind) {
-    EXPECT_THAT(p.around(2, static_cast<Neighbourhood>(kind), 1), ElementsAre(2));
+    EXPECT_THAT(p.select(2, static_cast<Neighbourhood>(kind), 1), ElementsAre(2));
   }
 }
 
-TEST(Neighbourhoods, HoldThoseInTheWay) {
+TEST(NeighbourhoodSelection, ContainsConflictingRobots) {
   Hall p;
-  EXPECT_THAT(p.around(0, Neighbourhood::conflicting, 4), ElementsAre(0, 1));
-  EXPECT_THAT(p.around(3, Neighbourhood::conflicting, 4), ElementsAre(3)) << "nobody is in its way";
+  EXPECT_THAT(p.select(0, Neighbourhood::conflicting, 4), ElementsAre(0, 1));
+  EXPECT_THAT(p.select(3, Neighbourhood::conflicting, 4), ElementsAre(3)) << "no robot conflicts with it";
 }
 
-TEST(Neighbourhoods, HoldThoseThatARobotMeets) {
+TEST(NeighbourhoodSelection, ContainsRobotsNearbyAtSomeTime) {
   Hall p;
-  EXPECT_THAT(p.around(0, Neighbourhood::meeting, 3), UnorderedElementsAre(0, 1, 2)) << "robot 3 is far away";
+  EXPECT_THAT(p.select(0, Neighbourhood::meeting, 3), UnorderedElementsAre(0, 1, 2)) << "robot 3 is far away";
 }
 
-TEST(Neighbourhoods, HoldThoseThatPassTheGoal) {
+TEST(NeighbourhoodSelection, ContainsRobotsThatPassTheGoal) {
   Hall p;
-  EXPECT_THAT(p.around(0, Neighbourhood::at_goal, 2), ElementsAre(0, 2));
+  EXPECT_THAT(p.select(0, Neighbourhood::at_goal, 2), ElementsAre(0, 2));
 }
 
-TEST(Neighbourhoods, HoldEverybodyOnceAtMost) {
+TEST(NeighbourhoodSelection, ContainsNoRobotTwice) {
   Hall p;
-  EXPECT_THAT(p.around(0, Neighbourhood::anybody, 16), UnorderedElementsAre(0, 1, 2, 3));
-  EXPECT_THAT(p.around(0, Neighbourhood::meeting, 16), UnorderedElementsAre(0, 1, 2, 3));
-  EXPECT_THAT(p.around(0, Neighbourhood::anybody, 2), SizeIs(2));
+  EXPECT_THAT(p.select(0, Neighbourhood::random, 16), UnorderedElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(p.select(0, Neighbourhood::meeting, 16), UnorderedElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(p.select(0, Neighbourhood::random, 2), SizeIs(2));
 }
 
 }  // namespace

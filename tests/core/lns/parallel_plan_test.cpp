@@ -48,7 +48,7 @@ TEST(CallerThread, RunsEveryTaskOnceInOrder) {
 
 class PlanInParallel : public testing::TestWithParam<Objective> {};
 
-TEST_P(PlanInParallel, IsTheSamePlanForAnyNumberOfThreads) {
+TEST_P(PlanInParallel, ReturnsTheSamePlanForAnyNumberOfThreads) {
   const Problem problem = roundabout();
   const PlanOptions options = anytime(200, GetParam());
   const Plan alone = plan(problem, options, {});
@@ -64,7 +64,7 @@ TEST_P(PlanInParallel, IsTheSamePlanForAnyNumberOfThreads) {
   }
 }
 
-TEST_P(PlanInParallel, IsTheSamePlanForRandomFleets) {
+TEST_P(PlanInParallel, ReturnsTheSamePlanForRandomFleets) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     support::Dice dice(seed);
@@ -76,7 +76,7 @@ TEST_P(PlanInParallel, IsTheSamePlanForRandomFleets) {
   }
 }
 
-TEST_P(PlanInParallel, IsTheSamePlanWhenItIsWatchedAndShowsTheSame) {
+TEST_P(PlanInParallel, ReturnsTheSamePlanWithAnObserver) {
   const Problem problem = roundabout();
   const PlanOptions options = anytime(200, GetParam());
   support::Recorder by_one;

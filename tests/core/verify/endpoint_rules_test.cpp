@@ -1,4 +1,4 @@
-// Where plans start and where robots come to rest.
+// The first and the last pose of plans.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ Scene driving() {
   return scene;
 }
 
-TEST(WrongStart, APlanStartsInTheStartPoseOfTheRobot) {
+TEST(WrongStart, IsReportedWhereAPlanDoesNotBeginAtTheStart) {
   Scene scene = driving();
   EXPECT_THAT(scene.violations(), IsEmpty());
   scene.robots()[0].start.position.x() += 0.5 * kTolerance;
@@ -34,7 +34,7 @@ TEST(WrongStart, APlanStartsInTheStartPoseOfTheRobot) {
   EXPECT_EQ(violations[0].detail, "the plan starts 1 m from the robot's start");
 }
 
-TEST(WrongStart, TheHeadingCountsToo) {
+TEST(WrongStart, IsReportedForTheHeadingAsWell) {
   Scene scene = driving();
   scene.robots()[0].start.theta = 0.5;
   const auto violations = scene.violations();
@@ -43,7 +43,7 @@ TEST(WrongStart, TheHeadingCountsToo) {
   EXPECT_THAT(violations[0].detail, HasSubstr("heading 0.5 rad"));
 }
 
-TEST(WrongGoal, ThePlanEndsAtTheGoal) {
+TEST(WrongGoal, IsReportedWhereAPlanDoesNotEndAtTheGoal) {
   Scene scene = driving();
   scene.robots()[0].goal->position.y() = 6.0;
   const auto violations = scene.violations();
@@ -53,7 +53,7 @@ TEST(WrongGoal, ThePlanEndsAtTheGoal) {
   EXPECT_EQ(violations[0].detail, "the plan ends 1 m from the robot's goal");
 }
 
-TEST(WrongGoal, TheHeadingCountsWhereTheGoalHasOne) {
+TEST(WrongGoal, IsReportedForTheHeadingIfTheGoalHasOne) {
   Scene scene = driving();
   scene.robots()[0].goal->theta = 1.5;
   const auto violations = scene.violations();
@@ -63,7 +63,7 @@ TEST(WrongGoal, TheHeadingCountsWhereTheGoalHasOne) {
   EXPECT_THAT(scene.violations(), IsEmpty());
 }
 
-TEST(WrongGoal, AParkedRobotRestsAtItsStartInAnyHeading) {
+TEST(WrongGoal, AllowsAParkedRobotAnyHeadingAtItsStart) {
   Scene scene = driving();
   scene.robots()[0].goal.reset();
   const auto violations = scene.violations();
@@ -77,7 +77,7 @@ TEST(WrongGoal, AParkedRobotRestsAtItsStartInAnyHeading) {
   EXPECT_THAT(aside.violations(), IsEmpty());
 }
 
-TEST(WrongGoal, AnEmptyPlanIsForRobotsThatAreThereAlready) {
+TEST(WrongGoal, AllowsAnEmptyPlanOnlyAtTheGoal) {
   Scene scene;
   scene.add(robot_at(5, 5), [](PlanBuilder&) {});
   EXPECT_THAT(scene.violations(), IsEmpty());
@@ -87,7 +87,7 @@ TEST(WrongGoal, AnEmptyPlanIsForRobotsThatAreThereAlready) {
   EXPECT_THAT(kinds_of(scene.violations()), ElementsAre(Kind::wrong_goal));
 }
 
-TEST(WrongGoal, ARobotWithoutAPlanIsUnplannedAndFine) {
+TEST(WrongGoal, AllowsARobotWithoutAPlan) {
   Scene scene;
   Robot robot = robot_at(5, 5);
   robot.goal = Goal{Position(8, 5), 0.0};
@@ -95,7 +95,7 @@ TEST(WrongGoal, ARobotWithoutAPlanIsUnplannedAndFine) {
   EXPECT_THAT(scene.violations(), IsEmpty());
 }
 
-TEST(Verify, TellsViolationsInOrderOfTime) {
+TEST(Verify, ReportsViolationsInOrderOfTime) {
   Scene scene = driving();
   scene.robots()[0].goal->position.y() = 6.0;  // at 4 s
   scene.stand(robot_at(6, 5.5));               // hit after 1 s
@@ -104,7 +104,7 @@ TEST(Verify, TellsViolationsInOrderOfTime) {
               ElementsAre(Kind::wrong_start, Kind::robot_collision, Kind::wrong_goal));
 }
 
-TEST(Verify, PlansMayComeInAnyOrderButNotTwice) {
+TEST(Verify, AcceptsPlansInAnyOrderButNotTwice) {
   Scene scene = driving();
   scene.add(robot_at(5, 8), [](PlanBuilder& plan) { plan.translate_to(9, 8); });
   std::swap(scene.plans()[0], scene.plans()[1]);

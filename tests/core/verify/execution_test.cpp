@@ -1,4 +1,4 @@
-// Which way robots go, and when, for plans that keep the rules and for others.
+// Positions over time, for valid and invalid plans.
 
 #include "core/verify/execution.h"
 
@@ -30,14 +30,14 @@ Position where(const std::vector<Leg>& legs, double t) {
   return legs.back().to;
 }
 
-TEST(Execution, WithoutAPlanARobotStandsForEver) {
+TEST(Execution, KeepsARobotWithoutAPlanAtItsStart) {
   const auto legs = execute(robot_at(2, 3), nullptr);
   ASSERT_EQ(legs.size(), 1U);
   expect_all_of_time(legs);
   EXPECT_EQ(position_at(legs[0], 1e9), Position(2, 3));
 }
 
-TEST(Execution, ActionsAreInterpolatedAndTheLastPoseIsKept) {
+TEST(Execution, InterpolatesActionsAndKeepsTheLastPose) {
   const Robot robot = robot_at(2, 3);
   const RobotPlan plan = PlanBuilder(0, robot).wait(1).translate_to(6, 3).build();
   const auto legs = execute(robot, &plan);
@@ -47,7 +47,7 @@ TEST(Execution, ActionsAreInterpolatedAndTheLastPoseIsKept) {
   EXPECT_EQ(where(legs, 100.0), Position(6, 3));
 }
 
-TEST(Execution, InAGapTheRobotStandsWhereItIs) {
+TEST(Execution, StandsInAGap) {
   const Robot robot = robot_at(2, 3);
   RobotPlan plan = PlanBuilder(0, robot).translate_to(3, 3).translate_to(4, 3).build();
   plan.actions[0].t_start = 5.0;
@@ -61,7 +61,7 @@ TEST(Execution, InAGapTheRobotStandsWhereItIs) {
   EXPECT_EQ(where(legs, 8.5), Position(3.5, 3));
 }
 
-TEST(Execution, WhatAnActionShouldHaveDoneBeforeItsTurnIsLost) {
+TEST(Execution, SkipsThePartOfAnActionBeforeThePreviousEnd) {
   const Robot robot = robot_at(2, 3);
   RobotPlan plan = PlanBuilder(0, robot).translate_to(4, 3).translate_to(8, 3).build();
   plan.actions[1].t_start = 1.0;  // a second too early
@@ -76,11 +76,11 @@ TEST(Execution, WhatAnActionShouldHaveDoneBeforeItsTurnIsLost) {
   EXPECT_EQ(where(execute(robot, &plan), 2.0), Position(8, 3));
 }
 
-TEST(TimeWindows, OfAFleetThatStandsAreNone) {
+TEST(TimeWindows, HaveOneBoundaryWithoutMotion) {
   EXPECT_EQ(time_windows({execute(robot_at(1, 1), nullptr)}), std::vector<double>{0.0});
 }
 
-TEST(TimeWindows, AscendFromZeroToTheEndHoweverLongOneRobotTakes) {
+TEST(TimeWindows, AscendFromZeroToTheEndDespiteOneSlowRobot) {
   const Robot robot = robot_at(1, 1);
   const RobotPlan quick = PlanBuilder(0, robot).wait(1).wait(0).wait(1).wait(1).build();
   const RobotPlan slow = PlanBuilder(0, robot).wait(1e9).build();

@@ -39,7 +39,7 @@ int overlaps_at(const FleetClearance& clearance, double t, double margin) {
       [&](const Overlap& overlap) { return overlap.t_begin - margin <= t && t <= overlap.t_end + margin; }));
 }
 
-TEST(FleetClearanceProperty, OverlapsOfTwoRobotsAreWhereSamplesOverlap) {
+TEST(FleetClearanceProperty, OverlapsAgreeWithSamples) {
   for (unsigned seed = kFirstSeed; seed < kFirstSeed + 150; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
@@ -70,7 +70,7 @@ TEST(FleetClearanceProperty, OverlapsOfTwoRobotsAreWhereSamplesOverlap) {
   }
 }
 
-TEST(FleetClearanceProperty, TheLeastGapOfThirtyRobotsIsThatOfAllPairsSampled) {
+TEST(FleetClearanceProperty, LeastGapAgreesWithSamplesOfAllPairs) {
   for (unsigned seed = kFirstSeed; seed < kFirstSeed + 6; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
@@ -94,7 +94,7 @@ TEST(FleetClearanceProperty, TheLeastGapOfThirtyRobotsIsThatOfAllPairsSampled) {
   }
 }
 
-TEST(FleetClearanceProperty, AFleetIsTheSumOfItsPairs) {
+TEST(FleetClearanceProperty, FleetAgreesWithItsPairs) {
   for (unsigned seed = kFirstSeed; seed < kFirstSeed + 10; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
@@ -121,7 +121,7 @@ TEST(FleetClearanceProperty, AFleetIsTheSumOfItsPairs) {
   }
 }
 
-TEST(FleetClearanceProperty, TheOrderOfTheRobotsChangesNothing) {
+TEST(FleetClearanceProperty, DoesNotDependOnTheOrderOfRobots) {
   for (unsigned seed = kFirstSeed; seed < kFirstSeed + 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);

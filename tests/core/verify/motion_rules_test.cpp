@@ -36,9 +36,9 @@ void shift(Scene& scene, std::size_t first, double seconds) {
   scene.plans()[0].cost += seconds;
 }
 
-TEST(Discontinuity, AContiguousPlanHasNone) { EXPECT_THAT(valid_scene().violations(), IsEmpty()); }
+TEST(Discontinuity, AcceptsAContiguousPlan) { EXPECT_THAT(valid_scene().violations(), IsEmpty()); }
 
-TEST(Discontinuity, APlanStartsAtTimeZero) {
+TEST(Discontinuity, RequiresAPlanToStartAtTimeZero) {
   Scene scene = valid_scene();
   shift(scene, 0, 0.5);
   const auto violations = scene.violations();
@@ -48,7 +48,7 @@ TEST(Discontinuity, APlanStartsAtTimeZero) {
   EXPECT_EQ(violations[0].detail, "actions[0] starts at t = 0.5 s, but a plan starts at t = 0 s");
 }
 
-TEST(Discontinuity, GapsInTimeAreToldAndTinyOnesAreNot) {
+TEST(Discontinuity, ReportsGapsInTimeAboveTheTolerance) {
   Scene scene = valid_scene();
   shift(scene, 2, 0.5 * kTolerance);
   EXPECT_THAT(scene.violations(), IsEmpty());
@@ -59,13 +59,13 @@ TEST(Discontinuity, GapsInTimeAreToldAndTinyOnesAreNot) {
   EXPECT_NEAR(violations[0].required, 5.0, 1e-5);
 }
 
-TEST(Discontinuity, ActionsThatOverlapInTimeAreTold) {
+TEST(Discontinuity, ReportsActionsThatOverlapInTime) {
   Scene scene = valid_scene();
   shift(scene, 1, -1.0);
   EXPECT_THAT(kinds_of(scene.violations()), ElementsAre(Kind::discontinuity));
 }
 
-TEST(Discontinuity, AnActionThatEndsBeforeItStartsIsTold) {
+TEST(Discontinuity, ReportsAnActionThatEndsBeforeItStarts) {
   Scene scene = valid_scene();
   scene.action(1).t_end = 2.0;
   for (std::size_t k = 2; k < 4; ++k) {
@@ -79,7 +79,7 @@ TEST(Discontinuity, AnActionThatEndsBeforeItStartsIsTold) {
   EXPECT_EQ(violations[0].required, 3.0);
 }
 
-TEST(Discontinuity, JumpsInSpaceAreTold) {
+TEST(Discontinuity, ReportsJumpsInSpace) {
   Scene scene = valid_scene();
   scene.action(1).from.position.x() += 0.5;
   scene.action(1).to.position.x() += 0.5;
@@ -90,7 +90,7 @@ TEST(Discontinuity, JumpsInSpaceAreTold) {
   EXPECT_EQ(violations[0].detail, "actions[1] starts 0.5 m from where the action before ends");
 }
 
-TEST(Discontinuity, JumpsOfTheHeadingAreToldModuloAFullTurn) {
+TEST(Discontinuity, ReportsJumpsOfTheHeadingModuloAFullTurn) {
   Scene scene = valid_scene();
   scene.action(1).from.theta += 2.0 * kPi;
   scene.action(1).to.theta -= 4.0 * kPi;
@@ -102,7 +102,7 @@ TEST(Discontinuity, JumpsOfTheHeadingAreToldModuloAFullTurn) {
   EXPECT_NEAR(violations[0].distance, 0.25, 1e-12);
 }
 
-TEST(Discontinuity, AWaitThatMovesIsTold) {
+TEST(Discontinuity, ReportsAWaitThatMoves) {
   Scene scene = valid_scene();
   scene.action(0).type = Action::Type::wait;
   const auto violations = scene.violations();
@@ -110,13 +110,13 @@ TEST(Discontinuity, AWaitThatMovesIsTold) {
   EXPECT_EQ(violations[0].detail, "actions[0] waits, but moves by 3 m");
 }
 
-TEST(Discontinuity, ARotationThatMovesIsTold) {
+TEST(Discontinuity, ReportsARotationThatMoves) {
   Scene scene = valid_scene();
   scene.action(0).type = Action::Type::rotate;
   EXPECT_THAT(kinds_of(scene.violations()), ElementsAre(Kind::discontinuity));
 }
 
-TEST(Discontinuity, AWaitOrTranslationThatTurnsIsTold) {
+TEST(Discontinuity, ReportsAWaitOrTranslationThatTurns) {
   Scene scene = valid_scene();
   scene.action(2).type = Action::Type::wait;
   EXPECT_THAT(kinds_of(scene.violations()), ElementsAre(Kind::discontinuity));
@@ -126,7 +126,7 @@ TEST(Discontinuity, AWaitOrTranslationThatTurnsIsTold) {
   EXPECT_NEAR(violations[0].distance, kPi / 2, 1e-12);
 }
 
-TEST(Discontinuity, TheCostIsWhenTheLastActionEnds) {
+TEST(Discontinuity, RequiresTheCostToBeTheEndOfTheLastAction) {
   Scene scene = valid_scene();
   scene.plans()[0].cost += 0.5;
   const auto violations = scene.violations();
@@ -140,7 +140,7 @@ TEST(Discontinuity, TheCostIsWhenTheLastActionEnds) {
   EXPECT_THAT(kinds_of(standing.violations()), ElementsAre(Kind::discontinuity));
 }
 
-TEST(Discontinuity, AMoveThatEndsBeforeItStartsIsTooFastToo) {
+TEST(Discontinuity, ReportsAMoveThatEndsBeforeItStartsAsTooFast) {
   Scene scene;
   scene.add(robot_at(5, 5), [](PlanBuilder& plan) { plan.translate_to(8, 5); });
   scene.action(0).t_end = scene.plans()[0].cost = -2.0;
@@ -150,7 +150,7 @@ TEST(Discontinuity, AMoveThatEndsBeforeItStartsIsTooFastToo) {
   EXPECT_EQ(violations[1].required, 3.0);
 }
 
-TEST(Discontinuity, NumbersThatAreNoneLeaveTheRobotOutOfAllOtherChecks) {
+TEST(Discontinuity, ExcludesRobotsWithUnusableNumbersFromOtherChecks) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                            -std::numeric_limits<double>::infinity(), 1e300}) {
     Scene scene = valid_scene();
@@ -167,7 +167,7 @@ TEST(Discontinuity, NumbersThatAreNoneLeaveTheRobotOutOfAllOtherChecks) {
   }
 }
 
-TEST(Discontinuity, EveryNumberOfARobotAndItsPlanIsLookedAt) {
+TEST(Discontinuity, ChecksEveryNumberOfARobotAndItsPlan) {
   const std::vector<double* (*)(Scene&)> numbers = {
       [](Scene& scene) { return &scene.action(2).t_start; },
       [](Scene& scene) { return &scene.action(2).t_end; },
@@ -197,7 +197,7 @@ TEST(Discontinuity, EveryNumberOfARobotAndItsPlanIsLookedAt) {
   }
 }
 
-TEST(Speed, SlowerThanTheRobotIsFineAndFasterIsNot) {
+TEST(Speed, RejectsFasterMovesThanTheRobots) {
   const auto drive_at = [](double speed) {
     Scene scene;
     scene.add(robot_at(5, 5), [speed](PlanBuilder& plan) { plan.translate_to(8, 5, speed); });
@@ -212,7 +212,7 @@ TEST(Speed, SlowerThanTheRobotIsFineAndFasterIsNot) {
   EXPECT_EQ(violations[0].detail, "actions[0] goes at 1.25 m/s, but the robot can do no more than 1 m/s");
 }
 
-TEST(Speed, IsJudgedByTheSecondsMissing) {
+TEST(Speed, AllowsTheToleranceInSeconds) {
   Scene scene = valid_scene();
   scene.action(3).t_end -= 0.5 * kTolerance;
   EXPECT_THAT(scene.violations(), IsEmpty());
@@ -221,7 +221,7 @@ TEST(Speed, IsJudgedByTheSecondsMissing) {
   EXPECT_THAT(kinds_of(scene.violations()), ElementsAre(Kind::speed));
 }
 
-TEST(Speed, OfASlowRobotIsJudgedByTheMetresTooMany) {
+TEST(Speed, AllowsASlowRobotTheToleranceInMetres) {
   const auto drive_too_far_by = [](double excess) {
     Scene scene;
     Robot slow = robot_at(5, 5);
@@ -234,7 +234,7 @@ TEST(Speed, OfASlowRobotIsJudgedByTheMetresTooMany) {
   EXPECT_THAT(kinds_of(drive_too_far_by(2.0 * kTolerance)), testing::Contains(Kind::speed));
 }
 
-TEST(Speed, RotationsTakeTheShorterWay) {
+TEST(Speed, MeasuresRotationsInTheShorterDirection) {
   Scene scene;
   scene.add(robot_at(5, 5, 3.0), [](PlanBuilder& plan) { plan.rotate_to(-3.0); });
   EXPECT_NEAR(scene.plans()[0].cost, 2.0 * kPi - 6.0, 1e-12);
@@ -245,7 +245,7 @@ TEST(Speed, RotationsTakeTheShorterWay) {
   EXPECT_NEAR(violations[0].distance, (2.0 * kPi - 6.0) / 0.2, 1e-12);
 }
 
-TEST(Speed, AMoveInNoTimeIsToldInSeconds) {
+TEST(Speed, ReportsAMoveWithoutDurationInSeconds) {
   Scene scene = valid_scene();
   scene.action(0).t_end = 0.0;
   shift(scene, 1, -3.0);
@@ -256,7 +256,7 @@ TEST(Speed, AMoveInNoTimeIsToldInSeconds) {
   EXPECT_EQ(violations[0].detail, "actions[0] takes 0 s, but the robot needs at least 3 s");
 }
 
-TEST(Speed, OfARobotThatCanHardlyMoveIsToldInFiniteNumbers) {
+TEST(Speed, ReportsFiniteNumbersForAnExtremelySlowRobot) {
   Scene scene = valid_scene();
   scene.robots()[0].linear_speed = std::numeric_limits<double>::denorm_min();
   scene.action(0).t_end = 0.0;
@@ -266,7 +266,7 @@ TEST(Speed, OfARobotThatCanHardlyMoveIsToldInFiniteNumbers) {
   EXPECT_TRUE(std::isfinite(violations[0].required));
 }
 
-TEST(Speed, BackwardsIsFineAndSidewaysIsNot) {
+TEST(Speed, AllowsBackwardsButNotSidewaysMoves) {
   const auto drive_heading = [](double theta) {
     Scene scene;
     scene.add(robot_at(5, 5, theta), [](PlanBuilder& plan) { plan.translate_to(8, 5); });
@@ -282,7 +282,7 @@ TEST(Speed, BackwardsIsFineAndSidewaysIsNot) {
   EXPECT_THAT(violations[0].detail, HasSubstr("1.5 m sideways"));
 }
 
-TEST(Speed, AVeryShortMoveMayHaveAnyHeading) {
+TEST(Speed, AllowsAVeryShortMoveAnyHeading) {
   Scene scene;
   scene.add(robot_at(5, 5), [](PlanBuilder& plan) { plan.translate_to(5, 5 + 0.5 * kTolerance); });
   EXPECT_THAT(scene.violations(), IsEmpty());

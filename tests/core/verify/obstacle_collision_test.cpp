@@ -28,7 +28,7 @@ OccupancyGrid map_with_a_block() {
   });
 }
 
-TEST(ObstacleCollision, TheDiskMayTouchTheEdgeOfTheMap) {
+TEST(ObstacleCollision, AllowsContactWithTheEdgeOfTheMap) {
   const auto drive_along = [](double y) {
     Scene scene(open_map(10, 4));
     scene.add(robot_at(0.5, y), [y](PlanBuilder& plan) { plan.translate_to(9.5, y); });
@@ -48,7 +48,7 @@ TEST(ObstacleCollision, TheDiskMayTouchTheEdgeOfTheMap) {
   EXPECT_EQ(drive_along(0.5 - 2.0 * kTolerance).size(), 1U);
 }
 
-TEST(ObstacleCollision, EachSideOfTheMapIsAnEdge) {
+TEST(ObstacleCollision, ChecksEverySideOfTheMap) {
   const double far = 9.6;
   const double near = 0.4;
   for (const auto& [x, y] : {std::pair{far, 5.0}, {near, 5.0}, {5.0, far}, {5.0, near}}) {
@@ -61,7 +61,7 @@ TEST(ObstacleCollision, EachSideOfTheMapIsAnEdge) {
   }
 }
 
-TEST(ObstacleCollision, APassageAsWideAsTheDiskIsWideEnough) {
+TEST(ObstacleCollision, AllowsAPassageAsWideAsTheDisk) {
   const auto squeeze_through = [](double radius) {
     Scene scene(ascii_map({
         "..##..",
@@ -76,7 +76,7 @@ TEST(ObstacleCollision, APassageAsWideAsTheDiskIsWideEnough) {
   EXPECT_EQ(squeeze_through(0.5 + 2.0 * kTolerance).size(), 1U);
 }
 
-TEST(ObstacleCollision, ADiagonalIsJudgedByTheCornerItGrazes) {
+TEST(ObstacleCollision, MeasuresADiagonalAtTheNearestCorner) {
   // The way x + y = s passes the corner (2, 2) of the block at (4 - s) / sqrt(2).
   const auto graze_at = [](double distance) {
     const double s = 4.0 - distance * std::sqrt(2.0);
@@ -95,7 +95,7 @@ TEST(ObstacleCollision, ADiagonalIsJudgedByTheCornerItGrazes) {
   EXPECT_EQ(violations[0].detail.substr(0, 42), "the disk reaches 0.2 m into a blocked cell");
 }
 
-TEST(ObstacleCollision, DrivingThroughABlockIsDeepestWhenTheCentreReachesIt) {
+TEST(ObstacleCollision, IsDeepestWhenTheCentreReachesTheBlock) {
   Scene scene(map_with_a_block());
   scene.add(robot_at(0.5, 2.5), [](PlanBuilder& plan) { plan.translate_to(5.5, 2.5); });
   const auto violations = scene.violations();
@@ -105,7 +105,7 @@ TEST(ObstacleCollision, DrivingThroughABlockIsDeepestWhenTheCentreReachesIt) {
   EXPECT_EQ(violations[0].detail, "the centre of the disk reaches a blocked cell at t = 1.5 s");
 }
 
-TEST(ObstacleCollision, ADiskMuchLargerThanTheCellsIsExactToo) {
+TEST(ObstacleCollision, IsExactForADiskMuchLargerThanTheCells) {
   const auto pass = [](double y) {
     Scene scene(ascii_map(
         {
@@ -133,7 +133,7 @@ TEST(ObstacleCollision, ADiskMuchLargerThanTheCellsIsExactToo) {
               1e-12);  // above the left corner of the cell, the first of the nearest moments
 }
 
-TEST(ObstacleCollision, StandingInAnObstacleIsOneViolationHoweverOftenItWaits) {
+TEST(ObstacleCollision, ReportsStandingInAnObstacleOnce) {
   Scene scene(map_with_a_block());
   scene.stand(robot_at(1.7, 2.5));
   scene.add(robot_at(1.7, 4.6), [](PlanBuilder& plan) { plan.wait(1).rotate_to(1).wait(1).rotate_to(0); });
@@ -145,7 +145,7 @@ TEST(ObstacleCollision, StandingInAnObstacleIsOneViolationHoweverOftenItWaits) {
   EXPECT_THAT(violations[1].robots, ElementsAre(1));
 }
 
-TEST(ObstacleCollision, ActionsOfOneOverlapAreMergedAndOthersAreNot) {
+TEST(ObstacleCollision, MergesActionsOfOneOverlapOnly) {
   Scene scene(map_with_a_block());
   scene.add(robot_at(0.5, 2.5), [](PlanBuilder& plan) {
     plan.translate_to(1.6, 2.5).wait(2).translate_to(1.8, 2.5).wait(1);  // in, and deeper
@@ -159,7 +159,7 @@ TEST(ObstacleCollision, ActionsOfOneOverlapAreMergedAndOthersAreNot) {
   EXPECT_NEAR(violations[1].distance, 0.3, 1e-12);
 }
 
-TEST(ObstacleCollision, ThroughAndBackAreTwoAlthoughTheActionsFollowEachOther) {
+TEST(ObstacleCollision, ReportsThroughAndBackAsTwo) {
   Scene scene(map_with_a_block());
   scene.add(robot_at(0.5, 2.5),
             [](PlanBuilder& plan) { plan.translate_to(5.5, 2.5).translate_to(0.5, 2.5); });
@@ -169,7 +169,7 @@ TEST(ObstacleCollision, ThroughAndBackAreTwoAlthoughTheActionsFollowEachOther) {
   EXPECT_NEAR(violations[1].t, 6.5, 1e-12);
 }
 
-TEST(ObstacleCollision, AJumpFromOneObstacleToAnotherIsTwo) {
+TEST(ObstacleCollision, ReportsAJumpBetweenObstaclesAsTwo) {
   Scene scene(map_with_a_block());
   scene.add(robot_at(1.7, 2.5), [](PlanBuilder& plan) { plan.wait(1).wait(1).wait(1); });
   EXPECT_EQ(scene.violations().size(), 1U);
@@ -185,7 +185,7 @@ TEST(ObstacleCollision, AJumpFromOneObstacleToAnotherIsTwo) {
   EXPECT_THAT(jump_to(Position(1.0, 1.0)), ElementsAre(0.0, 2.0));
 }
 
-TEST(ObstacleCollision, AlongAWallRoundingDoesNotDecideWhenTheOverlapIsDeepest) {
+TEST(ObstacleCollision, IgnoresRoundingAlongAWall) {
   Scene scene(map_with_a_block());
   const double lower = std::nextafter(std::nextafter(1.6, 1.0), 1.0);
   scene.add(robot_at(2.2, 1.6), [lower](PlanBuilder& plan) { plan.translate_to(3.7, lower); });
@@ -198,7 +198,7 @@ TEST(ObstacleCollision, AlongAWallRoundingDoesNotDecideWhenTheOverlapIsDeepest) 
   EXPECT_EQ(back.violations()[0].t, 0.0);
 }
 
-TEST(ObstacleCollision, LeavingTheMapForFarAwayIsFoundAtTheEdge) {
+TEST(ObstacleCollision, FindsARobotThatLeavesTheMapAtTheEdge) {
   Scene scene(map_with_a_block());
   scene.add(robot_at(1, 1),
             [](PlanBuilder& plan) { plan.translate_to(1e9, 1).rotate_to(kPi).translate_to(1, 1); });
@@ -208,7 +208,7 @@ TEST(ObstacleCollision, LeavingTheMapForFarAwayIsFoundAtTheEdge) {
   EXPECT_EQ(violations[0].distance, 0.0);
 }
 
-TEST(ObstacleCollision, OutsideTheMapIsBlockedEverywhere) {
+TEST(ObstacleCollision, ReportsRobotsOutsideTheMap) {
   Scene scene(map_with_a_block());
   scene.stand(robot_at(-100, 2)).stand(robot_at(3, 1e12)).stand(robot_at(0, 0));
   EXPECT_THAT(kinds_of(scene.violations()),

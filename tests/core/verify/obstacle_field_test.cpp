@@ -1,4 +1,4 @@
-// The distance to what is blocked: known cases, and brute force over all cells.
+// The distance to obstacles: known cases, and brute force over all cells.
 
 #include "core/verify/obstacle_field.h"
 
@@ -45,7 +45,7 @@ OccupancyGrid random_grid(std::mt19937& random, double density) {
   return grid;
 }
 
-TEST(ObstacleField, OfAFreeMapIsItsEdge) {
+TEST(ObstacleField, ConsistsOfTheEdgeOnAFreeMap) {
   const ObstacleField field(ascii_map({"....", "....", "...."}));
   const auto nearest = field.nearest(Position(1, 1.5), Position(3.25, 1.5), kNoLimit);
   ASSERT_TRUE(nearest.has_value());
@@ -55,13 +55,13 @@ TEST(ObstacleField, OfAFreeMapIsItsEdge) {
   EXPECT_FALSE(field.nearest(Position(1, 1.5), Position(3.25, 1.5), 0.75).has_value());
 }
 
-TEST(ObstacleField, WithoutReachHasNothing) {
+TEST(ObstacleField, FindsNothingWithoutReach) {
   const ObstacleField field(ascii_map({"#"}));
   EXPECT_FALSE(field.nearest(Position(0.5, 0.5), Position(0.5, 0.5), 0.0).has_value());
   EXPECT_FALSE(field.nearest(Position(0.5, 0.5), Position(7, 7), -1.0).has_value());
 }
 
-TEST(ObstacleField, TheFirstOfSeveralObstaclesEnteredCounts) {
+TEST(ObstacleField, FindsTheFirstOfSeveralObstaclesEntered) {
   const ObstacleField field(ascii_map({
       ".........",
       "..#..##..",
@@ -74,7 +74,7 @@ TEST(ObstacleField, TheFirstOfSeveralObstaclesEnteredCounts) {
   EXPECT_DOUBLE_EQ(back->point.fraction, 1.5 / 8.0);
 }
 
-TEST(ObstacleField, TheEdgeIsReachedWhereTheFirstSideIsCrossed) {
+TEST(ObstacleField, FindsTheEdgeWhereTheFirstSideIsCrossed) {
   const ObstacleField field(ascii_map({"....", "...."}));
   const Position from(1, 1);
   for (const Position& to : {Position(9, 5), Position(9, -3), Position(-3, 9), Position(-3, 1.5)}) {
@@ -87,7 +87,7 @@ TEST(ObstacleField, TheEdgeIsReachedWhereTheFirstSideIsCrossed) {
   EXPECT_DOUBLE_EQ(field.nearest(from, Position(9, 2.5), kNoLimit)->point.fraction, 0.375);
 }
 
-TEST(ObstacleField, ACellOnTheWayOutOfTheMapCountsBeforeTheEdge) {
+TEST(ObstacleField, PrefersACellBeforeTheEdge) {
   const ObstacleField field(ascii_map({"....", "..#.", "...."}));
   const auto leaving = field.nearest(Position(1, 1.5), Position(9, 1.5), kNoLimit);
   EXPECT_FALSE(leaving->is_edge);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Random plans, and where robots are in them, told as plainly as possible.
+// Random plans, and the positions of robots in them, computed as plainly as possible.
 
 #include <algorithm>
 #include <cstddef>
@@ -19,7 +19,7 @@ struct RandomFleet {
 };
 
 /// Robots of various sizes and speeds that drive, turn and wait at random between points of a square of
-/// `side` metres, in up to `most_actions` actions each. Some have no plan. They collide as they like.
+/// `side` metres, in up to `most_actions` actions each. Some have no plan. They may collide.
 inline RandomFleet random_fleet(std::mt19937& random, std::size_t count, double side, int most_actions) {
   const auto uniform = [&random](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -53,7 +53,7 @@ inline RandomFleet random_fleet(std::mt19937& random, std::size_t count, double 
   return fleet;
 }
 
-/// Where a robot of the fleet is at time t; its plan is valid.
+/// The position of a robot of the fleet at time t; its plan is valid.
 inline Position sampled_position(const RandomFleet& fleet, std::size_t robot, double t) {
   Position position = fleet.robots[robot].start.position;
   for (const RobotPlan& plan : fleet.plans) {

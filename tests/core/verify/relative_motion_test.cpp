@@ -8,7 +8,7 @@
 namespace fleetplan::core {
 namespace {
 
-TEST(RelativeMotion, WithoutMotionKeepsItsDistance) {
+TEST(RelativeMotion, KeepsItsDistanceWithoutMotion) {
   const double infinity = std::numeric_limits<double>::infinity();
   const RelativeMotion rest{3.0, infinity, Position(3, 4), Position(3, 4)};
   EXPECT_EQ(least_squared_distance(rest), 25.0);
@@ -20,7 +20,7 @@ TEST(RelativeMotion, WithoutMotionKeepsItsDistance) {
   EXPECT_EQ(span->end, infinity);
 }
 
-TEST(RelativeMotion, PassingIsNearestAbreast) {
+TEST(RelativeMotion, IsNearestWhenPassing) {
   const RelativeMotion pass{10.0, 14.0, Position(-4, 3), Position(4, 3)};
   EXPECT_DOUBLE_EQ(least_squared_distance(pass), 9.0);
   EXPECT_DOUBLE_EQ(closest_moment(pass).t, 12.0);
@@ -30,14 +30,14 @@ TEST(RelativeMotion, PassingIsNearestAbreast) {
   EXPECT_NEAR(span->end, 12.5, 1e-12);
 }
 
-TEST(RelativeMotion, PassingInContactIsNotCloser) {
+TEST(RelativeMotion, HasNoSpanWhenPassingInContact) {
   const RelativeMotion pass{0.0, 1.0, Position(-4, 3), Position(4, 3)};
   EXPECT_FALSE(span_closer_than(pass, 3.0).has_value());
   EXPECT_FALSE(span_closer_than(pass, 0.0).has_value());
   EXPECT_FALSE(span_closer_than(pass, -1.0).has_value());
 }
 
-TEST(RelativeMotion, SpansBeginAndEndExactlyWithTheMotionWhereAnEndIsInside) {
+TEST(RelativeMotion, HasExactSpansAtTheEndsOfTheMotion) {
   const RelativeMotion leaving{0.1, 0.7, Position(0, 1), Position(0, 9)};
   EXPECT_EQ(span_closer_than(leaving, 2.0)->begin, 0.1);
   EXPECT_NEAR(span_closer_than(leaving, 2.0)->end, 0.1 + 0.6 / 8.0, 1e-12);
@@ -51,7 +51,7 @@ TEST(RelativeMotion, KeepsItsPrecisionFarAway) {
   EXPECT_NEAR(least_squared_distance(pass), 1.0, 1e-9);
 }
 
-TEST(RelativeMotion, NearlyEqualVelocitiesAreNearestAtTheBeginning) {
+TEST(RelativeMotion, IsNearestAtTheBeginningForNearlyEqualVelocities) {
   const RelativeMotion follow{2.0, 9.0, Position(1, 0), Position(1.0 - 1e-15, 1e-16)};
   EXPECT_EQ(closest_moment(follow).t, 2.0);
   EXPECT_NEAR(closest_moment(follow).distance, 1.0, 1e-14);

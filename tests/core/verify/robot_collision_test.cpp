@@ -1,4 +1,4 @@
-// Disks against disks: each way to meet, and where exactly contact becomes a collision.
+// Disks against disks: all kinds of meetings, and the limit between contact and collision.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ Scene passing_at(double gap) {
   return scene;
 }
 
-TEST(RobotCollision, ContactAndOverlapsWithinTheToleranceAreAllowed) {
+TEST(RobotCollision, AllowsContactAndOverlapsWithinTheTolerance) {
   EXPECT_THAT(passing_at(0.0).violations(), IsEmpty());
   EXPECT_THAT(passing_at(0.0).violations(0.0), IsEmpty());
   EXPECT_THAT(passing_at(-0.5 * kTolerance).violations(), IsEmpty());
@@ -34,7 +34,7 @@ TEST(RobotCollision, ContactAndOverlapsWithinTheToleranceAreAllowed) {
   EXPECT_THAT(passing_at(0.1).violations(), IsEmpty());
 }
 
-TEST(RobotCollision, SaysWhenAndHowDeepTheOverlapIs) {
+TEST(RobotCollision, ReportsTimeAndDepthOfTheOverlap) {
   const auto violations = passing_at(-0.2).violations();
   ASSERT_EQ(violations.size(), 1U);
   EXPECT_EQ(violations[0].kind, Kind::robot_collision);
@@ -46,7 +46,7 @@ TEST(RobotCollision, SaysWhenAndHowDeepTheOverlapIs) {
   EXPECT_EQ(violations[0].detail, "the disks overlap by 0.2 m from t = 2.4 s to 3.6 s");
 }
 
-TEST(RobotCollision, HeadOnIsFoundAtTheMomentOfMeeting) {
+TEST(RobotCollision, ReportsTheMomentOfAHeadOnMeeting) {
   Scene scene;
   scene.add(robot_at(2, 5, 0.0), [](PlanBuilder& plan) { plan.translate_to(8, 5); });
   scene.add(robot_at(8, 5, kPi), [](PlanBuilder& plan) { plan.translate_to(2, 5); });
@@ -56,7 +56,7 @@ TEST(RobotCollision, HeadOnIsFoundAtTheMomentOfMeeting) {
   EXPECT_NEAR(violations[0].distance, 0.0, 1e-12);
 }
 
-TEST(RobotCollision, HeadOnIntoContactIsAllowed) {
+TEST(RobotCollision, AllowsAHeadOnApproachToContact) {
   Scene scene;
   scene.add(robot_at(2, 5, 0.0), [](PlanBuilder& plan) { plan.translate_to(4.5, 5); });
   scene.add(robot_at(8, 5, kPi), [](PlanBuilder& plan) { plan.translate_to(5.5, 5); });
@@ -65,7 +65,7 @@ TEST(RobotCollision, HeadOnIntoContactIsAllowed) {
   EXPECT_NEAR(*report.min_clearance, 0.0, 1e-12);
 }
 
-TEST(RobotCollision, FollowingAtTheSameSpeedIsJudgedByTheGap) {
+TEST(RobotCollision, MeasuresTheGapOfRobotsAtTheSameSpeed) {
   const auto follow = [](double gap) {
     Scene scene;
     scene.add(robot_at(3 - gap, 5), [](PlanBuilder& plan) { plan.translate_to(10, 5); });
@@ -80,7 +80,7 @@ TEST(RobotCollision, FollowingAtTheSameSpeedIsJudgedByTheGap) {
   EXPECT_THAT(violations[0].detail, HasSubstr("from t = 0 s on, for ever"));
 }
 
-TEST(RobotCollision, OvertakingBesideIsFineAndThroughIsNot) {
+TEST(RobotCollision, AllowsOvertakingOnlyBesideTheOther) {
   const auto overtake_at = [](double y) {
     Scene scene;
     scene.add(robot_at(4, 5), [](PlanBuilder& plan) { plan.translate_to(8, 5, 0.25); });
@@ -97,7 +97,7 @@ TEST(RobotCollision, OvertakingBesideIsFineAndThroughIsNot) {
   EXPECT_NEAR(violations[0].t, 2.0 / 0.75, 1e-12);
 }
 
-TEST(RobotCollision, CrossingIsFineForWhoWaitsLongEnough) {
+TEST(RobotCollision, AllowsCrossingAfterASufficientWait) {
   const auto cross_after = [](double wait) {
     Scene scene;
     scene.add(robot_at(2, 5, 0.0), [](PlanBuilder& plan) { plan.translate_to(8, 5); });
@@ -112,7 +112,7 @@ TEST(RobotCollision, CrossingIsFineForWhoWaitsLongEnough) {
   EXPECT_NEAR(violations[0].t, 3.5, 1e-12);
 }
 
-TEST(RobotCollision, RestingWhereAnotherComesLaterNeverEnds) {
+TEST(RobotCollision, ReportsAnOverlapWithoutEnd) {
   Scene scene;
   scene.add(robot_at(5, 8, -kPi / 2), [](PlanBuilder& plan) { plan.translate_to(5, 5); });
   scene.add(robot_at(10, 5, kPi), [](PlanBuilder& plan) { plan.wait(4).translate_to(5.5, 5); });
@@ -123,7 +123,7 @@ TEST(RobotCollision, RestingWhereAnotherComesLaterNeverEnds) {
   EXPECT_EQ(violations[0].detail, "the disks overlap by 0.5 m from t = 8 s on, for ever");
 }
 
-TEST(RobotCollision, ArrivingAtAParkedRobotMayTouchIt) {
+TEST(RobotCollision, AllowsContactWithAParkedRobot) {
   const auto arrive_at = [](double x) {
     Scene scene;
     scene.stand(robot_at(8, 5));
@@ -134,7 +134,7 @@ TEST(RobotCollision, ArrivingAtAParkedRobotMayTouchIt) {
   EXPECT_EQ(arrive_at(7.1).size(), 1U);
 }
 
-TEST(RobotCollision, StartsThatOverlapAreFoundAtOnce) {
+TEST(RobotCollision, ReportsOverlappingStartsAtTimeZero) {
   Scene scene;
   scene.stand(robot_at(5, 5)).stand(robot_at(5.5, 5)).stand(robot_at(5, 6));
   const auto violations = scene.violations();
@@ -143,7 +143,7 @@ TEST(RobotCollision, StartsThatOverlapAreFoundAtOnce) {
   EXPECT_THAT(violations[0].robots, ElementsAre(0, 1));
 }
 
-TEST(RobotCollision, EachEpisodeOfOverlapIsToldOnce) {
+TEST(RobotCollision, ReportsEachUninterruptedOverlapOnce) {
   Scene scene;
   scene.stand(robot_at(5, 5));
   scene.add(robot_at(2, 5), [](PlanBuilder& plan) {
@@ -159,7 +159,7 @@ TEST(RobotCollision, EachEpisodeOfOverlapIsToldOnce) {
   EXPECT_NEAR(violations[1].distance, 0.0, 1e-12);
 }
 
-TEST(RobotCollision, DifferentRadiiAddUp) {
+TEST(RobotCollision, AddsDifferentRadii) {
   Scene scene;
   scene.stand(robot_at(5, 5, 0.0, 1.5));
   scene.stand(robot_at(7, 5, 0.0, 0.5));
@@ -170,13 +170,13 @@ TEST(RobotCollision, DifferentRadiiAddUp) {
   EXPECT_DOUBLE_EQ(violations[0].required, 2.1);
 }
 
-TEST(RobotCollision, AHeapOfRobotsDoesNotMakeAnEndlessReport) {
+TEST(RobotCollision, LimitsTheNumberOfReportedOverlaps) {
   Scene scene;
   for (int k = 0; k < 200; ++k) scene.stand(robot_at(5, 5));
   EXPECT_EQ(scene.violations().size(), kMostCollisions);
 }
 
-TEST(MinClearance, IsBetweenBareDisksAndCountsRobotsThatStand) {
+TEST(MinClearance, IsBetweenDisksWithoutInflationAndIncludesStandingRobots) {
   Scene scene;
   scene.stand(robot_at(5, 5));
   EXPECT_FALSE(scene.check().min_clearance.has_value());

@@ -1,6 +1,6 @@
 #pragma once
 
-// A fleet on a map, and what the checker says about it.
+// Robots on a map, and the checker's report about them.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using Kind = Violation::Kind;
 
 inline constexpr double kTolerance = 1e-6;
 
-/// Shows a violation where an expectation fails.
+/// For the messages of failed expectations.
 inline void PrintTo(const Violation& violation, std::ostream* out) {
   *out << "kind " << static_cast<int>(violation.kind) << " at " << violation.t << ": " << violation.detail;
 }
@@ -37,8 +37,8 @@ inline Robot robot_at(double x, double y, double theta = 0.0, double radius = 0.
 /// A map of free cells of a metre each.
 inline OccupancyGrid open_map(int columns = 20, int rows = 20) { return OccupancyGrid(columns, rows, 1.0); }
 
-/// Robots and their plans; each plan's end becomes the robot's goal, so that only what a test breaks is
-/// wrong.
+/// Robots and their plans. Each plan's end becomes the robot's goal, so that a scene is valid until a test
+/// breaks it.
 class Scene {
  public:
   explicit Scene(OccupancyGrid grid = open_map()) : grid_(std::move(grid)) {}
@@ -49,11 +49,11 @@ class Scene {
     return *this;
   }
 
-  /// A robot that does what `told` adds to its plan.
-  template <typename Told>
-  Scene& add(Robot robot, Told told) {
+  /// A robot with the plan that `build` adds to a PlanBuilder.
+  template <typename Build>
+  Scene& add(Robot robot, Build build) {
     support::PlanBuilder builder(robots_.size(), robot);
-    told(builder);
+    build(builder);
     const RobotPlan plan = builder.build();
     if (!plan.actions.empty()) {
       const Pose& rest = plan.actions.back().to;

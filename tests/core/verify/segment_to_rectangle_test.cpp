@@ -9,13 +9,13 @@ namespace {
 
 const Rectangle kSquare{Position(2, 2), Position(3, 3)};
 
-TEST(SegmentToRectangle, APointIsASegmentToo) {
+TEST(SegmentToRectangle, AcceptsAPointAsASegment) {
   EXPECT_EQ(nearest_to_rectangle(Position(2.5, 2.5), Position(2.5, 2.5), kSquare).distance, 0.0);
   EXPECT_EQ(nearest_to_rectangle(Position(2.5, 4), Position(2.5, 4), kSquare).distance, 1.0);
   EXPECT_DOUBLE_EQ(nearest_to_rectangle(Position(4, 4), Position(4, 4), kSquare).distance, std::sqrt(2.0));
 }
 
-TEST(SegmentToRectangle, EntersWhereItTouchesFirst) {
+TEST(SegmentToRectangle, FindsTheFirstPointOfContact) {
   const NearestPoint through = nearest_to_rectangle(Position(0, 2.5), Position(4, 2.5), kSquare);
   EXPECT_EQ(through.distance, 0.0);
   EXPECT_DOUBLE_EQ(through.fraction, 0.5);
@@ -43,7 +43,7 @@ TEST(SegmentToRectangle, DoesNotDependOnTheDirection) {
   }
 }
 
-TEST(SegmentToRectangle, WhatLiesInsideIsClippedToIt) {
+TEST(SegmentToRectangle, ClipsASegmentToTheRectangle) {
   const Stretch stretch = stretch_inside(Position(0, 2.5), Position(4, 2.5), kSquare);
   EXPECT_DOUBLE_EQ(stretch.first, 0.5);
   EXPECT_DOUBLE_EQ(stretch.last, 0.75);

@@ -1,4 +1,4 @@
-#include "core/bounds/taut_bounds.h"
+#include "core/bounds/taut_path_bounds.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/bounds/lower_bound.h"
-#include "core/bounds/taut_search.h"
+#include "core/bounds/taut_path_search.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 
@@ -25,13 +25,13 @@ using support::make_problem;
 using support::robot_at;
 
 constexpr double kPi = std::numbers::pi;
-/// What the smaller disk of TautSearch makes of times.
+/// What the smaller disk of TautPathSearch makes of times.
 constexpr double kShrunk = 1e-5;
 
 /// `cost`: of a plan that is known.
 double bound_of(const Problem& problem, const PlanOptions& options = {}, double cost = kForever) {
   const Instance instance(problem, options);
-  const TautBounds bounds(instance, {0}, {cost}, StopCondition());
+  const TautPathBounds bounds(instance, {0}, {cost}, StopCondition());
   EXPECT_FALSE(bounds.cut_off());
   return bounds[0];
 }
@@ -56,12 +56,12 @@ OccupancyGrid wall() {
                     "...#..."});
 }
 
-TEST(TautBounds, AreTheStraightLineAndTheTurnsInTheOpen) {
+TEST(TautPathBounds, AreTheStraightLineAndTheTurnsInTheOpen) {
   const Problem problem = make_problem(wall(), {robot_at(0.5, 0.5, 1.0).to(1.5, 4.5, 2.0)});
   EXPECT_EQ(bound_of(problem), straight_bound_of(problem));
 }
 
-TEST(TautBounds, GoAroundAWallOnArcsOfTheRadius) {
+TEST(TautPathBounds, GoAroundAWallOnArcsOfTheRadius) {
   // Up to above the corner (3, 3) and, with the same slope, down again from above (4, 3).
   const double rise = std::atan2(1.5, 1.5) + std::asin(0.5 / std::hypot(1.5, 1.5));
   const double reach = std::sqrt(1.5 * 1.5 + 1.5 * 1.5 - 0.5 * 0.5);
@@ -74,7 +74,7 @@ TEST(TautBounds, GoAroundAWallOnArcsOfTheRadius) {
   EXPECT_NEAR(bound_of(turned), length / 2.0 + (2.0 * rise + kPi) / 0.5, kShrunk);
 }
 
-TEST(TautBounds, AddAWaitForEachTranslationThatNoPathCanSpare) {
+TEST(TautPathBounds, AddAWaitForEachTranslationThatNoPathCanSpare) {
   const auto waits = [](const OccupancyGrid& grid, const Robot& robot) {
     const Problem problem = make_problem(grid, {robot});
     PlanOptions options;
@@ -92,7 +92,7 @@ TEST(TautBounds, AddAWaitForEachTranslationThatNoPathCanSpare) {
   EXPECT_NEAR(waits(slalom, robot_at(1.5, 3.5).to(8.5, 2.5)), 3.0, 1e-6) << "under, across, and over";
 }
 
-TEST(TautBounds, DoNotUseAGapThatJustFitsBetweenCellCentres) {
+TEST(TautPathBounds, DoNotUseAGapThatJustFitsBetweenCellCentres) {
   const OccupancyGrid grid = ascii_map({"...............",  //
                                         "...............",  //
                                         "...............",  //
@@ -107,7 +107,7 @@ TEST(TautBounds, DoNotUseAGapThatJustFitsBetweenCellCentres) {
   EXPECT_LT(bound(0.99), 10.0);
 }
 
-TEST(TautBounds, UseAGapThatJustFitsAroundCellCentres) {
+TEST(TautPathBounds, UseAGapThatJustFitsAroundCellCentres) {
   const OccupancyGrid grid = ascii_map({"...............",  //
                                         "...............",  //
                                         "##.#########...",  //
@@ -120,7 +120,7 @@ TEST(TautBounds, UseAGapThatJustFitsAroundCellCentres) {
   EXPECT_LE(bound_of(problem), *cost);
 }
 
-TEST(TautBounds, UseAGapThatJustFitsFromAStartWithinIt) {
+TEST(TautPathBounds, UseAGapThatJustFitsFromAStartWithinIt) {
   const OccupancyGrid grid = ascii_map({".......",  //
                                         ".......",  //
                                         ".......",  //
@@ -137,7 +137,7 @@ std::string rooms_row(int row) {
   return row % 4 == 0 ? "######.#.######.#" : (row % 4 == 2 ? "....#...#.......#" : "....#...#...#...#");
 }
 
-TEST(TautBounds, AreWithinAFewPercentOfALoneRobotsCost) {
+TEST(TautPathBounds, AreWithinAFewPercentOfALoneRobotsCost) {
   std::vector<std::string> rooms;
   rooms.reserve(16);
   for (int row = 0; row < 16; ++row) rooms.push_back(rooms_row(row));
@@ -207,9 +207,9 @@ std::optional<Problem> snug_problem(support::Dice& dice) {
   return std::nullopt;
 }
 
-class TautBoundsOfRandomProblems : public testing::TestWithParam<bool> {};
+class TautPathBoundsOfRandomProblems : public testing::TestWithParam<bool> {};
 
-TEST_P(TautBoundsOfRandomProblems, AreNeverAboveTheCostOfTheRobotAloneNorBelowTheStraightLine) {
+TEST_P(TautPathBoundsOfRandomProblems, AreNeverAboveTheCostOfTheRobotAloneNorBelowTheStraightLine) {
   const std::uint64_t seed = 53;
   support::Dice dice(seed);
   int better = 0;
@@ -236,9 +236,9 @@ TEST_P(TautBoundsOfRandomProblems, AreNeverAboveTheCostOfTheRobotAloneNorBelowTh
   EXPECT_GT(close, 50);
 }
 
-INSTANTIATE_TEST_SUITE_P(Snug, TautBoundsOfRandomProblems, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(Snug, TautPathBoundsOfRandomProblems, testing::Bool());
 
-TEST(TautBounds, AreTheSameForAMirroredMap) {
+TEST(TautPathBounds, AreTheSameForAMirroredMap) {
   const std::uint64_t seed = 59;
   support::Dice dice(seed);
   int around = 0;
@@ -266,7 +266,7 @@ TEST(TautBounds, AreTheSameForAMirroredMap) {
   EXPECT_GT(around, 50);
 }
 
-TEST(TautBounds, FallWhereObstaclesAreRemoved) {
+TEST(TautPathBounds, FallWhereObstaclesAreRemoved) {
   const std::uint64_t seed = 61;
   support::Dice dice(seed);
   int fell = 0;
@@ -291,23 +291,24 @@ TEST(TautBounds, FallWhereObstaclesAreRemoved) {
   EXPECT_GT(fell, 25);
 }
 
-TEST(TautBounds, OfAMetStopConditionAreStraightAndSaySo) {
+TEST(TautPathBounds, OfAMetStopConditionAreStraightAndSaySo) {
   const Problem problem =
       make_problem(wall(), {robot_at(1.5, 1.5).to(5.5, 1.5), robot_at(0.5, 3.5).to(5.5, 3.5)});
   const Instance instance(problem, {});
-  const TautBounds bounds(instance, {0, 1}, {kForever, kForever}, met());
+  const TautPathBounds bounds(instance, {0, 1}, {kForever, kForever}, met());
   EXPECT_TRUE(bounds.cut_off());
   EXPECT_EQ(bounds[0], lower_bound(instance.robot(0), instance.motion(0)));
-  EXPECT_FALSE(TautBounds(instance, {1}, {kForever, kForever}, met()).cut_off()) << "its goal is in sight";
+  EXPECT_FALSE(TautPathBounds(instance, {1}, {kForever, kForever}, met()).cut_off())
+      << "its goal is in sight";
 }
 
-TEST(TautBounds, AreZeroForRobotsThatWereNotAskedFor) {
+TEST(TautPathBounds, AreZeroForRobotsThatWereNotAskedFor) {
   const Problem problem = make_problem(wall(), {robot_at(1.5, 1.5).to(5.5, 1.5), robot_at(0.5, 3.5)});
   const Instance instance(problem, {});
-  EXPECT_EQ(TautBounds(instance, {0}, {kForever, kForever}, StopCondition())[1], 0.0);
+  EXPECT_EQ(TautPathBounds(instance, {0}, {kForever, kForever}, StopCondition())[1], 0.0);
 }
 
-TEST(TautBounds, OfManyRobotsOnALargeMapFullOfCornersTakeLimitedWork) {
+TEST(TautPathBounds, OfManyRobotsOnALargeMapFullOfCornersTakeLimitedWork) {
   support::Dice dice(67);
   OccupancyGrid grid(400, 400, 1.0);
   for (int k = 0; k < 16000; ++k) grid.block({dice.below(400), dice.below(400)});
@@ -324,11 +325,11 @@ TEST(TautBounds, OfManyRobotsOnALargeMapFullOfCornersTakeLimitedWork) {
   const Instance instance(problem, {});
   std::vector<std::size_t> all(instance.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const TautBounds bounds(instance, all, std::vector<double>(instance.size(), kForever), StopCondition());
+  const TautPathBounds bounds(instance, all, std::vector<double>(instance.size(), kForever), StopCondition());
   EXPECT_FALSE(bounds.cut_off());
-  CornerSight corners(grid, 0.3, 0.4);
+  CornerVisibility corners(grid, 0.3, 0.4);
   for (const std::size_t robot : {std::size_t{0}, all.back()}) {
-    TautSearch search(corners, instance.sight(), instance.motion(robot).radius);
+    TautPathSearch search(corners, instance.sight(), instance.motion(robot).radius);
     const double whole =
         search.run(instance.robot(robot), instance.motion(robot), kForever, 1'000'000'000, StopCondition())
             .seconds;
@@ -337,15 +338,15 @@ TEST(TautBounds, OfManyRobotsOnALargeMapFullOfCornersTakeLimitedWork) {
   }
 }
 
-TEST(TautSearch, KnowsLessAfterLessWork) {
+TEST(TautPathSearch, KnowsLessAfterLessWork) {
   const Problem problem = make_problem(maze(), {robot_at(1.5, 0.5).to(1.5, 8.5)});
   const Instance instance(problem, {});
   double before = lower_bound(instance.robot(0), instance.motion(0));
   const double first = before;
   for (const std::int64_t work : {0, 400, 1200, 1000000}) {
-    CornerSight corners(problem.grid(), instance.motion(0).radius, instance.motion(0).radius);
-    TautSearch search(corners, instance.sight(), instance.motion(0).radius);
-    const TautResult result =
+    CornerVisibility corners(problem.grid(), instance.motion(0).radius, instance.motion(0).radius);
+    TautPathSearch search(corners, instance.sight(), instance.motion(0).radius);
+    const TautPathResult result =
         search.run(instance.robot(0), instance.motion(0), kForever, work, StopCondition());
     EXPECT_FALSE(result.cut_off);
     EXPECT_GT(result.seconds, before);
@@ -355,7 +356,7 @@ TEST(TautSearch, KnowsLessAfterLessWork) {
   EXPECT_NEAR(before, *cost_alone(problem), 0.05 * before);
 }
 
-TEST(TautSearch, SparesWorkWhereAPlanIsKnown) {
+TEST(TautPathSearch, SparesWorkWhereAPlanIsKnown) {
   OccupancyGrid pillars(30, 30, 1.0);
   for (int row = 2; row < 30; row += 3) {
     for (int column = 2; column < 30; column += 3) pillars.block({column, row});
@@ -364,8 +365,8 @@ TEST(TautSearch, SparesWorkWhereAPlanIsKnown) {
   const Instance instance(problem, {});
   const double radius = instance.motion(0).radius;
   const auto work = [&](double at_most) {
-    CornerSight corners(problem.grid(), radius, radius);
-    TautSearch search(corners, instance.sight(), radius);
+    CornerVisibility corners(problem.grid(), radius, radius);
+    TautPathSearch search(corners, instance.sight(), radius);
     search.run(instance.robot(0), instance.motion(0), at_most, 1'000'000, StopCondition());
     return search.work();
   };

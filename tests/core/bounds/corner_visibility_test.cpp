@@ -1,4 +1,4 @@
-#include "core/bounds/corner_sight.h"
+#include "core/bounds/corner_visibility.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,26 +19,27 @@ using support::ascii_map;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-std::vector<std::pair<double, double>> places(const CornerSight& sight, const std::vector<int>& corners) {
+std::vector<std::pair<double, double>> places(const CornerVisibility& sight,
+                                              const std::vector<int>& corners) {
   std::vector<std::pair<double, double>> found;
   found.reserve(corners.size());
   for (const int corner : corners) found.emplace_back(sight.position(corner).x(), sight.position(corner).y());
   return found;
 }
 
-std::vector<int> all(const CornerSight& sight) {
+std::vector<int> all(const CornerVisibility& sight) {
   std::vector<int> corners(static_cast<std::size_t>(sight.count()));
   std::iota(corners.begin(), corners.end(), 0);
   return corners;
 }
 
-TEST(CornerSight, HasTheConvexCornersOnly) {
+TEST(CornerVisibility, HasTheConvexCornersOnly) {
   const OccupancyGrid grid = ascii_map({"#....",  //
                                         "..##.",  //
                                         "..#..",  //
                                         "....."},
                                        0.5);
-  CornerSight sight(grid, 0.0, 0.0);
+  CornerVisibility sight(grid, 0.0, 0.0);
   EXPECT_THAT(places(sight, all(sight)),
               ElementsAre(std::pair(1.0, 0.5), std::pair(1.5, 0.5), std::pair(2.0, 1.0), std::pair(0.5, 1.5),
                           std::pair(1.0, 1.5), std::pair(2.0, 1.5)));
@@ -46,32 +47,33 @@ TEST(CornerSight, HasTheConvexCornersOnly) {
   EXPECT_EQ(sight.corner(0).away_y, -1);
 }
 
-TEST(CornerSight, HasNoneAtTheEdgeOrWhereCellsTouchDiagonally) {
+TEST(CornerVisibility, HasNoneAtTheEdgeOrWhereCellsTouchDiagonally) {
   const OccupancyGrid grid = ascii_map({".#.",  //
                                         "#..",  //
                                         "..."});
-  CornerSight sight(grid, 0.0, 0.0);
+  CornerVisibility sight(grid, 0.0, 0.0);
   EXPECT_THAT(places(sight, all(sight)), ElementsAre(std::pair(1.0, 1.0), std::pair(2.0, 2.0)));
 }
 
-TEST(CornerSight, SeesAlongWallsAndNotThroughThem) {
+TEST(CornerVisibility, SeesAlongWallsAndNotThroughThem) {
   const OccupancyGrid grid = ascii_map({".......",  //
                                         ".##.##.",  //
                                         "......."});
-  CornerSight sight(grid, 0.0, 0.0);
-  EXPECT_THAT(places(sight, sight.seen_from({0.5, 0.5})),
+  CornerVisibility sight(grid, 0.0, 0.0);
+  EXPECT_THAT(places(sight, sight.visible_from({0.5, 0.5})),
               ElementsAre(std::pair(1.0, 1.0), std::pair(3.0, 1.0), std::pair(4.0, 1.0), std::pair(6.0, 1.0),
                           std::pair(1.0, 2.0)));
   EXPECT_THAT(places(sight, sight.bends_from(0)), ElementsAre(std::pair(3.0, 1.0), std::pair(4.0, 1.0),
                                                               std::pair(6.0, 1.0), std::pair(1.0, 2.0)));
-  EXPECT_EQ(sight.seen_from({0.5, 1.0}), sight.seen_from({0.5, 0.5})) << "a line of sight may touch walls";
+  EXPECT_EQ(sight.visible_from({0.5, 1.0}), sight.visible_from({0.5, 0.5}))
+      << "a line of sight may touch walls";
 }
 
-TEST(CornerSight, OfAFreeMapIsEmpty) {
+TEST(CornerVisibility, OfAFreeMapIsEmpty) {
   const OccupancyGrid grid(4, 3, 1.0);
-  CornerSight sight(grid, 0.0, 0.0);
+  CornerVisibility sight(grid, 0.0, 0.0);
   EXPECT_EQ(sight.count(), 0);
-  EXPECT_THAT(sight.seen_from({2.0, 1.5}), IsEmpty());
+  EXPECT_THAT(sight.visible_from({2.0, 1.5}), IsEmpty());
 }
 
 /// Does the segment meet a blocked cell that is taken smaller by `margin` cells on all sides?
@@ -104,7 +106,7 @@ bool may_bend_towards(const Corner& corner, const Position& d) {
   return d.x() * corner.away_x * d.y() * corner.away_y <= 0.0;
 }
 
-TEST(CornerSight, MissesNoCornerThatAThinStripReachesAndPassesThroughNoCell) {
+TEST(CornerVisibility, MissesNoCornerThatAThinStripReachesAndPassesThroughNoCell) {
   const std::uint64_t seed = 41;
   support::Dice dice(seed);
   int seen = 0;
@@ -113,7 +115,7 @@ TEST(CornerSight, MissesNoCornerThatAThinStripReachesAndPassesThroughNoCell) {
   for (int k = 0; k < 120; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << k);
     const OccupancyGrid grid = support::random_map(dice);
-    CornerSight sight(grid, 0.0, 0.0);
+    CornerVisibility sight(grid, 0.0, 0.0);
     if (sight.count() == 0) continue;
     for (int view = 0; view < 6; ++view) {
       const int from_corner = dice.below(sight.count());
@@ -124,7 +126,7 @@ TEST(CornerSight, MissesNoCornerThatAThinStripReachesAndPassesThroughNoCell) {
           from = 0.5 * grid.resolution() * (2.0 * from / grid.resolution()).array().round().matrix();
         if (obstacle_distance(grid, from, 1.0) <= 0.05 * grid.resolution()) continue;
       }
-      const auto found = view % 2 == 0 ? sight.seen_from(from) : sight.bends_from(from_corner);
+      const auto found = view % 2 == 0 ? sight.visible_from(from) : sight.bends_from(from_corner);
       for (int corner = 0; corner < sight.count(); ++corner) {
         const Position to = sight.position(corner);
         if ((to - from).norm() < 0.01 * grid.resolution()) continue;

@@ -1,4 +1,4 @@
-#include "core/bounds/tangents.h"
+#include "core/bounds/tangent_graph.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ struct World {
   std::vector<Tangent> free_from(const Bend& bend) {
     const std::span<const Tangent> all = tangents.from(bend);
     std::vector<Tangent> free;
-    for (std::size_t k = 0; k < all.size(); ++k) {
+    for (int k = 0; k < static_cast<int>(all.size()); ++k) {
       if (tangents.is_free(bend, k)) free.push_back(all[k]);
     }
     return free;
@@ -41,8 +41,8 @@ struct World {
 
   OccupancyGrid grid;
   LineOfSight sight;
-  CornerSight corners;
-  Tangents tangents;
+  CornerVisibility corners;
+  TangentGraph tangents;
 };
 
 /// A blocked cell with its corners at (2, 2), (3, 2), (2, 3) and (3, 3).
@@ -54,7 +54,7 @@ OccupancyGrid block() {
                     "....."});
 }
 
-TEST(Tangents, FromAPointTouchTheCircleAroundTheCorner) {
+TEST(TangentGraph, FromAPointTouchTheCircleAroundTheCorner) {
   World w(block(), 0.5);
   const auto level = w.tangents.from_point({0.5, 1.5}, {1, true});
   ASSERT_TRUE(level);
@@ -62,23 +62,23 @@ TEST(Tangents, FromAPointTouchTheCircleAroundTheCorner) {
   EXPECT_NEAR(level->length, 2.5, kShrunk);
   EXPECT_NEAR((level->begin - Position(0.5, 1.5)).norm(), 0.0, kShrunk);
   EXPECT_NEAR((level->end - Position(3.0, 1.5)).norm(), 0.0, kShrunk);
-  EXPECT_NEAR(level->arrive, -0.25 * kPi, kShrunk) << "where the quarter begins";
+  EXPECT_NEAR(level->arrive_angle, -0.25 * kPi, kShrunk) << "where the quarter begins";
   EXPECT_TRUE(w.tangents.is_free(*level));
   EXPECT_FALSE(w.tangents.from_point({4.5, 4.5}, {0, true})) << "it would touch the circle inside the block";
 }
 
-TEST(Tangents, BetweenCornersOfOneSideRunAlongTheWall) {
+TEST(TangentGraph, BetweenCornersOfOneSideRunAlongTheWall) {
   World w(block(), 0.5);
   const auto from = w.free_from({0, true});
   ASSERT_EQ(from.size(), 1u);
   EXPECT_EQ(from[0].to.corner, 1);
   EXPECT_TRUE(from[0].to.left);
   EXPECT_NEAR(from[0].length, 1.0, kShrunk);
-  EXPECT_NEAR(from[0].leave, 0.25 * kPi, kShrunk);
-  EXPECT_NEAR(from[0].arrive, -0.25 * kPi, kShrunk);
+  EXPECT_NEAR(from[0].leave_angle, 0.25 * kPi, kShrunk);
+  EXPECT_NEAR(from[0].arrive_angle, -0.25 * kPi, kShrunk);
 }
 
-TEST(Tangents, DoNotEndOrBeginWhereAWallIsOnlyGrazed) {
+TEST(TangentGraph, DoNotEndOrBeginWhereAWallIsOnlyGrazed) {
   World w(ascii_map({".......",  //
                      ".#.#.#.",  //
                      "......."}),
@@ -93,7 +93,7 @@ TEST(Tangents, DoNotEndOrBeginWhereAWallIsOnlyGrazed) {
   for (const Tangent& tangent : w.free_from({1, true})) EXPECT_GT(std::abs(tangent.heading), kShrunk);
 }
 
-TEST(Tangents, CrossBetweenCornersOnDifferentSides) {
+TEST(TangentGraph, CrossBetweenCornersOnDifferentSides) {
   World w(ascii_map({".....",  //
                      ".....",  //
                      "...#.",  //
@@ -115,7 +115,7 @@ TEST(Tangents, CrossBetweenCornersOnDifferentSides) {
   EXPECT_EQ(crossing, 1);
 }
 
-TEST(Tangents, ArcsEndAtOtherObstacles) {
+TEST(TangentGraph, ArcsEndAtOtherObstacles) {
   World w(ascii_map({".....",  //
                      "...#.",  //
                      ".....",  //
@@ -126,10 +126,10 @@ TEST(Tangents, ArcsEndAtOtherObstacles) {
   for (int corner = 0; corner < w.corners.count(); ++corner) {
     if ((w.corners.position(corner) - Position(2.0, 2.0)).norm() > 1e-9) continue;
     for (const bool left : {false, true}) {
-      EXPECT_FALSE(w.tangents.may_bend({corner, left}, -0.25 * kPi, 0.25 * kPi))
+      EXPECT_FALSE(w.tangents.is_arc_free({corner, left}, -0.25 * kPi, 0.25 * kPi))
           << "1.6 m in a gap of 1.41 m";
-      EXPECT_TRUE(w.tangents.may_bend({corner, left}, -0.25 * kPi, -0.2 * kPi));
-      EXPECT_TRUE(smaller.tangents.may_bend({corner, left}, -0.25 * kPi, 0.25 * kPi));
+      EXPECT_TRUE(w.tangents.is_arc_free({corner, left}, -0.25 * kPi, -0.2 * kPi));
+      EXPECT_TRUE(smaller.tangents.is_arc_free({corner, left}, -0.25 * kPi, 0.25 * kPi));
     }
   }
 }
@@ -144,7 +144,7 @@ OccupancyGrid gap_of_two() {
                     ".........."});
 }
 
-TEST(Tangents, DoNotRunBetweenCellCentresThroughAGapThatJustFits) {
+TEST(TangentGraph, DoNotRunBetweenCellCentresThroughAGapThatJustFits) {
   const auto through_gap = [](double radius) {
     World w(gap_of_two(), radius);
     EXPECT_EQ(w.corners.position(0), Position(4.0, 2.0));
@@ -159,7 +159,7 @@ TEST(Tangents, DoNotRunBetweenCellCentresThroughAGapThatJustFits) {
   EXPECT_GT(through_gap(0.5), 0);
 }
 
-TEST(Tangents, AreAsLongAsTheyLookAndFreeForTheDiskOnRandomMaps) {
+TEST(TangentGraph, AreAsLongAsTheyLookAndFreeForTheDiskOnRandomMaps) {
   const std::uint64_t seed = 43;
   support::Dice dice(seed);
   int count = 0;
@@ -179,16 +179,17 @@ TEST(Tangents, AreAsLongAsTheyLookAndFreeForTheDiskOnRandomMaps) {
         ASSERT_NEAR((begin - center).norm(), w.tangents.radius(), 1e-9);
         ASSERT_NEAR((tangent.end - w.corners.position(tangent.to.corner)).norm(), w.tangents.radius(), 1e-9);
         ASSERT_NEAR((begin - center).dot(along), 0.0, 1e-9);
-        ASSERT_GE(obstacle_distance_of(grid, begin, tangent.end), radius - 3.0 * Tangents::kShrink);
-        ASSERT_LE(std::abs(tangent.leave), 0.25 * kPi + 1e-6);
-        ASSERT_LE(std::abs(tangent.arrive), 0.25 * kPi + 1e-6);
+        ASSERT_GE(obstacle_distance_of(grid, begin, tangent.end),
+                  radius - 3.0 * TangentGraph::kRadiusReduction);
+        ASSERT_LE(std::abs(tangent.leave_angle), 0.25 * kPi + 1e-6);
+        ASSERT_LE(std::abs(tangent.arrive_angle), 0.25 * kPi + 1e-6);
       }
     }
   }
   EXPECT_GT(count, 1000);
 }
 
-TEST(Tangents, AreNotMissedWhereOnlySightOfTheDisksWidthBesideTheCellsIsLookedFor) {
+TEST(TangentGraph, AreNotMissedWhereOnlySightOfTheDisksWidthBesideTheCellsIsLookedFor) {
   const std::uint64_t seed = 47;
   support::Dice dice(seed);
   int count = 0;
@@ -214,7 +215,7 @@ TEST(Tangents, AreNotMissedWhereOnlySightOfTheDisksWidthBesideTheCellsIsLookedFo
     }
     const Position point(dice.between(0.0, grid.width()), dice.between(0.0, grid.height()));
     if (!all.sight.disk_fits(point, radius)) continue;
-    const std::vector<int> seen = wide.corners.seen_from(point);
+    const std::vector<int> seen = wide.corners.visible_from(point);
     for (int b = 0; b < all.tangents.bend_count(); ++b) {
       const Bend bend{b / 2, b % 2 == 1};
       const auto tangent = all.tangents.from_point(point, bend);

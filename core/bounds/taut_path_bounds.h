@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/instance.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Lower bounds of the costs of robots, each alone on the static map, seconds: the straight line and the
+/// turns where that is free, the cheapest taut path elsewhere (see TautPathSearch).
+class TautPathBounds {
+ public:
+  /// Of `robots`, all with goals. `costs`, by robot, are those of a known plan; infinite for none. The work
+  /// is limited to about half a second: beyond it, on large maps full of corners, or when `stop` is met,
+  /// bounds are weaker, down to the straight line.
+  TautPathBounds(const Instance& instance, const std::vector<std::size_t>& robots,
+                 const std::vector<double>& costs, const StopCondition& stop);
+
+  /// 0 for a robot that was not among `robots`.
+  double operator[](std::size_t robot) const { return seconds_[robot]; }
+  /// Whether `stop` weakened a bound.
+  bool cut_off() const { return cut_off_; }
+
+ private:
+  std::vector<double> seconds_;  // by robot
+  bool cut_off_ = false;
+};
+
+}  // namespace fleetplan::core

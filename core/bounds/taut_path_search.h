@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/bounds/corner_visibility.h"
+#include "core/bounds/tangent_graph.h"
+#include "core/instance.h"
+#include "core/model/robot.h"
+#include "core/runtime/indexed_vector.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// A lower bound of the cost of every path.
+struct TautPathResult {
+  double seconds = 0.0;
+  bool cut_off = false;  // the stop condition was met first
+};
+
+/// The cheapest taut path of a robot that is alone on the static map and may turn anywhere, arcs included: a
+/// lower bound of the cost of its plans. A* (Hart, Nilsson and Raphael, 1968) on the tangent graph (Liu and
+/// Arimoto, IJRR 1992), with the straight cost as the heuristic.
+///
+/// Proof that no plan costs less. Obstacles grown by the radius leave the centre a region, whose paths from
+/// start to goal fall into classes of those that can be deformed into each other. (1) Length and turning: put
+/// a tight convex chain of the triangle a, b, c around what lies in it in place of a corner a-b-c of a path.
+/// The path gets no longer. Its headings stay on the shorter arc between those of ab and bc, in order, so by
+/// the triangle inequality it turns no more, the turns from the start heading and to the goal heading
+/// included. Repeated, this leads to the taut path of the class, which therefore has the least length and the
+/// least turning of its class at once (in the limit of polygons that fill the grown obstacles; total turning
+/// is lower semicontinuous). (2) Translations, each of which may need a wait: prolong a straight piece of the
+/// taut path between bends of opposite sense, which touches obstacles at u on one side and v on the other, to
+/// a chord of the region. All paths of the class cross the chord before u and beyond v in one sense, so
+/// between u and v in the other, or run along it there: with a translation of its own, since the taut path is
+/// the only taut one between any two of its points. By the same reason it is neither the first nor the last
+/// one. So there are at least two translations more than such pieces, if the path bends at all.
+class TautPathSearch {
+ public:
+  /// For robots of one radius.
+  TautPathSearch(CornerVisibility& corners, const LineOfSight& sight, double radius)
+      : corners_(corners), graph_(corners, sight, radius) {}
+
+  /// `motion` has the radius; the robot has a goal that is not in sight of its start. Paths that cost more
+  /// than `known_cost`, the cost of a plan in seconds (infinite for none), are not explored. After
+  /// `max_work`, or when `stop` is met, returns the bound that is proved by then.
+  TautPathResult run(const Robot& robot, const Motion& motion, double known_cost, std::int64_t max_work,
+                     const StopCondition& stop);
+
+  /// The work done so far by this search and by `corners`, in steps of 10 to 20 ns.
+  std::int64_t work() const { return steps_ * kStepWork + graph_.work() + corners_.work(); }
+
+ private:
+  static constexpr int kStepWork = 3;  // of examining a tangent; measured
+
+  struct Arrival {
+    double seconds = 0.0;
+    double angle = 0.0;  // on the bend
+    Bend bend;
+    int untested = -1;  // in from_start_: the move by which it arrives, if it is not known to be free
+    int next = -1;      // the next one in the list of tested arrivals at the same bend, or -1
+    bool at_goal = false;
+  };
+  struct Open {
+    double f;
+    int arrival;
+    bool operator>(const Open& other) const { return f != other.f ? f > other.f : arrival > other.arrival; }
+  };
+
+  void reset();
+  void expand_start();
+  void expand(int index);
+  void expand_tangents(const Arrival& arrival);
+  void expand_goal(const Arrival& arrival);
+  double seconds_after(const Arrival& arrival, const Tangent& tangent) const;
+  bool exceeds_limit(double seconds, const Position& end) const;
+  bool push(const Arrival& arrival, const Tangent& by);
+  void add_to_bend(int index);
+  bool is_dominated(const Bend& bend, double angle, double seconds, int except) const;
+
+  CornerVisibility& corners_;
+  TangentGraph graph_;
+  std::int64_t steps_ = 0;  // tangents examined
+
+  // Of the current search; members to reuse their memory.
+  const Robot* robot_ = nullptr;
+  const Motion* motion_ = nullptr;
+  double bend_time_ = 0.0;            // seconds for a radian of an arc
+  double limit_ = 0.0;                // seconds; paths that cost more are not explored
+  IndexedVector<char> goal_visible_;  // by corner
+  IndexedVector<Tangent> from_start_;
+  IndexedVector<Arrival> arrivals_;
+  std::vector<Open> open_;           // a heap
+  IndexedVector<int> last_arrival_;  // by bend, the head of its list
+};
+
+}  // namespace fleetplan::core

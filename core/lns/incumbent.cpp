@@ -1,0 +1,25 @@
+#include "core/lns/incumbent.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace fleetplan::core {
+
+Incumbent::Incumbent(const PlanState& state, std::vector<std::size_t> planned)
+    : planned_(std::move(planned)),
+      trajectories_(state.instance().size()),
+      versions_(state.instance().size(), 0) {
+  for (const std::size_t robot : planned_) trajectories_[robot] = *state.trajectory(robot);
+}
+
+std::size_t Incumbent::last_to_arrive() const {
+  return *std::max_element(planned_.begin(), planned_.end(),
+                           [&](std::size_t a, std::size_t b) { return cost(a) < cost(b); });
+}
+
+void Incumbent::replace(std::size_t robot, Trajectory trajectory) {
+  trajectories_[robot] = std::move(trajectory);
+  ++versions_[robot];
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/model/trajectory.h"
+#include "core/prioritized/plan_state.h"
+
+namespace fleetplan::core {
+
+/// The best plan so far: a trajectory for each planned robot.
+class Incumbent {
+ public:
+  /// The trajectories of the robots of `planned` in `state`.
+  Incumbent(const PlanState& state, std::vector<std::size_t> planned);
+
+  const std::vector<std::size_t>& planned() const { return planned_; }
+  const Trajectory& trajectory(std::size_t robot) const { return trajectories_[robot]; }
+  double cost(std::size_t robot) const { return trajectories_[robot].cost; }
+  /// The robot of the highest cost; there is at least one.
+  std::size_t last_to_arrive() const;
+  /// The number of times that the robot's trajectory has been replaced.
+  std::int64_t version(std::size_t robot) const { return versions_[robot]; }
+  void replace(std::size_t robot, Trajectory trajectory);
+
+ private:
+  std::vector<std::size_t> planned_;
+  std::vector<Trajectory> trajectories_;  // by robot
+  std::vector<std::int64_t> versions_;    // by robot
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,71 @@
+#include "core/lns/search_state_pool.h"
+
+#include <utility>
+
+namespace fleetplan::core {
+
+SearchState::SearchState(PlanState& state, const Incumbent& incumbent, const StopCondition& stop)
+    : state_(&state),
+      incumbent_(incumbent),
+      versions_(state.instance().size(), 0),
+      neighbourhoods_(state, incumbent.planned(), stop) {}
+
+SearchState::SearchState(const Problem& problem, const PlanOptions& options, const Incumbent& incumbent,
+                         const StopCondition& stop)
+    : own_instance_(std::make_unique<Instance>(problem, options)),
+      own_state_(std::make_unique<PlanState>(*own_instance_)),
+      state_(own_state_.get()),
+      incumbent_(incumbent),
+      versions_(own_instance_->size(), -1),
+      neighbourhoods_(*state_, incumbent.planned(), stop) {
+  std::vector<bool> stays(own_instance_->size(), true);
+  for (const std::size_t robot : incumbent.planned()) stays[robot] = false;
+  for (std::size_t robot = 0; robot < stays.size(); ++robot) {
+    if (stays[robot]) state_->stay_at_start(robot);
+  }
+}
+
+void SearchState::update() {
+  std::vector<std::size_t> outdated;
+  for (const std::size_t robot : incumbent_.planned()) {
+    if (versions_[robot] != incumbent_.version(robot)) outdated.push_back(robot);
+  }
+  for (const std::size_t robot : outdated) state_->remove(robot);
+  for (const std::size_t robot : outdated) {
+    state_->follow(robot, incumbent_.trajectory(robot));
+    versions_[robot] = incumbent_.version(robot);
+  }
+}
+
+SearchStatePool::SearchStatePool(PlanState& state, const Incumbent& incumbent, const StopCondition& stop)
+    : problem_(state.instance().problem()),
+      options_(state.instance().options()),
+      incumbent_(incumbent),
+      stop_(stop) {
+  idle_.push_back(std::make_unique<SearchState>(state, incumbent, stop));
+}
+
+std::unique_ptr<SearchState> SearchStatePool::take() {
+  std::unique_ptr<SearchState> state;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!idle_.empty()) {
+      state = std::move(idle_.back());
+      idle_.pop_back();
+    }
+  }
+  if (!state) state = std::make_unique<SearchState>(problem_, options_, incumbent_, stop_);
+  state->update();
+  return state;
+}
+
+void SearchStatePool::give_back(std::unique_ptr<SearchState> state) {
+  const std::scoped_lock lock(mutex_);
+  idle_.push_back(std::move(state));
+}
+
+void SearchStatePool::update_all() {
+  for (const auto& state : idle_) state->update();
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "core/instance.h"
+#include "core/lns/incumbent.h"
+#include "core/lns/neighbourhood.h"
+#include "core/prioritized/plan_state.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// What one thread needs to search on its own: a plan state with the incumbent's trajectories.
+class SearchState {
+ public:
+  /// With the caller's state, which follows the incumbent already.
+  SearchState(PlanState& state, const Incumbent& incumbent, const StopCondition& stop);
+  /// With an instance and a state of its own. Robots that are not in the incumbent stay at their starts.
+  SearchState(const Problem& problem, const PlanOptions& options, const Incumbent& incumbent,
+              const StopCondition& stop);
+
+  PlanState& state() { return *state_; }
+  NeighbourhoodSelection& neighbourhoods() { return neighbourhoods_; }
+  /// Adopts the trajectories that have been replaced in the incumbent since the last call.
+  void update();
+
+ private:
+  std::unique_ptr<Instance> own_instance_;
+  std::unique_ptr<PlanState> own_state_;
+  PlanState* state_;
+  const Incumbent& incumbent_;
+  std::vector<std::int64_t> versions_;  // of the incumbent's trajectories, by robot
+  NeighbourhoodSelection neighbourhoods_;
+};
+
+/// As many search states as threads use at the same time. Thread-safe while the incumbent does not change.
+class SearchStatePool {
+ public:
+  /// The first search state uses `state`, which follows the incumbent.
+  SearchStatePool(PlanState& state, const Incumbent& incumbent, const StopCondition& stop);
+
+  /// An updated search state for the exclusive use of the caller.
+  std::unique_ptr<SearchState> take();
+  void give_back(std::unique_ptr<SearchState> state);
+  /// Updates all search states, and with them the caller's state; all have been given back.
+  void update_all();
+
+ private:
+  const Problem& problem_;
+  const PlanOptions options_;
+  const Incumbent& incumbent_;
+  const StopCondition& stop_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<SearchState>> idle_;
+};
+
+}  // namespace fleetplan::core
