@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "core/geometry/disk_motion.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/trajectory.h"
 #include "core/reservation/reservation_table.h"
