@@ -58,7 +58,7 @@ class HttpServer {
   void stop();
 
  private:
-  /// A port with its routes, and what goes on there.
+  /// A port with its steps and its load.
   struct Endpoint {
     Endpoint(HttpServer& server, Steps::Port port, int number, std::size_t max_connections,
              const RouteTable& routes);

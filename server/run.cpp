@@ -20,10 +20,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kDrainCheck{20};
 constexpr std::chrono::seconds kHousekeeping{5};
-/// A job that was asked to stop does so within this, or the process ends without it.
+/// Jobs that were asked to stop must end within this; otherwise the process ends without them.
 constexpr std::chrono::seconds kStopGrace{5};
 
-/// SIGTERM and SIGINT, taken by whoever waits for them here. To be made before any other thread.
+/// Waits for SIGTERM and SIGINT. Construct it before any other thread is started.
 class EndSignals {
  public:
   EndSignals() {
@@ -33,13 +33,13 @@ class EndSignals {
     pthread_sigmask(SIG_BLOCK, &set_, nullptr);
   }
 
-  /// False when none came within that time.
+  /// False when none arrived within that time.
   bool wait(std::chrono::seconds patience) const {
     const timespec time{patience.count(), 0};
     return sigtimedwait(&set_, nullptr, &time) > 0;
   }
 
-  /// Lets the time pass. A SIGINT, which is not the first signal any more, ends the process.
+  /// Waits for so long. A SIGINT meanwhile, which is the second signal, ends the process.
   void linger(std::chrono::milliseconds patience) const {
     const auto end = Clock::now() + patience;
     for (auto left = Clock::duration(patience); left.count() > 0; left = end - Clock::now()) {
@@ -53,7 +53,7 @@ class EndSignals {
   sigset_t set_{};
 };
 
-/// Every connection is a descriptor; the usual soft limit of 1024 would be in the way.
+/// Every connection needs a descriptor; the usual soft limit of 1024 is too low.
 void raise_descriptor_limit() {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -86,6 +86,23 @@ void announce(const Settings& settings, const HttpServer& server, const RequestL
            {{"version", kVersion}, {"url", url}, {"admin_url", admin_url}, {"workers", settings.workers}});
 }
 
+/// Ends the service in this order, so that no accepted request is lost:
+/// 1. not ready, but serving, for --drain-delay-ms: load balancers stop sending requests;
+/// 2. new jobs are rejected, accepted ones get --drain-ms to finish;
+/// 3. jobs that still run are asked to stop and answer with what they have;
+/// 4. if one does not, the process ends with an error.
+void drain(HttpServer& server, const Settings& settings, const EndSignals& signals, const RequestLog& log) {
+  server.announce_end();
+  signals.linger(settings.drain_delay);
+  server.begin_drain();
+  if (await_idle(server, signals, Clock::now() + settings.drain)) return;
+  log.info("cancelling jobs that are still running");
+  server.cancel_jobs();
+  if (await_idle(server, signals, Clock::now() + kStopGrace)) return;
+  log.error("a request did not end in time");
+  std::_Exit(1);
+}
+
 }  // namespace
 
 int run(const Settings& settings, Service service) {
@@ -103,17 +120,7 @@ int run(const Settings& settings, Service service) {
 
   while (!signals.wait(kHousekeeping)) give_memory_back();
   log.info("draining", {{"delay_ms", settings.drain_delay.count()}, {"drain_ms", settings.drain.count()}});
-  server.announce_end();
-  signals.linger(settings.drain_delay);
-  server.begin_drain();
-  if (!await_idle(server, signals, Clock::now() + settings.drain)) {
-    log.info("cutting plans that are still running");
-    server.cancel_jobs();
-    if (!await_idle(server, signals, Clock::now() + kStopGrace)) {
-      log.error("a request did not end in time");
-      std::_Exit(1);
-    }
-  }
+  drain(server, settings, signals, log);
   server.stop();
   serving.join();
   log.info("stopped");

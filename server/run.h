@@ -5,8 +5,8 @@
 
 namespace fleetplan::server {
 
-/// Serves until SIGTERM or SIGINT, then drains. The process's exit code: 0, or 1 when a port cannot be
-/// taken or jobs did not end.
+/// Serves until SIGTERM or SIGINT, then drains. Returns the exit code of the process: 0, or 1 when a port is
+/// not available or jobs did not end.
 int run(const Settings& settings, Service service);
 
 }  // namespace fleetplan::server

@@ -10,7 +10,7 @@
 
 namespace fleetplan::server {
 
-/// What the server serves. The server knows HTTP only; a test puts a stub here and needs no planner.
+/// The service behind HTTP. A test uses a stub here and needs no planner.
 struct Service {
   using Endpoint = std::function<api::Reply(std::string_view body, const api::RequestContext&)>;
   struct Example {

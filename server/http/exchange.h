@@ -28,9 +28,9 @@ struct Exchange {
   std::optional<BodyMemory::Share> memory = std::nullopt;  // for the body
   std::string body;                                        // as sent, perhaps gzip-coded
 
-  HeaderFields fields;  // of the answer, beside those that every answer has
+  HeaderFields fields;  // of the answer, besides those that every answer has
   int status = 0;
-  int retry_after_s = 1;   // of a 503; by default another service may have taken this one's place
+  int retry_after_s = 1;   // of a 503; by default soon, as another replica may be ready
   bool close = false;      // the connection ends with this answer
   bool abandoned = false;  // the client left: nobody reads an answer
   std::optional<std::uint64_t> streamed = std::nullopt;  // bytes of an answer that went out as an EventStream

@@ -11,7 +11,7 @@ namespace fleetplan::server {
 
 namespace {
 
-/// So many times the queue may be admitted while the jobs are short.
+/// While jobs are short, this multiple of the queue is accepted in addition.
 constexpr std::size_t kBurst = 7;
 
 }  // namespace

@@ -13,16 +13,16 @@
 
 namespace fleetplan::server {
 
-/// Has the jobs done, which are what takes time: a plan, a check of one. Admits no more than the queue holds,
-/// and stops those whose client has left. Thread-safe.
+/// Runs jobs, which are the requests that take time: a plan, or the check of one. Accepts no more than the
+/// queue holds and stops those whose client has left. Thread-safe.
 class JobRunner {
  public:
   /// The log has to outlive it.
   JobRunner(const Settings& settings, const RequestLog& log);
 
-  /// The endpoint's answer to the exchange's body, computed in this thread when its turn has come. Notes the
-  /// time in the queue and whether the client left meanwhile in the exchange. `events`: who wants to hear how
-  /// a plan gets on, or null.
+  /// The endpoint's reply to the exchange's body, computed in this thread when its turn has come. Stores the
+  /// time in the queue, and whether the client has left, in the exchange. `events`: receives the progress of
+  /// a plan, or null.
   api::Reply run(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events);
 
   /// Jobs that wait for their turn, and those that compute.

@@ -19,9 +19,9 @@ void PeerWatch::watch() {
   while (true) {
     {
       std::unique_lock lock(mutex_);
-      // Short jobs come and go between two looks without waking this thread.
+      // Short jobs start and end between two checks without waking this thread.
       changed_.wait_for(lock, kPeriod, [&] { return stopping_; });
-      // Said anew each time: whoever woke this thread may be gone already, and the next has to wake it again.
+      // Set anew each time: the job that woke this thread may have ended, and the next has to wake it again.
       changed_.wait(lock, [&] {
         asleep_ = !stopping_ && watched_.empty();
         return !asleep_;

@@ -11,8 +11,8 @@
 
 namespace fleetplan::server {
 
-/// Looks after the clients that wait for their answers, with one thread for all of them: a job that nobody
-/// waits for any more is asked to stop. Thread-safe.
+/// Watches the clients that wait for their answers, with one thread for all of them. When a client leaves,
+/// its job is asked to stop. Thread-safe.
 class PeerWatch {
  public:
   /// A client that leaves is noticed within this.
@@ -21,7 +21,7 @@ class PeerWatch {
   class Watched;
 
   PeerWatch();
-  /// Nothing may be watched any more.
+  /// No `Watched` may be left.
   ~PeerWatch();
   PeerWatch(const PeerWatch&) = delete;
   PeerWatch& operator=(const PeerWatch&) = delete;

@@ -21,7 +21,7 @@ struct Workers::Waiting {
   std::condition_variable_any changed = {};
 };
 
-/// What one run() is about; guarded by the mutex.
+/// The tasks of one run(); guarded by the mutex.
 struct Workers::Tasks {
   const Task& task;
   const std::size_t count;
@@ -35,7 +35,7 @@ struct Workers::Tasks {
 
 Workers::Workers(int workers, std::size_t queue, std::size_t burst)
     : capacity_(queue), burst_(burst), busy_since_(static_cast<std::size_t>(workers)) {
-  // A task is done by its job's own thread as well, so one helper fewer is needed.
+  // A job's own thread runs tasks as well, so one helper fewer is needed.
   for (std::size_t i = 1; i < busy_since_.size(); ++i) helpers_.emplace_back([this] { help(); });
 }
 

@@ -14,11 +14,11 @@
 
 namespace fleetplan::server {
 
-/// Lets so many jobs compute at a time as there are workers. More wait for their turn in a bounded queue, so
-/// that load beyond it is refused at once rather than kept waiting.
+/// Lets as many jobs compute at a time as there are workers. More wait for their turn in a bounded queue;
+/// load beyond it is rejected immediately.
 ///
-/// A job computes in the thread that asks for its turn: to hand it over to another costs more than a small
-/// plan. Threads of the pool's own help with the tasks of jobs while fewer compute than there are workers.
+/// A job computes in the thread that asks for its turn: a handover to another thread costs more than a small
+/// plan. Helper threads run tasks of jobs while fewer jobs compute than there are workers.
 /// Thread-safe.
 class Workers : public core::Executor {
  public:
@@ -28,15 +28,15 @@ class Workers : public core::Executor {
 
   class Job;
 
-  /// `workers` >= 1 jobs compute; at most `queue` are admitted beside them. Up to `burst` more are as long as
-  /// the last one's turn is expected within kShortWait, so that many small requests at once are not refused
-  /// for their number alone.
+  /// `workers` >= 1 jobs compute; at most `queue` more are accepted. Up to `burst` more are accepted as long
+  /// as the turn of the last one is expected within kShortWait, so that many small requests at once are not
+  /// rejected for their number alone.
   Workers(int workers, std::size_t queue, std::size_t burst = 0);
 
   /// No job may be left.
   ~Workers() override;
 
-  /// Takes a job in; none when the queue is full.
+  /// Accepts a job; none when the queue is full.
   std::optional<Job> admit();
 
   /// Seconds, at least 1, after which a refused job may find room: the work ahead by the mean job so far.
@@ -46,8 +46,8 @@ class Workers : public core::Executor {
   std::size_t queued() const;
   std::size_t running() const;
 
-  /// For jobs whose turn it is: the caller does the tasks, and idle workers help. Waits for no task that has
-  /// not begun, so it needs no worker to be idle. A job's turn never waits for a helper.
+  /// For jobs whose turn it is: the caller runs the tasks, and idle workers help. It never waits for a task
+  /// that has not begun, so no worker has to be idle. A job's turn never waits for a helper.
   void run(std::size_t count, const Task& task) override;
 
  private:
@@ -69,7 +69,7 @@ class Workers : public core::Executor {
   std::condition_variable may_help_;
   std::list<Waiting*> queue_;
   std::list<Tasks*> shared_;  // of the jobs that are in run()
-  std::size_t admitted_ = 0;  // jobs there are, whether their turn has come or not
+  std::size_t admitted_ = 0;  // jobs, whether their turn has come or not
   std::size_t running_ = 0;
   std::size_t helping_ = 0;
   std::vector<std::optional<Clock::time_point>> busy_since_;  // by worker
@@ -78,7 +78,7 @@ class Workers : public core::Executor {
   std::vector<std::thread> helpers_;
 };
 
-/// A job's place among the others, given back at its end.
+/// A job's place among the others, until its end.
 class Workers::Job {
  public:
   explicit Job(Workers& workers) : workers_(&workers) {}
@@ -86,8 +86,8 @@ class Workers::Job {
   Job(Job&& other) noexcept : workers_(other.workers_), worker_(other.worker_) { other.workers_ = nullptr; }
   Job& operator=(Job&&) = delete;
 
-  /// Waits until the job may compute: then true, and it may until it ends. False when `stop` was met before.
-  /// To be called once. Turns come in the order of these calls.
+  /// Waits until the job may compute, which it may until its end: true. False when `stop` was met before.
+  /// Call it once. Turns are given in the order of these calls.
   bool await_turn(const core::StopCondition& stop);
 
  private:

@@ -6,10 +6,10 @@ namespace fleetplan::server {
 
 namespace {
 
-/// Less than a container engine waits for its check, so that there is something to read in its report.
+/// Shorter than a container engine waits for its check, so that its report contains the fault.
 constexpr std::chrono::seconds kPatience{4};
 
-/// Who listens on all addresses listens on the loopback.
+/// A service on all addresses is reachable by the loopback.
 std::string address_to_ask(const std::string& host) {
   if (host == "0.0.0.0") return "127.0.0.1";
   if (host == "::") return "::1";
@@ -20,7 +20,7 @@ std::string address_to_ask(const std::string& host) {
 
 std::optional<std::string> health_fault(const Settings& settings) {
   const int port = settings.admin_port.value_or(settings.port);
-  if (port == 0) return "--healthcheck cannot know the port that was free; name one";
+  if (port == 0) return "--healthcheck cannot use port 0; name one";
   const std::string host = address_to_ask(settings.host);
   const std::string where = host + " port " + std::to_string(port);
   httplib::Client client(host, port);

@@ -7,11 +7,11 @@
 
 namespace fleetplan::server {
 
-/// Asks the service that runs with these settings, perhaps in another process, for /healthz: on the admin
-/// port if there is one, which answers however busy the other is. What is wrong, if anything is.
+/// Requests /healthz of the service that runs with these settings, perhaps in another process: on the admin
+/// port if there is one, which answers however busy the main port is. The fault, if there is one.
 ///
-/// That is whether it is alive, not whether it is ready: to restart a container since it drains, or since its
-/// queue is full, would lose the plans that it has.
+/// The probe is for liveness, not readiness: restarting a container because it drains or its queue is full
+/// would lose its running plans.
 std::optional<std::string> health_fault(const Settings& settings);
 
 }  // namespace fleetplan::server

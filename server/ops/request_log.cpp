@@ -27,7 +27,7 @@ void add_outcome(Line& line, const api::PlanOutcome& outcome) {
 }
 
 void write(spdlog::logger& logger, spdlog::level::level_enum level, const Line& line) {
-  // A client's path may be no UTF-8: replaced rather than refused.
+  // A client's path may not be UTF-8; such bytes are replaced.
   const std::string json = line.dump(-1, ' ', false, Line::error_handler_t::replace);
   logger.log(level, spdlog::string_view_t(json.data() + 1, json.size() - 1));  // without the opening brace
 }

@@ -45,7 +45,7 @@ class RequestLog {
   using Value = std::variant<std::int64_t, std::string>;
   using Members = std::initializer_list<std::pair<std::string_view, Value>>;
 
-  /// An event of the server's life, at level info; `members` follow the message.
+  /// An event of the process, at level info; `members` follow the message.
   void info(std::string_view message, Members members = {}) const;
 
   /// A bug.

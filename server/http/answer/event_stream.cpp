@@ -24,7 +24,7 @@ EventStream::~EventStream() { stop_writing(); }
 
 void EventStream::begin(const api::PlanProgress& progress) {
   progress_ = progress;
-  if (!chunked_) exchange_.close = true;  // which tells the end
+  if (!chunked_) exchange_.close = true;  // which marks the end
   writer_ = std::thread([this] { write_events(); });
   begun_ = true;
 }
@@ -80,7 +80,7 @@ void EventStream::write_events() {
 }
 
 std::string EventStream::head() const {
-  // Caches and proxies are to pass on every event as it comes.
+  // Caches and proxies must pass on every event at once.
   HeaderFields fields{
       {"Content-Type", "text/event-stream"}, {"Cache-Control", "no-store"}, {"X-Accel-Buffering", "no"}};
   if (chunked_) fields.emplace_back("Transfer-Encoding", "chunked");

@@ -16,10 +16,10 @@
 namespace fleetplan::server {
 
 /// The answer to an exchange as a stream of events (WHATWG HTML, server-sent events), each with one line of
-/// data. It goes past the HTTP library, which would have to know at first whether it is one.
+/// data. It bypasses the HTTP library, which would have to know from the start that the answer is a stream.
 ///
-/// From begin() on a thread of its own writes. Who plans only leaves what is new, so a client that reads
-/// slowly holds up nobody: it misses what is out of date by the time it reads on.
+/// After begin() a thread of its own writes. The planner only stores the latest state, so a client that reads
+/// slowly delays nobody: it skips states that are outdated by the time it reads on.
 class EventStream final : public api::PlanEvents {
  public:
   /// From one progress event to the next, whatever the planner does.
@@ -33,7 +33,7 @@ class EventStream final : public api::PlanEvents {
   void progress(const api::PlanProgress& progress) override;
   void incumbent(std::string answer) override;
 
-  /// Otherwise nothing has been written.
+  /// False: nothing has been written.
   bool begun() const { return begun_; }
 
   /// The last event of one that has begun: the plan, or a problem. If it cannot be written, the connection is
@@ -51,7 +51,7 @@ class EventStream final : public api::PlanEvents {
   const bool chunked_;
   bool begun_ = false;
   std::thread writer_;
-  bool failed_ = false;     // the client takes no more; of the thread that writes
+  bool failed_ = false;     // the client accepts no more; of the thread that writes
   std::uint64_t sent_ = 0;  // bytes; of the thread that writes
   std::mutex mutex_;        // guards all below
   std::condition_variable changed_;

@@ -4,7 +4,7 @@ namespace fleetplan::server {
 
 namespace {
 
-/// Taken at a time, so that a body that comes in small pieces does not ask for each.
+/// Reserved at a time, so that a body that arrives in small pieces does not reserve each.
 constexpr std::int64_t kStep = 256 * 1024;
 
 std::int64_t in_steps(std::int64_t bytes) { return (bytes + kStep - 1) / kStep * kStep; }

@@ -10,12 +10,12 @@ namespace fleetplan::server {
 
 namespace {
 
-/// A body that comes more slowly falls behind until the client's patience is used up.
+/// A body that arrives more slowly falls behind; the `patience` limits how far.
 constexpr std::size_t kLeastBytesPerMs = 100;
 constexpr std::size_t kMaxChunkLine = 4096;
 constexpr std::size_t kMaxTrailerLines = 100;
 constexpr std::size_t kMaxSizeDigits = 16;
-/// Of all chunks of a body: what is longer than a size is read, but counts for nobody's limit.
+/// Of all chunks of a body. Extensions are read, but do not count towards the limit of the body.
 constexpr std::uint64_t kMaxExtensionBytes = 64 * 1024;
 
 BodyFault malformed(std::string detail) { return {BodyFault::Kind::malformed, std::move(detail)}; }
@@ -30,12 +30,12 @@ class Source {
  public:
   Source(Socket& socket, std::string& input, BodyMemory::Share& share, std::chrono::milliseconds patience)
       : socket_(socket), input_(input), share_(share), patience_(patience), begin_(Socket::Clock::now()) {}
-  /// What was not taken stays in the input.
+  /// The rest stays in the input.
   ~Source() { drop_taken(); }
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
-  /// Moves `count` bytes to `body`; false when they do not come or find no room.
+  /// Moves `count` bytes to `body`; false when they do not arrive or there is no room.
   bool take(std::uint64_t count, std::string& body) {
     while (count > 0) {
       if (taken_ == input_.size() && !more()) return false;
@@ -49,7 +49,7 @@ class Source {
     return true;
   }
 
-  /// A line without its CR LF, valid until more is taken; none when it does not come or is too long.
+  /// A line without its CR LF, valid until more is taken; none when it does not arrive or is too long.
   std::optional<std::string_view> take_line() {
     std::size_t end = 0;
     while ((end = input_.find("\r\n", taken_)) == std::string::npos) {
@@ -68,8 +68,8 @@ class Source {
     switch (last_) {
       case Socket::Read::timeout:
         return {BodyFault::Kind::too_slow,
-                "The body did not come in time: it may pause for " + std::to_string(patience_.count()) +
-                    " ms, and fall as far behind " + std::to_string(kLeastBytesPerMs) + " kB a second."};
+                "The body did not arrive in time: it may pause for " + std::to_string(patience_.count()) +
+                    " ms and fall as far behind " + std::to_string(kLeastBytesPerMs) + " kB/s."};
       case Socket::Read::stopped:
         return {BodyFault::Kind::stopped, "The service is shutting down: ask another one."};
       case Socket::Read::end:
@@ -81,7 +81,7 @@ class Source {
   }
 
  private:
-  /// False when no more is to come, or not in time.
+  /// False when there is no more input, or none in time.
   bool more() {
     drop_taken();
     const std::size_t before = input_.size();

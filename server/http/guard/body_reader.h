@@ -19,12 +19,12 @@ struct BodyFault {
   std::string detail;
 };
 
-/// Reads the body of a request as it was sent, still content-coded, by Content-Length or chunked. Strict
-/// about the framing; chunk extensions and trailers are read and dropped.
+/// Reads the body of a request as it was sent, still content-coded, by Content-Length or chunked. Rejects
+/// malformed framing; chunk extensions and trailers are read and dropped.
 ///
 /// `input` holds what was read beyond the head; what follows the body stays in it. `limit`: bytes of body.
-/// `share`: of the memory of all bodies, to hold this one. `patience`: with each pause of the client, and
-/// with how far it may fall behind 100 kB/s in all.
+/// `share`: of the memory of all bodies, to hold this one. `patience`: the longest pause of the client, and
+/// how far it may fall behind 100 kB/s in all.
 std::variant<std::string, BodyFault> read_body(Socket& socket, std::string& input, const RequestHead& head,
                                                std::uint64_t limit, BodyMemory::Share& share,
                                                std::chrono::milliseconds patience);

@@ -14,7 +14,7 @@ namespace {
 using api::ErrorCode;
 using Clock = Socket::Clock;
 
-/// A refused body up to this size is read and dropped to keep the connection; a larger one costs it.
+/// The body of a refused request is read and dropped up to this size; with a larger one, the connection ends.
 constexpr std::uint64_t kMaxDropped = 1 << 20;
 
 ErrorCode code_of(BadHead::Kind kind) {
@@ -107,7 +107,7 @@ std::optional<DirectAnswer> Connection::read_request(Exchange& exchange) {
 
 std::optional<DirectAnswer> Connection::read_head(Exchange& exchange) {
   const auto deadline = exchange.begun_at + context_.settings.read_timeout;
-  // Empty lines before a request are to be ignored (RFC 9112, 2.2).
+  // Empty lines before a request must be ignored (RFC 9112, 2.2).
   const auto skip_empty_lines = [&] {
     input_.erase(0, std::min(input_.find_first_not_of("\r\n"), input_.size()));
   };
@@ -126,7 +126,8 @@ std::optional<DirectAnswer> Connection::read_head(Exchange& exchange) {
   }
   exchange.request_id = make_request_id();
   if (state == HeadScanner::State::malformed) {
-    return refusal(exchange, ErrorCode::malformed_request, "The lines of a request's head end in CR LF.");
+    return refusal(exchange, ErrorCode::malformed_request,
+                   "The lines of a request's head must end in CR LF.");
   }
   if (input_.size() > kMaxHeadBytes &&
       (state != HeadScanner::State::complete || scanner.size() > kMaxHeadBytes)) {

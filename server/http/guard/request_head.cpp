@@ -55,11 +55,11 @@ std::optional<BadHead> parse_request_line(std::string_view line, RequestHead& he
   const auto first = line.find(' ');
   const auto last = line.rfind(' ');
   if (first == std::string_view::npos || first == last)
-    return BadHead{"The request line is not of HTTP/1.1."};
+    return BadHead{"The request line is not that of an HTTP/1.1 request."};
   const auto target = line.substr(first + 1, last - first - 1);
   const auto version = line.substr(last + 1);
   if (version != "HTTP/1.1" && version != "HTTP/1.0") {
-    return BadHead{"This server speaks HTTP/1.1 and HTTP/1.0."};
+    return BadHead{"This server supports HTTP/1.1 and HTTP/1.0."};
   }
   if (target.size() > kMaxTargetBytes) return target_too_long();
   head.method = line.substr(0, first);
@@ -67,7 +67,7 @@ std::optional<BadHead> parse_request_line(std::string_view line, RequestHead& he
   head.raw_path = path_of_target(target);
   if (!is_token(head.method)) return BadHead{"The method is not a token."};
   if (target.find(' ') != std::string_view::npos || std::any_of(target.begin(), target.end(), is_control)) {
-    return BadHead{"The request target holds a space or a control character."};
+    return BadHead{"The request target contains a space or a control character."};
   }
   auto path = percent_decoded(head.raw_path);
   if (!path || path->empty()) return BadHead{"The path is empty or not percent-encoded properly."};
@@ -83,7 +83,7 @@ std::optional<BadHead> parse_field(std::string_view line, RequestHead& head) {
   }
   const auto value = trimmed(line.substr(colon + 1));
   if (!std::all_of(value.begin(), value.end(), is_field_value_char)) {
-    return BadHead{"A header value holds a control character."};
+    return BadHead{"A header value contains a control character."};
   }
   head.fields.emplace_back(lower_case(name), value);
   return std::nullopt;
@@ -100,10 +100,10 @@ std::optional<BadHead> parse_framing(RequestHead& head) {
   const std::string length = head.field("content-length");
   if (head.has_field("transfer-encoding")) {
     if (head.has_field("content-length")) {
-      return BadHead{"Content-Length and Transfer-Encoding exclude each other."};
+      return BadHead{"Content-Length and Transfer-Encoding must not be combined."};
     }
     if (head.http_1_0 || lower_case(head.field("transfer-encoding")) != "chunked") {
-      return BadHead{"The only transfer coding is 'chunked', with HTTP/1.1."};
+      return BadHead{"The only supported transfer coding is 'chunked', with HTTP/1.1."};
     }
     head.chunked = true;
   } else if (head.has_field("content-length")) {
@@ -184,7 +184,7 @@ BadHead too_large_head(std::string_view begun) {
 HeadScanner::State HeadScanner::scan(std::string_view buffer) {
   for (; position_ < buffer.size(); ++position_) {
     if (buffer[position_] != '\n') continue;
-    // A lone LF is where parsers disagree on the end of a line.
+    // Parsers disagree on whether a lone LF ends a line.
     if (position_ == 0 || buffer[position_ - 1] != '\r') return State::malformed;
     const bool empty_line = position_ - line_start_ == 1;
     line_start_ = position_ + 1;

@@ -1,7 +1,7 @@
 #pragma once
 
-// The head of an HTTP/1.x request: request line and header fields, parsed strictly (RFC 9112), because what
-// two parsers read differently is how requests are smuggled.
+// The head of an HTTP/1.x request: request line and header fields, parsed strictly (RFC 9112). Input that two
+// parsers read differently allows request smuggling.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@ inline constexpr std::size_t kMaxHeadBytes = 32 * 1024;
 inline constexpr std::size_t kMaxTargetBytes = 8 * 1024;
 inline constexpr std::size_t kMaxHeaderFields = 100;
 
-/// Names and values of header fields, in their order; a name may come several times.
+/// Names and values of header fields, in their order; a name may occur several times.
 using HeaderFields = std::vector<std::pair<std::string, std::string>>;
 
 struct RequestHead {
@@ -38,14 +38,14 @@ struct RequestHead {
   bool wants_keep_alive() const;
 };
 
-/// Why a head is not taken.
+/// Why a head is rejected.
 struct BadHead {
   enum class Kind { malformed, target_too_long, too_large };
   std::string detail;
   Kind kind = Kind::malformed;
 };
 
-/// Of a head of which more than kMaxHeadBytes have come: what is too long, its target or its fields.
+/// For a head of which more than kMaxHeadBytes have arrived: its target or its fields are too long.
 BadHead too_large_head(std::string_view begun);
 
 /// `text`: everything from the request line to the empty line, which is included.

@@ -17,12 +17,12 @@ void ConnectionThreads::push(std::function<void()> task) {
   const std::lock_guard lock(mutex_);
   tasks_.push_back(std::move(task));
   if (tasks_.size() > idle_ && threads_.size() < max_threads_) {
-    // The thread cannot look at its own entry before this lock is released.
+    // The thread cannot read its own entry before this lock is released.
     const auto self = threads_.emplace(threads_.end());
     try {
       *self = std::thread([this, self] { work(self); });
     } catch (const std::system_error&) {
-      threads_.erase(self);  // the machine gives no more: the connection waits for one of those there are
+      threads_.erase(self);  // no more threads are available: the connection waits for an existing one
       if (threads_.empty()) throw;
     }
   }

@@ -14,8 +14,8 @@
 
 namespace fleetplan::server {
 
-/// A thread for every connection, up to a cap beyond which connections wait. Threads come on demand and go
-/// when they have been idle for a while, so that idle keep-alive sockets never starve others.
+/// A thread for every connection, up to a limit beyond which connections wait. Threads are started on demand
+/// and end when they have been idle for a while, so idle keep-alive sockets never block others.
 class ConnectionThreads final : public httplib::TaskQueue {
  public:
   explicit ConnectionThreads(std::size_t max_threads) : max_threads_(max_threads) {}
@@ -29,7 +29,7 @@ class ConnectionThreads final : public httplib::TaskQueue {
     return EnqueueResult(true);
   }
 
-  /// Runs all tasks taken and ends all threads.
+  /// Runs all tasks that were added and ends all threads.
   void shutdown() override;
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
-// The HTTP library, to be included by this name only. It brings <resolv.h>, whose macro `_res` breaks the
-// headers of Eigen when they come after it.
+// Include the HTTP library by this name only. It includes <resolv.h>, whose macro `_res` breaks the headers
+// of Eigen if they are included later.
 
 #include <httplib.h>
 

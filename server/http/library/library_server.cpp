@@ -8,11 +8,12 @@
 #include <exception>
 #include <utility>
 
+#include "api/response/error.h"
 #include "server/http/answer/answer_text.h"
 #include "server/http/answer/internal_error.h"
 #include "server/http/library/connection_threads.h"
-#include "server/http/library/decoded_body.h"
 #include "server/http/library/exchange_stream.h"
+#include "server/http/steps/negotiation.h"
 
 namespace fleetplan::server {
 
@@ -29,6 +30,38 @@ void set_listening_options(int fd) {
 void disable_nagle(int fd) {
   const int yes = 1;
   ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+}
+
+/// Replaces the body of an exchange that is gzip-coded by what the library decodes it to, at most `limit`
+/// bytes. The problem to reply with if that fails.
+std::optional<api::Reply> decode_body(Exchange& exchange, const httplib::ContentReader& reader,
+                                      std::uint64_t limit) {
+  using api::ErrorCode;
+  if (content_coding(exchange.head.field("content-encoding")) == ContentCoding::identity) return std::nullopt;
+  std::string decoded;
+  bool too_large = false;
+  bool has_room = true;
+  const bool complete = reader([&](const char* data, std::size_t size) {
+    too_large = size > limit - decoded.size();
+    has_room = exchange.memory->grow_to(exchange.body.size() + decoded.size() + size);
+    if (too_large || !has_room) return false;
+    decoded.append(data, size);
+    return true;
+  });
+  const auto problem = [&](ErrorCode code, const std::string& detail) {
+    return api::problem_reply(code, detail, exchange.request_id);
+  };
+  if (too_large) {
+    return problem(ErrorCode::body_too_large, "The body of " + std::to_string(exchange.body.size()) +
+                                                  " bytes exceeds the limit of " + std::to_string(limit) +
+                                                  " bytes when decompressed.");
+  }
+  if (!has_room) return problem(ErrorCode::overloaded, BodyMemory::kFull);
+  if (!complete)
+    return problem(ErrorCode::malformed_request,
+                   "The body is not valid gzip, which its Content-Encoding declares.");
+  exchange.body = std::move(decoded);
+  return std::nullopt;
 }
 
 }  // namespace

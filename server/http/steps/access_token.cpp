@@ -20,7 +20,7 @@ bool is_visible(char c) { return c > 0x20 && c < 0x7f; }
 std::variant<AccessToken, std::string> AccessToken::from_text(std::string_view text) {
   if (text.empty()) return "it is empty";
   if (!std::all_of(text.begin(), text.end(), is_visible)) {
-    return "it is to hold one token of visible ASCII characters, without spaces";
+    return "it must contain one token of visible ASCII characters, without spaces";
   }
   return AccessToken(text);
 }
@@ -48,7 +48,7 @@ bool AccessToken::admits(std::string_view authorization) const {
 }
 
 bool AccessToken::equals(std::string_view shown) const {
-  // Every character of what is shown is looked at, whatever the first difference.
+  // Compares every character, wherever the first difference is.
   unsigned difference = shown.size() == token_.size() ? 0 : 1;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     difference |=

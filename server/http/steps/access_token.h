@@ -7,18 +7,18 @@
 
 namespace fleetplan::server {
 
-/// The secret that requests must show. It is never logged.
+/// The secret that requests must send. It is never logged.
 class AccessToken {
  public:
-  /// `text`: visible ASCII. What is wrong with it, otherwise, without showing it.
+  /// `text`: visible ASCII. Otherwise the fault, without the text.
   static std::variant<AccessToken, std::string> from_text(std::string_view text);
 
   /// The only line of a file; line ends behind it are dropped.
   static std::variant<AccessToken, std::string> from_file(const std::string& path);
 
-  /// True when an Authorization field (empty: absent) shows the token: as `Bearer TOKEN`, or as the password
-  /// of `Basic`, with any user name, for which browsers can ask. How long it takes does not depend on how
-  /// much of the token is right.
+  /// True when an Authorization field (empty: absent) contains the token: as `Bearer TOKEN`, or as the
+  /// password of `Basic` with any user name, for which browsers can ask. The time does not depend on how much
+  /// of the token is right.
   bool admits(std::string_view authorization) const;
 
  private:
@@ -28,7 +28,7 @@ class AccessToken {
   std::string token_;
 };
 
-/// RFC 4648, with or without padding; none when it is no base64.
+/// RFC 4648, with or without padding; none when it is not base64.
 std::optional<std::string> base64_decoded(std::string_view text);
 
 }  // namespace fleetplan::server

@@ -31,7 +31,7 @@ bool CrossOrigin::allows(std::string_view origin) const {
 HeaderFields CrossOrigin::answer_fields(const RequestHead& head) const {
   if (origins_.empty()) return {};
   HeaderFields fields;
-  // Without an Origin too, so that a cache keeps the answers apart.
+  // Also without an Origin, so that a cache keeps the answers apart.
   if (!any_) fields.emplace_back("Vary", "Origin");
   const std::string origin = head.field("origin");
   if (origin.empty() || !allows(origin)) return fields;
@@ -64,7 +64,8 @@ std::optional<std::string> origin_fault(std::string_view origin) {
       return std::nullopt;
     }
   }
-  return in_quotes(origin) + " is no origin like https://fleet.example:8443 (small letters, no path), nor *";
+  return in_quotes(origin) +
+         " is not an origin such as https://fleet.example:8443 (lower case, no path), nor *";
 }
 
 }  // namespace fleetplan::server

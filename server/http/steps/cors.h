@@ -9,20 +9,20 @@
 
 namespace fleetplan::server {
 
-/// Which pages of other origins a browser lets read answers (the Fetch standard's CORS protocol). No
-/// credentials of the browser: a page shows the token itself.
+/// The pages of other origins that may read answers in a browser (the Fetch standard's CORS protocol).
+/// Without credentials of the browser: a page sends the token itself.
 class CrossOrigin {
  public:
-  /// `origins`: each `scheme://host[:port]`, or `*` for any; none at all: nobody.
+  /// `origins`: each `scheme://host[:port]`, or `*` for any. Empty: no page of another origin.
   explicit CrossOrigin(std::vector<std::string> origins);
 
   /// Header fields of every answer to this request.
   HeaderFields answer_fields(const RequestHead& head) const;
 
-  /// True when a browser asks, on behalf of a page that is allowed, before it sends the request proper.
+  /// True for the preflight that a browser sends before the request of a page that is allowed.
   bool is_preflight(const RequestHead& head) const;
 
-  /// Further fields of the answer to that; `methods`: those of the resource.
+  /// Header fields of the answer to a preflight; `methods`: those of the resource.
   static HeaderFields preflight_fields(std::string_view methods);
 
  private:
@@ -32,7 +32,7 @@ class CrossOrigin {
   bool any_;
 };
 
-/// Why this is no origin as CrossOrigin wants it; none when it is.
+/// Why CrossOrigin does not accept this origin; none when it does.
 std::optional<std::string> origin_fault(std::string_view origin);
 
 }  // namespace fleetplan::server

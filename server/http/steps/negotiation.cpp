@@ -70,7 +70,7 @@ std::optional<std::string> content_type_fault(std::string_view content_type) {
     const std::string parameter = lower_case(parts[i]);
     if (parameter.starts_with("charset=") && parameter != "charset=utf-8" &&
         parameter != "charset=\"utf-8\"" && parameter != "charset=us-ascii") {
-      return "JSON is taken in UTF-8 only: send 'Content-Type: application/json'.";
+      return "JSON must be encoded in UTF-8: send 'Content-Type: application/json'.";
     }
   }
   if (type.empty() || type == "application/json" || type.ends_with("+json")) return std::nullopt;

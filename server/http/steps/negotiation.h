@@ -1,6 +1,6 @@
 #pragma once
 
-// What the client sends and takes: Content-Type, Content-Encoding, Accept, Accept-Encoding.
+// Content negotiation: Content-Type, Content-Encoding, Accept, Accept-Encoding.
 
 #include <optional>
 #include <string>
@@ -11,15 +11,15 @@ namespace fleetplan::server {
 /// Forms of the answer to POST /v1/plan.
 enum class PlanForm { json, events };
 
-/// The form that an Accept field (empty: absent) prefers: application/json, also when it likes
-/// text/event-stream as much; none when it allows neither. The most specific range decides about a form, q =
-/// 0 excludes it.
+/// The form that an Accept field (empty: absent) prefers: application/json, also if text/event-stream has the
+/// same quality; none when it allows neither. The most specific range decides about a form; q = 0 excludes
+/// it.
 std::optional<PlanForm> plan_form(std::string_view accept);
 
 /// True when an Accept-Encoding field (empty: absent) allows gzip.
 bool accepts_gzip(std::string_view accept_encoding);
 
-/// None when a body of this Content-Type (empty: absent) is taken; otherwise a detail that names the remedy.
+/// None when a body of this Content-Type (empty: absent) is accepted; otherwise a detail with the remedy.
 std::optional<std::string> content_type_fault(std::string_view content_type);
 
 enum class ContentCoding { identity, gzip, unknown };

@@ -61,7 +61,7 @@ Steps::Answer Steps::authentication(const Exchange& exchange) const {
 Steps::Answer Steps::path(const Exchange& exchange) const {
   if (exchange.route != nullptr) return std::nullopt;
   return refusal(exchange, ErrorCode::not_found,
-                 std::string("There is nothing at ") + in_quotes(exchange.head.path) + '.');
+                 std::string("There is no resource at ") + in_quotes(exchange.head.path) + '.');
 }
 
 Steps::Answer Steps::method(const Exchange& exchange) const {

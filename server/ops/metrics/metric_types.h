@@ -1,7 +1,7 @@
 #pragma once
 
-// Numbers that many threads change and one reads now and then. Each is right by itself; together they may be
-// of slightly different moments, as Prometheus expects.
+// Numbers that many threads change and one reads from time to time. Each is consistent by itself; together
+// they may be from slightly different moments, as Prometheus expects.
 
 #include <array>
 #include <atomic>

@@ -49,7 +49,7 @@ void write_process(MetricsText& text, std::chrono::system_clock::time_point star
   gauge("process_resident_memory_bytes", stats.resident_bytes, "Physical memory.");
   gauge("process_virtual_memory_bytes", stats.virtual_bytes, "Virtual memory.");
   gauge("process_open_fds", stats.open_fds, "Open file descriptors.");
-  gauge("process_max_fds", stats.max_fds, "Most file descriptors that may be open.");
+  gauge("process_max_fds", stats.max_fds, "Maximum number of open file descriptors.");
   const std::chrono::duration<double> since_1970 = started_at.time_since_epoch();
   gauge("process_start_time_seconds", since_1970.count(), "Start of the process, seconds since 1970.");
 }
@@ -113,14 +113,14 @@ std::string Metrics::text(const Gauges& now) const {
     }
   }
   text.metric("fleetplan_rejected_total", "counter",
-              "Requests answered with a problem, but for the 503 of /readyz.");
+              "Requests answered with a problem, except the 503 of /readyz.");
   for (const auto& [reason, count] : rejected_) {
     text.sample(as_double(count.value()), {{"reason", reason}});
   }
-  text.metric("fleetplan_connections", "gauge", "Connections that are served.")
+  text.metric("fleetplan_connections", "gauge", "Open connections.")
       .sample(as_double(now.connections), {{"port", "main"}})
       .sample(as_double(now.admin_connections), {{"port", "admin"}});
-  gauge("fleetplan_workers", now.workers, "Plans and checks computed at a time at most.");
+  gauge("fleetplan_workers", now.workers, "Plans and checks that can be computed at a time.");
   gauge("fleetplan_workers_busy", now.busy, "Plans and checks being computed.");
   gauge("fleetplan_queue_depth", now.queued, "Jobs that wait for a worker.");
   text.metric("fleetplan_queue_wait_seconds", "histogram", "How long jobs waited for a worker.")
@@ -131,9 +131,9 @@ std::string Metrics::text(const Gauges& now) const {
     text.sample(count, {{"outcome", api::name_of(status)}});
   }
   counter("fleetplan_plans_refused_total", plans_[static_cast<std::size_t>(Status::refused)],
-          "Plans that the checker refused; each is a bug.");
+          "Plans that the checker rejected; each is a bug.");
   counter("fleetplan_plans_cancelled_total", cancelled_, "Plans whose client left before the answer.");
-  text.metric("fleetplan_plan_seconds", "histogram", "How long planning took, where there was time for it.")
+  text.metric("fleetplan_plan_seconds", "histogram", "Time that planning took, of plans that were started.")
       .histogram(plan_seconds_);
   text.metric("fleetplan_robots_total", "counter", "Robots of the plans.");
   text.sample(as_double(planned_robots_.value()), {{"outcome", "planned"}});

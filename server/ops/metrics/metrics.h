@@ -16,7 +16,7 @@
 
 namespace fleetplan::server {
 
-/// What the service is doing at the moment.
+/// The current load.
 struct Gauges {
   std::size_t connections = 0;        // that are served
   std::size_t admin_connections = 0;  // the same, of the admin port
@@ -25,7 +25,7 @@ struct Gauges {
   std::size_t queued = 0;             // jobs that wait for their turn
 };
 
-/// Counts what the service has done since its start. Thread-safe; counting takes no lock.
+/// Counts requests and plans since the start. Thread-safe; counting takes no lock.
 class Metrics {
  public:
   /// `routes`: those of the main port; the admin port's are among them.
@@ -34,8 +34,8 @@ class Metrics {
   /// An exchange that is over.
   void count(const Exchange& exchange);
 
-  /// Everything as GET /metrics answers it, see MetricsText. All series are there from the start, but for
-  /// those of statuses that are unusual on their route.
+  /// The answer to GET /metrics, see MetricsText. All series exist from the start, except those of statuses
+  /// that are unusual on their route.
   std::string text(const Gauges& now) const;
 
  private:

@@ -2,7 +2,7 @@
 
 namespace fleetplan::server {
 
-/// What this process uses of the machine, as of now.
+/// Resources that this process uses at the moment.
 struct ProcessStats {
   double cpu_seconds = 0.0;     // user and system, of all threads
   double resident_bytes = 0.0;  // physical memory

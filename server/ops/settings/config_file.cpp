@@ -13,14 +13,14 @@ namespace fleetplan::server {
 
 namespace {
 
-/// Throws what CLI11 does when the value is none for the option.
+/// Throws an exception of CLI11 when the value is not valid for the option.
 std::optional<std::string> apply(CLI::App& app, const CLI::ConfigItem& item) {
   CLI::Option* option =
       item.parents.empty() ? app.get_option_no_throw("--" + item.name) : nullptr;  // there are no sections
   if (option == nullptr || !option->get_configurable()) {
     return "there is no setting " + in_quotes(item.fullname());
   }
-  // A line without '=' comes as "true", which newer versions of CLI11 take for the number 1.
+  // A line without '=' is reported as "true", which newer versions of CLI11 convert to the number 1.
   if (item.inputs == std::vector<std::string>{"true"}) return in_quotes(item.name) + " has no value";
   if (option->count() > 0) return std::nullopt;
   option->add_result(item.inputs);

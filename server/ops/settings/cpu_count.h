@@ -6,8 +6,8 @@
 
 namespace fleetplan::server {
 
-/// Processors this process may use: its affinity, cut by the CPU quota of its control groups (v2 or v1),
-/// rounded down, at least 1.
+/// Processors this process may use: the smaller of its affinity and the CPU quota of its control groups (v2
+/// or v1), rounded down, at least 1.
 int cpus_granted();
 
 /// The smallest CPU quota, in processors, of the control groups that `membership` names (the lines of

@@ -26,7 +26,7 @@ std::string environment_name(std::string flag) {
   return "FLEETPLAN_" + flag;
 }
 
-/// Flags with their environment names, and the values that do not fit Settings as they are.
+/// Flags with their environment names, and values that need conversion before they go into Settings.
 class Flags {
  public:
   Flags() : app_("Fleetplan: collision-free timed motions for fleets of robots, over HTTP.", "fleetplan") {
@@ -39,10 +39,10 @@ class Flags {
     add_limits();
     add_times();
     app_.add_flag("--healthcheck", settings_.healthcheck,
-                  "Ask the service that runs with the same host and ports whether it is alive: exit 0, or 1")
+                  "Check whether the service with this host and these ports is alive: exit code 0, or 1")
         ->configurable(false);
     config_option_ =
-        add("config", config_, "File of 'flag = value' lines, for what neither flag nor environment says")
+        add("config", config_, "File of 'flag = value' lines; flags and the environment override it")
             ->configurable(false);
   }
 
@@ -63,14 +63,13 @@ class Flags {
   }
 
  private:
-  /// Newer versions of CLI11 pass over a bad value from the environment without a word; what that says, if
-  /// so.
+  /// Newer versions of CLI11 silently ignore a bad value from the environment. The fault, if there is one.
   std::optional<std::string> ignored_environment() const {
     for (const CLI::Option* option : app_.get_options()) {
       const char* value =
           option->get_envname().empty() ? nullptr : std::getenv(option->get_envname().c_str());
       if (value == nullptr || *value == '\0' || option->count() > 0) continue;
-      return option->get_envname() + ": '" + value + "' is no value for " + option->get_name();
+      return option->get_envname() + ": '" + value + "' is not a valid value for " + option->get_name();
     }
     return std::nullopt;
   }
@@ -92,7 +91,7 @@ class Flags {
     add("host", settings_.host, "Address to listen on");
     add_number("port", settings_.port, 0, 65535, "Port to listen on, 0 for any free one");
     admin_ = add_number("admin-port", admin_port_, 0, 65535,
-                        "Port of health, readiness and metrics alone, 0 for any free one")
+                        "Separate port for health, readiness and metrics, 0 for any free one")
                  ->default_str("off");
     add_number("workers", settings_.workers, 1, 1024,
                "Planning threads, by default the CPUs granted; idle ones help with anytime plans");
@@ -106,7 +105,7 @@ class Flags {
 
   void add_access() {
     token_option_ = add("auth-token-file", token_file_,
-                        "File with the token that requests must show, but for health and readiness");
+                        "File with the token that requests must send, except for health and readiness");
     add("cors-origin", settings_.cors_origins,
         "Origins whose pages may use the service from a browser, comma-separated or repeated; * for any")
         ->delimiter(',')
@@ -117,28 +116,28 @@ class Flags {
   void add_limits() {
     api::Limits& limits = settings_.limits;
     max_body_ = limits.max_body;
-    add("max-body", max_body_, "Bytes of a body after decompression; KiB, MiB and GiB are understood")
+    add("max-body", max_body_, "Largest body in bytes after decompression; accepts KiB, MiB and GiB")
         ->transform(CLI::AsSizeValue(false))
         ->default_str("32MiB");
-    add_number<std::int64_t>("max-cells", limits.max_cells, 1, 1'000'000'000, "Cells of a map");
-    add_number<std::size_t>("max-robots", limits.max_robots, 1, 1'000'000, "Robots of a request");
-    add_number("max-depth", limits.max_depth, 4, 512, "Nesting of the JSON");
+    add_number<std::int64_t>("max-cells", limits.max_cells, 1, 1'000'000'000, "Most cells of a map");
+    add_number<std::size_t>("max-robots", limits.max_robots, 1, 1'000'000, "Most robots of a request");
+    add_number("max-depth", limits.max_depth, 4, 512, "Deepest nesting of the JSON");
   }
 
   void add_times() {
     api::Limits& limits = settings_.limits;
     default_budget_ = add_number<std::int64_t>("default-budget-ms", limits.default_budget_ms, 1, kMaxMs,
-                                               "Time for a plan that names none");
+                                               "Time for a plan whose request sets none");
     add_number<std::int64_t>("max-budget-ms", limits.max_budget_ms, 1, kMaxMs, "Longest time for a plan");
     add_number<std::int64_t>("idle-timeout-ms", idle_timeout_ms_, 1, kMaxMs,
                              "An idle connection is closed after this");
     add_number<std::int64_t>(
         "read-timeout-ms", read_timeout_ms_, 1, kMaxMs,
-        "A request's head must come within this; its body may pause for so long and fall "
-        "so far behind 100 kB/s");
+        "A request's head must arrive within this; its body may pause for as long and fall "
+        "as far behind 100 kB/s");
     add_number<std::int64_t>("drain-ms", drain_ms_, 0, kMaxMs, "Time for running plans after SIGTERM");
     add_number<std::int64_t>("drain-delay-ms", drain_delay_ms_, 0, kMaxMs,
-                             "Time before that, not ready but serving, for balancers to take notice");
+                             "Time before that, not ready but serving, so that load balancers notice");
   }
 
   std::variant<Settings, SettingsExit> finish() {
@@ -146,7 +145,7 @@ class Flags {
       return bad("--max-body must be 1 byte to 1 TiB");
     std::error_code ignored;
     if (!settings_.web_root.empty() && !std::filesystem::is_directory(settings_.web_root, ignored)) {
-      return bad("--web-root: '" + settings_.web_root + "' is no folder");
+      return bad("--web-root: '" + settings_.web_root + "' is not a folder");
     }
     if (const auto fault = finish_access()) return bad(*fault);
     api::Limits& limits = settings_.limits;

@@ -21,19 +21,18 @@ struct Settings {
   std::size_t queue = 4;                         // jobs that may wait; the flag's default: 4 for each worker
   std::size_t connections = 1024;
   api::Limits limits;
-  std::chrono::milliseconds idle_timeout{1000};    // of a connection between requests
-  std::chrono::milliseconds read_timeout{10'000};  // for a request's head, and see read_body
-  std::chrono::milliseconds drain{10'000};         // for running jobs when asked to end
-  std::chrono::milliseconds drain_delay{0};        // before that: not ready any more, but all is served
-  std::optional<AccessToken> token =
-      std::nullopt;                            // to be shown by all requests but for health and readiness
-  std::vector<std::string> cors_origins = {};  // whose pages may read answers, see CrossOrigin
+  std::chrono::milliseconds idle_timeout{1000};     // of a connection between requests
+  std::chrono::milliseconds read_timeout{10'000};   // for a request's head; see also read_body
+  std::chrono::milliseconds drain{10'000};          // for running jobs after SIGTERM
+  std::chrono::milliseconds drain_delay{0};         // before that: not ready, but serving
+  std::optional<AccessToken> token = std::nullopt;  // required for all requests except health and readiness
+  std::vector<std::string> cors_origins = {};       // see CrossOrigin
   std::string log_level = "info";
   std::string web_root;      // empty: no page
-  bool healthcheck = false;  // ask the service that runs with these settings, instead of serving
+  bool healthcheck = false;  // probe the service that runs with these settings instead of serving
 };
 
-/// The process is to end instead of serving: help, version, or a bad value.
+/// The process should end instead of serving: help, version, or a bad value.
 struct SettingsExit {
   int code;  // 0, or 2 for a bad value
   std::string text;

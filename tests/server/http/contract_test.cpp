@@ -78,7 +78,7 @@ TEST_F(Contract, APlanIsSolvedVerifiedAndValid) {
   EXPECT_EQ(report["valid"], true) << report;
 }
 
-TEST_F(Contract, EachFaultOfContentIsToldAndTheNextRequestServed) {
+TEST_F(Contract, EachFaultOfContentIsReportedAndTheNextRequestServed) {
   const std::string deep(3 << 20, '[');
   Json invalid = tiny_request();
   invalid["robots"][0]["radius"] = -1;

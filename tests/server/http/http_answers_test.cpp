@@ -48,7 +48,7 @@ class HttpAnswers : public testing::Test {
   httplib::Client client = server.client();
 };
 
-TEST_F(HttpAnswers, PlanAndValidateTakeTheirBodyToTheService) {
+TEST_F(HttpAnswers, PlanAndValidatePassTheBodyToTheService) {
   for (const char* path : {"/v1/plan", "/v1/validate"}) {
     const auto result = client.Post(path, "12345", kJsonType);
     ASSERT_TRUE(result);
@@ -101,7 +101,7 @@ TEST_F(HttpAnswers, AnUnknownPathIs404) {
   expect_served();
 }
 
-TEST_F(HttpAnswers, AnUnknownExampleIs404AndNamesThoseThereAre) {
+TEST_F(HttpAnswers, AnUnknownExampleIs404AndListsTheExamples) {
   const auto problem = expect_problem(client.Get("/v1/examples/huge"), 404, "not_found");
   EXPECT_NE(problem.value("detail", "").find("tiny, narrow-door"), std::string::npos);
 }
@@ -160,7 +160,7 @@ TEST_F(HttpAnswers, ABodyOverTheLimitIs413WithItsSizeAndTheLimit) {
   expect_served();
 }
 
-TEST_F(HttpAnswers, AHugeBodyIs413ToAClientThatSendsAllOfItFirst) {
+TEST_F(HttpAnswers, AHugeBodyIs413EvenIfTheClientSendsAllOfItFirst) {
   expect_problem(client.Post("/v1/plan", std::string(16 << 20, ' '), kJsonType), 413, "body_too_large");
   expect_served();
 }
@@ -194,7 +194,7 @@ TEST_F(HttpAnswers, ABodyThatIsNotGzipAsDeclaredIs400) {
   expect_served();
 }
 
-TEST_F(HttpAnswers, AnExceptionIs500AndSaysNothingOfItself) {
+TEST_F(HttpAnswers, AnExceptionIs500WithoutItsText) {
   const auto result = client.Post("/v1/plan", "throw", kJsonType);
   expect_problem(result, 500, "internal_error");
   ASSERT_TRUE(result);
@@ -218,7 +218,7 @@ TEST_F(HttpAnswers, ARangeIsIgnored) {
   }
 }
 
-TEST_F(HttpAnswers, AWellFormedRequestIdIsTakenOver) {
+TEST_F(HttpAnswers, AWellFormedRequestIdIsKept) {
   const auto result = client.Get("/healthz", httplib::Headers{{"X-Request-Id", "a.B_c-9"}});
   ASSERT_TRUE(result);
   EXPECT_EQ(result->get_header_value("X-Request-Id"), "a.B_c-9");
@@ -227,7 +227,7 @@ TEST_F(HttpAnswers, AWellFormedRequestIdIsTakenOver) {
   EXPECT_EQ(refused->get_header_value("X-Request-Id"), "a.B_c-9");
 }
 
-TEST_F(HttpAnswers, AnIllFormedOrMissingRequestIdIsMade) {
+TEST_F(HttpAnswers, AnIllFormedOrMissingRequestIdIsReplaced) {
   std::set<std::string> made;
   for (const std::string& sent :
        {std::string("a b"), std::string("{}"), std::string(129, 'a'), std::string()}) {
@@ -256,7 +256,7 @@ TEST_F(HttpAnswers, AreCompressedByGzipAndNeverByBrotli) {
   EXPECT_EQ(encoding("gzip;q=0"), "");
 }
 
-TEST_F(HttpAnswers, SeveralComeOverOneConnection) {
+TEST_F(HttpAnswers, SeveralShareOneConnection) {
   for (int i = 0; i < 20; ++i) expect_served();
 }
 

@@ -63,7 +63,7 @@ TEST(IdleWorkers, HelpWithTheRequestOfAnother) {
   EXPECT_EQ(result->status, 200);
 }
 
-TEST(IdleWorkers, LeaveAnExceptionOfTheirsToTheRequest) {
+TEST(IdleWorkers, PassTheirExceptionsToTheRequest) {
   Service service = planning_service();
   service.plan = [](std::string_view, const api::RequestContext& context) {
     std::latch both(2);
@@ -79,7 +79,7 @@ TEST(IdleWorkers, LeaveAnExceptionOfTheirsToTheRequest) {
   EXPECT_EQ(result->status, 500);
 }
 
-TEST(IdleWorkers, ChangeNothingInThePlan) {
+TEST(IdleWorkers, DoNotChangeThePlan) {
   const Json request = crossing_request();
   const Json alone = planned(1, request);
   EXPECT_EQ(alone["deterministic"], true);

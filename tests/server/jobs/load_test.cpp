@@ -43,7 +43,7 @@ std::future<int> waiting_job(const TestServer& server, const std::string& body =
   });
 }
 
-TEST(Load, OfManyClientsIsServedAndNoAnswerIsMixedUp) {
+TEST(Load, ManyClientsReceiveTheirOwnAnswers) {
   const TestServer server(with_workers(2, 8));  // more clients than the queue has places, but short jobs
   std::vector<std::thread> threads;
   std::atomic<int> right{0};
@@ -66,7 +66,7 @@ TEST(Load, OfManyClientsIsServedAndNoAnswerIsMixedUp) {
   EXPECT_EQ(right, 200);
 }
 
-TEST(Load, BeyondTheQueueIs503WithRetryAfterWhileHealthAnswers) {
+TEST(Load, AFullQueueIs503WithRetryAfterWhileHealthAnswers) {
   TestServer server(with_workers(1, 0));
   auto running = waiting_job(server);
   server.stub.gate.await_waiting(1);
@@ -83,7 +83,7 @@ TEST(Load, BeyondTheQueueIs503WithRetryAfterWhileHealthAnswers) {
   EXPECT_EQ(running.get(), 200);
 }
 
-TEST(Load, OfIdleConnectionsStarvesNobody) {
+TEST(Load, IdleConnectionsDoNotBlockOthers) {
   Settings settings = with_workers(2, 8);
   settings.idle_timeout = std::chrono::minutes(10);
   const TestServer server(settings);
@@ -98,7 +98,7 @@ TEST(Load, OfIdleConnectionsStarvesNobody) {
   EXPECT_EQ(result->status, 200);
 }
 
-TEST(Load, BeyondTheConnectionsWaitsForOneToEnd) {
+TEST(Load, ConnectionsBeyondTheLimitWaitForOneToEnd) {
   Settings settings = with_workers(1, 8);
   settings.connections = 2;
   settings.idle_timeout = std::chrono::milliseconds(50);
@@ -111,7 +111,7 @@ TEST(Load, BeyondTheConnectionsWaitsForOneToEnd) {
   for (auto& client : clients) EXPECT_NE(client->receive().find("200 OK"), std::string::npos);
 }
 
-TEST(Load, OfTheLargestBodyIsTakenWithoutAQueue) {
+TEST(Load, TheLargestBodyIsAcceptedWithoutAQueue) {
   Settings settings = with_workers(1, 0);
   settings.limits.max_body = 2 * BodyMemory::kSmall;
   const TestServer server(settings);
@@ -125,7 +125,7 @@ TEST(Load, OfTheLargestBodyIsTakenWithoutAQueue) {
   }
 }
 
-TEST(Load, OfManyLargeBodiesIsRefusedWhileSmallOnesAreTaken) {
+TEST(Load, ManyLargeBodiesAreRejectedWhileSmallOnesAreAccepted) {
   Settings settings = with_workers(3, 0);
   settings.limits.max_body = 1 << 20;  // so that all bodies together have 4 MiB
   TestServer server(settings);
@@ -158,7 +158,7 @@ TEST(Load, OfManyLargeBodiesIsRefusedWhileSmallOnesAreTaken) {
   }));
 }
 
-TEST(Leaving, StopsThePlanThatNobodyWaitsFor) {
+TEST(Leaving, StopsThePlan) {
   TestServer server(with_workers(1, 1));
   {
     RawConnection client(server.server.port());
@@ -172,7 +172,7 @@ TEST(Leaving, StopsThePlanThatNobodyWaitsFor) {
   EXPECT_EQ(server.stub.stopped, 1);
 }
 
-TEST(Leaving, IsToCloseOneHalfOfTheConnectionAsWell) {
+TEST(Leaving, IncludesClosingOneHalfOfTheConnection) {
   TestServer server(with_workers(1, 1));
   RawConnection client(server.server.port());
   client.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 4\r\n\r\ngate");
@@ -181,7 +181,7 @@ TEST(Leaving, IsToCloseOneHalfOfTheConnectionAsWell) {
   EXPECT_TRUE(holds_soon([&] { return server.stub.stopped == 1; }));
 }
 
-TEST(Draining, RefusesNewJobsButAnswersTheRunningOnes) {
+TEST(Draining, RejectsNewJobsButAnswersRunningOnes) {
   TestServer server(with_workers(1, 4));
   auto running = waiting_job(server);
   server.stub.gate.await_waiting(1);
@@ -207,7 +207,7 @@ TEST(Draining, RefusesNewJobsButAnswersTheRunningOnes) {
   EXPECT_EQ(running.get(), 200);
 }
 
-TEST(Draining, AsksJobsThatTakeTooLongToStop) {
+TEST(Draining, StopsJobsThatTakeTooLong) {
   TestServer server(with_workers(1, 4));
   auto running = waiting_job(server);
   server.stub.gate.await_waiting(1);
@@ -217,7 +217,7 @@ TEST(Draining, AsksJobsThatTakeTooLongToStop) {
   EXPECT_EQ(server.stub.stopped, 1);
 }
 
-TEST(Draining, TellsJobsThatCannotBeDoneAnyMoreWhenToComeBack) {
+TEST(Draining, AnswersCancelledJobsWithRetryAfter) {
   StubService stub;
   Service service = stub.service();
   service.validate = [](std::string_view, const api::RequestContext& context) {
@@ -230,7 +230,7 @@ TEST(Draining, TellsJobsThatCannotBeDoneAnyMoreWhenToComeBack) {
   EXPECT_TRUE(refused->has_header("Retry-After"));
 }
 
-TEST(Draining, IsAnnouncedBeforeAnythingIsRefused) {
+TEST(Draining, IsAnnouncedBeforeAnythingIsRejected) {
   TestServer server(with_workers(1, 4));
   auto client = server.client();
   server.server.announce_end();
@@ -242,7 +242,7 @@ TEST(Draining, IsAnnouncedBeforeAnythingIsRefused) {
   EXPECT_EQ(served->status, 200);
 }
 
-TEST(Draining, WaitsForNoBodyOnceJobsAreToStop) {
+TEST(Draining, DoesNotWaitForBodiesOnceJobsAreCancelled) {
   TestServer server(with_workers(1, 4));
   RawConnection slow(server.server.port());
   slow.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 10\r\nExpect: 100-continue\r\n\r\n");
@@ -269,7 +269,7 @@ TEST(Stopping, EndsIdleConnectionsAtOnce) {
   EXPECT_TRUE(idle.closed_by_server());
 }
 
-TEST(Binding, TwiceToOnePortFailsAndSaysWhy) {
+TEST(Binding, TwiceToOnePortFailsWithAMessage) {
   const TestServer first;
   Settings settings;
   settings.port = first.server.port();

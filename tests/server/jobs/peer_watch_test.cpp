@@ -37,7 +37,7 @@ bool is_stopped(const std::stop_source& stop) {
   return stop.stop_requested();
 }
 
-TEST(PeerWatch, StopsWhatAClientThatLeavesWaitedFor) {
+TEST(PeerWatch, StopsTheJobOfAClientThatLeaves) {
   PeerWatch watch;
   Pair stays;
   Pair leaves;
@@ -54,7 +54,7 @@ TEST(PeerWatch, StopsWhatAClientThatLeavesWaitedFor) {
   EXPECT_FALSE(one.gone());
 }
 
-TEST(PeerWatch, IsWokenAgainAfterAVeryShortJob) {
+TEST(PeerWatch, WakesAgainAfterAVeryShortJob) {
   PeerWatch watch;
   for (int i = 0; i < 5; ++i) {
     std::this_thread::sleep_for(2 * PeerWatch::kPeriod);  // it has nothing to watch and falls asleep

@@ -22,7 +22,7 @@ Settings with_one_worker(std::size_t queue) {
   return settings;
 }
 
-/// The planner, but for requests of "gate", which keep their worker until the test lets them go.
+/// The planner, except for requests of "gate", which occupy their worker until the test opens the gate.
 Service planner_behind(StubService& stub) {
   Service service = planning_service();
   service.plan = [stub = stub.service().plan, plan = service.plan](std::string_view body,
@@ -45,7 +45,7 @@ std::string request_with_budget(int ms) {
   return request.dump();
 }
 
-TEST(Queue, LetsARequestGoWhenItsBudgetEndsThereThoughNoWorkerIsFree) {
+TEST(Queue, AnswersARequestWhoseBudgetEndsWhileItWaits) {
   StubService stub;
   const TestServer server(with_one_worker(4), planner_behind(stub));
   const RawConnection running(server.server.port());
@@ -62,7 +62,7 @@ TEST(Queue, LetsARequestGoWhenItsBudgetEndsThereThoughNoWorkerIsFree) {
   stub.gate.open();
 }
 
-TEST(Queue, TellsThoseItHasNoRoomForHowLongTheWorkAheadWillTake) {
+TEST(Queue, EstimatesRetryAfterFromTheWorkAhead) {
   StubService stub;
   const TestServer server(with_one_worker(0), planner_behind(stub));
   const RawConnection running(server.server.port());

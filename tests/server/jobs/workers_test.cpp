@@ -45,7 +45,7 @@ void do_job(Workers& workers, Work work) {
   work();
 }
 
-TEST(Workers, LetNoMoreJobsComputeThanThereAreWorkers) {
+TEST(Workers, RunAtMostOneJobPerWorker) {
   Workers workers(3, 1000);
   std::atomic<int> computing{0};
   std::atomic<int> done{0};
@@ -69,7 +69,7 @@ TEST(Workers, LetNoMoreJobsComputeThanThereAreWorkers) {
   EXPECT_EQ(workers.queued(), 0u);
 }
 
-TEST(Workers, RefuseAJobBeyondTheQueue) {
+TEST(Workers, RejectAJobBeyondTheQueue) {
   Workers workers(1, 2);
   auto running = workers.admit();
   auto second = workers.admit();
@@ -81,7 +81,7 @@ TEST(Workers, RefuseAJobBeyondTheQueue) {
   EXPECT_TRUE(workers.admit()) << "a job that ends gives its place back, also one whose turn never came";
 }
 
-TEST(Workers, RefuseABurstWhileJobsAreLong) {
+TEST(Workers, RejectABurstWhileJobsAreLong) {
   Workers workers(1, 1, 100);
   auto running = workers.admit();
   ASSERT_TRUE(running->await_turn(kForever));
@@ -91,7 +91,7 @@ TEST(Workers, RefuseABurstWhileJobsAreLong) {
   EXPECT_FALSE(workers.admit()) << "the running job has taken longer than a short wait";
 }
 
-TEST(Workers, TakeABurstOfShortJobsBesideALongOne) {
+TEST(Workers, AcceptABurstOfShortJobsBesideALongOne) {
   Workers workers(2, 1, 100);
   do_job(workers, [] {});
   auto long_one = workers.admit();
@@ -105,14 +105,14 @@ TEST(Workers, TakeABurstOfShortJobsBesideALongOne) {
   }
 }
 
-TEST(Workers, BoundABurstHoweverShortTheJobs) {
+TEST(Workers, LimitABurstHoweverShortTheJobs) {
   Workers workers(1, 1, 3);
   std::vector<Workers::Job> jobs;
   while (auto job = workers.admit()) jobs.push_back(std::move(*job));
   EXPECT_EQ(jobs.size(), 1u + 1u + 3u);
 }
 
-TEST(Workers, WithoutAQueueStillTakeAJobEach) {
+TEST(Workers, AcceptOneJobEachWithoutAQueue) {
   Workers workers(2, 0);
   const auto one = workers.admit();
   const auto other = workers.admit();
@@ -135,7 +135,7 @@ TEST(Workers, GiveTurnsInOrder) {
   EXPECT_EQ(order, (std::vector<int>{0, 1, 2, 3, 4}));
 }
 
-TEST(Workers, LetAJobWaitNoLongerThanItsStopCondition) {
+TEST(Workers, StopWaitingWhenTheJobsStopConditionIsMet) {
   Workers workers(1, 10);
   auto running = workers.admit();
   ASSERT_TRUE(running->await_turn(kForever));
@@ -154,7 +154,7 @@ TEST(Workers, LetAJobWaitNoLongerThanItsStopCondition) {
   EXPECT_TRUE(next->await_turn(kForever)) << "those that gave up take no turn";
 }
 
-TEST(WorkersTasks, AreEachDoneOnceForManyJobs) {
+TEST(WorkersTasks, RunExactlyOnceForManyJobs) {
   constexpr std::size_t kTasks = 50;
   Workers workers(4, 100);
   std::vector<std::vector<std::atomic<int>>> done(20);
@@ -169,12 +169,12 @@ TEST(WorkersTasks, AreEachDoneOnceForManyJobs) {
   }
 }
 
-TEST(WorkersTasks, OfNoNumberAreDoneAtOnce) {
+TEST(WorkersTasks, ReturnAtOnceWhenThereAreNone) {
   Workers workers(2, 0);
   do_job(workers, [&] { workers.run(0, [](std::size_t) { FAIL(); }); });
 }
 
-TEST(WorkersTasks, AreDoneInOrderByTheOnlyWorker) {
+TEST(WorkersTasks, RunInOrderOnASingleWorker) {
   Workers workers(1, 0);
   std::vector<std::size_t> done;
   do_job(workers, [&] {
@@ -187,7 +187,7 @@ TEST(WorkersTasks, AreDoneInOrderByTheOnlyWorker) {
   EXPECT_EQ(done, (std::vector<std::size_t>{0, 1, 2}));
 }
 
-TEST(WorkersTasks, AreDoneByTheCallerWhenAllOthersAreBusy) {
+TEST(WorkersTasks, RunOnTheCallerWhenAllOthersAreBusy) {
   Workers workers(2, 1);
   auto busy = workers.admit();
   ASSERT_TRUE(busy->await_turn(kForever));
@@ -218,7 +218,7 @@ class Meeting {
   std::ptrdiff_t missing_;
 };
 
-TEST(WorkersTasks, AreDoneByIdleWorkersToo) {
+TEST(WorkersTasks, RunOnIdleWorkersToo) {
   Workers workers(3, 0);
   for (int round = 0; round < 20; ++round) {
     Meeting meeting(3);
@@ -226,7 +226,7 @@ TEST(WorkersTasks, AreDoneByIdleWorkersToo) {
   }
 }
 
-TEST(WorkersTasks, AreDoneByAWorkerThatBecomesIdleMeanwhile) {
+TEST(WorkersTasks, RunOnAWorkerThatBecomesIdle) {
   Workers workers(2, 0);
   auto busy = workers.admit();
   ASSERT_TRUE(busy->await_turn(kForever));
@@ -245,7 +245,7 @@ TEST(WorkersTasks, AreDoneByAWorkerThatBecomesIdleMeanwhile) {
   sharing.join();
 }
 
-TEST(WorkersTasks, AreLeftToOthersWhenAJobHasItsTurn) {
+TEST(WorkersTasks, DoNotDelayAJobsTurn) {
   Workers workers(2, 0);
   std::atomic<int> begun{0};
   Meeting both(2);
@@ -271,7 +271,7 @@ TEST(WorkersTasks, AreLeftToOthersWhenAJobHasItsTurn) {
   EXPECT_EQ(begun, 6);
 }
 
-TEST(WorkersTasks, ThrowTheirExceptionAtTheCaller) {
+TEST(WorkersTasks, ThrowTheirExceptionInTheCaller) {
   Workers workers(2, 0);
   do_job(workers, [&] {
     const auto caller = std::this_thread::get_id();
@@ -287,7 +287,7 @@ TEST(WorkersTasks, ThrowTheirExceptionAtTheCaller) {
   do_job(workers, [&] { workers.run(2, [&](std::size_t) { EXPECT_TRUE(meeting.attend()); }); });
 }
 
-TEST(WorkersTasks, ThrowOnlyWhenNoneRunsAnyMore) {
+TEST(WorkersTasks, ThrowOnlyAfterRunningTasksHaveEnded) {
   Workers workers(2, 0);
   do_job(workers, [&] {
     const auto caller = std::this_thread::get_id();
@@ -304,7 +304,7 @@ TEST(WorkersTasks, ThrowOnlyWhenNoneRunsAnyMore) {
   });
 }
 
-TEST(WorkersTasks, AreNotBegunAfterOneHasThrown) {
+TEST(WorkersTasks, DoNotStartAfterOneHasThrown) {
   Workers workers(1, 0);
   do_job(workers, [&] {
     std::size_t last = 0;

@@ -61,7 +61,7 @@ TEST(AdminPort, AnswersWhenNoConnectionOfTheMainPortIsLeft) {
   }
 }
 
-TEST(AdminPort, WantsTheTokenForMetrics) {
+TEST(AdminPort, RequiresTheTokenForMetrics) {
   Settings settings = with_admin_port();
   settings.token = std::get<AccessToken>(AccessToken::from_text("token"));
   const TestServer server(settings);
@@ -83,7 +83,7 @@ TEST(AdminPort, AnswersWhenAllWorkersAreBusyAndTheQueueIsFull) {
   server.stub.gate.open();
 }
 
-TEST(AdminPort, SaysThatTheServerDrains) {
+TEST(AdminPort, ReportsThatTheServerDrains) {
   TestServer server(with_admin_port());
   auto client = admin_client(server);
   server.server.begin_drain();
@@ -91,7 +91,7 @@ TEST(AdminPort, SaysThatTheServerDrains) {
   EXPECT_EQ(status_of(admin_client(server).Get("/healthz")), 200);
 }
 
-TEST(AdminPort, ThatIsTakenIsAFaultThatNamesIt) {
+TEST(AdminPort, ReportsAPortThatIsTaken) {
   const TestServer first(with_admin_port());
   Settings settings = with_admin_port();
   settings.port = 0;

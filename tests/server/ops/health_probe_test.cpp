@@ -19,19 +19,19 @@ Settings at_port(int port) {
   return settings;
 }
 
-TEST(HealthProbe, FindsNoFaultWithAServiceThatAnswers) {
+TEST(HealthProbe, ReportsNoFaultWhenTheServiceAnswers) {
   const TestServer server;
   EXPECT_EQ(health_fault(at_port(server.server.port())), std::nullopt);
 }
 
-TEST(HealthProbe, AsksTheLoopbackOfAServiceOnAllAddresses) {
+TEST(HealthProbe, UsesTheLoopbackForAServiceOnAllAddresses) {
   const TestServer server;
   Settings settings = at_port(server.server.port());
   settings.host = "0.0.0.0";
   EXPECT_EQ(health_fault(settings), std::nullopt);
 }
 
-TEST(HealthProbe, AsksTheAdminPortWhereThereIsOne) {
+TEST(HealthProbe, UsesTheAdminPortIfSet) {
   Settings with_admin_port;
   with_admin_port.admin_port = 0;
   const TestServer server(with_admin_port);
@@ -47,13 +47,13 @@ TEST(HealthProbe, NeedsNoToken) {
   EXPECT_EQ(health_fault(at_port(server.server.port())), std::nullopt);
 }
 
-TEST(HealthProbe, FindsADrainingServiceAlive) {
+TEST(HealthProbe, TreatsADrainingServiceAsAlive) {
   TestServer server;
   server.server.begin_drain();
   EXPECT_EQ(health_fault(at_port(server.server.port())), std::nullopt);
 }
 
-TEST(HealthProbe, NamesWhoDoesNotAnswer) {
+TEST(HealthProbe, NamesTheAddressThatDoesNotAnswer) {
   TestServer server;
   const int port = server.server.port();
   server.stop();
@@ -61,7 +61,7 @@ TEST(HealthProbe, NamesWhoDoesNotAnswer) {
               Optional(HasSubstr("no answer from 127.0.0.1 port " + std::to_string(port) + ": ")));
 }
 
-TEST(HealthProbe, TellsAnotherServiceFromThis) {
+TEST(HealthProbe, RejectsAnotherService) {
   httplib::Server other;  // knows no path
   const int port = other.bind_to_any_port("127.0.0.1");
   std::thread serving([&] { other.listen_after_bind(); });
@@ -71,9 +71,7 @@ TEST(HealthProbe, TellsAnotherServiceFromThis) {
   EXPECT_EQ(fault, "127.0.0.1 port " + std::to_string(port) + " answered /healthz with 404");
 }
 
-TEST(HealthProbe, CannotGuessThePort) {
-  EXPECT_THAT(health_fault(at_port(0)), Optional(HasSubstr("name one")));
-}
+TEST(HealthProbe, RejectsPortZero) { EXPECT_THAT(health_fault(at_port(0)), Optional(HasSubstr("name one"))); }
 
 }  // namespace
 }  // namespace fleetplan::server

@@ -103,7 +103,7 @@ std::string swap_request(const std::string& mode) {
          mode + "\"}}";
 }
 
-TEST(Process, SaysWhereItListensAndLogsRequestsAsJson) {
+TEST(Process, PrintsItsUrlAndLogsRequestsAsJson) {
   Process process({"--port", "0", "--workers", "1"});
   const std::string line = process.output_line();
   ASSERT_EQ(line.find(kGreeting), 0u) << line;
@@ -119,7 +119,7 @@ TEST(Process, SaysWhereItListensAndLogsRequestsAsJson) {
   EXPECT_EQ(log.find("secret"), std::string::npos) << log;
 }
 
-TEST(Process, LogsWhatBecameOfAPlan) {
+TEST(Process, LogsTheOutcomeOfAPlan) {
   Process process({"--port", "0", "--workers", "1"});
   httplib::Client client("127.0.0.1", port_in(process.output_line()));
   const auto swapped = client.Post("/v1/plan", swap_request("first"), "application/json");
@@ -145,7 +145,7 @@ void await_metric(int port, const std::string& series_and_value) {
   })) << series_and_value;
 }
 
-TEST(Process, LogsNoErrorOfAClientThatLeft) {
+TEST(Process, LogsNoErrorWhenAClientLeaves) {
   Process process({"--port", "0", "--workers", "1", "--queue", "1"});
   const int port = port_in(process.output_line());
   const auto send = [](RawConnection& client, const std::string& path, const std::string& body) {
@@ -182,7 +182,7 @@ TEST(Process, LogsItsStartAndItsEnd) {
   EXPECT_EQ(process.exit_code(), 0);
 }
 
-TEST(Process, LogsTheAdminPortOnlyWhenAskedForDetails) {
+TEST(Process, LogsAdminRequestsAtDebugLevelOnly) {
   for (const std::string& level : {std::string("info"), std::string("debug")}) {
     Process process({"--port", "0", "--admin-port", "0", "--workers", "1", "--log-level", level});
     process.output_line();
@@ -193,7 +193,7 @@ TEST(Process, LogsTheAdminPortOnlyWhenAskedForDetails) {
   }
 }
 
-TEST(Process, EndsWell) {
+TEST(Process, ExitsWithZeroAfterSigterm) {
   for (const int number : {SIGTERM, SIGINT}) {
     Process process({"--port", "0", "--workers", "1"});
     process.output_line();
@@ -219,7 +219,7 @@ TEST(Process, FailsOnATakenAdminPort) {
   EXPECT_EQ(second.exit_code(), 1);
 }
 
-TEST(Process, SaysWhereItsAdminPortIs) {
+TEST(Process, PrintsTheUrlOfItsAdminPort) {
   Process process({"--port", "0", "--admin-port", "0", "--workers", "1"});
   const int main_port = port_in(process.output_line());
   const std::string line = process.output_line();
@@ -237,7 +237,7 @@ TEST(Process, FailsOnAnEmptyTokenFile) {
   EXPECT_EQ(process.exit_code(), 2);
 }
 
-TEST(Process, FailsOnABadValueAndExplainsItself) {
+TEST(Process, FailsOnABadValueWithAMessage) {
   Process bad({"--port", "70000"});
   EXPECT_NE(bad.log_line().find("--port"), std::string::npos);
   EXPECT_EQ(bad.exit_code(), 2);
@@ -246,7 +246,7 @@ TEST(Process, FailsOnABadValueAndExplainsItself) {
   EXPECT_EQ(version.exit_code(), 0);
 }
 
-TEST(Process, AsksWhetherTheServiceIsAlive) {
+TEST(Process, ProbesTheHealthOfARunningService) {
   Process service({"--port", "0", "--workers", "1"});
   const std::string port = std::to_string(port_in(service.output_line()));
   Process asking({"--healthcheck", "--port", port});
@@ -287,7 +287,7 @@ void await_unready(int port) {
   }
 }
 
-TEST(Process, CutsPlansShortWhenTheDrainTakesTooLong) {
+TEST(Process, StopsPlansWhenTheDrainTakesTooLong) {
   Process process({"--port", "0", "--workers", "1", "--queue", "0", "--drain-ms", "100"});
   auto request = long_request(port_in(process.output_line()));
   process.signal(SIGTERM);
@@ -295,7 +295,7 @@ TEST(Process, CutsPlansShortWhenTheDrainTakesTooLong) {
   EXPECT_EQ(process.exit_code(), 0);
 }
 
-TEST(Process, ServesOnWhileItIsNotReadyAnyMoreUntilTheDelayIsOver) {
+TEST(Process, ServesRequestsWhileNotReadyDuringTheDelay) {
   Process process({"--port", "0", "--workers", "1", "--drain-delay-ms", "120000"});
   const int port = port_in(process.output_line());
   process.signal(SIGTERM);
@@ -308,14 +308,14 @@ TEST(Process, ServesOnWhileItIsNotReadyAnyMoreUntilTheDelayIsOver) {
   EXPECT_EQ(process.exit_code(), 128 + SIGINT);
 }
 
-TEST(Process, EndsWellAfterTheDelay) {
+TEST(Process, ExitsWithZeroAfterTheDelay) {
   Process process({"--port", "0", "--workers", "1", "--drain-delay-ms", "50"});
   process.output_line();
   process.signal(SIGTERM);
   EXPECT_EQ(process.exit_code(), 0);
 }
 
-TEST(Process, RefusesNewWorkWhileItFinishesThePlanAtHand) {
+TEST(Process, RejectsNewJobsWhileItFinishesRunningOnes) {
   Process process({"--port", "0", "--workers", "1", "--queue", "0", "--drain-ms", "3000"});
   const int port = port_in(process.output_line());
   auto request = long_request(port);
@@ -335,7 +335,7 @@ TEST(Process, RefusesNewWorkWhileItFinishesThePlanAtHand) {
   EXPECT_EQ(process.exit_code(), 0);
 }
 
-TEST(Process, EndsAtOnceOnASecondInterrupt) {
+TEST(Process, ExitsAtOnceOnASecondInterrupt) {
   Process process({"--port", "0", "--workers", "1", "--queue", "0", "--drain-ms", "120000"});
   const int port = port_in(process.output_line());
   auto request = long_request(port);

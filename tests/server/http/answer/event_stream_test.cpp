@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kJsonType = "application/json";
 const httplib::Headers kEvents{{"Accept", "text/event-stream"}};
 
-/// More than a socket takes in when nobody reads.
+/// More than a socket buffers when nobody reads.
 const std::string kLargeAnswer = R"({"status":")" + std::string(8 << 20, 'x') + "\"}";
 
 /// Does as the body says. "gate" waits at the gate after it has begun, "flood" has ever better plans
@@ -99,7 +99,7 @@ TEST_F(EventStreams, EndWithThePlan) {
   EXPECT_EQ(events.back().data, nlohmann::json::parse(R"({"size":5})"));
 }
 
-TEST_F(EventStreams, LeaveTheConnectionToFurtherRequests) {
+TEST_F(EventStreams, LeaveTheConnectionOpenForFurtherRequests) {
   for (int i = 0; i < 5; ++i) {
     const auto events = client.Post("/v1/plan", kEvents, "abc", kJsonType);
     ASSERT_TRUE(events);
@@ -122,7 +122,7 @@ TEST_F(EventStreams, EndWithTheConnectionInHttp10) {
   EXPECT_EQ(events_of(answer.substr(head_end + 4)).back().name, "plan");
 }
 
-TEST_F(EventStreams, TakeBodiesInGzipAndAreNotCompressedThemselves) {
+TEST_F(EventStreams, AcceptGzipBodiesAndAreNotCompressedThemselves) {
   client.set_compress(true);
   client.set_decompress(false);
   const httplib::Headers headers{{"Accept", "text/event-stream"}, {"Accept-Encoding", "gzip"}};
@@ -143,7 +143,7 @@ TEST_F(EventStreams, AreOrdinaryErrorsForFaultsFoundBeforePlanning) {
   EXPECT_EQ(type->get_header_value("Content-Type"), "application/problem+json");
 }
 
-TEST_F(EventStreams, EndWithAProblemThatSaysNothingOfAnException) {
+TEST_F(EventStreams, EndWithAProblemWithoutTheTextOfAnException) {
   const auto result = client.Post("/v1/plan", kEvents, "throw", kJsonType);
   ASSERT_TRUE(result);
   EXPECT_EQ(result->status, 200);
@@ -155,7 +155,7 @@ TEST_F(EventStreams, EndWithAProblemThatSaysNothingOfAnException) {
   EXPECT_EQ(result->body.find("secret"), std::string::npos);
 }
 
-TEST_F(EventStreams, ShowLifeWhileTheRequestWaitsAndARefusalWhenTheQueueIsFull) {
+TEST_F(EventStreams, SendProgressWhileWaitingAndA503WhenTheQueueIsFull) {
   RawConnection running(server.server.port());
   running.send(request("gate"));
   service.gate.await_waiting(1);
@@ -175,7 +175,7 @@ TEST_F(EventStreams, ShowLifeWhileTheRequestWaitsAndARefusalWhenTheQueueIsFull) 
   EXPECT_NE(waiting.receive_past("event: plan\n"), "");
 }
 
-TEST_F(EventStreams, ThatNobodyReadsAnyMoreStopTheirPlan) {
+TEST_F(EventStreams, StopTheirPlanWhenTheClientLeaves) {
   {
     RawConnection leaver(server.server.port());
     leaver.send(request("gate"));
@@ -189,7 +189,7 @@ TEST_F(EventStreams, ThatNobodyReadsAnyMoreStopTheirPlan) {
   EXPECT_EQ(service.stopped, 1);
 }
 
-TEST_F(EventStreams, ThatAreReadSlowlyHoldUpNobodyAndSkipWhatIsOutOfDate) {
+TEST_F(EventStreams, SkipOutdatedEventsForASlowReaderAndDelayNobody) {
   RawConnection slow(server.server.port());
   slow.send(request("flood"));
   ASSERT_TRUE(holds_soon([&] { return service.incumbents > 0; }));
@@ -209,7 +209,7 @@ TEST_F(EventStreams, ThatAreReadSlowlyHoldUpNobodyAndSkipWhatIsOutOfDate) {
   EXPECT_LT(incumbents, 40);
 }
 
-TEST_F(EventStreams, EndWithThePlanThatThereIsWhenTheServerStopsJobs) {
+TEST_F(EventStreams, EndWithTheCurrentPlanWhenTheServerStopsJobs) {
   RawConnection waiting(server.server.port());
   waiting.send(request("gate"));
   service.gate.await_waiting(1);
@@ -220,7 +220,7 @@ TEST_F(EventStreams, EndWithThePlanThatThereIsWhenTheServerStopsJobs) {
   EXPECT_EQ(service.stopped, 1);
 }
 
-TEST_F(EventStreams, ThatNobodyReadsAreLeftSoonAfterTheServerStopsJobs) {
+TEST_F(EventStreams, EndSoonAfterTheServerStopsJobsIfNobodyReads) {
   RawConnection stuck(server.server.port());
   stuck.send(request("flood"));  // more than the sockets' buffers hold
   ASSERT_TRUE(holds_soon([&] { return service.done > 0; }));
@@ -233,7 +233,7 @@ TEST_F(EventStreams, ThatNobodyReadsAreLeftSoonAfterTheServerStopsJobs) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(7));
 }
 
-TEST_F(EventStreams, AreNoFormOfOtherAnswers) {
+TEST_F(EventStreams, AreSentForPlansOnly) {
   const auto validated = client.Post("/v1/validate", kEvents, "abc", kJsonType);
   ASSERT_TRUE(validated);
   EXPECT_EQ(validated->get_header_value("Content-Type"), kJsonType);

@@ -58,7 +58,7 @@ class LiveStream : public testing::Test {
   httplib::Client client_ = server_.client();
 };
 
-TEST_F(LiveStream, TellsTheProgressOfALongPlanAndItsBetterPlans) {
+TEST_F(LiveStream, SendsProgressAndBetterPlansOfALongPlan) {
   const Json request = crossing_request({{"mode", "anytime"}, {"time_budget_ms", 2500}});
   const auto events = stream(request);
   ASSERT_GT(events.size(), 10U);
@@ -93,7 +93,7 @@ TEST_F(LiveStream, TellsTheProgressOfALongPlanAndItsBetterPlans) {
   }
 }
 
-TEST_F(LiveStream, EndsWithThePlanThatTheOrdinaryAnswerHas) {
+TEST_F(LiveStream, EndsWithThePlanOfTheJsonAnswer) {
   for (const Json& options : {Json::object(), Json{{"mode", "anytime"}, {"max_iterations", 60}}}) {
     const Json request = crossing_request(options);
     const auto events = stream(request);
@@ -109,7 +109,7 @@ TEST_F(LiveStream, EndsWithThePlanThatTheOrdinaryAnswerHas) {
   }
 }
 
-TEST_F(LiveStream, OfARequestWithFaultsIsAnOrdinaryError) {
+TEST_F(LiveStream, AnswersAnInvalidRequestWithAnOrdinaryError) {
   Json request = crossing_request(Json::object());
   request["robots"][3]["start"]["x"] = -5.0;
   const auto result =

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t kMegabyte = 1 << 20;
 
-TEST(BodyMemory, IsGivenUntilThereIsNoMoreAndAgainWhenARequestEnds) {
+TEST(BodyMemory, IsGrantedUntilExhaustedAndAgainWhenARequestEnds) {
   BodyMemory memory(kMegabyte, 3);
   BodyMemory::Share first(memory);
   EXPECT_TRUE(first.grow_to(3 * kMegabyte));
@@ -23,14 +23,14 @@ TEST(BodyMemory, IsGivenUntilThereIsNoMoreAndAgainWhenARequestEnds) {
   EXPECT_TRUE(first.grow_to(4 * kMegabyte));
 }
 
-TEST(BodyMemory, IsAlwaysThereForASmallBody) {
+TEST(BodyMemory, IsAlwaysAvailableForASmallBody) {
   BodyMemory memory(0, 1);
   BodyMemory::Share share(memory);
   EXPECT_TRUE(share.grow_to(BodyMemory::kSmall));
   EXPECT_FALSE(share.grow_to(BodyMemory::kSmall + 1));
 }
 
-TEST(BodyMemory, IsEnoughForTheLargestBodyAsSentAndAsDecodedOfAnySize) {
+TEST(BodyMemory, SufficesForTheLargestBodyAsSentAndDecoded) {
   for (const std::uint64_t size : {std::uint64_t{1}, 2 * BodyMemory::kSmall, kMegabyte + 1}) {
     BodyMemory memory(size, 1);
     BodyMemory::Share share(memory);
@@ -39,7 +39,7 @@ TEST(BodyMemory, IsEnoughForTheLargestBodyAsSentAndAsDecodedOfAnySize) {
   }
 }
 
-TEST(BodyMemory, IsRefusedToNobodyBecauseOfOthersThatAskForTooMuch) {
+TEST(BodyMemory, IsNotReducedByRejectedRequests) {
   BodyMemory memory(kMegabyte, 1);
   const std::jthread greedy([&memory](const std::stop_token& stop) {
     while (!stop.stop_requested()) {
@@ -53,7 +53,7 @@ TEST(BodyMemory, IsRefusedToNobodyBecauseOfOthersThatAskForTooMuch) {
   }
 }
 
-TEST(BodyMemory, CountsRightWhateverThreadsAskForIt) {
+TEST(BodyMemory, CountsCorrectlyAcrossThreads) {
   BodyMemory memory(2 * kMegabyte, 3);
   std::vector<std::thread> threads;
   for (int t = 0; t < 8; ++t) {

@@ -45,7 +45,7 @@ class Framing : public testing::Test {
   TestServer server{settings()};
 };
 
-TEST_F(Framing, ThatIsMalformedIs400AndEndsTheConnection) {
+TEST_F(Framing, MalformedIs400AndEndsTheConnection) {
   expect_400_and_close(post("Content-Length: -1\r\n", ""));
   expect_400_and_close(post("Content-Length: ten\r\n", ""));
   expect_400_and_close(post("Content-Length: 3\r\nTransfer-Encoding: chunked\r\n", "3\r\nabc\r\n0\r\n\r\n"));
@@ -56,7 +56,7 @@ TEST_F(Framing, ThatIsMalformedIs400AndEndsTheConnection) {
   expect_400_and_close("PRI * HTTP/2.0\r\n\r\n");
 }
 
-TEST_F(Framing, WithATooLongTargetIs414) {
+TEST_F(Framing, TooLongTargetIs414) {
   const auto get = [](std::size_t length) {
     return "GET /healthz?" + std::string(length - 9, 'a') + " HTTP/1.1\r\n\r\n";
   };
@@ -68,7 +68,7 @@ TEST_F(Framing, WithATooLongTargetIs414) {
   EXPECT_EQ(status_of(raw.receive()), "HTTP/1.1 200 OK");
 }
 
-TEST_F(Framing, WithTooManyOrTooLargeHeaderFieldsIs431) {
+TEST_F(Framing, TooManyOrTooLargeHeaderFieldsAre431) {
   const auto get = [](std::size_t fields, const std::string& value) {
     std::string text = "GET /healthz HTTP/1.1\r\n";
     for (std::size_t i = 0; i < fields; ++i) text += "X-" + std::to_string(i) + ": " + value + "\r\n";
@@ -82,21 +82,21 @@ TEST_F(Framing, WithTooManyOrTooLargeHeaderFieldsIs431) {
   EXPECT_EQ(status_of(raw.receive()), "HTTP/1.1 200 OK");
 }
 
-TEST_F(Framing, WhoseBodyEndsEarlyIs400) {
+TEST_F(Framing, BodyThatEndsEarlyIs400) {
   RawConnection raw(server.server.port());
   raw.send(post("Content-Length: 10\r\n", "abc"));
   raw.end_of_sending();
   EXPECT_EQ(status_of(raw.receive()), "HTTP/1.1 400 Bad Request");
 }
 
-TEST_F(Framing, ThatIsChunkedIsRead) {
+TEST_F(Framing, ChunkedBodyIsRead) {
   RawConnection raw(server.server.port());
   raw.send(
       post("Transfer-Encoding: chunked\r\n", "3;ext=1\r\nabc\r\nA\r\n0123456789\r\n0\r\nTrailer: x\r\n\r\n"));
   EXPECT_NE(raw.receive().find(R"({"size":13})"), std::string::npos);
 }
 
-TEST_F(Framing, ThatIsChunkedAndOverTheLimitIs413) {
+TEST_F(Framing, ChunkedBodyThatExceedsLimitIs413) {
   RawConnection raw(server.server.port());
   std::string body;
   for (int i = 0; i < 20; ++i) body += "64\r\n" + std::string(100, ' ') + "\r\n";
@@ -106,7 +106,7 @@ TEST_F(Framing, ThatIsChunkedAndOverTheLimitIs413) {
   EXPECT_NE(answer.find("1000"), std::string::npos);
 }
 
-TEST_F(Framing, OfOneByteChunksIsReadAndTheRestKept) {
+TEST_F(Framing, ChunksOfOneByteAreReadAndTheNextRequestIsKept) {
   RawConnection raw(server.server.port());
   std::string body;
   for (int i = 0; i < 1000; ++i) body += "1\r\nx\r\n";
@@ -115,25 +115,25 @@ TEST_F(Framing, OfOneByteChunksIsReadAndTheRestKept) {
   EXPECT_NE(raw.receive().find(R"({"size":2})"), std::string::npos);
 }
 
-TEST_F(Framing, OfChunksWithTooManyExtensionsIs400) {
+TEST_F(Framing, TooManyChunkExtensionsAre400) {
   std::string body;
   for (int i = 0; i < 20; ++i) body += "1;" + std::string(4000, 'e') + "\r\nx\r\n";
   expect_400_and_close(post("Transfer-Encoding: chunked\r\n", body + "0\r\n\r\n"));
 }
 
-TEST_F(Framing, ThatPromisesAHugeChunkIs413BeforeItComes) {
+TEST_F(Framing, HugeChunkSizeIs413BeforeTheChunkArrives) {
   RawConnection raw(server.server.port());
   raw.send(post("Transfer-Encoding: chunked\r\n", "FFFFFFFFFFFFFFFE\r\n"));
   EXPECT_EQ(status_of(raw.receive()), "HTTP/1.1 413 Content Too Large");
 }
 
-TEST_F(Framing, WithoutAnyBodyIsAnEmptyBody) {
+TEST_F(Framing, MissingBodyIsAnEmptyBody) {
   RawConnection raw(server.server.port());
   raw.send(post("", ""));
   EXPECT_NE(raw.receive().find(R"({"size":0})"), std::string::npos);
 }
 
-TEST_F(Framing, OfPipelinedRequestsKeepsThemApart) {
+TEST_F(Framing, PipelinedRequestsAreKeptApart) {
   RawConnection raw(server.server.port());
   raw.send(post("Content-Length: 2\r\n", "ab") + "\r\n" + post("Content-Length: 3\r\n", "abc") +
            "GET /healthz HTTP/1.1\r\nContent-Length: 5\r\n\r\nGET /" + post("Content-Length: 4\r\n", "abcd"));
@@ -143,14 +143,14 @@ TEST_F(Framing, OfPipelinedRequestsKeepsThemApart) {
   EXPECT_NE(raw.receive().find(R"({"size":4})"), std::string::npos);
 }
 
-TEST_F(Framing, OfARefusedRequestsBodyIsKeptToo) {
+TEST_F(Framing, BodyOfARejectedRequestIsSkipped) {
   RawConnection raw(server.server.port());
   raw.send("POST /nowhere HTTP/1.1\r\nContent-Length: 4\r\n\r\nGET " + post("Content-Length: 1\r\n", "a"));
   EXPECT_EQ(status_of(raw.receive()), "HTTP/1.1 404 Not Found");
   EXPECT_NE(raw.receive().find(R"({"size":1})"), std::string::npos);
 }
 
-TEST_F(Framing, WithAnExpectationIsToldToGoOn) {
+TEST_F(Framing, Expect100IsAnsweredWithContinue) {
   RawConnection raw(server.server.port());
   raw.send(post("Content-Length: 2\r\nExpect: 100-continue\r\n", ""));
   EXPECT_EQ(raw.receive(), "HTTP/1.1 100 Continue\r\n\r\n");
@@ -158,13 +158,13 @@ TEST_F(Framing, WithAnExpectationIsToldToGoOn) {
   EXPECT_NE(raw.receive().find(R"({"size":2})"), std::string::npos);
 }
 
-TEST_F(Framing, WithAnExpectationOfTooMuchIs413AtOnce) {
+TEST_F(Framing, Expect100ForTooLargeABodyIs413AtOnce) {
   RawConnection raw(server.server.port());
   raw.send(post("Content-Length: 1001\r\nExpect: 100-continue\r\n", ""));
   EXPECT_EQ(status_of(raw.receive()), "HTTP/1.1 413 Content Too Large");
 }
 
-TEST_F(Framing, OfHttp10EndsTheConnectionUnlessAskedNotTo) {
+TEST_F(Framing, Http10EndsTheConnectionUnlessKeepAliveIsRequested) {
   RawConnection once(server.server.port());
   once.send("GET /healthz HTTP/1.0\r\n\r\n");
   EXPECT_EQ(status_of(once.receive()), "HTTP/1.1 200 OK");
@@ -176,7 +176,7 @@ TEST_F(Framing, OfHttp10EndsTheConnectionUnlessAskedNotTo) {
   }
 }
 
-TEST_F(Framing, WithAnUnknownMethodIs405) {
+TEST_F(Framing, UnknownMethodIs405) {
   RawConnection raw(server.server.port());
   raw.send("BREW /v1/plan HTTP/1.1\r\n\r\n");
   const std::string answer = raw.receive();
@@ -184,7 +184,7 @@ TEST_F(Framing, WithAnUnknownMethodIs405) {
   EXPECT_NE(answer.find("Allow: POST\r\n"), std::string::npos);
 }
 
-/// Sends something, falls silent, and is told so and left.
+/// Sends something and then nothing; expects a timeout and the end of the connection.
 void expect_given_up_after(const std::string& sent) {
   Settings settings;
   settings.read_timeout = std::chrono::milliseconds(50);
@@ -197,20 +197,22 @@ void expect_given_up_after(const std::string& sent) {
   EXPECT_TRUE(raw.closed_by_server());
 }
 
-TEST(SlowClient, IsGivenUpWhenItsHeadDoesNotCome) { expect_given_up_after("GET /healthz HTTP/1.1\r\nHost:"); }
+TEST(SlowClient, GetsATimeoutWhenItsHeadDoesNotArrive) {
+  expect_given_up_after("GET /healthz HTTP/1.1\r\nHost:");
+}
 
-TEST(SlowClient, IsGivenUpWhenItsBodyDoesNotCome) {
+TEST(SlowClient, GetsATimeoutWhenItsBodyDoesNotArrive) {
   expect_given_up_after("POST /v1/plan HTTP/1.1\r\nContent-Length: 10\r\n\r\nabc");
 }
 
-TEST(SlowClient, IsGivenUpWhenItFallsSilentAfterALargePartOfItsBody) {
+TEST(SlowClient, GetsATimeoutWhenItStopsWithinALargeBody) {
   const auto begin = std::chrono::steady_clock::now();
   expect_given_up_after("POST /v1/plan HTTP/1.1\r\nContent-Length: 4000000\r\n\r\n" +
                         std::string(3'000'000, ' '));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));  // 30 s at 100 kB/s
 }
 
-TEST(SlowClient, IsGivenUpWhenItsBodyTricklesThoughItNeverPausesForLong) {
+TEST(SlowClient, GetsATimeoutWhenItsBodyArrivesTooSlowly) {
   Settings settings;
   settings.read_timeout = std::chrono::milliseconds(300);
   const TestServer server(settings);
@@ -226,7 +228,7 @@ TEST(SlowClient, IsGivenUpWhenItsBodyTricklesThoughItNeverPausesForLong) {
   EXPECT_EQ(answer.find("HTTP/1.1 408 Request Timeout\r\n"), 0u) << answer;
 }
 
-TEST(SlowClient, ThatIsIdleIsLeft) {
+TEST(SlowClient, IsDisconnectedWhenIdle) {
   Settings settings;
   settings.idle_timeout = std::chrono::milliseconds(20);
   const TestServer server(settings);

@@ -28,7 +28,7 @@ TEST(RequestHead, HasMethodPathWithoutQueryAndFields) {
   EXPECT_FALSE(head.chunked);
 }
 
-TEST(RequestHead, TakesTheAbsoluteFormOfATarget) {
+TEST(RequestHead, AcceptsTheAbsoluteFormOfATarget) {
   EXPECT_EQ(parsed("GET http://host:80/healthz?q HTTP/1.1\r\n\r\n").path, "/healthz");
   EXPECT_EQ(parsed("GET http://host HTTP/1.1\r\n\r\n").path, "/");
 }
@@ -37,7 +37,7 @@ TEST(RequestHead, JoinsFieldsOfOneName) {
   EXPECT_EQ(parsed("GET / HTTP/1.1\r\nAccept: a\r\naccept: b\r\n\r\n").field("accept"), "a, b");
 }
 
-TEST(RequestHead, RefusesAContentLengthThatIsNoCount) {
+TEST(RequestHead, RejectsAContentLengthThatIsNotACount) {
   EXPECT_TRUE(is_refused_with_fields("Content-Length: -1\r\n"));
   EXPECT_TRUE(is_refused_with_fields("Content-Length: +1\r\n"));
   EXPECT_TRUE(is_refused_with_fields("Content-Length: 1x\r\n"));
@@ -46,17 +46,17 @@ TEST(RequestHead, RefusesAContentLengthThatIsNoCount) {
   EXPECT_TRUE(is_refused_with_fields("Content-Length: 99999999999999999999\r\n"));
 }
 
-TEST(RequestHead, RefusesContentLengthBesideTransferEncoding) {
+TEST(RequestHead, RejectsContentLengthTogetherWithTransferEncoding) {
   EXPECT_TRUE(is_refused_with_fields("Content-Length: 1\r\nTransfer-Encoding: chunked\r\n"));
 }
 
-TEST(RequestHead, TakesChunkedAndNoOtherTransferCoding) {
+TEST(RequestHead, AcceptsOnlyChunkedAsTransferCoding) {
   EXPECT_TRUE(parsed("POST / HTTP/1.1\r\nTransfer-Encoding: Chunked\r\n\r\n").chunked);
   EXPECT_TRUE(is_refused_with_fields("Transfer-Encoding: gzip, chunked\r\n"));
   EXPECT_TRUE(is_refused("POST / HTTP/1.0\r\nTransfer-Encoding: chunked\r\n\r\n"));
 }
 
-TEST(RequestHead, RefusesBrokenLines) {
+TEST(RequestHead, RejectsMalformedLines) {
   EXPECT_TRUE(is_refused("GET /\r\n\r\n"));
   EXPECT_TRUE(is_refused("GET / HTTP/2.0\r\n\r\n"));
   EXPECT_TRUE(is_refused("GET /a b HTTP/1.1\r\n\r\n"));
@@ -69,21 +69,21 @@ TEST(RequestHead, RefusesBrokenLines) {
   EXPECT_TRUE(is_refused_with_fields("Name: a\rb\r\n"));
 }
 
-TEST(RequestHead, RefusesTooManyFields) {
+TEST(RequestHead, RejectsTooManyFields) {
   std::string fields;
   for (std::size_t i = 0; i < kMaxHeaderFields; ++i) fields += "A: b\r\n";
   EXPECT_FALSE(is_refused_with_fields(fields));
   EXPECT_TRUE(is_refused_with_fields(fields + "A: b\r\n"));
 }
 
-TEST(RequestHead, KeepsAliveAsItsVersionAndConnectionFieldSay) {
+TEST(RequestHead, KeepsAliveAccordingToVersionAndConnectionField) {
   EXPECT_TRUE(parsed("GET / HTTP/1.1\r\n\r\n").wants_keep_alive());
   EXPECT_FALSE(parsed("GET / HTTP/1.1\r\nConnection: x, Close\r\n\r\n").wants_keep_alive());
   EXPECT_FALSE(parsed("GET / HTTP/1.0\r\n\r\n").wants_keep_alive());
   EXPECT_TRUE(parsed("GET / HTTP/1.0\r\nConnection: Keep-Alive\r\n\r\n").wants_keep_alive());
 }
 
-TEST(HeadScanner, FindsTheEmptyLineHoweverTheBytesCome) {
+TEST(HeadScanner, FindsTheEmptyLineHoweverTheBytesAreCut) {
   const std::string text = "GET / HTTP/1.1\r\nA: b\r\n\r\nbody";
   HeadScanner scanner;
   for (std::size_t size = 0; size < 24; ++size) {
@@ -93,7 +93,7 @@ TEST(HeadScanner, FindsTheEmptyLineHoweverTheBytesCome) {
   EXPECT_EQ(scanner.size(), 24u);
 }
 
-TEST(HeadScanner, RefusesALoneLineFeed) {
+TEST(HeadScanner, RejectsALoneLineFeed) {
   EXPECT_EQ(HeadScanner().scan("GET / HTTP/1.1\n\n"), HeadScanner::State::malformed);
 }
 

@@ -18,7 +18,7 @@ std::string fault_of(const std::string& path) {
   return std::holds_alternative<std::string>(read) ? std::get<std::string>(read) : "";
 }
 
-TEST(AccessToken, IsShownAsBearer) {
+TEST(AccessToken, IsAcceptedAsBearer) {
   const AccessToken known = token();
   EXPECT_TRUE(known.admits(std::string("Bearer ") + kToken));
   EXPECT_TRUE(known.admits(std::string("bearer   ") + kToken));
@@ -31,7 +31,7 @@ TEST(AccessToken, IsShownAsBearer) {
   }
 }
 
-TEST(AccessToken, IsShownAsThePasswordOfBasic) {
+TEST(AccessToken, IsAcceptedAsThePasswordOfBasic) {
   const AccessToken known = std::get<AccessToken>(AccessToken::from_text("pass:word-of-sixteen"));
   EXPECT_TRUE(known.admits("Basic YW55b25lOnBhc3M6d29yZC1vZi1zaXh0ZWVu"));   // anyone:pass:word-of-sixteen
   EXPECT_TRUE(known.admits("basic OnBhc3M6d29yZC1vZi1zaXh0ZWVu"));           // :pass:word-of-sixteen
@@ -41,7 +41,7 @@ TEST(AccessToken, IsShownAsThePasswordOfBasic) {
   EXPECT_FALSE(known.admits("Basic ***"));
 }
 
-TEST(AccessToken, IsTheLineOfAFile) {
+TEST(AccessToken, IsReadFromTheLineOfAFile) {
   const TemporaryFile unix_lines(std::string(kToken) + "\n");
   const TemporaryFile other_lines(std::string(kToken) + "\r\n");
   for (const auto* file : {&unix_lines, &other_lines}) {
@@ -51,7 +51,7 @@ TEST(AccessToken, IsTheLineOfAFile) {
   }
 }
 
-TEST(AccessToken, IsNotTakenFromABadFileWhichIsExplainedWithoutShowingIt) {
+TEST(AccessToken, IsRejectedFromABadFileWithoutShowingIt) {
   EXPECT_EQ(fault_of("/no/such/file"), "it cannot be read");
   const TemporaryFile empty("");
   EXPECT_EQ(fault_of(empty.path()), "it is empty");

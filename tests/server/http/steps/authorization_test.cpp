@@ -1,4 +1,4 @@
-// Who may ask, over real sockets.
+// Authentication over real sockets.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ class Authorization : public testing::Test {
   httplib::Client client = server.client();
 };
 
-TEST_F(Authorization, IsWantedForEverythingButHealthAndReadiness) {
+TEST_F(Authorization, IsRequiredExceptForHealthAndReadiness) {
   for (const char* path : {"/", "/main.js", "/v1/limits", "/v1/examples", "/v1/examples/tiny", "/metrics",
                            "/nowhere", "/v1/plan"}) {
     const auto refused = client.Get(path);
@@ -51,7 +51,7 @@ TEST_F(Authorization, IsWantedForEverythingButHealthAndReadiness) {
   }
 }
 
-TEST_F(Authorization, IsAskedForInAWayThatProgramsAndBrowsersKnow) {
+TEST_F(Authorization, IsRequestedAsBearerAndAsBasic) {
   const auto refused = client.Get("/");
   ASSERT_TRUE(refused);
   EXPECT_THAT(values_of(refused, "WWW-Authenticate"),
@@ -59,7 +59,7 @@ TEST_F(Authorization, IsAskedForInAWayThatProgramsAndBrowsersKnow) {
                                             R"(Basic realm="fleetplan", charset="UTF-8")"));
 }
 
-TEST_F(Authorization, IsTheTokenAsBearerOrAsThePasswordOfBasic) {
+TEST_F(Authorization, AcceptsTheTokenAsBearerOrAsThePasswordOfBasic) {
   for (const char* right : {"Bearer open-sesame", "Basic YW55b25lOm9wZW4tc2VzYW1l"}) {
     const auto job = client.Post("/v1/plan", shown(right), "abc", kJsonType);
     ASSERT_TRUE(job);
@@ -76,7 +76,7 @@ TEST_F(Authorization, IsTheTokenAsBearerOrAsThePasswordOfBasic) {
   }
 }
 
-TEST_F(Authorization, IsNotWantedWithoutASetting) {
+TEST_F(Authorization, IsNotRequiredWithoutASetting) {
   const TestServer open;
   const auto limits = open.client().Get("/v1/limits");
   ASSERT_TRUE(limits);

@@ -33,7 +33,7 @@ class CrossOriginPages : public testing::Test {
   }
 };
 
-TEST_F(CrossOriginPages, AreNotTalkedAboutUnlessASettingSaysSo) {
+TEST_F(CrossOriginPages, GetNoFieldsWithoutASetting) {
   const TestServer server;
   auto client = server.client();
   const auto plain = client.Get("/healthz", from(kOrigin));
@@ -59,7 +59,7 @@ TEST_F(CrossOriginPages, OfANamedOriginMayReadEveryAnswer) {
   expect_readable(client.Post("/v1/plan", from(kOrigin), "throw", kJsonType), 500);
 }
 
-TEST_F(CrossOriginPages, OfAnotherOriginMayNotAndCachesAreTold) {
+TEST_F(CrossOriginPages, OfAnotherOriginMayNotReadAndVaryNamesOrigin) {
   const TestServer server(open_to({kOrigin}));
   auto client = server.client();
   for (const char* other : {"https://fleet.example", "https://evil.example", "null"}) {
@@ -75,7 +75,7 @@ TEST_F(CrossOriginPages, OfAnotherOriginMayNotAndCachesAreTold) {
   }
 }
 
-TEST_F(CrossOriginPages, AreToldBeforeTheyAsk) {
+TEST_F(CrossOriginPages, GetAnAnswerToTheirPreflight) {
   const TestServer server(open_to({kOrigin}));
   RawConnection raw(server.server.port());
   for (int times = 0; times < 2; ++times) {  // the connection stays
@@ -100,14 +100,14 @@ TEST_F(CrossOriginPages, AreToldBeforeTheyAsk) {
   EXPECT_EQ(nowhere->status, 404);
 }
 
-TEST_F(CrossOriginPages, OfAnyOriginMayReadWithAStar) {
+TEST_F(CrossOriginPages, OfAnyOriginMayReadIfTheSettingIsAStar) {
   const TestServer server(open_to({"*"}));
   const auto result = server.client().Get("/healthz", from("https://who.ever"));
   ASSERT_TRUE(result);
   EXPECT_EQ(result->get_header_value("Access-Control-Allow-Origin"), "*");
 }
 
-TEST_F(CrossOriginPages, NeedNoTokenToAskWhetherTheyMayAsk) {
+TEST_F(CrossOriginPages, NeedNoTokenForAPreflight) {
   Settings settings = open_to({kOrigin});
   settings.token = std::get<AccessToken>(AccessToken::from_text("token"));
   const TestServer server(settings);

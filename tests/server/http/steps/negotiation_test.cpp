@@ -5,14 +5,14 @@
 namespace fleetplan::server {
 namespace {
 
-TEST(Accept, TakesJsonWhenAbsentNamedOrCoveredByARange) {
+TEST(Accept, SelectsJsonWhenAbsentNamedOrCoveredByARange) {
   for (const char* accept : {"", "  ", "*/*", "application/json", "application/*", "text/html, */*;q=0.1",
                              "Application/JSON; charset=utf-8", "application/json;q=0.001"}) {
     EXPECT_EQ(plan_form(accept), PlanForm::json) << accept;
   }
 }
 
-TEST(Accept, TakesEventsWhenTheyAreLikedBetter) {
+TEST(Accept, SelectsEventsWhenTheirQualityIsHigher) {
   for (const char* accept :
        {"text/event-stream", "text/*", "Text/Event-Stream;q=0.1", "text/event-stream, application/json;q=0.9",
         "application/json;q=0, */*", "text/event-stream, */*;q=0.1", "application/*;q=0.5, text/*;q=0.6"}) {
@@ -20,7 +20,7 @@ TEST(Accept, TakesEventsWhenTheyAreLikedBetter) {
   }
 }
 
-TEST(Accept, TakesJsonWhenItIsLikedAsMuchAsEvents) {
+TEST(Accept, SelectsJsonWhenQualitiesAreEqual) {
   for (const char* accept :
        {"text/event-stream, application/json", "text/event-stream, */*",
         "text/event-stream;q=0.3, application/*;q=0.3",
@@ -57,7 +57,7 @@ TEST(ContentType, IsJsonOrAbsent) {
   }
 }
 
-TEST(ContentType, OfAWebFormNamesTheRemedy) {
+TEST(ContentType, OfAWebFormIsRejectedWithARemedy) {
   const auto fault = content_type_fault("application/x-www-form-urlencoded");
   ASSERT_NE(fault, std::nullopt);
   EXPECT_NE(fault->find("--json"), std::string::npos);

@@ -103,7 +103,7 @@ void await_value(const TestServer& server, const std::string& series, double val
   EXPECT_TRUE(holds_soon([&] { return samples_of(metrics_of(server))[series] == value; })) << series;
 }
 
-TEST(Metrics, AreThereFromTheStart) {
+TEST(Metrics, ExistFromTheStart) {
   const TestServer server;
   const Samples samples = samples_of(metrics_of(server));
   for (const char* series : {R"(fleetplan_requests_total{route="/v1/plan",status="200"})",
@@ -145,7 +145,7 @@ TEST(Metrics, AreThereFromTheStart) {
   EXPECT_NEAR(samples.at("process_start_time_seconds"), static_cast<double>(std::time(nullptr)), 600.0);
 }
 
-TEST(Metrics, HaveTheUsualStatusesOfTheirRouteFromTheStartAndOthersOnceTheyOccur) {
+TEST(Metrics, ContainUsualStatusesFromTheStartAndOthersOnceTheyOccur) {
   Settings settings;
   settings.cors_origins = {"https://fleet.example"};
   settings.web_root = FLEETPLAN_SOURCE_DIR "/web";
@@ -186,7 +186,7 @@ TEST(Metrics, HaveTheUsualStatusesOfTheirRouteFromTheStartAndOthersOnceTheyOccur
   await_value(server, unusual, 1.0);
 }
 
-TEST(Metrics, TellTheBuild) {
+TEST(Metrics, NameTheBuild) {
   const TestServer server;
   std::vector<std::string> infos;
   for (const auto& [series, value] : samples_of(metrics_of(server))) {
@@ -202,7 +202,7 @@ TEST(Metrics, KeepTheFormat) {
   EXPECT_THAT(format_faults(metrics_of(server)), IsEmpty());  // tests/openapi asks Prometheus, too
 }
 
-TEST(MetricsFormat, IsCheckedByAnEyeThatSees) {
+TEST(MetricsFormat, FaultsAreDetectedByTheTest) {
   const std::string good = "# HELP a_total A.\n# TYPE a_total counter\na_total{x=\"y\"} 1\n";
   EXPECT_THAT(format_faults(good), IsEmpty());
   EXPECT_THAT(format_faults("a_total 1\n"), Not(IsEmpty()));
@@ -232,7 +232,7 @@ TEST(Metrics, CountPlansAndTheirRobots) {
   EXPECT_NEAR(samples["fleetplan_plan_seconds_sum"], 0.09, 1e-12);
 }
 
-TEST(Metrics, CountPlansThatAreWatchedToo) {
+TEST(Metrics, CountStreamedPlans) {
   const TestServer server({}, planning_service());
   const auto result = server.client().Post(
       "/v1/plan", httplib::Headers{{"Accept", "text/event-stream"}},
@@ -245,7 +245,7 @@ TEST(Metrics, CountPlansThatAreWatchedToo) {
   EXPECT_EQ(samples_of(metrics_of(server))[R"(fleetplan_robots_total{outcome="planned"})"], 1.0);
 }
 
-TEST(Metrics, TakeNoTimeOfPlansThatThePlannerNeverBegan) {
+TEST(Metrics, OmitTheTimeOfPlansThatWereNeverStarted) {
   const TestServer server({}, service_with({api::PlanOutcome::Status::none, 0, 2, 0, 0.0, std::nullopt}));
   ASSERT_TRUE(server.client().Post("/v1/plan", "{}", kJsonType));
   await_value(server, R"(fleetplan_plans_total{outcome="none"})", 1.0);
@@ -253,7 +253,7 @@ TEST(Metrics, TakeNoTimeOfPlansThatThePlannerNeverBegan) {
   EXPECT_EQ(samples_of(metrics_of(server))["fleetplan_plan_seconds_count"], 0.0);
 }
 
-TEST(Metrics, CountPlansThatTheCheckerRefused) {
+TEST(Metrics, CountPlansThatTheCheckerRejected) {
   const TestServer server({}, service_with({api::PlanOutcome::Status::refused, 0, 0, 5, 0.0, 0.01}));
   ASSERT_TRUE(server.client().Post("/v1/plan", "{}", kJsonType));
   await_value(server, "fleetplan_plans_refused_total", 1.0);
@@ -277,7 +277,7 @@ TEST(Metrics, CountRejectionsByTheirReason) {
   EXPECT_EQ(samples[R"(fleetplan_requests_total{route="/v1/examples/{name}",status="404"})"], 1.0);
 }
 
-TEST(Metrics, CountNoRejectionWhenReadinessIsDenied) {
+TEST(Metrics, DoNotCountAnUnreadyProbeAsRejection) {
   TestServer server;
   server.server.announce_end();
   const auto ready = server.client().Get("/readyz");
@@ -301,7 +301,7 @@ TEST(Metrics, CountCancelledPlans) {
   await_value(server, "fleetplan_workers_busy", 0.0);
 }
 
-TEST(Metrics, TellHowManyWait) {
+TEST(Metrics, ReportTheQueueDepth) {
   Settings settings;
   settings.workers = 1;
   settings.queue = 4;
@@ -329,7 +329,7 @@ TEST(MetricsText, EscapesLabels) {
   EXPECT_EQ(text.take(), "# HELP a Help.\n# TYPE a gauge\na{x=\"a\\\"b\\\\c\\nd\",y=\"\"} 0.5\n");
 }
 
-TEST(Histogram, CountsAtABoundAsBelowIt) {
+TEST(Histogram, IncludesUpperBoundsInTheirBucket) {
   Histogram histogram;
   histogram.observe(Histogram::kBounds[0]);
   histogram.observe(std::nextafter(Histogram::kBounds[0], 1.0));

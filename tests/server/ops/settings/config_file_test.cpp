@@ -39,7 +39,7 @@ std::string fault_of(const std::string& content) {
   return exit->text;
 }
 
-TEST(ConfigFile, SetsWhatItNames) {
+TEST(ConfigFile, SetsTheFlagsItNames) {
   const auto settings = settings_of(
       "# of the night shift\n"
       "port = 9000\n"
@@ -60,7 +60,7 @@ TEST(ConfigFile, SetsWhatItNames) {
   EXPECT_EQ(settings.connections, 1024u) << "the rest keeps its default";
 }
 
-TEST(ConfigFile, GivesWayToTheEnvironmentAndThatToFlags) {
+TEST(ConfigFile, IsOverriddenByTheEnvironmentAndByFlags) {
   const Environment port("FLEETPLAN_PORT", "9001");
   const Environment depth("FLEETPLAN_MAX_DEPTH", "11");
   const std::string file = "port = 9000\nmax-depth = 10\nmax-robots = 12\n";
@@ -70,7 +70,7 @@ TEST(ConfigFile, GivesWayToTheEnvironmentAndThatToFlags) {
   EXPECT_EQ(settings.limits.max_robots, 12u);
 }
 
-TEST(ConfigFile, IsNamedByTheEnvironmentToo) {
+TEST(ConfigFile, CanBeNamedByTheEnvironment) {
   const TemporaryFile file("port = 9003\n");
   const Environment config("FLEETPLAN_CONFIG", file.path().c_str());
   const auto result = parse_settings({});
@@ -80,7 +80,7 @@ TEST(ConfigFile, IsNamedByTheEnvironmentToo) {
 
 TEST(ConfigFile, MayBeEmpty) { EXPECT_EQ(settings_of("").port, 8080); }
 
-TEST(ConfigFile, IsRefusedWithItsNameAndWhatIsWrong) {
+TEST(ConfigFile, IsRejectedWithItsNameAndTheFault) {
   EXPECT_THAT(fault_of("prot = 9000\n"), AllOf(HasSubstr("--config: "), HasSubstr("no setting 'prot'")));
   EXPECT_THAT(fault_of("port = 70000\n"), AllOf(HasSubstr("--config: "), HasSubstr("--port")));
   EXPECT_THAT(fault_of("port = many\n"), HasSubstr("--port"));
@@ -95,7 +95,7 @@ TEST(ConfigFile, IsRefusedWithItsNameAndWhatIsWrong) {
   EXPECT_THAT(fault_of("max-body = 0\n"), HasSubstr("--max-body"));
 }
 
-TEST(ConfigFile, ThatIsMissingIsRefused) {
+TEST(ConfigFile, IsRejectedWhenMissing) {
   for (const char* path : {"/no/such/file", "/"}) {
     const auto result = parse_settings({"--config", path});
     ASSERT_TRUE(std::holds_alternative<SettingsExit>(result)) << path;

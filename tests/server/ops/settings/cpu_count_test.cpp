@@ -33,14 +33,14 @@ TEST(CpuCount, IsAtLeastOne) { EXPECT_GE(cpus_granted(), 1); }
 
 TEST_F(CpuQuota, IsNoneWithoutControlGroups) { EXPECT_EQ(of(""), std::nullopt); }
 
-TEST_F(CpuQuota, IsThatOfAContainerWithV2) {
+TEST_F(CpuQuota, IsReadInAContainerWithV2) {
   write("cpu.max", "150000 100000");
   EXPECT_EQ(of("0::/\n"), 1.5);
   write("cpu.max", "max 100000");
   EXPECT_EQ(of("0::/\n"), std::nullopt);
 }
 
-TEST_F(CpuQuota, IsThatOfAContainerThatSeesItsPathOnTheHost) {
+TEST_F(CpuQuota, IsReadInAContainerThatSeesItsPathOnTheHost) {
   write("cpu.max", "200000 100000");
   EXPECT_EQ(of("0::/system.slice/docker-1f2e.scope\n"), 2.0);
 }
@@ -55,7 +55,7 @@ TEST_F(CpuQuota, IsTheSmallestOfTheGroupsAbove) {
   EXPECT_EQ(of("0::/system.slice/fleetplan.service\n"), 3.0);
 }
 
-TEST_F(CpuQuota, IsThatOfTheCpuControllerWithV1) {
+TEST_F(CpuQuota, IsReadFromTheCpuControllerWithV1) {
   limit_v1("cpu/docker/1f2e", "50000");
   limit_v1("cpu", "-1");
   limit_v1("cpuset/docker/1f2e", "10000");
@@ -63,7 +63,7 @@ TEST_F(CpuQuota, IsThatOfTheCpuControllerWithV1) {
   EXPECT_EQ(of("1:cpu:/\n"), std::nullopt);
 }
 
-TEST_F(CpuQuota, IsThatOfAContainerWithV1) {
+TEST_F(CpuQuota, IsReadInAContainerWithV1) {
   limit_v1("cpu", "250000");
   EXPECT_EQ(of("1:cpu,cpuacct:/docker/1f2e\n"), 2.5);
 }

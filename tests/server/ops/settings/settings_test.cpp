@@ -40,7 +40,7 @@ TEST(Settings, HaveTheirDefaults) {
   EXPECT_EQ(settings.drain_delay, std::chrono::milliseconds(0));
 }
 
-TEST(Settings, AskForTheHealthByFlagAlone) {
+TEST(Settings, ProbeHealthByFlagOnly) {
   EXPECT_FALSE(settings_of({}).healthcheck);
   EXPECT_TRUE(settings_of({"--healthcheck"}).healthcheck);
   const support::TemporaryFile file("healthcheck = true\n");
@@ -57,7 +57,7 @@ TEST(Settings, ComeFromFlags) {
   EXPECT_EQ(settings.idle_timeout, std::chrono::milliseconds(7));
 }
 
-TEST(Settings, HoldTheTokenOfAFile) {
+TEST(Settings, ReadTheTokenFromAFile) {
   const support::TemporaryFile file("open-sesame\n");
   const auto settings = settings_of({"--auth-token-file", file.path()});
   ASSERT_TRUE(settings.token);
@@ -71,7 +71,7 @@ TEST(Settings, HoldTheTokenOfAFile) {
   EXPECT_EQ(exit.text.find("--auth-token-file: " + empty.path() + ": it is empty"), 0u) << exit.text;
 }
 
-TEST(Settings, TakeOriginsApartAndTogether) {
+TEST(Settings, AcceptOriginsRepeatedOrCommaSeparated) {
   const std::vector<std::string> both{"https://a.example", "http://b.example:3000"};
   EXPECT_EQ(settings_of({"--cors-origin", "https://a.example,http://b.example:3000"}).cors_origins, both);
   EXPECT_EQ(settings_of({"--cors-origin", both[0], "--cors-origin", both[1]}).cors_origins, both);
@@ -80,7 +80,7 @@ TEST(Settings, TakeOriginsApartAndTogether) {
   EXPECT_EQ(settings_of({"--cors-origin", "*"}).cors_origins, std::vector<std::string>{"*"});
 }
 
-TEST(Settings, ComeFromTheEnvironmentWhichFlagsBeat) {
+TEST(Settings, ComeFromTheEnvironmentUnlessAFlagIsGiven) {
   const Environment port("FLEETPLAN_PORT", "9001");
   const Environment body("FLEETPLAN_MAX_BODY", "4096");
   const Environment queue("FLEETPLAN_QUEUE", "0");
@@ -95,7 +95,7 @@ TEST(Settings, TreatAnEmptyEnvironmentValueAsNotSet) {
   EXPECT_EQ(settings_of({}).port, 8080);
 }
 
-TEST(Settings, RefuseBadValuesNamingTheFlag) {
+TEST(Settings, RejectBadValuesAndNameTheFlag) {
   for (const char* argument : {"--port=65536",
                                "--port=x",
                                "--workers=0",
@@ -130,16 +130,16 @@ TEST(Settings, RefuseBadValuesNamingTheFlag) {
   EXPECT_EQ(exit_of({"stray"}).code, 2);
 }
 
-TEST(Settings, RefuseABadEnvironmentValue) {
+TEST(Settings, RejectABadEnvironmentValue) {
   const Environment port("FLEETPLAN_PORT", "many");
   EXPECT_EQ(exit_of({}).code, 2);
 }
 
-TEST(Settings, CutTheDefaultBudgetToTheLargest) {
+TEST(Settings, LimitTheDefaultBudgetToTheMaximum) {
   EXPECT_EQ(settings_of({"--max-budget-ms", "300"}).limits.default_budget_ms, 300);
 }
 
-TEST(Settings, ExplainThemselves) {
+TEST(Settings, AreDescribedByHelp) {
   const auto help = exit_of({"--help"});
   EXPECT_EQ(help.code, 0);
   EXPECT_NE(help.text.find("FLEETPLAN_MAX_BODY"), std::string::npos);
