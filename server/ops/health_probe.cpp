@@ -20,7 +20,7 @@ std::string address_to_ask(const std::string& host) {
 
 std::optional<std::string> health_fault(const Settings& settings) {
   const int port = settings.admin_port.value_or(settings.port);
-  if (port == 0) return "--healthcheck needs the actual port, not 0";
+  if (port == 0) return "--healthcheck cannot use port 0; name one";
   const std::string host = address_to_ask(settings.host);
   const std::string where = host + " port " + std::to_string(port);
   httplib::Client client(host, port);
