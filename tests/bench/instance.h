@@ -29,7 +29,8 @@ class Instance {
 /// The request of a workload.
 Instance make_instance(std::string name, const Workload& workload);
 
-/// Reads a request file; throws std::runtime_error, naming the file, if it cannot be read or is not a request.
+/// Reads a request file; throws std::runtime_error, naming the file, if it cannot be read or is not a
+/// request.
 Instance read_instance(std::string name, const std::filesystem::path& file);
 
 }  // namespace fleetplan::bench
