@@ -1,19 +1,19 @@
 # shellcheck shell=bash disable=SC2034
 # Shared by the scripts in this folder: packages, users, builds. Sourced by bash with `set -euo pipefail`.
 #
-# After sourcing: ROOT is the project's folder and the current directory. Everything here talks on stderr, so
-# that stdout belongs to what a script runs.
+# After sourcing: ROOT is the project's folder and the current directory. Messages go to stderr, so
+# that stdout belongs to the program that a script runs.
 
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 cd "$ROOT" || exit
 
-# What the server is built from; "package:command" is present too when the command comes from elsewhere.
+# To build the server. "package:command" also counts as installed if the command comes from elsewhere.
 BUILD_PACKAGES=(g++:g++ cmake:cmake ninja-build:ninja pkgconf:pkg-config esbuild:esbuild
   libcpp-httplib-dev nlohmann-json3-dev libeigen3-dev libspdlog-dev libcli11-dev)
-# What the tests want beside it.
+# For the tests, in addition.
 TEST_PACKAGES=(libgtest-dev libgmock-dev clang-format:clang-format clang-tidy:clang-tidy
   python3:python3 nodejs:node npm:npm chromium:chromium curl:curl jq:jq)
-# What fuzzing wants beside it.
+# For the builds with sanitizers and the fuzz targets, in addition.
 FUZZ_PACKAGES=(clang:clang++ libclang-rt-dev)
 
 say() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
@@ -36,7 +36,7 @@ as_root() {
   if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
 }
 
-# need_packages PACKAGE[:COMMAND]...: installs what is missing, and asks for nothing when nothing is.
+# need_packages PACKAGE[:COMMAND]...: installs the missing packages, if any.
 need_packages() {
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     die "this is not a Debian system (no apt-get). Install the equivalents of: ${*%%:*};" \
@@ -62,11 +62,11 @@ need_packages() {
   rm -f "$log"
 }
 
-# download_promtool: the package with promtool to the current directory; it is Prometheus' own one in Debian 12.
+# download_promtool: downloads the package with promtool to the current directory; in Debian 12 it is Prometheus' own.
 download_promtool() { apt-get -q download promtool || apt-get -q download prometheus; }
 
-# need_promtool: puts promtool, Prometheus' judge of metrics, on the PATH. When it is not installed it is taken out
-# of its package (19 MB): to install that would start a server on Debian 12.
+# need_promtool: puts promtool, which checks metrics for Prometheus, on the PATH. If it is not installed, extracts it
+# from its package (19 MB), because installing that would start a server on Debian 12.
 need_promtool() {
   local folder=$ROOT/build/tools package
   PATH=$PATH:$folder/usr/bin
@@ -83,7 +83,7 @@ need_promtool() {
 # ---------------------------------------------------------------- users
 
 # become_invoking_user SCRIPT [ARGS...]: when run through sudo, starts the script again as the user who called
-# sudo, so that what it builds belongs to that user; stays root if the project is not that user's to write in.
+# sudo, so that the build belongs to that user; stays root if that user cannot write to the project.
 become_invoking_user() {
   [ "$(id -u)" = 0 ] && [ "${SUDO_UID:-0}" != 0 ] || return 0
   local entry name home
@@ -95,7 +95,7 @@ become_invoking_user() {
   exec "${user[@]}" env -u SUDO_UID -u SUDO_GID HOME="$home" USER="$name" LOGNAME="$name" "$@"
 }
 
-# need_writable_build: says what to do when an earlier run as root owns the build.
+# need_writable_build: reports how to proceed if an earlier run as root owns the build.
 need_writable_build() {
   mkdir -p build 2>/dev/null || die "cannot write in $ROOT; run this as the user who owns it"
   local other
@@ -118,8 +118,8 @@ build_jobs() {
   echo $((cpus < fitting ? cpus : fitting))
 }
 
-# configure PRESET: quiet unless it fails; starts afresh when the old configuration cannot be used, as after the
-# project was moved.
+# configure PRESET: quiet unless it fails; starts again if the old configuration cannot be used, for example after
+# the project was moved.
 configure() {
   local log
   log=$(mktemp)

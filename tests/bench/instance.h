@@ -9,7 +9,7 @@
 
 namespace fleetplan::bench {
 
-/// A request that can be made with only its first robots.
+/// A request that can be reduced to its first robots.
 class Instance {
  public:
   /// `request` is a body of POST /v1/plan with an array of robots. `name` is the `file` of the results.
@@ -18,7 +18,7 @@ class Instance {
   const std::string& name() const { return name_; }
   std::size_t robots() const { return request_.at("robots").size(); }
 
-  /// The body with the first `robots` robots (at most all), its options overridden by those of `options`.
+  /// The body with the first `robots` robots (at most all), with `options` overriding its own.
   std::string body(std::size_t robots, const nlohmann::json& options) const;
 
  private:
@@ -26,10 +26,11 @@ class Instance {
   nlohmann::json request_;
 };
 
-/// The request that a workload makes.
+/// The request of a workload.
 Instance make_instance(std::string name, const Workload& workload);
 
-/// Reads a request file; throws std::runtime_error, naming the file, when it cannot be read or is no request.
+/// Reads a request file; throws std::runtime_error, naming the file, if it cannot be read or is not a
+/// request.
 Instance read_instance(std::string name, const std::filesystem::path& file);
 
 }  // namespace fleetplan::bench

@@ -7,9 +7,9 @@ namespace fleetplan::bench {
 /// CPU time of this thread so far.
 double thread_cpu_seconds();
 
-/// The most memory that this process has had resident since it was forgotten, or at all, bytes.
+/// The peak of resident memory of this process since forget_peak_memory(), or since its start, in bytes.
 std::size_t peak_memory();
-/// Gives unused memory back and lets the peak count from now on, where the kernel permits.
+/// Returns unused memory to the system and resets the peak, where the kernel permits.
 void forget_peak_memory();
 
 }  // namespace fleetplan::bench

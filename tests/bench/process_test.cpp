@@ -19,7 +19,7 @@ TEST(Process, CountsCpuTimeOfWorkAndNotOfSleep) {
   EXPECT_GE(thread_cpu_seconds() - slept, 0.01);
 }
 
-TEST(Process, SeesMemoryThatWasInUse) {
+TEST(Process, ReportsThePeakOfMemory) {
   constexpr std::size_t kSize = 64u << 20;
   forget_peak_memory();
   const std::size_t before = peak_memory();

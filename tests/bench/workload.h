@@ -11,11 +11,11 @@
 
 namespace fleetplan::bench {
 
-/// What a workload is made by. The defaults are the paper's empty hall (Yakovlev, Andreychuk and Vorobyev,
+/// How a workload is generated. The defaults are the paper's empty hall (Yakovlev, Andreychuk and Vorobyev,
 /// ECMR 2019, Simulated experiments); its other hall has ten rectangles.
 struct Recipe {
   std::string name = "empty";
-  int side = 64;       // cells of 1 m; at least kRectangleLength where there are rectangles
+  int side = 64;       // cells of 1 m; at least kRectangleLength if there are rectangles
   int rectangles = 0;  // obstacles of kRectangleLength x kRectangleWidth cells, which may overlap
   std::size_t robots = 300;
 };
@@ -39,7 +39,7 @@ struct Workload {
 
 /// The workload of a seed, the same everywhere. Robots of the paper's three types follow in turn; the cells
 /// and headings of starts and goals are uniform at random. Starts do not overlap one another, nor do goals;
-/// both lie in the largest 4-connected set of cells where a disk of the robot's radius fits. Where the map is
+/// both lie in the largest 4-connected set of cells where a disk of the robot's radius fits. If the map is
 /// too full for the next robot, the workload ends before it.
 Workload generate(const Recipe& recipe, std::uint64_t seed);
 

@@ -56,7 +56,7 @@ int blocked_cells(const core::OccupancyGrid& grid) {
   return count;
 }
 
-TEST(Workload, OfTheSameSeedIsTheSameAndOfAnotherIsAnother) {
+TEST(Workload, DependsOnlyOnItsSeed) {
   for (const Recipe& recipe : {empty_hall(), hall_with_rectangles()}) {
     EXPECT_EQ(fingerprint(generate(recipe, 7)), fingerprint(generate(recipe, 7)));
     EXPECT_NE(fingerprint(generate(recipe, 7)), fingerprint(generate(recipe, 8)));
@@ -68,7 +68,7 @@ TEST(Workload, StaysTheSameFromVersionToVersion) {
   EXPECT_NEAR(fingerprint(generate(hall_with_rectangles(), 1)), 46537955.315872505, 1e-6);
 }
 
-TEST(Workload, WithFewerRobotsIsTheBeginningOfTheLarger) {
+TEST(Workload, WithFewerRobotsHasTheFirstRobotsOfTheLarger) {
   Recipe fewer = hall_with_rectangles();
   fewer.robots = 90;
   Workload larger = generate(hall_with_rectangles(), 3);
@@ -111,7 +111,7 @@ TEST(Workload, MakesAValidProblem) {
   });
 }
 
-TEST(Workload, HasNoStartThatOverlapsAnotherAndNoGoalThatDoes) {
+TEST(Workload, HasNoOverlappingStartsOrGoals) {
   for_each_workload([](const Workload& workload, const Recipe&) {
     double smallest_gap = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < workload.robots.size(); ++i) {
@@ -127,7 +127,7 @@ TEST(Workload, HasNoStartThatOverlapsAnotherAndNoGoalThatDoes) {
   });
 }
 
-TEST(Workload, PutsStartsAndGoalsOnCellsOfTheLargestRoomForTheRobotsSize) {
+TEST(Workload, PlacesStartsAndGoalsInTheLargestRoomForTheRobot) {
   for_each_workload([](const Workload& workload, const Recipe&) {
     for (const double radius : {0.3, 0.5, 1.0}) {
       const auto room = largest_room(workload.grid, radius);
@@ -146,7 +146,7 @@ TEST(Workload, PutsStartsAndGoalsOnCellsOfTheLargestRoomForTheRobotsSize) {
   });
 }
 
-TEST(Workload, HasHeadingsAllAround) {
+TEST(Workload, HasHeadingsInAllDirections) {
   for_each_workload([](const Workload& workload, const Recipe&) {
     std::array<int, 4> quadrants{};
     for (const core::Robot& robot : workload.robots) {
@@ -173,7 +173,7 @@ TEST(Workload, HasTenRectanglesOrNone) {
   });
 }
 
-TEST(Workload, LaysARectangleWhollyOnTheMapEitherWay) {
+TEST(Workload, PlacesRectanglesInsideTheMapInBothOrientations) {
   Recipe recipe;
   recipe.rectangles = 1;
   recipe.robots = 0;
@@ -201,7 +201,7 @@ TEST(Workload, EndsWhereTheMapIsFull) {
   EXPECT_TRUE(std::holds_alternative<core::Problem>(core::Problem::create(workload.grid, workload.robots)));
 }
 
-TEST(LargestRoom, IsConnectedAndLeavesTheSmallerOnesOut) {
+TEST(LargestRoom, IsConnectedAndExcludesSmallerRooms) {
   const core::OccupancyGrid grid = support::ascii_map({"..#....",  //
                                                        "..#....",  //
                                                        "..##...",  //
@@ -218,7 +218,7 @@ TEST(LargestRoom, CountsOnlyCellsWhereTheDiskFits) {
   EXPECT_TRUE(largest_room(grid, 1.6).empty());
 }
 
-TEST(LargestRoom, DoesNotGoRoundCorners) {
+TEST(LargestRoom, DoesNotConnectDiagonalCells) {
   const core::OccupancyGrid grid = support::ascii_map({"..##",  //
                                                        "..##",  //
                                                        "##..",  //

@@ -1,4 +1,4 @@
-"""A plain HTTP/1.1 client on one socket, which sends exactly what it is told to."""
+"""A plain HTTP/1.1 client on one socket, which sends exactly the given bytes."""
 
 import gzip
 import json
@@ -7,7 +7,7 @@ import time
 
 
 class Lost(Exception):
-    """No answer, or not a whole one."""
+    """No answer, or an incomplete one."""
 
 
 class Answer:
@@ -19,9 +19,9 @@ class Answer:
 
 
 class Connection:
-    """One connection, made when there is something to send and made again when the server has ended it."""
+    """One connection, opened when needed and again after the server has closed it."""
 
-    # The server closes a connection that is idle for a second; one that was used lately is open still.
+    # The server closes a connection that is idle for a second; one that was used recently is still open.
     MOST_IDLE_S = 0.5
 
     def __init__(self, host, port, timeout=90.0):
@@ -45,14 +45,14 @@ class Connection:
         self.send_more(data)
 
     def send_more(self, data):
-        """What belongs to a request that was begun with send()."""
+        """Sends more of a request that began with send()."""
         try:
             self.socket.sendall(data)
         except OSError:
             pass  # an early answer may wait to be read
 
     def receive(self, head_only=False):
-        """The next answer, whole; closes the connection when the answer says so."""
+        """Reads the next whole answer; closes the connection if the answer requires it."""
         head = self._until(b"\r\n\r\n").decode("latin-1")
         status = int(head.split(" ", 2)[1])
         fields = {}

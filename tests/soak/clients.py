@@ -1,4 +1,4 @@
-"""The clients of a soak: each does one thing after the other on a connection of its own, and checks every answer."""
+"""The clients of a soak: each sends one request after the other on its own connection and checks every answer."""
 
 import collections
 import gzip
@@ -17,11 +17,11 @@ KINDS = {"scenario": 20, "random": 40, "gzip": 10, "stream": 6, "bad body": 10, 
 
 
 class Wrong(Exception):
-    """An answer that should not be."""
+    """A wrong answer."""
 
 
 def detail_of(answer):
-    """Why, without what is different each time."""
+    """The reason, without the parts that differ each time."""
     try:
         return answer.json()["detail"]
     except (ValueError, KeyError):
@@ -29,7 +29,7 @@ def detail_of(answer):
 
 
 class Record:
-    """What one process counted; sent to the parent as it is."""
+    """The counts of one process, which are sent to the parent."""
 
     def __init__(self):
         self.sent = collections.Counter()       # by kind
@@ -73,8 +73,8 @@ class Client(threading.Thread):
     # ---------------------------------------------------------------- asking
 
     def ask(self, kind, method, path, expected, body=None, fields=(), send=None):
-        """Sends a request and returns its answer, which has one of the statuses expected, or 503. `send`: instead of
-        sending at once."""
+        """Sends a request and returns its answer, which must have one of the expected statuses, or 503. `send`
+        replaces sending at once."""
         id_ = uuid.UUID(int=self.random.getrandbits(128)).hex
         data = request(method, path, body, [("X-Request-Id", id_), *fields])
         begin = time.monotonic()
@@ -103,7 +103,7 @@ class Client(threading.Thread):
                 raise Wrong(f"a strange problem: {answer.body[:500]}")
 
     def plan(self, kind, wanted, fields=(), body=None, send=None):
-        """Posts a request to plan, checks that the answer is its own, and has the plan validated."""
+        """Posts a request to plan, checks that the answer belongs to it, and validates the plan."""
         answer = self.ask(kind, "POST", "/v1/plan", {200}, body or json.dumps(wanted).encode(), fields, send)
         if answer.status == 200:
             self.validate(wanted, answer.json(), answer.fields["x-request-id"])
@@ -209,7 +209,7 @@ class Client(threading.Thread):
 
 
 def run_process(host, port, seed, connections, limits, seconds, result):
-    """Some clients of one process until the time is over; sends their record."""
+    """Runs the clients of one process until the time is over; sends their record."""
     record, lock, until = Record(), threading.Lock(), time.monotonic() + seconds
     clients = [Client(host, port, seed * 1000 + index, limits, until, record, lock)
                for index in range(connections)]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What honest clients notice of hostile ones.
+"""Measures the effect of hostile clients on honest ones.
 
 Usage: hostile.py [--binary FLEETPLAN | --url URL] [--seconds N]
 
@@ -38,7 +38,7 @@ POST = b"POST /v1/plan HTTP/1.1\r\nHost: hostile\r\n"
 
 
 class Attackers:
-    """A process with a number of sockets; a thread each does something with one, again and again, until the end."""
+    """A process with a number of sockets, each used by its own thread until the end."""
 
     def __init__(self, address, count, act):
         self.process = multiprocessing.Process(target=self._run, args=(address, count, act), daemon=True)
@@ -101,7 +101,7 @@ def idle(_socket):
 
 
 def until_refused(socket_):
-    """Reads until the server has had enough."""
+    """Reads until the server closes the connection."""
     socket_.settimeout(5)
     with contextlib.suppress(OSError):
         while socket_.recv(1 << 16):
@@ -129,7 +129,7 @@ def send_and_leave(data):
 
 
 def never_read(data):
-    """Asks for large answers and takes none of them."""
+    """Requests large answers and reads none of them."""
     def act(socket_):
         socket_.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         for _ in range(50):
@@ -139,7 +139,7 @@ def never_read(data):
 
 
 def large_body():
-    """Sends all of a large body but its end."""
+    """Sends all of a large body except its end."""
     block = b" " * (1 << 20)
 
     def act(socket_):
@@ -195,7 +195,7 @@ def attacks():
 
 
 def honest_times(server, seconds):
-    """Milliseconds of each plan for an honest client, and how many it was refused; raises when one is wrong or lost."""
+    """Milliseconds of each plan for an honest client, and how many were rejected; raises if one is wrong or lost."""
     connection, times, until = Connection(server.host, server.port, 20), [], time.monotonic() + seconds
     refused = 0
     body = json.dumps(HONEST).encode()
