@@ -9,7 +9,7 @@
 #include "core/lns/delayed_choice.h"
 #include "core/lns/incumbent.h"
 #include "core/lns/replan.h"
-#include "core/lns/search_state_pool.h"
+#include "core/lns/workspace_pool.h"
 
 namespace fleetplan::core {
 namespace {
@@ -118,7 +118,7 @@ class LargeNeighbourhoodSearch {
 
   /// On any thread.
   void destroy_and_repair(Iteration& iteration) {
-    std::unique_ptr<SearchState> search = states_.take();
+    std::unique_ptr<Workspace> search = states_.take();
     Random random(iteration.seed);
     const AdaptiveParameters::Choice& parameters = iteration.parameters;
     const auto robots = search->neighbourhoods().select(iteration.first, parameters.neighbourhood(),
@@ -144,7 +144,7 @@ class LargeNeighbourhoodSearch {
                          [&](const Change::Part& part) { return part.robot == robot; });
     };
     if (std::any_of(changed.begin(), changed.end(), is_part)) return true;
-    std::unique_ptr<SearchState> search = states_.take();
+    std::unique_ptr<Workspace> search = states_.take();
     bool outdated = false;
     for (const Change::Part& part : change.parts) {
       if (for_makespan_ && part.trajectory.cost > makespan) outdated = true;
@@ -158,7 +158,7 @@ class LargeNeighbourhoodSearch {
 
   const bool for_makespan_;
   Incumbent incumbent_;
-  SearchStatePool states_;
+  WorkspacePool states_;
   const TautPathBounds& bounds_;
   Random& random_;
   Executor& executor_;

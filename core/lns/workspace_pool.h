@@ -15,13 +15,13 @@
 namespace fleetplan::core {
 
 /// What one thread needs to search on its own: a plan state with the incumbent's trajectories.
-class SearchState {
+class Workspace {
  public:
   /// With the caller's state, which follows the incumbent already.
-  SearchState(PlanState& state, const Incumbent& incumbent, const StopCondition& stop);
+  Workspace(PlanState& state, const Incumbent& incumbent, const StopCondition& stop);
   /// With an instance and a state of its own. Robots that are not in the incumbent stay at their starts.
-  SearchState(const Problem& problem, const PlanOptions& options, const Incumbent& incumbent,
-              const StopCondition& stop);
+  Workspace(const Problem& problem, const PlanOptions& options, const Incumbent& incumbent,
+            const StopCondition& stop);
 
   PlanState& state() { return *state_; }
   NeighbourhoodSelection& neighbourhoods() { return neighbourhoods_; }
@@ -37,16 +37,16 @@ class SearchState {
   NeighbourhoodSelection neighbourhoods_;
 };
 
-/// As many search states as threads use at the same time. Thread-safe while the incumbent does not change.
-class SearchStatePool {
+/// As many workspaces as threads use at the same time. Thread-safe while the incumbent does not change.
+class WorkspacePool {
  public:
-  /// The first search state uses `state`, which follows the incumbent.
-  SearchStatePool(PlanState& state, const Incumbent& incumbent, const StopCondition& stop);
+  /// The first workspace uses `state`, which follows the incumbent.
+  WorkspacePool(PlanState& state, const Incumbent& incumbent, const StopCondition& stop);
 
-  /// An updated search state for the exclusive use of the caller.
-  std::unique_ptr<SearchState> take();
-  void give_back(std::unique_ptr<SearchState> state);
-  /// Updates all search states, and with them the caller's state; all have been given back.
+  /// An updated workspace for the exclusive use of the caller.
+  std::unique_ptr<Workspace> take();
+  void give_back(std::unique_ptr<Workspace> state);
+  /// Updates all workspaces, and with them the caller's state; all have been given back.
   void update_all();
 
  private:
@@ -55,7 +55,7 @@ class SearchStatePool {
   const Incumbent& incumbent_;
   const StopCondition& stop_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<SearchState>> idle_;
+  std::vector<std::unique_ptr<Workspace>> idle_;
 };
 
 }  // namespace fleetplan::core

@@ -1,17 +1,17 @@
-#include "core/lns/search_state_pool.h"
+#include "core/lns/workspace_pool.h"
 
 #include <utility>
 
 namespace fleetplan::core {
 
-SearchState::SearchState(PlanState& state, const Incumbent& incumbent, const StopCondition& stop)
+Workspace::Workspace(PlanState& state, const Incumbent& incumbent, const StopCondition& stop)
     : state_(&state),
       incumbent_(incumbent),
       versions_(state.instance().size(), 0),
       neighbourhoods_(state, incumbent.planned(), stop) {}
 
-SearchState::SearchState(const Problem& problem, const PlanOptions& options, const Incumbent& incumbent,
-                         const StopCondition& stop)
+Workspace::Workspace(const Problem& problem, const PlanOptions& options, const Incumbent& incumbent,
+                     const StopCondition& stop)
     : own_instance_(std::make_unique<Instance>(problem, options)),
       own_state_(std::make_unique<PlanState>(*own_instance_)),
       state_(own_state_.get()),
@@ -25,7 +25,7 @@ SearchState::SearchState(const Problem& problem, const PlanOptions& options, con
   }
 }
 
-void SearchState::update() {
+void Workspace::update() {
   std::vector<std::size_t> outdated;
   for (const std::size_t robot : incumbent_.planned()) {
     if (versions_[robot] != incumbent_.version(robot)) outdated.push_back(robot);
@@ -37,16 +37,16 @@ void SearchState::update() {
   }
 }
 
-SearchStatePool::SearchStatePool(PlanState& state, const Incumbent& incumbent, const StopCondition& stop)
+WorkspacePool::WorkspacePool(PlanState& state, const Incumbent& incumbent, const StopCondition& stop)
     : problem_(state.instance().problem()),
       options_(state.instance().options()),
       incumbent_(incumbent),
       stop_(stop) {
-  idle_.push_back(std::make_unique<SearchState>(state, incumbent, stop));
+  idle_.push_back(std::make_unique<Workspace>(state, incumbent, stop));
 }
 
-std::unique_ptr<SearchState> SearchStatePool::take() {
-  std::unique_ptr<SearchState> state;
+std::unique_ptr<Workspace> WorkspacePool::take() {
+  std::unique_ptr<Workspace> state;
   {
     const std::scoped_lock lock(mutex_);
     if (!idle_.empty()) {
@@ -54,17 +54,17 @@ std::unique_ptr<SearchState> SearchStatePool::take() {
       idle_.pop_back();
     }
   }
-  if (!state) state = std::make_unique<SearchState>(problem_, options_, incumbent_, stop_);
+  if (!state) state = std::make_unique<Workspace>(problem_, options_, incumbent_, stop_);
   state->update();
   return state;
 }
 
-void SearchStatePool::give_back(std::unique_ptr<SearchState> state) {
+void WorkspacePool::give_back(std::unique_ptr<Workspace> state) {
   const std::scoped_lock lock(mutex_);
   idle_.push_back(std::move(state));
 }
 
-void SearchStatePool::update_all() {
+void WorkspacePool::update_all() {
   for (const auto& state : idle_) state->update();
 }
 
