@@ -18,13 +18,16 @@ struct Corner {
   int away_y = 1;
 };
 
-/// The convex corners of the blocked cells, and from where they are visible between the cells. A disk that
-/// moves straight from a point until it touches a corner, or from one corner to another, covers the line
-/// between them, so that line has to be free; and as the area that it covers is convex, the disk's width has
-/// to be free on every grid line that it crosses. May return more corners than are visible or reachable, but
-/// always all that the disk reaches. Visibility between corners is computed on first use, and only in the
-/// directions of taut paths: a path that bends around a corner continues in one of the two quadrants beside
-/// the blocked cell, neither over the cell nor straight away from it. Not thread-safe.
+/// The convex corners of the blocked cells, and which of them are visible from a point or from each other.
+///
+/// A disk that moves straight from a point until it touches a corner, or from one corner to another, covers
+/// the line between them, so that line has to be free. The area that the disk covers is convex, so the width
+/// of the disk has to be free on every grid line that it crosses. The results may contain corners that are
+/// not visible or not reachable, but never omit one that the disk can reach.
+///
+/// Visibility between corners is computed on first use, and only in the directions of taut paths: a path that
+/// bends around a corner continues in one of the two quadrants beside the blocked cell, neither over the cell
+/// nor straight away from it. Not thread-safe.
 class CornerVisibility {
  public:
   /// For disks of radii from `least_radius` to `most_radius` (metres, >= 0).

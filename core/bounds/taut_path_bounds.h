@@ -8,8 +8,8 @@
 
 namespace fleetplan::core {
 
-/// Lower bounds of the costs of robots, each alone on the static map, seconds: the straight line and the
-/// turns where that is free, the cheapest taut path elsewhere (see TautPathSearch).
+/// Lower bounds of the costs of robots, each alone on the static map, seconds: the straight line with its
+/// rotations where it is free, the cheapest taut path elsewhere (see TautPathSearch).
 class TautPathBounds {
  public:
   /// Of `robots`, all with goals. `costs`, by robot, are those of a known plan; infinite for none. The work

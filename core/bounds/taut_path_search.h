@@ -22,19 +22,11 @@ struct TautPathResult {
 /// lower bound of the cost of its plans. A* (Hart, Nilsson and Raphael, 1968) on the tangent graph (Liu and
 /// Arimoto, IJRR 1992), with the straight cost as the heuristic.
 ///
-/// Proof that no plan costs less. Obstacles grown by the radius leave the centre a region, whose paths from
-/// start to goal fall into classes of those that can be deformed into each other. (1) Length and turning: put
-/// a tight convex chain of the triangle a, b, c around what lies in it in place of a corner a-b-c of a path.
-/// The path gets no longer. Its headings stay on the shorter arc between those of ab and bc, in order, so by
-/// the triangle inequality it turns no more, the turns from the start heading and to the goal heading
-/// included. Repeated, this leads to the taut path of the class, which therefore has the least length and the
-/// least turning of its class at once (in the limit of polygons that fill the grown obstacles; total turning
-/// is lower semicontinuous). (2) Translations, each of which may need a wait: prolong a straight piece of the
-/// taut path between bends of opposite sense, which touches obstacles at u on one side and v on the other, to
-/// a chord of the region. All paths of the class cross the chord before u and beyond v in one sense, so
-/// between u and v in the other, or run along it there: with a translation of its own, since the taut path is
-/// the only taut one between any two of its points. By the same reason it is neither the first nor the last
-/// one. So there are at least two translations more than such pieces, if the path bends at all.
+/// Paths that can be deformed into each other, without crossing obstacles grown by the radius, form a class.
+/// The taut path of a class has the least length and the least total rotation of the class (docs/method.md,
+/// Lemma 2). If it bends, and k of its straight pieces lie between bends of opposite sense, every path of the
+/// class has at least k + 2 translations, each with an added wait (Lemma 3). So no plan costs less than the
+/// cheapest taut path.
 class TautPathSearch {
  public:
   /// For robots of one radius.

@@ -5,7 +5,7 @@
 
 namespace fleetplan::core {
 
-/// Gaps of an even number of cells into which a disk just fits. It would have to move along a grid line
+/// Gaps of an even number of cells that a disk fits exactly. Its centre would have to move along a grid line
 /// there; a robot that starts, stops and turns on cell centres never does.
 class TightGaps {
  public:

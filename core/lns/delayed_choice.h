@@ -7,8 +7,8 @@
 
 namespace fleetplan::core {
 
-/// Chooses the robot that an iteration is to make cheaper: with a probability that grows with its delay and
-/// falls with its recent failures.
+/// Chooses the robot whose cost an iteration tries to reduce: with a probability that grows with its delay
+/// (cost minus lower bound) and falls with its recent failures.
 class DelayedChoice {
  public:
   /// For robots 0 to count - 1.
@@ -22,7 +22,7 @@ class DelayedChoice {
   void learn(std::size_t robot, bool gained);
 
  private:
-  std::vector<double> failures_;  // by robot; those before a gain count less
+  std::vector<double> failures_;  // by robot; failures before a gain count less
 };
 
 }  // namespace fleetplan::core

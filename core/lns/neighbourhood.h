@@ -11,9 +11,10 @@
 
 namespace fleetplan::core {
 
-/// How the robots are selected that are replanned together with a delayed one.
+/// How to select the robots that are replanned together with a delayed one.
 enum class Neighbourhood : std::uint8_t {
-  conflicting,  // robots that conflict with its path alone, and with the paths alone of these
+  conflicting,  // robots that conflict with the path that it would take alone on the map; then those that
+                // conflict with such paths of these robots
   meeting,      // robots nearest to it at a random time
   at_goal,      // robots that pass near its goal
   random,

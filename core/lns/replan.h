@@ -41,9 +41,9 @@ struct ReplanResult {
 
 /// The repair step of large neighbourhood search (Li et al., MAPF-LNS, IJCAI 2021): plans robots.front() as
 /// if the others of `robots` were absent, then those of them that conflict with it, and so on. Trajectories
-/// that conflict with further robots are accepted only if there is no other. A search ends as soon as its
-/// cost rules the required gain out. All of `robots` have trajectories and bounds. The state is left
-/// unchanged.
+/// that conflict with further robots of `robots` are accepted only if there is no other. A search ends when
+/// no trajectory can bring the required gain any more. All of `robots` have trajectories and bounds. The
+/// state is left unchanged.
 ReplanResult replan(PlanState& state, const std::vector<std::size_t>& robots, const TautPathBounds& bounds,
                     const ReplanOptions& options, const StopCondition& stop);
 

@@ -15,9 +15,10 @@ class BlockingRobots {
  public:
   BlockingRobots(PlanState& state, const StopCondition& stop) : state_(state), stop_(stop) {}
 
-  /// For a robot that stays at its start and has no path among the others: the robots that conflict with its
-  /// path alone on the map, except those without which the rest would block it as well. Ascending. More than
-  /// necessary when the effort or `stop` ends the search; none if `stop` is met already.
+  /// For a robot that stays at its start and has no path among the others. Begins with the robots that
+  /// conflict with the path that it would take alone on the map, and removes one after the other as long as
+  /// ignoring the rest still gives it a path. Ascending. Returns more robots than necessary if the effort or
+  /// `stop` ends this early; none if `stop` is met already.
   std::vector<std::size_t> find(std::size_t robot);
 
  private:

@@ -16,9 +16,10 @@
 
 namespace fleetplan::core {
 
-/// The reservations of all robots while a plan is made. A robot has one of: a trajectory, a reservation of
-/// its start for ever, a reservation of its start for some time, or none (the initial state). Plans one robot
-/// among the reservations of the others (paper, section Prioritized planning).
+/// The reservations of all robots while a plan is made. A robot is in one of four states: it follows a
+/// trajectory, stays at its start for ever, reserves its start for some time, or has no reservation (the
+/// initial state). Plans one robot among the reservations of the others (paper, section Prioritized
+/// planning).
 class PlanState {
  public:
   explicit PlanState(const Instance& instance);

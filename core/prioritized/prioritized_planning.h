@@ -22,9 +22,9 @@ struct PrioritizedResult {
 };
 
 /// Prioritized planning of `movers` (ascending): one by one in the order of their priorities, each among the
-/// trajectories of those before it; after a failure again with other priorities, as the options' reordering
-/// demands (paper, section Prioritized planning). Until `stop_attempts` is met it tries to plan all; from
-/// then until `stop` is met it completes a safe partial plan of as many as possible.
+/// trajectories of those before it; after a failure again with other priorities, by the option `reordering`
+/// (paper, section Prioritized planning). Until `stop_attempts` is met it tries to plan all robots. If that
+/// fails, it makes a safe partial plan of as many as possible until `stop` is met.
 PrioritizedResult plan_prioritized(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
                                    const StopCondition& stop_attempts, const StopCondition& stop,
                                    ProgressReport& progress);

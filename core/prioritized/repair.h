@@ -16,12 +16,13 @@ namespace fleetplan::core {
 /// planning), but repairs the plan instead of starting again:
 ///
 /// 1. A robot that fails among all others is planned among those of higher priority only.
-/// 2. If that fails, it gets the highest priority and is planned among the others that are at least as large,
-///    then among none but those that stay at their starts.
+/// 2. If that fails, it gets the highest priority. It is planned among the robots that had a higher priority
+///    and are at least as large, and if that fails, among only those that stay at their starts.
 /// 3. The trajectories that conflict with its own are removed, and their robots are planned again.
 ///
-/// Where robots keep raising each other, the priorities of those involved are shuffled. A robot that fails at
-/// step 2, or too often, is given up. Returns none if `max_failures` attempts fail before all is done.
+/// If robots raise each other again and again, the priorities of those involved are shuffled, and a start
+/// delay is tried. A robot that fails at step 2, or too often, is given up: it stays at its start. Returns
+/// none as soon as `max_failures` attempts have failed.
 std::optional<OrderingResult> repair(PlanState& state, const PriorityOrder& order, std::int64_t max_failures,
                                      Random& random, const StopCondition& stop, ProgressReport& progress);
 

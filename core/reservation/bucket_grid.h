@@ -23,7 +23,7 @@ class BucketGrid {
   std::size_t at(const Position& p) const { return index(column_of(p.x()), row_of(p.y())); }
 
   /// Calls visit(bucket, enter, exit) for the buckets that the segment crosses, in order; enter and exit are
-  /// fractions of its length. Stops when visit returns false; returns whether it never did.
+  /// fractions of its length. Stops when visit returns false; returns false then, and true otherwise.
   template <class Visit>
   bool walk(const Position& from, const Position& to, Visit&& visit) const {
     int column = column_of(from.x());

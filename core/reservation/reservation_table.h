@@ -12,8 +12,8 @@ namespace fleetplan::core {
 
 class SegmentIndex;
 
-/// The reserved trajectories of robots, which the others keep clear of, and the queries of a search on them:
-/// safe intervals, earliest departures, conflicts.
+/// The reserved trajectories, which all other robots avoid, and what a search asks about them: safe
+/// intervals, earliest departures, conflicts.
 class ReservationTable {
  public:
   /// `radii[i]` is the radius of robot i in metres, inflation included; the map is [0, width] x [0, height]
@@ -34,8 +34,8 @@ class ReservationTable {
   std::vector<SafeInterval> safe_intervals(std::size_t robot, const Position& position) const;
 
   /// The earliest departure in [t_min, t_max] at which the robot can make the straight move of `duration`
-  /// seconds (> 0) without a collision on the way; none if there is none. Before and after the move, safe
-  /// intervals apply.
+  /// seconds (> 0) without a collision on the way; none if there is none. The caller ensures that the robot
+  /// is in safe intervals before and after the move.
   std::optional<double> earliest_departure(std::size_t robot, const Segment& path, double duration,
                                            double t_min, double t_max) const;
 

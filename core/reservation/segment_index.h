@@ -15,8 +15,8 @@ namespace fleetplan::core {
 ///
 /// Robots are sorted into a few classes of radii. For each class there is a layer of buckets. A segment is
 /// entered into every bucket of a layer where it could touch a robot of that class, with the time window in
-/// which it could. A query therefore only visits the buckets on its own centre line, and there only entries
-/// of the right time, however long the source interval is.
+/// which it could. A query therefore only visits the buckets on its own centre line, and there only the
+/// entries whose time window overlaps the query's.
 class SegmentIndex {
  public:
   /// A robot on one of its segments.
@@ -38,8 +38,8 @@ class SegmentIndex {
   /// Visits leave out the segments of an ignored robot.
   void ignore(std::size_t robot, bool ignored) { ignored_[robot] = ignored; }
 
-  /// Calls visit(occupant) for everything in this bucket of the grid that could touch `robot` there within
-  /// the open time window, until it returns false. Returns whether it never did.
+  /// Calls visit(occupant) for every occupant that could touch `robot` in this bucket of the grid within the
+  /// open time window. Stops when visit returns false; returns false then, and true otherwise.
   template <class Visit>
   bool visit(std::size_t robot, std::size_t bucket, double t_begin, double t_end, Visit&& visit) const {
     return visit_bucket(layers_[layer_of_[robot]].buckets[bucket], t_begin, t_end, visit);

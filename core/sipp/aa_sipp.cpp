@@ -14,9 +14,12 @@ namespace {
 constexpr int kStopStride = 32;
 
 enum class Pass : std::uint8_t { quick, complete };
+
+/// `exhausted`: the open list is empty. `incomplete`: likewise, but the quick pass discarded an arrival that
+/// the complete pass may keep. `stopped`: by the stop condition or the limit of expansions.
 enum class Outcome : std::uint8_t { found, exhausted, incomplete, stopped };
 
-/// The search for one robot: its inputs and its state.
+/// The search for one robot: its inputs and its state. Intervals are indices into SearchState::intervals.
 class Search {
  public:
   Search(const ReservationTable& table, std::size_t robot, const Vertices& vertices, CostToGo& cost_to_go,
@@ -37,7 +40,8 @@ class Search {
   SearchState take_state() { return std::move(state_); }
 
  private:
-  /// f orders the open list; `cost` estimates the cost of the whole path.
+  /// f orders the open list; h is the estimated cost to the goal; `cost` estimates the cost of the whole
+  /// path, without the heuristic weight. Seconds.
   struct Evaluation {
     double f;
     double h;
@@ -156,7 +160,8 @@ void Search::offer_goal(LabelId from) {
   offer(add_edge(from, state_.goal, false), EdgeKind::local, last, false);
 }
 
-/// Offers the first possible move into `interval` of the edge's target or a later one.
+/// Offers the move into the first safe interval of the edge's target, from `interval` on, that the shortcut
+/// or the local edge can reach. The next one is offered when this move is popped.
 void Search::offer_from(EdgeId id, int interval) {
   const Edge& edge = state_.edges[id];
   const bool shortcut = edge.shortcut_sight != Edge::Sight::blocked;
@@ -201,14 +206,14 @@ void Search::push_timed(OpenEntry entry, double f_lower_bound) {
   }
 }
 
-/// Makes a label of an entry.
+/// Turns an entry into a label.
 LabelId Search::settle(const OpenEntry& entry) {
   const Edge& edge = state_.edges[entry.edge];
   return add_label({entry.arrival, edge.move(entry.kind).heading, entry.departure,
                     source_of(edge, entry.kind), edge.target, entry.interval});
 }
 
-/// Adds a label. If it is at the goal for good, it is the result.
+/// Adds a label. If it is in the last safe interval of the goal, it is the result.
 LabelId Search::add_label(const Label& label) {
   const LabelId id = state_.labels.push_back(label);
   if (is_final(label.place, label.interval)) state_.goal_label = id;
@@ -230,7 +235,7 @@ inline Move Search::move_between(LabelId from, PlaceId target) const {
   return timing_.move(source, d.heading, d.length);
 }
 
-/// Prepares a pass. Returns false if the goal is never free for good.
+/// Prepares a pass. Returns false if the goal has no safe interval without end.
 bool Search::begin(Pass pass) {
   pass_ = pass;
   use_slack_ = pass == Pass::quick && limits_.dominance_slack > 0.0;
@@ -279,8 +284,8 @@ void Search::test_sight(Edge& edge) const {
   edge.shortcut_sight = free ? Edge::Sight::free : Edge::Sight::blocked;
 }
 
-/// The earliest departure that arrives in the entry's interval before its arrival would be dominated; none if
-/// obstacles block the edge.
+/// The earliest departure that arrives in the entry's interval before the arrival would be dominated; none if
+/// there is no such departure, or if obstacles block the shortcut.
 std::optional<double> Search::earliest_departure(const OpenEntry& entry) {
   const Edge& edge = state_.edges[entry.edge];
   const Move& move = edge.move(entry.kind);
@@ -298,7 +303,8 @@ std::optional<double> Search::earliest_departure(const OpenEntry& entry) {
 /// Returns whether the arrival is dominated. Sets `incomplete` if the complete pass may keep it.
 inline bool Search::is_dominated(int interval, double arrival, double heading, double f) {
   if (state_.dominance.empty(interval)) return false;
-  // One label per interval suffices as long as the goal is not free yet.
+  // The quick pass keeps one label per interval while the goal is not free yet at time f. No path ends before
+  // the goal is free, so an earlier arrival would gain nothing.
   const bool waiting = pass_ == Pass::quick && f <= state_.goal_free_from;
   const bool dominated =
       waiting || state_.dominance.dominated_from(interval, heading) <= arrival + kSameTime ||
@@ -311,7 +317,8 @@ inline Search::Evaluation Search::evaluate(PlaceId place, int interval, double a
                                            double heading) const {
   const double h = to_go(place, heading);
   const double cost = std::max(arrival + h, state_.goal_free_from);
-  // A sufficient arrival at the goal goes first: f is constant for many entries while the goal is not free.
+  // An arrival at the goal that is within the suboptimality bound is popped before other entries. Without
+  // this, many entries could have the same f as long as the goal is not free.
   if (is_final(place, interval)) return {cost / (1.0 + limits_.suboptimality), h, cost};
   return {std::max(arrival + limits_.heuristic_weight * h, state_.goal_free_from), h, cost};
 }
@@ -326,7 +333,7 @@ inline double Search::to_go(PlaceId place, double heading) const {
   return estimate.seconds + motion_.rotation_time(heading, estimate.heading);
 }
 
-/// The place of a vertex, with its safe intervals; computed when the vertex is reached first.
+/// The place of a vertex, with its safe intervals; computed when the vertex is reached for the first time.
 PlaceId Search::place_of(int vertex) {
   PlaceId& known = state_.place_of_vertex[vertex];
   if (known != PlaceId::none) return known;

@@ -13,7 +13,15 @@ namespace fleetplan::core {
 
 /// AA-SIPP with headings: any-angle safe-interval path planning for one robot among reservations (paper,
 /// section "Individual planner: enhanced AA-SIPP"; Phillips and Likhachev, ICRA 2011; Yakovlev and
-/// Andreychuk, ICAPS 2017). In brackets: the subsections of the paper.
+/// Andreychuk, ICAPS 2017).
+///
+/// Terms. A *place* is a vertex with its safe intervals. A *label* is a settled node of the search: a place,
+/// one of its safe intervals and a heading, with the arrival g. An *entry* of OPEN is a move into one safe
+/// interval that has no label yet. Its g is a lower bound until the entry is *timed*, that is, tested against
+/// the reservations; from then on its g is exact. An entry starts at the label that was expanded (*local*
+/// edge) or, any-angle, at that label's parent (*shortcut*). See search_state.h and open_list.h.
+///
+/// Pseudo-code, with the subsections of the paper in brackets:
 ///
 ///     label the start and expand it
 ///     while OPEN is not empty:
@@ -25,17 +33,25 @@ namespace fleetplan::core {
 ///         if an arrival in the same interval dominates g: continue
 ///         g <- earliest arrival: rotate, wait, translate             ["... w.r.t. dynamic obstacles and
 ///                                     computing earliest arrival time", "Handling rotations"]
-///         if g rose above its lower bound:
-///           offer the local edge after a shortcut; push the timed entry unless dominated; continue
+///         if g rose above its lower bound, or there is no departure:
+///           if it is a shortcut, offer the local edge
+///           if there is a departure and the arrival is not dominated: push the timed entry
+///           continue
 ///       else if the entry is dominated by now: continue
 ///       label <- settle (vertex, safe interval, heading) with g      ["High-level overview"]
 ///       if label is at the goal in its last safe interval: stop
-///       expand label: for each neighbour and each of its safe intervals,
-///         offer the shortcut from the label's parent (any-angle), else the edge from the label
+///       expand label:
+///         if the goal is in sight (any-angle): offer the straight move to it
+///         for each neighbour: offer the shortcut from the label's parent (any-angle), or else the local
+///           edge, into the first safe interval that one of them can reach
 ///     offer: push an entry with the lower bound of g, unless it is impossible, too expensive or dominated
 ///
 /// DominanceTable defines "dominates". A timed entry takes part in dominance as if it were a label. The paper
 /// increments waits by a step until a move is free of collisions; here departures have a closed form.
+///
+/// run() makes one or two passes of this search. The quick pass also discards arrivals that are not
+/// dominated but hardly better than others (SearchLimits::thorough). If it finds no path and has discarded
+/// such an arrival, the complete pass searches again and discards dominated arrivals only.
 class AaSipp {
  public:
   explicit AaSipp(const ReservationTable& table) : table_(table) {}

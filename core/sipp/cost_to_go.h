@@ -10,10 +10,10 @@ namespace fleetplan::core {
 class Vertices;
 
 /// Estimates h: the cost for one robot, alone on the static map, to get from a vertex to its goal. In sight
-/// of the goal it is the straight line's. Elsewhere it comes from a backward search from the goal (Theta*;
-/// Daniel et al., JAIR 2010; turns included) that is resumed when it has not reached the vertex yet. It is
-/// the cost of an existing path, so it is close to the optimum from above: it guides a search, it is not a
-/// lower bound.
+/// of the goal it is the cost of the straight line. Elsewhere it comes from a backward search from the goal
+/// (Lazy Theta*; Nash, Koenig and Tovey, AAAI 2010; rotations included) that is resumed when it has not
+/// reached the vertex yet. It is the cost of an existing path, so it may exceed the optimum: it guides the
+/// search and is not a lower bound.
 class CostToGo {
  public:
   struct Estimate {

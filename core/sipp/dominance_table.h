@@ -23,14 +23,14 @@ class DominanceTable {
 
   bool empty(int interval) const { return first_[interval] == ArrivalId::none; }
 
-  /// The time from which arrivals with this heading are dominated. The added wait counts: an earlier arrival
-  /// may need it, a later one that continues straight does not.
+  /// The time from which arrivals with this heading are dominated. The added wait is included: an earlier
+  /// arrival may need it, a later one that continues straight does not.
   double dominated_from(int interval, double heading) const;
 
   /// Returns whether an arrival at the same time with the same heading is in the table.
   bool contains(int interval, double time, double heading) const;
 
-  /// Adds an arrival and removes those that it dominates.
+  /// Adds an arrival and removes those that it dominates (without the slack).
   ArrivalId add(int interval, double time, double heading);
 
   /// Returns whether this arrival was removed because one added after it dominates it.

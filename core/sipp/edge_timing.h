@@ -26,14 +26,15 @@ struct Move {
   double duration = 0.0;            // seconds, > 0
   double ready = 0.0;               // earliest departure after the rotation and the added wait
   double latest = 0.0;              // latest departure: the end of the source's safe interval
-  bool continues_straight = false;  // may depart at `arrival` already: the translation before has its heading
-  double arrival = kForever;        // at the source
+  bool continues_straight = false;  // without added wait, from `arrival` on; see EdgeTiming
+  double arrival = kForever;        // of the robot at the source
 };
 
 /// Departures of one robot's moves (paper, "Estimating the feasibility of the move w.r.t. dynamic obstacles
 /// and computing earliest arrival time" and "Handling rotations"). A move departs after the rotation and the
-/// added wait, within the source's safe interval, arrives within the target's, and touches nobody on the way.
-/// A move that continues straight after a translation needs no added wait, as both are one translation.
+/// added wait, within the source's safe interval, arrives within the target's, and collides with no robot on
+/// the way. A move in the direction of the translation before it may depart at once: then both form one
+/// translation, which has one added wait.
 class EdgeTiming {
  public:
   EdgeTiming(const Motion& motion, const ReservationTable& table, std::size_t robot)

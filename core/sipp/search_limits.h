@@ -9,7 +9,7 @@
 
 namespace fleetplan::core {
 
-/// What the search for one robot may settle for.
+/// The parameters of the search for one robot: limits of cost and effort, and the accepted suboptimality.
 struct SearchLimits {
   double bound = kForever;        // seconds; only trajectories that cost less are accepted
   double heuristic_weight = 1.2;  // >= 1; weight of h in f = g + weight * h (weighted A*; Pohl, 1970)
@@ -31,8 +31,9 @@ struct SearchLimits {
 /// The result of a search for one robot.
 struct SearchResult {
   std::optional<Trajectory> trajectory;
-  /// Without a trajectory: true if the lattice offers none that costs less than the bound, false if the
-  /// search was cut off.
+  /// Without a trajectory: false if the stop condition or max_expansions ended the search. True otherwise;
+  /// with `thorough`, then no trajectory costs less than the bound (except those that dominance loses, see
+  /// docs/method.md).
   bool complete = true;
   std::int64_t expansions = 0;
 };

@@ -36,7 +36,8 @@ struct Label {
   int interval;
 };
 
-/// The two ways to reach a place when a label is expanded: from the label or, any-angle, from its parent.
+/// The two ways to reach a place when a label is expanded: a local move from the label or, any-angle, a
+/// shortcut from its parent.
 struct Edge {
   enum class Sight : std::uint8_t { unknown, free, blocked };
 
@@ -60,10 +61,10 @@ struct SearchState {
   DominanceTable dominance;
   PlaceId goal = PlaceId::none;
   double goal_free_from = 0.0;              // begin of the goal's last safe interval
-  EntryId best_goal_entry = EntryId::none;  // the cheapest timed entry that reaches the goal for good
+  EntryId best_goal_entry = EntryId::none;  // the cheapest timed entry into the goal's last safe interval
   double best_goal_cost = kForever;
   LabelId goal_label = LabelId::none;
-  bool incomplete = false;  // discarded a move that exact dominance would have kept
+  bool incomplete = false;  // the quick pass discarded an arrival that the complete pass may keep
 
   /// Prepares for another search; keeps the memory.
   void clear() {

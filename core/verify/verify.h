@@ -15,29 +15,27 @@
 
 namespace fleetplan::core {
 
-/// The maximum number of overlaps of robots in a report: many robots in one place have millions.
+/// The maximum number of overlaps of robots in a report. Many robots in one place have millions of them.
 inline constexpr std::size_t kMostCollisions = 10'000;
 
 /// A violation of the rules by a plan. All numbers are finite.
 ///
-/// - robot_collision: two disks overlap; one violation for each uninterrupted overlap. The distance is that
-/// of
-///   the centres, the required one the sum of the radii.
+/// The kinds, and what `distance` and `required` are:
+///
+/// - robot_collision: two disks overlap; one violation for each uninterrupted overlap. The distance of the
+///   centres, and the sum of the radii.
 /// - obstacle_collision: a disk overlaps a blocked cell or leaves the map; one violation for each action, or
-/// one
-///   for consecutive actions through which the overlap continues. The distance is that from the centre (0:
-///   inside), the required one the radius.
+///   one for consecutive actions through which the overlap continues. The distance from the centre to the
+///   obstacle (0: inside), and the radius.
 /// - discontinuity: a gap in time or position, an action that contradicts its type, or a cost other than the
-/// last
-///   t_end. The gap or jump and 0, or a time and the required time. Also a number that is not finite, or
-///   beyond 1e30: no other check is then made of that robot.
-/// - speed: faster than the robot. The speed and the robot's, or for an action without duration the duration
-/// and
-///   the least one, seconds. Also a translation that leads off the line of its heading (forwards or
-///   backwards); by how many metres, and 0.
+///   last t_end. The gap or jump, and 0; or a time, and the required time. Also a number that is not finite
+///   or beyond 1e30: then the robot is not checked any further.
+/// - speed: faster than the robot. The speed, and the robot's; or for an action without duration the
+///   duration, and the shortest possible one. Also a translation that leads off the line of its heading
+///   (forwards or backwards): by how many metres, and 0.
 /// - wrong_start, wrong_goal: the distance of the first or the resting pose from the required one, and 0.
-/// Parked
-///   robots must rest at their start, in any heading. A robot without a plan is unplanned, which is allowed.
+///   Parked robots must rest at their start, in any heading. A robot without a plan is unplanned, which is
+///   allowed.
 struct Violation {
   enum class Kind { robot_collision, obstacle_collision, discontinuity, speed, wrong_start, wrong_goal };
   Kind kind;
@@ -66,8 +64,8 @@ struct VerifyReport {
 VerifyReport verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                     const std::vector<RobotPlan>& plans, double tolerance);
 
-/// The same, but returns none if `stop` is met first. Thousands of robots that move in one small area take
-/// minutes.
+/// The same, but returns none if `stop` is met first. Thousands of robots that move in one small area may
+/// take minutes to check.
 std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                    const std::vector<RobotPlan>& plans, double tolerance,
                                    const StopCondition& stop);
