@@ -32,8 +32,9 @@ using BeforeRound = std::function<void(const LnsResult& so_far)>;
 ///    longer makespan.
 ///
 /// Success is measured per expansion, not per second. Ends when `stop` is met, after the options'
-/// max_iterations, or when the objective is equal to its lower bound. `movers` are the robots with a
-/// trajectory, ascending, and `bounds` has their lower bounds; all other robots stay at their starts.
+/// max_iterations, or when the objective is equal to its lower bound. Replans those of
+/// `movers` that have a trajectory, and `bounds` has their lower bounds; all other robots stay at their
+/// starts.
 ///
 /// Works in rounds of a fixed number of iterations, which all start from the same incumbent and may run on
 /// several threads of the executor. Their changes are accepted in order, except those that conflict with a
