@@ -31,9 +31,8 @@ std::size_t characters_of(const std::string& text) {
 std::string JsonReader::description() const { return described(*value_); }
 
 void JsonReader::fault(const char* code, const std::string& detail) const {
-  document_->faults.add(value_->begins(), [&] {
-    return Fault{locate(document_->root, *value_).pointer, code, detail};
-  });
+  const auto make_fault = [&] { return Fault{locate(document_->root, *value_).pointer, code, detail}; };
+  document_->faults.add(value_->begins(), make_fault);
 }
 
 void JsonReader::must_be(const char* code, std::string_view wanted, std::string_view note) const {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <type_traits>
 
 #include "api/request/ranges.h"
 
@@ -38,10 +39,12 @@ constexpr std::array<Word, 3> kReorderings{{
 }};
 constexpr std::array<int, 4> kConnectivities{4, 8, 16, 32};
 
-template <typename Choice, Choice PlanOptions::*kField>
+template <auto kField>
 constexpr WordOption one_of(std::span<const Word> words) {
   return {words, [](const PlanOptions& plan) { return static_cast<std::size_t>(plan.*kField); },
-          [](PlanOptions& plan, std::size_t index) { plan.*kField = static_cast<Choice>(index); }};
+          [](PlanOptions& plan, std::size_t index) {
+            plan.*kField = static_cast<std::decay_t<decltype(plan.*kField)>>(index);
+          }};
 }
 
 constexpr std::array<OptionRow, 12> kTable{{
@@ -49,15 +52,14 @@ constexpr std::array<OptionRow, 12> kTable{{
      "Milliseconds for the whole answer, counted from the last byte received. `GET /v1/limits` returns the "
      "default (`default_budget_ms`) and the maximum (`max_budget_ms`); a larger value is clamped, with a "
      "warning."},
-    {"mode", "Mode", "", one_of<PlanOptions::Mode, &PlanOptions::mode>(kModes),
+    {"mode", "Mode", "", one_of<&PlanOptions::mode>(kModes),
      "`first` returns the first solution; `anytime` uses the rest of the budget to improve the objective."},
-    {"objective", "Objective", "", one_of<PlanOptions::Objective, &PlanOptions::objective>(kObjectives),
+    {"objective", "Objective", "", one_of<&PlanOptions::objective>(kObjectives),
      "What `anytime` minimizes: the sum of the robots' costs or their maximum."},
     {"seed", "Seed", "", NaturalOption{kMostSeed, &PlanOptions::seed}, "Seed of all random choices."},
-    {"priority", "Initial order", "", one_of<PlanOptions::Priority, &PlanOptions::priority>(kPriorities),
+    {"priority", "Initial order", "", one_of<&PlanOptions::priority>(kPriorities),
      "The initial order in which robots are planned. Later robots give way to earlier ones."},
-    {"reordering", "After a failure", "",
-     one_of<PlanOptions::Reordering, &PlanOptions::reordering>(kReorderings),
+    {"reordering", "After a failure", "", one_of<&PlanOptions::reordering>(kReorderings),
      "How the order changes when no plan is found for a robot. `none` plans every robot just once."},
     {"start_safe_interval", "Start safe interval", "s",
      RealOption{kDuration, &PlanOptions::start_safe_interval},

@@ -20,44 +20,48 @@ namespace fleetplan::api {
 /// The member `options` of a request.
 struct ReadOptions {
   core::PlanOptions plan;
-  std::optional<double> budget_ms;  // as requested, >= 1; none: the service's default
-  std::vector<std::string>
-      warnings;  // options that are accepted but do not have the effect they seem to have
+  std::optional<double> budget_ms;    // as requested, >= 1; none: the service's default
+  std::vector<std::string> warnings;  // of options that are accepted, but without the expected effect
 };
+
+/// A member of the plan options.
+template <typename Value>
+using OptionField = Value core::PlanOptions::*;
 
 /// A real number.
 struct RealOption {
   Range range;
-  double core::PlanOptions::*field;
+  OptionField<double> field;
 };
 
 /// A real number whose default is a setting of the service.
 struct ServiceOption {
+  using Field = std::optional<double> ReadOptions::*;
   Range range;
-  std::optional<double> ReadOptions::*field;
+  Field field;
   double example;
 };
 
 /// A whole number from 0 to `most`.
 struct NaturalOption {
   std::uint64_t most;
-  std::uint64_t core::PlanOptions::*field;
+  OptionField<std::uint64_t> field;
 };
 
 /// A whole number from 0 to `most`, or null, the default, for no bound.
 struct BoundOption {
   std::uint64_t most;
-  std::optional<std::int64_t> core::PlanOptions::*field;
+  OptionField<std::optional<std::int64_t>> field;
 };
 
 /// One of a few numbers.
 struct CountOption {
   std::span<const int> values;
-  int core::PlanOptions::*field;
+  OptionField<int> field;
 };
 
 struct BooleanOption {
-  bool core::PlanOptions::*field;
+  OptionField<bool> field;
 };
 
 /// One of a few words, each with what it means, in the order of the enumeration.

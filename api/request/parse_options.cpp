@@ -35,7 +35,7 @@ class OptionReader {
 
  private:
   template <typename Value>
-  void set(Value core::PlanOptions::*field, const std::optional<Value>& value) {
+  void set(OptionField<Value> field, const std::optional<Value>& value) {
     if (value) options_.plan.*field = *value;
   }
   void read(const RealOption& option, const JsonReader& member) {
