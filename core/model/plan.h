@@ -9,8 +9,8 @@
 
 namespace fleetplan::core {
 
-/// One thing that a robot executes, from one pose to another, at constant speed. Times in seconds from the
-/// start of the plan.
+/// One rotation, translation or wait of a robot, from one pose to another, at constant speed. Times in
+/// seconds from the start of the plan.
 struct Action {
   enum class Type { rotate, translate, wait };
   Type type = Type::wait;
@@ -20,10 +20,10 @@ struct Action {
   Pose to;
 };
 
-/// What one robot does. Actions are contiguous in time and space and begin at t = 0 in the start pose; at
-/// `cost` the robot has come to rest in its goal pose for good. Empty, with cost 0, for a robot that need not
-/// move. `lower_bound` is what the robot would cost alone on the static map, or less, and never more than
-/// `cost`; no check looks at it.
+/// The plan of one robot. The actions are contiguous in time and space, begin at t = 0 in the start pose and
+/// end at `cost` in the goal pose, where the robot stays. A robot that does not need to move has no actions
+/// and cost 0. `lower_bound` bounds the robot's cost alone on the static map from below and never exceeds
+/// `cost`; the checker ignores it.
 struct RobotPlan {
   std::size_t robot = 0;  // index into the problem's robots
   double cost = 0.0;      // seconds
@@ -31,37 +31,37 @@ struct RobotPlan {
   double lower_bound = 0.0;  // seconds
 };
 
-/// A robot without a plan: it stays at its start, and no plan crosses it.
+/// A robot without a plan. It stays at its start, and the plans of other robots keep clear of it.
 struct Unplanned {
   enum class Reason { start_blocked, goal_blocked, goal_unreachable, blocked_by_robots, budget_exhausted };
   std::size_t robot = 0;
   Reason reason = Reason::budget_exhausted;
-  std::string detail;                   // a sentence for people; names no robots by index
-  std::vector<std::size_t> blocked_by;  // indices of the robots in the way, ascending
+  std::string detail;                   // a sentence for people, without robot indices
+  std::vector<std::size_t> blocked_by;  // indices of the blocking robots, ascending
 };
 
-/// Of the planned robots' costs, or of their lower bounds: flowtime is the sum, makespan the maximum,
+/// The sum (flowtime) and the maximum (makespan) of the planned robots' costs, or of their lower bounds, in
 /// seconds.
 struct Objectives {
   double flowtime = 0.0;
   double makespan = 0.0;
 };
 
-/// How the plan was found.
+/// Counts of the search for a plan.
 struct SearchStatistics {
-  std::int64_t attempts = 0;      // how often robots were ordered and planned
+  std::int64_t attempts = 0;      // priority orders tried
   std::int64_t expansions = 0;    // search labels expanded
-  std::int64_t improvements = 0;  // how often `anytime` made the plan better
+  std::int64_t improvements = 0;  // improvements found in mode `anytime`
 };
 
-/// The planner's answer. `plans` and `unplanned` are in the order of the problem's robots; every robot is in
-/// one.
+/// The result of the planner. `plans` and `unplanned` are in the order of the problem's robots; every robot
+/// is in exactly one of them.
 struct Plan {
   std::vector<RobotPlan> plans;
   std::vector<Unplanned> unplanned;
   Objectives objectives;
   Objectives lower_bound;
-  bool deterministic = true;  // neither the clock nor the load decided anything
+  bool deterministic = true;  // false if the clock or the load influenced the plan
   SearchStatistics search;
 };
 

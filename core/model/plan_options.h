@@ -5,7 +5,7 @@
 
 namespace fleetplan::core {
 
-/// What a caller may choose; the defaults are those of the API.
+/// The options of the planner; the defaults equal those of the API.
 struct PlanOptions {
   enum class Mode { first, anytime };
   enum class Objective { flowtime, makespan };
@@ -22,7 +22,7 @@ struct PlanOptions {
   double wait_before_move = 0.0;     // seconds, >= 0
   bool any_angle = true;
   int connectivity = 8;                        // 4, 8, 16 or 32
-  std::optional<std::int64_t> max_iterations;  // of `anytime`; none: until the stop condition is met
+  std::optional<std::int64_t> max_iterations;  // of `anytime`; nullopt: until the stop condition is met
 };
 
 }  // namespace fleetplan::core

@@ -9,11 +9,15 @@
 namespace fleetplan::core {
 namespace {
 
-/// Nobody reads more, and a hostile request could ask for millions.
+using Faults = std::vector<ProblemFault>;
+
+/// Limits the memory: a hostile request can contain millions of faults.
 constexpr std::size_t kMaxFaults = 1000;
 
-void check_obstacles(const OccupancyGrid& grid, const LineOfSight& sight, const Robot& robot,
-                     std::size_t index, std::vector<ProblemFault>& faults) {
+/// The start and the goal of a robot against obstacles and the edge of the map.
+Faults obstacle_faults(const OccupancyGrid& grid, const LineOfSight& sight, const Robot& robot,
+                       std::size_t index) {
+  Faults faults;
   const auto check = [&](const Position& position, ProblemFault::Kind kind) {
     if (sight.disk_fits(position, robot.radius)) return;  // quick, whatever the radius
     const double gap = obstacle_distance(grid, position, robot.radius) - robot.radius;
@@ -21,10 +25,12 @@ void check_obstacles(const OccupancyGrid& grid, const LineOfSight& sight, const 
   };
   check(robot.start.position, ProblemFault::Kind::start_in_obstacle);
   if (robot.goal) check(robot.goal->position, ProblemFault::Kind::goal_in_obstacle);
+  return faults;
 }
 
-void check_pair(const std::vector<Robot>& robots, std::size_t other, std::size_t index,
-                std::vector<ProblemFault>& faults) {
+/// The starts and the goals of two robots against each other.
+Faults overlap_faults(const std::vector<Robot>& robots, std::size_t other, std::size_t index) {
+  Faults faults;
   const Robot& a = robots[other];
   const Robot& b = robots[index];
   const auto check = [&](const Position& p, const Position& q, ProblemFault::Kind kind) {
@@ -33,6 +39,18 @@ void check_pair(const std::vector<Robot>& robots, std::size_t other, std::size_t
   };
   check(a.start.position, b.start.position, ProblemFault::Kind::starts_overlap);
   if (a.goal && b.goal) check(a.goal->position, b.goal->position, ProblemFault::Kind::goals_overlap);
+  return faults;
+}
+
+Faults faults_of(const OccupancyGrid& grid, const std::vector<Robot>& robots) {
+  Faults faults;
+  const auto append = [&](const Faults& more) { faults.insert(faults.end(), more.begin(), more.end()); };
+  const LineOfSight sight(grid);
+  for (std::size_t i = 0; i < robots.size() && faults.size() < kMaxFaults; ++i) {
+    append(obstacle_faults(grid, sight, robots[i], i));
+    for (std::size_t j = 0; j < i && faults.size() < kMaxFaults; ++j) append(overlap_faults(robots, j, i));
+  }
+  return faults;
 }
 
 }  // namespace
@@ -42,12 +60,7 @@ Problem::Problem(OccupancyGrid grid, std::vector<Robot> robots)
 
 std::variant<Problem, std::vector<ProblemFault>> Problem::create(OccupancyGrid grid,
                                                                  std::vector<Robot> robots) {
-  std::vector<ProblemFault> faults;
-  const LineOfSight sight(grid);
-  for (std::size_t i = 0; i < robots.size() && faults.size() < kMaxFaults; ++i) {
-    check_obstacles(grid, sight, robots[i], i, faults);
-    for (std::size_t j = 0; j < i && faults.size() < kMaxFaults; ++j) check_pair(robots, j, i, faults);
-  }
+  Faults faults = faults_of(grid, robots);
   if (!faults.empty()) return faults;
   return Problem(std::move(grid), std::move(robots));
 }

@@ -9,7 +9,7 @@
 
 namespace fleetplan::core {
 
-/// Why a map and a set of robots make no problem.
+/// A reason why a map and a set of robots are not a valid problem.
 struct ProblemFault {
   enum class Kind {
     start_in_obstacle,  // the robot's disk at its start overlaps a blocked cell or leaves the map
@@ -25,7 +25,7 @@ struct ProblemFault {
 
 /// A map and robots that can be planned for. A problem that exists is valid: radii and speeds are positive
 /// and finite, every start and goal is clear of obstacles by the bare radius, no two starts and no two goals
-/// overlap (by more than kContactTolerance). Nobody re-checks deeper.
+/// overlap (by more than kContactTolerance). The planner relies on this and does not check it again.
 class Problem {
  public:
   /// The problem, or its faults (the first 1000) in the order of the robots. `robots` have positive finite

@@ -7,7 +7,7 @@
 
 namespace fleetplan::core {
 
-/// Where a robot is to come to rest; without theta, in any heading.
+/// The pose in which a robot comes to rest; without theta, its heading there is free.
 struct Goal {
   Position position{0.0, 0.0};
   std::optional<double> theta;  // radians, (-pi, pi]
@@ -21,7 +21,7 @@ struct Robot {
   double linear_speed = 0.0;   // metres per second, > 0
   double angular_speed = 0.0;  // radians per second, > 0
   Pose start;
-  std::optional<Goal> goal;  // none: parked, it stays at its start
+  std::optional<Goal> goal;  // nullopt: parked, it stays at its start
 };
 
 }  // namespace fleetplan::core

@@ -5,8 +5,8 @@
 
 namespace fleetplan::core {
 
-/// Where the planner's independent pieces of work run. Whoever calls the planner may lend it other threads;
-/// the plan is the same with any number of them.
+/// Runs the independent tasks of the planner. A caller of the planner may pass one that uses several threads;
+/// the plan does not depend on their number.
 class Executor {
  public:
   using Task = std::function<void(std::size_t)>;
@@ -17,12 +17,12 @@ class Executor {
   virtual ~Executor() = default;
 
   /// Calls task(0) ... task(count - 1), in any order and perhaps at the same time on several threads, and
-  /// returns when all of them have returned. If one throws, no more need be called, and the exception is
-  /// thrown again here when none runs any more; the first one, if there are several.
+  /// returns when all of them have returned. If one throws, calls that have not begun may be skipped;
+  /// the first exception is rethrown here once no call is running.
   virtual void run(std::size_t count, const Task& task) = 0;
 };
 
-/// Runs everything in the caller's thread.
+/// Runs all tasks in the thread of the caller.
 class CallerThread : public Executor {
  public:
   void run(std::size_t count, const Task& task) override {

@@ -8,15 +8,15 @@
 
 namespace fleetplan::core {
 
-/// How far planning has got.
+/// The progress of planning.
 struct Progress {
   std::int64_t attempts = 0;       // begun so far, as in SearchStatistics
-  std::size_t planned = 0;         // robots with a plan at the moment, parked ones included; may fall again
-  std::optional<Objectives> best;  // of the plan that would be returned now; none before there is one
+  std::size_t planned = 0;         // robots that have a plan now, parked ones included; may decrease
+  std::optional<Objectives> best;  // of the plan that would be returned now; nullopt before the first
 };
 
-/// Watches a planner at work. Called by the thread that called the planner, which waits meanwhile; nothing
-/// that it does or answers changes the plan, but the time that it takes is the planner's.
+/// Receives the progress of a planner. The thread that called the planner calls it and waits for it. It
+/// cannot change the plan, but its time counts against the planner's budget.
 class Observer {
  public:
   Observer() = default;
@@ -24,11 +24,11 @@ class Observer {
   Observer& operator=(const Observer&) = delete;
   virtual ~Observer() = default;
 
-  /// Something has changed; often, perhaps thousands of times a second.
+  /// The progress has changed. Can be called thousands of times a second.
   virtual void progressed(const Progress& progress) = 0;
 
-  /// Does it want to see the whole plan now? Asked again and again while `anytime` has a plan that is better
-  /// than the one shown last.
+  /// Whether show() is to be called with the current plan. Called repeatedly while `anytime` has a plan that
+  /// is better than the one shown last.
   virtual bool wants_plan() = 0;
 
   /// The plan that would be returned now; `deterministic` is false, as the observer chose the moment.

@@ -8,15 +8,15 @@
 
 namespace fleetplan::core {
 
-/// Repeatable random choices: the standard fixes the engine, and the rest is ours, as the standard's
-/// distributions differ between libraries.
+/// Random choices that are the same on every machine. The C++ standard fixes the engine; the distributions
+/// are implemented here, because those of the standard differ between libraries.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
   /// Uniform in [0, count), count >= 1; the bias is below count / 2^64.
   std::size_t below(std::size_t count) { return static_cast<std::size_t>(engine_() % count); }
-  /// For another Random.
+  /// A seed for another Random.
   std::uint64_t seed() { return engine_(); }
   /// Uniform in [0, 1).
   double unit() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }

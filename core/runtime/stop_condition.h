@@ -2,11 +2,11 @@
 
 #include <chrono>
 #include <stop_token>
+#include <utility>
 
 namespace fleetplan::core {
 
-/// When to give up: a deadline, or somebody who asks to stop. Cheap enough to be looked at in every search
-/// loop.
+/// When to stop: at a deadline, or when a stop is requested. Cheap enough to test in every search loop.
 class StopCondition {
  public:
   using Clock = std::chrono::steady_clock;

@@ -84,7 +84,7 @@ TEST(SourceRules, AllowTheFacadeOnlyOutsideCoreAndInItsSource) {
   }
 }
 
-TEST(SourceRules, KeepThePlanningOfAllRobotsOutOfWhatServesOneRobot) {
+TEST(SourceRules, RejectPlanningOfAllRobotsInFoldersForOneRobot) {
   for (const std::string folder : {"geometry", "map", "model", "runtime", "reservation", "bounds", "sipp"}) {
     const std::string path = "core/" + folder + "/a.cpp";
     EXPECT_THAT(violations(path, "#include \"core/prioritized/plan_state.h\"\n"),
@@ -95,7 +95,7 @@ TEST(SourceRules, KeepThePlanningOfAllRobotsOutOfWhatServesOneRobot) {
   EXPECT_THAT(violations("core/lns/a.cpp", "#include \"core/prioritized/plan_state.h\"\n"), IsEmpty());
 }
 
-TEST(SourceRules, KeepTheSearchOutOfTheChecker) {
+TEST(SourceRules, RejectTheSearchInTheChecker) {
   const std::string path = "core/verify/a.cpp";
   for (const std::string header :
        {"core/reservation/reservation_table.h", "core/sipp/aa_sipp.h", "core/prioritized/plan_state.h",

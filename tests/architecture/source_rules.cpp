@@ -24,7 +24,7 @@ struct Layer {
 struct FolderRule {
   string_view folder;
   std::vector<string_view> forbidden;  // beginnings of "quoted" includes
-  string_view except;                  // a file that may
+  string_view except;                  // a file that may include them
 };
 
 const std::vector<Layer>& layers() {
@@ -51,9 +51,9 @@ const std::vector<Layer>& layers() {
 const std::vector<FolderRule>& folder_rules() {
   static const std::vector<string_view> all_robots = {"core/prioritized/", "core/lns/"};
   static const std::vector<FolderRule> all = {
-      // The facade is for callers of core; what it uses does not include it.
+      // The facade is for callers of core; the rest of core does not include it.
       {"core/", {"core/planner.h"}, "core/planner.cpp"},
-      // What serves the planning of one robot knows nothing of the planning of all.
+      // Folders for the planning of one robot do not depend on the planning of all robots.
       {"core/geometry/", all_robots, {}},
       {"core/map/", all_robots, {}},
       {"core/model/", all_robots, {}},
@@ -81,7 +81,7 @@ bool standard_header(string_view name) { return name.find_first_of("./") == stri
 bool identifier_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 /// The text with comments, and the contents of string and character literals, blanked out. Include lines keep
-/// their names. Raw strings end at the first )" as ours have no delimiters.
+/// their names. Raw strings end at the first )", because those of the project have no delimiters.
 std::string code_only(string_view text) {
   std::string code(text);
   const auto blank = [&](std::size_t from, std::size_t to) {

@@ -47,7 +47,7 @@ TEST(Planner, PlansALoneRobotAlongTheStraightLine) {
                                                 {robot_at(1.5, 1.5).to(4.5, 5.5, kPi).speeds(2.0, kPi / 4)});
   const Plan plan = checked_plan(problem);
   ASSERT_EQ(plan.plans.size(), 1u);
-  EXPECT_NEAR(plan.plans[0].cost, 2.5 + 4.0, 1e-9) << "5 m and half a turn in all";
+  EXPECT_NEAR(plan.plans[0].cost, 2.5 + 4.0, 1e-9) << "5 m, and rotations of pi in total";
   EXPECT_NEAR(plan.plans[0].lower_bound, plan.plans[0].cost, 1e-9);
   EXPECT_EQ(plan.objectives.flowtime, plan.plans[0].cost);
   EXPECT_EQ(plan.objectives.makespan, plan.plans[0].cost);
@@ -71,7 +71,7 @@ TEST(Planner, SwapsTwoRobotsInACorridorWithAPassingBay) {
 }
 
 TEST(Planner, DelaysOneRobotWhereTheOtherIsTooLateForTheBay) {
-  // The robot that is planned first and leaves at once is at the bay no later than the other.
+  // The robot that is planned first leaves at once and reaches the bay no later than the other robot.
   const Problem problem =
       support::make_problem(support::ascii_map({"####.####",  //
                                                 "........."}),
@@ -82,7 +82,7 @@ TEST(Planner, DelaysOneRobotWhereTheOtherIsTooLateForTheBay) {
 }
 
 /// Robots 0 and 1 are at their goals and block the only path of the others; each has a bay beside it.
-Problem at_goals_in_the_way(bool both_ways) {
+Problem blocked_by_robots_at_goals(bool both_ways) {
   std::vector<Robot> robots{robot_at(4.5, 0.5).to(4.5, 0.5, 0.0), robot_at(8.5, 0.5).to(8.5, 0.5, 0.0)};
   for (const double x : {0.5, 1.5, 2.5}) robots.push_back(robot_at(x, 0.5).to(x + 9.5, 0.5));
   if (both_ways) robots.push_back(robot_at(12.5, 1.5, kPi).to(0.5, 1.5));
@@ -94,7 +94,7 @@ Problem at_goals_in_the_way(bool both_ways) {
 
 TEST(Planner, MovesRobotsAwayFromTheirGoalsForOthersToPass) {
   for (const bool both_ways : {false, true}) {
-    const Plan plan = checked_plan(at_goals_in_the_way(both_ways));
+    const Plan plan = checked_plan(blocked_by_robots_at_goals(both_ways));
     ASSERT_TRUE(plan.unplanned.empty()) << both_ways;
     for (const std::size_t robot : {0u, 1u})
       EXPECT_GT(plan.plans[robot].cost, 2.0) << "into its bay and back";
@@ -107,8 +107,8 @@ TEST(Planner, PlansOneOfTwoRobotsInACorridorWithoutABay) {
       OccupancyGrid(9, 1, 1.0), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(3.5, 0.5).to(1.5, 0.5)});
   const Plan plan = checked_plan(problem);
   ASSERT_EQ(plan.unplanned.size(), 1u);
-  const std::size_t left_out = plan.unplanned[0].robot;
-  expect_unplanned(plan, left_out, Reason::blocked_by_robots, {1 - left_out});
+  const std::size_t unplanned = plan.unplanned[0].robot;
+  expect_unplanned(plan, unplanned, Reason::blocked_by_robots, {1 - unplanned});
   EXPECT_TRUE(plan.deterministic);
 }
 
@@ -253,7 +253,7 @@ Problem maze_fleet() {
 
 TEST(Planner, LeavesAllRobotsUnplannedWhenCancelledBeforeItStarts) {
   PlanOptions options;
-  options.mode = Mode::anytime;  // would not end by itself
+  options.mode = Mode::anytime;  // runs until it is stopped
   const Plan plan = checked_plan(maze_fleet(), options, met());
   EXPECT_FALSE(plan.deterministic);
   EXPECT_TRUE(plan.plans.empty());
@@ -268,13 +268,13 @@ TEST(Planner, LeavesAllRobotsUnplannedAfterTheDeadline) {
   EXPECT_EQ(plan.objectives.flowtime, 0.0);
 }
 
-TEST(Planner, EndsWithoutAClockWhereNoRobotCanMove) {
+TEST(Planner, EndsWithoutADeadlineWhereNoRobotCanTranslate) {
   const Problem problem = support::make_problem(
       OccupancyGrid(5, 1, 1.0), {robot_at(0.5, 0.5).to(4.5, 0.5), robot_at(4.5, 0.5).to(0.5, 0.5),
                                  robot_at(2.5, 0.5).to(2.5, 0.5, kPi)});
   const Plan plan = checked_plan(problem);
   EXPECT_TRUE(plan.deterministic);
-  EXPECT_GE(plan.plans.size(), 1u) << "one can at least rotate in place";
+  EXPECT_GE(plan.plans.size(), 1u) << "robot 2 can rotate in place";
 }
 
 }  // namespace

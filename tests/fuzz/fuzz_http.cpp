@@ -1,5 +1,5 @@
-// Any bytes on a connection: head, framing, pipelining and refusals. However the bytes are cut into packets,
-// the server reads the same requests from them and sends back proper answers.
+// Any bytes on a connection: head, framing, pipelining and rejections. The server reads the same requests and
+// sends well-formed answers, however the bytes are divided into packets.
 
 #include <sys/socket.h>
 
@@ -21,12 +21,12 @@ namespace fleetplan::fuzz {
 
 namespace {
 
-/// What the service was asked, in order.
+/// The requests that reached the service, in order.
 using Requests = std::vector<std::string>;
 
 struct Conversation {
   Requests requests;
-  std::string answers;  // the refusals, as they were sent
+  std::string answers;  // the bytes that the server sent
 };
 
 server::Settings settings() {
@@ -36,8 +36,8 @@ server::Settings settings() {
   return settings;
 }
 
-/// Sends the bytes in packets of some size (0: all at once) and then no more, and serves the connection until
-/// its end.
+/// Sends the bytes in packets of the given size (0: all at once), closes the sending side, and serves the
+/// connection until it ends.
 Conversation converse(std::string_view bytes, std::size_t packet) {
   static const server::Settings kSettings = settings();
   static const server::StaticFiles kFiles("");
@@ -49,11 +49,11 @@ Conversation converse(std::string_view bytes, std::size_t packet) {
   static server::Metrics metrics(kRoutes);
   static server::BodyMemory memory(0, 1);
   static server::StopSignal stop;
-  std::array<int, 2> ends{};  // packets keep their bounds, so that each is read by itself
+  std::array<int, 2> ends{};  // keeps packets apart, so that each is read separately
   require(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) == 0, "no socket pair");
-  const int room = 1 << 20;
-  ::setsockopt(ends[0], SOL_SOCKET, SO_SNDBUF, &room, sizeof room);
-  ::setsockopt(ends[1], SOL_SOCKET, SO_SNDBUF, &room, sizeof room);
+  const int buffer_size = 1 << 20;
+  ::setsockopt(ends[0], SOL_SOCKET, SO_SNDBUF, &buffer_size, sizeof buffer_size);
+  ::setsockopt(ends[1], SOL_SOCKET, SO_SNDBUF, &buffer_size, sizeof buffer_size);
   if (packet == 0) packet = bytes.size();
   for (std::size_t at = 0; at < bytes.size(); at += packet) {
     const auto part = bytes.substr(at, packet);
@@ -61,11 +61,11 @@ Conversation converse(std::string_view bytes, std::size_t packet) {
   }
   ::shutdown(ends[1], SHUT_WR);
 
-  Conversation held;
+  Conversation conversation;
   std::atomic<bool> draining{false};
   std::atomic<std::size_t> active{0};
   const auto answer = [&](server::Exchange& exchange) {
-    held.requests.push_back(exchange.head.method + ' ' + exchange.head.path + '\n' + exchange.body);
+    conversation.requests.push_back(exchange.head.method + ' ' + exchange.head.path + '\n' + exchange.body);
     return server::Sent{};
   };
   const server::Steps steps(server::Steps::Port::main, kSettings, kRoutes, kCrossOrigin, draining, metrics,
@@ -76,17 +76,17 @@ Conversation converse(std::string_view bytes, std::size_t packet) {
   std::array<char, 1 << 16> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled by recv
   ssize_t got = 0;
   while ((got = ::recv(ends[1], buffer.data(), buffer.size(), MSG_DONTWAIT)) > 0) {
-    held.answers.append(buffer.data(), static_cast<std::size_t>(got));
+    conversation.answers.append(buffer.data(), static_cast<std::size_t>(got));
   }
   ::close(ends[1]);
-  return held;
+  return conversation;
 }
 
-/// Takes an answer off the front: a status line, fields, and a problem of the size that they tell, unless the
-/// request was for the head only.
-void take_answer(std::string_view& answers) {
+/// Checks the first answer and returns what follows it. An answer is a status line, fields and, unless the
+/// request was HEAD, a problem of the announced length.
+std::string_view after_first_answer(std::string_view answers) {
   constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
-  if (answers.starts_with(kContinue)) return answers.remove_prefix(kContinue.size());
+  if (answers.starts_with(kContinue)) return answers.substr(kContinue.size());
   const auto end = answers.find("\r\n\r\n");
   require(answers.starts_with("HTTP/1.1 ") && end != std::string_view::npos, "an answer has no head",
           std::string(answers));
@@ -94,22 +94,22 @@ void take_answer(std::string_view& answers) {
   answers.remove_prefix(head.size());
   require(head.find("\r\nX-Request-Id: ") != std::string_view::npos, "an answer has no id",
           std::string(head));
-  if (head.starts_with("HTTP/1.1 204 ")) return;
+  if (head.starts_with("HTTP/1.1 204 ")) return answers;
   const auto length = head.find("\r\nContent-Length: ");
   require(length != std::string_view::npos, "an answer has no length", std::string(head));
-  if (answers.empty() || answers.starts_with("HTTP/1.1 ")) return;
+  if (answers.empty() || answers.starts_with("HTTP/1.1 ")) return answers;
   const std::size_t size = std::stoul(std::string(head.substr(length + 18)));
   require(size <= answers.size(), "an answer ends early", std::string(answers));
-  require(nlohmann::json::accept(answers.substr(0, size)), "a refusal is not JSON", std::string(answers));
-  answers.remove_prefix(size);
+  require(nlohmann::json::accept(answers.substr(0, size)), "a rejection is not JSON", std::string(answers));
+  return answers.substr(size);
 }
 
-/// The statuses, as everything else of an answer may differ: ids are random.
+/// The statuses of the answers. The rest can differ, because ids are random.
 std::string statuses(std::string_view answers) {
   std::string statuses;
   while (!answers.empty()) {
     statuses += answers.substr(0, 12);
-    take_answer(answers);
+    answers = after_first_answer(answers);
   }
   return statuses;
 }
@@ -125,8 +125,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t packet = std::max<std::size_t>(1 + data[0], bytes.size() / 100);
   const Conversation whole = converse(bytes, 0);
   const Conversation cut = converse(bytes, packet);
-  require(whole.requests == cut.requests, "packets make a difference to the requests");
-  require(statuses(whole.answers) == statuses(cut.answers), "packets make a difference to the answers",
+  require(whole.requests == cut.requests, "the requests depend on the packets");
+  require(statuses(whole.answers) == statuses(cut.answers), "the answers depend on the packets",
           whole.answers + "\n---\n" + cut.answers);
   return 0;
 }

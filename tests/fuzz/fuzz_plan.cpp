@@ -1,5 +1,5 @@
-// Any text as a request to plan, with a tiny budget: every answer is JSON, and every plan is valid for
-// /v1/validate.
+// Any text as a request to plan, with a tiny budget: every answer is JSON, and /v1/validate accepts every
+// plan.
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -26,15 +26,15 @@ api::RequestContext context_now() {
   return context;
 }
 
-/// Every robot is in `plans` or in `unplanned`, once.
+/// Requires every robot exactly once in `plans` or `unplanned`.
 void require_all_robots(const Json& request, const Json& answer) {
-  std::multiset<std::string> wanted;
+  std::multiset<std::string> expected;
   std::multiset<std::string> answered;
-  for (const Json& robot : request.at("robots")) wanted.insert(robot.at("id").get<std::string>());
+  for (const Json& robot : request.at("robots")) expected.insert(robot.at("id").get<std::string>());
   for (const char* member : {"plans", "unplanned"}) {
     for (const Json& entry : answer.at(member)) answered.insert(entry.at("robot").get<std::string>());
   }
-  require(wanted == answered, "an answer has other robots than its request", answer.dump());
+  require(expected == answered, "an answer has other robots than its request", answer.dump());
 }
 
 void require_bounded_costs(const Json& answer) {
@@ -51,7 +51,7 @@ void require_proper_answer(const std::string& body, const std::string& reply) {
   require_all_robots(merged, answer);
   require_bounded_costs(answer);
   merged.update(answer);
-  const api::RequestContext usual;  // a check has all the time that it needs, also on a machine that stutters
+  const api::RequestContext usual;  // the default budget is enough even on a slow machine
   const api::Reply verdict = api::validate_endpoint(merged.dump(), usual);
   require(verdict.status == 200, "an answer cannot be validated", verdict.body + reply);
   require(Json::parse(verdict.body).at("valid") == true, "an answer is not valid", verdict.body + reply);

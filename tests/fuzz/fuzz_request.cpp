@@ -1,4 +1,5 @@
-// Any text as the body of both endpoints' requests is parsed into a valid problem or rejected properly.
+// Any text as the body of both endpoints is parsed into a valid problem or rejected with a well-formed
+// answer.
 
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -17,14 +18,15 @@ namespace {
 void require_within(const api::PlanRequest& request, const api::Limits& limits) {
   using std::chrono::milliseconds;
   const auto& robots = request.problem.robots();
-  require(!robots.empty() && robots.size() <= limits.max_robots, "a number of robots was let through");
-  require(request.problem.grid().cell_count() <= limits.max_cells, "a map was let through");
+  require(!robots.empty() && robots.size() <= limits.max_robots,
+          "the number of robots is outside the limits");
+  require(request.problem.grid().cell_count() <= limits.max_cells, "the map is outside the limits");
   require(request.budget >= milliseconds(1) && request.budget <= milliseconds(limits.max_budget_ms),
-          "a budget was let through");
+          "the budget is outside the limits");
   for (const core::Robot& robot : robots) require(!robot.id.empty(), "a robot has no id");
 }
 
-/// True when the body is JSON. Otherwise the other endpoint would reject it in the same reader.
+/// Returns whether the body is JSON. If not, the same reader rejects it for the other endpoint, too.
 bool try_plan_request(std::string_view body, const api::Limits& limits) {
   const auto parsed = api::parse_request(body, limits);
   if (!parsed) {

@@ -11,15 +11,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-void require_a_place(const Json& document, const Json& fault, const std::string& reply) {
+void require_existing_member(const Json& document, const Json& fault, const std::string& reply) {
   Json::json_pointer pointer(fault.at("pointer").get<std::string>());
   if (fault.at("code") == "missing") pointer.pop_back();
-  require(document.contains(pointer), "a fault points nowhere", reply);
+  require(document.contains(pointer), "the pointer of a fault does not exist", reply);
 }
 
-/// The library's own reading of a document keeps the last of two members with the same key, the service the
-/// first.
-bool has_a_duplicate(const Json& faults) {
+/// Of two members with the same key, nlohmann's parser keeps the last and the service the first.
+bool has_duplicate(const Json& faults) {
   for (const Json& fault : faults) {
     if (fault.at("code") == "duplicate") return true;
   }
@@ -29,19 +28,20 @@ bool has_a_duplicate(const Json& faults) {
 }  // namespace
 
 void require_proper_refusal(std::string_view body, const api::Reply& reply) {
-  require(reply.content_type == api::kProblemJson, "a refusal is no problem", reply.content_type);
+  require(reply.content_type == api::kProblemJson, "a rejection is not a problem document",
+          reply.content_type);
   const Json problem = Json::parse(reply.body, nullptr, false);
-  require(problem.is_object(), "a refusal is not JSON", reply.body);
-  require(problem.at("status") == reply.status, "a refusal has two statuses", reply.body);
-  require(!problem.at("detail").get<std::string>().empty(), "a refusal does not say why", reply.body);
+  require(problem.is_object(), "a rejection is not JSON", reply.body);
+  require(problem.at("status") == reply.status, "a rejection has two statuses", reply.body);
+  require(!problem.at("detail").get<std::string>().empty(), "a rejection has no detail", reply.body);
   if (reply.status == 400) return;
-  require(reply.status == 422, "a refusal does not blame the request", reply.body);
+  require(reply.status == 422, "a rejection has a status other than 400 and 422", reply.body);
   const Json& faults = problem.at("errors");
   const bool late = problem.at("code") == "check_unfinished";
-  require(faults.empty() == late, "a refusal names no fault, or one where time is to blame", reply.body);
+  require(faults.empty() == late, "faults are missing, or present although the time ran out", reply.body);
   const Json document = Json::parse(body, nullptr, false);  // discarded where a number is too large for it
-  if (document.is_discarded() || has_a_duplicate(faults)) return;
-  for (const Json& fault : faults) require_a_place(document, fault, reply.body);
+  if (document.is_discarded() || has_duplicate(faults)) return;
+  for (const Json& fault : faults) require_existing_member(document, fault, reply.body);
 }
 
 }  // namespace fleetplan::fuzz

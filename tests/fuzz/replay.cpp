@@ -1,5 +1,5 @@
-// Tries every file of the folders that are named, for builds without libFuzzer: what was found once stays
-// tested.
+// Runs the target on every file of the given folders, for builds without libFuzzer, so that inputs found once
+// remain tests.
 
 #include <filesystem>
 #include <fstream>
@@ -15,8 +15,7 @@ int main(int argc, char** argv) {
     for (const auto& entry : std::filesystem::directory_iterator(argv[i])) {
       std::ifstream file(entry.path(), std::ios::binary);
       const std::string input{std::istreambuf_iterator<char>(file), {}};
-      std::cout << entry.path().filename().string()
-                << std::endl;  // the last one named is the one that failed
+      std::cout << entry.path().filename().string() << std::endl;  // flushed: the last name is the failure
       LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
       ++tried;
     }

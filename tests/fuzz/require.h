@@ -1,6 +1,6 @@
 #pragma once
 
-// What must hold for every input of a fuzz target.
+// A check that fuzz targets make on every input.
 
 #include <cstdio>
 #include <cstdlib>
@@ -8,7 +8,7 @@
 
 namespace fleetplan::fuzz {
 
-/// Ends the process when it does not hold, which is a finding.
+/// Aborts the process if `holds` is false, which libFuzzer reports as a finding.
 inline void require(bool holds, const char* what, const std::string& detail = {}) {
   if (holds) return;
   std::fprintf(stderr, "%s: %s\n", what, detail.c_str());

@@ -4,7 +4,7 @@
 
 namespace fleetplan::fuzz {
 
-/// As far beyond the seeds as an input of a few kilobytes gets, so that the limits are met as well.
+/// Limits above the seed inputs that an input of a few kilobytes can still exceed.
 inline api::Limits small_limits() {
   api::Limits limits;
   limits.max_cells = 1500;

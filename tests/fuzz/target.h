@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What every fuzz target defines, under the name that libFuzzer wants: tries one input and returns 0, or
-/// ends the process when something does not hold.
+/// Every fuzz target defines this function, with the name that libFuzzer requires. It runs one input and
+/// returns 0, or aborts the process if a check fails.
 // NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

@@ -1,4 +1,4 @@
-// Random fleets on random maps: whatever the planner returns, the independent checker accepts.
+// Random fleets on random maps: the independent checker accepts every plan that the planner returns.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 namespace fleetplan::core {
 namespace {
 
-/// What the service promises of contact, and room for the rounding of times and positions.
+/// Metres: the contact tolerance of the service, and the rounding of times and positions.
 constexpr double kTolerance = 2e-9;
 constexpr int kRuns = 300;
 
@@ -63,7 +63,7 @@ TEST_P(RandomFleet, EveryReturnedPlanPassesTheChecker) {
 
 TEST_P(RandomFleet, TheSameRequestGivesTheSamePlan) {
   const int seed = GetParam();
-  if (seed % 5 != 0) return;  // a fifth of them will do
+  if (seed % 5 != 0) return;  // a fifth of the seeds suffices
   support::Dice dice(static_cast<std::uint64_t>(seed));
   const Problem problem = support::random_problem(dice, 1 + dice.below(14));
   const PlanOptions options = support::random_options(dice, problem);

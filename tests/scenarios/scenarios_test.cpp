@@ -1,4 +1,4 @@
-// Every ready request of GET /v1/examples is planned as its description promises.
+// Every example of GET /v1/examples is planned as its description says.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 
 namespace fleetplan::api {
 
-/// For GoogleTest to name the scenario; it looks here.
+/// GoogleTest prints scenarios with this function; it has to be in the namespace of Example.
 void PrintTo(const Example& example, std::ostream* out) { *out << example.name; }
 
 namespace {
@@ -26,22 +26,23 @@ using nlohmann::json;
 using testing::IsEmpty;
 using testing::IsSupersetOf;
 
-struct Unserved {
+struct ExpectedUnplanned {
   std::string robot;
   std::string reason;
   std::set<std::string> blocked_by;  // at least these
 };
 
-/// Those that no plan can serve; the scenarios not listed are solved.
-std::vector<Unserved> expected_unserved(std::string_view scenario) {
+/// The robots of a scenario that cannot be planned. All other scenarios are solved.
+std::vector<ExpectedUnplanned> expected_unplanned(std::string_view scenario) {
   if (scenario == "partly-solvable") {
     return {{"wide-lift", "goal_unreachable", {}}, {"late-comer", "blocked_by_robots", {"charging"}}};
   }
   return {};
 }
 
-/// With a budget that does not make the clock decide, however slow this build is.
-json request_without_haste(const Example& example) {
+/// The request of an example with a budget so long that the clock does not influence the plan, even in a slow
+/// build.
+json request_with_long_budget(const Example& example) {
   json request = json::parse(example.body);
   request["options"]["time_budget_ms"] = 120'000;
   return request;
@@ -49,13 +50,13 @@ json request_without_haste(const Example& example) {
 
 class Scenario : public testing::TestWithParam<Example> {};
 
-TEST_P(Scenario, IsPlannedAsPromisedAndValid) {
-  const json request = request_without_haste(GetParam());
+TEST_P(Scenario, IsPlannedAsDescribedAndValid) {
+  const json request = request_with_long_budget(GetParam());
   const Reply reply = plan_endpoint(request.dump(), RequestContext{});
   ASSERT_EQ(reply.status, 200) << reply.body;
   const json answer = json::parse(reply.body);
 
-  const std::vector<Unserved> expected = expected_unserved(GetParam().name);
+  const std::vector<ExpectedUnplanned> expected = expected_unplanned(GetParam().name);
   EXPECT_EQ(answer.at("status"), expected.empty() ? "solved" : "partial");
   EXPECT_EQ(answer.at("plans").size() + expected.size(), request.at("robots").size());
   ASSERT_EQ(answer.at("unplanned").size(), expected.size());
@@ -99,7 +100,7 @@ TEST(Scenarios, AreTheFilesOfTheFolderAndTheEntriesOfItsIndex) {
   EXPECT_EQ(embedded, files);
   EXPECT_THAT(listed, testing::UnorderedElementsAreArray(files));
   ASSERT_FALSE(listed.empty());
-  EXPECT_EQ(listed.front(), "corridor-swap") << "the first that a visitor sees";
+  EXPECT_EQ(listed.front(), "corridor-swap") << "the page opens with it";
 }
 
 }  // namespace

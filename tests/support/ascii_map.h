@@ -1,6 +1,6 @@
 #pragma once
 
-// Maps as pictures.
+// Maps drawn with characters.
 
 #include <stdexcept>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-// What holds for the lower bounds of every plan that is told.
+// What holds for the lower bounds of every plan.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,8 @@
 
 namespace fleetplan::support {
 
-/// No robot costs less than its bound, and the plan's bounds are made of theirs, to the last bit.
+/// Expects that no robot's cost is below its lower bound, and that the bounds of the plan are exactly the sum
+/// and the maximum of the robots' bounds.
 inline void expect_bounded(const core::Plan& plan) {
   core::Objectives total;
   for (const core::RobotPlan& robot : plan.plans) {

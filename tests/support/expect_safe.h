@@ -1,6 +1,6 @@
 #pragma once
 
-// Every plan in a test goes through the independent checker.
+// Checks of plans by the independent checker.
 
 #include <gtest/gtest.h>
 
@@ -17,16 +17,16 @@
 
 namespace fleetplan::support {
 
-/// What the service promises of contact, and room for the rounding of times and positions.
+/// Metres: the contact tolerance of the service, and the rounding of times and positions.
 inline constexpr double kSafeTolerance = 2e-9;
 
-/// The plans keep clear of each other, of robots without a plan and of the map.
+/// Expects that planned robots collide with no other robot, planned or not, and not with the map.
 inline void expect_safe(const core::Problem& problem, const std::vector<core::RobotPlan>& plans) {
   const core::VerifyReport report = core::verify(problem.grid(), problem.robots(), plans, kSafeTolerance);
   EXPECT_TRUE(report.valid()) << text(report);
 }
 
-/// So they do with disks larger by `inflation`; only those that do not fit at their start keep their size.
+/// Expects this also with radii enlarged by `inflation`, except those of robots whose start is blocked.
 inline void expect_safe(const core::Problem& problem, const core::Plan& plan, double inflation = 0.0) {
   expect_safe(problem, plan.plans);
   if (inflation == 0.0) return;
@@ -39,7 +39,7 @@ inline void expect_safe(const core::Problem& problem, const core::Plan& plan, do
   EXPECT_TRUE(report.valid()) << "inflated by " << inflation << ": " << text(report);
 }
 
-/// The trajectories that robots follow at the moment, as plans. Robots without one stand.
+/// The current trajectories as plans. Robots without a trajectory have none.
 inline std::vector<core::RobotPlan> plans_of(const core::PlanState& state) {
   std::vector<core::RobotPlan> plans;
   for (std::size_t i = 0; i < state.instance().size(); ++i) {

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the request files of tests/scenarios, the same ones every time.
+"""Writes the request files of tests/scenarios. Every run writes the same files.
 
 Usage: tests/support/make_scenarios.py [FOLDER]   (default: tests/scenarios)
 
 Each scenario is a function that returns a request of POST /v1/plan. Before it is written, a request is checked:
 starts and goals clear of walls by the radius, no two starts and no two goals overlapping. Python standard library
-only. Randomness is drawn from random.Random(seed).random() alone, whose values Python promises to keep.
+only. Random numbers come only from random.Random(seed).random(): its values are the same in all Python versions.
 """
 
 import json
@@ -20,7 +20,7 @@ PI = 3.141592653589793
 # ---------------------------------------------------------------- maps and poses
 
 class Map:
-    """A map under construction; rows from the top, as they are written."""
+    """A map under construction; rows from the top, as in a request."""
 
     def __init__(self, columns, rows, resolution):
         self.columns, self.count, self.resolution = columns, rows, resolution
@@ -46,7 +46,7 @@ class Map:
         return (column + 0.5) * self.resolution, (row + 0.5) * self.resolution
 
     def clearance(self, x, y):
-        """Metres from a point to the nearest blocked cell or map edge, looking as far as two metres."""
+        """Metres from a point to the nearest blocked cell or map edge, searched up to two metres."""
         size = self.resolution
         nearest = min(x, y, self.columns * size - x, self.count * size - y)
         reach = int(2.0 / size) + 1
@@ -78,7 +78,7 @@ def robot(name, start, goal=None, **kind):
 
 
 class Places:
-    """Hands out cell centres that keep disks clear of walls and of each other."""
+    """Chooses cell centres where disks overlap neither walls nor each other."""
 
     def __init__(self, grid, seed):
         self.grid, self.random, self.taken = grid, random.Random(seed), []
@@ -330,7 +330,7 @@ SCENARIOS = [  # in display order
 # ---------------------------------------------------------------- checking and writing
 
 def faults(request):
-    """What makes a request invalid: poses in obstacles, overlapping starts or goals."""
+    """The reasons why a request is invalid: poses in obstacles, overlapping starts or goals, equal ids."""
     grid = Map.from_picture(request["map"]["rows"], request["map"]["resolution"])
     defaults = request.get("robot_defaults", {})
     found = []

@@ -1,6 +1,6 @@
 #pragma once
 
-// Robots and plans, written as they are told.
+// Plans for tests, written action by action.
 
 #include <cmath>
 #include <cstddef>
@@ -11,16 +11,16 @@
 
 namespace fleetplan::support {
 
-/// A plan of one robot, action by action, from its start at t = 0 and as fast as the robot can:
-/// `PlanBuilder(0, robot).rotate_to(1.57).translate_to(1, 4).wait(2).build()`. The motions are what the calls
-/// say, valid or not: nothing turns or waits by itself, except in `drive_to`.
+/// Builds the plan of one robot from its start at t = 0, at the full speed of the robot:
+/// `PlanBuilder(0, robot).rotate_to(1.57).translate_to(1, 4).wait(2).build()`. Plans can be invalid: only
+/// `drive_to` adds the rotation that it needs.
 class PlanBuilder {
  public:
   PlanBuilder(std::size_t index, const core::Robot& robot) : robot_(robot), pose_(robot.start) {
     plan_.robot = index;
   }
 
-  /// Turns in place to a heading, the shorter way.
+  /// Rotates in place to a heading, in the shorter direction.
   PlanBuilder& rotate_to(double theta) {
     core::Pose to = pose_;
     to.theta = core::normalize_angle(theta);
@@ -28,7 +28,7 @@ class PlanBuilder {
     return add(core::Action::Type::rotate, angle / robot_.angular_speed, to);
   }
 
-  /// Moves straight to a point with the heading it has; at `speed` (m/s) instead of the robot's where given.
+  /// Translates to a point without rotating, at `speed` (m/s), or at the robot's full speed if it is 0.
   PlanBuilder& translate_to(double x, double y, double speed = 0.0) {
     core::Pose to = pose_;
     to.position = core::Position(x, y);
@@ -36,18 +36,17 @@ class PlanBuilder {
     return add(core::Action::Type::translate, length / (speed > 0.0 ? speed : robot_.linear_speed), to);
   }
 
-  /// Turns towards a point, if it has to, and moves there.
+  /// Rotates towards a point if necessary and translates there.
   PlanBuilder& drive_to(double x, double y, double speed = 0.0) {
-    const core::Position way = core::Position(x, y) - pose_.position;
-    const double theta = std::atan2(way.y(), way.x());
+    const core::Position offset = core::Position(x, y) - pose_.position;
+    const double theta = std::atan2(offset.y(), offset.x());
     if (std::abs(core::rotation_between(pose_.theta, theta)) > 0.0) rotate_to(theta);
     return translate_to(x, y, speed);
   }
 
-  /// Stands still, seconds.
   PlanBuilder& wait(double seconds) { return add(core::Action::Type::wait, seconds, pose_); }
 
-  /// The plan so far; it costs what its actions take.
+  /// The plan so far; its cost is the end of the last action.
   core::RobotPlan build() const {
     core::RobotPlan plan = plan_;
     plan.cost = now_;

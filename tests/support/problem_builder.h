@@ -1,6 +1,6 @@
 #pragma once
 
-// Problems, written as they are told: `make_problem(map, {robot_at(1, 2).to(5, 2), robot_at(5, 4)})`.
+// Problems in one line: `make_problem(map, {robot_at(1, 2).to(5, 2), robot_at(5, 4)})`.
 
 #include <stdexcept>
 #include <string>
@@ -38,7 +38,7 @@ class RobotBuilder {
     robot_.angular_speed = angular;
     return *this;
   }
-  operator core::Robot() const { return robot_; }  // NOLINT(google-explicit-constructor): reads as a list
+  operator core::Robot() const { return robot_; }  // NOLINT(google-explicit-constructor): for lists of robots
 
  private:
   core::Robot robot_;
@@ -51,7 +51,7 @@ inline core::Problem make_problem(core::OccupancyGrid grid, std::vector<core::Ro
   for (std::size_t i = 0; i < robots.size(); ++i) robots[i].id = std::to_string(i);
   auto problem = core::Problem::create(std::move(grid), std::move(robots));
   if (auto* valid = std::get_if<core::Problem>(&problem)) return std::move(*valid);
-  throw std::invalid_argument("the robots and the map make no problem");
+  throw std::invalid_argument("the robots and the map are not a valid problem");
 }
 
 }  // namespace fleetplan::support

@@ -1,6 +1,6 @@
 #pragma once
 
-// Random maps and fleets for property tests.
+// Random maps, robots, problems and options for property tests.
 
 #include <cmath>
 #include <cstdint>
@@ -8,16 +8,17 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "core/map/obstacle_distance.h"
+#include "core/model/plan_options.h"
 #include "core/model/problem.h"
-#include "core/planner.h"
 
 namespace fleetplan::support {
 
-/// Deterministic random values on one engine.
+/// Random values that depend only on the seed.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
@@ -30,7 +31,7 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-/// A map of 8 to 32 cells a side, free to a third blocked, with a resolution of 0.05 to 2 m.
+/// A map of 8 to 32 cells a side, 0 to 30 % of them blocked, with a resolution of 0.05 to 2 m.
 inline core::OccupancyGrid random_map(Dice& dice) {
   const double resolution = std::vector<double>{0.05, 0.5, 1.0, 2.0}[static_cast<std::size_t>(dice.below(4))];
   core::OccupancyGrid grid(8 + dice.below(25), 8 + dice.below(25), resolution);
@@ -44,7 +45,7 @@ inline core::OccupancyGrid random_map(Dice& dice) {
 }
 
 /// Up to `count` robots with radii of 0.1 to 3 cells, speeds over a factor of 20 and poses on and off the
-/// cell centres; some parked, some with a goal in any heading.
+/// cell centres; some parked, some with a goal without a heading.
 inline std::vector<core::Robot> random_robots(Dice& dice, const core::OccupancyGrid& grid, int count) {
   std::vector<core::Robot> robots;
   const auto free_place = [&](double radius, auto&& taken) -> std::optional<core::Position> {
@@ -84,18 +85,18 @@ inline std::vector<core::Robot> random_robots(Dice& dice, const core::OccupancyG
   return robots;
 }
 
-/// A valid problem of at least one robot.
-inline core::Problem random_problem(Dice& dice, int robots) {
+/// A valid problem with 1 to `count` robots.
+inline core::Problem random_problem(Dice& dice, int count) {
   while (true) {
     core::OccupancyGrid grid = random_map(dice);
-    std::vector<core::Robot> instance = random_robots(dice, grid, robots);
-    if (instance.empty()) continue;
-    auto problem = core::Problem::create(std::move(grid), std::move(instance));
+    std::vector<core::Robot> robots = random_robots(dice, grid, count);
+    if (robots.empty()) continue;
+    auto problem = core::Problem::create(std::move(grid), std::move(robots));
     if (auto* valid = std::get_if<core::Problem>(&problem)) return std::move(*valid);
   }
 }
 
-/// Options of every kind, robustness knobs included.
+/// Random values for all options.
 inline core::PlanOptions random_options(Dice& dice, const core::Problem& problem) {
   using Options = core::PlanOptions;
   Options options;

@@ -11,7 +11,7 @@
 
 namespace fleetplan::support {
 
-/// A file with this content, gone at the end of its scope.
+/// A file with the given content; the destructor removes it.
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::string_view content)

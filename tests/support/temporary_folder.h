@@ -9,7 +9,7 @@
 
 namespace fleetplan::support {
 
-/// An empty folder, gone with all that is in it at the end of its scope.
+/// A folder, empty at first; the destructor removes it with its content.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -23,7 +23,7 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// A file, whose name may begin with folders.
+  /// Writes a file. Its name may contain folders, which are created.
   void write(const std::string& name, std::string_view content) const {
     std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(path_ / name, std::ios::binary) << content;

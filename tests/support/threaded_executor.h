@@ -9,7 +9,7 @@
 
 namespace fleetplan::support {
 
-/// Real threads, started anew for every run.
+/// Runs tasks on threads that are started for each run.
 class ThreadedExecutor : public core::Executor {
  public:
   explicit ThreadedExecutor(std::size_t threads) : threads_(threads) {}

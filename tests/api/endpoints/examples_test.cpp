@@ -42,7 +42,7 @@ TEST(Examples, AreListedWithTheirTitlesAndSizes) {
   EXPECT_EQ(names.size(), examples().size());
 }
 
-TEST(Examples, BeginWithTheFirstOfTheIndex) {
+TEST(Examples, BeginWithTheFirstEntryOfTheIndex) {
   EXPECT_EQ(json_of(examples_endpoint())["examples"][0]["name"], "corridor-swap");
 }
 

@@ -53,7 +53,7 @@ std::set<std::string> references(const Json& value) {
   return found;
 }
 
-TEST(OpenApi, IsOneCompleteDocumentOfThisVersion) {
+TEST(OpenApi, HasTheCurrentVersionAndNoDanglingReference) {
   const Json openapi = document();
   EXPECT_EQ(openapi, Json::parse(committed_document()));
   EXPECT_EQ(openapi["openapi"], "3.1.0");
@@ -68,7 +68,7 @@ TEST(OpenApi, IsOneCompleteDocumentOfThisVersion) {
 
 TEST(OpenApi, HasTheOptionsAndErrorsOfTheTables) {
   EXPECT_EQ(committed_document(), with_generated_parts(committed_document()))
-      << "Build the target update_openapi to write them anew.";
+      << "Build the target update_openapi to generate them again.";
 }
 
 TEST(OpenApi, HasTheScenariosAsExamples) {

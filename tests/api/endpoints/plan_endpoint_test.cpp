@@ -21,9 +21,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 RequestContext context() {
-  RequestContext made;
-  made.request_id = "test-7";
-  return made;
+  RequestContext context;
+  context.request_id = "test-7";
+  return context;
 }
 
 Json planned(const Json& request) {
@@ -113,7 +113,7 @@ TEST(PlanEndpoint, ReturnsPositionsInTheClientsWorld) {
   EXPECT_NEAR(actions.back()["to"]["x"].get<double>(), -91.5, 1e-9);
 }
 
-TEST(PlanEndpoint, ReturnsParkedRobotsAndNoClearanceOfOneRobot) {
+TEST(PlanEndpoint, ReturnsParkedRobotsAndNoClearanceForASingleRobot) {
   Json request = swap_request();
   request["robots"].erase(1);
   request["robots"][0].erase("goal");
@@ -158,7 +158,7 @@ TEST(PlanEndpoint, DoesNotPlanWhenTheBudgetIsSpentInTheQueue) {
   RequestContext late = context();
   late.received_at -= std::chrono::milliseconds(11);
   const Planner never = [](const auto&, const auto&, const auto&, auto*) -> core::Plan {
-    ADD_FAILURE() << "was asked to plan";
+    ADD_FAILURE() << "the planner was called";
     return {};
   };
   const Json answer = json_of(plan_with(never, request.dump(), late));
@@ -175,8 +175,8 @@ TEST(PlanEndpoint, WaitsForItsTurnUntilThePlanningDeadline) {
   Json request = swap_request();
   request["options"] = {{"time_budget_ms", 60'000}};
   RequestContext busy = context();
-  busy.await_turn = [&](const core::StopCondition& patience) {
-    EXPECT_EQ(patience.deadline(), busy.received_at + std::chrono::milliseconds(60'000 - 25));
+  busy.await_turn = [&](const core::StopCondition& stop) {
+    EXPECT_EQ(stop.deadline(), busy.received_at + std::chrono::milliseconds(60'000 - 25));
   };
   EXPECT_EQ(json_of(plan_endpoint(request.dump(), busy))["status"], "solved");
 }
@@ -193,7 +193,7 @@ TEST(PlanEndpoint, ReportsDrainingWhenTheServiceStopsBeforePlanning) {
 
 TEST(PlanEndpoint, ReportsFaultsWithoutWaitingForATurn) {
   RequestContext busy = context();
-  busy.await_turn = [](const core::StopCondition&) { ADD_FAILURE() << "waited"; };
+  busy.await_turn = [](const core::StopCondition&) { ADD_FAILURE() << "waited for a turn"; };
   EXPECT_EQ(plan_endpoint("{}", busy).status, 422);
 }
 
@@ -204,7 +204,7 @@ TEST(PlanEndpoint, GivesThePlannerTheRestOfTheBudget) {
   const Planner planner = [&](const core::Problem& problem, const core::PlanOptions& options,
                               const core::StopCondition& stop, auto*) {
     EXPECT_EQ(stop.deadline(), now.received_at + std::chrono::milliseconds(60'000 - 25))
-        << "time for the answer";
+        << "25 ms are left for the answer";
     EXPECT_EQ(options.seed, 42U);
     return core::plan(problem, options, stop);
   };

@@ -1,4 +1,4 @@
-// The events while a plan is made.
+// The events that are sent during planning.
 
 #include "api/endpoints/plan_events.h"
 
@@ -39,7 +39,7 @@ Json anytime_request() {
   return request;
 }
 
-/// What two answers to one request have in common.
+/// The members of an answer that are the same for every run.
 Json without_timings(Json answer) {
   answer.erase("timings_ms");
   answer.erase("request_id");
@@ -96,7 +96,7 @@ TEST(PlanEvents, HaveIncumbentsThatAreCompleteAnswers) {
   for (const Json& incumbent : events.incumbents) {
     EXPECT_EQ(incumbent["status"], "solved");
     EXPECT_EQ(incumbent["verified"], true);
-    EXPECT_EQ(incumbent["deterministic"], false) << "the clock chose it";
+    EXPECT_EQ(incumbent["deterministic"], false) << "the clock decided when it was shown";
     EXPECT_EQ(incumbent["request_id"], "test-8");
     EXPECT_GE(incumbent["flowtime"].get<double>(), answer["flowtime"].get<double>());
     for (std::size_t robot = 0; robot < 2; ++robot) {
@@ -126,8 +126,8 @@ TEST(PlanEvents, BeginEvenWhenTheBudgetIsSpent) {
 }
 
 TEST(PlanEvents, NeverHaveAnIncumbentThatTheCheckerRejects) {
-  const Planner shows_a_crash = [](const core::Problem& problem, const core::PlanOptions& options,
-                                   const core::StopCondition& stop, core::Observer* observer) {
+  const Planner shows_a_collision = [](const core::Problem& problem, const core::PlanOptions& options,
+                                       const core::StopCondition& stop, core::Observer* observer) {
     core::Plan through_the_wall;
     const core::Pose goal{problem.robots()[0].goal->position, 0.0};
     through_the_wall.plans.push_back(
@@ -139,25 +139,25 @@ TEST(PlanEvents, NeverHaveAnIncumbentThatTheCheckerRejects) {
     return core::plan(problem, options, stop);
   };
   Events events;
-  const Reply reply = plan_with(shows_a_crash, anytime_request().dump(), context_with(events));
+  const Reply reply = plan_with(shows_a_collision, anytime_request().dump(), context_with(events));
   EXPECT_EQ(reply.status, 500);
   EXPECT_EQ(json_of(reply)["code"], "internal_error");
   EXPECT_TRUE(events.incumbents.empty());
 }
 
-TEST(ProgressReporter, WantsPlansAtMostOnceASecond) {
+TEST(ProgressReporter, RequestsPlansAtMostOnceASecond) {
   Events events;
   const auto answer = [](const core::Plan&) { return Reply{200, kJson, "{}"}; };
-  ProgressReporter watch(events, 1, ProgressReporter::Clock::time_point::max(), answer);
-  ASSERT_TRUE(watch.wants_plan());
+  ProgressReporter reporter(events, 1, ProgressReporter::Clock::time_point::max(), answer);
+  ASSERT_TRUE(reporter.wants_plan());
   const auto begin = ProgressReporter::Clock::now();
-  watch.show({});
+  reporter.show({});
   EXPECT_EQ(events.incumbents.size(), 1U);
-  while (!watch.wants_plan()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  while (!reporter.wants_plan()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_GE(ProgressReporter::Clock::now() - begin, std::chrono::seconds(1));
 }
 
-TEST(ProgressReporter, WantsNoPlanShortlyBeforeTheDeadline) {
+TEST(ProgressReporter, RequestsNoPlanShortlyBeforeTheDeadline) {
   Events events;
   const auto answer = [](const core::Plan&) { return Reply{}; };
   const auto soon = ProgressReporter::Clock::now() + ProgressReporter::kQuietEnd;

@@ -166,7 +166,7 @@ TEST(ValidateEndpoint, RequiresPlans) {
   EXPECT_EQ(faults_of_validation(swap_request()), (Faults{{"/plans", "missing"}}));
 }
 
-/// Robots that mill about in one heap: every pair of them overlaps in every moment.
+/// Robots that move to and fro at nearly the same place: every pair overlaps at all times.
 Json heap_request(int robots, int actions) {
   Json request = drive_request();
   request["robots"].clear();

@@ -24,7 +24,7 @@ TEST(JsonWriter, WritesNumbersThatRoundTrip) {
   }
 }
 
-TEST(JsonWriter, KeepsRealNumbersReal) {
+TEST(JsonWriter, WritesWholeDoublesAsRealNumbers) {
   EXPECT_EQ(written(5.0), "5.0");
   EXPECT_EQ(written(1e30), "1e+30");
   EXPECT_EQ(written(0.25), "0.25");

@@ -79,10 +79,10 @@ TEST(ReadJson, RejectsTextThatIsNotJson) {
       {"[True]", "unexpected"},
       {std::string("[1]\0[2]", 7), "control character"},
   };
-  for (const auto& [body, wanted] : cases) {
+  for (const auto& [body, expected] : cases) {
     const JsonError error = error_of(body);
     EXPECT_EQ(error.kind, JsonError::Kind::malformed) << body;
-    EXPECT_THAT(error.detail, HasSubstr(wanted)) << body;
+    EXPECT_THAT(error.detail, HasSubstr(expected)) << body;
     EXPECT_TRUE(Json::accept(problem_reply(ErrorCode::malformed_json, error.detail, "").body)) << body;
   }
 }

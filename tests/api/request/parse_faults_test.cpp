@@ -1,4 +1,4 @@
-// What makes a request invalid, one fault each, and several at once.
+// Invalid requests, with one fault each and with several.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,13 +18,13 @@ using testing::Pair;
 
 struct Case {
   std::string name;
-  std::function<void(Json&)> spoil;
+  std::function<void(Json&)> modify;
   std::string pointer;
   std::string code;
   std::string detail;  // a part of it
 };
 
-void PrintTo(const Case& spoilt, std::ostream* out) { *out << spoilt.name; }
+void PrintTo(const Case& invalid, std::ostream* out) { *out << invalid.name; }
 
 Json& robot(Json& request, std::size_t index) { return request["robots"][index]; }
 
@@ -32,7 +32,7 @@ class OneFault : public testing::TestWithParam<Case> {};
 
 TEST_P(OneFault, IsReportedAtItsPlace) {
   Json request = swap_request();
-  GetParam().spoil(request);
+  GetParam().modify(request);
   const auto faults = faults_of(request.dump());
   EXPECT_THAT(brief(faults), ElementsAre(Pair(GetParam().pointer, GetParam().code))) << request.dump();
   if (!faults.empty()) {
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"RowIsANumber", [](Json& r) { r["map"]["rows"][1] = 5; }, "/map/rows/1", "wrong_type", "not 5"},
         Case{"RowIsShorter", [](Json& r) { r["map"]["rows"][3] = "...."; }, "/map/rows/3", "bad_map_row",
              "has 4 cells, but row 0 has 9"},
-        Case{"RowHasAStrangeCell", [](Json& r) { r["map"]["rows"][2] = "...é....."; }, "/map/rows/2",
+        Case{"RowHasAnUnknownCharacter", [](Json& r) { r["map"]["rows"][2] = "...é....."; }, "/map/rows/2",
              "bad_map_row", "\"é\" in column 3"},
         Case{"ResolutionIsZero", [](Json& r) { r["map"]["resolution"] = 0; }, "/map/resolution",
              "out_of_range", "from 1e-09 to 1e+09 metres, not 0"},
@@ -161,7 +161,7 @@ TEST(Faults, ReportATooLargeNumberAtItsPlace) {
   EXPECT_THAT(faults.front().detail, HasSubstr("too large"));
 }
 
-TEST(Faults, ReportTraitsMissingInRobotAndDefaults) {
+TEST(Faults, ReportMembersMissingInRobotAndDefaults) {
   Json request = swap_request();
   request.erase("robot_defaults");
   robot(request, 0)["radius"] = 0.3;
@@ -245,7 +245,7 @@ TEST(Faults, ContainIdsInAnyLanguage) {
   EXPECT_THAT(detail_of(request), HasSubstr("Wägelchen 🚚"));
 }
 
-TEST(Faults, DoNotIncludeContact) {
+TEST(Faults, DoNotIncludeRobotsInContact) {
   Json request = swap_request();
   robot(request, 1)["start"] = at(0.5, 2.1);
   EXPECT_THAT(brief_faults_of(request), IsEmpty());

@@ -39,12 +39,12 @@ TEST(PlanOutcome, HasNoPlanningTimeWhenTheBudgetWasSpentInTheQueue) {
 }
 
 TEST(PlanOutcome, IsRefusedWhenTheCheckerRejectsThePlan) {
-  const Planner nobody = [](const core::Problem&, const auto&, const auto&, auto*) {
+  const Planner without_motion = [](const core::Problem&, const auto&, const auto&, auto*) {
     core::Plan plan;
-    plan.plans = {{0, 0.0, {}}, {1, 0.0, {}}};  // both are to stay where they are, away from their goals
+    plan.plans = {{0, 0.0, {}}, {1, 0.0, {}}};  // both stay at their starts, away from their goals
     return plan;
   };
-  const Reply reply = plan_with(nobody, swap_request().dump(), {});
+  const Reply reply = plan_with(without_motion, swap_request().dump(), {});
   EXPECT_EQ(reply.problem, "internal_error");
   ASSERT_TRUE(reply.outcome);
   EXPECT_EQ(reply.outcome->status, Status::refused);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Requests to modify, and their faults.
+// Requests for tests to modify, and their faults.
 
 #include <nlohmann/json.hpp>
 #include <string>

@@ -47,7 +47,7 @@ TEST(CornerVisibility, HasTheConvexCornersOnly) {
   EXPECT_EQ(sight.corner(0).away_y, -1);
 }
 
-TEST(CornerVisibility, HasNoneAtTheEdgeOrWhereCellsTouchDiagonally) {
+TEST(CornerVisibility, HasNoCornersAtTheEdgeOrWhereCellsTouchDiagonally) {
   const OccupancyGrid grid = ascii_map({".#.",  //
                                         "#..",  //
                                         "..."});
@@ -69,14 +69,14 @@ TEST(CornerVisibility, SeesAlongWallsAndNotThroughThem) {
       << "a line of sight may touch walls";
 }
 
-TEST(CornerVisibility, OfAFreeMapIsEmpty) {
+TEST(CornerVisibility, IsEmptyOnAFreeMap) {
   const OccupancyGrid grid(4, 3, 1.0);
   CornerVisibility sight(grid, 0.0, 0.0);
   EXPECT_EQ(sight.count(), 0);
   EXPECT_THAT(sight.visible_from({2.0, 1.5}), IsEmpty());
 }
 
-/// Does the segment meet a blocked cell that is taken smaller by `margin` cells on all sides?
+/// Whether the segment meets a blocked cell after the cell is reduced by `margin` cells on all sides.
 bool blocked(const OccupancyGrid& grid, const Position& a, const Position& b, double margin) {
   const double size = grid.resolution();
   for (int row = 0; row < grid.rows(); ++row) {
@@ -90,7 +90,7 @@ bool blocked(const OccupancyGrid& grid, const Position& a, const Position& b, do
   return false;
 }
 
-/// Is there room for a thin strip on one side of the segment?
+/// Whether a thin strip on one side of the segment is free.
 bool has_room(const OccupancyGrid& grid, const Position& a, const Position& b) {
   const Position along = (b - a).normalized() * grid.resolution();
   const Position aside(-along.y(), along.x());
@@ -100,18 +100,18 @@ bool has_room(const OccupancyGrid& grid, const Position& a, const Position& b) {
   return false;
 }
 
-/// May a path go on in this direction after it bent around the corner? Beside the blocked cell, not over it
-/// nor straight away from it.
-bool may_bend_towards(const Corner& corner, const Position& d) {
+/// Whether a taut path can continue in this direction after it bends around the corner: beside the blocked
+/// cell, neither over it nor straight away from it.
+bool can_bend_towards(const Corner& corner, const Position& d) {
   return d.x() * corner.away_x * d.y() * corner.away_y <= 0.0;
 }
 
-TEST(CornerVisibility, MissesNoCornerThatAThinStripReachesAndPassesThroughNoCell) {
+TEST(CornerVisibility, SeesEveryCornerThatAThinStripReachesAndNoneBehindACell) {
   const std::uint64_t seed = 41;
   support::Dice dice(seed);
   int seen = 0;
   int hidden = 0;
-  int spared = 0;
+  int excluded = 0;
   for (int k = 0; k < 120; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << k);
     const OccupancyGrid grid = support::random_map(dice);
@@ -130,22 +130,22 @@ TEST(CornerVisibility, MissesNoCornerThatAThinStripReachesAndPassesThroughNoCell
       for (int corner = 0; corner < sight.count(); ++corner) {
         const Position to = sight.position(corner);
         if ((to - from).norm() < 0.01 * grid.resolution()) continue;
-        const bool told = std::binary_search(found.begin(), found.end(), corner);
-        const bool wanted = view % 2 == 0 || may_bend_towards(sight.corner(from_corner), to - from);
-        if (wanted && has_room(grid, from, to)) {
-          ASSERT_TRUE(told) << from.transpose() << " to " << to.transpose();
+        const bool is_found = std::binary_search(found.begin(), found.end(), corner);
+        const bool is_required = view % 2 == 0 || can_bend_towards(sight.corner(from_corner), to - from);
+        if (is_required && has_room(grid, from, to)) {
+          ASSERT_TRUE(is_found) << from.transpose() << " to " << to.transpose();
         }
         if (blocked(grid, from, to, 1e-5)) {
-          ASSERT_FALSE(told) << from.transpose() << " to " << to.transpose();
+          ASSERT_FALSE(is_found) << from.transpose() << " to " << to.transpose();
         }
-        ++(told ? seen : hidden);
-        spared += !wanted && !told && !blocked(grid, from, to, 1e-5) ? 1 : 0;
+        ++(is_found ? seen : hidden);
+        excluded += !is_required && !is_found && !blocked(grid, from, to, 1e-5) ? 1 : 0;
       }
     }
   }
   EXPECT_GT(seen, 1000);
   EXPECT_GT(hidden, 1000);
-  EXPECT_GT(spared, 100);
+  EXPECT_GT(excluded, 100);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using support::robot_at;
 constexpr double kPi = std::numbers::pi;
 constexpr Motion kMotion{0.4, 2.0, 0.5, 0.0};
 
-TEST(LowerBound, IsTheStraightLineAndTheTurnsIntoItAndOutOfIt) {
+TEST(LowerBound, IsTheStraightLineWithTheRotationsBeforeAndAfterIt) {
   const double slope = std::atan2(4.0, 3.0);
   EXPECT_DOUBLE_EQ(lower_bound(robot_at(1, 1).to(4, 5), kMotion), 2.5 + 2.0 * slope);
   EXPECT_DOUBLE_EQ(lower_bound(robot_at(1, 1).to(4, 5, 0.0), kMotion), 2.5 + 4.0 * slope);
@@ -24,7 +24,7 @@ TEST(LowerBound, IsTheStraightLineAndTheTurnsIntoItAndOutOfIt) {
   EXPECT_DOUBLE_EQ(lower_bound(robot_at(1, 1, 3.0).to(-3, 1, -3.0), kMotion), 2.0 + 4.0 * (kPi - 3.0));
 }
 
-TEST(LowerBound, OfARobotAtItsGoalIsTheTurn) {
+TEST(LowerBound, IsTheRotationForARobotAtItsGoal) {
   EXPECT_EQ(lower_bound(robot_at(1, 1, 2.0).to(1, 1), kMotion), 0.0);
   EXPECT_DOUBLE_EQ(lower_bound(robot_at(1, 1, 2.0).to(1, 1, 1.0), kMotion), 2.0);
 }
@@ -37,7 +37,7 @@ TEST(LowerBound, AddsOneWaitBeforeTheMove) {
 
 class LowerBoundOfRandomProblems : public testing::TestWithParam<bool> {};
 
-TEST_P(LowerBoundOfRandomProblems, IsNeverAboveTheCostOfTheRobotAloneAndExactInSight) {
+TEST_P(LowerBoundOfRandomProblems, NeverExceedsTheCostOfTheRobotAloneAndIsExactInSight) {
   const std::uint64_t seed = 29;
   support::Dice dice(seed);
   int detours = 0;

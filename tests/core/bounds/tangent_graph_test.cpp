@@ -19,14 +19,14 @@ namespace {
 using support::ascii_map;
 
 constexpr double kPi = std::numbers::pi;
-/// What the smaller disk makes of lengths and angles.
-constexpr double kShrunk = 1e-6;
+/// Tolerance of lengths and angles, because the disk is taken slightly smaller.
+constexpr double kReduction = 1e-6;
 
 struct World {
-  World(OccupancyGrid told, double radius) : World(std::move(told), radius, radius, radius) {}
-  /// `least` and `most`: the radii for which corners are looked for.
-  World(OccupancyGrid told, double radius, double least, double most)
-      : grid(std::move(told)), sight(grid), corners(grid, least, most), tangents(corners, sight, radius) {}
+  World(OccupancyGrid map, double radius) : World(std::move(map), radius, radius, radius) {}
+  /// `least` and `most`: the range of radii for the visibility of corners.
+  World(OccupancyGrid map, double radius, double least, double most)
+      : grid(std::move(map)), sight(grid), corners(grid, least, most), tangents(corners, sight, radius) {}
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
@@ -54,46 +54,46 @@ OccupancyGrid block() {
                     "....."});
 }
 
-TEST(TangentGraph, FromAPointTouchTheCircleAroundTheCorner) {
+TEST(TangentGraph, TangentsFromAPointTouchTheCircleAroundTheCorner) {
   World w(block(), 0.5);
   const auto level = w.tangents.from_point({0.5, 1.5}, {1, true});
   ASSERT_TRUE(level);
-  EXPECT_NEAR(level->heading, 0.0, kShrunk) << "the corner (3, 2) is on the left";
-  EXPECT_NEAR(level->length, 2.5, kShrunk);
-  EXPECT_NEAR((level->begin - Position(0.5, 1.5)).norm(), 0.0, kShrunk);
-  EXPECT_NEAR((level->end - Position(3.0, 1.5)).norm(), 0.0, kShrunk);
-  EXPECT_NEAR(level->arrive_angle, -0.25 * kPi, kShrunk) << "where the quarter begins";
+  EXPECT_NEAR(level->heading, 0.0, kReduction) << "the corner (3, 2) is on the left";
+  EXPECT_NEAR(level->length, 2.5, kReduction);
+  EXPECT_NEAR((level->begin - Position(0.5, 1.5)).norm(), 0.0, kReduction);
+  EXPECT_NEAR((level->end - Position(3.0, 1.5)).norm(), 0.0, kReduction);
+  EXPECT_NEAR(level->arrive_angle, -0.25 * kPi, kReduction) << "where the quarter begins";
   EXPECT_TRUE(w.tangents.is_free(*level));
   EXPECT_FALSE(w.tangents.from_point({4.5, 4.5}, {0, true})) << "it would touch the circle inside the block";
 }
 
-TEST(TangentGraph, BetweenCornersOfOneSideRunAlongTheWall) {
+TEST(TangentGraph, TangentsBetweenCornersOnOneSideRunAlongTheWall) {
   World w(block(), 0.5);
   const auto from = w.free_from({0, true});
   ASSERT_EQ(from.size(), 1u);
   EXPECT_EQ(from[0].to.corner, 1);
   EXPECT_TRUE(from[0].to.left);
-  EXPECT_NEAR(from[0].length, 1.0, kShrunk);
-  EXPECT_NEAR(from[0].leave_angle, 0.25 * kPi, kShrunk);
-  EXPECT_NEAR(from[0].arrive_angle, -0.25 * kPi, kShrunk);
+  EXPECT_NEAR(from[0].length, 1.0, kReduction);
+  EXPECT_NEAR(from[0].leave_angle, 0.25 * kPi, kReduction);
+  EXPECT_NEAR(from[0].arrive_angle, -0.25 * kPi, kReduction);
 }
 
-TEST(TangentGraph, DoNotEndOrBeginWhereAWallIsOnlyGrazed) {
+TEST(TangentGraph, TangentsDoNotBeginOrEndWhereTheyOnlyGrazeAWall) {
   World w(ascii_map({".......",  //
                      ".#.#.#.",  //
                      "......."}),
           0.5);
-  // The corners below the cells are 0 to 5, from the left. Past them all leads but one move.
+  // The corners below the cells are 0 to 5, from the left. A single level move passes all of them.
   EXPECT_EQ(w.corners.position(5), Position(6.0, 1.0));
   std::vector<int> level;
   for (const Tangent& tangent : w.free_from({0, true})) {
-    if (std::abs(tangent.heading) < kShrunk) level.push_back(tangent.to.corner);
+    if (std::abs(tangent.heading) < kReduction) level.push_back(tangent.to.corner);
   }
   EXPECT_EQ(level, (std::vector{1, 3, 5})) << "the far sides of the cells, where a path may turn left";
-  for (const Tangent& tangent : w.free_from({1, true})) EXPECT_GT(std::abs(tangent.heading), kShrunk);
+  for (const Tangent& tangent : w.free_from({1, true})) EXPECT_GT(std::abs(tangent.heading), kReduction);
 }
 
-TEST(TangentGraph, CrossBetweenCornersOnDifferentSides) {
+TEST(TangentGraph, TangentsCrossBetweenCornersOnDifferentSides) {
   World w(ascii_map({".....",  //
                      ".....",  //
                      "...#.",  //
@@ -108,14 +108,14 @@ TEST(TangentGraph, CrossBetweenCornersOnDifferentSides) {
       if (w.corners.position(tangent.to.corner) != Position(3.0, 1.0)) continue;
       ++crossing;
       EXPECT_TRUE(tangent.to.left);
-      EXPECT_NEAR(tangent.length, std::sqrt(2.0 - 0.25), kShrunk);
-      EXPECT_NEAR(tangent.heading, -0.25 * kPi - std::asin(0.5 / std::sqrt(2.0)), kShrunk);
+      EXPECT_NEAR(tangent.length, std::sqrt(2.0 - 0.25), kReduction);
+      EXPECT_NEAR(tangent.heading, -0.25 * kPi - std::asin(0.5 / std::sqrt(2.0)), kReduction);
     }
   }
   EXPECT_EQ(crossing, 1);
 }
 
-TEST(TangentGraph, ArcsEndAtOtherObstacles) {
+TEST(TangentGraph, ArcsAreBlockedByOtherObstacles) {
   World w(ascii_map({".....",  //
                      "...#.",  //
                      ".....",  //
@@ -144,7 +144,7 @@ OccupancyGrid gap_of_two() {
                     ".........."});
 }
 
-TEST(TangentGraph, DoNotRunBetweenCellCentresThroughAGapThatJustFits) {
+TEST(TangentGraph, TangentsDoNotRunBetweenCellCentresThroughAGapThatJustFits) {
   const auto through_gap = [](double radius) {
     World w(gap_of_two(), radius);
     EXPECT_EQ(w.corners.position(0), Position(4.0, 2.0));
@@ -155,11 +155,11 @@ TEST(TangentGraph, DoNotRunBetweenCellCentresThroughAGapThatJustFits) {
     return upwards;
   };
   EXPECT_EQ(through_gap(1.0), 0);
-  EXPECT_GT(through_gap(0.99), 0) << "a slanting move fits";
+  EXPECT_GT(through_gap(0.99), 0) << "an oblique move fits";
   EXPECT_GT(through_gap(0.5), 0);
 }
 
-TEST(TangentGraph, AreAsLongAsTheyLookAndFreeForTheDiskOnRandomMaps) {
+TEST(TangentGraph, TangentsHaveConsistentEndsAndClearanceOnRandomMaps) {
   const std::uint64_t seed = 43;
   support::Dice dice(seed);
   int count = 0;
@@ -189,11 +189,11 @@ TEST(TangentGraph, AreAsLongAsTheyLookAndFreeForTheDiskOnRandomMaps) {
   EXPECT_GT(count, 1000);
 }
 
-TEST(TangentGraph, AreNotMissedWhereOnlySightOfTheDisksWidthBesideTheCellsIsLookedFor) {
+TEST(TangentGraph, TangentsAreTheSameIfVisibilityIsLimitedToTheRadiusOfTheDisk) {
   const std::uint64_t seed = 47;
   support::Dice dice(seed);
   int count = 0;
-  int spared = 0;
+  int excluded = 0;
   for (int k = 0; k < 150; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << k);
     OccupancyGrid grid(30 + dice.below(60), 30 + dice.below(60), 0.5);
@@ -210,8 +210,8 @@ TEST(TangentGraph, AreNotMissedWhereOnlySightOfTheDisksWidthBesideTheCellsIsLook
       const Bend bend{b / 2, b % 2 == 1};
       ASSERT_EQ(all.free_from(bend).size(), wide.free_from(bend).size());
       count += static_cast<int>(wide.free_from(bend).size());
-      spared += static_cast<int>(all.corners.bends_from(bend.corner).size()) -
-                static_cast<int>(wide.corners.bends_from(bend.corner).size());
+      excluded += static_cast<int>(all.corners.bends_from(bend.corner).size()) -
+                  static_cast<int>(wide.corners.bends_from(bend.corner).size());
     }
     const Position point(dice.between(0.0, grid.width()), dice.between(0.0, grid.height()));
     if (!all.sight.disk_fits(point, radius)) continue;
@@ -225,7 +225,7 @@ TEST(TangentGraph, AreNotMissedWhereOnlySightOfTheDisksWidthBesideTheCellsIsLook
     }
   }
   EXPECT_GT(count, 10000);
-  EXPECT_GT(spared, 1000);
+  EXPECT_GT(excluded, 1000);
 }
 
 }  // namespace

@@ -25,10 +25,10 @@ using support::make_problem;
 using support::robot_at;
 
 constexpr double kPi = std::numbers::pi;
-/// What the smaller disk of TautPathSearch makes of times.
-constexpr double kShrunk = 1e-5;
+/// Tolerance in seconds, because TautPathSearch takes the disk slightly smaller.
+constexpr double kReduction = 1e-5;
 
-/// `cost`: of a plan that is known.
+/// `cost`: that of a known plan.
 double bound_of(const Problem& problem, const PlanOptions& options = {}, double cost = kForever) {
   const Instance instance(problem, options);
   const TautPathBounds bounds(instance, {0}, {cost}, StopCondition());
@@ -56,33 +56,34 @@ OccupancyGrid wall() {
                     "...#..."});
 }
 
-TEST(TautPathBounds, AreTheStraightLineAndTheTurnsInTheOpen) {
+TEST(TautPathBounds, AreTheStraightLineAndItsRotationsWithoutObstacles) {
   const Problem problem = make_problem(wall(), {robot_at(0.5, 0.5, 1.0).to(1.5, 4.5, 2.0)});
   EXPECT_EQ(bound_of(problem), straight_bound_of(problem));
 }
 
 TEST(TautPathBounds, GoAroundAWallOnArcsOfTheRadius) {
-  // Up to above the corner (3, 3) and, with the same slope, down again from above (4, 3).
+  // Up to a point above the corner (3, 3), and down from a point above (4, 3) with the same slope.
   const double rise = std::atan2(1.5, 1.5) + std::asin(0.5 / std::hypot(1.5, 1.5));
   const double reach = std::sqrt(1.5 * 1.5 + 1.5 * 1.5 - 0.5 * 0.5);
   const double length = 2.0 * reach + 1.0 + 2.0 * 0.5 * rise;
   const Problem free_heading =
       make_problem(wall(), {robot_at(1.5, 1.5, rise).to(5.5, 1.5).radius(0.5).speeds(2.0, 0.5)});
-  EXPECT_NEAR(bound_of(free_heading), length / 2.0 + 2.0 * rise / 0.5, kShrunk);
+  EXPECT_NEAR(bound_of(free_heading), length / 2.0 + 2.0 * rise / 0.5, kReduction);
   const Problem turned =
       make_problem(wall(), {robot_at(1.5, 1.5, kPi).to(5.5, 1.5, 0.0).radius(0.5).speeds(2.0, 0.5)});
-  EXPECT_NEAR(bound_of(turned), length / 2.0 + (2.0 * rise + kPi) / 0.5, kShrunk);
+  EXPECT_NEAR(bound_of(turned), length / 2.0 + (2.0 * rise + kPi) / 0.5, kReduction);
 }
 
-TEST(TautPathBounds, AddAWaitForEachTranslationThatNoPathCanSpare) {
+TEST(TautPathBounds, AddAWaitForEachTranslationThatEveryPathNeeds) {
   const auto waits = [](const OccupancyGrid& grid, const Robot& robot) {
     const Problem problem = make_problem(grid, {robot});
     PlanOptions options;
-    options.wait_before_move = 1e-3;  // too short to make another way better
+    options.wait_before_move = 1e-3;  // too short to make another path better
     return (bound_of(problem, options) - bound_of(problem)) / options.wait_before_move;
   };
   EXPECT_NEAR(waits(wall(), robot_at(0.5, 0.5).to(0.5, 4.5)), 1.0, 1e-6);
-  EXPECT_NEAR(waits(wall(), robot_at(1.5, 1.5).to(5.5, 1.5)), 2.0, 1e-6) << "one bend over the wall might do";
+  EXPECT_NEAR(waits(wall(), robot_at(1.5, 1.5).to(5.5, 1.5)), 2.0, 1e-6)
+      << "one bend over the wall may suffice";
   const OccupancyGrid slalom = ascii_map({"...#......",  //
                                           "...#......",  //
                                           "...#..#...",  //
@@ -137,7 +138,7 @@ std::string rooms_row(int row) {
   return row % 4 == 0 ? "######.#.######.#" : (row % 4 == 2 ? "....#...#.......#" : "....#...#...#...#");
 }
 
-TEST(TautPathBounds, AreWithinAFewPercentOfALoneRobotsCost) {
+TEST(TautPathBounds, AreCloseToTheCostOfTheRobotAlone) {
   std::vector<std::string> rooms;
   rooms.reserve(16);
   for (int row = 0; row < 16; ++row) rooms.push_back(rooms_row(row));
@@ -175,7 +176,7 @@ TEST(TautPathBounds, AreWithinAFewPercentOfALoneRobotsCost) {
   EXPECT_LT(ratio(shelves, 0.3, 0.0), 1.05);
 }
 
-/// Where a radius of whole cells just fits, and poses are on grid lines: a map of blocks with straight gaps.
+/// A map of blocks with straight gaps between them.
 OccupancyGrid blocks_and_gaps(support::Dice& dice) {
   OccupancyGrid grid(8 + dice.below(20), 8 + dice.below(20), dice.chance(0.5) ? 1.0 : 0.25);
   for (int block = dice.below(14); block > 0; --block) {
@@ -191,6 +192,8 @@ OccupancyGrid blocks_and_gaps(support::Dice& dice) {
   return grid;
 }
 
+/// A robot whose radius is a multiple of half a cell, so that it just fits into gaps; poses are on multiples
+/// of a quarter of a cell.
 std::optional<Problem> snug_problem(support::Dice& dice) {
   OccupancyGrid grid = blocks_and_gaps(dice);
   std::vector<Robot> robots = support::random_robots(dice, grid, 1);
@@ -209,7 +212,7 @@ std::optional<Problem> snug_problem(support::Dice& dice) {
 
 class TautPathBoundsOfRandomProblems : public testing::TestWithParam<bool> {};
 
-TEST_P(TautPathBoundsOfRandomProblems, AreNeverAboveTheCostOfTheRobotAloneNorBelowTheStraightLine) {
+TEST_P(TautPathBoundsOfRandomProblems, AreBetweenTheStraightLineAndTheCostOfTheRobotAlone) {
   const std::uint64_t seed = 53;
   support::Dice dice(seed);
   int better = 0;
@@ -227,8 +230,8 @@ TEST_P(TautPathBoundsOfRandomProblems, AreNeverAboveTheCostOfTheRobotAloneNorBel
     const double straight = lower_bound(instance.robot(0), instance.motion(0));
     ASSERT_LE(bound, *cost * (1.0 + 1e-12) + 1e-9);
     ASSERT_GE(bound, straight);
-    ASSERT_DOUBLE_EQ(bound_of(*problem, options, *cost), bound) << "told the cost";
-    ASSERT_DOUBLE_EQ(bound_of(*problem, options, bound), bound) << "as if a plan were as cheap as that";
+    ASSERT_DOUBLE_EQ(bound_of(*problem, options, *cost), bound) << "with the cost known";
+    ASSERT_DOUBLE_EQ(bound_of(*problem, options, bound), bound) << "with a known cost equal to the bound";
     better += bound > 1.01 * straight ? 1 : 0;
     close += *cost < 1.02 * bound && bound > 1.01 * straight ? 1 : 0;
   }
@@ -266,16 +269,16 @@ TEST(TautPathBounds, AreTheSameForAMirroredMap) {
   EXPECT_GT(around, 50);
 }
 
-TEST(TautPathBounds, FallWhereObstaclesAreRemoved) {
+TEST(TautPathBounds, DoNotIncreaseWhereObstaclesAreRemoved) {
   const std::uint64_t seed = 61;
   support::Dice dice(seed);
-  int fell = 0;
+  int decreased = 0;
   for (int k = 0; k < 400; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", problem " << k);
     const Problem problem = support::random_problem(dice, 1);
     if (!problem.robots()[0].goal) continue;
     const PlanOptions options = support::random_options(dice, problem);
-    if (!cost_alone(problem, options)) continue;  // without a way there is but the straight line
+    if (!cost_alone(problem, options)) continue;  // without a path the bound is the straight line
     const OccupancyGrid& grid = problem.grid();
     OccupancyGrid fewer(grid.columns(), grid.rows(), grid.resolution());
     for (int row = 0; row < grid.rows(); ++row) {
@@ -286,12 +289,12 @@ TEST(TautPathBounds, FallWhereObstaclesAreRemoved) {
     const double before = bound_of(problem, options);
     const double after = bound_of(make_problem(fewer, problem.robots()), options);
     ASSERT_LE(after, before + 1e-5 * (1.0 + before));
-    fell += after < before - 1e-3 ? 1 : 0;
+    decreased += after < before - 1e-3 ? 1 : 0;
   }
-  EXPECT_GT(fell, 25);
+  EXPECT_GT(decreased, 25);
 }
 
-TEST(TautPathBounds, OfAMetStopConditionAreStraightAndSaySo) {
+TEST(TautPathBounds, AreStraightLinesAndReportedAsCutOffWhenStopped) {
   const Problem problem =
       make_problem(wall(), {robot_at(1.5, 1.5).to(5.5, 1.5), robot_at(0.5, 3.5).to(5.5, 3.5)});
   const Instance instance(problem, {});
@@ -302,13 +305,13 @@ TEST(TautPathBounds, OfAMetStopConditionAreStraightAndSaySo) {
       << "its goal is in sight";
 }
 
-TEST(TautPathBounds, AreZeroForRobotsThatWereNotAskedFor) {
+TEST(TautPathBounds, AreZeroForRobotsThatWereNotRequested) {
   const Problem problem = make_problem(wall(), {robot_at(1.5, 1.5).to(5.5, 1.5), robot_at(0.5, 3.5)});
   const Instance instance(problem, {});
   EXPECT_EQ(TautPathBounds(instance, {0}, {kForever, kForever}, StopCondition())[1], 0.0);
 }
 
-TEST(TautPathBounds, OfManyRobotsOnALargeMapFullOfCornersTakeLimitedWork) {
+TEST(TautPathBounds, TakeLimitedWorkForManyRobotsOnALargeMapWithManyCorners) {
   support::Dice dice(67);
   OccupancyGrid grid(400, 400, 1.0);
   for (int k = 0; k < 16000; ++k) grid.block({dice.below(400), dice.below(400)});
@@ -338,7 +341,7 @@ TEST(TautPathBounds, OfManyRobotsOnALargeMapFullOfCornersTakeLimitedWork) {
   }
 }
 
-TEST(TautPathSearch, KnowsLessAfterLessWork) {
+TEST(TautPathSearch, ReturnsHigherBoundsAfterMoreWork) {
   const Problem problem = make_problem(maze(), {robot_at(1.5, 0.5).to(1.5, 8.5)});
   const Instance instance(problem, {});
   double before = lower_bound(instance.robot(0), instance.motion(0));
@@ -356,7 +359,7 @@ TEST(TautPathSearch, KnowsLessAfterLessWork) {
   EXPECT_NEAR(before, *cost_alone(problem), 0.05 * before);
 }
 
-TEST(TautPathSearch, SparesWorkWhereAPlanIsKnown) {
+TEST(TautPathSearch, NeedsLessWorkWhereAPlanIsKnown) {
   OccupancyGrid pillars(30, 30, 1.0);
   for (int row = 2; row < 30; row += 3) {
     for (int column = 2; column < 30; column += 3) pillars.block({column, row});

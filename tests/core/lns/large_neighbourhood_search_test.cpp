@@ -107,7 +107,7 @@ TEST(LargeNeighbourhoodSearch, ReturnsTheSamePlanForTheSameSeed) {
 }
 
 TEST(LargeNeighbourhoodSearch, EndsWhenEveryRobotIsAtItsLowerBound) {
-  PlanOptions options;  // neither iterations nor a clock
+  PlanOptions options;  // no limit of iterations or time
   Planning p(OccupancyGrid(10, 10, 1.0), {robot_at(1.5, 1.5).to(8.5, 1.5), robot_at(1.5, 8.5).to(8.5, 7.5)},
              options);
   const auto movers = plan_first_solution(p);

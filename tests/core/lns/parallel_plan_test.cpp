@@ -89,7 +89,7 @@ TEST_P(PlanInParallel, ReturnsTheSamePlanWithAnObserver) {
     support::Recorder by_many;
     const Plan together = plan(problem, options, {}, executor, &by_many);
     EXPECT_EQ(support::exact_text(together), support::exact_text(alone)) << threads << " threads";
-    EXPECT_EQ(by_many.told.size(), by_one.told.size());
+    EXPECT_EQ(by_many.reported.size(), by_one.reported.size());
     ASSERT_EQ(by_many.shown.size(), by_one.shown.size());
     for (std::size_t k = 0; k < by_many.shown.size(); ++k) {
       ASSERT_EQ(support::exact_text(by_many.shown[k]), support::exact_text(by_one.shown[k]));
@@ -100,7 +100,7 @@ TEST_P(PlanInParallel, ReturnsTheSamePlanWithAnObserver) {
 INSTANTIATE_TEST_SUITE_P(Objectives, PlanInParallel,
                          testing::Values(Objective::flowtime, Objective::makespan));
 
-TEST(PlanOnManyThreads, StopsInTimeAndStaysSafe) {
+TEST(PlanOnManyThreads, ReturnsACompleteSafePlanAfterTheDeadline) {
   const Problem problem = roundabout();
   PlanOptions options = anytime(0);
   options.max_iterations.reset();

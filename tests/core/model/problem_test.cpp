@@ -62,7 +62,7 @@ TEST(Problem, HasAFaultWhereAGoalOverlapsABlockedCellOrLeavesTheMap) {
   expect_fault(faults[1], Kind::goal_in_obstacle, 1, 0, -0.4);
 }
 
-TEST(Problem, HasAFaultWhereTwoStartsOverlapNamedByTheLaterOne) {
+TEST(Problem, HasAFaultOfTheLaterRobotWhereTwoStartsOverlap) {
   const auto faults = faults_of(room(), {robot_at(1, 1), robot_at(5, 1), robot_at(1.5, 1).radius(0.3)});
   ASSERT_EQ(faults.size(), 1u);
   expect_fault(faults[0], Kind::starts_overlap, 2, 0, -0.2);
@@ -90,13 +90,13 @@ TEST(Problem, ListsAllFaultsInTheOrderOfTheRobots) {
 
 TEST(Problem, HasNoFaultWhereDisksAndWallsTouch) {
   EXPECT_TRUE(faults_of(room(), {robot_at(0.4, 0.4).to(2.6, 2.5), robot_at(1.2, 0.4).to(2.6, 3.3)}).empty());
-  EXPECT_TRUE(faults_of(room(), {robot_at(1, 1), robot_at(1.8 - 5e-10, 1)}).empty()) << "rounded text";
+  EXPECT_TRUE(faults_of(room(), {robot_at(1, 1), robot_at(1.8 - 5e-10, 1)}).empty()) << "rounded input";
   EXPECT_EQ(faults_of(room(), {robot_at(1, 1), robot_at(1.8 - 2e-9, 1)}).size(), 1u);
   EXPECT_TRUE(faults_of(room(), {robot_at(0.4 - 7e-10, 1)}).empty());
   EXPECT_EQ(faults_of(room(), {robot_at(0.4 - 2e-9, 1)}).size(), 1u);
 }
 
-TEST(Problem, HasNoFaultWhereAGoalIsAnothersStart) {
+TEST(Problem, HasNoFaultWhereAGoalIsTheStartOfAnotherRobot) {
   EXPECT_TRUE(faults_of(room(), {robot_at(1, 1).to(5, 1), robot_at(5, 1).to(1, 1)}).empty());
 }
 

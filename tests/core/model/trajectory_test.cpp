@@ -5,7 +5,7 @@
 namespace fleetplan::core {
 namespace {
 
-/// From t = 0 to for ever without a gap or a jump.
+/// Expects segments from t = 0 to kForever without gaps or jumps.
 void expect_contiguous(const std::vector<TimedSegment>& segments) {
   ASSERT_FALSE(segments.empty());
   EXPECT_EQ(segments.front().t_start, 0.0);
@@ -18,7 +18,7 @@ void expect_contiguous(const std::vector<TimedSegment>& segments) {
   for (const TimedSegment& segment : segments) EXPECT_LT(segment.t_start, segment.t_end);
 }
 
-TEST(TimedSegments, OfARobotThatStandsAreOneEndlessWait) {
+TEST(TimedSegments, AreOneEndlessWaitForARobotAtRest) {
   const auto segments = timed_segments({{1, 2}, {}, 0.0});
   ASSERT_EQ(segments.size(), 1u);
   expect_contiguous(segments);
@@ -37,7 +37,7 @@ TEST(TimedSegments, FillTheGapsBetweenMovesWithWaits) {
   EXPECT_EQ(segments[4].path.from, Position(2, 1));
 }
 
-TEST(TimedSegments, PutNoWaitBetweenMovesThatFollowAtOnce) {
+TEST(TimedSegments, HaveNoWaitBetweenContiguousMoves) {
   const Trajectory trajectory{{0, 0}, {{{{0, 0}, {2, 0}}, 0.0, 2.0}, {{{2, 0}, {2, 1}}, 2.0, 3.0}}, 3.0};
   const auto segments = timed_segments(trajectory);
   expect_contiguous(segments);
@@ -49,7 +49,7 @@ TEST(Trajectory, EndsWhereItsLastMoveEnds) {
   EXPECT_EQ((Trajectory{{0, 0}, {{{{0, 0}, {2, 1}}, 0.0, 2.0}}, 2.0}.end()), Position(2, 1));
 }
 
-TEST(TimedSegment, KnowsItsVelocity) {
+TEST(TimedSegment, HasTheVelocityOfItsMotion) {
   EXPECT_EQ((TimedSegment{{{0, 0}, {4, 2}}, 1.0, 3.0}.velocity()), Position(2, 1));
   EXPECT_EQ((TimedSegment{{{1, 1}, {1, 1}}, 1.0, kForever}.velocity()), Position(0, 0));
   EXPECT_EQ((TimedSegment{{{1, 1}, {1, 1}}, 1.0, 1.0}.velocity()), Position(0, 0)) << "no 0/0";

@@ -36,12 +36,12 @@ TEST(PlanState, ReplacesTheReservationOfARobot) {
   EXPECT_EQ(p.crossing_conflicts(1000.0), Robots{1});
   p.state.follow(1, through({{4.5, 2.5}, {4.5, 4.5}}));
   EXPECT_TRUE(p.state.trajectory(1));
-  EXPECT_EQ(p.crossing_conflicts(), Robots{}) << "it has gone by then";
+  EXPECT_EQ(p.crossing_conflicts(), Robots{}) << "robot 1 has left by then";
   p.state.follow(1, through({{4.5, 2.5}, {4.5, 4.5}}, 3.0));
-  EXPECT_EQ(p.crossing_conflicts(), Robots{1}) << "it goes too late";
+  EXPECT_EQ(p.crossing_conflicts(), Robots{1}) << "robot 1 leaves too late";
   p.state.reserve_start(1, 3.1);
   EXPECT_FALSE(p.state.trajectory(1));
-  EXPECT_EQ(p.crossing_conflicts(), Robots{}) << "3.2 m take longer";
+  EXPECT_EQ(p.crossing_conflicts(), Robots{}) << "robot 0 arrives later than that";
   p.state.reserve_start(1, 3.3);
   EXPECT_EQ(p.crossing_conflicts(), Robots{1});
   p.state.remove(1);

@@ -59,7 +59,7 @@ TEST(Prioritized, RaisesTheRobotThatFailed) {
   expect_safe(p.state);
 }
 
-TEST(Prioritized, FindsARandomOrder) {
+TEST(Prioritized, TriesRandomOrders) {
   Doorway p(Priority::shortest_first, Reordering::random);
   const auto result = run(p);
   EXPECT_TRUE(result.unplanned.empty());
@@ -75,7 +75,7 @@ TEST(Prioritized, PlansTheOtherRobotsWithoutReordering) {
   EXPECT_EQ(result.unplanned[0].blocked_by, Robots{0});
   EXPECT_EQ(result.attempts, 1);
   EXPECT_TRUE(p.state.trajectory(0));
-  EXPECT_TRUE(p.state.trajectory(2)) << "it came after the one that failed";
+  EXPECT_TRUE(p.state.trajectory(2)) << "its priority is below that of the robot that failed";
   expect_safe(p.state);
 }
 

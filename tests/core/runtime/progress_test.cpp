@@ -1,4 +1,4 @@
-// What a planner tells whoever watches it.
+// The progress and the plans that a planner reports to an observer.
 
 #include "core/runtime/progress.h"
 
@@ -22,8 +22,8 @@ using support::Recorder;
 using support::robot_at;
 using Reordering = PlanOptions::Reordering;
 
-Plan watched(const Problem& problem, const PlanOptions& options, Recorder& recorder,
-             const StopCondition& stop = {}) {
+Plan observed_plan(const Problem& problem, const PlanOptions& options, Recorder& recorder,
+                   const StopCondition& stop = {}) {
   CallerThread executor;
   return plan(problem, options, stop, executor, &recorder);
 }
@@ -39,7 +39,7 @@ Problem roundabout() {
   return support::make_problem(OccupancyGrid(10, 10, 1.0), robots);
 }
 
-/// Two of them block each other for good; the third one has a way.
+/// Robots 0 and 1 block each other permanently; robot 2 has a free path.
 Problem corridor_and_hall() {
   return support::make_problem(support::ascii_map({".........",  //
                                                    "#########",  //
@@ -56,8 +56,8 @@ PlanOptions anytime(std::int64_t iterations) {
 }
 
 void expect_ends_as(const Plan& plan, const Recorder& recorder) {
-  ASSERT_FALSE(recorder.told.empty());
-  const Progress& last = recorder.told.back();
+  ASSERT_FALSE(recorder.reported.empty());
+  const Progress& last = recorder.reported.back();
   EXPECT_EQ(last.planned, plan.plans.size());
   EXPECT_EQ(last.attempts, plan.search.attempts);
   ASSERT_TRUE(last.best);
@@ -65,72 +65,74 @@ void expect_ends_as(const Plan& plan, const Recorder& recorder) {
   EXPECT_EQ(last.best->makespan, plan.objectives.makespan);
 }
 
-TEST(Progress, RisesByOneRobotAfterTheOtherWhereNobodyFails) {
+TEST(Progress, CountsRobotsOneByOneWhereNoneFails) {
   std::vector<Robot> robots{robot_at(0.5, 0.5)};
   for (double y = 1.5; y < 9.0; y += 1.0) robots.push_back(robot_at(0.5, y).to(8.5, y));
   Recorder recorder;
-  const Plan plan = watched(support::make_problem(OccupancyGrid(9, 9, 1.0), std::move(robots)), {}, recorder);
+  const Plan plan =
+      observed_plan(support::make_problem(OccupancyGrid(9, 9, 1.0), std::move(robots)), {}, recorder);
   std::vector<std::size_t> planned;
-  for (const Progress& progress : recorder.told) {
+  for (const Progress& progress : recorder.reported) {
     if (planned.empty() || planned.back() != progress.planned) planned.push_back(progress.planned);
     EXPECT_EQ(progress.attempts, 1);
   }
   EXPECT_EQ(planned, (std::vector<std::size_t>{1, 2, 3, 4, 5, 6, 7, 8, 9}))
-      << "the parked one from the start";
-  EXPECT_FALSE(recorder.told.front().best);
+      << "the parked robot is counted from the start";
+  EXPECT_FALSE(recorder.reported.front().best);
   EXPECT_TRUE(recorder.shown.empty()) << "the first solution is the answer";
   expect_ends_as(plan, recorder);
 }
 
-TEST(Progress, EndsWithTheFiguresOfThePlanHoweverRobotsAreReordered) {
+TEST(Progress, EndsWithTheNumbersOfThePlanForEveryReordering) {
   for (const auto reordering : {Reordering::raise_failed, Reordering::random, Reordering::none}) {
     SCOPED_TRACE(static_cast<int>(reordering));
     PlanOptions options;
     options.reordering = reordering;
     Recorder crossing;
-    expect_ends_as(watched(roundabout(), options, crossing), crossing);
+    expect_ends_as(observed_plan(roundabout(), options, crossing), crossing);
     Recorder partial;
-    const Plan plan = watched(corridor_and_hall(), options, partial);
+    const Plan plan = observed_plan(corridor_and_hall(), options, partial);
     EXPECT_EQ(plan.unplanned.size(), 1u);
     expect_ends_as(plan, partial);
   }
 }
 
-TEST(Progress, CountsAttemptsOneByOneAndTellsTheFallOfThePlannedOnes) {
+TEST(Progress, CountsAttemptsOneByOneAndReportsFewerPlannedRobots) {
   PlanOptions options;
   options.reordering = Reordering::random;
   Recorder recorder;
-  const Plan plan = watched(corridor_and_hall(), options, recorder);
+  const Plan plan = observed_plan(corridor_and_hall(), options, recorder);
   ASSERT_GT(plan.search.attempts, 1);
-  bool fell = false;
-  for (std::size_t k = 1; k < recorder.told.size(); ++k) {
-    const Progress& before = recorder.told[k - 1];
-    const Progress& now = recorder.told[k];
+  bool decreased = false;
+  for (std::size_t k = 1; k < recorder.reported.size(); ++k) {
+    const Progress& before = recorder.reported[k - 1];
+    const Progress& now = recorder.reported[k];
     EXPECT_GE(now.attempts, before.attempts);
     EXPECT_LE(now.attempts, before.attempts + 1);
-    fell = fell || now.planned < before.planned;
+    decreased = decreased || now.planned < before.planned;
   }
-  EXPECT_TRUE(fell);
+  EXPECT_TRUE(decreased);
 }
 
-TEST(Progress, HasABestThatFallsAndShowsEveryBetterPlan) {
+TEST(Progress, HasDecreasingObjectivesAndShowsEveryBetterPlan) {
   const Problem problem = roundabout();
   Recorder recorder;
-  const Plan plan = watched(problem, anytime(200), recorder);
+  const Plan plan = observed_plan(problem, anytime(200), recorder);
   ASSERT_GT(plan.search.improvements, 2);
   double best = kForever;
-  for (const Progress& progress : recorder.told) {
+  for (const Progress& progress : recorder.reported) {
     if (!progress.best) continue;
     EXPECT_LE(progress.best->flowtime, best);
     best = progress.best->flowtime;
   }
-  EXPECT_LT(best, std::find_if(recorder.told.begin(), recorder.told.end(), [](const Progress& progress) {
-                    return progress.best.has_value();
-                  })->best->flowtime);
+  EXPECT_LT(best,
+            std::find_if(recorder.reported.begin(), recorder.reported.end(), [](const Progress& progress) {
+              return progress.best.has_value();
+            })->best->flowtime);
   expect_ends_as(plan, recorder);
 
   ASSERT_GT(recorder.shown.size(), 2u);
-  EXPECT_EQ(recorder.shown.front().search.improvements, 0) << "what is there before it improves";
+  EXPECT_EQ(recorder.shown.front().search.improvements, 0) << "the first solution";
   for (std::size_t k = 0; k < recorder.shown.size(); ++k) {
     const Plan& shown = recorder.shown[k];
     support::expect_safe(problem, shown);
@@ -148,29 +150,29 @@ TEST(Progress, HasABestThatFallsAndShowsEveryBetterPlan) {
   }
 }
 
-TEST(Progress, ShowsNoPlanToWhoWantsNone) {
+TEST(Progress, ShowsNoPlanUnlessRequested) {
   Recorder recorder(false);
-  EXPECT_GT(watched(roundabout(), anytime(100), recorder).search.improvements, 0);
+  EXPECT_GT(observed_plan(roundabout(), anytime(100), recorder).search.improvements, 0);
   EXPECT_TRUE(recorder.shown.empty());
 }
 
-TEST(Progress, ShowsPartialPlansWithWhoIsLeftOut) {
+TEST(Progress, ShowsPartialPlansWithTheirUnplannedRobots) {
   Recorder recorder;
-  const Plan plan = watched(corridor_and_hall(), anytime(20), recorder);
+  const Plan plan = observed_plan(corridor_and_hall(), anytime(20), recorder);
   ASSERT_FALSE(recorder.shown.empty());
   ASSERT_EQ(recorder.shown.front().unplanned.size(), 1u);
   EXPECT_EQ(recorder.shown.front().unplanned.front().robot, plan.unplanned.front().robot);
 }
 
-TEST(Progress, IsToldAlsoWhenTheTimeIsUpBeforeItBegins) {
+TEST(Progress, IsReportedWhenStoppedBeforePlanning) {
   Recorder recorder;
-  const Plan plan = watched(roundabout(), anytime(100), recorder, met());
+  const Plan plan = observed_plan(roundabout(), anytime(100), recorder, met());
   EXPECT_EQ(plan.plans.size(), 1u);
   EXPECT_TRUE(recorder.shown.empty());
   expect_ends_as(plan, recorder);
 }
 
-TEST(Progress, ChangesNoPlan) {
+TEST(Progress, DoesNotChangeThePlan) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     support::Dice dice(seed);
@@ -179,13 +181,13 @@ TEST(Progress, ChangesNoPlan) {
     options.max_iterations = 20;
     Recorder recorder;
     const Plan alone = plan(problem, options, {});
-    const Plan seen = watched(problem, options, recorder);
-    ASSERT_EQ(support::exact_text(seen), support::exact_text(alone));
-    EXPECT_EQ(seen.deterministic, alone.deterministic);
-    EXPECT_EQ(seen.search.attempts, alone.search.attempts);
-    EXPECT_EQ(seen.search.expansions, alone.search.expansions);
-    EXPECT_EQ(seen.search.improvements, alone.search.improvements);
-    expect_ends_as(seen, recorder);
+    const Plan observed = observed_plan(problem, options, recorder);
+    ASSERT_EQ(support::exact_text(observed), support::exact_text(alone));
+    EXPECT_EQ(observed.deterministic, alone.deterministic);
+    EXPECT_EQ(observed.search.attempts, alone.search.attempts);
+    EXPECT_EQ(observed.search.expansions, alone.search.expansions);
+    EXPECT_EQ(observed.search.improvements, alone.search.improvements);
+    expect_ends_as(observed, recorder);
   }
 }
 

@@ -19,7 +19,7 @@ TEST(StopCondition, IsMetOnceItsDeadlineHasPassed) {
   EXPECT_FALSE(StopCondition(Clock::now() + std::chrono::hours(1)).met());
 }
 
-TEST(StopCondition, IsMetAsSoonAsSomebodyAsksToStop) {
+TEST(StopCondition, IsMetOnceAStopIsRequested) {
   std::stop_source source;
   const StopCondition stop(Clock::now() + std::chrono::hours(1), source.get_token());
   EXPECT_FALSE(stop.met());

@@ -1,4 +1,4 @@
-// One robot among others that pass, stand or wait.
+// The search for one robot among others that move, wait or are parked.
 
 #include "core/sipp/aa_sipp.h"
 
@@ -43,7 +43,8 @@ TEST(AaSipp, GoesStraightToGoalWithoutObstacles) {
   Planning p(OccupancyGrid(10, 10, 1.0), {robot_at(1.5, 1.5).to(4.5, 5.5, kPi / 2)});
   const Trajectory trajectory = plan_first(p);
   ASSERT_EQ(trajectory.moves.size(), 1u);
-  EXPECT_NEAR(trajectory.cost, 5.0 + 1.0, 1e-12) << "3-4-5, and a quarter turn in total, one second";
+  EXPECT_NEAR(trajectory.cost, 5.0 + 1.0, 1e-12)
+      << "5 m, and a quarter turn in total, which takes one second";
 }
 
 TEST(AaSipp, StaysAtStartForStartDelay) {

@@ -1,4 +1,4 @@
-// The first and the last pose of plans.
+// The first and the last pose of a plan.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

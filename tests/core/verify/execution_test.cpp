@@ -15,7 +15,7 @@ namespace {
 
 using support::PlanBuilder;
 
-/// Legs follow each other from 0 to infinity, whatever the plan.
+/// Expects contiguous legs from t = 0 to infinity.
 void expect_all_of_time(const std::vector<Leg>& legs) {
   EXPECT_EQ(legs.front().t_begin, 0.0);
   EXPECT_TRUE(std::isinf(legs.back().t_end));
@@ -23,7 +23,7 @@ void expect_all_of_time(const std::vector<Leg>& legs) {
   for (const Leg& leg : legs) EXPECT_LE(leg.t_begin, leg.t_end);
 }
 
-Position where(const std::vector<Leg>& legs, double t) {
+Position position_of(const std::vector<Leg>& legs, double t) {
   for (const Leg& leg : legs) {
     if (t < leg.t_end) return position_at(leg, t);
   }
@@ -42,12 +42,12 @@ TEST(Execution, InterpolatesActionsAndKeepsTheLastPose) {
   const RobotPlan plan = PlanBuilder(0, robot).wait(1).translate_to(6, 3).build();
   const auto legs = execute(robot, &plan);
   expect_all_of_time(legs);
-  EXPECT_EQ(where(legs, 0.5), Position(2, 3));
-  EXPECT_EQ(where(legs, 2.0), Position(3, 3));
-  EXPECT_EQ(where(legs, 100.0), Position(6, 3));
+  EXPECT_EQ(position_of(legs, 0.5), Position(2, 3));
+  EXPECT_EQ(position_of(legs, 2.0), Position(3, 3));
+  EXPECT_EQ(position_of(legs, 100.0), Position(6, 3));
 }
 
-TEST(Execution, StandsInAGap) {
+TEST(Execution, WaitsInAGap) {
   const Robot robot = robot_at(2, 3);
   RobotPlan plan = PlanBuilder(0, robot).translate_to(3, 3).translate_to(4, 3).build();
   plan.actions[0].t_start = 5.0;
@@ -56,9 +56,9 @@ TEST(Execution, StandsInAGap) {
   plan.actions[1].t_end = 9.0;
   const auto legs = execute(robot, &plan);
   expect_all_of_time(legs);
-  EXPECT_EQ(where(legs, 4.0), Position(2, 3));
-  EXPECT_EQ(where(legs, 7.0), Position(3, 3));
-  EXPECT_EQ(where(legs, 8.5), Position(3.5, 3));
+  EXPECT_EQ(position_of(legs, 4.0), Position(2, 3));
+  EXPECT_EQ(position_of(legs, 7.0), Position(3, 3));
+  EXPECT_EQ(position_of(legs, 8.5), Position(3.5, 3));
 }
 
 TEST(Execution, SkipsThePartOfAnActionBeforeThePreviousEnd) {
@@ -68,12 +68,12 @@ TEST(Execution, SkipsThePartOfAnActionBeforeThePreviousEnd) {
   plan.actions[1].t_end = 5.0;
   const auto legs = execute(robot, &plan);
   expect_all_of_time(legs);
-  EXPECT_EQ(where(legs, 2.0), Position(5, 3));
+  EXPECT_EQ(position_of(legs, 2.0), Position(5, 3));
   plan.actions[0].t_start = -2.0;
   plan.actions[0].t_end = -1.0;
   plan.actions[1].t_end = -3.0;
   expect_all_of_time(execute(robot, &plan));
-  EXPECT_EQ(where(execute(robot, &plan), 2.0), Position(8, 3));
+  EXPECT_EQ(position_of(execute(robot, &plan), 2.0), Position(8, 3));
 }
 
 TEST(TimeWindows, HaveOneBoundaryWithoutMotion) {

@@ -1,4 +1,4 @@
-// The closed form against brute force: positions sampled finely on random plans.
+// The closed form against positions sampled in small steps, on random plans.
 
 #include <gtest/gtest.h>
 
@@ -16,9 +16,9 @@ namespace fleetplan::core {
 namespace {
 
 constexpr unsigned kFirstSeed = 20190901;
-constexpr double kStep = 0.01;       // seconds
-constexpr double kMostSpeed = 4.0;   // metres per second, of one robot against another
-constexpr double kRounding = 1e-12;  // metres
+constexpr double kStep = 0.01;             // seconds
+constexpr double kMaxRelativeSpeed = 4.0;  // metres per second, of one robot relative to another
+constexpr double kRounding = 1e-12;        // metres
 
 FleetClearance clearance_of(const RandomFleet& fleet, double tolerance) {
   std::vector<const RobotPlan*> plan_of(fleet.robots.size(), nullptr);
@@ -32,7 +32,7 @@ FleetClearance clearance_of(const RandomFleet& fleet, double tolerance) {
   return *fleet_clearance(legs, radii, tolerance, kMostCollisions, StopCondition());
 }
 
-/// How many overlaps of the list go on at `t`, with `margin` seconds to either side.
+/// The number of overlaps at `t`, each extended by `margin` seconds on both sides.
 int overlaps_at(const FleetClearance& clearance, double t, double margin) {
   return static_cast<int>(std::count_if(
       clearance.overlaps.begin(), clearance.overlaps.end(),
@@ -58,7 +58,7 @@ TEST(FleetClearanceProperty, OverlapsAgreeWithSamples) {
       }
     }
     EXPECT_GE(least - contact, *clearance.least - kRounding);
-    EXPECT_LE(least - contact, *clearance.least + kMostSpeed * kStep);
+    EXPECT_LE(least - contact, *clearance.least + kMaxRelativeSpeed * kStep);
     for (const Overlap& overlap : clearance.overlaps) {
       const double distance =
           (sampled_position(fleet, 1, overlap.t_deepest) - sampled_position(fleet, 0, overlap.t_deepest))
@@ -90,7 +90,7 @@ TEST(FleetClearanceProperty, LeastGapAgreesWithSamplesOfAllPairs) {
       }
     }
     EXPECT_GE(least, *clearance.least - kRounding);
-    EXPECT_LE(least, *clearance.least + kMostSpeed * 5 * kStep);
+    EXPECT_LE(least, *clearance.least + kMaxRelativeSpeed * 5 * kStep);
   }
 }
 

@@ -77,7 +77,7 @@ TEST(ObstacleCollision, AllowsAPassageAsWideAsTheDisk) {
 }
 
 TEST(ObstacleCollision, MeasuresADiagonalAtTheNearestCorner) {
-  // The way x + y = s passes the corner (2, 2) of the block at (4 - s) / sqrt(2).
+  // The path x + y = s passes the corner (2, 2) of the block at (4 - s) / sqrt(2).
   const auto graze_at = [](double distance) {
     const double s = 4.0 - distance * std::sqrt(2.0);
     Scene scene(map_with_a_block());
@@ -129,8 +129,8 @@ TEST(ObstacleCollision, IsExactForADiskMuchLargerThanTheCells) {
   const auto violations = pass(0.5);
   ASSERT_EQ(violations.size(), 1U);
   EXPECT_NEAR(violations[0].distance, 0.4, 1e-12);
-  EXPECT_NEAR(violations[0].t, 0.9,
-              1e-12);  // above the left corner of the cell, the first of the nearest moments
+  // Above the left corner of the cell, the first of the times at which the robot is nearest.
+  EXPECT_NEAR(violations[0].t, 0.9, 1e-12);
 }
 
 TEST(ObstacleCollision, ReportsStandingInAnObstacleOnce) {
@@ -159,7 +159,7 @@ TEST(ObstacleCollision, MergesActionsOfOneOverlapOnly) {
   EXPECT_NEAR(violations[1].distance, 0.3, 1e-12);
 }
 
-TEST(ObstacleCollision, ReportsThroughAndBackAsTwo) {
+TEST(ObstacleCollision, ReportsAPassThroughAnObstacleAndBackAsTwo) {
   Scene scene(map_with_a_block());
   scene.add(robot_at(0.5, 2.5),
             [](PlanBuilder& plan) { plan.translate_to(5.5, 2.5).translate_to(0.5, 2.5); });
@@ -169,7 +169,7 @@ TEST(ObstacleCollision, ReportsThroughAndBackAsTwo) {
   EXPECT_NEAR(violations[1].t, 6.5, 1e-12);
 }
 
-TEST(ObstacleCollision, ReportsAJumpBetweenObstaclesAsTwo) {
+TEST(ObstacleCollision, ReportsOverlapsBeforeAndAfterAJumpSeparately) {
   Scene scene(map_with_a_block());
   scene.add(robot_at(1.7, 2.5), [](PlanBuilder& plan) { plan.wait(1).wait(1).wait(1); });
   EXPECT_EQ(scene.violations().size(), 1U);
@@ -198,7 +198,7 @@ TEST(ObstacleCollision, IgnoresRoundingAlongAWall) {
   EXPECT_EQ(back.violations()[0].t, 0.0);
 }
 
-TEST(ObstacleCollision, FindsARobotThatLeavesTheMapAtTheEdge) {
+TEST(ObstacleCollision, ReportsARobotThatLeavesTheMapAtTheEdge) {
   Scene scene(map_with_a_block());
   scene.add(robot_at(1, 1),
             [](PlanBuilder& plan) { plan.translate_to(1e9, 1).rotate_to(kPi).translate_to(1, 1); });

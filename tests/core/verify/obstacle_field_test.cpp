@@ -1,4 +1,4 @@
-// The distance to obstacles: known cases, and brute force over all cells.
+// The distance to obstacles in known cases, and compared with a loop over all cells.
 
 #include "core/verify/obstacle_field.h"
 
@@ -18,7 +18,7 @@ using support::ascii_map;
 
 constexpr double kNoLimit = 1e9;
 
-/// The distance of a point to the nearest blocked point, cell by cell.
+/// The distance of a point to the nearest blocked point, by a loop over all cells.
 double plain_distance(const OccupancyGrid& grid, const Position& point) {
   double least = std::min({point.x(), grid.width() - point.x(), point.y(), grid.height() - point.y()});
   if (least <= 0.0) return 0.0;
@@ -99,7 +99,7 @@ TEST(ObstacleField, PrefersACellBeforeTheEdge) {
 }
 
 TEST(ObstacleField, AgreesWithBruteForceAtPoints) {
-  std::mt19937 random(7);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same cases each time
+  std::mt19937 random(7);  // NOLINT(cert-msc32-c,cert-msc51-cpp): repeatable
   for (int round = 0; round < 300; ++round) {
     SCOPED_TRACE("seed 7, round " + std::to_string(round));
     const OccupancyGrid grid = random_grid(random, 0.1);
@@ -112,7 +112,7 @@ TEST(ObstacleField, AgreesWithBruteForceAtPoints) {
 
 TEST(ObstacleField, AgreesWithBruteForceAlongSegments) {
   constexpr int kSamples = 1000;
-  std::mt19937 random(11);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same cases each time
+  std::mt19937 random(11);  // NOLINT(cert-msc32-c,cert-msc51-cpp): repeatable
   int apart = 0;
   for (int round = 0; round < 150; ++round) {
     SCOPED_TRACE("seed 11, round " + std::to_string(round));
@@ -134,7 +134,7 @@ TEST(ObstacleField, AgreesWithBruteForceAlongSegments) {
     EXPECT_NEAR(plain_distance(grid, there), nearest->point.distance, 1e-9);
     if (nearest->point.distance > 0.0) ++apart;
 
-    // Any smaller reach either finds the same, or nothing because there is nothing.
+    // A limited reach finds the same distance, or nothing if nothing is within reach.
     const double reach = along(2.0 * nearest->point.distance + 0.1);
     const auto limited = field.nearest(from, to, reach);
     EXPECT_EQ(limited.has_value(), nearest->point.distance < reach);

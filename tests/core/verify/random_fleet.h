@@ -1,6 +1,6 @@
 #pragma once
 
-// Random plans, and the positions of robots in them, computed as plainly as possible.
+// Random plans, and the positions of their robots over time, computed in the simplest way.
 
 #include <algorithm>
 #include <cstddef>

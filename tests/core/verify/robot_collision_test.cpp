@@ -1,4 +1,4 @@
-// Disks against disks: all kinds of meetings, and the limit between contact and collision.
+// Collisions between robots in different encounters, and the limit between contact and collision.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using ::testing::IsEmpty;
 
 constexpr double kPi = std::numbers::pi;
 
-/// One robot passes another, which stands `gap` metres (negative: overlap) beside its way.
+/// One robot passes another, which stands `gap` metres (negative: overlap) beside its path.
 Scene passing_at(double gap) {
   Scene scene;
   scene.add(robot_at(2, 5), [](PlanBuilder& plan) { plan.translate_to(8, 5); });
@@ -46,7 +46,7 @@ TEST(RobotCollision, ReportsTimeAndDepthOfTheOverlap) {
   EXPECT_EQ(violations[0].detail, "the disks overlap by 0.2 m from t = 2.4 s to 3.6 s");
 }
 
-TEST(RobotCollision, ReportsTheMomentOfAHeadOnMeeting) {
+TEST(RobotCollision, ReportsTheTimeOfAHeadOnCollision) {
   Scene scene;
   scene.add(robot_at(2, 5, 0.0), [](PlanBuilder& plan) { plan.translate_to(8, 5); });
   scene.add(robot_at(8, 5, kPi), [](PlanBuilder& plan) { plan.translate_to(2, 5); });
@@ -104,7 +104,7 @@ TEST(RobotCollision, AllowsCrossingAfterASufficientWait) {
     scene.add(robot_at(5, 2, kPi / 2), [wait](PlanBuilder& plan) { plan.wait(wait).translate_to(5, 8); });
     return scene.violations();
   };
-  // At the crossing, one after the other by `wait` seconds: they come as near as wait / sqrt(2).
+  // They pass the crossing `wait` seconds apart, so their least distance is wait / sqrt(2) metres.
   EXPECT_THAT(cross_after(std::sqrt(2.0) + 1e-9), IsEmpty());
   const auto violations = cross_after(1.0);
   ASSERT_EQ(violations.size(), 1U);
@@ -153,8 +153,8 @@ TEST(RobotCollision, ReportsEachUninterruptedOverlapOnce) {
   });
   const auto violations = scene.violations();
   ASSERT_EQ(violations.size(), 2U);
-  EXPECT_NEAR(violations[0].t, 5.0,
-              1e-12);  // straight over it after 3.5 m, 1 s of waiting and 1 of turning: 0.5
+  // At the same position after 2.5 m, a wait of 1 s, rotations of 1 s in total and 0.5 m.
+  EXPECT_NEAR(violations[0].t, 5.0, 1e-12);
   EXPECT_NEAR(violations[0].distance, 0.0, 1e-12);
   EXPECT_NEAR(violations[1].distance, 0.0, 1e-12);
 }
