@@ -1,8 +1,9 @@
 #include "server/handlers.h"
 
-#include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
 
+#include "api/json/json_writer.h"
 #include "api/response/error.h"
 #include "server/http/answer/event_stream.h"
 #include "server/http/exchange.h"
@@ -16,14 +17,14 @@ namespace fleetplan::server {
 namespace {
 
 using api::ErrorCode;
-using Json = nlohmann::ordered_json;
+using api::JsonWriter;
 
 constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src "
     "'self'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-api::Reply json_reply(const Json& json) { return {200, api::kJson, json.dump()}; }
+api::Reply json_reply(JsonWriter& json) { return {200, api::kJson, json.take()}; }
 
 api::Reply problem_reply(ErrorCode code, const std::string& detail, const Exchange& exchange) {
   return api::problem_reply(code, detail, exchange.request_id);
@@ -70,15 +71,13 @@ Handler example(const Backend& backend) {
 Handler limits(const Backend& backend) {
   return [&settings = backend.settings](Exchange& /*exchange*/) {
     const api::Limits& limits = settings.limits;
-    return json_reply({{"max_body", limits.max_body},
-                       {"max_cells", limits.max_cells},
-                       {"max_robots", limits.max_robots},
-                       {"max_depth", limits.max_depth},
-                       {"default_budget_ms", limits.default_budget_ms},
-                       {"min_budget_ms", 1},
-                       {"max_budget_ms", limits.max_budget_ms},
-                       {"workers", settings.workers},
-                       {"queue", settings.queue}});
+    JsonWriter json;
+    json.begin_object().member("max_body", limits.max_body).member("max_cells", limits.max_cells);
+    json.member("max_robots", limits.max_robots).member("max_depth", limits.max_depth);
+    json.member("default_budget_ms", limits.default_budget_ms).member("min_budget_ms", 1);
+    json.member("max_budget_ms", limits.max_budget_ms);
+    json.member("workers", settings.workers).member("queue", settings.queue).end_object();
+    return json_reply(json);
   };
 }
 
@@ -87,13 +86,21 @@ Handler openapi(const Backend& backend) {
 }
 
 Handler health() {
-  return [](Exchange& /*exchange*/) { return json_reply({{"status", "ok"}, {"version", kVersion}}); };
+  return [](Exchange& /*exchange*/) {
+    JsonWriter json;
+    json.begin_object().member("status", "ok").member("version", kVersion).end_object();
+    return json_reply(json);
+  };
 }
 
 Handler readiness(const Backend& backend) {
   return [&backend](Exchange& exchange) {
-    if (backend.is_ready()) return json_reply({{"status", "ready"}});
-    return problem_reply(ErrorCode::draining, "The service is shutting down.", exchange);
+    if (!backend.is_ready()) {
+      return problem_reply(ErrorCode::draining, "The service is shutting down.", exchange);
+    }
+    JsonWriter json;
+    json.begin_object().member("status", "ready").end_object();
+    return json_reply(json);
   };
 }
 

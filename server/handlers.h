@@ -20,14 +20,14 @@ Handler example_list(const Backend& backend);
 /// The named example, or a 404 that lists the names there are.
 Handler example(const Backend& backend);
 
-/// What a request may ask for, under the names of the settings.
+/// The limits of requests, under the names of the settings.
 Handler limits(const Backend& backend);
 
 Handler openapi(const Backend& backend);
 
 Handler health();
 
-/// 200, or 503 when the server is about to end.
+/// 200, or 503 once the server is shutting down.
 Handler readiness(const Backend& backend);
 
 /// The format of Prometheus.

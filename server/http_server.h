@@ -29,10 +29,10 @@ class HttpServer {
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  /// Takes the ports. The reason if it cannot.
+  /// Binds the ports; returns the reason if that fails.
   std::optional<std::string> bind();
 
-  /// The bound one, also when any free port was asked for.
+  /// The bound port, also if the setting was 0.
   int port() const { return main_.library.port(); }
   std::optional<int> admin_port() const;
 
@@ -51,7 +51,7 @@ class HttpServer {
   /// No request of the main port is being read, computed or answered.
   bool idle() const { return main_.exchanges == 0; }
 
-  /// Asks all jobs, now and later, to stop, and waits no longer for requests that are still being sent.
+  /// Requests a stop of all jobs, now and later, and ends waiting for requests that are still being sent.
   void cancel_jobs();
 
   /// Ends run() once requests under way are answered.

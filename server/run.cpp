@@ -20,7 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kDrainCheck{20};
 constexpr std::chrono::seconds kHousekeeping{5};
-/// Jobs that were asked to stop must end within this; otherwise the process ends without them.
+/// Cancelled jobs must end within this; otherwise the process ends without them.
 constexpr std::chrono::seconds kStopGrace{5};
 
 /// Waits for SIGTERM and SIGINT. Construct it before any other thread is started.
@@ -89,7 +89,7 @@ void announce(const Settings& settings, const HttpServer& server, const RequestL
 /// Ends the service in this order, so that no accepted request is lost:
 /// 1. not ready, but serving, for --drain-delay-ms: load balancers stop sending requests;
 /// 2. new jobs are rejected, accepted ones get --drain-ms to finish;
-/// 3. jobs that still run are asked to stop and answer with what they have;
+/// 3. jobs that still run are cancelled and answer with what they have;
 /// 4. if one does not, the process ends with an error.
 void drain(HttpServer& server, const Settings& settings, const EndSignals& signals, const RequestLog& log) {
   server.announce_end();

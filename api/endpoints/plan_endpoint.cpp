@@ -70,7 +70,7 @@ Reply plan_with(const Planner& planner, std::string_view body, const RequestCont
   if (context.await_turn) context.await_turn(stop);
   stages.started = Clock::now();
   if (stop.cancelled()) {
-    return problem_reply(ErrorCode::draining, "The service is shutting down: ask another one.",
+    return problem_reply(ErrorCode::draining, "The service is shutting down: try another replica.",
                          context.request_id);
   }
   if (stop.met()) {

@@ -6,6 +6,34 @@
 
 namespace fleetplan::api {
 
+namespace {
+
+struct Sequence {
+  std::size_t bytes;
+  bool valid;
+};
+
+/// The first character of a text in UTF-8 that begins with a byte above 0x7F. If it is invalid: the bytes up
+/// to the first that cannot continue it, at least one.
+Sequence first_sequence(std::string_view text) {
+  const auto byte = [&](std::size_t index) { return static_cast<unsigned char>(text[index]); };
+  const unsigned lead = byte(0);
+  if (lead < 0xC2 || lead > 0xF4) return {1, false};
+  const std::size_t length = lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+  // The second byte excludes overlong forms, surrogates and what is beyond U+10FFFF.
+  unsigned lowest = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;
+  unsigned highest = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;
+  std::size_t bytes = 1;
+  while (bytes < length && bytes < text.size() && byte(bytes) >= lowest && byte(bytes) <= highest) {
+    lowest = 0x80;
+    highest = 0xBF;
+    ++bytes;
+  }
+  return {bytes, bytes == length};
+}
+
+}  // namespace
+
 JsonWriter& JsonWriter::begin_object() {
   separate();
   text_ += '{';
@@ -71,8 +99,10 @@ void JsonWriter::separate() {
 
 void JsonWriter::append_string(std::string_view text) {
   constexpr std::string_view kHex = "0123456789abcdef";
+  constexpr std::string_view kReplacement = "\uFFFD";
   text_ += '"';
-  for (const char character : text) {
+  for (std::size_t index = 0; index < text.size(); ++index) {
+    const char character = text[index];
     const auto byte = static_cast<unsigned char>(character);
     if (character == '"' || character == '\\') {
       text_ += '\\';
@@ -85,6 +115,10 @@ void JsonWriter::append_string(std::string_view text) {
       text_ += "\\u00";
       text_ += kHex[byte >> 4U];
       text_ += kHex[byte & 0x0FU];
+    } else if (byte >= 0x80) {
+      const Sequence sequence = first_sequence(text.substr(index));
+      text_ += sequence.valid ? text.substr(index, sequence.bytes) : kReplacement;
+      index += sequence.bytes - 1;
     } else {
       text_ += character;
     }

@@ -13,7 +13,8 @@ template <typename T>
 concept WholeNumber = std::integral<T> && !std::same_as<T, bool>;
 
 /// Writes JSON text from front to back, without a tree in memory; adds the commas. Numbers are the shortest
-/// that read back the same, never -0.0; non-finite numbers become null.
+/// that read back the same, never -0.0; non-finite numbers become null. Invalid UTF-8 in strings becomes
+/// U+FFFD.
 class JsonWriter {
  public:
   JsonWriter& begin_object();

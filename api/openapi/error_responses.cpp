@@ -54,11 +54,11 @@ constexpr std::array<Example, 18> kExamples{{
     {ErrorCode::not_found,
      "There is no example 'corridor'; there are: charging-docks, corridor-swap, crossing, hall-100, "
      "hospital-ward, lab-polygon, partly-solvable, warehouse."},
-    {ErrorCode::method_not_allowed, "'/v1/plan' takes POST, not 'GET'."},
+    {ErrorCode::method_not_allowed, "'/v1/plan' allows POST, not 'GET'."},
     {ErrorCode::not_acceptable,
      "Plans are application/json or text/event-stream, which Accept: 'text/html' excludes: add "
      "application/json or leave the header out."},
-    {ErrorCode::request_timeout, "The request's head did not come within 10000 ms."},
+    {ErrorCode::request_timeout, "The request's head did not arrive within 10000 ms."},
     {ErrorCode::body_too_large, "The body has 40000000 bytes; the limit is 33554432."},
     {ErrorCode::target_too_long, "The request target is longer than 8192 bytes."},
     {ErrorCode::unsupported_media_type,
@@ -73,7 +73,7 @@ constexpr std::array<Example, 18> kExamples{{
     {ErrorCode::overloaded, "All workers are busy and the queue is full: try again later."},
     {ErrorCode::overloaded, "Too many large requests are being received: try again later.",
      "overloaded_by_bodies"},
-    {ErrorCode::draining, "The service is shutting down: ask another one."},
+    {ErrorCode::draining, "The service is shutting down: try another replica."},
 }};
 
 std::vector<Fault> faults_of(ErrorCode code) {

@@ -55,13 +55,6 @@ static_assert(is_in_order(), "every ErrorCode has its row, in the order of the e
 
 std::span<const ErrorRow> error_table() { return kTable; }
 
-std::vector<ErrorCode> error_codes() {
-  std::vector<ErrorCode> codes;
-  codes.reserve(kTable.size());
-  for (const ErrorRow& row : kTable) codes.push_back(row.code);
-  return codes;
-}
-
 const ErrorRow& row_of(ErrorCode code) { return kTable[static_cast<std::size_t>(code)]; }
 
 Reply problem_reply(ErrorCode code, const std::string& detail, const std::string& request_id,

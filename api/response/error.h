@@ -44,9 +44,6 @@ struct ErrorRow {
 /// The table, in the order of ErrorCode. api/openapi.json has a response for each status in it.
 std::span<const ErrorRow> error_table();
 
-/// The codes of the table, in its order.
-std::vector<ErrorCode> error_codes();
-
 const ErrorRow& row_of(ErrorCode code);
 inline int status_of(ErrorCode code) { return row_of(code).status; }
 inline std::string_view name_of(ErrorCode code) { return row_of(code).name; }

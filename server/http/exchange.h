@@ -32,7 +32,7 @@ struct Exchange {
   int status = 0;
   int retry_after_s = 1;   // of a 503; by default soon, as another replica may be ready
   bool close = false;      // the connection ends with this answer
-  bool abandoned = false;  // the client left: nobody reads an answer
+  bool abandoned = false;  // the client left before the answer
   std::optional<std::uint64_t> streamed = std::nullopt;  // bytes of an answer that went out as an EventStream
   std::optional<double> queue_ms = std::nullopt;
   std::string_view problem;  // see api::Reply

@@ -12,7 +12,7 @@
 namespace fleetplan::server {
 
 /// Watches the clients that wait for their answers, with one thread for all of them. When a client leaves,
-/// its job is asked to stop. Thread-safe.
+/// its job receives a stop request. Thread-safe.
 class PeerWatch {
  public:
   /// A client that leaves is noticed within this.
@@ -46,7 +46,7 @@ class PeerWatch::Watched {
   Watched(const Watched&) = delete;
   Watched& operator=(const Watched&) = delete;
 
-  /// The client has left, and `stop` was asked to.
+  /// True once the client has left and the stop has been requested.
   bool gone() const;
 
  private:

@@ -17,7 +17,7 @@ namespace fleetplan::server {
 /// Lets as many jobs compute at a time as there are workers. More wait for their turn in a bounded queue;
 /// load beyond it is rejected immediately.
 ///
-/// A job computes in the thread that asks for its turn: a handover to another thread costs more than a small
+/// A job computes in the thread that awaits its turn: a handover to another thread costs more than a small
 /// plan. Helper threads run tasks of jobs while fewer jobs compute than there are workers.
 /// Thread-safe.
 class Workers : public core::Executor {
@@ -86,7 +86,7 @@ class Workers::Job {
   Job(Job&& other) noexcept : workers_(other.workers_), worker_(other.worker_) { other.workers_ = nullptr; }
   Job& operator=(Job&&) = delete;
 
-  /// Waits until the job may compute, which it may until its end: true. False when `stop` was met before.
+  /// Waits for the job's turn, which lasts until the job's end. Returns false if `stop` is met before.
   /// Call it once. Turns are given in the order of these calls.
   bool await_turn(const core::StopCondition& stop);
 

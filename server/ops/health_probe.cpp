@@ -10,7 +10,7 @@ namespace {
 constexpr std::chrono::seconds kPatience{4};
 
 /// A service on all addresses is reachable by the loopback.
-std::string address_to_ask(const std::string& host) {
+std::string probed_address(const std::string& host) {
   if (host == "0.0.0.0") return "127.0.0.1";
   if (host == "::") return "::1";
   return host;
@@ -21,7 +21,7 @@ std::string address_to_ask(const std::string& host) {
 std::optional<std::string> health_fault(const Settings& settings) {
   const int port = settings.admin_port.value_or(settings.port);
   if (port == 0) return "--healthcheck cannot use port 0; name one";
-  const std::string host = address_to_ask(settings.host);
+  const std::string host = probed_address(settings.host);
   const std::string where = host + " port " + std::to_string(port);
   httplib::Client client(host, port);
   client.set_connection_timeout(kPatience);

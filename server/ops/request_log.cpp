@@ -4,31 +4,30 @@
 #include <spdlog/spdlog.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "api/json/json_writer.h"
 
 namespace fleetplan::server {
 
 namespace {
 
-using Line = nlohmann::ordered_json;
+using api::JsonWriter;
 
-/// The line's members beside time and level, which the pattern puts in front.
+/// Time and level, then the members of a line, without its opening brace.
 constexpr const char* kPattern = R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l",%v)";
 
 /// Rounded to the third decimal, microseconds where these are milliseconds: enough, and short.
 double rounded(double ms) { return std::round(ms * 1000.0) / 1000.0; }
 
-void add_outcome(Line& line, const api::PlanOutcome& outcome) {
-  line["outcome"] = api::name_of(outcome.status);
-  line["planned"] = outcome.planned;
-  line["unplanned"] = outcome.unplanned;
-  line["flowtime"] = rounded(outcome.flowtime);
-  if (outcome.plan_seconds) line["plan_ms"] = rounded(*outcome.plan_seconds * 1000.0);
+void add_outcome(JsonWriter& line, const api::PlanOutcome& outcome) {
+  line.member("outcome", api::name_of(outcome.status));
+  line.member("planned", outcome.planned).member("unplanned", outcome.unplanned);
+  line.member("flowtime", rounded(outcome.flowtime));
+  if (outcome.plan_seconds) line.member("plan_ms", rounded(*outcome.plan_seconds * 1000.0));
 }
 
-void write(spdlog::logger& logger, spdlog::level::level_enum level, const Line& line) {
-  // A client's path may not be UTF-8; such bytes are replaced.
-  const std::string json = line.dump(-1, ' ', false, Line::error_handler_t::replace);
+void write(spdlog::logger& logger, spdlog::level::level_enum level, JsonWriter& line) {
+  const std::string json = line.end_object().take();
   logger.log(level, spdlog::string_view_t(json.data() + 1, json.size() - 1));  // without the opening brace
 }
 
@@ -46,36 +45,35 @@ void RequestLog::request(const RequestRecord& record) const {
                      : record.admin                               ? spdlog::level::debug
                                                                   : spdlog::level::info;
   if (!logger_->should_log(level)) return;
-  Line line;
-  line["id"] = record.id;
-  line["method"] = record.method;
-  line["path"] = record.path;
-  line["status"] = record.status;
-  line["bytes_in"] = record.bytes_in;
-  line["bytes_out"] = record.bytes_out;
-  line["ms"] = rounded(record.ms);
-  if (record.queue_ms) line["queue_ms"] = rounded(*record.queue_ms);
+  JsonWriter line;
+  line.begin_object().member("id", record.id).member("method", record.method).member("path", record.path);
+  line.member("status", record.status);
+  line.member("bytes_in", record.bytes_in).member("bytes_out", record.bytes_out);
+  line.member("ms", rounded(record.ms));
+  if (record.queue_ms) line.member("queue_ms", rounded(*record.queue_ms));
   if (record.outcome) add_outcome(line, *record.outcome);
-  if (!record.problem.empty()) line["code"] = record.problem;
-  line["peer"] = record.peer;
+  if (!record.problem.empty()) line.member("code", record.problem);
+  line.member("peer", record.peer);
   write(*logger_, level, line);
 }
 
 void RequestLog::info(std::string_view message, Members members) const {
   if (!logger_->should_log(spdlog::level::info)) return;
-  Line line;
-  line["message"] = message;
+  JsonWriter line;
+  line.begin_object().member("message", message);
   for (const auto& [name, value] : members) {
-    std::visit([&, key = std::string(name)](const auto& known) { line[key] = known; }, value);
+    line.key(name);
+    std::visit([&](const auto& held) { line.value(held); }, value);
   }
   write(*logger_, spdlog::level::info, line);
 }
 
 void RequestLog::error(std::string_view message, std::string_view request_id) const {
   if (!logger_->should_log(spdlog::level::err)) return;
-  Line line;
-  if (!request_id.empty()) line["id"] = request_id;
-  line["message"] = message;
+  JsonWriter line;
+  line.begin_object();
+  if (!request_id.empty()) line.member("id", request_id);
+  line.member("message", message);
   write(*logger_, spdlog::level::err, line);
 }
 

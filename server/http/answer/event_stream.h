@@ -18,8 +18,8 @@ namespace fleetplan::server {
 /// The answer to an exchange as a stream of events (WHATWG HTML, server-sent events), each with one line of
 /// data. It bypasses the HTTP library, which would have to know from the start that the answer is a stream.
 ///
-/// After begin() a thread of its own writes. The planner only stores the latest state, so a client that reads
-/// slowly delays nobody: it skips states that are outdated by the time it reads on.
+/// After begin() a thread of its own writes. The planner only stores the latest state, so a slow client does
+/// not delay it; such a client skips outdated states.
 class EventStream final : public api::PlanEvents {
  public:
   /// From one progress event to the next, whatever the planner does.

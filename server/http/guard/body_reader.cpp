@@ -71,7 +71,7 @@ class Source {
                 "The body did not arrive in time: it may pause for " + std::to_string(patience_.count()) +
                     " ms and fall as far behind " + std::to_string(kLeastBytesPerMs) + " kB/s."};
       case Socket::Read::stopped:
-        return {BodyFault::Kind::stopped, "The service is shutting down: ask another one."};
+        return {BodyFault::Kind::stopped, "The service is shutting down: try another replica."};
       case Socket::Read::end:
         return malformed("The body ended early.");
       case Socket::Read::some:
@@ -135,7 +135,7 @@ std::variant<std::string, BodyFault> read_chunked(Source& source, std::uint64_t 
     if (!source.take(*size, body)) return source.fault();
     const auto rest = source.take_line();
     if (!rest) return source.fault();
-    if (!rest->empty()) return malformed("A chunk is longer than its size says.");
+    if (!rest->empty()) return malformed("A chunk is longer than its declared size.");
   }
   for (std::size_t lines = 0; lines <= kMaxTrailerLines; ++lines) {
     const auto line = source.take_line();

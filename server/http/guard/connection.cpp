@@ -93,7 +93,7 @@ std::optional<DirectAnswer> Connection::read_request(Exchange& exchange) {
   }
   if (!open_) return std::nullopt;
   const RequestHead& head = exchange.head;
-  exchange.close = !head.wants_keep_alive();
+  exchange.close = !head.keeps_alive();
   context_.steps.begin(exchange);
   if (auto answer = context_.steps.answer_to_head(exchange)) {
     const bool droppable = !head.chunked && head.content_length.value_or(0) <= kMaxDropped;
@@ -136,7 +136,7 @@ std::optional<DirectAnswer> Connection::read_head(Exchange& exchange) {
   }
   if (state == HeadScanner::State::incomplete) {
     return refusal(exchange, ErrorCode::request_timeout,
-                   "The request's head did not come within " +
+                   "The request's head did not arrive within " +
                        std::to_string(context_.settings.read_timeout.count()) + " ms.");
   }
   auto parsed = parse_request_head(std::string_view(input_).substr(0, scanner.size()));

@@ -131,7 +131,7 @@ bool RequestHead::has_field(std::string_view name) const {
   return std::any_of(fields.begin(), fields.end(), [&](const auto& entry) { return entry.first == name; });
 }
 
-bool RequestHead::wants_keep_alive() const {
+bool RequestHead::keeps_alive() const {
   const std::string connection = lower_case(field("connection"));
   const auto options = split(connection, ',');
   const auto has = [&](std::string_view option) {

@@ -35,7 +35,7 @@ struct RequestHead {
   bool has_field(std::string_view name) const;
 
   /// The client expects the connection to stay open after the answer.
-  bool wants_keep_alive() const;
+  bool keeps_alive() const;
 };
 
 /// Why a head is rejected.

@@ -16,7 +16,7 @@ namespace fleetplan::server {
 
 /// The adapter to the HTTP library: the only class that derives from the library's server, for the members
 /// that its versions keep protected. It listens with the library, registers the routes there, and hands it
-/// requests that have been read and judged already.
+/// requests that have been read and checked.
 ///
 /// Construct, bind, run (in a thread of its own), stop.
 class LibraryServer final : private httplib::Server {
@@ -38,10 +38,10 @@ class LibraryServer final : private httplib::Server {
   LibraryServer(const LibraryServer&) = delete;
   LibraryServer& operator=(const LibraryServer&) = delete;
 
-  /// Takes the port. The reason if it cannot.
+  /// Binds the port; returns the reason if that fails.
   std::optional<std::string> bind();
 
-  /// The bound one, also when any free port was asked for.
+  /// The bound port, also if the setting was 0.
   int port() const { return context_.port; }
 
   /// Accepts until stop(), then waits for the connections to end; after bind().
@@ -59,7 +59,7 @@ class LibraryServer final : private httplib::Server {
   void complete(httplib::Response& response) const;
   bool process_and_close_socket(socket_t fd) override;
 
-  /// The exchange of this thread. The library passes handlers nothing of ours, but it handles a request from
+  /// The exchange of this thread. The library cannot pass it to handlers, but it handles a request from
   /// begin to end on the thread that hands it over, and each connection has its own thread.
   static thread_local Exchange* current_;
 

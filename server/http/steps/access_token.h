@@ -17,8 +17,8 @@ class AccessToken {
   static std::variant<AccessToken, std::string> from_file(const std::string& path);
 
   /// True when an Authorization field (empty: absent) contains the token: as `Bearer TOKEN`, or as the
-  /// password of `Basic` with any user name, for which browsers can ask. The time does not depend on how much
-  /// of the token is right.
+  /// password of `Basic` with any user name, for which browsers show a dialog. The time does not depend on
+  /// how much of the token is right.
   bool admits(std::string_view authorization) const;
 
  private:

@@ -10,7 +10,7 @@ namespace fleetplan::server {
 namespace {
 
 constexpr std::string_view kAny = "*";
-/// Seconds for which a browser need not ask again; browsers have two hours as their limit.
+/// Seconds for which a browser caches the answer to a preflight; browsers limit it to two hours.
 constexpr const char* kMaxAge = "7200";
 
 bool is_host_char(char c) {

@@ -46,7 +46,7 @@ Steps::Answer Steps::preflight(const Exchange& exchange) const {
                       CrossOrigin::preflight_fields(exchange.route->allowed_methods())};
 }
 
-/// Programs send the token as Bearer; Basic is what browsers can ask a person for.
+/// Programs send the token as Bearer. For Basic, browsers show a login dialog.
 Steps::Answer Steps::authentication(const Exchange& exchange) const {
   const bool open = exchange.route != nullptr && exchange.route->traits.without_token;
   if (!settings_.token || open || settings_.token->admits(exchange.head.field("authorization"))) {
@@ -69,7 +69,7 @@ Steps::Answer Steps::method(const Exchange& exchange) const {
   if (exchange.route->allows(head.method)) return std::nullopt;
   const std::string allowed(exchange.route->allowed_methods());
   return refusal(exchange, ErrorCode::method_not_allowed,
-                 in_quotes(head.path) + " takes " + allowed + ", not " + in_quotes(head.method) + '.',
+                 in_quotes(head.path) + " allows " + allowed + ", not " + in_quotes(head.method) + '.',
                  {{"Allow", allowed}});
 }
 
@@ -103,13 +103,13 @@ Steps::Answer Steps::content(const Exchange& exchange) const {
 
 Steps::Answer Steps::draining(const Exchange& exchange) const {
   if (!draining_ || !exchange.route->takes_body()) return std::nullopt;
-  return refusal(exchange, ErrorCode::draining, "The service is shutting down: ask another one.");
+  return refusal(exchange, ErrorCode::draining, "The service is shutting down: try another replica.");
 }
 
 void Steps::end(Exchange& exchange, std::uint64_t bytes_out, const std::string& peer) const {
   if (exchange.abandoned) {
     exchange.status = 499;
-    exchange.problem = {};  // no answer went out that could have one
+    exchange.problem = {};  // no answer was sent
   }
   metrics_.count(exchange);
   const std::chrono::duration<double, std::milli> elapsed = Exchange::Clock::now() - exchange.begun_at;

@@ -21,7 +21,7 @@ constexpr const char* kCompiler = "g++ " __VERSION__;
 #endif
 
 /// The statuses whose series exist from the start, so that none first appears when it goes up. A preflight
-/// (204) may ask for any route. The answers to a GET with a broken or endless body are not usual.
+/// (204) may name any route. Answers to a GET with a broken or endless body are not usual.
 std::set<int> usual_statuses(const Route& route) {
   std::set<int> usual{200, 204, 405, 500};
   if (!route.traits.without_token) usual.insert(401);
@@ -60,7 +60,7 @@ Metrics::Metrics(const RouteTable& routes) {
   // The path is unknown, or the head was refused before the path was looked up.
   requests_.emplace_back("unknown", std::set<int>{400, 401, 404, 408, 414, 431});
   for (const Route& route : routes.routes()) requests_.emplace_back(route.path, usual_statuses(route));
-  for (const api::ErrorCode code : api::error_codes()) rejected_[api::name_of(code)];
+  for (const api::ErrorRow& row : api::error_table()) rejected_[row.name];
 }
 
 Metrics::Requests& Metrics::requests_of(const Route* route) {

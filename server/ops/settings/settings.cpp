@@ -47,7 +47,7 @@ class Flags {
   }
 
   std::variant<Settings, SettingsExit> parse(std::vector<std::string> arguments) {
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 expects
     try {
       app_.parse(std::move(arguments));
     } catch (const CLI::ParseError& error) {

@@ -4,6 +4,9 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace fleetplan::api {
 namespace {
@@ -41,6 +44,32 @@ TEST(JsonWriter, EscapesStrings) {
   EXPECT_EQ(written("a\"b\\c"), R"("a\"b\\c")");
   EXPECT_EQ(written("\n\t\x01\x1f"), R"("\n\t\u0001\u001f")");
   EXPECT_EQ(written("Wägelchen 🚚"), "\"Wägelchen 🚚\"");
+}
+
+TEST(JsonWriter, KeepsValidUtf8) {
+  for (const std::string text : {"\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf", "\xef\xbf\xbf",
+                                 "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"}) {
+    EXPECT_EQ(written(text), '"' + text + '"');
+  }
+}
+
+TEST(JsonWriter, ReplacesInvalidUtf8) {
+  const std::vector<std::pair<std::string, std::string>> texts{
+      {"\xff", "\uFFFD"},
+      {"a\x80z", "a\uFFFDz"},
+      {"\xc3", "\uFFFD"},  // ends within a character
+      {"\xc3(", "\uFFFD("},
+      {"\xf0\x9f\x9a\"", "\uFFFD\\\""},
+      {"\xc0\xaf", "\uFFFD\uFFFD"},                      // overlong
+      {"\xe0\x9f\xbf", "\uFFFD\uFFFD\uFFFD"},            // overlong
+      {"\xed\xa0\x80", "\uFFFD\uFFFD\uFFFD"},            // a surrogate
+      {"\xf4\x90\x80\x80", "\uFFFD\uFFFD\uFFFD\uFFFD"},  // beyond U+10FFFF
+      {"\xe2\x82\xe2\x82\xac", "\uFFFD\u20AC"}};
+  for (const auto& [text, expected] : texts) {
+    EXPECT_EQ(written(text), '"' + expected + '"');
+    EXPECT_EQ(nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
+              written(text));
+  }
 }
 
 TEST(JsonWriter, SeparatesMembersAndItems) {

@@ -36,7 +36,7 @@ class HttpAnswers : public testing::Test {
     return problem;
   }
 
-  /// The connection, or a new one, serves on.
+  /// The server still answers, on this connection or a new one.
   void expect_served() {
     const auto result = client.Post("/v1/plan", "abc", kJsonType);
     ASSERT_TRUE(result) << httplib::to_string(result.error());

@@ -61,7 +61,7 @@ TEST(RouteTable, RejectsVariablePathThatExceedsLimit) {
   EXPECT_EQ(path_of(routes.find(prefix + longest + 'a')), "unknown");
 }
 
-TEST(RouteTable, GivesTheLibraryPatternsThatMatchTheSamePaths) {
+TEST(RouteTable, ProvidesPatternsThatMatchTheSamePaths) {
   const RouteTable routes = sample_routes();
   const std::string longest(RouteTable::kMaxVariablePath, 'a');
   for (const std::string path :

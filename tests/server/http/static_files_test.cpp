@@ -67,7 +67,7 @@ TEST_F(Page, IsServedWithItsTypesAndStrictFields) {
   }
 }
 
-TEST_F(Page, IsNotSentAgainToWhoHasIt) {
+TEST_F(Page, IsNotSentAgainWhenTheEtagMatches) {
   const TestServer server(settings());
   auto client = server.client();
   client.set_keep_alive(false);  // this one reads a 304, which has no length, to the connection's end
@@ -97,7 +97,7 @@ TEST_F(Page, IsCachedForAYearOnlyWhereNamesHaveContentHashes) {
   for (const char* name : kNotHashed) EXPECT_EQ(cache_control(name), "no-cache") << name;
 }
 
-TEST_F(Page, GivesNothingElseAway) {
+TEST_F(Page, HasNoHiddenLinkedOrOutsideFiles) {
   const TestServer server(settings());
   for (const char* path : {"/../outside.txt", "/%2e%2e/outside.txt", "/modules/../../outside.txt",
                            "/..%2foutside.txt", "/link.txt", "/.hidden", "/modules", "/modules/",
@@ -110,7 +110,7 @@ TEST_F(Page, GivesNothingElseAway) {
   }
 }
 
-TEST_F(Page, TakesNoOtherMethods) {
+TEST_F(Page, RejectsOtherMethods) {
   const TestServer server(settings());
   const auto result = server.client().Post("/style.css", "", "text/css");
   ASSERT_TRUE(result);

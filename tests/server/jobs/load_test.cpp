@@ -129,10 +129,10 @@ TEST(Load, ManyLargeBodiesAreRejectedWhileSmallOnesAreAccepted) {
   Settings settings = with_workers(3, 0);
   settings.limits.max_body = 1 << 20;  // so that all bodies together have 4 MiB
   TestServer server(settings);
-  const std::string hoard = noise("gate", settings.limits.max_body);
-  auto hoarder = waiting_job(server, hoard, true);  // holds it compressed and decoded: 1.75 MiB or more
+  const std::string held_body = noise("gate", settings.limits.max_body);
+  auto first = waiting_job(server, held_body, true);  // holds it compressed and decoded: 1.75 MiB or more
   server.stub.gate.await_waiting(1);
-  auto other_hoarder = waiting_job(server, hoard, true);
+  auto second = waiting_job(server, held_body, true);
   server.stub.gate.await_waiting(2);
 
   auto client = server.client();
@@ -150,9 +150,9 @@ TEST(Load, ManyLargeBodiesAreRejectedWhileSmallOnesAreAccepted) {
   }
 
   server.stub.gate.open();
-  EXPECT_EQ(hoarder.get(), 200);
-  EXPECT_EQ(other_hoarder.get(), 200);
-  EXPECT_TRUE(holds_soon([&] {  // once their connections have let go of the bodies
+  EXPECT_EQ(first.get(), 200);
+  EXPECT_EQ(second.get(), 200);
+  EXPECT_TRUE(holds_soon([&] {  // once their connections have released the bodies
     const auto after = client.Post("/v1/plan", large, kJsonType);
     return after && after->status == 200;
   }));
@@ -172,7 +172,7 @@ TEST(Leaving, StopsThePlan) {
   EXPECT_EQ(server.stub.stopped, 1);
 }
 
-TEST(Leaving, IncludesClosingOneHalfOfTheConnection) {
+TEST(Leaving, ByClosingOneHalfOfTheConnectionStopsThePlan) {
   TestServer server(with_workers(1, 1));
   RawConnection client(server.server.port());
   client.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 4\r\n\r\ngate");
@@ -221,7 +221,7 @@ TEST(Draining, AnswersCancelledJobsWithRetryAfter) {
   StubService stub;
   Service service = stub.service();
   service.validate = [](std::string_view, const api::RequestContext& context) {
-    return api::problem_reply(api::ErrorCode::draining, "Ask another one.", context.request_id);
+    return api::problem_reply(api::ErrorCode::draining, "Try another replica.", context.request_id);
   };
   const TestServer server(with_workers(1, 4), service);
   const auto refused = server.client().Post("/v1/validate", "abc", kJsonType);

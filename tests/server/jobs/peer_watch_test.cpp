@@ -43,21 +43,21 @@ TEST(PeerWatch, StopsTheJobOfAClientThatLeaves) {
   Pair leaves;
   const Socket staying(stays.ends[0], -1);
   const Socket leaving(leaves.ends[0], -1);
-  std::stop_source wanted;
-  std::stop_source unwanted;
-  const PeerWatch::Watched one(watch, staying, wanted);
-  const PeerWatch::Watched other(watch, leaving, unwanted);
+  std::stop_source stayer_stop;
+  std::stop_source leaver_stop;
+  const PeerWatch::Watched one(watch, staying, stayer_stop);
+  const PeerWatch::Watched other(watch, leaving, leaver_stop);
   leaves.leave();
-  EXPECT_TRUE(is_stopped(unwanted));
+  EXPECT_TRUE(is_stopped(leaver_stop));
   EXPECT_TRUE(other.gone());
-  EXPECT_FALSE(wanted.stop_requested());
+  EXPECT_FALSE(stayer_stop.stop_requested());
   EXPECT_FALSE(one.gone());
 }
 
 TEST(PeerWatch, WakesAgainAfterAVeryShortJob) {
   PeerWatch watch;
   for (int i = 0; i < 5; ++i) {
-    std::this_thread::sleep_for(2 * PeerWatch::kPeriod);  // it has nothing to watch and falls asleep
+    std::this_thread::sleep_for(2 * PeerWatch::kPeriod);  // it has nothing to watch and sleeps
     {
       const Pair brief;
       const Socket socket(brief.ends[0], -1);
@@ -65,11 +65,11 @@ TEST(PeerWatch, WakesAgainAfterAVeryShortJob) {
     }
     std::this_thread::sleep_for(2 * PeerWatch::kPeriod);
     Pair leaves;
-    const std::stop_source unwanted;
+    const std::stop_source leaver_stop;
     const Socket leaving(leaves.ends[0], -1);
-    const PeerWatch::Watched watched(watch, leaving, unwanted);
+    const PeerWatch::Watched watched(watch, leaving, leaver_stop);
     leaves.leave();
-    ASSERT_TRUE(is_stopped(unwanted)) << "in round " << i;
+    ASSERT_TRUE(is_stopped(leaver_stop)) << "in round " << i;
   }
 }
 

@@ -68,7 +68,8 @@ TEST(Queue, EstimatesRetryAfterFromTheWorkAhead) {
   const RawConnection running(server.server.port());
   send_gate(running);
   stub.gate.await_waiting(1);
-  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // now that job is one of more than a second
+  std::this_thread::sleep_for(
+      std::chrono::milliseconds(1100));  // the running job has taken more than a second
   const auto refused = server.client().Post("/v1/plan", request_with_budget(1000), kJsonType);
   ASSERT_TRUE(refused);
   EXPECT_EQ(refused->status, 503);

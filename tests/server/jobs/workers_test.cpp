@@ -25,7 +25,7 @@ core::StopCondition within(std::chrono::milliseconds time) {
   return core::StopCondition(Workers::Clock::now() + time);
 }
 
-/// Does a job from admission to end, in a thread of its own.
+/// Does a job from admission to end, in its own thread.
 template <class Work>
 std::thread start_job(Workers& workers, Work work) {
   return std::thread([&workers, work] {
@@ -36,7 +36,7 @@ std::thread start_job(Workers& workers, Work work) {
   });
 }
 
-/// The same in the caller's.
+/// Does a job from admission to end, in the calling thread.
 template <class Work>
 void do_job(Workers& workers, Work work) {
   auto job = workers.admit();
@@ -78,7 +78,7 @@ TEST(Workers, RejectAJobBeyondTheQueue) {
   EXPECT_FALSE(workers.admit());
   EXPECT_GE(workers.retry_after_s(), 1);
   second.reset();
-  EXPECT_TRUE(workers.admit()) << "a job that ends gives its place back, also one whose turn never came";
+  EXPECT_TRUE(workers.admit()) << "a job that ends frees its place, even if its turn never came";
 }
 
 TEST(Workers, RejectABurstWhileJobsAreLong) {
@@ -100,7 +100,7 @@ TEST(Workers, AcceptABurstOfShortJobsBesideALongOne) {
   std::vector<Workers::Job> jobs;
   for (int k = 0; k < 50; ++k) {
     auto job = workers.admit();
-    ASSERT_TRUE(job) << "the others are short by all that is known";
+    ASSERT_TRUE(job) << "no job that has ended was long";
     jobs.push_back(std::move(*job));
   }
 }
@@ -151,7 +151,7 @@ TEST(Workers, StopWaitingWhenTheJobsStopConditionIsMet) {
   EXPECT_EQ(workers.queued(), 0u);
   running.reset();
   auto next = workers.admit();
-  EXPECT_TRUE(next->await_turn(kForever)) << "those that gave up take no turn";
+  EXPECT_TRUE(next->await_turn(kForever)) << "jobs that stopped waiting get no turn";
 }
 
 TEST(WorkersTasks, RunExactlyOnceForManyJobs) {
@@ -202,7 +202,7 @@ TEST(WorkersTasks, RunOnTheCallerWhenAllOthersAreBusy) {
   EXPECT_EQ(done, 5);
 }
 
-/// Tasks that wait for each other, so that they end well only if all run at the same time.
+/// Tasks that wait for each other, so that they succeed only if all run at the same time.
 class Meeting {
  public:
   explicit Meeting(std::ptrdiff_t tasks) : missing_(tasks) {}
@@ -255,7 +255,7 @@ TEST(WorkersTasks, DoNotDelayAJobsTurn) {
     const auto caller = std::this_thread::get_id();
     workers.run(6, [&](std::size_t) {
       if (const int number = ++begun; number > 2) {
-        EXPECT_EQ(std::this_thread::get_id(), caller) << "nobody is idle any more";
+        EXPECT_EQ(std::this_thread::get_id(), caller) << "no worker is idle any more";
         return;
       }
       EXPECT_TRUE(both.attend());
@@ -263,7 +263,7 @@ TEST(WorkersTasks, DoNotDelayAJobsTurn) {
         EXPECT_EQ(job_has_turn.get_future().wait_for(kLong), std::future_status::ready);
       } else {
         if (auto admitted = workers.admit()) job.emplace(std::move(*admitted));
-        EXPECT_TRUE(job && job->await_turn(within(kLong))) << "a helper is no obstacle";
+        EXPECT_TRUE(job && job->await_turn(within(kLong))) << "a helping worker does not delay the turn";
         job_has_turn.set_value();
       }
     });

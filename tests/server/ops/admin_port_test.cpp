@@ -1,4 +1,4 @@
-// The port for probes and scrapers answers whatever happens on the main one.
+// The port for probes and scrapers answers whatever the load of the main port.
 
 #include <gtest/gtest.h>
 

@@ -62,7 +62,7 @@ TEST(HealthProbe, NamesTheAddressThatDoesNotAnswer) {
 }
 
 TEST(HealthProbe, RejectsAnotherService) {
-  httplib::Server other;  // knows no path
+  httplib::Server other;  // without any route
   const int port = other.bind_to_any_port("127.0.0.1");
   std::thread serving([&] { other.listen_after_bind(); });
   const auto fault = health_fault(at_port(port));

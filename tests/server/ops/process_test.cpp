@@ -1,4 +1,4 @@
-// The executable as an operator meets it: its first line, its signals, its exit codes.
+// The executable: its first line, signals, log and exit codes.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include <chrono>
 #include <csignal>
 #include <future>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -58,7 +59,7 @@ class Process {
   std::string output_line() const { return line_of(out_); }
   std::string log_line() const { return line_of(log_); }
 
-  /// The next line of the log with this in it; empty when there is none.
+  /// The next line of the log that contains this; empty if there is none.
   std::string log_line_with(const std::string& part) const {
     std::string line;
     do {
@@ -119,6 +120,17 @@ TEST(Process, PrintsItsUrlAndLogsRequestsAsJson) {
   EXPECT_EQ(log.find("secret"), std::string::npos) << log;
 }
 
+TEST(Process, LogsAPathOfInvalidUtf8AsValidJson) {
+  Process process({"--port", "0", "--workers", "1"});
+  RawConnection client(port_in(process.output_line()));
+  client.send("GET /nowhere/\xff\"\xc3 HTTP/1.1\r\n\r\n");
+  EXPECT_NE(client.receive().find("not_found"), std::string::npos);
+  const std::string log = process.log_line_with("/nowhere");
+  const auto line = nlohmann::json::parse(log, nullptr, false);
+  ASSERT_TRUE(line.is_object()) << log;
+  EXPECT_EQ(line["path"], "/nowhere/\uFFFD\"\uFFFD");
+}
+
 TEST(Process, LogsTheOutcomeOfAPlan) {
   Process process({"--port", "0", "--workers", "1"});
   httplib::Client client("127.0.0.1", port_in(process.output_line()));
@@ -136,7 +148,7 @@ TEST(Process, LogsTheOutcomeOfAPlan) {
   EXPECT_EQ(refusal.find("outcome"), std::string::npos) << refusal;
 }
 
-/// Until a series has this value.
+/// Waits until a series has this value.
 void await_metric(int port, const std::string& series_and_value) {
   httplib::Client probe("127.0.0.1", port);
   EXPECT_TRUE(holds_soon([&] {
@@ -268,7 +280,7 @@ std::future<int> long_request(int port) {
       const auto result = client.Post("/v1/plan", swap_request("anytime"), "application/json");
       if (!result) return 0;
       if (result->body.find("overloaded") == std::string::npos) return result->status;
-    }  // the probe below was in the way
+    }  // the probe below held the worker
   });
   // With one worker and no queue, another job is refused as soon as the long one has begun.
   httplib::Client probe("127.0.0.1", port);
@@ -322,7 +334,7 @@ TEST(Process, RejectsNewJobsWhileItFinishesRunningOnes) {
   process.signal(SIGTERM);
   await_unready(port);
   httplib::Client client("127.0.0.1", port);
-  for (int status = 0; status != 503;) {  // readiness goes first
+  for (int status = 0; status != 503;) {  // /readyz changes first
     const auto refused = client.Post("/v1/validate", "{}", "application/json");
     ASSERT_TRUE(refused);
     status = refused->status;

@@ -5,7 +5,7 @@
 
 namespace fleetplan::server {
 
-/// True as soon as `condition` holds; false when it does not within a time that is plenty on any machine.
+/// True as soon as `condition` holds; false if it does not within a minute.
 template <typename Condition>
 bool holds_soon(const Condition& condition) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);

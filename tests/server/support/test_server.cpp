@@ -49,7 +49,7 @@ Service StubService::service() {
 }
 
 api::Reply StubService::answer(std::string_view body, const api::RequestContext& context) {
-  if (body == "throw") throw std::runtime_error("a secret of the house");
+  if (body == "throw") throw std::runtime_error("a secret detail");
   context.await_turn(core::StopCondition(core::StopCondition::Clock::time_point::max(), context.stop));
   if (body.starts_with("gate") && !gate.pass(context.stop)) ++stopped;
   if (body == "large") return {200, api::kJson, std::string(200'000, 'x')};

@@ -1,6 +1,6 @@
 #pragma once
 
-// A server on a free port of its own with a stub service, and ways to talk to it.
+// A server on a free port of its own with a stub service, and connections to it.
 
 #include <atomic>
 #include <condition_variable>
@@ -14,7 +14,7 @@
 
 namespace fleetplan::server {
 
-/// Jobs wait here until the test lets them go, or they are asked to stop.
+/// Jobs wait here until the test opens it, or until their stop is requested.
 class Gate {
  public:
   /// For a job: returns true once open, false when stopped before.
@@ -69,7 +69,7 @@ class TestServer {
 /// All values of a header field, in their order.
 std::vector<std::string> values_of(const httplib::Result& answer, const std::string& field);
 
-/// A plain TCP connection to 127.0.0.1, for what no HTTP client would send.
+/// A plain TCP connection to 127.0.0.1, for bytes that no HTTP client sends.
 class RawConnection {
  public:
   explicit RawConnection(int port);

@@ -17,11 +17,11 @@ namespace {
 constexpr const char* kJsonType = "application/json";
 const httplib::Headers kEvents{{"Accept", "text/event-stream"}};
 
-/// More than a socket buffers when nobody reads.
+/// More than the buffers of a socket hold.
 const std::string kLargeAnswer = R"({"status":")" + std::string(8 << 20, 'x') + "\"}";
 
-/// Does as the body says. "gate" waits at the gate after it has begun, "flood" has ever better plans
-/// meanwhile, "throw" throws, "fault" is refused; anything else is done at once.
+/// The body selects the behaviour: "gate" waits at the gate after begin(), "flood" reports many incumbents,
+/// "throw" throws, "fault" is rejected; any other body is answered at once.
 class EventfulService {
  public:
   Service service() {
@@ -44,7 +44,7 @@ class EventfulService {
     if (body == "fault") return {422, api::kProblemJson, R"({"status":422})"};
     if (context.events != nullptr) context.events->begin({7});
     context.await_turn(core::StopCondition(core::StopCondition::Clock::time_point::max(), context.stop));
-    if (body == "throw") throw std::runtime_error("a secret of the house");
+    if (body == "throw") throw std::runtime_error("a secret detail");
     if (body == "flood") flood(*context.events);
     if (body == "gate" && !gate.pass(context.stop)) ++stopped;
     if (context.events != nullptr) context.events->progress({7, {2, 7, core::Objectives{9.0, 3.0}}});
@@ -189,11 +189,11 @@ TEST_F(EventStreams, StopTheirPlanWhenTheClientLeaves) {
   EXPECT_EQ(service.stopped, 1);
 }
 
-TEST_F(EventStreams, SkipOutdatedEventsForASlowReaderAndDelayNobody) {
+TEST_F(EventStreams, SkipOutdatedEventsForASlowReaderWithoutDelayingOthers) {
   RawConnection slow(server.server.port());
   slow.send(request("flood"));
   ASSERT_TRUE(holds_soon([&] { return service.incumbents > 0; }));
-  // Nothing is read yet, but the planner gets to its end, and the worker serves others.
+  // Nothing is read yet, but the plan is completed and the worker serves others.
   const auto result = client.Post("/v1/plan", "abc", kJsonType);
   ASSERT_TRUE(result);
   EXPECT_EQ(result->status, 200);
@@ -220,7 +220,7 @@ TEST_F(EventStreams, EndWithTheCurrentPlanWhenTheServerStopsJobs) {
   EXPECT_EQ(service.stopped, 1);
 }
 
-TEST_F(EventStreams, EndSoonAfterTheServerStopsJobsIfNobodyReads) {
+TEST_F(EventStreams, EndSoonAfterTheServerStopsJobsIfTheClientDoesNotRead) {
   RawConnection stuck(server.server.port());
   stuck.send(request("flood"));  // more than the sockets' buffers hold
   ASSERT_TRUE(holds_soon([&] { return service.done > 0; }));
@@ -229,7 +229,7 @@ TEST_F(EventStreams, EndSoonAfterTheServerStopsJobsIfNobodyReads) {
   const auto begin = std::chrono::steady_clock::now();
   server.server.cancel_jobs();
   EXPECT_TRUE(holds_soon([&] { return server.server.idle(); }));
-  // Two seconds and the machine's own time; at other times it would be ten.
+  // Two seconds and some scheduling; without the stop it would be ten.
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(7));
 }
 

@@ -1,4 +1,4 @@
-// Requests no HTTP client would send.
+// Requests that no HTTP client sends.
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ class Framing : public testing::Test {
   TestServer server{settings()};
 };
 
-TEST_F(Framing, MalformedIs400AndEndsTheConnection) {
+TEST_F(Framing, MalformedFramingIs400AndEndsTheConnection) {
   expect_400_and_close(post("Content-Length: -1\r\n", ""));
   expect_400_and_close(post("Content-Length: ten\r\n", ""));
   expect_400_and_close(post("Content-Length: 3\r\nTransfer-Encoding: chunked\r\n", "3\r\nabc\r\n0\r\n\r\n"));
@@ -185,7 +185,7 @@ TEST_F(Framing, UnknownMethodIs405) {
 }
 
 /// Sends something and then nothing; expects a timeout and the end of the connection.
-void expect_given_up_after(const std::string& sent) {
+void expect_timeout_after(const std::string& sent) {
   Settings settings;
   settings.read_timeout = std::chrono::milliseconds(50);
   const TestServer server(settings);
@@ -198,17 +198,17 @@ void expect_given_up_after(const std::string& sent) {
 }
 
 TEST(SlowClient, GetsATimeoutWhenItsHeadDoesNotArrive) {
-  expect_given_up_after("GET /healthz HTTP/1.1\r\nHost:");
+  expect_timeout_after("GET /healthz HTTP/1.1\r\nHost:");
 }
 
 TEST(SlowClient, GetsATimeoutWhenItsBodyDoesNotArrive) {
-  expect_given_up_after("POST /v1/plan HTTP/1.1\r\nContent-Length: 10\r\n\r\nabc");
+  expect_timeout_after("POST /v1/plan HTTP/1.1\r\nContent-Length: 10\r\n\r\nabc");
 }
 
 TEST(SlowClient, GetsATimeoutWhenItStopsWithinALargeBody) {
   const auto begin = std::chrono::steady_clock::now();
-  expect_given_up_after("POST /v1/plan HTTP/1.1\r\nContent-Length: 4000000\r\n\r\n" +
-                        std::string(3'000'000, ' '));
+  expect_timeout_after("POST /v1/plan HTTP/1.1\r\nContent-Length: 4000000\r\n\r\n" +
+                       std::string(3'000'000, ' '));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));  // 30 s at 100 kB/s
 }
 

@@ -77,10 +77,10 @@ TEST(RequestHead, RejectsTooManyFields) {
 }
 
 TEST(RequestHead, KeepsAliveAccordingToVersionAndConnectionField) {
-  EXPECT_TRUE(parsed("GET / HTTP/1.1\r\n\r\n").wants_keep_alive());
-  EXPECT_FALSE(parsed("GET / HTTP/1.1\r\nConnection: x, Close\r\n\r\n").wants_keep_alive());
-  EXPECT_FALSE(parsed("GET / HTTP/1.0\r\n\r\n").wants_keep_alive());
-  EXPECT_TRUE(parsed("GET / HTTP/1.0\r\nConnection: Keep-Alive\r\n\r\n").wants_keep_alive());
+  EXPECT_TRUE(parsed("GET / HTTP/1.1\r\n\r\n").keeps_alive());
+  EXPECT_FALSE(parsed("GET / HTTP/1.1\r\nConnection: x, Close\r\n\r\n").keeps_alive());
+  EXPECT_FALSE(parsed("GET / HTTP/1.0\r\n\r\n").keeps_alive());
+  EXPECT_TRUE(parsed("GET / HTTP/1.0\r\nConnection: Keep-Alive\r\n\r\n").keeps_alive());
 }
 
 TEST(HeadScanner, FindsTheEmptyLineHoweverTheBytesAreCut) {

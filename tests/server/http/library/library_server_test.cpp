@@ -66,7 +66,7 @@ TEST_F(LibraryRouting, PassesAnyNameToTheHandlerUnchanged) {
   }
 }
 
-TEST_F(LibraryRouting, AnswersLongNamesWithoutMatchingThem) {
+TEST_F(LibraryRouting, RejectsLongNamesWithoutMatchingThem) {
   const std::string prefix = "/v1/examples/";
   EXPECT_EQ(detail_of(prefix + std::string(1000, 'a')).find("There is no example 'aaa"), 0U);
   EXPECT_EQ(detail_of(prefix + std::string(8000, 'a')).find("There is no resource at '/v1/exam"), 0U);

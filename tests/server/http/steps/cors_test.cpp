@@ -78,7 +78,7 @@ TEST_F(CrossOriginPages, OfAnotherOriginMayNotReadAndVaryNamesOrigin) {
 TEST_F(CrossOriginPages, GetAnAnswerToTheirPreflight) {
   const TestServer server(open_to({kOrigin}));
   RawConnection raw(server.server.port());
-  for (int times = 0; times < 2; ++times) {  // the connection stays
+  for (int times = 0; times < 2; ++times) {  // the connection stays open
     raw.send(std::string("OPTIONS /v1/plan HTTP/1.1\r\nOrigin: ") + kOrigin +
              "\r\nAccess-Control-Request-Method: POST\r\n\r\n");
     const std::string answer = raw.receive();
@@ -102,7 +102,7 @@ TEST_F(CrossOriginPages, GetAnAnswerToTheirPreflight) {
 
 TEST_F(CrossOriginPages, OfAnyOriginMayReadIfTheSettingIsAStar) {
   const TestServer server(open_to({"*"}));
-  const auto result = server.client().Get("/healthz", from("https://who.ever"));
+  const auto result = server.client().Get("/healthz", from("https://any.example"));
   ASSERT_TRUE(result);
   EXPECT_EQ(result->get_header_value("Access-Control-Allow-Origin"), "*");
 }

@@ -48,7 +48,7 @@ Samples samples_of(const std::string& text) {
   return samples;
 }
 
-/// What is wrong with a text in the format of Prometheus, version 0.0.4, so far as we use it.
+/// The faults of a text in the format of Prometheus, version 0.0.4, as far as the service uses it.
 std::vector<std::string> format_faults(const std::string& text) {
   std::vector<std::string> faults;
   std::set<std::string> seen;
@@ -98,7 +98,7 @@ std::string metrics_of(const TestServer& server) {
   return result->body;
 }
 
-/// Once a series has this value; the end of an exchange may come after its answer.
+/// Waits until a series has this value: an exchange may be counted after its answer.
 void await_value(const TestServer& server, const std::string& series, double value) {
   EXPECT_TRUE(holds_soon([&] { return samples_of(metrics_of(server))[series] == value; })) << series;
 }
@@ -167,9 +167,9 @@ TEST(Metrics, ContainUsualStatusesFromTheStartAndOthersOnceTheyOccur) {
   const DeclaredRoutes declared;
   for (const Route& route : declared.table.routes()) {
     const std::string& path = route.path;
-    const httplib::Headers asks{{"Origin", "https://fleet.example"},
-                                {"Access-Control-Request-Method", "GET"}};
-    const auto preflight = client.Options(path, asks);
+    const httplib::Headers preflight_fields{{"Origin", "https://fleet.example"},
+                                            {"Access-Control-Request-Method", "GET"}};
+    const auto preflight = client.Options(path, preflight_fields);
     ASSERT_TRUE(preflight);
     EXPECT_EQ(preflight->status, 204) << path;
     ASSERT_TRUE(client.Delete(path));
@@ -196,10 +196,10 @@ TEST(Metrics, NameTheBuild) {
                                             "\",compiler=\"")));
 }
 
-TEST(Metrics, KeepTheFormat) {
+TEST(Metrics, FollowTheFormatOfPrometheus) {
   const TestServer server;
   ASSERT_TRUE(server.client().Get("/nowhere"));
-  EXPECT_THAT(format_faults(metrics_of(server)), IsEmpty());  // tests/openapi asks Prometheus, too
+  EXPECT_THAT(format_faults(metrics_of(server)), IsEmpty());  // tests/openapi runs promtool
 }
 
 TEST(MetricsFormat, FaultsAreDetectedByTheTest) {

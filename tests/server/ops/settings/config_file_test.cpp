@@ -1,4 +1,4 @@
-// Settings from a file, as an operator writes it.
+// Settings from a file.
 
 #include "server/ops/settings/config_file.h"
 
@@ -41,7 +41,7 @@ std::string fault_of(const std::string& content) {
 
 TEST(ConfigFile, SetsTheFlagsItNames) {
   const auto settings = settings_of(
-      "# of the night shift\n"
+      "# a comment\n"
       "port = 9000\n"
       "host = \"0.0.0.0\"  # all\n"
       "max-body = 2MiB\n"

@@ -63,7 +63,7 @@ TEST(Settings, ReadTheTokenFromAFile) {
   ASSERT_TRUE(settings.token);
   EXPECT_TRUE(settings.token->admits("Bearer open-sesame"));
   EXPECT_EQ(exit_of({"--auth-token-file", ""}).code, 2)
-      << "an unset variable of a script must not open the door";
+      << "an unset variable of a script must not disable authentication";
   EXPECT_EQ(exit_of({"--config", ""}).code, 2);
   const support::TemporaryFile empty("\n");
   const auto exit = exit_of({"--auth-token-file", empty.path()});
