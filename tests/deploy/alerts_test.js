@@ -37,7 +37,9 @@ test("the rules use series that the server has", async () => {
   const service = await startService();
   try {
     const metrics = await (await fetch(new URL("/metrics", service.url))).text();
-    const asked = rules.flatMap(({ expr }) => expr.match(/\b(?:fleetplan|process)_\w+(?:\{[^}=~]*="[^"]*"\})?/g) ?? []);
+    const asked = rules.flatMap(
+      ({ expr }) => expr.match(/\b(?:fleetplan|process)_\w+(?:\{[^}=~]*="[^"]*"\})?/g) ?? [],
+    );
     assert.ok(asked.length > 5);
     for (const series of asked) {
       const found = metrics.includes(`\n${series}`) || metrics.includes(`\n${series.replace(/\{.*/, "")} `);

@@ -125,8 +125,8 @@ test("after edits, starts and goals are checked once each", async () => {
 test("faults that the service reports are shown, except that there are no robots yet", async () => {
   const radius = { pointer: "/robots/0/radius", code: "out_of_range", detail: "No." };
   const none = { pointer: "/robots", code: "empty", detail: "None." };
-  const told = await afterEdit(refuse({ title: "Invalid", errors: [radius, none] }));
-  assert.deepEqual(told.problem, { title: "Invalid", errors: [radius] });
+  const state = await afterEdit(refuse({ title: "Invalid", errors: [radius, none] }));
+  assert.deepEqual(state.problem, { title: "Invalid", errors: [radius] });
   assert.equal((await afterEdit(refuse({ title: "Invalid", errors: [none] }))).problem, null);
   assert.equal((await afterEdit(refuse({ title: "Overloaded", status: 503 }))).problem, null);
 });
