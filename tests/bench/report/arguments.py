@@ -77,8 +77,8 @@ def make_parser():
     add("--halls", type=halls, default=HALLS, metavar="HALLS", help="halls of the paper: empty, rects, or empty,rects")
     add("--seeds", type=numbers, metavar="LIST", help=f"seeds of the workloads, such as 1-3,7; default {QUICK_SEEDS}")
     add("--robots", type=robot_counts, metavar="LIST",
-        help=f"numbers of robots: plan only the first so many, such as 60,100-300:50; default {QUICK_ROBOTS}, and all of "
-             "a file")
+        help=f"numbers of robots, such as 60,100-300:50; only the first ones are planned; default {QUICK_ROBOTS}, "
+             "and all of a file")
     add("--budget", type=between(0.001, 86_400.0, float), default=60.0, metavar="SECONDS",
         help="time budget of a plan; default 60")
     add("--mode", choices=["first", "anytime"], help="first solution, or improve it until the budget is spent")

@@ -31,7 +31,7 @@ def jobs_of(arguments, reference):
 
 
 def measure(program, jobs, arguments):
-    """Measures the jobs. Writes every row to the CSV file as soon as it is there."""
+    """Measures the jobs. Writes every row to the CSV file as soon as it arrives."""
     how = {"options": request_options(arguments), "budget": arguments.budget, "repeats": arguments.repeat}
     text = "".join(json.dumps({**job, **how}) + "\n" for job in jobs)
     pathlib.Path(arguments.csv).parent.mkdir(parents=True, exist_ok=True)
