@@ -48,7 +48,7 @@ constexpr std::array<Example, 18> kExamples{{
     {ErrorCode::malformed_json,
      "Not JSON at line 3, column 14 (byte 47): NaN and infinities are not JSON; give a finite number."},
     {ErrorCode::too_deep, "The JSON nests arrays and objects deeper than the limit of 32 levels."},
-    {ErrorCode::malformed_request, "Content-Length and Transfer-Encoding exclude each other."},
+    {ErrorCode::malformed_request, "Content-Length and Transfer-Encoding must not be combined."},
     {ErrorCode::unauthorized,
      "Send the service's token as 'Authorization: Bearer ...', or as the password of Basic."},
     {ErrorCode::not_found,

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Sends requests from several connections until SIGTERM or the end of the time, and checks every response. Prints one
+"""Sends requests on several connections until SIGTERM or for `--seconds`, and checks every response. Prints one
 line of JSON: the number of requests, the failures by kind, the rate, the latencies.
 
 Exit code 0 if no request failed, 1 otherwise.
@@ -21,7 +21,7 @@ from client import Connection, Lost, request  # noqa: E402
 
 
 def hall(side, robots):
-    """A plan's request: an empty hall of side x side cells, a byte each, where robots change sides."""
+    """A request to plan: an empty hall of side x side cells, one byte each, whose robots change sides."""
     fleet = [{"id": f"r{i}", "start": {"x": 0.5, "y": i + 0.5}, "goal": {"x": side - 0.5, "y": robots - i - 0.5}}
              for i in range(robots)]
     return {"map": {"rows": ["." * side] * side}, "robots": fleet,
@@ -57,7 +57,7 @@ class Load:
         self.seconds = {kind: [] for kind in kinds}
 
     def fault_of(self, answer, kind):
-        """What is wrong with an answer, if anything is."""
+        """A description of what is wrong with an answer, or None."""
         if answer.status != 200:
             return f"{kind}: status {answer.status}"
         content = answer.json()
@@ -73,7 +73,7 @@ class Load:
             connection.close()
             return f"{kind}: {error}"
 
-    def keep_asking(self, offset):
+    def send_requests(self, offset):
         connection = Connection(self.host, self.port)
         kinds = list(self.requests)
         turn = offset
@@ -81,18 +81,18 @@ class Load:
             kind = kinds[turn % len(kinds)]
             begun = time.monotonic()
             fault = self.ask(connection, kind)
-            took = time.monotonic() - begun
+            elapsed = time.monotonic() - begun
             turn += 1
             if turn % 20 == 0:
-                connection.close()  # some clients come anew
+                connection.close()  # as clients that reconnect
             with self.lock:
-                self.seconds[kind].append(took)
+                self.seconds[kind].append(elapsed)
                 if fault:
                     self.failures[fault] += 1
         connection.close()
 
     def run(self, connections, seconds):
-        threads = [threading.Thread(target=self.keep_asking, args=(i,)) for i in range(connections)]
+        threads = [threading.Thread(target=self.send_requests, args=(i,)) for i in range(connections)]
         begun = time.monotonic()
         for thread in threads:
             thread.start()
@@ -103,11 +103,11 @@ class Load:
         return self.summary(time.monotonic() - begun)
 
     def summary(self, elapsed):
-        took = sorted(s for of_kind in self.seconds.values() for s in of_kind)
-        at = lambda share: round(1000 * took[int(share * (len(took) - 1))], 1) if took else None
+        latencies = sorted(s for of_kind in self.seconds.values() for s in of_kind)
+        at = lambda share: round(1000 * latencies[int(share * (len(latencies) - 1))], 1) if latencies else None
         return {"requests": {kind: len(of_kind) for kind, of_kind in self.seconds.items()},
                 "failed": sum(self.failures.values()), "failures": dict(self.failures.most_common(10)),
-                "per_second": round(len(took) / elapsed, 1), "seconds": round(elapsed, 1),
+                "per_second": round(len(latencies) / elapsed, 1), "seconds": round(elapsed, 1),
                 "ms": {"median": at(0.5), "p99": at(0.99), "longest": at(1)}}
 
 

@@ -63,7 +63,7 @@ class Room {
   Room(const core::OccupancyGrid& grid, double radius)
       : grid_(grid), radius_(radius), cells_(largest_room(grid, radius)) {}
 
-  /// The centre of a cell drawn uniformly from those where the disk overlaps no other; none if there is none.
+  /// The centre of a random cell where the disk overlaps no other; none if there is no such cell.
   std::optional<Position> draw(const Disks& others, Random& random) {
     for (std::size_t drawn = 0; drawn < cells_.size(); ++drawn) {
       std::swap(cells_[drawn], cells_[drawn + random.below(cells_.size() - drawn)]);

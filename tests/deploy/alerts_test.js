@@ -37,9 +37,11 @@ test("the rules use series that the server has", async () => {
   const service = await startService();
   try {
     const metrics = await (await fetch(new URL("/metrics", service.url))).text();
-    const asked = rules.flatMap(({ expr }) => expr.match(/\b(?:fleetplan|process)_\w+(?:\{[^}=~]*="[^"]*"\})?/g) ?? []);
-    assert.ok(asked.length > 5);
-    for (const series of asked) {
+    const used = rules.flatMap(
+      ({ expr }) => expr.match(/\b(?:fleetplan|process)_\w+(?:\{[^}=~]*="[^"]*"\})?/g) ?? [],
+    );
+    assert.ok(used.length > 5);
+    for (const series of used) {
       const found = metrics.includes(`\n${series}`) || metrics.includes(`\n${series.replace(/\{.*/, "")} `);
       assert.ok(found, series);
     }

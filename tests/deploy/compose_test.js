@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { said, settingNames, textOf, yamlOf } from "./support/files.js";
+import { outputOf, settingNames, textOf, yamlOf } from "./support/files.js";
 
 const { services } = yamlOf("deploy/compose.yaml");
 const replicas = Object.keys(services).filter((name) => name.startsWith("fleetplan"));
@@ -14,7 +14,7 @@ const prometheus = yamlOf("deploy/prometheus/prometheus.yml");
 
 test("the label of the image has the version", () => {
   const [, version] = /image\.version="([^"]*)"/.exec(dockerfile);
-  assert.equal(`fleetplan ${version}`, said("--version").trim());
+  assert.equal(`fleetplan ${version}`, outputOf("--version").trim());
 });
 
 test("the environments contain only settings", () => {
@@ -29,8 +29,12 @@ test("the balancer and Prometheus know the same replicas as the stack", () => {
     return name;
   });
   assert.deepEqual(balanced, replicas);
-  const { targets } = prometheus.scrape_configs.find(({ job_name: name }) => name === "fleetplan").static_configs[0];
-  assert.deepEqual(targets, replicas.map((name) => `${name}:8081`));
+  const { targets } = prometheus.scrape_configs.find(({ job_name: name }) => name === "fleetplan")
+    .static_configs[0];
+  assert.deepEqual(
+    targets,
+    replicas.map((name) => `${name}:8081`),
+  );
 });
 
 test("replicas have more time to stop than delay and drain together", () => {
@@ -40,6 +44,6 @@ test("replicas have more time to stop than delay and drain together", () => {
 
 test("the balancer waits longer than the longest plan", () => {
   const [, seconds] = /^ {2}timeout server (\d+)s$/m.exec(haproxy);
-  const [, longest] = /--max-budget-ms \D*(\d+)/.exec(said("--help"));
+  const [, longest] = /--max-budget-ms \D*(\d+)/.exec(outputOf("--help"));
   assert.ok(Number(seconds) * 1000 > Number(longest));
 });

@@ -8,7 +8,7 @@ import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, before, test } from "node:test";
 
-import { pathOf, said, textOf } from "./support/files.js";
+import { pathOf, outputOf, textOf } from "./support/files.js";
 
 const BUILD = join(dirname(process.env.FLEETPLAN_BIN), "..");
 const NOTICE = textOf("NOTICE");
@@ -78,7 +78,7 @@ test("the licence of every component is in the image, and so are the texts it re
 test("the bill of materials lists the libraries of NOTICE and every shared library", () => {
   const { bomFormat, specVersion, metadata, components } = sbom();
   assert.deepEqual([bomFormat, specVersion], ["CycloneDX", "1.5"]);
-  assert.equal(`${metadata.component.name} ${metadata.component.version}`, said("--version").trim());
+  assert.equal(`${metadata.component.name} ${metadata.component.version}`, outputOf("--version").trim());
   assert.deepEqual(metadata.component.licenses, [{ license: { id: "Apache-2.0" } }]);
   const linked = (linkage) =>
     components

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { namesIn, said, settingNames, textOf, yamlOf } from "./support/files.js";
+import { namesIn, outputOf, settingNames, textOf, yamlOf } from "./support/files.js";
 import { faultsOf, resourcesOf } from "./support/manifests.js";
 
 const BASE = "deploy/kubernetes/base";
@@ -75,5 +75,5 @@ test("pods have more time to stop than delay and drain together", () => {
 
 test("the example uses the image of this version", () => {
   const [{ newTag }] = yamlOf("deploy/kubernetes/overlays/example/kustomization.yaml").images;
-  assert.equal(`fleetplan ${newTag}`, said("--version").trim());
+  assert.equal(`fleetplan ${newTag}`, outputOf("--version").trim());
 });

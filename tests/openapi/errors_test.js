@@ -22,14 +22,14 @@ function textOf({ request_id, ...problem }) {
   return JSON.stringify(problem).replaceAll(/\d+/g, "#");
 }
 
-/** A problem of this status and code. */
+/** Asserts that an answer is a problem with this status and code. */
 function expectProblem(answer, status, code) {
   assert.deepEqual([answer.status, answer.json.code], [status, code], answer.body);
   seen.add(code);
   texts.add(textOf(answer.json));
 }
 
-/** A request that is planned for as long as its budget lasts. */
+/** A request whose planning uses its whole budget. */
 const BUSY = {
   map: { rows: Array(12).fill(".".repeat(12)) },
   robot_defaults: { radius: 0.4, linear_speed: 1, angular_speed: 1 },
@@ -41,13 +41,13 @@ const BUSY = {
   options: { mode: "anytime", time_budget_ms: 2000 },
 };
 
-test("404: no such path, no such example", async () => {
+test("404: unknown paths and examples are not found", async () => {
   expectProblem(await client.get("/v1/nothing"), 404, "not_found");
   expectProblem(await client.get("/v1/examples/corridor"), 404, "not_found");
   expectProblem(await client.post("/v1/plans", {}), 404, "not_found");
 });
 
-test("405: every path has the documented methods, and no others", async () => {
+test("405: every path accepts only its documented methods", async () => {
   for (const [template, operations] of Object.entries(document.root.paths)) {
     const path = template.replace("{name}", "crossing");
     const allowed = operations.post ? ["POST"] : ["GET", "HEAD"];
@@ -60,20 +60,20 @@ test("405: every path has the documented methods, and no others", async () => {
   }
 });
 
-test("406: a plan in no supported media type", async () => {
+test("406: a plan in an unsupported media type is rejected", async () => {
   for (const accept of ["text/html", "image/*, application/json;q=0", "application/xml"]) {
     expectProblem(await client.post("/v1/plan", BUSY, { Accept: accept }), 406, "not_acceptable");
   }
 });
 
-test("408: a head or a body that does not arrive", async () => {
+test("408: a head or a body that does not arrive in time is rejected", async () => {
   const head = "POST /v1/plan HTTP/1.1\r\nHost: here\r\n";
   expectProblem(await client.sendRaw("POST", "/v1/plan", head), 408, "request_timeout");
   const body = `${head}Content-Length: 10\r\n\r\n{`;
   expectProblem(await client.sendRaw("POST", "/v1/plan", body), 408, "request_timeout");
 });
 
-test("413: a body that is too large, declared, in chunks or after decompression", async () => {
+test("413: a body that is too large is rejected, declared, in chunks or after decompression", async () => {
   const large = " ".repeat(MAX_BODY + 1);
   for (const path of POSTS) {
     expectProblem(await client.post(path, large), 413, "body_too_large");
@@ -85,14 +85,14 @@ test("413: a body that is too large, declared, in chunks or after decompression"
   }
 });
 
-test("414: a target that is too long", async () => {
+test("414: a target that is too long is rejected", async () => {
   const query = "x".repeat(9000);
   for (const path of ["/v1/limits", "/healthz"]) {
     expectProblem(await client.get(`${path}?${query}`), 414, "target_too_long");
   }
 });
 
-test("415: a body of another type or coding", async () => {
+test("415: a body of another type or coding is rejected", async () => {
   for (const path of POSTS) {
     for (const type of [
       "text/plain",
@@ -107,14 +107,14 @@ test("415: a body of another type or coding", async () => {
   }
 });
 
-test("431: a head that is too large, by fields or by bytes", async () => {
+test("431: a head with too many fields or bytes is rejected", async () => {
   const many = Object.fromEntries(Array.from({ length: 120 }, (_, i) => [`X-Field-${i}`, "1"]));
   expectProblem(await client.get("/v1/limits", many), 431, "head_too_large");
   const one = { "X-Long": "x".repeat(40_000) };
   expectProblem(await client.get("/v1/limits", one), 431, "head_too_large");
 });
 
-test("400: not JSON, nested too deep, malformed framing, not in gzip", async () => {
+test("400: malformed JSON, framing and gzip, and too deep nesting are rejected", async () => {
   for (const path of POSTS) {
     for (const body of ["", "{", '{"a":NaN}', "{'a':1}", '{"a":1,}', "\u{feff}[1] 2", '"\\ud800"']) {
       expectProblem(await client.post(path, body), 400, "malformed_json");
@@ -131,7 +131,7 @@ test("400: not JSON, nested too deep, malformed framing, not in gzip", async () 
   expectProblem(version, 400, "malformed_request");
 });
 
-test("422: a request that is not valid", async () => {
+test("422: an invalid request is rejected", async () => {
   for (const path of POSTS) expectProblem(await client.post(path, {}), 422, "invalid_request");
   const robots = [
     { id: "amr-1", linear_speed: 0, start: { x: 3.5, y: 1.5 } },
@@ -140,8 +140,8 @@ test("422: a request that is not valid", async () => {
   expectProblem(await client.post("/v1/plan", { ...BUSY, robots }), 422, "invalid_request");
 });
 
-/** Plans of robots that mill about in one heap: each pair overlaps in every moment. */
-function heap(robots, actions) {
+/** A request with plans in which every pair of robots overlaps at all times. */
+function overlappingPlans(robots, actions) {
   const ids = Array.from({ length: robots }, (_, index) => `r${index}`);
   const [here, there] = [5, 5.005].map((x) => ({ x, y: 5, theta: 0 }));
   const moves = Array.from({ length: actions }, (_, index) => ({
@@ -159,12 +159,12 @@ function heap(robots, actions) {
   };
 }
 
-test("422: plans that take longer to check than there is time", async () => {
-  const { client: hasty } = await separateService(["--default-budget-ms", "1"]);
-  expectProblem(await hasty.post("/v1/validate", heap(200, 100)), 422, "check_unfinished");
+test("422: a check that exceeds its time budget is reported", async () => {
+  const { client: limited } = await separateService(["--default-budget-ms", "1"]);
+  expectProblem(await limited.post("/v1/validate", overlappingPlans(200, 100)), 422, "check_unfinished");
 });
 
-/** A service of its own, which is stopped after the tests at the latest. */
+/** A separate service, which is stopped after the tests at the latest. */
 async function separateService(flags) {
   const service = await startService(flags);
   const own = new Client(service.url, document);
@@ -177,7 +177,7 @@ async function separateService(flags) {
   return { client: own, stop };
 }
 
-test("401: no token or another one, on every path but health and readiness", async () => {
+test("401: a missing or wrong token is rejected on every path except health and readiness", async () => {
   const folder = mkdtempSync(join(tmpdir(), "openapi-"));
   after(() => rmSync(folder, { recursive: true }));
   const file = join(folder, "token");
@@ -200,26 +200,26 @@ test("401: no token or another one, on every path but health and readiness", asy
   }
 });
 
-test("503: the queue is full", async () => {
-  const { client: crowd } = await separateService(["--workers", "1", "--queue", "1"]);
-  const answers = await Promise.all(Array.from({ length: 24 }, () => crowd.post("/v1/plan", BUSY)));
-  const refused = answers.filter(({ status }) => status !== 200);
-  assert.ok(refused.length > 0 && refused.length < answers.length, `${refused.length} were refused`);
-  for (const answer of refused) expectProblem(answer, 503, "overloaded");
+test("503: requests are rejected while the queue is full", async () => {
+  const { client: busy } = await separateService(["--workers", "1", "--queue", "1"]);
+  const answers = await Promise.all(Array.from({ length: 24 }, () => busy.post("/v1/plan", BUSY)));
+  const rejected = answers.filter(({ status }) => status !== 200);
+  assert.ok(rejected.length > 0 && rejected.length < answers.length, `${rejected.length} were rejected`);
+  for (const answer of rejected) expectProblem(answer, 503, "overloaded");
 });
 
-test("503: more large bodies at once than there is memory for", async () => {
+test("503: large bodies that exceed the reserved memory are rejected", async () => {
   const flags = ["--workers", "1", "--queue", "0", "--max-body", "1MiB", "--read-timeout-ms", "2000"];
-  const { client: crowd } = await separateService(flags);
+  const { client: busy } = await separateService(flags);
   const head = "POST /v1/plan HTTP/1.1\r\nHost: here\r\nContent-Length: 1000000\r\n\r\n";
   const unfinished = head + " ".repeat(900_000);
-  const sent = Array.from({ length: 16 }, () => crowd.sendRaw("POST", "/v1/plan", unfinished));
-  const refused = (await Promise.all(sent)).filter(({ status }) => status !== 408);
-  assert.ok(refused.length > 0 && refused.length < sent.length, `${refused.length} were refused`);
-  for (const answer of refused) expectProblem(answer, 503, "overloaded");
+  const sent = Array.from({ length: 16 }, () => busy.sendRaw("POST", "/v1/plan", unfinished));
+  const rejected = (await Promise.all(sent)).filter(({ status }) => status !== 408);
+  assert.ok(rejected.length > 0 && rejected.length < sent.length, `${rejected.length} were rejected`);
+  for (const answer of rejected) expectProblem(answer, 503, "overloaded");
 });
 
-test("503: the service shuts down, and still answers the requests it has begun", async () => {
+test("503: new requests are rejected during shutdown, and running ones are answered", async () => {
   const { client: last, stop } = await separateService([]);
   const running = last.post("/v1/plan", BUSY);
   await new Promise((resolve) => setTimeout(resolve, 300));
@@ -233,7 +233,7 @@ test("503: the service shuts down, and still answers the requests it has begun",
   await stopped;
 });
 
-test("every error of the table was provoked, except the one that is a bug", () => {
+test("every error of the table except internal_error was provoked", () => {
   const codes = [...document.problemCodes().keys()].filter((code) => code !== "internal_error");
   assert.deepEqual([...seen].sort(), codes.sort());
 });
@@ -241,6 +241,6 @@ test("every error of the table was provoked, except the one that is a bug", () =
 test("the document's examples equal answers of the service, except for numbers", () => {
   for (const example of document.problems()) {
     if (example.code === "internal_error") continue;
-    assert.ok(texts.has(textOf(example)), `never answered: ${example.detail}`);
+    assert.ok(texts.has(textOf(example)), `not among the answers: ${example.detail}`);
   }
 });

@@ -1,4 +1,4 @@
-// A plan as a stream of events: each is what the document says, and the last one is the answer.
+// A plan as a stream of events: each event matches the document, and the last one is the answer.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -9,7 +9,7 @@ const { client } = await openSession();
 const EVENTS = { Accept: "text/event-stream" };
 
 const example = async (name) => (await client.get(`/v1/examples/${name}`)).json;
-const lasting = ({ timings_ms, request_id, ...rest }) => rest;
+const withoutRunDetails = ({ timings_ms, request_id, ...rest }) => rest;
 
 test("a long-running plan sends its progress, better plans and the answer", async () => {
   const request = await example("warehouse");
@@ -22,7 +22,8 @@ test("a long-running plan sends its progress, better plans and the answer", asyn
   assert.equal(kinds.filter((kind) => ["plan", "problem"].includes(kind)).length, 1);
 
   const progress = events.filter(({ event }) => event === "progress").map(({ data }) => data);
-  for (const { planned, robots } of progress) assert.ok(planned <= robots && robots === request.robots.length);
+  for (const { planned, robots } of progress)
+    assert.ok(planned <= robots && robots === request.robots.length);
   const elapsed = progress.map(({ elapsed_ms }) => elapsed_ms);
   assert.deepEqual(
     elapsed,
@@ -41,11 +42,11 @@ test("a long-running plan sends its progress, better plans and the answer", asyn
   }
 });
 
-test("the last event is the answer that there is without events", async () => {
+test("the last event equals the answer without events", async () => {
   const request = await example("corridor-swap");
   const { events } = await client.post("/v1/plan", request, EVENTS);
   const { json } = await client.post("/v1/plan", request);
-  assert.deepEqual(lasting(events.at(-1).data), lasting(json));
+  assert.deepEqual(withoutRunDetails(events.at(-1).data), withoutRunDetails(json));
 });
 
 test("faults found before planning are ordinary answers", async () => {

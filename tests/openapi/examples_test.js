@@ -14,8 +14,8 @@ const scenarios = readdirSync(SCENARIOS)
 const { document, client } = await openSession();
 const { paths } = document.root;
 
-/** An answer without the members that differ from run to run or with every change of the search. */
-function lasting({ timings_ms, request_id, search, ...rest }) {
+/** An answer without the members that differ between runs or with every change of the search. */
+function withoutRunDetails({ timings_ms, request_id, search, ...rest }) {
   return rest;
 }
 
@@ -29,7 +29,7 @@ test("every scenario is an example request and listed", async () => {
 });
 
 for (const name of scenarios) {
-  test(`${name}: request, answer, and both together for validation match the schemas`, async () => {
+  test(`${name}: the request, the answer, and both combined for validation match the schemas`, async () => {
     const request = JSON.parse(readFileSync(new URL(`${name}.json`, SCENARIOS), "utf8"));
     assert.deepEqual(document.faultsOfComponent("PlanRequest", request), []);
     const answer = await client.post("/v1/plan", request);
@@ -48,16 +48,17 @@ for (const path of ["/v1/plan", "/v1/validate"]) {
     const requests = requestBody.content["application/json"].examples;
     const answers = responses["200"].content["application/json"].examples;
     assert.ok(Object.keys(answers).length > 0);
-    for (const name of Object.keys(answers)) assert.ok(requests[name], `${name} is no request`);
+    for (const name of Object.keys(answers)) assert.ok(requests[name], `${name} is not a request`);
     for (const [name, { value }] of Object.entries(requests)) {
       const { status, json } = await client.post(path, value);
       assert.equal(status, 200, name);
-      if (answers[name]) assert.deepEqual(lasting(json), lasting(answers[name].value), name);
+      if (answers[name])
+        assert.deepEqual(withoutRunDetails(json), withoutRunDetails(answers[name].value), name);
     }
   });
 }
 
-test("every path that is read with GET answers GET and HEAD as documented", async () => {
+test("every path with GET answers GET and HEAD as documented", async () => {
   for (const [template, { get }] of Object.entries(paths)) {
     if (get === undefined) continue;
     const path = template.replace("{name}", "corridor-swap");
@@ -76,5 +77,5 @@ test("defaults of the options are those of the service", async () => {
   assert.equal(given.length, Object.keys(properties).length - 1, "all but the time budget");
   const bare = await client.post("/v1/plan", request);
   const full = await client.post("/v1/plan", { ...request, options });
-  assert.deepEqual(lasting(full.json), lasting(bare.json));
+  assert.deepEqual(withoutRunDetails(full.json), withoutRunDetails(bare.json));
 });

@@ -1,4 +1,4 @@
-// Every code of a fault, provoked: 422 with the fault's code at the place that is wrong.
+// Provokes every fault code: 422 with the code and a pointer to the faulty place.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -27,9 +27,9 @@ function request(change) {
   return good;
 }
 
-/** Of path, request and what is expected: pairs of pointer and code. */
+/** By name: path, request, and the expected pairs of pointer and code. */
 const CASES = {
-  "a document that is no object": ["/v1/plan", [], [["", "wrong_type"]]],
+  "a document that is not an object": ["/v1/plan", [], [["", "wrong_type"]]],
   "an empty object": [
     "/v1/plan",
     {},
@@ -43,7 +43,7 @@ const CASES = {
     request((r) => (r.robots[1].start.x = "1")),
     [["/robots/1/start/x", "wrong_type"]],
   ],
-  "null where it has no meaning": [
+  "null instead of an object": [
     "/v1/plan",
     request((r) => (r.robots[0].goal = null)),
     [["/robots/0/goal", "wrong_type"]],
@@ -53,7 +53,7 @@ const CASES = {
     request((r) => delete r.robots[0].start),
     [["/robots/0/start", "missing"]],
   ],
-  "a speed that neither the robot nor the defaults have": [
+  "a speed missing from robot and defaults": [
     "/v1/plan",
     request((r) => delete r.robot_defaults.linear_speed),
     [
@@ -70,7 +70,7 @@ const CASES = {
       ["/options/\u{1f916}", "unknown_key"],
     ],
   ],
-  "a word that is none": [
+  "an unknown mode": [
     "/v1/plan",
     request((r) => (r.options.mode = "frist")),
     [["/options/mode", "unknown_value"]],
@@ -85,12 +85,12 @@ const CASES = {
     request((r) => (r.options.connectivity = 5)),
     [["/options/connectivity", "out_of_range"]],
   ],
-  "more robots than the service takes": [
+  "more robots than the service accepts": [
     "/v1/plan",
     request((r) => r.robots.push(...["c", "d"].map((id) => ({ ...r.robots[0], id })))),
     [["/robots", "out_of_range"]],
   ],
-  "more cells than the service takes": [
+  "more cells than the service accepts": [
     "/v1/plan",
     request((r) => (r.map.rows = Array(21).fill("....."))),
     [["/map/rows", "out_of_range"]],
@@ -103,7 +103,7 @@ const CASES = {
     request((r) => (r.map.rows[1] = "....")),
     [["/map/rows/1", "bad_map_row"]],
   ],
-  "a cell of no kind": [
+  "an unknown kind of cell": [
     "/v1/plan",
     request((r) => (r.map.rows[0] = "..?.#")),
     [["/map/rows/0", "bad_map_row"]],
@@ -113,7 +113,7 @@ const CASES = {
     request((r) => (r.robots[1].id = "a")),
     [["/robots/1/id", "duplicate"]],
   ],
-  "a key that comes twice": [
+  "a repeated key": [
     "/v1/plan",
     JSON.stringify(request(() => {})).replace('"mode"', '"mode":"first","mode"'),
     [["/options/mode", "duplicate"]],
@@ -138,7 +138,7 @@ const CASES = {
     request((r) => (r.robots[1].goal.y = 1)),
     [["/robots/1/goal", "goals_overlap"]],
   ],
-  "a plan for nobody": [
+  "a plan for an unknown robot": [
     "/v1/validate",
     request((r) => (r.plans = [{ robot: "z", actions: [] }])),
     [["/plans/0/robot", "unknown_robot"]],
@@ -148,7 +148,7 @@ const CASES = {
     request((r) => (r.plans = ["a", "a"].map((robot) => ({ robot, actions: [WAIT] })))),
     [["/plans/1/robot", "duplicate"]],
   ],
-  "an action of no kind without its end": [
+  "an action of an unknown type without t_end": [
     "/v1/validate",
     request(
       (r) => (r.plans = [{ robot: "a", actions: [{ type: "fly", t_start: 0, from: POSE, to: POSE }] }]),

@@ -1,13 +1,13 @@
-// Requests made from the document's schemas, valid and invalid ones: no 500, no hang-up, no answer outside the
-// document, and never another judgement than the schemas'. FLEETPLAN_RUNS sets how many of each kind,
-// FLEETPLAN_SEED from which seed.
+// Valid and invalid requests generated from the document's schemas. Every request gets a documented answer other than
+// 500, and the service accepts and rejects as the schemas do. FLEETPLAN_RUNS sets the number of requests of each kind,
+// FLEETPLAN_SEED the seed.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import fc from "fast-check";
 
 import { plausiblePlans, plausibleRequests, valuesOfComponent } from "./support/arbitraries.js";
-import { spoiledBytes, spoiledValues } from "./support/mutations.js";
+import { mutatedBytes, mutatedValues } from "./support/mutations.js";
 import { misplaced } from "./support/pointer.js";
 import { openSession } from "./support/session.js";
 import { parsed, textOf } from "./support/text.js";
@@ -16,7 +16,7 @@ const RUNS = Number(process.env.FLEETPLAN_RUNS ?? 1200);
 const SEED = Number(process.env.FLEETPLAN_SEED ?? 2019);
 const MAX_DEPTH = 32;
 
-/** Faults that no schema can tell, with where they may be. */
+/** Faults that no schema can express, with the places where they may occur. */
 const BEYOND_SCHEMA = {
   duplicate: /^/, // ids, plans for one robot; keys, which a schema never sees
   unknown_robot: /^\/plans\/\d+\/robot$/,
@@ -35,7 +35,7 @@ const KINDS = {
   "/v1/validate": { component: "ValidateRequest", plausible: plausiblePlans(document) },
 };
 
-/** The status that the document promises for these bytes; and, for JSON, the value. */
+/** The statuses that the document allows for these bytes; for JSON also the value and whether it fits the schema. */
 function expectation(component, bytes) {
   const json = parsed(bytes);
   if (json === undefined || json.depth > MAX_DEPTH) return { statuses: [400] };
@@ -51,19 +51,19 @@ function expectPlausibleFaults(errors, { value, fits }) {
     if (!repeated) assert.equal(misplaced(fault, value), undefined);
     if (!fits) continue;
     const places = BEYOND_SCHEMA[fault.code];
-    assert.ok(places?.test(fault.pointer), `the schema does not tell: ${JSON.stringify(fault)}`);
+    assert.ok(places?.test(fault.pointer), `the schema does not report: ${JSON.stringify(fault)}`);
   }
 }
 
-/** What doubles lose in a plan that lasts for years, where that is more than the default tolerance. */
+/** A tolerance for the rounding of a plan that lasts for years, if that exceeds the default tolerance. */
 function rounding({ robots, robot_defaults }, { makespan }) {
   const speeds = [robot_defaults ?? {}, ...robots].flatMap((one) => [one.linear_speed, one.angular_speed]);
   const fastest = Math.max(1, ...speeds.filter((speed) => speed !== undefined));
-  const lost = 64 * Number.EPSILON * makespan * fastest;
-  return lost > 1e-6 ? { tolerance: Math.min(lost, 1e9) } : {};
+  const rounded = 64 * Number.EPSILON * makespan * fastest;
+  return rounded > 1e-6 ? { tolerance: Math.min(rounded, 1e9) } : {};
 }
 
-/** No robot costs less than its lower bound, and those of the answer are their sum and maximum. */
+/** Every cost is at least its lower bound; the answer's bounds are their sum and maximum. */
 function expectBounded({ plans, lower_bound }) {
   for (const plan of plans) assert.ok(plan.lower_bound <= plan.cost, JSON.stringify(plan));
   const bounds = plans.map((plan) => plan.lower_bound);
@@ -74,7 +74,7 @@ function expectBounded({ plans, lower_bound }) {
   assert.equal(lower_bound.makespan, Math.max(0, ...bounds));
 }
 
-/** A plan for a good request is complete, in order, bounded, and valid by /v1/validate. */
+/** A plan for a valid request is complete, in order, bounded, and valid according to /v1/validate. */
 async function expectSound({ options, ...fleet }, answer) {
   const planned = answer.plans.map(({ robot }) => robot);
   const all = fleet.robots.map(({ id }) => id);
@@ -101,26 +101,28 @@ function lastOf(events) {
   return data;
 }
 
-/** Sends bytes and holds the answer, which the client has held to the document, to what was promised. */
-async function judged(path, bytes, counts, headers) {
-  const promised = expectation(KINDS[path].component, bytes);
+/** Sends bytes and compares the answer, which the client has checked against the document, with the expectation. */
+async function checkAnswer(path, bytes, counts, headers) {
+  const expected = expectation(KINDS[path].component, bytes);
   const { status, json, events } = await client.post(path, bytes, headers);
   counts.set(status, (counts.get(status) ?? 0) + 1);
   assert.ok(
-    promised.statuses.includes(status),
-    `${status} instead of ${promised.statuses}: ${JSON.stringify(json)}`,
+    expected.statuses.includes(status),
+    `${status} instead of ${expected.statuses}: ${JSON.stringify(json)}`,
   );
   const isUnfinished = json?.code === "check_unfinished"; // when the machine is very busy
-  if (isUnfinished) assert.ok(promised.fits && path === "/v1/validate");
-  if (status === 422 && !isUnfinished) expectPlausibleFaults(json.errors, promised);
-  if (status === 200 && path === "/v1/plan") await expectSound(promised.value, json ?? lastOf(events));
+  if (isUnfinished) assert.ok(expected.fits && path === "/v1/validate");
+  if (status === 422 && !isUnfinished) expectPlausibleFaults(json.errors, expected);
+  if (status === 200 && path === "/v1/plan") await expectSound(expected.value, json ?? lastOf(events));
 }
 
-/** Judges many requests; at least a tenth of them have to be answered with each of the statuses. */
+/** Sends many requests; each of the statuses must occur in at least a tenth of the answers. */
 function property(name, path, requests, statuses, headers = {}) {
   test(`${path}: ${name}`, async (t) => {
     const counts = new Map();
-    const check = fc.asyncProperty(requests, (bytes) => judged(path, Buffer.from(bytes), counts, headers));
+    const check = fc.asyncProperty(requests, (bytes) =>
+      checkAnswer(path, Buffer.from(bytes), counts, headers),
+    );
     await fc.assert(check, { numRuns: RUNS, seed: SEED, includeErrorInReport: true });
     t.diagnostic(`seed ${SEED}, ${[...counts].map(([status, count]) => `${count} x ${status}`).join(", ")}`);
     for (const status of statuses) assert.ok(counts.get(status) >= RUNS / 10, `too few answers ${status}`);
@@ -130,9 +132,16 @@ function property(name, path, requests, statuses, headers = {}) {
 for (const [path, { component, plausible }] of Object.entries(KINDS)) {
   const raw = valuesOfComponent(document, component);
   property("plausible requests are served", path, plausible.map(textOf), [200]);
-  property("requests of any values that fit the schema are judged as it says", path, raw.map(textOf), [422]);
-  property("requests that are invalid at one place are rejected there", path, spoiledValues(plausible), [400, 422]);
-  property("requests with modified bytes are rejected", path, spoiledBytes(plausible), [400]);
+  property("requests of any values that fit the schema are answered as documented", path, raw.map(textOf), [
+    422,
+  ]);
+  property(
+    "requests that are invalid at one place are rejected with a pointer to it",
+    path,
+    mutatedValues(plausible),
+    [400, 422],
+  );
+  property("requests with modified bytes are rejected", path, mutatedBytes(plausible), [400]);
 }
 
 const plans = KINDS["/v1/plan"].plausible.map(textOf);

@@ -29,7 +29,7 @@ function lint(root) {
   }
 }
 
-test("the document is lint-clean", () => {
+test("the linter finds no error or warning in the document", () => {
   const { status, stdout, stderr } = lint(document.root);
   assert.equal(status, 0, stdout + stderr);
 });

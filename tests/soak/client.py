@@ -1,4 +1,4 @@
-"""A plain HTTP/1.1 client on one socket, which sends exactly the given bytes."""
+"""A plain HTTP/1.1 client on one socket, which sends the given bytes unchanged."""
 
 import gzip
 import json
@@ -21,8 +21,8 @@ class Answer:
 class Connection:
     """One connection, opened when needed and again after the server has closed it."""
 
-    # The server closes a connection that is idle for a second; one that was used recently is still open.
-    MOST_IDLE_S = 0.5
+    # The server closes idle connections after a second, so one that was used more recently is still open.
+    MAX_IDLE_S = 0.5
 
     def __init__(self, host, port, timeout=90.0):
         self.address, self.timeout = (host, port), timeout
@@ -34,7 +34,7 @@ class Connection:
         self.socket, self.input = None, bytearray()
 
     def open(self):
-        if self.socket and time.monotonic() - self.used_at > self.MOST_IDLE_S:
+        if self.socket and time.monotonic() - self.used_at > self.MAX_IDLE_S:
             self.close()
         if not self.socket:
             self.socket = socket.create_connection(self.address, self.timeout)
@@ -49,10 +49,10 @@ class Connection:
         try:
             self.socket.sendall(data)
         except OSError:
-            pass  # an early answer may wait to be read
+            pass  # the server may have answered early and closed; that answer can still be read
 
     def receive(self, head_only=False):
-        """Reads the next whole answer; closes the connection if the answer requires it."""
+        """Reads the next complete answer; closes the connection if the answer requires it."""
         head = self._until(b"\r\n\r\n").decode("latin-1")
         status = int(head.split(" ", 2)[1])
         fields = {}
@@ -90,9 +90,9 @@ class Connection:
         self.input += data
 
     def _until(self, mark):
-        looked_at = 0
-        while (end := self.input.find(mark, looked_at)) < 0:
-            looked_at = max(0, len(self.input) - len(mark))
+        searched = 0
+        while (end := self.input.find(mark, searched)) < 0:
+            searched = max(0, len(self.input) - len(mark))
             self._more()
         head = bytes(self.input[:end])
         del self.input[:end + len(mark)]

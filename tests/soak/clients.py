@@ -1,4 +1,4 @@
-"""The clients of a soak: each sends one request after the other on its own connection and checks every answer."""
+"""The clients of a soak test. Each sends requests one after another on its own connection and checks every answer."""
 
 import collections
 import gzip
@@ -11,7 +11,7 @@ import uuid
 import workload
 from client import Connection, Lost, request
 
-# How often each kind comes, of all. The huge ones are rare, as each takes seconds of everybody's time.
+# Relative frequency of each kind of request. Huge requests are rare because each occupies the server for seconds.
 KINDS = {"scenario": 20, "random": 40, "gzip": 10, "stream": 6, "bad body": 10, "bad framing": 8, "small": 10,
          "cancelled": 6, "slow": 2, "pipelined": 4, "huge": 0.3}
 
@@ -21,7 +21,7 @@ class Wrong(Exception):
 
 
 def detail_of(answer):
-    """The reason, without the parts that differ each time."""
+    """The detail of a problem, or the start of a body that is not one."""
     try:
         return answer.json()["detail"]
     except (ValueError, KeyError):
@@ -29,12 +29,12 @@ def detail_of(answer):
 
 
 class Record:
-    """The counts of one process, which are sent to the parent."""
+    """The results of one process, sent to its parent."""
 
     def __init__(self):
         self.sent = collections.Counter()       # by kind
         self.statuses = collections.Counter()
-        self.latencies = collections.defaultdict(list)  # seconds by kind, of answers other than 503
+        self.latencies = collections.defaultdict(list)  # seconds, by kind; without 503 answers
         self.wrong, self.lost = [], []
         self.validated = 0
 
@@ -48,20 +48,20 @@ class Client(threading.Thread):
         self.limits, self.until = limits, until
         self.record, self.lock = record, lock
         self.scenarios = list(workload.scenarios().items())
-        self.bad_bodies, self.bad_texts = workload.bad_bodies(limits), workload.bad_texts(limits)
+        self.bad_bodies, self.malformed = workload.bad_bodies(limits), workload.malformed_requests(limits)
 
     def run(self):
         kinds, weights = list(KINDS), list(KINDS.values())
-        acts = {kind: getattr(self, "do_" + kind.replace(" ", "_")) for kind in kinds}
+        actions = {kind: getattr(self, "do_" + kind.replace(" ", "_")) for kind in kinds}
         while time.monotonic() < self.until:
             kind = self.random.choices(kinds, weights)[0]
             with self.lock:
                 self.record.sent[kind] += 1
             try:
-                acts[kind](kind)
+                actions[kind](kind)
             except Lost as lost:
                 self._note(self.record.lost, f"{kind}: {lost}")
-            except Exception as wrong:  # also a KeyError in an answer: nothing may end the client
+            except Exception as wrong:  # includes a KeyError for a missing member; the client goes on
                 self._note(self.record.wrong, f"{kind}: {type(wrong).__name__}: {wrong}"[:2000])
         self.connection.close()
 
@@ -70,11 +70,11 @@ class Client(threading.Thread):
         with self.lock:
             where.append(what)
 
-    # ---------------------------------------------------------------- asking
+    # ---------------------------------------------------------------- requests
 
     def ask(self, kind, method, path, expected, body=None, fields=(), send=None):
-        """Sends a request and returns its answer, which must have one of the expected statuses, or 503. `send`
-        replaces sending at once."""
+        """Sends a request and returns its answer, whose status must be one of `expected` or 503. `send` replaces
+        the function that sends the bytes."""
         id_ = uuid.UUID(int=self.random.getrandbits(128)).hex
         data = request(method, path, body, [("X-Request-Id", id_), *fields])
         begin = time.monotonic()
@@ -88,9 +88,9 @@ class Client(threading.Thread):
             self.record.statuses[answer.status] += 1
             if answer.status != 503:
                 self.record.latencies[kind].append(seconds)
-        told = answer.fields.get("x-request-id")
-        if not told or (id_ and told != id_):
-            raise Wrong(f"asked as {id_}, answered as {told}")
+        returned_id = answer.fields.get("x-request-id")
+        if not returned_id or (id_ and returned_id != id_):
+            raise Wrong(f"X-Request-Id {returned_id} instead of {id_}")
         if answer.status == 503:
             if int(answer.fields.get("retry-after", 0)) < 1:
                 raise Wrong("503 without Retry-After")
@@ -99,67 +99,67 @@ class Client(threading.Thread):
             raise Wrong(f"status {answer.status} instead of {expected}: {detail_of(answer)}")
         if answer.status >= 400 and answer.body:
             problem = answer.json()
-            if problem["status"] != answer.status or problem["request_id"] != told or not problem["code"]:
-                raise Wrong(f"a strange problem: {answer.body[:500]}")
+            if problem["status"] != answer.status or problem["request_id"] != returned_id or not problem["code"]:
+                raise Wrong(f"an inconsistent problem: {answer.body[:500]}")
 
-    def plan(self, kind, wanted, fields=(), body=None, send=None):
-        """Posts a request to plan, checks that the answer belongs to it, and validates the plan."""
-        answer = self.ask(kind, "POST", "/v1/plan", {200}, body or json.dumps(wanted).encode(), fields, send)
+    def plan(self, kind, instance, fields=(), body=None, send=None):
+        """Requests a plan for an instance, checks that the answer belongs to it, and validates the plan."""
+        answer = self.ask(kind, "POST", "/v1/plan", {200}, body or json.dumps(instance).encode(), fields, send)
         if answer.status == 200:
-            self.validate(wanted, answer.json(), answer.fields["x-request-id"])
+            self.validate(instance, answer.json(), answer.fields["x-request-id"])
 
-    def validate(self, wanted, got, id_):
-        asked = [robot["id"] for robot in wanted["robots"]]
-        told = [entry["robot"] for member in ("plans", "unplanned") for entry in got[member]]
-        if got["request_id"] != id_ or sorted(asked) != sorted(told):
-            raise Wrong(f"the answer to another request: {told} instead of {asked}")
-        starts = {robot["id"]: robot["start"] for robot in wanted["robots"]}
-        for plan in got["plans"]:
+    def validate(self, instance, content, id_):
+        expected = [robot["id"] for robot in instance["robots"]]
+        returned = [entry["robot"] for member in ("plans", "unplanned") for entry in content[member]]
+        if content["request_id"] != id_ or sorted(expected) != sorted(returned):
+            raise Wrong(f"the answer to another request: {returned} instead of {expected}")
+        starts = {robot["id"]: robot["start"] for robot in instance["robots"]}
+        for plan in content["plans"]:
             if plan["actions"] and abs(plan["actions"][0]["from"]["x"] - starts[plan["robot"]]["x"]) > 1e-6:
-                raise Wrong(f"a plan that begins elsewhere: {plan['robot']}")
-        verdict = self.ask("validate", "POST", "/v1/validate", {200}, json.dumps({**wanted, **got}).encode())
+                raise Wrong(f"a plan that does not begin at the start: {plan['robot']}")
+        verdict = self.ask("validate", "POST", "/v1/validate", {200}, json.dumps({**instance, **content}).encode())
         if verdict.status != 200:
             return
         with self.lock:
             self.record.validated += 1
         if not verdict.json()["valid"]:
-            raise Wrong(f"not valid: {verdict.body[:1000]} for {json.dumps(wanted)}")
+            raise Wrong(f"not valid: {verdict.body[:1000]} for {json.dumps(instance)}")
 
-    # ---------------------------------------------------------------- the kinds
+    # ---------------------------------------------------------------- kinds of requests
 
     def do_scenario(self, kind):
         self.plan(kind, self.random.choice(self.scenarios)[1])
 
     def do_random(self, kind):
-        # A start may overlap another or a wall by the robots' sizes: that is a 422, and a good test as well.
-        wanted = workload.random_fleet(self.random)
-        answer = self.ask(kind, "POST", "/v1/plan", {200, 422}, json.dumps(wanted).encode())
+        # Robots may overlap each other or a wall, which is a 422.
+        instance = workload.random_fleet(self.random)
+        answer = self.ask(kind, "POST", "/v1/plan", {200, 422}, json.dumps(instance).encode())
         if answer.status == 200:
-            self.validate(wanted, answer.json(), answer.fields["x-request-id"])
+            self.validate(instance, answer.json(), answer.fields["x-request-id"])
 
     def do_gzip(self, kind):
-        wanted = self.random.choice(self.scenarios)[1]
+        instance = self.random.choice(self.scenarios)[1]
         fields = [("Content-Encoding", "gzip"), ("Accept-Encoding", "gzip")]
-        self.plan(kind, wanted, fields, gzip.compress(json.dumps(wanted).encode(), 1))
+        self.plan(kind, instance, fields, gzip.compress(json.dumps(instance).encode(), 1))
 
     def do_stream(self, kind):
-        wanted = self.random.choice(self.scenarios)[1]
-        answer = self.ask(kind, "POST", "/v1/plan", {200}, json.dumps(wanted).encode(),
+        instance = self.random.choice(self.scenarios)[1]
+        answer = self.ask(kind, "POST", "/v1/plan", {200}, json.dumps(instance).encode(),
                           [("Accept", "text/event-stream")])
         if answer.status != 200:
             return
         events = [event for event in answer.body.decode().split("\n\n") if event.startswith("event:")]
         name, data = events[-1].split("\n", 1)
         if name != "event: plan":
-            raise Wrong(f"a stream that ends with {name}")
-        self.validate(wanted, json.loads(data.removeprefix("data:")), answer.fields["x-request-id"])
+            raise Wrong(f"the stream ended with {name}")
+        self.validate(instance, json.loads(data.removeprefix("data:")), answer.fields["x-request-id"])
 
     def do_bad_body(self, kind):
         body, status = self.random.choice(self.bad_bodies)
         self.ask(kind, "POST", self.random.choice(["/v1/plan", "/v1/validate"]), {status}, body)
 
     def do_bad_framing(self, kind):
-        text, status = self.random.choice(self.bad_texts)
+        text, status = self.random.choice(self.malformed)
         connection = Connection(*self.address)
         begin = time.monotonic()
         connection.send(text)
@@ -204,12 +204,11 @@ class Client(threading.Thread):
             connection.close()
 
     def do_huge(self, kind):
-        wanted = workload.huge(self.limits)
-        self.plan(kind, wanted)
+        self.plan(kind, workload.huge(self.limits))
 
 
 def run_process(host, port, seed, connections, limits, seconds, result):
-    """Runs the clients of one process until the time is over; sends their record."""
+    """Runs the clients of one process for this time and puts their record into `result`."""
     record, lock, until = Record(), threading.Lock(), time.monotonic() + seconds
     clients = [Client(host, port, seed * 1000 + index, limits, until, record, lock)
                for index in range(connections)]

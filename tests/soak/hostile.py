@@ -3,10 +3,10 @@
 
 Usage: hostile.py [--binary FLEETPLAN | --url URL] [--seconds N]
 
-Measures small plans of one honest client alone, then beside each kind of hostile client in turn, while health is asked
-for on the admin port (not with --url). The exit status is 1 when an honest answer was wrong, lost or, in the median, more
-than twice as slow as alone, when too many were refused with 503, when health did not answer, or when the server ended
-or took more than a gibibyte.
+Measures small plans of one honest client alone, then beside each kind of hostile client in turn, while probing health on
+the admin port (not with --url). The exit status is 1 if an honest answer was wrong, lost or, in the median, more than
+twice as slow as alone, if too many were rejected with 503, if a health probe failed, or if the server ended or used more
+than 1 GiB.
 """
 
 import argparse
@@ -25,10 +25,10 @@ from client import Connection, Lost, request
 from report import percentile, spread, verdict
 from server import Server
 
-MOST_SLOWER = 2.0
-MOST_REFUSED = 0.1
+MAX_SLOWDOWN = 2.0
+MAX_REJECTED = 0.1
 HEALTH_TIMEOUT_S = 5.0
-MOST_MEMORY_KIB = 1 << 20
+MAX_MEMORY_KIB = 1 << 20
 
 HONEST = {"map": {"rows": ["......"] * 4}, "robots": [
     {"id": "a", "start": {"x": 0.5, "y": 0.5}, "goal": {"x": 5.5, "y": 0.5}},
@@ -38,7 +38,7 @@ POST = b"POST /v1/plan HTTP/1.1\r\nHost: hostile\r\n"
 
 
 class Attackers:
-    """A process with a number of sockets, each used by its own thread until the end."""
+    """A process with `count` sockets, each used by its own thread until the process is killed."""
 
     def __init__(self, address, count, act):
         self.process = multiprocessing.Process(target=self._run, args=(address, count, act), daemon=True)
@@ -64,13 +64,13 @@ class Attackers:
 
 
 class Health:
-    """Asks the admin port for health, on a new connection each time as probes do, until the end."""
+    """Probes health on the admin port, on a new connection each time, as orchestrators do."""
 
     def __init__(self, server):
         self.url, self.times, self.faults, self.ending = server.admin_url, [], [], threading.Event()
-        self.thread = threading.Thread(target=self._ask_on, daemon=True)
+        self.thread = threading.Thread(target=self._probe, daemon=True)
 
-    def _ask_on(self):
+    def _probe(self):
         while not self.ending.wait(0.05):
             begin = time.monotonic()
             try:
@@ -93,14 +93,14 @@ class Health:
         if self.url:
             self.thread.join()
             if not self.times and not self.faults:
-                self.faults.append("it was never asked")
+                self.faults.append("no probe was sent")
 
 
 def idle(_socket):
     time.sleep(60)
 
 
-def until_refused(socket_):
+def read_until_closed(socket_):
     """Reads until the server closes the connection."""
     socket_.settimeout(5)
     with contextlib.suppress(OSError):
@@ -109,7 +109,7 @@ def until_refused(socket_):
 
 
 def drip(data, pause):
-    """Sends a head or a body byte by byte."""
+    """Sends a head or a body byte by byte, with a pause in seconds after each."""
     def act(socket_):
         for at in range(len(data)):
             socket_.sendall(data[at:at + 1])
@@ -120,7 +120,7 @@ def drip(data, pause):
 def send_and_read(data):
     def act(socket_):
         socket_.sendall(data)
-        until_refused(socket_)
+        read_until_closed(socket_)
     return act
 
 
@@ -155,7 +155,7 @@ def half_closed(data):
     def act(socket_):
         socket_.sendall(data)
         socket_.shutdown(socket.SHUT_WR)
-        until_refused(socket_)
+        read_until_closed(socket_)
     return act
 
 
@@ -164,7 +164,7 @@ def posted(body, *fields):
 
 
 def attacks():
-    """Name, number of sockets, and what each does."""
+    """Triples of name, number of sockets, and the function that each socket runs."""
     small = json.dumps(HONEST).encode()
     flat = gzip.compress(b" " * 33_000_000, 9)
     bomb = gzip.compress(bytes(1 << 30), 9)
@@ -179,80 +179,80 @@ def attacks():
         ("conflicting lengths", 8, send_and_read(POST + b"Content-Length: 1\r\nContent-Length: 2\r\n\r\nab")),
         ("negative lengths", 8, send_and_read(POST + b"Content-Length: -1\r\n\r\n")),
         ("huge lengths", 50, send_and_read(POST + b"Content-Length: 33554432\r\n\r\n")),
-        ("60 whole bodies of 32 MB", 60, large_body()),
-        ("40 small ones of 32 MB", 40, send_and_read(posted(flat, ("Content-Encoding", "gzip")))),
+        ("60 unfinished 32 MB bodies", 60, large_body()),
+        ("40 gzipped 32 MB bodies", 40, send_and_read(posted(flat, ("Content-Encoding", "gzip")))),
         ("one-byte chunks", 4, send_and_read(chunks)),
-        ("gzip bombs, 1 MB to 1 GB", 2, send_and_read(posted(bomb, ("Content-Encoding", "gzip")))),
+        ("gzip bombs, 1 MB for 1 GB", 2, send_and_read(posted(bomb, ("Content-Encoding", "gzip")))),
         ("deep JSON", 4, send_and_read(posted(b"[" * 1_000_000))),
-        ("equal keys in a long one", 2, send_and_read(posted(b'{"' + b"k" * 500_000 + b'":{"a":0' + b',"a":0' * 50_000 + b"}}"))),
-        ("ids of a megabyte", 4, send_and_read(posted(json.dumps(ids).encode()))),
+        ("repeated keys, long pointer", 2, send_and_read(posted(b'{"' + b"k" * 500_000 + b'":{"a":0' + b',"a":0' * 50_000 + b"}}"))),
+        ("1 MB ids", 4, send_and_read(posted(json.dumps(ids).encode()))),
         ("clients that never read", 50, never_read(request("GET", "/v1/examples/hall-100"))),
         ("half-closed clients", 8, half_closed(posted(small))),
-        ("clients that leave", 8, send_and_leave(posted(small))),
+        ("disconnect after sending", 8, send_and_leave(posted(small))),
         ("500 requests at once", 4, send_and_read(request("GET", "/healthz") * 500)),
-        ("connections that come and go", 8, send_and_leave(b"")),
+        ("connect and disconnect", 8, send_and_leave(b"")),
     ]
 
 
 def honest_times(server, seconds):
-    """Milliseconds of each plan for an honest client, and how many were rejected; raises if one is wrong or lost."""
+    """The milliseconds of each plan of an honest client and the number of rejections; raises if one is wrong or lost."""
     connection, times, until = Connection(server.host, server.port, 20), [], time.monotonic() + seconds
-    refused = 0
+    rejected = 0
     body = json.dumps(HONEST).encode()
     while time.monotonic() < until:
         begin = time.monotonic()
         connection.send(posted(body))
         answer = connection.receive()
         if answer.status == 503:
-            refused += 1
+            rejected += 1
             time.sleep(0.01)
         elif answer.status != 200 or answer.json()["status"] != "solved":
             raise Lost(f"{answer.status}: {answer.body[:200]}")
         else:
             times.append(1000 * (time.monotonic() - begin))
-        time.sleep(0.005)  # an honest client has other things to do
+        time.sleep(0.005)  # an honest client does not saturate the server
     connection.close()
-    return times, refused
+    return times, rejected
 
 
 def main():
-    parser = argparse.ArgumentParser(description="What honest clients notice of hostile ones.")
+    parser = argparse.ArgumentParser(description="Measures the effect of hostile clients on honest ones.")
     parser.add_argument("--binary", help="the server to start and to measure")
-    parser.add_argument("--url", help="a server that runs already")
+    parser.add_argument("--url", help="a server that is already running")
     parser.add_argument("--seconds", type=float, default=5.0, help="of each attack")
     arguments = parser.parse_args()
     server = Server(arguments.binary, arguments.url, ["--admin-port", "0"])
     failures = []
-    print(f"{'beside':30} {'plans':>8} {'refused':>8} {'p50 ms':>8} {'p99 ms':>8} {'max ms':>8} {'slower':>7} {'MiB':>7} "
+    print(f"{'beside':30} {'plans':>8} {'rejected':>8} {'p50 ms':>8} {'p99 ms':>8} {'max ms':>8} {'ratio':>7} {'MiB':>7} "
           f"{'health, ms':>10}")
 
-    def judge(name, times, refused, usual, health):
-        """A line of the table; more failures, if so."""
+    def judge(name, times, rejected, usual, health):
+        """Prints a line of the table and adds failures."""
         p50, p99, most = spread(times)
         slower = p50 / usual
-        print(f"{name:30} {len(times):8} {refused:8} {p50:8.2f} {p99:8.2f} {most:8.2f} {slower:7.2f} "
+        print(f"{name:30} {len(times):8} {rejected:8} {p50:8.2f} {p99:8.2f} {most:8.2f} {slower:7.2f} "
               f"{(server.resident_kib() or 0) / 1024:7.1f} {health.worst()}", flush=True)
-        if slower > MOST_SLOWER:
-            failures.append(f"{name}: more than {MOST_SLOWER} times slower")
-        if refused > MOST_REFUSED * (len(times) + refused):
-            failures.append(f"{name}: {refused} of {len(times) + refused} were refused")
+        if slower > MAX_SLOWDOWN:
+            failures.append(f"{name}: more than {MAX_SLOWDOWN} times slower")
+        if rejected > MAX_REJECTED * (len(times) + rejected):
+            failures.append(f"{name}: {rejected} of {len(times) + rejected} were rejected")
 
     honest_times(server, 1.0)
     with Health(server) as health:
-        alone, refused = honest_times(server, arguments.seconds)
+        alone, rejected = honest_times(server, arguments.seconds)
     usual = percentile(alone, 0.5)
-    judge("nobody", alone, refused, usual, health)
+    judge("no other client", alone, rejected, usual, health)
     for name, count, act in attacks():
         try:
             with Health(server) as health, Attackers((server.host, server.port), count, act):
                 time.sleep(0.5)
-                times, refused = honest_times(server, arguments.seconds)
+                times, rejected = honest_times(server, arguments.seconds)
             if times:
-                judge(name, times, refused, usual, health)
+                judge(name, times, rejected, usual, health)
             else:
-                failures.append(f"{name}: nothing was answered but with 503")
+                failures.append(f"{name}: every request was rejected")
             if health.faults:
-                failures.append(f"{name}: health did not answer, {len(health.faults)} x, e.g. {health.faults[0]}")
+                failures.append(f"{name}: {len(health.faults)} health probes failed, e.g. {health.faults[0]}")
         except (Lost, OSError) as fault:
             failures.append(f"{name}: {fault}")
             print(f"{name:30} {fault}")
@@ -262,8 +262,8 @@ def main():
     peak = server.peak_kib()
     if peak:
         print(f"{peak / 1024:.0f} MiB at most")
-        if peak > MOST_MEMORY_KIB:
-            failures.append("the server took more than a gibibyte")
+        if peak > MAX_MEMORY_KIB:
+            failures.append("the server used more than 1 GiB")
     if code := server.end():
         failures.append(f"the server ended with {code}")
     return verdict(failures)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Offers a server more requests than it can answer.
+"""Sends a server more requests than it can answer.
 
 Usage: overload.py [--binary FLEETPLAN | --url URL] [--seconds N] [--times N]
 
-Measures how many plans a second the server answers, then offers four times as many for a minute, whether or not it
-answers, and looks how it recovers. The exit status is 1 when an answer was wrong or lost, when an accepted request
-overran its budget, when a refusal took 50 ms (the 99th percentile) or had no Retry-After, or when the server was not back
-to its usual latency at once.
+Measures how many plans per second the server returns, sends four times as many for a minute at a steady rate, and then
+measures how it recovers. The exit status is 1 if an answer was wrong or lost, if an accepted request exceeded its budget,
+if a rejection took 50 ms (the 99th percentile) or had no Retry-After, or if the server did not return to its usual latency
+at once.
 """
 
 import argparse
@@ -24,15 +24,15 @@ from server import Server
 
 SCENARIO = "hall-100"
 BUDGET_MS = 1000
-REFUSAL_MS = 50.0
-SLACK_MS = 100.0  # between the service's clock and the client's: sending, waking up, reading
-MOST_IDLE_S = 0.5
+REJECTION_MS = 50.0
+SLACK_MS = 100.0  # for sending, waking up and reading, which only the client's time includes
+MAX_IDLE_S = 0.5
 
 
 def posted():
-    wanted = workload.scenarios()[SCENARIO]
-    wanted["options"]["time_budget_ms"] = BUDGET_MS
-    return request("POST", "/v1/plan", json.dumps(wanted).encode())
+    instance = workload.scenarios()[SCENARIO]
+    instance["options"]["time_budget_ms"] = BUDGET_MS
+    return request("POST", "/v1/plan", json.dumps(instance).encode())
 
 
 class Load:
@@ -40,8 +40,8 @@ class Load:
 
     def __init__(self, host, port):
         self.address, self.data = (host, port), posted()
-        self.idle = []      # connections and when they were used
-        self.answers = []   # seconds of latency, status, milliseconds in the service or None
+        self.idle = []      # connections and the time of their last use
+        self.answers = []   # latency in seconds, status, milliseconds in the service or None
         self.faults = []
 
     async def offer(self, rate, seconds):
@@ -53,13 +53,13 @@ class Load:
 
     async def ask(self, due):
         try:
-            status, told_ms = await asyncio.wait_for(self.exchange(), 60)
-            self.answers.append((time.monotonic() - due, status, told_ms))
+            status, service_ms = await asyncio.wait_for(self.exchange(), 60)
+            self.answers.append((time.monotonic() - due, status, service_ms))
         except (OSError, asyncio.TimeoutError, asyncio.IncompleteReadError, ValueError) as fault:
             self.faults.append(f"{type(fault).__name__} {fault}")
 
     async def exchange(self):
-        while self.idle and time.monotonic() - self.idle[-1][2] > MOST_IDLE_S:
+        while self.idle and time.monotonic() - self.idle[-1][2] > MAX_IDLE_S:
             self.idle.pop()[1].close()
         reader, writer = self.idle.pop()[:2] if self.idle else await asyncio.open_connection(*self.address, limit=1 << 20)
         writer.write(self.data)
@@ -72,8 +72,8 @@ class Load:
             self.idle.append((reader, writer, time.monotonic()))
         if status == 503 and not re.search(r"(?i)\r\nretry-after: [1-9]", head):
             raise ValueError("503 without Retry-After")
-        told = re.search(rb'"total":\s*([0-9.e+-]+)', body) if status == 200 else None
-        return status, float(told.group(1)) if told else None
+        total = re.search(rb'"total":\s*([0-9.e+-]+)', body) if status == 200 else None
+        return status, float(total.group(1)) if total else None
 
 
 def run_process(host, port, rate, seconds, results):
@@ -83,17 +83,17 @@ def run_process(host, port, rate, seconds, results):
 
 
 def offer(server, rate, seconds, processes):
-    """Answers and faults of an open loop."""
+    """Answers and faults of an open loop, which sends at its rate whether or not answers arrive."""
     results = multiprocessing.Queue()
     children = [multiprocessing.Process(target=run_process,
                                         args=(server.host, server.port, rate / processes, seconds, results))
                 for _ in range(processes)]
     for child in children:
         child.start()
-    told = [results.get(timeout=seconds + 300) for _ in children]
+    parts = [results.get(timeout=seconds + 300) for _ in children]
     for child in children:
         child.join()
-    return [a for answers, _ in told for a in answers], [f for _, faults in told for f in faults]
+    return [a for answers, _ in parts for a in answers], [f for _, faults in parts for f in faults]
 
 
 def closed_loop(host, port, seconds, results):
@@ -107,7 +107,7 @@ def closed_loop(host, port, seconds, results):
 
 
 def capacity(server, workers, seconds):
-    """Plans a second when two clients for each worker ask again as soon as they have an answer."""
+    """Plans per second with two clients per worker, each of which sends its next request after an answer."""
     results = multiprocessing.Queue()
     children = [multiprocessing.Process(target=closed_loop, args=(server.host, server.port, seconds, results))
                 for _ in range(2 * workers)]
@@ -139,12 +139,12 @@ def ms(values):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Offers a server more requests than it can answer.")
+    parser = argparse.ArgumentParser(description="Sends a server more requests than it can answer.")
     parser.add_argument("--binary", help="the server to start and to measure")
-    parser.add_argument("--url", help="a server that runs already")
+    parser.add_argument("--url", help="a server that is already running")
     parser.add_argument("--seconds", type=float, default=60.0)
-    parser.add_argument("--times", type=float, default=4.0, help="the capacity")
-    parser.add_argument("--processes", type=int, default=2, help="of clients")
+    parser.add_argument("--times", type=float, default=4.0, help="the load as a multiple of the capacity")
+    parser.add_argument("--processes", type=int, default=2, help="number of client processes")
     arguments = parser.parse_args()
     server = Server(arguments.binary, arguments.url)
     workers = server.get("/v1/limits")["workers"]
@@ -153,31 +153,31 @@ def main():
     usual = one_by_one(server, 100)
     print(f"{SCENARIO}, budget {BUDGET_MS} ms; alone     {ms(usual)}")
     rate = capacity(server, workers, 10.0)
-    print(f"capacity: {rate:.0f} plans a second with {workers} workers; offering {arguments.times * rate:.0f} a second")
+    print(f"capacity: {rate:.0f} plans per second with {workers} workers; sending {arguments.times * rate:.0f} per second")
     answers, faults = offer(server, arguments.times * rate, arguments.seconds, arguments.processes)
     after = one_by_one(server, 20)
 
     accepted = [answer for answer in answers if answer[1] == 200]
-    refused = [seconds for seconds, status, _ in answers if status == 503]
-    others = len(answers) - len(accepted) - len(refused)
-    print(f"offered {len(answers) + len(faults)}: {len(accepted)} accepted ({len(accepted) / arguments.seconds:.0f} a second), "
-          f"{len(refused)} refused, {others} others, {len(faults)} lost")
-    print(f"accepted, as the client sees it   {ms([a[0] for a in accepted])}")
+    rejected = [seconds for seconds, status, _ in answers if status == 503]
+    others = len(answers) - len(accepted) - len(rejected)
+    print(f"sent {len(answers) + len(faults)}: {len(accepted)} accepted ({len(accepted) / arguments.seconds:.0f} per second), "
+          f"{len(rejected)} rejected, {others} others, {len(faults)} lost")
+    print(f"accepted, latency of the client   {ms([a[0] for a in accepted])}")
     print(f"accepted, by timings_ms.total     {ms([a[2] / 1000 for a in accepted])}")
-    print(f"refused                           {ms(refused)}")
-    print(f"the first 20 after it             {ms(after)}   the first {1000 * after[0]:.1f} ms")
+    print(f"rejected                          {ms(rejected)}")
+    print(f"the next 20 requests              {ms(after)}   the first {1000 * after[0]:.1f} ms")
 
     failures = [f"lost: {fault}" for fault in faults[:5]]
     if others or faults:
-        failures.append(f"{others} answers of another status, {len(faults)} lost")
+        failures.append(f"{others} answers with another status, {len(faults)} lost")
     if over := sum(1 for a in accepted if a[2] > BUDGET_MS):
-        failures.append(f"{over} accepted requests overran their budget")
+        failures.append(f"{over} accepted requests exceeded their budget")
     if over := sum(1 for a in accepted if 1000 * a[0] > BUDGET_MS + SLACK_MS):
-        failures.append(f"{over} accepted requests came after their budget to the client")
-    if refused and 1000 * percentile(refused, 0.99) >= REFUSAL_MS:
-        failures.append("refusals were slow")
+        failures.append(f"{over} accepted requests reached the client after their budget")
+    if rejected and 1000 * percentile(rejected, 0.99) >= REJECTION_MS:
+        failures.append("rejections were slow")
     if percentile(after, 0.5) > 2 * percentile(usual, 0.5) or after[0] > 2 * max(usual):
-        failures.append("it did not recover at once")
+        failures.append("the server did not recover at once")
     if code := server.end():
         failures.append(f"the server ended with {code}")
     return verdict(failures)

@@ -4,13 +4,13 @@ import math
 
 
 def percentile(values, share):
-    """The smallest of at least one value that this share of the values does not exceed."""
+    """The smallest value that at least this share (0 to 1) of the values does not exceed; `values` is not empty."""
     ordered = sorted(values)
     return ordered[max(0, math.ceil(share * len(ordered)) - 1)]
 
 
 def spread(values):
-    """Median, 99th percentile and maximum of at least one value."""
+    """Median, 99th percentile and maximum; `values` is not empty."""
     ordered = sorted(values)
     return percentile(ordered, 0.5), percentile(ordered, 0.99), ordered[-1]
 

@@ -1,4 +1,4 @@
-"""The server under test: a process of our own, or one that runs somewhere already."""
+"""The server under test: a child process, or one that is already running."""
 
 import json
 import re
@@ -13,13 +13,13 @@ class Server:
         if not url:
             self.process = subprocess.Popen([binary, "--port", "0", "--log-level", "off", *flags],
                                             stdout=subprocess.PIPE, text=True)
-            self.url = self._url_said()
+            self.url = self._read_url()
             if "--admin-port" in flags:
-                self.admin_url = self._url_said()
+                self.admin_url = self._read_url()
         parts = urllib.parse.urlsplit(self.url)
         self.host, self.port = parts.hostname, parts.port or 80
 
-    def _url_said(self):
+    def _read_url(self):
         return re.search(r"http://\S+", self.process.stdout.readline()).group()
 
     def get(self, path):
@@ -27,7 +27,7 @@ class Server:
             return json.load(response)
 
     def resident_kib(self):
-        """Resident memory; none when the server is not a process of ours, or has ended."""
+        """Resident memory; None if the server is not a child process or has ended."""
         return self._status("VmRSS")
 
     def peak_kib(self):
@@ -44,7 +44,7 @@ class Server:
         return self.process is None or self.process.poll() is None
 
     def end(self):
-        """Asks our server to end; its exit code."""
+        """Ends the child process, if any; returns its exit code."""
         if not self.process:
             return 0
         self.process.terminate()

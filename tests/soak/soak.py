@@ -3,8 +3,8 @@
 
 Usage: soak.py [--binary FLEETPLAN | --url URL] [--minutes N]
 
-Prints a table. The exit status is 1 when an answer was wrong or lost, when the server ended, or when its resident memory
-grew by more than 5 % after the first minute; it is taken in a pause of all clients after each round of a minute.
+Prints a table. The exit status is 1 if an answer was wrong or lost, if the server ended, or if its resident memory grew by
+more than 5 % after the first minute. Memory is measured in a pause of all clients after each round of a minute.
 """
 
 import argparse
@@ -18,13 +18,13 @@ from report import spread, verdict
 from server import Server
 
 ROUND_S = 60.0
-PAUSE_S = 6.0  # the server gives back what it does not need every five seconds
-MOST_GROWTH = 0.05
-MOST_TOLD = 10
+PAUSE_S = 6.0  # the server returns unused memory to the system every five seconds
+MAX_GROWTH = 0.05
+MAX_LISTED = 10
 
 
 def run_round(server, arguments, seed, limits, seconds):
-    """All clients for a while; their records."""
+    """Runs all clients for this time; returns their records."""
     results = multiprocessing.Queue()
     processes = [multiprocessing.Process(target=run_process, args=(
         server.host, server.port, seed * 1000 + index, arguments.connections, limits, seconds, results))
@@ -44,27 +44,27 @@ def print_report(records, seconds):
         statuses.update(record.statuses)
         for kind, values in record.latencies.items():
             latencies[kind] += values
-    print(f"\n{'kind':12} {'sent':>9} {'answers':>9} {'p50 ms':>9} {'p99 ms':>9} {'max ms':>9}   (answers but 503)")
+    print(f"\n{'kind':12} {'sent':>9} {'answers':>9} {'p50 ms':>9} {'p99 ms':>9} {'max ms':>9}   (without 503)")
     for kind in [*KINDS, "validate"]:
         values = latencies[kind]
         times = [1000 * value for value in spread(values)] if values else []
         print(f"{kind:12} {sent[kind] or '':>9} {len(values):>9} " + " ".join(f"{time_:9.1f}" for time_ in times))
     print("\nstatuses: " + ", ".join(f"{status}: {count}" for status, count in sorted(statuses.items())))
-    print(f"{sum(statuses.values())} answers in {seconds:.0f} s, {sum(statuses.values()) / seconds:.0f} a second; "
+    print(f"{sum(statuses.values())} answers in {seconds:.0f} s, {sum(statuses.values()) / seconds:.0f} per second; "
           f"{sum(record.validated for record in records)} plans validated")
 
 
 def main():
     parser = argparse.ArgumentParser(description="Keeps a server saturated and checks every answer.")
     parser.add_argument("--binary", help="the server to start and to measure")
-    parser.add_argument("--url", help="a server that runs already")
+    parser.add_argument("--url", help="a server that is already running")
     parser.add_argument("--minutes", type=float, default=30.0)
-    parser.add_argument("--processes", type=int, default=4, help="of clients")
-    parser.add_argument("--connections", type=int, default=8, help="of each process")
-    parser.add_argument("--seed", type=int, default=int(time.time()), help="of everything random in the requests")
+    parser.add_argument("--processes", type=int, default=4, help="number of client processes")
+    parser.add_argument("--connections", type=int, default=8, help="connections of each process")
+    parser.add_argument("--seed", type=int, default=int(time.time()), help="of the random requests")
     arguments = parser.parse_args()
     if not arguments.binary and not arguments.url:
-        parser.error("--binary or --url is needed")
+        parser.error("--binary or --url is required")
 
     server = Server(arguments.binary, arguments.url)
     print(f"seed {arguments.seed}, {arguments.processes} x {arguments.connections} connections, {server.url}")
@@ -84,19 +84,19 @@ def main():
     print_report(records, time.monotonic() - begin)
 
     if memory[-1]:
-        grown = memory[-1] / memory[1] - 1
+        growth = memory[-1] / memory[1] - 1
         print(f"resident memory: {memory[0] / 1024:.1f} MiB at the start, {memory[1] / 1024:.1f} MiB after the first round, "
-              f"{memory[-1] / 1024:.1f} MiB at the end ({100 * grown:+.1f} %), {server.peak_kib() / 1024:.1f} MiB at most")
-        if len(memory) > 2 and grown > MOST_GROWTH:
-            failures.append(f"resident memory grew by {100 * grown:.1f} %")
+              f"{memory[-1] / 1024:.1f} MiB at the end ({100 * growth:+.1f} %), {server.peak_kib() / 1024:.1f} MiB at most")
+        if len(memory) > 2 and growth > MAX_GROWTH:
+            failures.append(f"resident memory grew by {100 * growth:.1f} %")
     if code := server.end():
         failures.append(f"the server ended with {code}")
     wrong = [each for record in records for each in record.wrong]
     lost = [each for record in records for each in record.lost]
     print(f"wrong answers: {len(wrong)}, lost answers: {len(lost)}")
-    for what, faults in (("wrong", wrong), ("lost", lost)):
-        for fault, times in collections.Counter(faults).most_common(MOST_TOLD):
-            print(f"  {what}, {times} x {fault}")
+    for kind, faults in (("wrong", wrong), ("lost", lost)):
+        for fault, times in collections.Counter(faults).most_common(MAX_LISTED):
+            print(f"  {kind}, {times} x {fault}")
     if wrong or lost:
         failures.append("answers were wrong or lost")
     return verdict(failures)

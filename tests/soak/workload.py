@@ -1,4 +1,4 @@
-"""What the clients ask for: good requests, and bad ones with the status that they are to be refused with."""
+"""The requests of the clients: valid ones, and invalid ones with the expected status."""
 
 import json
 import pathlib
@@ -8,7 +8,7 @@ SCENARIOS = pathlib.Path(__file__).resolve().parent.parent / "scenarios"
 
 
 def scenarios():
-    """The ready requests by name, with budgets that suit a crowd."""
+    """The requests of tests/scenarios by name, with a budget of 2 s."""
     found = {}
     for path in sorted(SCENARIOS.glob("*.json")):
         if path.name == "index.json":
@@ -19,12 +19,12 @@ def scenarios():
 
 
 def random_fleet(random_: random.Random):
-    """A small hall with walls, and a few robots on cells of their own."""
+    """A small hall with walls and a few robots, each on its own cell."""
     columns, rows = random_.randint(5, 24), random_.randint(4, 16)
     free = [(c, r) for c in range(columns) for r in range(rows) if random_.random() > 0.15]
-    drawn = [["#"] * columns for _ in range(rows)]
+    grid = [["#"] * columns for _ in range(rows)]
     for c, r in free:
-        drawn[rows - 1 - r][c] = "."
+        grid[rows - 1 - r][c] = "."
     count = min(random_.randint(1, 12), len(free))
     starts, goals = random_.sample(free, count), random_.sample(free, count)
     pose = lambda cell: {"x": cell[0] + 0.5, "y": cell[1] + 0.5, "theta": random_.uniform(-10, 10)}
@@ -40,12 +40,12 @@ def random_fleet(random_: random.Random):
                "priority": random_.choice(["shortest_first", "longest_first", "as_listed", "random"]),
                "reordering": random_.choice(["raise_failed", "random", "none"]),
                "connectivity": random_.choice([4, 8, 16, 32]), "any_angle": random_.random() < 0.8}
-    return {"map": {"rows": ["".join(row) for row in drawn]}, "robots": robots, "options": options,
+    return {"map": {"rows": ["".join(row) for row in grid]}, "robots": robots, "options": options,
             "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 2.0}}
 
 
 def endless(budget_ms):
-    """A request that takes its whole budget: a crowd in a hall, improved until the clock ends it."""
+    """A request that uses its whole budget: 100 robots in a hall, whose plan is improved until the time is over."""
     places = [(c + 0.5, r + 0.5) for r in range(0, 20, 4) for c in range(20)]
     robots = [{"id": f"e{i}", "start": {"x": x, "y": y}, "goal": {"x": 20 - x, "y": 20 - y}}
               for i, (x, y) in enumerate(places)]
@@ -55,7 +55,7 @@ def endless(budget_ms):
 
 
 def huge(limits):
-    """As many cells and robots as are allowed, some of them to be planned within a second."""
+    """As many cells and robots as the service accepts; 20 of the robots have a goal. The budget is 1 s."""
     side = int(min(limits["max_cells"], 4_000_000) ** 0.5)
     count = min(limits["max_robots"], 2000)
     robots = []
@@ -71,25 +71,25 @@ def huge(limits):
 
 
 def bad_bodies(limits):
-    """Pairs of a body and its status."""
+    """Pairs of an invalid body and the expected status."""
     good = random_fleet(random.Random(1))
-    spoiled = lambda **changes: json.dumps({**good, **changes}).encode()
+    changed = lambda **changes: json.dumps({**good, **changes}).encode()
     robot = good["robots"][0]
     return [
         (b"", 400), (b"{", 400), (b"[" * 100_000, 400), (b"\xff\xfe", 400), (b'{"map":NaN}', 400),
         (b'{"a":1} x', 400), (b'{"a":"\x00"}', 400), (b"[]", 422), (b"{}", 422), (b'{"map":1,"map":2}', 422),
-        (spoiled(robots=[]), 422), (spoiled(robots=[robot, robot]), 422), (spoiled(unknown=1), 422),
-        (spoiled(robots=[{**robot, "radius": -1}]), 422), (spoiled(robots=[{**robot, "start": None}]), 422),
-        (spoiled(options={"seed": -1}), 422), (spoiled(map={"rows": ["..", "."]}), 422),
-        (spoiled(map={"rows": ["#"]}), 422), (b'{"map":{"rows":["."],"resolution":1e999}}', 422),
-        (spoiled(robots=[{**robot, "id": "x" * 100_000, "radius": 0}]), 422),
+        (changed(robots=[]), 422), (changed(robots=[robot, robot]), 422), (changed(unknown=1), 422),
+        (changed(robots=[{**robot, "radius": -1}]), 422), (changed(robots=[{**robot, "start": None}]), 422),
+        (changed(options={"seed": -1}), 422), (changed(map={"rows": ["..", "."]}), 422),
+        (changed(map={"rows": ["#"]}), 422), (b'{"map":{"rows":["."],"resolution":1e999}}', 422),
+        (changed(robots=[{**robot, "id": "x" * 100_000, "radius": 0}]), 422),
         (b'{"robots":' + b"[{}," * 10_000 + b"{}" + b"]" * 10_001, 400),
         (json.dumps({"map": {"rows": ["." * 5000] * (limits["max_cells"] // 5000 + 1)}, "robots": []}).encode(), 422),
     ]
 
 
-def bad_texts(limits):
-    """Pairs of what no client would send and its status."""
+def malformed_requests(limits):
+    """Pairs of the bytes of a bad request and the expected status."""
     post = b"POST /v1/plan HTTP/1.1\r\n"
     return [
         (b"GET / HTTP/1.1\n\n", 400), (b"PRI * HTTP/2.0\r\n\r\n", 400), (b"GET /a b HTTP/1.1\r\n\r\n", 400),

@@ -79,7 +79,7 @@ export function sortFiles(files) {
       break;
     case "image":
       throw new FileError(
-        `${image[0].name} is only the image of a map: open it together with its map.yaml, which tells ` +
+        `${image[0].name} is only the image of a map: open it together with its map.yaml, which has ` +
           "the size of a pixel.",
       );
   }

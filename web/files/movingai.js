@@ -15,15 +15,15 @@ const SLACK = 1e-10; // metres by which disks may overlap after rounding, below 
 export function readMovingAiMap(text) {
   const lines = linesOf(text);
   const { width, height, first } = readHeader(lines);
-  const drawn = lines.slice(first);
-  while (drawn.at(-1)?.trim() === "") drawn.pop();
-  if (drawn.length !== height) {
+  const rows = lines.slice(first);
+  while (rows.at(-1)?.trim() === "") rows.pop();
+  if (rows.length !== height) {
     throw new FileError(
-      `The header says height ${height}, but ${drawn.length} rows follow "map". ` +
+      `The header has height ${height}, but ${rows.length} rows follow "map". ` +
         "Correct the height, or fetch the map again: it may be truncated.",
     );
   }
-  return { rows: drawn.map((line, row) => readRow(line, first + row + 1, width)), resolution: 1 };
+  return { rows: rows.map((line, row) => readRow(line, first + row + 1, width)), resolution: 1 };
 }
 
 /** {width, height, first}: `first` is the index of the line that draws the top row. */
@@ -63,7 +63,7 @@ function readRow(line, number, width) {
   }
   if (line.length !== width) {
     throw new FileError(
-      `Line ${number} has ${line.length} cells, but the header says width ${width}; ` +
+      `Line ${number} has ${line.length} cells, but the header has width ${width}; ` +
         "all rows must be of that length.",
     );
   }

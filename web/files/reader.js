@@ -94,12 +94,12 @@ export class Reader {
   }
 
   /** The map that is open, if it can be the one that the scenario is for. */
-  #openMap(name, { map: wanted, width, height }) {
+  #openMap(name, { map: mapName, width, height }) {
     const { grid } = this.#session.scene;
     if (grid?.map.rows.length === height && grid.lines.every((line) => line.length === width))
       return { ...grid.map, resolution: grid.resolution, origin: grid.origin };
     throw new FileError(
-      `${name} is for the map ${wanted} of ${width} x ${height} cells, not the one shown: open both together.`,
+      `${name} is for the map ${mapName} of ${width} x ${height} cells, not the one shown: open both together.`,
     );
   }
 

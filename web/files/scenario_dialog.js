@@ -57,7 +57,7 @@ export class ScenarioDialog {
   }
 
   #refresh() {
-    const { count: wanted, ...rest } = this.#fields;
+    const { count: chosen, ...rest } = this.#fields;
     const filled = Object.values(this.#fields).every(
       ({ input }) => input.checkValidity() && input.valueAsNumber > 0,
     );
@@ -65,7 +65,7 @@ export class ScenarioDialog {
       Object.entries(rest).map(([key, { input }]) => [key, input.valueAsNumber]),
     );
     this.#made = filled
-      ? scenarioRequest(this.#map, this.#entries, wanted.input.valueAsNumber, defaults)
+      ? scenarioRequest(this.#map, this.#entries, chosen.input.valueAsNumber, defaults)
       : null;
     const robots = this.#made?.request.robots ?? [];
     this.#dialog.ready = robots.length > 0;
@@ -76,12 +76,12 @@ export class ScenarioDialog {
   #inWords() {
     const { request, passedOver } = this.#made;
     const taken = request.robots.length;
-    const wanted = this.#fields.count.input.valueAsNumber;
+    const chosen = this.#fields.count.input.valueAsNumber;
     const { walls, overlaps } = passedOver;
     const reasons = [];
     if (walls > 0) reasons.push(`${walls} where the disk does not fit`);
     if (overlaps > 0) reasons.push(`${overlaps} where it overlaps an earlier one`);
-    const outcome = taken < wanted ? `Only ${count(taken, "robot")} possible.` : `${count(taken, "robot")}.`;
+    const outcome = taken < chosen ? `Only ${count(taken, "robot")} possible.` : `${count(taken, "robot")}.`;
     return reasons.length > 0 ? `${outcome} Skipped: ${reasons.join(", ")}.` : outcome;
   }
 

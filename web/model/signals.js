@@ -1,10 +1,10 @@
-// Who wants to hear of what. Pure.
+// Events and their listeners. Pure.
 
-/** Named events with listeners, called in the order in which they came. */
+/** Named events with listeners, called in the order of registration. */
 export class Signals {
   #listeners = new Map(); // name -> [listener]
 
-  /** Calls `listener` with what is told of each event of these names (separated by spaces). */
+  /** Calls `listener` with the detail of each event of these names (separated by spaces). */
   on(names, listener) {
     for (const name of names.split(" ")) {
       if (!this.#listeners.has(name)) this.#listeners.set(name, []);

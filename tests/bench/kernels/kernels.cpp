@@ -1,6 +1,6 @@
 // The inner loops of planning, each alone: Google Benchmark's flags, such as --benchmark_filter=Departure.
 //
-// What moves is the fleet of the paper's halls: the questions are asked among the robots of a real plan.
+// The inputs are queries among the robots of a plan for the paper's halls.
 
 #include <benchmark/benchmark.h>
 
@@ -23,7 +23,7 @@ using core::Position;
 using core::Segment;
 using core::TimedSegment;
 
-/// Inputs of a kernel are drawn beforehand, so many that branches cannot be learnt by heart.
+/// Inputs of a kernel are drawn beforehand, enough of them to defeat branch prediction.
 constexpr std::size_t kInputs = 4096;
 
 /// The robots' numbers in the crowd that moves.
@@ -59,7 +59,7 @@ std::vector<Segment> random_segments(const core::OccupancyGrid& grid, int cells)
   return segments;
 }
 
-/// May a disk sweep a segment between cells up to so many apart, among the paper's rectangles?
+/// Whether a disk may sweep a segment between cells up to this many apart, among the paper's rectangles.
 void BM_LineOfSight(benchmark::State& state) {
   const core::OccupancyGrid grid = generate(hall_with_rectangles(), 1).grid;
   const core::LineOfSight sight(grid);

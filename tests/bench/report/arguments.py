@@ -74,24 +74,25 @@ def make_parser():
     add("inputs", metavar="FILE", nargs="*", help="request files, or folders of them (at any depth)")
     add("--full", action="store_true", help="the paper's whole protocol: seeds 1-100, 15 to 300 robots in steps of 15")
     add("--scaling", action="store_true", help="tables of time against robots and against the size of the map")
-    add("--halls", type=halls, default=HALLS, metavar="HALLS", help="of the paper: empty, rects, or empty,rects")
-    add("--seeds", type=numbers, metavar="LIST", help=f"of the workloads, such as 1-3,7; default {QUICK_SEEDS}")
+    add("--halls", type=halls, default=HALLS, metavar="HALLS", help="halls of the paper: empty, rects, or empty,rects")
+    add("--seeds", type=numbers, metavar="LIST", help=f"seeds of the workloads, such as 1-3,7; default {QUICK_SEEDS}")
     add("--robots", type=robot_counts, metavar="LIST",
-        help=f"take only the first so many, such as 60,100-300:50; default {QUICK_ROBOTS}, and all of a file")
+        help=f"numbers of robots, such as 60,100-300:50; only the first ones are planned; default {QUICK_ROBOTS}, "
+             "and all of a file")
     add("--budget", type=between(0.001, 86_400.0, float), default=60.0, metavar="SECONDS",
-        help="for a plan; default 60")
+        help="time budget of a plan; default 60")
     add("--mode", choices=["first", "anytime"], help="first solution, or improve it until the budget is spent")
     add("--options", type=json_object, default={}, metavar="JSON",
         help='more options of the requests, such as {"connectivity": 4}')
     add("--repeat", type=between(1, 1000, int), default=1, metavar="N",
-        help="plan everything so often and take the median time")
-    add("--output", metavar="FOLDER", default=".", help="where the CSV file and the chart go")
+        help="plan each instance N times and report the median time")
+    add("--output", metavar="FOLDER", default=".", help="folder for the CSV file and the chart")
     add("--csv", metavar="FILE", help="write every run to this file instead")
     add("--chart", action="store_true", help="draw the paper's workloads to an SVG file beside the CSV file")
     add("--svg", metavar="FILE", help="draw them to this file instead")
     add("--reference", metavar="FILE",
-        help="compare with a CSV file of file,robots,solved,attempts,seconds,flowtime,makespan; without files: run the "
-             "instances that it names")
+        help="compare with a CSV file of file,robots,solved,attempts,seconds,flowtime,makespan; without files: plan "
+             "the instances that it names")
     add("--root", metavar="FOLDER", help="the folder of the reference's files; default: where the reference is")
     add("--read", metavar="FILE", help="report the runs of this CSV file instead of measuring")
     return parser

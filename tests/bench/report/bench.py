@@ -13,7 +13,7 @@ import threading
 import chart
 from arguments import parse, request_options
 from comparison import Comparison
-from jobs import file_jobs, hall_jobs, reference_jobs
+from jobs import file_jobs, hall_jobs, named_workload, reference_jobs
 from results import Run, read_file
 from scaling import scaling_jobs, scaling_report
 from summary import summarise_halls
@@ -31,7 +31,7 @@ def jobs_of(arguments, reference):
 
 
 def measure(program, jobs, arguments):
-    """Measures the jobs. Writes every row to the CSV file as soon as it is there."""
+    """Measures the jobs. Writes every row to the CSV file as soon as it arrives."""
     how = {"options": request_options(arguments), "budget": arguments.budget, "repeats": arguments.repeat}
     text = "".join(json.dumps({**job, **how}) + "\n" for job in jobs)
     pathlib.Path(arguments.csv).parent.mkdir(parents=True, exist_ok=True)
@@ -60,9 +60,11 @@ def report(runs, reference, arguments):
         return scaling_report(runs, arguments.seeds)
     if arguments.reference:
         return comparison_report(Comparison(runs, reference))
-    if arguments.inputs:
-        return run_report(runs)
-    return hall_report(summarise_halls(runs))
+    return hall_report(summarise_halls(runs)) if are_of_paper(runs) else run_report(runs)
+
+
+def are_of_paper(runs):
+    return all(named_workload(run.file, ()) for run in runs)
 
 
 def main(program, words):
@@ -72,6 +74,8 @@ def main(program, words):
         if not arguments.read:
             measure(program, jobs_of(arguments, reference), arguments)
         runs = read_file(arguments.read or arguments.csv, Run)
+        if arguments.svg and not are_of_paper(runs):
+            raise ValueError("only the paper's workloads have a chart")
     except (OSError, ValueError) as error:
         print(f"bench: {error}", file=sys.stderr)
         return 1

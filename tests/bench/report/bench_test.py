@@ -58,6 +58,13 @@ class Bench(unittest.TestCase):
         status, text = self.run_bench(self.write_request("a.json"))
         self.assertEqual(status, 0)
         self.assertRegex(text, r"a\.json \| +7 \| +7 \| 0\.500 \|")
+        self.assertEqual(self.run_bench("--read", str(self.folder / "out/files.csv")), (status, text))
+
+    def test_a_chart_of_files_is_rejected(self):
+        self.run_bench(self.write_request("a.json"))
+        status, text = self.run_bench("--read", str(self.folder / "out/files.csv"), "--chart")
+        self.assertEqual(status, 1)
+        self.assertIn("only the paper's workloads have a chart", text)
 
     def test_runs_are_compared_with_the_reference(self):
         self.write_request("a.json")
@@ -75,7 +82,7 @@ class Bench(unittest.TestCase):
     def test_an_invalid_answer_makes_the_exit_status_1(self):
         status, text = self.run_bench(self.write_request("bad.json"))
         self.assertEqual(status, 1)
-        self.assertIn("at fault: 1.", text)
+        self.assertIn("invalid: 1.", text)
 
     def test_a_failed_measurement_makes_the_exit_status_1(self):
         self.program.write_text("#!/bin/sh\nexit 1\n")

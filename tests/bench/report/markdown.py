@@ -15,7 +15,7 @@ def table(head, rows):
 
 
 def decimal(value, decimals):
-    """A number with so many decimals; "-" for None."""
+    """A number with this many decimals; "-" for None."""
     return "-" if value is None else f"{value:.{decimals}f}"
 
 

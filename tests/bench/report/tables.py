@@ -65,6 +65,6 @@ def closing_lines(runs):
     wall = sum(run.seconds for run in runs)
     cpu = sum(run.cpu_seconds for run in runs)
     busy = ": the machine was busy, and an idle one is faster" if cpu < IDLE_SHARE * wall else ""
-    return (f"Plans: {len(runs)}, all checked in continuous time; at fault: {invalid}.\n"
+    return (f"Plans: {len(runs)}, all checked in continuous time; invalid: {invalid}.\n"
             f"Peak resident memory {mebibytes(max((run.peak_memory for run in runs), default=0))} MiB. "
             f"Wall time {seconds(wall)} s, CPU time {seconds(cpu)} s{busy}.\n")

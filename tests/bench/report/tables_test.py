@@ -37,9 +37,9 @@ class Tables(unittest.TestCase):
     def test_the_last_lines_count_faults_and_report_a_busy_machine(self):
         idle = run(15, 1.0, 100.0, cpu_seconds=0.99, peak_memory=5 << 20)
         busy = run(15, 1.0, 100.0, cpu_seconds=0.5, valid=False)
-        self.assertIn("Plans: 1, all checked in continuous time; at fault: 0.", closing_lines([idle]))
+        self.assertIn("Plans: 1, all checked in continuous time; invalid: 0.", closing_lines([idle]))
         self.assertNotIn("busy", closing_lines([idle]))
-        self.assertIn("Plans: 2, all checked in continuous time; at fault: 1.", closing_lines([idle, busy]))
+        self.assertIn("Plans: 2, all checked in continuous time; invalid: 1.", closing_lines([idle, busy]))
         self.assertIn("5 MiB. Wall time 2.00 s, CPU time 1.49 s: the machine was busy", closing_lines([idle, busy]))
 
 

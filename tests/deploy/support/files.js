@@ -27,7 +27,7 @@ export function namesIn(folder) {
 }
 
 /** What the server prints, such as for --help. */
-export function said(flag) {
+export function outputOf(flag) {
   const { stdout, error } = spawnSync(process.env.FLEETPLAN_BIN, [flag], { encoding: "utf8" });
   if (error) throw error;
   return stdout;
@@ -35,5 +35,5 @@ export function said(flag) {
 
 /** The names of the environment variables of all settings. */
 export function settingNames() {
-  return new Set(said("--help").match(/FLEETPLAN_[A-Z_]+/g));
+  return new Set(outputOf("--help").match(/FLEETPLAN_[A-Z_]+/g));
 }

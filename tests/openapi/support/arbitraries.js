@@ -1,10 +1,10 @@
-// Requests made from the schemas of the document, and fleets that look like real ones.
+// Requests generated from the schemas of the document, and realistic fleets.
 
 import fc from "fast-check";
 
 const LARGEST_LIST = 4;
 
-/** Numbers from least to most: few digits, any at all, and the ends of the range. */
+/** Numbers of the schema's range: with few digits, arbitrary ones, and the ends of the range. */
 function numbers(schema) {
   const least = schema.minimum ?? -Number.MAX_VALUE;
   const most = schema.maximum ?? Number.MAX_VALUE;
@@ -16,7 +16,7 @@ function numbers(schema) {
   );
 }
 
-/** Whole numbers as BigInt, as the ends of the ranges are none of JavaScript's. */
+/** Whole numbers as BigInt, because JavaScript's numbers cannot represent the ends of the ranges. */
 function integers(schema) {
   const whole = (value) =>
     value === 18446744073709551615 ? 2n ** 64n - 1n : value === 2 ** 63 ? 2n ** 63n - 1n : BigInt(value);
@@ -61,12 +61,12 @@ function valuesOfType(document, schema, type, overrides) {
     case "object":
       return objects(document, schema, overrides);
     default:
-      throw new Error(`no values of type ${type} are made yet`);
+      throw new Error(`cannot generate values of type ${type}`);
   }
 }
 
 /**
- * Values that fit a schema of the document, but for its conditions (`allOf`). `overrides` has other arbitraries for
+ * Values that fit a schema of the document, without its conditions (`allOf`). `overrides` replaces the arbitraries of
  * components, by name.
  */
 export function valuesOf(document, schema, overrides = {}) {
@@ -90,7 +90,7 @@ const CELLS = fc.oneof(
   { weight: 1, arbitrary: fc.constantFrom("#", "@", "O", "T", "W") },
 );
 
-/** Rows of one length. */
+/** Rows of equal length. */
 const ROWS = fc
   .record({ columns: fc.integer({ min: 1, max: 12 }), rows: fc.integer({ min: 1, max: 10 }) })
   .chain(({ columns, rows }) => {
@@ -108,7 +108,7 @@ function freeCells(rows) {
 
 const mostly = (usual, any) => fc.oneof({ weight: 7, arbitrary: usual }, { weight: 1, arbitrary: any });
 
-/** Robots at cells of their own, most of them small enough to fit and with usual speeds. */
+/** Robots on distinct cells, most of them small enough to fit and with usual speeds. */
 function fleets(document, map, free) {
   const { resolution = 1, origin = { x: 0, y: 0 } } = map;
   const of = (name) => valuesOfComponent(document, name);
@@ -152,7 +152,7 @@ function fleets(document, map, free) {
     }));
 }
 
-/** Requests to plan that are much like real ones, with whatever options the schema allows and short budgets. */
+/** Realistic requests to plan, with any options that the schema allows and short budgets. */
 export function plausibleRequests(document) {
   const options = valuesOfComponent(document, "PlanOptions").map((made) => ({
     ...made,
@@ -175,7 +175,7 @@ export function plausibleRequests(document) {
     .map(({ map, fleet, options: chosen }) => ({ map, ...fleet, options: chosen }));
 }
 
-/** Requests to validate: real fleets with plans made from the schema, most for robots that there are. */
+/** Requests to validate: realistic fleets with plans generated from the schema, most for robots of the request. */
 export function plausiblePlans(document) {
   return plausibleRequests(document).chain((request) => {
     const robot = mostly(fc.constantFrom(...request.robots.map(({ id }) => id)), fc.string({ minLength: 1 }));

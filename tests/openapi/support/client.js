@@ -4,11 +4,11 @@ import assert from "node:assert/strict";
 import { Agent, request } from "node:http";
 import { connect } from "node:net";
 
-const PATIENCE_MS = 30_000;
+const TIMEOUT_MS = 30_000;
 /** Header fields with a meaning for programs. They must be documented where they are sent. */
 const CONTROL_FIELDS = ["allow", "retry-after", "www-authenticate", "accept-encoding"];
 
-/** A client of the service at `url`, whose answers the document has to have: anything else is a failed assertion. */
+/** A client of the service at `url`. An answer that the document does not describe fails an assertion. */
 export class Client {
   #agent = new Agent({ keepAlive: true });
   #url;
@@ -37,11 +37,11 @@ export class Client {
     return this.send("GET", path, { headers });
   }
 
-  /** Sends these bytes on a connection of their own and reads until the server closes it. */
+  /** Sends these bytes on a separate connection and reads until the server closes it. */
   async sendRaw(method, path, text) {
     const { hostname, port } = this.#url;
     const socket = connect({ host: hostname, port: Number(port) });
-    socket.setTimeout(PATIENCE_MS, () => socket.destroy(new Error("no answer in time")));
+    socket.setTimeout(TIMEOUT_MS, () => socket.destroy(new Error("no answer in time")));
     socket.write(text);
     const parts = [];
     for await (const part of socket) parts.push(part);
@@ -76,21 +76,21 @@ export class Client {
           reject(error);
         }
       });
-      sent.setTimeout(PATIENCE_MS, () => sent.destroy(new Error("no answer in time")));
+      sent.setTimeout(TIMEOUT_MS, () => sent.destroy(new Error("no answer in time")));
       sent.on("error", reject);
       sent.end(body);
     });
   }
 }
 
-/** The events of a stream, [{event, data}], each held to what the document says of its kind. */
+/** The events of a stream, [{event, data}], each checked against the document's schema of its kind. */
 function checkedEvents(document, media, answer) {
   const blocks = answer.body.split("\n\n");
   assert.equal(blocks.pop(), "", "the last event ends with an empty line");
   const withoutComments = blocks.map((block) => block.replaceAll(/^:.*\n?/gm, ""));
   return withoutComments.filter(Boolean).map((block) => {
     const [, event, text] =
-      /^event: (\w+)\ndata: ([^\r\n]*)$/.exec(block) ?? assert.fail(`no event: ${block}`);
+      /^event: (\w+)\ndata: ([^\r\n]*)$/.exec(block) ?? assert.fail(`not an event: ${block}`);
     const data = JSON.parse(text);
     assert.deepEqual(
       document.faultsOf([...media.steps, "schema", "contentSchema", "items"], { event, data }),
@@ -103,32 +103,36 @@ function checkedEvents(document, media, answer) {
 
 function checked(document, answer) {
   const { method, path, status, headers } = answer;
-  const asked = `${method} ${path} answered ${status}: ${answer.body.slice(0, 400)}`;
+  const exchange = `${method} ${path} answered ${status}: ${answer.body.slice(0, 400)}`;
   const documented = document.responseTo(method, path, status);
-  assert.ok(documented, `not documented: ${asked}`);
+  assert.ok(documented, `not documented: ${exchange}`);
 
   const header = (name) => document.at([...documented.steps, "headers", name]);
   for (const name of Object.keys(documented.value.headers)) {
     const value = headers[name.toLowerCase()];
     const documentedHeader = header(name);
     if (value === undefined) {
-      assert.ok(!documentedHeader.value.required, `no ${name}: ${asked}`);
+      assert.ok(!documentedHeader.value.required, `no ${name}: ${exchange}`);
     } else {
-      assert.deepEqual(document.faultsOf([...documentedHeader.steps, "schema"], value), [], `${name} of ${asked}`);
+      assert.deepEqual(
+        document.faultsOf([...documentedHeader.steps, "schema"], value),
+        [],
+        `${name} of ${exchange}`,
+      );
     }
   }
   const names = Object.keys(documented.value.headers).map((name) => name.toLowerCase());
   for (const name of CONTROL_FIELDS)
-    assert.ok(!headers[name] || names.includes(name), `${name} is not documented: ${asked}`);
+    assert.ok(!headers[name] || names.includes(name), `${name} is not documented: ${exchange}`);
 
   const [type] = headers["content-type"].split(";");
   const media = document.at([...documented.steps, "content", type]);
-  assert.ok(media.value, `content type ${type} is not documented: ${asked}`);
+  assert.ok(media.value, `content type ${type} is not documented: ${exchange}`);
   if (method === "HEAD") return answer;
   if (type === "text/event-stream") return { ...answer, events: checkedEvents(document, media, answer) };
   const json = type.endsWith("json") ? JSON.parse(answer.body) : undefined;
-  assert.deepEqual(document.faultsOf([...media.steps, "schema"], json ?? answer.body), [], asked);
-  if (status >= 400) assert.equal(json.status, status, asked);
-  if (json?.request_id !== undefined) assert.equal(json.request_id, headers["x-request-id"], asked);
+  assert.deepEqual(document.faultsOf([...media.steps, "schema"], json ?? answer.body), [], exchange);
+  if (status >= 400) assert.equal(json.status, status, exchange);
+  if (json?.request_id !== undefined) assert.equal(json.request_id, headers["x-request-id"], exchange);
   return { ...answer, json };
 }

@@ -12,7 +12,7 @@ export async function fetchDocument(url) {
   return answer.json();
 }
 
-/** Schemas of answers are open for later members; but all members that the tests see must be documented. */
+/** A copy in which objects allow only documented members; the schemas of answers allow more, for later versions. */
 function closed(schema) {
   if (Array.isArray(schema)) return schema.map(closed);
   if (schema === null || typeof schema !== "object") return schema;
@@ -29,7 +29,7 @@ export class Document {
   constructor(root) {
     this.root = root;
     addFormats(this.#ajv);
-    this.#ajv.addVocabulary(Object.keys(root)); // which are no keywords of schemas
+    this.#ajv.addVocabulary(Object.keys(root)); // members of the document, not keywords of schemas
     this.#ajv.addVocabulary(["x-unit", "x-enumDescriptions"]);
     this.#ajv.addSchema(closed(root), "document");
   }
@@ -49,7 +49,7 @@ export class Document {
     return { value, steps: place };
   }
 
-  /** How a value breaks the schema at these steps; [] when it does not. */
+  /** How a value violates the schema at these steps; [] if it does not. */
   faultsOf(steps, value) {
     const pointer = steps.map((step) => "/" + step.replaceAll("~", "~0").replaceAll("/", "~1")).join("");
     if (!this.#validators.has(pointer)) {
@@ -59,12 +59,12 @@ export class Document {
     return validate(value) ? [] : validate.errors.map((error) => `${error.instancePath} ${error.message}`);
   }
 
-  /** How a value breaks a component's schema. */
+  /** How a value violates a component's schema. */
   faultsOfComponent(name, value) {
     return this.faultsOf(["components", "schemas", name], value);
   }
 
-  /** The path of the document that a request's path is one of, or undefined. */
+  /** The path template of the document that matches a request's target, or undefined. */
   pathOf(target) {
     const path = target.split("?")[0];
     return Object.keys(this.root.paths).find((template) =>
@@ -74,15 +74,15 @@ export class Document {
 
   /**
    * The answer that is documented for this request and status, {value, steps}, or undefined. An unknown path has
-   * the answers of the component NotFound, an unknown method those of the path's others.
+   * the answer of the component NotFound, an unknown method those of the path's other methods.
    */
   responseTo(method, target, status) {
     const path = this.pathOf(target);
     if (path === undefined) {
       return status === 404 ? this.at(["components", "responses", "NotFound"]) : undefined;
     }
-    const asked = method === "HEAD" ? "get" : method.toLowerCase();
-    const methods = this.root.paths[path][asked] ? [asked] : METHODS;
+    const requested = method === "HEAD" ? "get" : method.toLowerCase();
+    const methods = this.root.paths[path][requested] ? [requested] : METHODS;
     return methods
       .map((one) => this.at(["paths", path, one, "responses", String(status)]))
       .find(({ value }) => value !== undefined);

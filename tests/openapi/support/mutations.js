@@ -7,7 +7,7 @@ import { Members, Raw, textOf } from "./text.js";
 const TOO_DEEP = 40;
 
 /** Values that are invalid almost everywhere. */
-const STRANGE = [
+const UNUSUAL = [
   null,
   true,
   "",
@@ -53,13 +53,13 @@ const NO_JSON = [
 
 const ODD_KEYS = ["", "a/b~c", "__proto__", "constructor", "Map", "theta ", "\u{1f916}", "robots"];
 
-/** All places of a value: steps from the root, which comes first. */
+/** All places of a value as steps from the root; the root itself is first. */
 function placesOf(value, steps = []) {
   if (value === null || typeof value !== "object" || value instanceof Raw) return [steps];
   return [steps, ...Object.entries(value).flatMap(([key, member]) => placesOf(member, [...steps, key]))];
 }
 
-/** A copy with the value at the steps replaced by change(value); left out when that gives undefined. */
+/** A copy with the value at the steps replaced by change(value); left out if that is undefined. */
 function changed(value, [step, ...rest], change) {
   if (step === undefined) return change(value);
   const inner = changed(value[step], rest, change);
@@ -77,25 +77,25 @@ const isObject = (value) => value !== null && typeof value === "object" && !Arra
 
 const CHANGES = {
   drop: () => undefined,
-  replace: (value, pick) => pick(STRANGE),
+  replace: (value, pick) => pick(UNUSUAL),
   "no JSON": (value, pick) => pick(NO_JSON),
   wrap: (value, pick) => pick([[value], { value }]),
   deepen: (value, pick) => new Raw(pick(["[", '{"a":']).repeat(TOO_DEEP)),
   nest: (value) => new Raw("[".repeat(TOO_DEEP) + "]".repeat(TOO_DEEP)),
   add: (value, pick) =>
     isObject(value)
-      ? new Members([...Object.entries(value), [pick(ODD_KEYS), pick(STRANGE)]])
-      : pick(STRANGE),
+      ? new Members([...Object.entries(value), [pick(ODD_KEYS), pick(UNUSUAL)]])
+      : pick(UNUSUAL),
   twice: (value, pick) => {
     const pairs = isObject(value) ? Object.entries(value) : [];
-    return pairs.length > 0 ? new Members([...pairs, pick(pairs)]) : pick(STRANGE);
+    return pairs.length > 0 ? new Members([...pairs, pick(pairs)]) : pick(UNUSUAL);
   },
   scale: (value, pick) =>
-    typeof value === "number" ? value * pick([-1, 1e-12, 1e12, 1e300]) : pick(STRANGE),
+    typeof value === "number" ? value * pick([-1, 1e-12, 1e12, 1e300]) : pick(UNUSUAL),
 };
 
 /** The bytes of a request changed at one place of its tree. */
-export function spoiledValues(requests) {
+export function mutatedValues(requests) {
   return fc
     .record({
       request: requests,
@@ -106,13 +106,13 @@ export function spoiledValues(requests) {
     .map(({ request, place, how, choice }) => {
       const places = placesOf(request);
       const pick = (list) => list[choice % list.length];
-      const spoiled = changed(request, places[place % places.length], (value) => CHANGES[how](value, pick));
-      return Buffer.from(textOf(spoiled === undefined ? null : spoiled));
+      const mutated = changed(request, places[place % places.length], (value) => CHANGES[how](value, pick));
+      return Buffer.from(textOf(mutated === undefined ? null : mutated));
     });
 }
 
-/** The bytes of a request cut short, or with some of them overwritten or put in. */
-export function spoiledBytes(requests) {
+/** The bytes of a request, truncated, or with some of them overwritten or inserted. */
+export function mutatedBytes(requests) {
   const part = fc.uint8Array({ minLength: 0, maxLength: 3 });
   return fc
     .record({ request: requests, place: fc.nat(), part, length: fc.constantFrom(0, 1, 3, Infinity) })

@@ -10,7 +10,7 @@ export function stepsOf(pointer) {
     .map((step) => step.replaceAll("~1", "/").replaceAll("~0", "~"));
 }
 
-/** Whether a value is there; an own member, or an item by its index. */
+/** Whether an own member, or an item by its index, exists. */
 function has(container, step) {
   if (Array.isArray(container)) return /^(0|[1-9][0-9]*)$/.test(step) && Number(step) < container.length;
   return container !== null && typeof container === "object" && Object.hasOwn(container, step);
@@ -26,14 +26,15 @@ export function lookUp(document, steps) {
   return { found: true, value };
 }
 
-/** What is wrong with where a fault points, or undefined: at something, or for a missing member at where it would be. */
+/** Why a fault's pointer is wrong, or undefined if it points at a value or at the place of a missing member. */
 export function misplaced(fault, request) {
   const steps = stepsOf(fault.pointer);
   if (fault.code !== "missing") {
-    return lookUp(request, steps).found ? undefined : `${fault.pointer} points at nothing (${fault.detail})`;
+    return lookUp(request, steps).found ? undefined : `${fault.pointer} does not exist (${fault.detail})`;
   }
   const outer = lookUp(request, steps.slice(0, -1));
   const isObject = outer.found && outer.value !== null && typeof outer.value === "object";
-  if (!isObject || Array.isArray(outer.value)) return `${fault.pointer} is in no object (${fault.detail})`;
+  if (!isObject || Array.isArray(outer.value))
+    return `${fault.pointer} is not in an object (${fault.detail})`;
   return has(outer.value, steps.at(-1)) ? `${fault.pointer} is not missing` : undefined;
 }

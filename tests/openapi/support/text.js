@@ -1,13 +1,13 @@
-// JSON text, also such that JSON.stringify does not write: huge integers, keys that come twice, what is no JSON.
+// JSON text, including what JSON.stringify cannot write: huge integers, repeated keys, malformed values.
 
-/** Text that stands as it is where a value would. */
+/** Text that is written unchanged in place of a value. */
 export class Raw {
   constructor(text) {
     this.text = text;
   }
 }
 
-/** An object by its pairs of key and value, in which a key may come twice. */
+/** An object by its pairs of key and value, in which keys may repeat. */
 export class Members {
   constructor(pairs) {
     this.pairs = pairs;
@@ -25,11 +25,11 @@ export function textOf(value) {
   return `{${pairs.map(([key, member]) => `${JSON.stringify(key)}:${textOf(member)}`).join(",")}}`;
 }
 
-/** The value of a text and how deep it nests; undefined when it is no JSON in UTF-8 of whole characters. */
+/** The value of a text and how deep it nests; undefined if it is not JSON in UTF-8 or has half of a surrogate pair. */
 export function parsed(bytes) {
   try {
     const value = JSON.parse(new TextDecoder("utf-8", { fatal: true, ignoreBOM: true }).decode(bytes));
-    const { depth, whole } = surveyed(value);
+    const { depth, whole } = inspected(value);
     return whole ? { value, depth } : undefined;
   } catch {
     return undefined;
@@ -37,12 +37,12 @@ export function parsed(bytes) {
 }
 
 /** How deep a value nests, and whether its strings and keys have no half of a surrogate pair. */
-function surveyed(value) {
+function inspected(value) {
   if (typeof value === "string") return { depth: 0, whole: !/\p{Surrogate}/u.test(value) };
   if (value === null || typeof value !== "object") return { depth: 0, whole: true };
   const parts = Object.entries(value).map(([key, member]) => {
-    const { depth, whole } = surveyed(member);
-    return { depth, whole: whole && surveyed(key).whole };
+    const { depth, whole } = inspected(member);
+    return { depth, whole: whole && inspected(key).whole };
   });
   return {
     depth: 1 + Math.max(0, ...parts.map(({ depth }) => depth)),

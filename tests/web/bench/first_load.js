@@ -47,7 +47,7 @@ async function load(context, url) {
   return { ms, requests, bytes };
 }
 
-/** When each file was asked for and when it had arrived. */
+/** The times at which each file was requested and had arrived. */
 async function printTimings(page) {
   const entries = await page.evaluate(() =>
     performance

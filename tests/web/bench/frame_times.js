@@ -1,5 +1,5 @@
 // How long a frame takes while 300 robots play: the CPU time of the page's main thread from one frame to the next, for
-// script, layout and drawing together, as Chromium's tracing tells it. Without a GPU, so that canvases are painted by
+// script, layout and drawing together, as reported by Chromium's tracing. Without a GPU, so that canvases are painted by
 // the CPU; other work on the machine does not count, but for what it costs caches.
 //
 //   FLEETPLAN_BIN=… node bench/frame_times.js [robots] [seconds]

@@ -33,7 +33,7 @@ const isRequest = (page, text) =>
 const robotAt = async (page, index) => (await hook(page, "request")).robots[index];
 const rowsOf = async (page) => (await hook(page, "request")).map.rows;
 const tool = (page, name) => page.click(`.tool:has([value=${name}])`);
-const tells = (page, words) =>
+const isAnnounced = (page, words) =>
   page.waitForFunction((part) => document.getElementById("announcer").textContent.includes(part), words);
 
 /** Where a world point is in the window, CSS pixels. */
@@ -194,7 +194,7 @@ test("robots and goals are dragged and turned with the mouse, one undo step each
     first.start = { x: 2.5, y: 2.5 };
     assert.deepEqual(await hook(page, "request"), expected);
     assert.equal(await hook(page, "selected"), "robot-1");
-    await tells(page, "robot-1 starts at (2.5, 2.5) m");
+    await isAnnounced(page, "robot-1 starts at (2.5, 2.5) m");
     await drag(page, [
       { x: 8.5, y: 0.5 },
       { x: 6.5, y: 3.5 },
@@ -284,7 +284,7 @@ test("the selected robot is moved, turned, duplicated and deleted by keys", asyn
     first.start = { x: 2.6, y: 1.5, theta: Math.PI / 6 };
     first.goal = { x: 8.5, y: 1.5, theta: -Math.PI / 12 };
     assert.deepEqual(await robotAt(page, 0), first);
-    await tells(page, "robot-1 has its goal at (8.5, 1.5) m, facing -15°");
+    await isAnnounced(page, "robot-1 has its goal at (8.5, 1.5) m, facing -15°");
     await page.keyboard.press("Control+d");
     assert.equal((await robotAt(page, 2)).id, "robot-3");
     assert.equal(await hook(page, "selected"), "robot-3");
@@ -305,7 +305,7 @@ test("walls are drawn by keys, freehand and as a box, and robots added", async (
       await page.keyboard.press(key);
     }
     assert.deepEqual((await rowsOf(page)).slice(3), ["..#.......", "..#.......", "..#......."]);
-    await tells(page, "Column 3, row 4 from the top: wall.");
+    await isAnnounced(page, "Column 3, row 4 from the top: wall.");
     await page.keyboard.press("e");
     for (let step = 0; step < 12; step += 1) await page.keyboard.press("ArrowLeft");
     for (let step = 0; step < 8; step += 1) await page.keyboard.press("ArrowDown");
@@ -399,8 +399,8 @@ test("a fault is shown at the robot's field and in the scene until it is repaire
         { x: 4.5, y: 0.5 },
       ]);
       await page.waitForSelector("#robot-start[aria-invalid=true]");
-      const told = await page.innerText("#robot-start .field-error");
-      assert.match(told, /start does not fit: 0 m of the required 0\.3 m/);
+      const message = await page.innerText("#robot-start .field-error");
+      assert.match(message, /start does not fit: 0 m of the required 0\.3 m/);
       assert.ok((await marks({ x: 4.5, y: 0.5 })) > 20);
       await drag(page, [
         { x: 4.5, y: 0.5 },
@@ -614,7 +614,7 @@ test("undo restores an edited request after another one was opened", async () =>
     await page.click("#tab-edit");
     await page.click("#undo");
     await isRequest(page, JSON.stringify(edited));
-    await tells(page, "is open again");
+    await isAnnounced(page, "is open again");
     assert.match(await page.innerText("#example option:checked"), /pasted|edited/);
     await page.click("#undo");
     assert.deepEqual(await hook(page, "request"), REQUEST);

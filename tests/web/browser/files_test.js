@@ -97,7 +97,7 @@ for (const [way, hand] of Object.entries(WAYS)) {
     });
   });
 
-  test(`a MovingAI scenario with its map is opened ${way}, for as many robots as wanted`, async () => {
+  test(`a MovingAI scenario with its map is opened ${way}, for the chosen number of robots`, async () => {
     await onPage(async (page) => {
       await hand(page, { "arena.map.scen": SCENARIO, "arena.map": MAP });
       await page.waitForSelector("dialog[open]");

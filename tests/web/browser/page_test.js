@@ -47,7 +47,7 @@ test("one click on a fresh page plans and plays", async () => {
   });
 });
 
-test("every example loads, plans and plays as its plan says", async () => {
+test("every example loads, plans and plays its plan", async () => {
   await onPage(async (page) => {
     const { examples } = await page.evaluate(async () => (await fetch("v1/examples")).json());
     assert.ok(examples.length >= 3);
@@ -263,16 +263,16 @@ test("an invalid request shows each error's pointer and detail", async () => {
       });
       await page.click("#plan");
       await page.waitForSelector("#problem:not([hidden])");
-      const told = await page.evaluate(async () => {
+      const problem = await page.evaluate(async () => {
         const body = JSON.stringify(window.fleetplan.request);
         const headers = { "Content-Type": "application/json" };
         return (await fetch("v1/plan", { method: "POST", headers, body })).json();
       });
       const shown = await text(page, "#problem");
-      assert.equal(told.status, 422);
-      assert.ok(told.errors.some(({ pointer }) => pointer === "/robots/0/start/x"));
-      assert.ok(shown.includes(told.title));
-      for (const { pointer, detail } of told.errors) {
+      assert.equal(problem.status, 422);
+      assert.ok(problem.errors.some(({ pointer }) => pointer === "/robots/0/start/x"));
+      assert.ok(shown.includes(problem.title));
+      for (const { pointer, detail } of problem.errors) {
         assert.ok(shown.includes(pointer), pointer);
         assert.ok(shown.includes(detail), detail);
       }

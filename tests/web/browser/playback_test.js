@@ -71,11 +71,11 @@ test("coloured by state, robots change colour with their state", async () => {
       await seek(page, time);
       await hasTime(page, time);
       const state = await page.evaluate(() => window.fleetplan.stateOf("turner"));
-      const wanted = await themeColour(page, `--state-${state}`);
+      const expected = await themeColour(page, `--state-${state}`);
       const { x, y, radius } = await page.evaluate(() => window.fleetplan.screenOf("turner"));
       const { theta } = await page.evaluate(() => window.fleetplan.poseOf("turner"));
       const behind = { x: x - Math.cos(theta) * radius * 0.8, y: y + Math.sin(theta) * radius * 0.8 };
-      assert.deepEqual(await coloursAt(page, [behind]), [wanted], state);
+      assert.deepEqual(await coloursAt(page, [behind]), [expected], state);
       seen.push(state);
     }
     assert.deepEqual(seen, ["turning", "moving", "arrived"]);

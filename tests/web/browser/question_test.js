@@ -357,9 +357,9 @@ test("the card of a robot shows how its time is spent, and its delay if the boun
       await isSelected(page, robot);
       const words = await page.innerText("#inspector");
       assert.ok(words.includes(`${cost.toFixed(2)} s`), words);
-      const sum = (wanted) =>
+      const sum = (kind) =>
         actions
-          .filter(({ type }) => type === wanted)
+          .filter(({ type }) => type === kind)
           .reduce((total, { t_start, t_end }) => total + t_end - t_start, 0);
       for (const [word, type] of [
         ["moving", "translate"],
@@ -422,7 +422,7 @@ test("a robot without a plan shows the reason, and its blockers are ringed in th
       const { left, top } = document.getElementById("scene").getBoundingClientRect();
       return document.elementFromPoint(left + x, top + y).id;
     }, blocked_by[0]);
-    assert.equal(onTop, "scene", "the card does not hide who is in the way");
+    assert.equal(onTop, "scene", "the card does not hide the blocking robot");
   });
 });
 

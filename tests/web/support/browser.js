@@ -44,8 +44,8 @@ export async function openPage(browser, url, options = {}) {
   }
   if (outcome instanceof Error) {
     const shown = await page.innerText("body").catch(() => "no page");
-    const told = `${complaints.join("; ")}; asked for ${requested.join(" ")}; it shows ${shown}`;
-    throw new Error(`the page did not begin: ${told}`, { cause: outcome });
+    const details = `${complaints.join("; ")}; requested ${requested.join(" ")}; it shows ${shown}`;
+    throw new Error(`the page did not start: ${details}`, { cause: outcome });
   }
   return { page, complaints, requested, close: () => context.close() };
 }

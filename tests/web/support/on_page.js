@@ -61,13 +61,13 @@ export async function coloursAt(page, places) {
 /** The number of pixels of a colour, "r,g,b", within `reach` CSS pixels of a canvas place. */
 export async function countColour(page, colour, place, reach) {
   const { pixels, width, scale } = await sceneOf(page);
-  const wanted = colour.split(",").map(Number);
+  const expected = colour.split(",").map(Number);
   let found = 0;
   for (let at = 0; at < pixels.length; at += 4) {
     const x = ((at / 4) % width) / scale;
     const y = Math.floor(at / 4 / width) / scale;
     if (Math.abs(x - place.x) > reach || Math.abs(y - place.y) > reach) continue;
-    if (wanted.every((part, offset) => pixels[at + offset] === part)) found += 1;
+    if (expected.every((part, offset) => pixels[at + offset] === part)) found += 1;
   }
   return found;
 }

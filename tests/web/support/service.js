@@ -25,7 +25,10 @@ export async function startService(flags = []) {
 
 function listening(child) {
   return new Promise((resolve, reject) => {
-    const late = setTimeout(() => reject(new Error("the server did not say that it listens")), START_MS);
+    const late = setTimeout(
+      () => reject(new Error("the server did not print its address in time")),
+      START_MS,
+    );
     const fail = (why) => {
       clearTimeout(late);
       reject(new Error(`the server did not start: ${why}`));

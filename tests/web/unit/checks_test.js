@@ -83,23 +83,23 @@ const OPENED = { name: "one", example: null, text: JSON.stringify(REQUEST), requ
 const FITS = { violations: [] };
 
 /**
- * The problem that a session has when an edit has been judged by `validate(how often it was asked)`; and what
- * was asked.
+ * The problem of a session after an edit has been checked by `validate(number of checks so far)`, and the requests
+ * that were checked.
  */
 async function afterEdit(validate, request = { ...REQUEST, options: { seed: 1 } }) {
-  const { session, asked } = watched(validate);
+  const { session, checked } = watched(validate);
   session.open(OPENED);
   session.edit(request);
   session.edit({ ...request });
   await rest();
-  return { problem: session.problem, asked };
+  return { problem: session.problem, checked };
 }
 
 function watched(validate) {
   const session = new Session({}, () => {});
-  const asked = [];
-  watchEdits(session, async (text) => validate(asked.push(JSON.parse(text))), 0);
-  return { session, asked };
+  const checked = [];
+  watchEdits(session, async (text) => validate(checked.push(JSON.parse(text))), 0);
+  return { session, checked };
 }
 
 async function rest() {
@@ -111,10 +111,10 @@ const refuse = (problem) => () => {
 };
 
 test("after edits, starts and goals are checked once each", async () => {
-  const { problem, asked } = await afterEdit(() => FITS);
+  const { problem, checked } = await afterEdit(() => FITS);
   assert.equal(problem, null);
   assert.deepEqual(
-    asked.map(({ robots, plans }) => [robots[0].start, plans]),
+    checked.map(({ robots, plans }) => [robots[0].start, plans]),
     [
       [ROBOT.start, []],
       [ROBOT.goal, []],
@@ -125,8 +125,8 @@ test("after edits, starts and goals are checked once each", async () => {
 test("faults that the service reports are shown, except that there are no robots yet", async () => {
   const radius = { pointer: "/robots/0/radius", code: "out_of_range", detail: "No." };
   const none = { pointer: "/robots", code: "empty", detail: "None." };
-  const told = await afterEdit(refuse({ title: "Invalid", errors: [radius, none] }));
-  assert.deepEqual(told.problem, { title: "Invalid", errors: [radius] });
+  const state = await afterEdit(refuse({ title: "Invalid", errors: [radius, none] }));
+  assert.deepEqual(state.problem, { title: "Invalid", errors: [radius] });
   assert.equal((await afterEdit(refuse({ title: "Invalid", errors: [none] }))).problem, null);
   assert.equal((await afterEdit(refuse({ title: "Overloaded", status: 503 }))).problem, null);
 });
@@ -139,15 +139,15 @@ test("starts and goals that do not fit are reported together", async () => {
 });
 
 test("an opened request is not checked, unless undo restored an edit", async () => {
-  const { session, asked } = watched(() => FITS);
+  const { session, checked } = watched(() => FITS);
   session.open(OPENED);
   await rest();
-  assert.equal(asked.length, 0);
+  assert.equal(checked.length, 0);
   session.edit({ ...REQUEST });
   session.open({ ...OPENED, name: "two" });
   await rest();
-  assert.equal(asked.length, 0);
+  assert.equal(checked.length, 0);
   session.undo();
   await rest();
-  assert.equal(asked.length, 2);
+  assert.equal(checked.length, 2);
 });

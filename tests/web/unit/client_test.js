@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import { readEvents } from "../../../web/service/client.js";
 
-/** The events of a text that comes in pieces of so many bytes. */
+/** The events of a text that arrives in pieces of this many bytes. */
 async function eventsOf(text, size = Infinity) {
   const bytes = new TextEncoder().encode(text);
   let at = 0;

@@ -43,20 +43,20 @@ test("the nearest pair is reported by ids, at any time and for the current answe
 
 test("listeners get a computed curve, unless the answer has been replaced", () => {
   const session = new FakeSession();
-  const told = [];
-  const fleet = new FleetMotion(session, (motions, tell) => told.push(() => tell(clearanceOf(motions))));
+  const replies = [];
+  const fleet = new FleetMotion(session, (motions, reply) => replies.push(() => reply(clearanceOf(motions))));
   let changes = 0;
   fleet.onCurve(() => (changes += 1));
   session.adopt({ plans: [] });
   session.adopt({ plans: [{ robot: "mover", cost: 3, actions: ACTIONS }] });
   assert.equal(changes, 2);
-  told[0]();
+  replies[0]();
   assert.equal(fleet.least, null);
   assert.equal(changes, 2);
-  told[1]();
+  replies[1]();
   assert.deepEqual(fleet.least, { t: 3, gap: 0.5, ids: ["mover", "stayer"] });
   assert.equal(changes, 3);
   session.adopt(null);
   assert.equal(fleet.least, null);
-  assert.equal(told.length, 2);
+  assert.equal(replies.length, 2);
 });

@@ -25,7 +25,7 @@ const ANSWER = {
   ],
 };
 
-/** A session with a service that answers as told, and a record of its signals. */
+/** A session with a service that returns the given answers, and a record of its signals. */
 function begin(service = {}) {
   const frames = [];
   const session = new Session(service, (callback) => frames.push(callback));
@@ -126,10 +126,10 @@ test("a robot stays selected after an edit if it still exists", () => {
 
 test("planning records progress and costs, and ends with its answer", async () => {
   const answer = deferred();
-  let told;
+  let listening;
   const { session } = begin({
     plan: (text, signal, listeners) => {
-      told = listeners;
+      listening = listeners;
       return answer.promise;
     },
   });
@@ -142,7 +142,7 @@ test("planning records progress and costs, and ends with its answer", async () =
     [4, 7],
   ]) {
     const best = flowtime === null ? null : { flowtime, makespan: 1 };
-    told.progress({ elapsed_ms, attempt: 1, planned: 1, robots: 1, best });
+    listening.progress({ elapsed_ms, attempt: 1, planned: 1, robots: 1, best });
   }
   assert.deepEqual(
     session.planning.costs.map(({ elapsed_ms, flowtime }) => [elapsed_ms, flowtime]),

@@ -85,7 +85,7 @@ test("where two actions meet the pose is the one they share", () => {
 });
 
 test("the state of a robot is that of its current action", () => {
-  const told = [0, 0.49, 0.5, 2.49, 2.5, 3.5, 4.49, 4.5, 9].map((t) => doingAt(ACTIONS, t));
+  const actual = [0, 0.49, 0.5, 2.49, 2.5, 3.5, 4.49, 4.5, 9].map((t) => doingAt(ACTIONS, t));
   const expected = [
     "turning",
     "turning",
@@ -97,7 +97,7 @@ test("the state of a robot is that of its current action", () => {
     "arrived",
     "arrived",
   ];
-  assert.deepEqual(told, expected);
+  assert.deepEqual(actual, expected);
   assert.equal(doingAt([], 0), "arrived");
 });
 
