@@ -37,7 +37,7 @@ class LargeNeighbourhoodSearch {
                            Random& random, Executor& executor, const StopCondition& stop)
       : for_makespan_(state.instance().options().objective == PlanOptions::Objective::makespan),
         incumbent_(state, std::move(planned)),
-        states_(state, incumbent_, stop),
+        workspaces_(state, incumbent_, stop),
         bounds_(bounds),
         random_(random),
         executor_(executor),
@@ -49,13 +49,13 @@ class LargeNeighbourhoodSearch {
       const std::int64_t count = std::min(kIterationsPerRound, max_iterations);
       max_iterations -= count;
       if (before_round && !stop_.met()) {
-        states_.update_all();
+        workspaces_.update_all();
         before_round(result_);
       }
       if (!stop_.met()) run_round(static_cast<std::size_t>(count));
       result_.cut_off = stop_.met();
     }
-    states_.update_all();
+    workspaces_.update_all();
     return result_;
   }
 
@@ -118,13 +118,13 @@ class LargeNeighbourhoodSearch {
 
   /// On any thread.
   void destroy_and_repair(Iteration& iteration) {
-    std::unique_ptr<Workspace> search = states_.take();
+    std::unique_ptr<Workspace> workspace = workspaces_.take();
     Random random(iteration.seed);
     const AdaptiveParameters::Choice& parameters = iteration.parameters;
-    const auto robots = search->neighbourhoods().select(iteration.first, parameters.neighbourhood(),
-                                                        parameters.robots(), random);
-    iteration.result = replan(search->state(), robots, bounds_, iteration.options, stop_);
-    states_.give_back(std::move(search));
+    const auto robots = workspace->neighbourhoods().select(iteration.first, parameters.neighbourhood(),
+                                                           parameters.robots(), random);
+    iteration.result = replan(workspace->state(), robots, bounds_, iteration.options, stop_);
+    workspaces_.give_back(std::move(workspace));
   }
 
   void learn(const Iteration& iteration) {
@@ -144,21 +144,21 @@ class LargeNeighbourhoodSearch {
                          [&](const Change::Part& part) { return part.robot == robot; });
     };
     if (std::any_of(changed.begin(), changed.end(), is_part)) return true;
-    std::unique_ptr<Workspace> search = states_.take();
+    std::unique_ptr<Workspace> workspace = workspaces_.take();
     bool outdated = false;
     for (const Change::Part& part : change.parts) {
       if (for_makespan_ && part.trajectory.cost > makespan) outdated = true;
-      for (const std::size_t robot : search->state().conflicting_robots(part.robot, part.trajectory)) {
+      for (const std::size_t robot : workspace->state().conflicting_robots(part.robot, part.trajectory)) {
         outdated = outdated || !is_part(robot);
       }
     }
-    states_.give_back(std::move(search));
+    workspaces_.give_back(std::move(workspace));
     return outdated;
   }
 
   const bool for_makespan_;
   Incumbent incumbent_;
-  WorkspacePool states_;
+  WorkspacePool workspaces_;
   const TautPathBounds& bounds_;
   Random& random_;
   Executor& executor_;

@@ -46,26 +46,26 @@ WorkspacePool::WorkspacePool(PlanState& state, const Incumbent& incumbent, const
 }
 
 std::unique_ptr<Workspace> WorkspacePool::take() {
-  std::unique_ptr<Workspace> state;
+  std::unique_ptr<Workspace> workspace;
   {
     const std::scoped_lock lock(mutex_);
     if (!idle_.empty()) {
-      state = std::move(idle_.back());
+      workspace = std::move(idle_.back());
       idle_.pop_back();
     }
   }
-  if (!state) state = std::make_unique<Workspace>(problem_, options_, incumbent_, stop_);
-  state->update();
-  return state;
+  if (!workspace) workspace = std::make_unique<Workspace>(problem_, options_, incumbent_, stop_);
+  workspace->update();
+  return workspace;
 }
 
-void WorkspacePool::give_back(std::unique_ptr<Workspace> state) {
+void WorkspacePool::give_back(std::unique_ptr<Workspace> workspace) {
   const std::scoped_lock lock(mutex_);
-  idle_.push_back(std::move(state));
+  idle_.push_back(std::move(workspace));
 }
 
 void WorkspacePool::update_all() {
-  for (const auto& state : idle_) state->update();
+  for (const auto& workspace : idle_) workspace->update();
 }
 
 }  // namespace fleetplan::core

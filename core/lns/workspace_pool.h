@@ -45,7 +45,7 @@ class WorkspacePool {
 
   /// An updated workspace for the exclusive use of the caller.
   std::unique_ptr<Workspace> take();
-  void give_back(std::unique_ptr<Workspace> state);
+  void give_back(std::unique_ptr<Workspace> workspace);
   /// Updates all workspaces, and with them the caller's state; all have been given back.
   void update_all();
 

@@ -14,9 +14,8 @@ const OUTCOMES = {
   none: { text: "No robot planned", tone: "bad", path: CROSS },
 };
 
+/** Names of the parts of timings_ms other than planning. */
 const PARTS = { queue: "queue", parse: "parse", verify: "check", serialize: "write" };
-
-/** The parts of timings_ms other than planning, in words. */
 
 /** A sentence about the outcome of planning. */
 export function summarize(answer) {
@@ -113,7 +112,7 @@ function warningList(warnings) {
   );
 }
 
-/** Reasons of /v1/plan in words. */
+/** Names of the reasons of /v1/plan. */
 export const REASONS = {
   start_blocked: "Start blocked",
   goal_blocked: "Goal blocked",
