@@ -13,7 +13,7 @@ BUILD_PACKAGES=(g++:g++ cmake:cmake ninja-build:ninja pkgconf:pkg-config esbuild
 # For the tests, in addition.
 TEST_PACKAGES=(libgtest-dev libgmock-dev clang-format:clang-format clang-tidy:clang-tidy
   python3:python3 nodejs:node npm:npm chromium:chromium curl:curl jq:jq)
-# For the builds with sanitizers and the fuzz targets, in addition.
+# For the fuzz targets, in addition.
 FUZZ_PACKAGES=(clang:clang++ libclang-rt-dev)
 
 say() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
