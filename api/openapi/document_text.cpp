@@ -41,7 +41,7 @@ bool needs_lines(const Json& value) {
 }  // namespace
 
 std::string document_text(const Json& value, std::size_t indent, std::size_t used) {
-  const std::string line = on_one_line(value);
+  std::string line = on_one_line(value);
   const bool fits = used + line.size() <= kLineLength && !needs_lines(value);
   if (!value.is_structured() || value.empty() || fits) return line;
   const std::size_t inner = indent + 2;
