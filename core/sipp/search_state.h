@@ -43,9 +43,9 @@ struct Edge {
 
   Move local;
   Move shortcut;
-  LabelId via;  // the label that is expanded
-  PlaceId target;
-  Sight shortcut_sight;  // blocked if there is no shortcut
+  LabelId via = LabelId::none;  // the label that is expanded
+  PlaceId target = PlaceId::none;
+  Sight shortcut_sight = Sight::blocked;  // blocked if there is no shortcut
 
   const Move& move(EdgeKind kind) const { return kind == EdgeKind::shortcut ? shortcut : local; }
 };
