@@ -66,16 +66,17 @@ std::optional<api::Reply> decode_body(Exchange& exchange, const httplib::Content
 
 }  // namespace
 
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see the header
 thread_local Exchange* LibraryServer::current_ = nullptr;
 
 LibraryServer::LibraryServer(Context context) : context_(std::move(context)) {
   new_task_queue = [connections = context_.connections] { return new ConnectionThreads(connections); };
   set_socket_options(set_listening_options);
   for (const Route& route : context_.routes.routes()) add(route);
-  set_exception_handler(
-      [this](const httplib::Request& /*request*/, httplib::Response& response, std::exception_ptr failure) {
-        reply_with(internal_error(context_.log, current_->request_id, failure), response);
-      });
+  set_exception_handler([this](const httplib::Request& /*request*/, httplib::Response& response,
+                               const std::exception_ptr& failure) {
+    reply_with(internal_error(context_.log, current_->request_id, failure), response);
+  });
   set_post_routing_handler(
       [this](const httplib::Request& /*request*/, httplib::Response& response) { complete(response); });
 }

@@ -61,6 +61,7 @@ class LibraryServer final : private httplib::Server {
 
   /// The exchange of this thread. The library cannot pass it to handlers, but it handles a request from
   /// begin to end on the thread that hands it over, and each connection has its own thread.
+  // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): set and cleared by answer() only
   static thread_local Exchange* current_;
 
   Context context_;
