@@ -68,10 +68,10 @@ export async function startBalancer(replicaPorts) {
   return balancer;
 }
 
-/** Sends bytes on a connection of its own; returns all that is answered. */
+/** Sends a request that closes its connection; returns all that is answered. */
 export async function exchange(port, text) {
   const socket = createConnection(port, "127.0.0.1");
-  socket.end(text);
+  socket.write(text);
   const chunks = [];
   for await (const chunk of socket) chunks.push(chunk);
   return Buffer.concat(chunks).toString();
