@@ -1,21 +1,14 @@
 // Checks the configuration and alert rules of Prometheus with promtool, and against the metrics of a running server.
 
 import assert from "node:assert/strict";
-import { spawnSync } from "node:child_process";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
 
-import { pathOf, yamlOf } from "./support/files.js";
+import { pathOf, promtool, yamlOf } from "./support/files.js";
 import { metricsOfServer, seriesIn } from "./support/metrics.js";
 
 const RULES = "deploy/prometheus/alerts.yml";
 const rules = yamlOf(RULES).groups.flatMap((group) => group.rules);
-
-function promtool(...words) {
-  const { error, status, stdout, stderr } = spawnSync("promtool", words, { encoding: "utf8" });
-  assert.ifError(error);
-  assert.equal(status, 0, stdout + stderr);
-}
 
 test("promtool accepts the configuration and the rules", () => {
   promtool("check", "config", pathOf("deploy/prometheus/prometheus.yml"));
