@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The component of a status, and the header field that it has beside X-Request-Id.
+/// The component of a status, and the header field that it has beside those of every answer.
 struct Response {
   int status;
   std::string_view component;
@@ -123,7 +123,8 @@ Json response_of(const Response& response) {
     rows.push_back(row);
     codes.push_back(row.name);
   }
-  Json headers{{"X-Request-Id", reference("headers", "RequestId")}};
+  Json headers{{"X-Request-Id", reference("headers", "RequestId")},
+               {"traceparent", reference("headers", "TraceParent")}};
   if (!response.field.empty()) {
     headers[std::string(response.field)] = reference("headers", response.field_component);
   }

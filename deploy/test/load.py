@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Sends requests on several connections until SIGTERM or for `--seconds`, and checks every response. Prints one
-line of JSON: the number of requests, the failures by kind, the rate, the latencies.
+line of JSON: the number of requests, the failures by kind, the rate, the latencies. With `--again N`, up to N
+requests that got no response, or 502 from the balancer, are sent again once, as clients may.
 
 Exit code 0 if no request failed, 1 otherwise.
 """
@@ -48,12 +49,13 @@ KINDS = {
 
 
 class Load:
-    def __init__(self, host, port, kinds):
-        self.host, self.port = host, port
+    def __init__(self, host, port, kinds, again):
+        self.host, self.port, self.again = host, port, again
         self.requests = {kind: KINDS[kind]() for kind in kinds}
         self.ended = threading.Event()
         self.lock = threading.Lock()
         self.failures = collections.Counter()
+        self.sent_again = 0
         self.seconds = {kind: [] for kind in kinds}
 
     def fault_of(self, answer, kind):
@@ -65,12 +67,34 @@ class Load:
             return f"{kind}: {content['status']}"
         return None
 
-    def ask(self, connection, kind):
+    def ask_once(self, connection, kind):
+        """An answer that is not the balancer's own; otherwise raises."""
         try:
             connection.send(self.requests[kind])
-            return self.fault_of(connection.receive(), kind)
-        except (Lost, OSError, ValueError) as error:
+            answer = connection.receive()
+        except (Lost, OSError):
             connection.close()
+            raise
+        if answer.status == 502:
+            raise Lost("status 502")
+        return answer
+
+    def may_send_again(self):
+        with self.lock:
+            self.sent_again += 1
+            return self.sent_again <= self.again
+
+    def ask(self, connection, kind):
+        """Sends a request; returns what failed, or None."""
+        try:
+            try:
+                answer = self.ask_once(connection, kind)
+            except (Lost, OSError):
+                if not self.may_send_again():
+                    raise
+                answer = self.ask_once(connection, kind)
+            return self.fault_of(answer, kind)
+        except (Lost, OSError, ValueError) as error:
             return f"{kind}: {error}"
 
     def send_requests(self, offset):
@@ -107,6 +131,7 @@ class Load:
         at = lambda share: round(1000 * latencies[int(share * (len(latencies) - 1))], 1) if latencies else None
         return {"requests": {kind: len(of_kind) for kind, of_kind in self.seconds.items()},
                 "failed": sum(self.failures.values()), "failures": dict(self.failures.most_common(10)),
+                "sent_again": self.sent_again,
                 "per_second": round(len(latencies) / elapsed, 1), "seconds": round(elapsed, 1),
                 "ms": {"median": at(0.5), "p99": at(0.99), "longest": at(1)}}
 
@@ -118,8 +143,9 @@ def main():
     parser.add_argument("--connections", type=int, default=6)
     parser.add_argument("--seconds", type=float, default=600.0)
     parser.add_argument("--kinds", default="get,1kB,60kB", help=f"of {', '.join(KINDS)}")
+    parser.add_argument("--again", type=int, default=0, help="number of requests that may be sent again")
     options = parser.parse_args()
-    load = Load(options.host, options.port, options.kinds.split(","))
+    load = Load(options.host, options.port, options.kinds.split(","), options.again)
     signal.pthread_sigmask(signal.SIG_BLOCK, END_SIGNALS)
     summary = load.run(options.connections, options.seconds)
     print(json.dumps(summary))

@@ -22,6 +22,7 @@ struct Exchange {
   Clock::time_point begun_at;     // first byte in
   Clock::time_point received_at;  // last byte of the body in
   std::string request_id;
+  std::string trace_id;  // of the client's trace; empty: it has none
   RequestHead head;
   const Route* route = nullptr;                            // none: the path is unknown
   std::string parameter = {};                              // see RouteTable::Match

@@ -3,6 +3,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "api/json/json_writer.h"
@@ -18,6 +19,14 @@ constexpr const char* kPattern = R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l"
 
 /// Rounded to the third decimal, microseconds where these are milliseconds: enough, and short.
 double rounded(double ms) { return std::round(ms * 1000.0) / 1000.0; }
+
+/// The end of what proxies forwarded, to which the nearest one adds: clients can make the rest as long as a
+/// head.
+std::string_view nearest(std::string_view forwarded) {
+  constexpr std::size_t kMaxLength = 256;
+  forwarded.remove_prefix(forwarded.size() - std::min(forwarded.size(), kMaxLength));
+  return forwarded;
+}
 
 void add_outcome(JsonWriter& line, const api::PlanOutcome& outcome) {
   line.member("outcome", api::name_of(outcome.status));
@@ -46,7 +55,9 @@ void RequestLog::request(const RequestRecord& record) const {
                                                                   : spdlog::level::info;
   if (!logger_->should_log(level)) return;
   JsonWriter line;
-  line.begin_object().member("id", record.id).member("method", record.method).member("path", record.path);
+  line.begin_object().member("id", record.id);
+  if (!record.trace_id.empty()) line.member("trace_id", record.trace_id);
+  line.member("method", record.method).member("path", record.path);
   line.member("status", record.status);
   line.member("bytes_in", record.bytes_in).member("bytes_out", record.bytes_out);
   line.member("ms", rounded(record.ms));
@@ -54,6 +65,7 @@ void RequestLog::request(const RequestRecord& record) const {
   if (record.outcome) add_outcome(line, *record.outcome);
   if (!record.problem.empty()) line.member("code", record.problem);
   line.member("peer", record.peer);
+  if (!record.forwarded.empty()) line.member("forwarded", nearest(record.forwarded));
   write(*logger_, level, line);
 }
 

@@ -20,6 +20,7 @@ namespace fleetplan::server {
 /// One line of the log for each request.
 struct RequestRecord {
   std::string id;
+  std::string trace_id;  // of the client's trace; empty: none
   std::string method;
   std::string path;                               // without query, as sent
   int status = 0;                                 // 499: the client left before the answer
@@ -29,8 +30,9 @@ struct RequestRecord {
   std::optional<double> queue_ms = std::nullopt;  // for planning jobs: in the queue
   std::string_view problem;                       // the error's code; empty: none
   std::optional<api::PlanOutcome> outcome = std::nullopt;
-  std::string peer;    // address and port of the client, or of the proxy before it
-  bool admin = false;  // on the admin port
+  std::string peer;       // address and port of the client, or of the proxy before it
+  std::string forwarded;  // the clients that proxies name, as sent; empty: none
+  bool admin = false;     // on the admin port
 };
 
 /// JSON lines to stderr. Thread-safe.

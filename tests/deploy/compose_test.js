@@ -12,6 +12,30 @@ const dockerfile = textOf("Dockerfile");
 const haproxy = textOf("deploy/haproxy/haproxy.cfg");
 const prometheus = yamlOf("deploy/prometheus/prometheus.yml");
 
+const MIB = 1 << 20;
+const bytesOf = (size) => Number(/^(\d+)m$/.exec(size)[1]) * MIB;
+const inConfiguration = (pattern) => Number(pattern.exec(haproxy)[1]);
+
+test("every service has limits of memory, threads and log", () => {
+  for (const [name, service] of Object.entries(services)) {
+    assert.ok(bytesOf(service.mem_limit) > 0, name);
+    assert.equal(service.memswap_limit, service.mem_limit, `${name} must not swap`);
+    assert.ok(service.pids_limit > 0, name);
+    const { "max-size": size, "max-file": files } = service.logging.options;
+    assert.ok(bytesOf(size) * Number(files) <= 100 * MIB, name);
+  }
+});
+
+test("a replica may have a thread for each of its connections", () => {
+  const [, connections] = /--connections \D*(\d+)/.exec(outputOf("--help"));
+  assert.ok(replica.pids_limit > Number(connections) + 100);
+});
+
+test("the buffers of the balancer's connections fit into its memory", () => {
+  const buffers = 2 * inConfiguration(/^ {2}maxconn (\d+)$/m) * inConfiguration(/^ {2}tune\.bufsize (\d+)$/m);
+  assert.ok(bytesOf(services.balancer.mem_limit) > buffers + 200 * MIB);
+});
+
 test("the label of the image has the version", () => {
   const [, version] = /image\.version="([^"]*)"/.exec(dockerfile);
   assert.equal(`fleetplan ${version}`, outputOf("--version").trim());

@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { namesIn, outputOf, settingNames, textOf, yamlOf } from "./support/files.js";
+import { metricsOfServer } from "./support/metrics.js";
 import { faultsOf, resourcesOf } from "./support/manifests.js";
 
 const BASE = "deploy/kubernetes/base";
@@ -58,6 +59,18 @@ test("port names refer to ports of the container", () => {
     ...["startupProbe", "readinessProbe", "livenessProbe"].map((probe) => container[probe].httpGet.port),
   ];
   for (const name of used) assert.ok(names.has(name), name);
+});
+
+test("the autoscaler scales by a metric that the adapter makes of one that the server has", async () => {
+  const { custom } = yamlOf("deploy/kubernetes/prometheus-adapter.yaml").rules;
+  const made = new Map(custom.map(({ name, seriesQuery }) => [name.as, /^\w+/.exec(seriesQuery)[0]]));
+  const { text: metrics } = await metricsOfServer();
+  for (const { type, pods } of named("HorizontalPodAutoscaler").spec.metrics) {
+    assert.equal(type, "Pods");
+    const series = made.get(pods.metric.name);
+    assert.ok(series, `the adapter does not make ${pods.metric.name}`);
+    assert.match(metrics, new RegExp(`^${series} `, "m"));
+  }
 });
 
 test("the environment of the pods contains only settings, which variables for services cannot overwrite", () => {

@@ -59,12 +59,14 @@ for (const path of ["/v1/plan", "/v1/validate"]) {
 }
 
 test("every path with GET answers GET and HEAD as documented", async () => {
+  const traceparent = document.root.components.parameters.TraceParent.example;
   for (const [template, { get }] of Object.entries(paths)) {
     if (get === undefined) continue;
     const path = template.replace("{name}", "corridor-swap");
-    const answer = await client.get(path, { "X-Request-Id": "a.b_c-1" });
+    const answer = await client.get(path, { "X-Request-Id": "a.b_c-1", traceparent });
     assert.equal(answer.status, 200, path);
     assert.equal(answer.headers["x-request-id"], "a.b_c-1");
+    assert.equal(answer.headers.traceparent, traceparent);
     assert.equal((await client.send("HEAD", path)).status, 200, path);
   }
 });

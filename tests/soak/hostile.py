@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Measures the effect of hostile clients on honest ones.
 
-Usage: hostile.py [--binary FLEETPLAN | --url URL] [--seconds N]
+Usage: hostile.py [--binary FLEETPLAN | --url URL] [--seconds N] [--late-ms N]
 
 Measures small plans of one honest client alone, then beside each kind of hostile client in turn, while probing health on
 the admin port (not with --url). The exit status is 1 if an honest answer was wrong, lost or, in the median, more than
 twice as slow as alone, if too many were rejected with 503, if a health probe failed, or if the server ended or used more
-than 1 GiB.
+than 1 GiB. Then sends requests that are costly for the server: each must get the right answer, within its time and its
+memory, and no work may go on after the client has left.
 """
 
 import argparse
@@ -21,6 +22,7 @@ import threading
 import time
 import urllib.request
 
+import costly
 from client import Connection, Lost, request
 from report import percentile, spread, verdict
 from server import Server
@@ -220,6 +222,8 @@ def main():
     parser.add_argument("--binary", help="the server to start and to measure")
     parser.add_argument("--url", help="a server that is already running")
     parser.add_argument("--seconds", type=float, default=5.0, help="of each attack")
+    parser.add_argument("--late-ms", type=float, default=100.0,
+                        help="how late the answer to a costly request may be; more on a busy machine")
     arguments = parser.parse_args()
     server = Server(arguments.binary, arguments.url, ["--admin-port", "0"])
     failures = []
@@ -266,6 +270,7 @@ def main():
             failures.append("the server used more than 1 GiB")
     if code := server.end():
         failures.append(f"the server ended with {code}")
+    failures += costly.measure(arguments.binary, arguments.url, arguments.late_ms)
     return verdict(failures)
 
 

@@ -36,7 +36,7 @@ HeaderFields CrossOrigin::answer_fields(const RequestHead& head) const {
   const std::string origin = head.field("origin");
   if (origin.empty() || !allows(origin)) return fields;
   fields.emplace_back("Access-Control-Allow-Origin", any_ ? std::string(kAny) : origin);
-  fields.emplace_back("Access-Control-Expose-Headers", "X-Request-Id, Retry-After");
+  fields.emplace_back("Access-Control-Expose-Headers", "X-Request-Id, Retry-After, traceparent");
   return fields;
 }
 
@@ -46,10 +46,10 @@ bool CrossOrigin::is_preflight(const RequestHead& head) const {
 }
 
 HeaderFields CrossOrigin::preflight_fields(std::string_view methods) {
-  return {
-      {"Access-Control-Allow-Methods", std::string(methods)},
-      {"Access-Control-Allow-Headers", "Accept, Authorization, Content-Encoding, Content-Type, X-Request-Id"},
-      {"Access-Control-Max-Age", kMaxAge}};
+  return {{"Access-Control-Allow-Methods", std::string(methods)},
+          {"Access-Control-Allow-Headers",
+           "Accept, Authorization, Content-Encoding, Content-Type, X-Request-Id, traceparent, tracestate"},
+          {"Access-Control-Max-Age", kMaxAge}};
 }
 
 std::optional<std::string> origin_fault(std::string_view origin) {

@@ -5,6 +5,7 @@
 
 #include "server/http/steps/negotiation.h"
 #include "server/http/steps/request_id.h"
+#include "server/http/steps/trace_context.h"
 #include "server/http/text.h"
 
 namespace fleetplan::server {
@@ -25,6 +26,11 @@ void Steps::begin(Exchange& exchange) const {
   const std::string sent_id = exchange.head.field("x-request-id");
   if (is_well_formed_request_id(sent_id)) exchange.request_id = sent_id;
   exchange.fields = cross_origin_.answer_fields(exchange.head);
+  const std::string traceparent = exchange.head.field("traceparent");
+  if (auto trace_id = trace_id_of(traceparent)) {
+    exchange.trace_id = std::move(*trace_id);
+    exchange.fields.emplace_back("traceparent", traceparent);
+  }
   auto match = routes_.find(exchange.head.path);
   exchange.route = match.route;
   exchange.parameter = std::move(match.parameter);
@@ -115,6 +121,7 @@ void Steps::end(Exchange& exchange, std::uint64_t bytes_out, const std::string& 
   const std::chrono::duration<double, std::milli> elapsed = Exchange::Clock::now() - exchange.begun_at;
   RequestRecord record;
   record.id = exchange.request_id;
+  record.trace_id = exchange.trace_id;
   record.method = exchange.head.method;
   record.path = exchange.head.raw_path;
   record.status = exchange.status;
@@ -125,6 +132,7 @@ void Steps::end(Exchange& exchange, std::uint64_t bytes_out, const std::string& 
   record.problem = exchange.problem;
   record.outcome = exchange.outcome;
   record.peer = peer;
+  record.forwarded = exchange.head.field("x-forwarded-for");
   record.admin = port_ == Port::admin;
   log_.request(record);
 }

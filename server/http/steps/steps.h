@@ -2,7 +2,7 @@
 
 // What happens around every handler. In order:
 //
-//   1. request id      taken over from the client if it is well formed
+//   1. request id      and the trace, taken over from the client if they are well formed
 //   2. CORS            header fields for pages of other origins
 //   3. route           found by path
 //   4. preflight       204                  answered without a token: browsers send none

@@ -1,5 +1,6 @@
 // The files of deploy/, and the settings and version of the server.
 
+import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { readdirSync, readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
@@ -31,6 +32,13 @@ export function outputOf(flag) {
   const { stdout, error } = spawnSync(process.env.FLEETPLAN_BIN, [flag], { encoding: "utf8" });
   if (error) throw error;
   return stdout;
+}
+
+/** Runs promtool; fails with what it prints if it finds a fault. */
+export function promtool(...words) {
+  const { error, status, stdout, stderr } = spawnSync("promtool", words, { encoding: "utf8" });
+  assert.ifError(error);
+  assert.equal(status, 0, stdout + stderr);
 }
 
 /** The names of the environment variables of all settings. */

@@ -120,6 +120,24 @@ TEST(Process, PrintsItsUrlAndLogsRequestsAsJson) {
   EXPECT_EQ(log.find("secret"), std::string::npos) << log;
 }
 
+TEST(Process, LogsTheTraceAndTheForwardedAddresses) {
+  Process process({"--port", "0", "--workers", "1"});
+  httplib::Client client("127.0.0.1", port_in(process.output_line()));
+  const httplib::Headers sent{{"traceparent", "00-0af7651916cd43dd8448eb211c80319c-b7ad6b7169203331-01"},
+                              {"X-Forwarded-For", std::string(1000, 'x') + ", 192.0.2.7"}};
+  ASSERT_TRUE(client.Get("/healthz", sent));
+  const auto line = nlohmann::json::parse(process.log_line_with("healthz"), nullptr, false);
+  ASSERT_TRUE(line.is_object());
+  EXPECT_EQ(line.value("trace_id", ""), "0af7651916cd43dd8448eb211c80319c");
+  const std::string forwarded = line.value("forwarded", "");
+  EXPECT_TRUE(forwarded.ends_with(", 192.0.2.7")) << forwarded;
+  EXPECT_EQ(forwarded.size(), 256u);
+  ASSERT_TRUE(client.Get("/readyz", httplib::Headers{{"traceparent", "none"}}));
+  const std::string plain = process.log_line_with("readyz");
+  EXPECT_EQ(plain.find("trace_id"), std::string::npos) << plain;
+  EXPECT_EQ(plain.find("forwarded"), std::string::npos) << plain;
+}
+
 TEST(Process, LogsAPathOfInvalidUtf8AsValidJson) {
   Process process({"--port", "0", "--workers", "1"});
   RawConnection client(port_in(process.output_line()));

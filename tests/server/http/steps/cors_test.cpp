@@ -51,7 +51,8 @@ TEST_F(CrossOriginPages, OfANamedOriginMayReadEveryAnswer) {
     ASSERT_TRUE(result);
     EXPECT_EQ(result->status, status);
     EXPECT_EQ(result->get_header_value("Access-Control-Allow-Origin"), kOrigin);
-    EXPECT_EQ(result->get_header_value("Access-Control-Expose-Headers"), "X-Request-Id, Retry-After");
+    EXPECT_EQ(result->get_header_value("Access-Control-Expose-Headers"),
+              "X-Request-Id, Retry-After, traceparent");
     EXPECT_THAT(values_of(result, "Vary"), Contains("Origin"));
   };
   expect_readable(client.Post("/v1/plan", from(kOrigin), "abc", kJsonType), 200);
@@ -86,7 +87,7 @@ TEST_F(CrossOriginPages, GetAnAnswerToTheirPreflight) {
     EXPECT_THAT(answer, HasSubstr(std::string("Access-Control-Allow-Origin: ") + kOrigin + "\r\n"));
     EXPECT_THAT(answer, HasSubstr("Access-Control-Allow-Methods: POST\r\n"));
     EXPECT_THAT(answer, HasSubstr("Access-Control-Allow-Headers: Accept, Authorization, Content-Encoding, "
-                                  "Content-Type, X-Request-Id\r\n"));
+                                  "Content-Type, X-Request-Id, traceparent, tracestate\r\n"));
     EXPECT_THAT(answer, HasSubstr("Access-Control-Max-Age: "));
     EXPECT_THAT(answer, Not(HasSubstr("Content-Length")));
     EXPECT_THAT(answer, Not(HasSubstr("Content-Type: ")));

@@ -1,0 +1,269 @@
+"""Valid and invalid requests that cost a server much more than they cost the client: each gets the right answer within its
+time and its memory. `measure` sends each of them to a server of its own."""
+
+import dataclasses
+import gzip
+import json
+import math
+import os
+import threading
+import time
+from typing import Callable
+
+from client import Connection, Lost, request
+from server import Server
+from workload import endless
+
+MIB = 1 << 20
+LISTED = 20  # entries of a list in an answer
+ROBOT = {"radius": 0.3, "linear_speed": 1.0, "angular_speed": math.pi}
+IDLE_AFTER_S = 0.1  # after a client has left
+
+
+@dataclasses.dataclass
+class Costly:
+    """`seconds`: until the answer, on an idle machine, without the delay that is allowed. `mib`: resident memory of the
+    server at most. `fault`: what is wrong with an answer, or None. `copies`: sent at the same time."""
+    name: str
+    data: bytes
+    seconds: float
+    mib: int
+    fault: Callable
+    copies: int = 1
+    before: Callable | None = None  # a request that is sent a second earlier, as often as there are workers
+
+
+# ---------------------------------------------------------------- answers
+
+def refused(*codes):
+    """With one of these codes, and only the first of many faults."""
+    def fault(answer):
+        code = answer.json().get("code")
+        if answer.status not in (422, 503) or code not in codes:
+            return f"{answer.status} {code}"
+        return "a long list of faults" if len(answer.json()["errors"]) > LISTED else None
+    return fault
+
+
+def planned(statuses, reasons=None, blocked_by=None):
+    """A plan of one of these statuses; robots without a plan have one of these reasons, and short lists."""
+    def fault(answer):
+        content = answer.json()
+        if answer.status != 200 or content["status"] not in statuses:
+            return f"{answer.status} {content.get('code', content['status'])}"
+        for robot in content["unplanned"]:
+            if reasons is not None and robot["reason"] not in reasons:
+                return f"{robot['robot']}: {robot['reason']}"
+            if len(robot["blocked_by"]) > LISTED:
+                return f"blocked_by has {len(robot['blocked_by'])} ids"
+            if blocked_by is not None and robot["blocked_by"] != blocked_by:
+                return f"blocked_by is {robot['blocked_by']}"
+        return None
+    return fault
+
+
+def valid(answer):
+    return None if answer.status == 200 and answer.json()["valid"] else f"{answer.status} {answer.body[:200]}"
+
+
+def valid_or_unfinished(answer):
+    return None if answer.status == 422 and answer.json()["code"] == "check_unfinished" else valid(answer)
+
+
+# ---------------------------------------------------------------- requests
+
+def posted(body, path="/v1/plan"):
+    data = body if isinstance(body, bytes) else json.dumps(body).encode()
+    return request("POST", path, gzip.compress(data, 6), [("Content-Encoding", "gzip")])
+
+
+def grid(columns, count, spacing):
+    """The centres of the first squares of a grid, row by row."""
+    return [{"x": spacing * (i % columns + 0.5), "y": spacing * (i // columns + 0.5)} for i in range(count)]
+
+
+def crowd_with_long_ids():
+    """2000 robots with ids of 256 characters, each of which blocks all others because of the inflation."""
+    robots = [{"id": f"{i:04}" + "x" * 252, "start": place, "goal": {**place, "x": place["x"] + 5.0}}
+              for i, place in enumerate(grid(45, 2000, 60.0))]
+    return {"map": {"rows": ["..."] * 3, "resolution": 1000.0}, "robots": robots, "robot_defaults": ROBOT,
+            "options": {"inflation": 900.0}}
+
+
+def blocked_door():
+    """A robot is parked in the only door of the room of the goal, far from the start in a hall of 600 x 600 cells."""
+    rows = ["." * 600 for _ in range(600)]
+    for row in range(10):
+        rows[row] = "." * 590 + ("D" if row == 5 else "#") + "." * 9
+    rows[10] = "." * 590 + "#" * 10
+    rows[5] = rows[5].replace("D", ".")
+    robots = [{"id": "guest", "start": {"x": 0.5, "y": 0.5}, "goal": {"x": 596.5, "y": 596.5}},
+              {"id": "door", "start": {"x": 590.5, "y": 594.5}}]
+    return {"map": {"rows": rows}, "robots": robots, "robot_defaults": {**ROBOT, "radius": 0.4}}
+
+
+def chain():
+    """The goal of each of 2000 robots is the start of the next one; the last one is parked."""
+    places = grid(100, 2000, 1.0)
+    robots = [{"id": f"r{i}", "start": place} for i, place in enumerate(places)]
+    for robot, place in zip(robots, places[1:]):
+        robot["goal"] = place
+    return {"map": {"rows": ["." * 100] * 20}, "robots": robots, "robot_defaults": {**ROBOT, "radius": 0.4},
+            "options": {"time_budget_ms": 200}}
+
+
+def crowd_on_a_large_map(budget_ms):
+    """2000 robots that cross 2000 x 2000 free cells."""
+    robots = [{"id": f"r{i}", "start": place, "goal": {"x": 2000.0 - place["x"], "y": place["y"]}}
+              for i, place in enumerate(grid(45, 2000, 44.0))]
+    return {"map": {"rows": ["." * 2000] * 2000}, "robots": robots, "robot_defaults": {**ROBOT, "radius": 0.4},
+            "options": {"time_budget_ms": budget_ms}}
+
+
+def giants_on_a_blocked_map():
+    """32 robots of half the size of a map without a free cell."""
+    robots = [{"id": f"r{i}", "start": {"x": 1000.0, "y": 1000.0 + i}, "goal": {"x": 1000.0, "y": 1000.0 - i}}
+              for i in range(32)]
+    return {"map": {"rows": ["#" * 2000] * 2000}, "robots": robots, "robot_defaults": {**ROBOT, "radius": 999.0}}
+
+
+def long_plan(legs):
+    """One robot that goes to and fro in a diagonal corridor between opposite corners of 2000 x 2000 cells."""
+    rows = ["#" * max(0, 1998 - row) + "." * (3 if 0 < row < 1999 else 2) + "#" * max(0, row - 1) for row in range(2000)]
+    corners = [{"x": 0.5, "y": 0.5}, {"x": 1999.5, "y": 1999.5}]
+    forth, back = math.pi / 4, -3 * math.pi / 4
+    poses = [{**corners[at], "theta": theta} for at, theta in ((0, forth), (1, forth), (1, back), (0, back))]
+    times = [i // 2 * 2830.0 + i % 2 * 2828.0 for i in range(legs + 1)]  # a little slower than it can
+    actions = [{"type": ("translate", "rotate")[i % 2], "t_start": times[i], "t_end": times[i + 1],
+                "from": poses[i % 4], "to": poses[(i + 1) % 4]} for i in range(legs)]
+    return {"map": {"rows": rows}, "robots": [{"id": "a", "start": poses[0]}], "robot_defaults": ROBOT,
+            "plans": [{"robot": "a", "cost": times[-1], "actions": actions}]}
+
+
+def costly_requests():
+    empty_objects = b'{"robots": [' + b",".join([b"{}"] * (14 * MIB // 3)) + b"]}"
+    empty_strings = b'{"robots": [' + b",".join([b'""'] * (14 * MIB // 3)) + b"]}"
+    members = b"{" + b",".join(b'"%d":0' % i for i in range(2_700_000)) + b"}"
+    return [
+        Costly("2000 ids of 256 characters", posted(crowd_with_long_ids()), 5.0, 512,
+               planned(["none"], ["start_blocked", "goal_blocked", "budget_exhausted"])),
+        Costly("a blocked door far away", posted(blocked_door()), 0.5, 200,
+               planned(["partial"], ["blocked_by_robots"], ["door"])),
+        Costly("10 x 14 MiB of {}", posted(empty_objects), 10.0, 1024,
+               refused("invalid_request", "parse_unfinished", "memory_exceeded", "overloaded"), copies=10),
+        Costly('10 x 14 MiB of ""', posted(empty_strings), 10.0, 1024,
+               refused("invalid_request", "parse_unfinished", "memory_exceeded", "overloaded"), copies=10),
+        Costly("2,700,000 unknown members", posted(members), 1.5, 768,
+               refused("invalid_request", "parse_unfinished", "memory_exceeded")),
+        Costly("a chain of 2000 goals", posted(chain()), 0.2, 300,
+               planned(["solved", "partial", "none"], ["blocked_by_robots", "goal_blocked", "budget_exhausted"])),
+        Costly("check of 40,000 legs", posted(long_plan(40_000), "/v1/validate"), 5.0, 300, valid_or_unfinished),
+        Costly("a check behind long plans", posted(long_plan(8), "/v1/validate"), 5.0, 300, valid,
+               before=lambda: posted(endless(30_000))),
+        Costly("giants on a blocked map", posted(giants_on_a_blocked_map()), 1.0, 300,
+               refused("invalid_request", "parse_unfinished")),
+        *(Costly(f"2000 robots, 4 M cells, {budget_ms} ms", posted(crowd_on_a_large_map(budget_ms)), budget_ms / 1000,
+                 600, planned(["solved", "partial", "none"], ["budget_exhausted", "blocked_by_robots"]))
+          for budget_ms in (500, 1000, 3000)),
+    ]
+
+
+# ---------------------------------------------------------------- measuring
+
+@dataclasses.dataclass
+class Outcome:
+    milliseconds: float
+    size: int
+    fault: str | None
+
+
+def ask(server, costly):
+    connection = Connection(server.host, server.port, costly.seconds + 60)
+    try:
+        connection.send(costly.data)
+        sent_at = time.monotonic()
+        answer = connection.receive()
+        return Outcome(1000 * (time.monotonic() - sent_at), len(answer.body), costly.fault(answer))
+    except (Lost, OSError, ValueError, KeyError) as fault:
+        return Outcome(0.0, 0, f"{type(fault).__name__} {fault}")
+    finally:
+        connection.close()
+
+
+def ask_at_once(server, costly):
+    outcomes = []
+    threads = [threading.Thread(target=lambda: outcomes.append(ask(server, costly))) for _ in range(costly.copies)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    return outcomes
+
+
+def keep_busy(server, data):
+    """Starts as many requests as there are workers; returns their connections."""
+    busy = [Connection(server.host, server.port) for _ in range(server.get("/v1/limits")["workers"])]
+    for connection in busy:
+        connection.send(data)
+    time.sleep(1.0)
+    return busy
+
+
+def cpu_seconds(server):
+    with open(f"/proc/{server.process.pid}/stat", encoding="ascii") as stat:
+        user, system = stat.read().rpartition(")")[2].split()[11:13]
+    return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
+
+
+def cpu_after_leaving(server, costly):
+    """The seconds of CPU that the server uses in half a second, from IDLE_AFTER_S after the client has left on."""
+    connection = Connection(server.host, server.port)
+    connection.send(costly.data)
+    time.sleep(0.1)
+    connection.close()
+    time.sleep(IDLE_AFTER_S)
+    before = cpu_seconds(server)
+    time.sleep(0.5)
+    return cpu_seconds(server) - before
+
+
+def faults_of(costly, outcomes, late_ms, peak_mib, idle_cpu):
+    for outcome in outcomes:
+        if outcome.fault:
+            yield outcome.fault
+        elif outcome.milliseconds > 1000 * costly.seconds + late_ms:
+            yield f"{outcome.milliseconds:.0f} ms instead of {1000 * costly.seconds:.0f} ms"
+    if peak_mib is not None and peak_mib > costly.mib:
+        yield f"{peak_mib:.0f} MiB instead of {costly.mib} MiB"
+    if idle_cpu is not None and idle_cpu > 0.1:
+        yield f"{idle_cpu:.2f} s of CPU in half a second after the client left"
+
+
+def measure_one(binary, url, costly, late_ms):
+    """Prints a line of the table; returns the faults."""
+    server = Server(binary, url)
+    busy = keep_busy(server, costly.before()) if costly.before else []
+    outcomes = ask_at_once(server, costly)
+    for connection in busy:
+        connection.close()
+    peak_kib = server.peak_kib()
+    peak_mib = peak_kib / 1024 if peak_kib else None
+    idle_cpu = cpu_after_leaving(server, costly) if binary and server.alive() else None
+    faults = list(faults_of(costly, outcomes, late_ms, peak_mib, idle_cpu))
+    if not server.alive():
+        faults.append("the server ended")
+    if code := server.end():
+        faults.append(f"the server ended with {code}")
+    print(f"{costly.name:30} {max(o.milliseconds for o in outcomes):9.0f} {1000 * costly.seconds:9.0f} "
+          f"{max(o.size for o in outcomes) / 1024:9.0f} {peak_mib or 0:8.0f} {costly.mib:8} "
+          f"{idle_cpu or 0:9.2f}  {'; '.join(sorted(set(faults))[:2]) or 'ok'}", flush=True)
+    return faults
+
+
+def measure(binary, url, late_ms):
+    """Sends every costly request; returns the failures. `late_ms`: how much later than its time an answer may be."""
+    print(f"\n{'costly request':30} {'ms':>9} {'of':>9} {'KiB':>9} {'MiB':>8} {'of':>8} {'CPU after':>9}")
+    failures = []
+    for costly in costly_requests():
+        failures += [f"{costly.name}: {fault}" for fault in measure_one(binary, url, costly, late_ms)]
+    return failures
