@@ -13,6 +13,7 @@
 #include "core/prioritized/prioritized_planning.h"
 #include "core/prioritized/progress_report.h"
 #include "core/prioritized/triage.h"
+#include "core/runtime/memory_account.h"
 
 namespace fleetplan::core {
 namespace {
@@ -40,6 +41,15 @@ std::vector<std::size_t> robots_to_plan(const Instance& instance,
     if (instance.robot(i).goal && !unplanned[i]) movers.push_back(i);
   }
   return movers;
+}
+
+/// The plan of a job that has been short of memory: says so of the robots that it could not plan.
+Plan with_spent_memory_named(Plan plan) {
+  plan.deterministic = false;
+  for (Unplanned& robot : plan.unplanned) {
+    if (robot.reason == Unplanned::Reason::budget_exhausted) robot.detail = kMemorySpent;
+  }
+  return plan;
 }
 
 /// Reports improvements to the observer, and the improved plan when the observer wants it.
@@ -109,7 +119,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   Plan plan = current_plan(lns);
   progress.plan_found(plan.objectives);
   plan.deterministic = !prioritized.cut_off && !bounds.cut_off() && !lns.cut_off && !stop.cancelled();
-  return plan;
+  return memory_shortages() > 0 ? with_spent_memory_named(std::move(plan)) : plan;
 }
 
 }  // namespace fleetplan::core

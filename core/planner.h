@@ -9,6 +9,12 @@
 
 namespace fleetplan::core {
 
+/// The detail of a robot for which the memory was not enough (see MemoryAccount).
+inline constexpr const char* kMemorySpent =
+    "The memory for one plan (--max-plan-memory) was spent before a way was found: send fewer robots or a "
+    "map "
+    "with fewer cells, or raise that limit.";
+
 /// Plans collision-free timed motions for all robots of the problem (paper, Method), or for as many as it can
 /// until the stop condition is met:
 ///
@@ -20,6 +26,9 @@ namespace fleetplan::core {
 ///
 /// The same problem, options and build give the same plan unless `deterministic` is false. The executor's
 /// threads make `anytime` faster; neither they nor the observer, which may be null, change the plan.
+///
+/// When the job is short of memory, planning goes on without what was too large: a safe partial plan. Throws
+/// std::bad_alloc if the memory does not even suffice for that.
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop, Executor& executor,
           Observer* observer = nullptr);
 

@@ -74,6 +74,7 @@ Handler limits(const Backend& backend) {
     JsonWriter json;
     json.begin_object().member("max_body", limits.max_body).member("max_cells", limits.max_cells);
     json.member("max_robots", limits.max_robots).member("max_depth", limits.max_depth);
+    json.member("max_plan_memory", limits.max_plan_memory);
     json.member("default_budget_ms", limits.default_budget_ms).member("min_budget_ms", 1);
     json.member("max_budget_ms", limits.max_budget_ms);
     json.member("workers", settings.workers).member("queue", settings.queue).end_object();

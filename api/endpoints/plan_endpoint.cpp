@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 #include <optional>
 
 #include "api/endpoints/plan_answer.h"
 #include "api/endpoints/progress_reporter.h"
+#include "api/endpoints/within_memory.h"
 #include "api/request/parse_request.h"
 #include "api/response/error.h"
 
@@ -22,36 +24,31 @@ Clock::time_point planning_deadline(const RequestContext& context, std::chrono::
   return context.received_at + budget - std::min<Clock::duration>(budget / 20, kMostForTheAnswer);
 }
 
-/// The plan when the budget was spent in the queue: only parked robots are planned.
-core::Plan plan_without_budget(const core::Problem& problem) {
+/// The plan when a budget was spent before planning: only parked robots are planned.
+core::Plan plan_without_budget(const core::Problem& problem, const char* detail) {
   core::Plan plan;
   plan.deterministic = false;
   for (std::size_t index = 0; index < problem.robots().size(); ++index) {
     if (!problem.robots()[index].goal) {
       plan.plans.push_back({index, 0.0, {}});
     } else {
-      plan.unplanned.push_back({index,
-                                core::Unplanned::Reason::budget_exhausted,
-                                "The time budget was spent before planning could begin.",
-                                {}});
+      plan.unplanned.push_back({index, core::Unplanned::Reason::budget_exhausted, detail, {}});
     }
   }
   return plan;
 }
 
-}  // namespace
-
-Reply plan_endpoint(std::string_view body, const RequestContext& context) {
-  core::CallerThread callers_thread;
-  core::Executor& executor = context.executor != nullptr ? *context.executor : callers_thread;
-  const auto planner = [&](const core::Problem& problem, const core::PlanOptions& options,
-                           const core::StopCondition& stop, core::Observer* observer) {
-    return core::plan(problem, options, stop, executor, observer);
-  };
-  return plan_with(planner, body, context);
+/// The planner's plan, or one of parked robots only if the memory does not suffice for any other.
+core::Plan plan_or_none(const Planner& planner, const PlanRequest& request, const core::StopCondition& stop,
+                        core::Observer* observer) {
+  try {
+    return planner(request.problem, request.options, stop, observer);
+  } catch (const std::bad_alloc&) {
+    return plan_without_budget(request.problem, core::kMemorySpent);
+  }
 }
 
-Reply plan_with(const Planner& planner, std::string_view body, const RequestContext& context) {
+Reply planned(const Planner& planner, std::string_view body, const RequestContext& context) {
   Stages stages{context.received_at, {}, {}, {}, {}};
   const auto request = parse_request(body, context.limits);
   if (!request) return problem_reply(request.failure(), context.request_id);
@@ -74,12 +71,29 @@ Reply plan_with(const Planner& planner, std::string_view body, const RequestCont
                          context.request_id);
   }
   if (stop.met()) {
-    Reply reply = answer(plan_without_budget(request->problem));
+    Reply reply = answer(
+        plan_without_budget(request->problem, "The time budget was spent before planning could begin."));
     if (reply.outcome) reply.outcome->plan_seconds.reset();
     return reply;
   }
-  const core::Plan plan = planner(request->problem, request->options, stop, reporter ? &*reporter : nullptr);
+  const core::Plan plan = plan_or_none(planner, *request, stop, reporter ? &*reporter : nullptr);
   return reporter && reporter->rejection() ? *reporter->rejection() : answer(plan);
+}
+
+}  // namespace
+
+Reply plan_endpoint(std::string_view body, const RequestContext& context) {
+  core::CallerThread callers_thread;
+  core::Executor& executor = context.executor != nullptr ? *context.executor : callers_thread;
+  const auto planner = [&](const core::Problem& problem, const core::PlanOptions& options,
+                           const core::StopCondition& stop, core::Observer* observer) {
+    return core::plan(problem, options, stop, executor, observer);
+  };
+  return plan_with(planner, body, context);
+}
+
+Reply plan_with(const Planner& planner, std::string_view body, const RequestContext& context) {
+  return within_memory(context, [&] { return planned(planner, body, context); });
 }
 
 }  // namespace fleetplan::api

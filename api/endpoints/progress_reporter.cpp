@@ -1,7 +1,10 @@
 #include "api/endpoints/progress_reporter.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
+
+#include "core/runtime/memory_account.h"
 
 namespace fleetplan::api {
 
@@ -20,7 +23,8 @@ void ProgressReporter::show(const core::Plan& plan) {
   const auto begin = Clock::now();
   Reply reply = make_answer_(plan);
   if (reply.status == 200) {
-    events_.incumbent(std::move(reply.body));
+    const core::MemoryScope not_counted(nullptr);  // other threads free the copy
+    events_.incumbent(std::string(reply.body));
   } else {
     rejection_ = std::move(reply);
   }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "api/endpoints/within_memory.h"
 #include "api/json/fault_text.h"
 #include "api/request/parse_validate_request.h"
 #include "api/response/error.h"
@@ -27,9 +28,7 @@ Reply unfinished(const ValidateRequest& request, const core::StopCondition& stop
       request_id);
 }
 
-}  // namespace
-
-Reply validate_endpoint(std::string_view body, const RequestContext& context) {
+Reply check(std::string_view body, const RequestContext& context) {
   const auto request = parse_validate_request(body, context.limits);
   if (!request) return problem_reply(request.failure(), context.request_id);
   using Clock = core::StopCondition::Clock;
@@ -38,6 +37,12 @@ Reply validate_endpoint(std::string_view body, const RequestContext& context) {
   const auto report = core::verify(request->grid, request->robots, request->plans, request->tolerance, stop);
   if (!report) return unfinished(*request, stop, context.request_id);
   return {200, kJson, write_report(*report, request->robots)};
+}
+
+}  // namespace
+
+Reply validate_endpoint(std::string_view body, const RequestContext& context) {
+  return within_memory(context, [&] { return check(body, context); });
 }
 
 }  // namespace fleetplan::api

@@ -44,7 +44,7 @@ struct Example {
   std::string_view name = {};  // empty: that of the code
 };
 
-constexpr std::array<Example, 18> kExamples{{
+constexpr std::array<Example, 19> kExamples{{
     {ErrorCode::malformed_json,
      "Not JSON at line 3, column 14 (byte 47): NaN and infinities are not JSON; give a finite number."},
     {ErrorCode::too_deep, "The JSON nests arrays and objects deeper than the limit of 32 levels."},
@@ -68,6 +68,9 @@ constexpr std::array<Example, 18> kExamples{{
     {ErrorCode::check_unfinished,
      "The plans could not be checked within 5000 ms: increase options.time_budget_ms, up to max_budget_ms of "
      "/v1/limits, or send fewer robots or a shorter part of the plans."},
+    {ErrorCode::memory_exceeded,
+     "The request needs more than 256 MiB of memory, max_plan_memory of /v1/limits: send fewer robots or a "
+     "map with fewer cells."},
     {ErrorCode::head_too_large, "There are more than 100 header fields."},
     {ErrorCode::internal_error, "A bug in the service; its log has more under this request_id."},
     {ErrorCode::overloaded, "All workers are busy and the queue is full: try again later."},

@@ -10,9 +10,10 @@ struct Limits {
   std::size_t max_body = 32u << 20;    // bytes, after decompression
   std::int64_t max_cells = 4'000'000;  // of the map
   std::size_t max_robots = 2000;
-  int max_depth = 32;                     // nesting of the JSON
-  std::int64_t default_budget_ms = 5000;  // of a request that names none
-  std::int64_t max_budget_ms = 120'000;   // a longer one is clamped, with a warning
+  std::size_t max_plan_memory = 256u << 20;  // bytes, for all that is made of a body
+  int max_depth = 32;                        // nesting of the JSON
+  std::int64_t default_budget_ms = 5000;     // of a request that names none
+  std::int64_t max_budget_ms = 120'000;      // a longer one is clamped, with a warning
 };
 
 }  // namespace fleetplan::api

@@ -8,7 +8,7 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<ErrorRow, 17> kTable{{
+constexpr std::array<ErrorRow, 18> kTable{{
     {ErrorCode::malformed_json, 400, "malformed_json", "Malformed JSON", "The body is not JSON."},
     {ErrorCode::too_deep, 400, "too_deep", "JSON Nested Too Deep",
      "The JSON of the body nests deeper than `max_depth` of `GET /v1/limits`."},
@@ -34,6 +34,9 @@ constexpr std::array<ErrorRow, 17> kTable{{
      "more), in the order of the document."},
     {ErrorCode::check_unfinished, 422, "check_unfinished", "Check Not Finished",
      "`/v1/validate` could not check the plans within the budget."},
+    {ErrorCode::memory_exceeded, 422, "memory_exceeded", "Memory Limit Exceeded",
+     "The request needs more memory than `max_plan_memory` of `GET /v1/limits`, so that there is not even a "
+     "partial plan."},
     {ErrorCode::head_too_large, 431, "head_too_large", "Request Header Fields Too Large",
      "The head of the request is larger than 32 KiB, or has more than 100 fields."},
     {ErrorCode::internal_error, 500, "internal_error", "Internal Server Error",

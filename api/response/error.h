@@ -27,6 +27,7 @@ enum class ErrorCode {
   unsupported_media_type,  // 415
   invalid_request,         // 422, with one entry in `errors` for each fault
   check_unfinished,        // 422, a plan that takes longer to check than the budget
+  memory_exceeded,         // 422, a request that needs more memory than it is granted
   head_too_large,          // 431, header fields by size or number
   internal_error,          // 500
   overloaded,              // 503, queue full

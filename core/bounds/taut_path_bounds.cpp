@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
+#include <new>
 
 #include "core/bounds/corner_visibility.h"
 #include "core/bounds/lower_bound.h"
@@ -28,7 +28,7 @@ bool sees_goal(const Instance& instance, std::size_t robot, double radius) {
 TautPathBounds::TautPathBounds(const Instance& instance, const std::vector<std::size_t>& robots,
                                const std::vector<double>& costs, const StopCondition& stop)
     : seconds_(instance.size(), 0.0) {
-  std::map<double, std::vector<std::size_t>> out_of_sight;  // by radius, to share tangents
+  RobotsByRadius out_of_sight;  // to share tangents
   for (const std::size_t robot : robots) {
     seconds_[robot] = lower_bound(instance.robot(robot), instance.motion(robot));
     const double reduced = instance.motion(robot).radius - 2.0 * TangentGraph::kRadiusReduction;
@@ -36,6 +36,15 @@ TautPathBounds::TautPathBounds(const Instance& instance, const std::vector<std::
     out_of_sight[instance.motion(robot).radius].push_back(robot);
   }
   if (out_of_sight.empty()) return;
+  try {
+    improve(instance, out_of_sight, costs, stop);
+  } catch (const std::bad_alloc&) {  // not granted to the job: the bounds so far remain
+    cut_off_ = true;
+  }
+}
+
+void TautPathBounds::improve(const Instance& instance, const RobotsByRadius& out_of_sight,
+                             const std::vector<double>& costs, const StopCondition& stop) {
   std::int64_t work = kMaxWork;
   CornerVisibility corners(instance.problem().grid(), out_of_sight.begin()->first,
                            out_of_sight.rbegin()->first);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <vector>
 
 #include "core/instance.h"
@@ -13,17 +14,23 @@ namespace fleetplan::core {
 class TautPathBounds {
  public:
   /// Of `robots`, all with goals. `costs`, by robot, are those of a known plan; infinite for none. The work
-  /// is limited to about half a second: beyond it, on large maps full of corners, or when `stop` is met,
-  /// bounds are weaker, down to the straight line.
+  /// is limited to about half a second: beyond it, on large maps full of corners, or when `stop` is met
+  /// or the memory spent, bounds are weaker, down to the straight line.
   TautPathBounds(const Instance& instance, const std::vector<std::size_t>& robots,
                  const std::vector<double>& costs, const StopCondition& stop);
 
   /// 0 for a robot that was not among `robots`.
   double operator[](std::size_t robot) const { return seconds_[robot]; }
-  /// Whether `stop` weakened a bound.
+  /// Whether `stop` or a lack of memory weakened a bound.
   bool cut_off() const { return cut_off_; }
 
  private:
+  using RobotsByRadius = std::map<double, std::vector<std::size_t>>;
+
+  /// Replaces the bounds of these robots by those of their taut paths.
+  void improve(const Instance& instance, const RobotsByRadius& robots, const std::vector<double>& costs,
+               const StopCondition& stop);
+
   std::vector<double> seconds_;  // by robot
   bool cut_off_ = false;
 };

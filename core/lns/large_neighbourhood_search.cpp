@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <new>
 #include <utility>
 
 #include "core/lns/adaptive_parameters.h"
@@ -10,6 +11,7 @@
 #include "core/lns/incumbent.h"
 #include "core/lns/replan.h"
 #include "core/lns/workspace_pool.h"
+#include "core/runtime/memory_account.h"
 
 namespace fleetplan::core {
 namespace {
@@ -53,7 +55,7 @@ class LargeNeighbourhoodSearch {
         before_round(result_);
       }
       if (!stop_.met()) run_round(static_cast<std::size_t>(count));
-      result_.cut_off = stop_.met();
+      result_.cut_off = stop_.met() || !has_memory();
     }
     workspaces_.update_all();
     return result_;
@@ -75,11 +77,30 @@ class LargeNeighbourhoodSearch {
                        [&](std::size_t robot) { return delay(robot) <= kLeastDelay; });
   }
 
+  /// Whether the last round had enough memory, or the next one may have: without the threads that help.
+  bool has_memory() {
+    const bool had_enough = memory_shortages() == shortages_;
+    shortages_ = memory_shortages();
+    if (had_enough) return true;
+    may_help_ = false;
+    return workspaces_.release_others();
+  }
+
+  void run_tasks(std::size_t count, const Executor::Task& task) {
+    MemoryAccount* account = MemoryScope::current();
+    const auto counted = [&](std::size_t k) {
+      const MemoryScope scope(account);
+      task(k);
+    };
+    CallerThread callers_thread;
+    (may_help_ ? executor_ : callers_thread).run(count, counted);
+  }
+
   void run_round(std::size_t count) {
     std::vector<Iteration> iterations;
     iterations.reserve(count);
     for (std::size_t k = 0; k < count; ++k) iterations.push_back(next_iteration());
-    executor_.run(count, [&](std::size_t k) { destroy_and_repair(iterations[k]); });
+    run_tasks(count, [&](std::size_t k) { destroy_and_repair(iterations[k]); });
     std::vector<std::size_t> changed;
     for (Iteration& iteration : iterations) {
       learn(iteration);
@@ -119,12 +140,21 @@ class LargeNeighbourhoodSearch {
   /// On any thread.
   void destroy_and_repair(Iteration& iteration) {
     std::unique_ptr<Workspace> workspace = workspaces_.take();
+    if (!workspace) return;
+    try {
+      iteration.result = repaired(*workspace, iteration);
+    } catch (const std::bad_alloc&) {  // not granted to the job
+      workspace->invalidate();
+    }
+    workspaces_.give_back(std::move(workspace));
+  }
+
+  ReplanResult repaired(Workspace& workspace, const Iteration& iteration) {
     Random random(iteration.seed);
     const AdaptiveParameters::Choice& parameters = iteration.parameters;
-    const auto robots = workspace->neighbourhoods().select(iteration.first, parameters.neighbourhood(),
-                                                           parameters.robots(), random);
-    iteration.result = replan(workspace->state(), robots, bounds_, iteration.options, stop_);
-    workspaces_.give_back(std::move(workspace));
+    const auto robots = workspace.neighbourhoods().select(iteration.first, parameters.neighbourhood(),
+                                                          parameters.robots(), random);
+    return replan(workspace.state(), robots, bounds_, iteration.options, stop_);
   }
 
   void learn(const Iteration& iteration) {
@@ -145,6 +175,7 @@ class LargeNeighbourhoodSearch {
     };
     if (std::any_of(changed.begin(), changed.end(), is_part)) return true;
     std::unique_ptr<Workspace> workspace = workspaces_.take();
+    if (!workspace) return true;
     bool outdated = false;
     for (const Change::Part& part : change.parts) {
       if (for_makespan_ && part.trajectory.cost > makespan) outdated = true;
@@ -166,6 +197,8 @@ class LargeNeighbourhoodSearch {
   AdaptiveParameters parameters_;
   DelayedChoice first_robots_;
   LnsResult result_;
+  bool may_help_ = true;  // threads of the executor
+  std::int64_t shortages_ = memory_shortages();
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "core/lns/workspace_pool.h"
 
+#include <algorithm>
+#include <new>
 #include <utility>
 
 namespace fleetplan::core {
@@ -37,6 +39,8 @@ void Workspace::update() {
   }
 }
 
+void Workspace::invalidate() { std::fill(versions_.begin(), versions_.end(), -1); }
+
 WorkspacePool::WorkspacePool(PlanState& state, const Incumbent& incumbent, const StopCondition& stop)
     : problem_(state.instance().problem()),
       options_(state.instance().options()),
@@ -46,16 +50,25 @@ WorkspacePool::WorkspacePool(PlanState& state, const Incumbent& incumbent, const
 }
 
 std::unique_ptr<Workspace> WorkspacePool::take() {
-  std::unique_ptr<Workspace> workspace;
-  {
-    const std::scoped_lock lock(mutex_);
-    if (!idle_.empty()) {
-      workspace = std::move(idle_.back());
-      idle_.pop_back();
+  std::unique_ptr<Workspace> workspace = take_idle();
+  try {
+    if (!workspace) workspace = std::make_unique<Workspace>(problem_, options_, incumbent_, stop_);
+    workspace->update();
+    return workspace;
+  } catch (const std::bad_alloc&) {  // not granted to the job
+    if (workspace) {
+      workspace->invalidate();
+      give_back(std::move(workspace));
     }
+    return nullptr;
   }
-  if (!workspace) workspace = std::make_unique<Workspace>(problem_, options_, incumbent_, stop_);
-  workspace->update();
+}
+
+std::unique_ptr<Workspace> WorkspacePool::take_idle() {
+  const std::scoped_lock lock(mutex_);
+  if (idle_.empty()) return nullptr;
+  std::unique_ptr<Workspace> workspace = std::move(idle_.back());
+  idle_.pop_back();
   return workspace;
 }
 
@@ -66,6 +79,10 @@ void WorkspacePool::give_back(std::unique_ptr<Workspace> workspace) {
 
 void WorkspacePool::update_all() {
   for (const auto& workspace : idle_) workspace->update();
+}
+
+bool WorkspacePool::release_others() {
+  return std::erase_if(idle_, [](const auto& workspace) { return workspace->has_own_state(); }) > 0;
 }
 
 }  // namespace fleetplan::core

@@ -24,9 +24,12 @@ class Workspace {
             const StopCondition& stop);
 
   PlanState& state() { return *state_; }
+  bool has_own_state() const { return own_state_ != nullptr; }
   NeighbourhoodSelection& neighbourhoods() { return neighbourhoods_; }
   /// Adopts the trajectories that have been replaced in the incumbent since the last call.
   void update();
+  /// The trajectories of the state may be others than those of the last update, or missing.
+  void invalidate();
 
  private:
   std::unique_ptr<Instance> own_instance_;
@@ -43,13 +46,17 @@ class WorkspacePool {
   /// The first workspace uses `state`, which follows the incumbent.
   WorkspacePool(PlanState& state, const Incumbent& incumbent, const StopCondition& stop);
 
-  /// An updated workspace for the exclusive use of the caller.
+  /// An updated workspace for the exclusive use of the caller; null if the job has no memory for it.
   std::unique_ptr<Workspace> take();
   void give_back(std::unique_ptr<Workspace> workspace);
   /// Updates all workspaces, and with them the caller's state; all have been given back.
   void update_all();
+  /// Frees all workspaces but that with the caller's state; returns false if there was no other.
+  bool release_others();
 
  private:
+  std::unique_ptr<Workspace> take_idle();
+
   const Problem& problem_;
   const PlanOptions options_;
   const Incumbent& incumbent_;

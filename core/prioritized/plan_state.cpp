@@ -1,12 +1,24 @@
 #include "core/prioritized/plan_state.h"
 
+#include <algorithm>
+#include <new>
 #include <utility>
+
+#include "core/runtime/memory_account.h"
 
 namespace fleetplan::core {
 namespace {
 
 /// Memory for the robots' costs-to-go; beyond it they are discarded and computed again.
 constexpr std::size_t kMaxSearchSpaceBytes = std::size_t{384} << 20;
+/// Likewise, as a part of the job's memory: a half.
+constexpr std::size_t kSearchSpacePart = 2;
+
+std::size_t max_search_space_bytes() {
+  const MemoryAccount* account = MemoryScope::current();
+  if (account == nullptr) return kMaxSearchSpaceBytes;
+  return std::min(kMaxSearchSpaceBytes, static_cast<std::size_t>(account->limit()) / kSearchSpacePart);
+}
 
 std::vector<double> radii(const Instance& instance) {
   std::vector<double> radii;
@@ -65,15 +77,33 @@ PlanState::SearchSpace& PlanState::search_space(std::size_t robot) {
 void PlanState::discard_search_spaces_except(std::size_t robot) {
   std::size_t bytes = 0;
   for (const auto& space : search_spaces_) bytes += space ? space->cost_to_go.bytes() : 0;
-  if (bytes < kMaxSearchSpaceBytes) return;
+  if (bytes < max_search_space_bytes() && !is_short_of_memory()) return;
   for (std::size_t i = 0; i < search_spaces_.size(); ++i) {
     if (i != robot) search_spaces_[i].reset();
   }
 }
 
+template <class Result, class Compute>
+Result PlanState::within_memory(Result otherwise, const Compute& compute) {
+  bool is_spent = false;
+  try {
+    otherwise = compute();
+  } catch (const std::bad_alloc&) {
+    is_spent = true;
+  }
+  if (is_spent || is_short_of_memory()) {
+    search_.release_memory();
+    for (auto& space : search_spaces_) space.reset();
+  }
+  return otherwise;
+}
+
 SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
-  SearchSpace& space = search_space(robot);
-  SearchResult result = search_.run(robot, space.vertices, space.cost_to_go, limits, stop);
+  const SearchResult no_memory{std::nullopt, false, 0};
+  SearchResult result = within_memory(no_memory, [&] {
+    SearchSpace& space = search_space(robot);
+    return search_.run(robot, space.vertices, space.cost_to_go, limits, stop);
+  });
   expansions_ += result.expansions;
   return result;
 }
@@ -88,19 +118,23 @@ SearchResult PlanState::plan_ignoring(const std::vector<std::size_t>& ignored, s
 
 bool PlanState::goal_reachable(std::size_t robot, const StopCondition& stop) {
   if (stop.met()) return true;
-  SearchSpace& space = search_space(robot);
-  const Vertices& vertices = space.vertices;
-  return vertices.start() == vertices.goal() ||
-         space.cost_to_go.from(vertices.start(), stop).seconds < kForever;
+  return within_memory(true, [&] {
+    SearchSpace& space = search_space(robot);
+    const Vertices& vertices = space.vertices;
+    return vertices.start() == vertices.goal() ||
+           space.cost_to_go.from(vertices.start(), stop).seconds < kForever;
+  });
 }
 
 Trajectory PlanState::plan_alone(std::size_t robot, const StopCondition& stop) {
   const OccupancyGrid& grid = instance_.problem().grid();
   const double cell_size = grid.width();  // coarse, as the table stays empty
   const ReservationTable empty(grid.width(), grid.height(), cell_size, radii(instance_));
-  SearchSpace& space = search_space(robot);
-  AaSipp search(empty);
-  SearchResult result = search.run(robot, space.vertices, space.cost_to_go, {}, stop);
+  SearchResult result = within_memory(SearchResult(), [&] {
+    SearchSpace& space = search_space(robot);
+    AaSipp search(empty);
+    return search.run(robot, space.vertices, space.cost_to_go, {}, stop);
+  });
   return result.trajectory ? std::move(*result.trajectory) : staying(robot);
 }
 

@@ -67,6 +67,10 @@ class PlanState {
   };
 
   SearchSpace& search_space(std::size_t robot);
+  /// Returns the result of a search, or `otherwise` if the memory for it is not granted (see MemoryAccount).
+  /// When memory is short, what searches keep for later is given up.
+  template <class Result, class Compute>
+  Result within_memory(Result otherwise, const Compute& compute);
   void discard_search_spaces_except(std::size_t robot);
   void reserve(std::size_t robot, const std::vector<TimedSegment>& segments);
   Trajectory staying(std::size_t robot) const;

@@ -4,9 +4,12 @@
 #include <stop_token>
 #include <utility>
 
+#include "core/runtime/memory_account.h"
+
 namespace fleetplan::core {
 
-/// When to stop: at a deadline, or when a stop is requested. Cheap enough to test in every search loop.
+/// When to stop: at a deadline, when a stop is requested, or while the job of the calling thread is short of
+/// memory (see MemoryAccount). Cheap enough to test in every search loop.
 class StopCondition {
  public:
   using Clock = std::chrono::steady_clock;
@@ -15,7 +18,7 @@ class StopCondition {
   explicit StopCondition(Clock::time_point deadline, std::stop_token stop = {})
       : deadline_(deadline), stop_(std::move(stop)) {}
 
-  bool met() const { return cancelled() || Clock::now() >= deadline_; }
+  bool met() const { return cancelled() || is_short_of_memory() || Clock::now() >= deadline_; }
   bool cancelled() const { return stop_.stop_requested(); }
   Clock::time_point deadline() const { return deadline_; }
   const std::stop_token& stop_token() const { return stop_; }

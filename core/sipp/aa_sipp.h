@@ -60,6 +60,9 @@ class AaSipp {
   SearchResult run(std::size_t robot, const Vertices& vertices, CostToGo& cost_to_go,
                    const SearchLimits& limits, const StopCondition& stop);
 
+  /// Frees what is kept for the next search.
+  void release_memory() { state_ = SearchState(); }
+
  private:
   const ReservationTable& table_;
   SearchState state_;  // of one search; a member only to reuse its memory

@@ -164,6 +164,15 @@ test("422: a check that exceeds its time budget is reported", async () => {
   expectProblem(await limited.post("/v1/validate", overlappingPlans(200, 100)), 422, "check_unfinished");
 });
 
+test("422: a request that needs more memory than it is granted is reported", async () => {
+  const { client: limited } = await separateService(["--max-plan-memory", "1MiB"]);
+  const rows = Array.from({ length: 1000 }, () => ".".repeat(1000));
+  for (const path of POSTS) {
+    const answer = await limited.post(path, { ...BUSY, map: { rows, resolution: 1 }, plans: [] });
+    expectProblem(answer, 422, "memory_exceeded");
+  }
+});
+
 /** A separate service, which is stopped after the tests at the latest. */
 async function separateService(flags) {
   const service = await startService(flags);

@@ -19,6 +19,7 @@ namespace fleetplan::server {
 namespace {
 
 constexpr std::size_t kQueuePerWorker = 4;
+constexpr std::uint64_t kLeastPlanMemory = 1 << 20;
 constexpr std::int64_t kMaxMs = 86'400'000;  // a day
 
 std::string environment_name(std::string flag) {
@@ -119,6 +120,11 @@ class Flags {
     add("max-body", max_body_, "Largest body in bytes after decompression; accepts KiB, MiB and GiB")
         ->transform(CLI::AsSizeValue(false))
         ->default_str("32MiB");
+    max_plan_memory_ = limits.max_plan_memory;
+    add("max-plan-memory", max_plan_memory_,
+        "Most memory of a plan in bytes, from the parsed body to the answer; accepts KiB, MiB and GiB")
+        ->transform(CLI::AsSizeValue(false))
+        ->default_str("256MiB");
     add_number<std::int64_t>("max-cells", limits.max_cells, 1, 1'000'000'000, "Most cells of a map");
     add_number<std::size_t>("max-robots", limits.max_robots, 1, 1'000'000, "Most robots of a request");
     add_number("max-depth", limits.max_depth, 4, 512, "Deepest nesting of the JSON");
@@ -143,6 +149,8 @@ class Flags {
   std::variant<Settings, SettingsExit> finish() {
     if (max_body_ < 1 || max_body_ > (std::uint64_t{1} << 40))
       return bad("--max-body must be 1 byte to 1 TiB");
+    if (max_plan_memory_ < kLeastPlanMemory || max_plan_memory_ > (std::uint64_t{1} << 40))
+      return bad("--max-plan-memory must be 1 MiB to 1 TiB");
     std::error_code ignored;
     if (!settings_.web_root.empty() && !std::filesystem::is_directory(settings_.web_root, ignored)) {
       return bad("--web-root: '" + settings_.web_root + "' is not a folder");
@@ -154,6 +162,7 @@ class Flags {
     }
     limits.default_budget_ms = std::min(limits.default_budget_ms, limits.max_budget_ms);
     limits.max_body = max_body_;
+    limits.max_plan_memory = max_plan_memory_;
     if (queue_->count() == 0) settings_.queue = kQueuePerWorker * static_cast<std::size_t>(settings_.workers);
     settings_.idle_timeout = std::chrono::milliseconds(idle_timeout_ms_);
     settings_.read_timeout = std::chrono::milliseconds(read_timeout_ms_);
@@ -183,6 +192,7 @@ class Flags {
   CLI::App app_;
   Settings settings_;
   std::uint64_t max_body_ = 0;
+  std::uint64_t max_plan_memory_ = 0;
   std::int64_t idle_timeout_ms_ = Settings{}.idle_timeout.count();
   std::int64_t read_timeout_ms_ = Settings{}.read_timeout.count();
   std::int64_t drain_ms_ = Settings{}.drain.count();

@@ -42,6 +42,7 @@ TEST(Errors, HaveTheDocumentedStatus) {
       {ErrorCode::unsupported_media_type, 415, "unsupported_media_type"},
       {ErrorCode::invalid_request, 422, "invalid_request"},
       {ErrorCode::check_unfinished, 422, "check_unfinished"},
+      {ErrorCode::memory_exceeded, 422, "memory_exceeded"},
       {ErrorCode::head_too_large, 431, "head_too_large"},
       {ErrorCode::internal_error, 500, "internal_error"},
       {ErrorCode::overloaded, 503, "overloaded"},

@@ -1,0 +1,107 @@
+// Replaces the global allocation functions of the program, so that what a job allocates counts on its
+// MemoryAccount. Programs link this file as an object (the target fleetplan_allocation).
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+#include "core/runtime/memory_account.h"
+
+// All forms are replaced, also those whose defaults call others: those of a sanitizer do not.
+// NOLINTBEGIN(cppcoreguidelines-no-malloc, cppcoreguidelines-owning-memory, misc-new-delete-overloads)
+
+namespace {
+
+using fleetplan::core::memory_tally;
+
+constexpr std::size_t kLength = 8;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define FLEETPLAN_SANITIZER_ALLOCATES
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define FLEETPLAN_SANITIZER_ALLOCATES
+#endif
+#endif
+
+/// What a block of this size takes in the GNU C library, its length included: a multiple of 16 bytes.
+/// Computed where the size is known, as asking for it would double the cost of counting.
+constexpr std::size_t taken(std::size_t size) {
+#ifdef FLEETPLAN_SANITIZER_ALLOCATES
+  return size + kLength;
+#else
+  return std::max<std::size_t>(32, (size + kLength + 15) & ~std::size_t{15});
+#endif
+}
+std::size_t taken_by(void* memory) noexcept { return malloc_usable_size(memory) + kLength; }
+
+void* counted(void* memory, std::size_t bytes) noexcept {
+  if (memory == nullptr || memory_tally.charge(bytes)) return memory;
+  std::free(memory);
+  return nullptr;
+}
+
+void* allocate(std::size_t size) noexcept { return counted(std::malloc(size), taken(size)); }
+
+void* allocate(std::size_t size, std::align_val_t alignment) noexcept {
+  void* memory = nullptr;
+  const auto at_least = std::max(static_cast<std::size_t>(alignment), sizeof(void*));
+  if (posix_memalign(&memory, at_least, size) != 0) return nullptr;
+  return counted(memory, taken_by(memory));
+}
+
+void* or_throw(void* memory) {
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+void release(void* memory) noexcept {
+  if (memory != nullptr) memory_tally.credit(taken_by(memory));
+  std::free(memory);
+}
+
+void release(void* memory, std::size_t size) noexcept {
+  if (memory != nullptr) memory_tally.credit(taken(size));
+  std::free(memory);
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return or_throw(allocate(size)); }
+void* operator new[](std::size_t size) { return or_throw(allocate(size)); }
+void* operator new(std::size_t size, std::align_val_t align) { return or_throw(allocate(size, align)); }
+void* operator new[](std::size_t size, std::align_val_t align) { return or_throw(allocate(size, align)); }
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept { return allocate(size); }
+void* operator new[](std::size_t size, const std::nothrow_t& /*tag*/) noexcept { return allocate(size); }
+void* operator new(std::size_t size, std::align_val_t align, const std::nothrow_t& /*tag*/) noexcept {
+  return allocate(size, align);
+}
+void* operator new[](std::size_t size, std::align_val_t align, const std::nothrow_t& /*tag*/) noexcept {
+  return allocate(size, align);
+}
+
+void operator delete(void* memory) noexcept { release(memory); }
+void operator delete[](void* memory) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t size) noexcept { release(memory, size); }
+void operator delete[](void* memory, std::size_t size) noexcept { release(memory, size); }
+void operator delete(void* memory, std::align_val_t /*align*/) noexcept { release(memory); }
+void operator delete[](void* memory, std::align_val_t /*align*/) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*align*/) noexcept {
+  release(memory);
+}
+void operator delete[](void* memory, std::size_t /*size*/, std::align_val_t /*align*/) noexcept {
+  release(memory);
+}
+void operator delete(void* memory, const std::nothrow_t& /*tag*/) noexcept { release(memory); }
+void operator delete[](void* memory, const std::nothrow_t& /*tag*/) noexcept { release(memory); }
+void operator delete(void* memory, std::align_val_t /*align*/, const std::nothrow_t& /*tag*/) noexcept {
+  release(memory);
+}
+void operator delete[](void* memory, std::align_val_t /*align*/, const std::nothrow_t& /*tag*/) noexcept {
+  release(memory);
+}
+
+// NOLINTEND(cppcoreguidelines-no-malloc, cppcoreguidelines-owning-memory, misc-new-delete-overloads)

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+namespace fleetplan::core {
+
+/// The memory of one job: what its threads have allocated with `new`, less what they have freed, in bytes. It
+/// counts in programs that link core/runtime/allocation_hook.cpp; elsewhere it stays at 0. Thread-safe.
+///
+/// Three quarters of the limit are for computing. Beyond that the job is *short of memory*: StopCondition is
+/// met, and searches end as when the time is up. The last quarter is for what remains to be done, such as a
+/// partial plan and the answer. Beyond the limit, `new` throws std::bad_alloc.
+///
+/// It is not exact. A thread reports its allocations in batches of kBatch. What a thread without the account
+/// frees stays counted; what it allocates and a thread of the job frees is subtracted.
+class MemoryAccount {
+ public:
+  /// A thread reports when it has allocated or freed so many bytes.
+  static constexpr std::int64_t kBatch = 32 * 1024;
+
+  explicit MemoryAccount(std::size_t limit)
+      : limit_(static_cast<std::int64_t>(limit)), enough_(limit_ - limit_ / 4) {}
+  MemoryAccount(const MemoryAccount&) = delete;
+  MemoryAccount& operator=(const MemoryAccount&) = delete;
+
+  std::int64_t limit() const { return limit_; }
+  std::int64_t used() const { return used_.load(std::memory_order_relaxed); }
+  /// The largest value of used() so far.
+  std::int64_t peak() const { return peak_.load(std::memory_order_relaxed); }
+
+  bool is_short() const { return used() > enough_; }
+  /// The number of times that the job became short of memory, or was refused some.
+  std::int64_t shortages() const { return shortages_.load(std::memory_order_relaxed); }
+
+  /// Counts bytes, negative ones when memory was freed.
+  void count(std::int64_t bytes);
+  /// Likewise, unless that would exceed the limit: then it counts nothing and returns false.
+  bool reserve(std::int64_t bytes);
+
+ private:
+  void added(std::int64_t used, std::int64_t bytes);
+
+  const std::int64_t limit_;
+  const std::int64_t enough_;
+  std::atomic<std::int64_t> used_{0};
+  std::atomic<std::int64_t> peak_{0};
+  std::atomic<std::int64_t> shortages_{0};
+};
+
+/// What this thread has allocated since its last report, and the account that it reports to, if any.
+struct MemoryTally {
+  MemoryAccount* account = nullptr;
+  std::int64_t pending = 0;  // bytes
+
+  /// Returns false, and counts nothing, if the allocation exceeds the account's limit.
+  bool charge(std::size_t bytes) {
+    pending += static_cast<std::int64_t>(bytes);
+    return pending < MemoryAccount::kBatch || report_or_undo(bytes);
+  }
+  void credit(std::size_t bytes) {
+    pending -= static_cast<std::int64_t>(bytes);
+    if (pending <= -MemoryAccount::kBatch) report();
+  }
+  void report();
+
+ private:
+  bool report_or_undo(std::size_t bytes);
+};
+
+/// Of this thread. `operator new` and `operator delete` have no other way to know for whom they work.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): changed by MemoryScope only
+extern constinit thread_local MemoryTally memory_tally;
+
+/// While it lives, this thread's allocations count on an account, or on none. Scopes nest.
+class MemoryScope {
+ public:
+  /// The account has to outlive it. null: what is allocated meanwhile is not counted.
+  explicit MemoryScope(MemoryAccount* account) : before_(memory_tally) { memory_tally = {account}; }
+  ~MemoryScope() {
+    memory_tally.report();
+    memory_tally = before_;
+  }
+  MemoryScope(const MemoryScope&) = delete;
+  MemoryScope& operator=(const MemoryScope&) = delete;
+
+  /// The account of this thread; null: none.
+  static MemoryAccount* current() { return memory_tally.account; }
+
+ private:
+  const MemoryTally before_;
+};
+
+/// Whether the job of this thread is short of memory.
+inline bool is_short_of_memory() {
+  const MemoryAccount* account = MemoryScope::current();
+  return account != nullptr && account->is_short();
+}
+
+/// The shortages of the job of this thread so far.
+inline std::int64_t memory_shortages() {
+  const MemoryAccount* account = MemoryScope::current();
+  return account != nullptr ? account->shortages() : 0;
+}
+
+}  // namespace fleetplan::core
