@@ -24,6 +24,19 @@ Clock::time_point planning_deadline(const RequestContext& context, std::chrono::
   return context.received_at + budget - std::min<Clock::duration>(budget / 20, kMostForTheAnswer);
 }
 
+/// What the request asks of the server. A few robots on a small map take milliseconds, as a rule.
+TurnNeed need_of(const PlanRequest& request, const core::StopCondition& stop, const RequestContext& context) {
+  constexpr std::ptrdiff_t kFewRobots = 16;
+  constexpr int kFewCells = 100'000;
+  const core::OccupancyGrid& grid = request.problem.grid();
+  const auto& robots = request.problem.robots();
+  const auto moving =
+      std::count_if(robots.begin(), robots.end(), [](const core::Robot& robot) { return bool(robot.goal); });
+  const bool is_short = moving <= kFewRobots && grid.columns() <= kFewCells / grid.rows();
+  return {TurnNeed::Kind::plan, stop, context.received_at + request.budget,
+          static_cast<double>(std::max<std::ptrdiff_t>(1, moving)), is_short};
+}
+
 /// The plan when a budget was spent before planning: only parked robots are planned.
 core::Plan plan_without_budget(const core::Problem& problem, const char* detail) {
   core::Plan plan;
@@ -58,18 +71,21 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   const auto answer = [&](const core::Plan& plan) {
     return plan_answer(plan, *request, context.request_id, stages);
   };
+  const bool has_turn = context.turn == nullptr || context.turn->request(need_of(*request, stop, context));
+  if (!has_turn) return too_busy(context.request_id);
   std::optional<ProgressReporter> reporter;
   if (context.events != nullptr) {
     const std::size_t robots = request->problem.robots().size();
     context.events->begin({robots});
     reporter.emplace(*context.events, robots, stop.deadline(), answer);
   }
-  if (context.await_turn) context.await_turn(stop);
+  const bool has_come = context.turn == nullptr || context.turn->await();
   stages.started = Clock::now();
   if (stop.cancelled()) {
     return problem_reply(ErrorCode::draining, "The service is shutting down: try another replica.",
                          context.request_id);
   }
+  if (!has_come) return too_busy(context.request_id);
   if (stop.met()) {
     Reply reply = answer(
         plan_without_budget(request->problem, "The time budget was spent before planning could begin."));

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
 #include <stop_token>
 #include <string>
 
 #include "api/endpoints/plan_events.h"
+#include "api/endpoints/turn.h"
 #include "api/request/limits.h"
 #include "core/runtime/executor.h"
-#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::api {
 
@@ -22,10 +21,7 @@ struct RequestContext {
   Limits limits;
   core::Executor* executor = nullptr;  // of further threads; null: the caller's alone
   PlanEvents* events = nullptr;        // receives the progress of a plan; may be null
-
-  /// Called once, when the request is known to be valid: returns when computing may begin or `stop` is met,
-  /// whichever comes first. Empty: at once.
-  std::function<void(const core::StopCondition& stop)> await_turn;
+  Turn* turn = nullptr;                // to compute; null: at once
 };
 
 }  // namespace fleetplan::api

@@ -28,12 +28,20 @@ Reply unfinished(const ValidateRequest& request, const core::StopCondition& stop
       request_id);
 }
 
+bool takes_turn(Turn& turn, const ValidateRequest& request, const core::StopCondition& stop) {
+  std::size_t work = request.robots.size();
+  for (const core::RobotPlan& plan : request.plans) work += plan.actions.size();
+  return turn.request({TurnNeed::Kind::check, stop, stop.deadline(), static_cast<double>(work), true}) &&
+         turn.await();
+}
+
 Reply check(std::string_view body, const RequestContext& context) {
   const auto request = parse_validate_request(body, context.limits);
   if (!request) return problem_reply(request.failure(), context.request_id);
-  using Clock = core::StopCondition::Clock;
-  if (context.await_turn) context.await_turn(core::StopCondition(Clock::time_point::max(), context.stop));
-  const core::StopCondition stop(Clock::now() + request->budget, context.stop);
+  const core::StopCondition stop(context.received_at + request->budget, context.stop);
+  if (context.turn != nullptr && !takes_turn(*context.turn, *request, stop)) {
+    return stop.cancelled() ? unfinished(*request, stop, context.request_id) : too_busy(context.request_id);
+  }
   const auto report = core::verify(request->grid, request->robots, request->plans, request->tolerance, stop);
   if (!report) return unfinished(*request, stop, context.request_id);
   return {200, kJson, write_report(*report, request->robots)};

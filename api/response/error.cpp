@@ -42,7 +42,8 @@ constexpr std::array<ErrorRow, 18> kTable{{
     {ErrorCode::internal_error, 500, "internal_error", "Internal Server Error",
      "A bug of the service, such as a plan that its checker rejected."},
     {ErrorCode::overloaded, 503, "overloaded", "Service Unavailable",
-     "The queue is full, or the large bodies being received would take too much memory together."},
+     "The queue is full, the time budget would be spent in the queue, or the large bodies being received "
+     "would take too much memory together."},
     {ErrorCode::draining, 503, "draining", "Service Unavailable", "The service is shutting down."},
 }};
 

@@ -54,8 +54,9 @@ class LargeNeighbourhoodSearch {
         workspaces_.update_all();
         before_round(result_);
       }
-      if (!stop_.met()) run_round(static_cast<std::size_t>(count));
-      result_.cut_off = stop_.met() || !has_memory();
+      const bool may_improve = executor_.may_improve(stop_);
+      if (may_improve && !stop_.met()) run_round(static_cast<std::size_t>(count));
+      result_.cut_off = !may_improve || stop_.met() || !has_memory();
     }
     workspaces_.update_all();
     return result_;

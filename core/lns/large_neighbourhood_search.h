@@ -16,7 +16,7 @@ namespace fleetplan::core {
 struct LnsResult {
   std::int64_t improvements = 0;  // times that the plan became better
   std::int64_t expansions = 0;    // labels expanded
-  bool cut_off = false;           // the stop condition ended it
+  bool cut_off = false;           // the stop condition or the executor ended it
 };
 
 /// Called by the caller's thread before every round, with the state updated to the incumbent.
@@ -38,7 +38,8 @@ using BeforeRound = std::function<void(const LnsResult& so_far)>;
 ///
 /// Works in rounds of a fixed number of iterations, which all start from the same incumbent and may run on
 /// several threads of the executor. Their changes are accepted in order, except those that conflict with a
-/// change accepted earlier in the round. So the number of threads changes only the speed.
+/// change accepted earlier in the round. So the number of threads changes only the speed. The executor may
+/// make a round wait, which changes nothing either, or end the search (see Executor::may_improve).
 LnsResult large_neighbourhood_search(PlanState& state, const std::vector<std::size_t>& movers,
                                      const TautPathBounds& bounds, Random& random, Executor& executor,
                                      const StopCondition& stop, const BeforeRound& before_round = nullptr);

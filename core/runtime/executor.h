@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <functional>
 
+#include "core/runtime/stop_condition.h"
+
 namespace fleetplan::core {
 
 /// Runs the independent tasks of the planner. A caller of the planner may pass one that uses several threads;
@@ -20,6 +22,10 @@ class Executor {
   /// returns when all of them have returned. If one throws, calls that have not begun may be skipped;
   /// the first exception is rethrown here once no call is running.
   virtual void run(std::size_t count, const Task& task) = 0;
+
+  /// Whether the planner may go on improving the plan that it has. It asks before every round; the answer may
+  /// take until `stop` is met, while others compute.
+  virtual bool may_improve(const StopCondition& /*stop*/) { return true; }
 };
 
 /// Runs all tasks in the thread of the caller.

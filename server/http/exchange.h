@@ -35,8 +35,10 @@ struct Exchange {
   bool close = false;      // the connection ends with this answer
   bool abandoned = false;  // the client left before the answer
   std::optional<std::uint64_t> streamed = std::nullopt;  // bytes of an answer that went out as an EventStream
-  std::optional<double> queue_ms = std::nullopt;
-  std::string_view problem;  // see api::Reply
+  std::optional<double> queue_ms = std::nullopt;         // until its turn came, or without one
+  bool had_turn = false;                                 // to compute
+  std::optional<double> late_s = std::nullopt;  // the answer after the end of the budget; negative: before
+  std::string_view problem;                     // see api::Reply
   std::optional<api::PlanOutcome> outcome = std::nullopt;
 };
 

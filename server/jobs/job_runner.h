@@ -5,6 +5,7 @@
 #include "api/endpoints/plan_events.h"
 #include "api/response/reply.h"
 #include "server/http/exchange.h"
+#include "server/jobs/parse_slots.h"
 #include "server/jobs/peer_watch.h"
 #include "server/jobs/workers.h"
 #include "server/ops/request_log.h"
@@ -14,7 +15,8 @@
 namespace fleetplan::server {
 
 /// Runs jobs, which are the requests that take time: a plan, or the check of one. Accepts no more than the
-/// queue holds and stops those whose client has left. Thread-safe.
+/// queue holds and stops those whose client has left. A job waits for a slot, in which its body is parsed,
+/// and then for its turn. Thread-safe.
 class JobRunner {
  public:
   /// The log has to outlive it.
@@ -25,14 +27,13 @@ class JobRunner {
   /// a plan, or null.
   api::Reply run(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events);
 
-  /// Jobs that wait for their turn, and those that compute.
-  std::size_t queued() const { return workers_.queued(); }
-  std::size_t running() const { return workers_.running(); }
+  WorkerLoad load() const { return workers_.load(); }
 
   /// Asks all jobs, now and later, to stop.
   void cancel_all() { cancel_all_.request_stop(); }
 
  private:
+  api::Reply refused(Exchange& exchange, Schedule::Refusal refusal);
   api::Reply compute(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events,
                      Workers::Job& job);
   api::Reply reply_of(const Service::Endpoint& endpoint, const Exchange& exchange,
@@ -43,6 +44,7 @@ class JobRunner {
   std::stop_source cancel_all_;
   PeerWatch peers_;
   Workers workers_;
+  ParseSlots parse_slots_;
 };
 
 }  // namespace fleetplan::server

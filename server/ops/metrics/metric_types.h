@@ -20,6 +20,16 @@ class Counter {
   std::atomic<std::uint64_t> value_{0};
 };
 
+/// A sum that only grows.
+class Sum {
+ public:
+  void add(double amount) { value_.fetch_add(amount, std::memory_order_relaxed); }
+  double value() const { return value_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<double> value_{0.0};
+};
+
 /// Durations by size.
 class Histogram {
  public:
@@ -31,16 +41,16 @@ class Histogram {
     std::size_t bucket = 0;
     while (bucket < kBounds.size() && seconds > kBounds[bucket]) ++bucket;
     counts_[bucket].add();
-    sum_.fetch_add(seconds, std::memory_order_relaxed);
+    sum_.add(seconds);
   }
 
   /// In bucket `index` alone; kBounds.size() is the one beyond the last bound.
   std::uint64_t count(std::size_t index) const { return counts_[index].value(); }
-  double sum() const { return sum_.load(std::memory_order_relaxed); }
+  double sum() const { return sum_.value(); }
 
  private:
   std::array<Counter, kBounds.size() + 1> counts_;
-  std::atomic<double> sum_{0.0};
+  Sum sum_;
 };
 
 }  // namespace fleetplan::server

@@ -54,6 +54,21 @@ void write_process(MetricsText& text, std::chrono::system_clock::time_point star
   gauge("process_start_time_seconds", since_1970.count(), "Start of the process, seconds since 1970.");
 }
 
+void write_jobs(MetricsText& text, const WorkerLoad& jobs) {
+  static constexpr std::array<std::string_view, Schedule::kRefusals> kReasons{"queue_full", "share",
+                                                                              "too_late"};
+  text.metric("fleetplan_jobs_refused_total", "counter",
+              "Jobs that found no place, or would get no turn in time.");
+  for (std::size_t reason = 0; reason < kReasons.size(); ++reason) {
+    text.sample(as_double(jobs.refused[reason]), {{"reason", kReasons[reason]}});
+  }
+  text.metric("fleetplan_improvements_paused", "gauge", "Anytime plans that wait while others are made.")
+      .sample(as_double(jobs.paused));
+  text.metric("fleetplan_improvements_ended_total", "counter",
+              "Anytime plans returned before their time, as others waited.")
+      .sample(as_double(jobs.ended_early));
+}
+
 }  // namespace
 
 Metrics::Metrics(const RouteTable& routes) {
@@ -72,14 +87,18 @@ Metrics::Requests& Metrics::requests_of(const Route* route) {
 
 void Metrics::count(const Exchange& exchange) {
   const int index = std::clamp(exchange.status - kFirstStatus, 0, kStatuses - 1);
-  requests_of(exchange.route).by_status[static_cast<std::size_t>(index)].add();
+  Requests& requests = requests_of(exchange.route);
+  requests.by_status[static_cast<std::size_t>(index)].add();
+  requests.seconds.observe(std::chrono::duration<double>(Exchange::Clock::now() - exchange.begun_at).count());
   if (exchange.queue_ms) queue_seconds_.observe(*exchange.queue_ms / 1000.0);
+  if (exchange.queue_ms && !exchange.had_turn) queue_lost_seconds_.add(*exchange.queue_ms / 1000.0);
   if (exchange.abandoned) {
     if (exchange.route != nullptr && exchange.route->traits.plans) cancelled_.add();
     return;
   }
   const auto rejected = rejected_.find(rejection(exchange));
   if (rejected != rejected_.end()) rejected->second.add();
+  if (exchange.late_s && *exchange.late_s > 0.0) late_seconds_.observe(*exchange.late_s);
   if (exchange.outcome) count_plan(*exchange.outcome);
 }
 
@@ -112,6 +131,9 @@ std::string Metrics::text(const Gauges& now) const {
       text.sample(as_double(count), {{"route", requests.label}, {"status", std::to_string(status)}});
     }
   }
+  text.metric("fleetplan_request_seconds", "histogram",
+              "From a request's first byte to the end of its answer.");
+  for (const Requests& requests : requests_) text.histogram(requests.seconds, {{"route", requests.label}});
   text.metric("fleetplan_rejected_total", "counter",
               "Requests answered with a problem, except the 503 of /readyz.");
   for (const auto& [reason, count] : rejected_) {
@@ -121,10 +143,16 @@ std::string Metrics::text(const Gauges& now) const {
       .sample(as_double(now.connections), {{"port", "main"}})
       .sample(as_double(now.admin_connections), {{"port", "admin"}});
   gauge("fleetplan_workers", now.workers, "Plans and checks that can be computed at a time.");
-  gauge("fleetplan_workers_busy", now.busy, "Plans and checks being computed.");
-  gauge("fleetplan_queue_depth", now.queued, "Jobs that wait for a worker.");
+  gauge("fleetplan_workers_busy", now.jobs.running, "Plans and checks being computed.");
+  gauge("fleetplan_queue_depth", now.jobs.waiting, "Jobs that wait for a worker.");
   text.metric("fleetplan_queue_wait_seconds", "histogram", "How long jobs waited for a worker.")
       .histogram(queue_seconds_);
+  text.metric("fleetplan_queue_lost_seconds_total", "counter", "Waiting of jobs that got no turn.")
+      .sample(queue_lost_seconds_.value());
+  write_jobs(text, now.jobs);
+  text.metric("fleetplan_late_seconds", "histogram",
+              "How long after the end of their budget answers were made, of those that were late.")
+      .histogram(late_seconds_);
   text.metric("fleetplan_plans_total", "counter", "Plans returned.");
   for (const Status status : {Status::solved, Status::partial, Status::none}) {
     const double count = as_double(plans_[static_cast<std::size_t>(status)].value());

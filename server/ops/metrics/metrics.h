@@ -12,6 +12,7 @@
 
 #include "server/http/exchange.h"
 #include "server/http/route_table.h"
+#include "server/jobs/workers.h"
 #include "server/ops/metrics/metric_types.h"
 
 namespace fleetplan::server {
@@ -21,8 +22,7 @@ struct Gauges {
   std::size_t connections = 0;        // that are served
   std::size_t admin_connections = 0;  // the same, of the admin port
   std::size_t workers = 0;            // jobs that compute at most
-  std::size_t busy = 0;               // jobs that compute
-  std::size_t queued = 0;             // jobs that wait for their turn
+  WorkerLoad jobs;
 };
 
 /// Counts requests and plans since the start. Thread-safe; counting takes no lock.
@@ -51,6 +51,7 @@ class Metrics {
     const std::string label;
     const std::set<int> usual_statuses;
     ByStatus by_status = {};
+    Histogram seconds = {};
   };
 
   Requests& requests_of(const Route* route);
@@ -60,6 +61,8 @@ class Metrics {
   std::deque<Requests> requests_;                 // those of unknown paths come first
   std::map<std::string_view, Counter> rejected_;  // by the problem's code
   Histogram queue_seconds_;
+  Sum queue_lost_seconds_;
+  Histogram late_seconds_;
   Histogram plan_seconds_;
   std::array<Counter, 4> plans_;  // by PlanOutcome::Status
   Counter cancelled_;

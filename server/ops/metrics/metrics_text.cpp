@@ -39,24 +39,27 @@ MetricsText& MetricsText::metric(std::string_view name, std::string_view type, s
   return *this;
 }
 
-MetricsText& MetricsText::sample(double value, Labels labels) {
+MetricsText& MetricsText::sample(double value, const Labels& labels) {
   line("", value, labels);
   return *this;
 }
 
-MetricsText& MetricsText::histogram(const Histogram& values) {
+MetricsText& MetricsText::histogram(const Histogram& values, const Labels& labels) {
   double total = 0.0;
   for (std::size_t bucket = 0; bucket <= Histogram::kBounds.size(); ++bucket) {
     total += static_cast<double>(values.count(bucket));
     const bool last = bucket == Histogram::kBounds.size();
-    line("_bucket", total, {{"le", last ? "+Inf" : number_text(Histogram::kBounds[bucket])}});
+    const std::string bound = last ? "+Inf" : number_text(Histogram::kBounds[bucket]);
+    Labels with_bound = labels;
+    with_bound.emplace_back("le", bound);
+    line("_bucket", total, with_bound);
   }
-  line("_sum", values.sum(), {});
-  line("_count", total, {});
+  line("_sum", values.sum(), labels);
+  line("_count", total, labels);
   return *this;
 }
 
-void MetricsText::line(std::string_view suffix, double value, Labels labels) {
+void MetricsText::line(std::string_view suffix, double value, const Labels& labels) {
   text_ += name_;
   text_ += suffix;
   char before = '{';
@@ -66,7 +69,7 @@ void MetricsText::line(std::string_view suffix, double value, Labels labels) {
     text_ += "=\"" + escaped(of) + '"';
     before = ',';
   }
-  if (labels.size() > 0) text_ += '}';
+  if (!labels.empty()) text_ += '}';
   text_ += ' ' + number_text(value) + '\n';
 }
 

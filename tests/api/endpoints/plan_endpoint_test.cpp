@@ -13,6 +13,7 @@
 
 #include "api/response/error.h"
 #include "tests/api/support/requests.h"
+#include "tests/api/support/test_turn.h"
 
 namespace fleetplan::api {
 namespace {
@@ -138,9 +139,9 @@ TEST(PlanEndpoint, ReturnsTheReasonOfAnUnplannedRobot) {
 
 TEST(PlanEndpoint, ReturnsTimingsWhoseTotalIsAtLeastTheirSum) {
   RequestContext late = context();
-  late.await_turn = [](const core::StopCondition&) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  };
+  TestTurn turn;
+  turn.on_await = [] { std::this_thread::sleep_for(std::chrono::milliseconds(20)); };
+  late.turn = &turn;
   const Json timings = json_of(plan_endpoint(swap_request().dump(), late))["timings_ms"];
   double sum = 0.0;
   for (const char* part : {"queue", "parse", "plan", "verify", "serialize"}) {
@@ -175,26 +176,73 @@ TEST(PlanEndpoint, WaitsForItsTurnUntilThePlanningDeadline) {
   Json request = swap_request();
   request["options"] = {{"time_budget_ms", 60'000}};
   RequestContext busy = context();
-  busy.await_turn = [&](const core::StopCondition& stop) {
-    EXPECT_EQ(stop.deadline(), busy.received_at + std::chrono::milliseconds(60'000 - 25));
-  };
+  TestTurn turn;
+  busy.turn = &turn;
   EXPECT_EQ(json_of(plan_endpoint(request.dump(), busy))["status"], "solved");
+  EXPECT_EQ(turn.need.stop.deadline(), busy.received_at + std::chrono::milliseconds(60'000 - 25));
+  EXPECT_EQ(turn.need.answer_by, busy.received_at + std::chrono::milliseconds(60'000));
 }
 
 TEST(PlanEndpoint, ReportsDrainingWhenTheServiceStopsBeforePlanning) {
   std::stop_source end;
   RequestContext waiting = context();
   waiting.stop = end.get_token();
-  waiting.await_turn = [&](const core::StopCondition&) { end.request_stop(); };
+  TestTurn turn;
+  turn.on_await = [&] { end.request_stop(); };
+  waiting.turn = &turn;
   const Reply reply = plan_endpoint(swap_request().dump(), waiting);
   EXPECT_EQ(reply.status, 503);
   EXPECT_EQ(json_of(reply)["code"], "draining");
 }
 
+TEST(PlanEndpoint, IsOverloadedBeforeItsEventsBeginWhenItGetsNoTurn) {
+  struct NoEvents final : PlanEvents {
+    void begin(const PlanProgress&) override { ADD_FAILURE() << "the stream has begun"; }
+    void progress(const PlanProgress&) override {}
+    void incumbent(std::string) override {}
+  };
+  NoEvents events;
+  TestTurn turn;
+  RequestContext busy = context();
+  busy.events = &events;
+  busy.turn = &turn;
+  turn.refuses = true;
+  const Reply refused = plan_endpoint(swap_request().dump(), busy);
+  EXPECT_EQ(refused.status, 503);
+  EXPECT_EQ(json_of(refused)["code"], "overloaded");
+}
+
+TEST(PlanEndpoint, IsOverloadedWhenItsTurnDoesNotCome) {
+  TestTurn turn;
+  turn.comes = false;
+  RequestContext busy = context();
+  busy.turn = &turn;
+  const Reply reply = plan_endpoint(swap_request().dump(), busy);
+  EXPECT_EQ(reply.status, 503);
+  EXPECT_EQ(json_of(reply)["code"], "overloaded");
+}
+
+TEST(PlanEndpoint, CallsAFewRobotsOnASmallMapShort) {
+  TestTurn turn;
+  RequestContext waiting = context();
+  waiting.turn = &turn;
+  Json request = swap_request();
+  plan_endpoint(request.dump(), waiting);
+  EXPECT_EQ(turn.need.kind, TurnNeed::Kind::plan);
+  EXPECT_EQ(turn.need.work, 2.0) << "robots with goals";
+  EXPECT_TRUE(turn.need.is_short);
+  request["map"]["rows"] = std::vector<std::string>(400, std::string(400, '.'));
+  request["options"] = {{"time_budget_ms", 10}};
+  plan_endpoint(request.dump(), waiting);
+  EXPECT_FALSE(turn.need.is_short);
+}
+
 TEST(PlanEndpoint, ReportsFaultsWithoutWaitingForATurn) {
   RequestContext busy = context();
-  busy.await_turn = [](const core::StopCondition&) { ADD_FAILURE() << "waited for a turn"; };
+  TestTurn turn;
+  busy.turn = &turn;
   EXPECT_EQ(plan_endpoint("{}", busy).status, 422);
+  EXPECT_EQ(turn.requests, 0);
 }
 
 TEST(PlanEndpoint, GivesThePlannerTheRestOfTheBudget) {

@@ -7,6 +7,7 @@
 
 #include "api/endpoints/plan_endpoint.h"
 #include "tests/api/support/requests.h"
+#include "tests/api/support/test_turn.h"
 
 namespace fleetplan::api {
 namespace {
@@ -77,6 +78,29 @@ TEST(ValidateEndpoint, AcceptsAWholeAnswerAddedToItsRequest) {
   request["options"] = {{"seed", 3}};
   request.update(json_of(plan_endpoint(request.dump(), {})));
   EXPECT_EQ(validated(request)["valid"], true);
+}
+
+TEST(ValidateEndpoint, CountsItsWaitAgainstItsBudget) {
+  Json request = drive_request();
+  request["options"] = {{"time_budget_ms", 60'000}};
+  TestTurn turn;
+  RequestContext context;
+  context.turn = &turn;
+  EXPECT_EQ(validate_endpoint(request.dump(), context).status, 200);
+  EXPECT_EQ(turn.need.kind, TurnNeed::Kind::check);
+  EXPECT_EQ(turn.need.stop.deadline(), context.received_at + std::chrono::milliseconds(60'000));
+  EXPECT_EQ(turn.need.work, 3.0) << "two robots and an action";
+  EXPECT_TRUE(turn.need.is_short);
+}
+
+TEST(ValidateEndpoint, IsOverloadedWithoutATurn) {
+  TestTurn turn;
+  RequestContext context;
+  context.turn = &turn;
+  turn.comes = false;
+  EXPECT_EQ(json_of(validate_endpoint(drive_request().dump(), context))["code"], "overloaded");
+  turn.refuses = true;
+  EXPECT_EQ(json_of(validate_endpoint(drive_request().dump(), context))["code"], "overloaded");
 }
 
 TEST(ValidateEndpoint, UsesTheEndOfTheLastActionAsCost) {

@@ -50,10 +50,16 @@ Service StubService::service() {
 
 api::Reply StubService::answer(std::string_view body, const api::RequestContext& context) {
   if (body == "throw") throw std::runtime_error("a secret detail");
-  context.await_turn(core::StopCondition(core::StopCondition::Clock::time_point::max(), context.stop));
+  if (!has_turn(context)) return api::too_busy(context.request_id);
   if (body.starts_with("gate") && !gate.pass(context.stop)) ++stopped;
   if (body == "large") return {200, api::kJson, std::string(200'000, 'x')};
   return {200, api::kJson, R"({"size":)" + std::to_string(body.size()) + "}"};
+}
+
+bool has_turn(const api::RequestContext& context) {
+  api::TurnNeed need;
+  need.stop = core::StopCondition(core::StopCondition::Clock::time_point::max(), context.stop);
+  return context.turn->request(need) && context.turn->await();
 }
 
 TestServer::TestServer(Settings settings) : server(on_free_port(std::move(settings)), stub.service()) {

@@ -42,6 +42,9 @@ class StubService {
   api::Reply answer(std::string_view body, const api::RequestContext& context);
 };
 
+/// Waits for the turn of a request without a deadline; false when it is refused or stopped.
+bool has_turn(const api::RequestContext& context);
+
 class TestServer {
  public:
   /// Port and log level of `settings` are ignored.

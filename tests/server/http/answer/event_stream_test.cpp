@@ -43,7 +43,7 @@ class EventfulService {
   api::Reply answer(std::string_view body, const api::RequestContext& context) {
     if (body == "fault") return {422, api::kProblemJson, R"({"status":422})"};
     if (context.events != nullptr) context.events->begin({7});
-    context.await_turn(core::StopCondition(core::StopCondition::Clock::time_point::max(), context.stop));
+    if (!has_turn(context)) return api::too_busy(context.request_id);
     if (body == "throw") throw std::runtime_error("a secret detail");
     if (body == "flood") flood(*context.events);
     if (body == "gate" && !gate.pass(context.stop)) ++stopped;

@@ -1,0 +1,14 @@
+#include "api/endpoints/turn.h"
+
+#include "api/response/error.h"
+
+namespace fleetplan::api {
+
+Reply too_busy(const std::string& request_id) {
+  return problem_reply(ErrorCode::overloaded,
+                       "All workers are busy, and the request's time budget would be spent in the queue: try "
+                       "again later, or with a larger options.time_budget_ms.",
+                       request_id);
+}
+
+}  // namespace fleetplan::api

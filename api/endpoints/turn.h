@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+
+#include "api/response/reply.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::api {
+
+/// What a request needs of the server, known once it is parsed.
+struct TurnNeed {
+  enum class Kind { plan, check };
+
+  Kind kind = Kind::plan;
+  core::StopCondition stop = core::StopCondition();  // of the computation
+  core::StopCondition::Clock::time_point answer_by = core::StopCondition::Clock::time_point::max();
+  double work = 1.0;      // proportional to the expected time, for the kind
+  bool is_short = false;  // takes milliseconds at most, as far as can be told
+};
+
+/// A request's turn to compute, among the requests of others.
+class Turn {
+ public:
+  Turn() = default;
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+  virtual ~Turn() = default;
+
+  /// Asks for the turn, once, when the request is known to be valid. False when the server is too busy for
+  /// it; returns at once.
+  virtual bool request(const TurnNeed& need) = 0;
+
+  /// Waits for the turn that was granted. False when the need's `stop` was met before, or when so little of
+  /// the time is left that the server gives up.
+  virtual bool await() = 0;
+};
+
+/// The answer to a request that gets no turn.
+Reply too_busy(const std::string& request_id);
+
+}  // namespace fleetplan::api

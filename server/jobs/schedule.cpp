@@ -1,0 +1,188 @@
+#include "server/jobs/schedule.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace fleetplan::server {
+
+namespace {
+
+using State = Schedule::Job::State;
+using Seconds = std::chrono::duration<double>;
+
+/// Weight of the newest job in the running means: about the last ten count.
+constexpr double kNewestWeight = 0.1;
+
+/// `seconds` before the deadline. Far deadlines have no exact difference to small times, which is harmless.
+Schedule::Time before(Schedule::Time deadline, double seconds) {
+  if (deadline == Schedule::Time::max()) return deadline;
+  return deadline - std::chrono::duration_cast<Schedule::Time::duration>(Seconds(seconds));
+}
+
+}  // namespace
+
+std::optional<Schedule::Refusal> Schedule::accept(Job& job, Time now) {
+  const auto found = clients_.find(job.client);
+  const std::size_t held = found == clients_.end() ? 0 : found->second.places;
+  const std::size_t clients = clients_.size() + (held == 0 ? 1 : 0);
+  std::size_t room = size_.workers + size_.queue;
+  const std::size_t share = std::max<std::size_t>(1, room / clients);
+  if (jobs_.size() >= room && expected_wait_s(now) <= Seconds(kShortWait).count()) room += size_.burst;
+  if (jobs_.size() >= room) {
+    if (held >= share) return clients > 1 ? Refusal::share : Refusal::queue_full;
+    if (jobs_.size() >= room + size_.queue) return Refusal::queue_full;
+  }
+  jobs_.push_back(&job);
+  ++clients_[job.client].places;
+  return std::nullopt;
+}
+
+std::optional<Schedule::Refusal> Schedule::request_turn(Job& job, const Need& need, Time now) {
+  job.need = need;
+  if (turns_ < size_.workers) {
+    grant(job, false, now);
+    return std::nullopt;
+  }
+  if (need.is_short && !lane_taken_) {
+    grant(job, true, now);
+    return std::nullopt;
+  }
+  const double needed_s = expected_s(job);
+  job.latest_start = before(need.deadline, needed_s);
+  // Twice what jobs like it need, as the expectation is only a mean.
+  const double reserve_s = expected_wait_s(&job, now) + needed_s;
+  if (before(job.latest_start, reserve_s) <= now) return Refusal::too_late;
+  job.state = State::waiting;
+  return std::nullopt;
+}
+
+Schedule::Improvement Schedule::improve(Job& job, Time now) {
+  if (job.state == State::computing) learn(job, now);
+  job.state = State::improving;
+  const Job* other = next(job.in_lane, now);
+  if (other == nullptr || other->state != State::waiting) return {};
+  if (paused() >= size_.workers) return {Improvement::Next::ends, nullptr};
+  const bool lane = job.in_lane;
+  take_back(job);
+  Job* successor = hand_over(lane, now);
+  job.state = State::paused;
+  return {Improvement::Next::pauses, successor};
+}
+
+Schedule::Job* Schedule::leave(Job& job, Time now) {
+  Job* successor = nullptr;
+  const bool had_turn = job.has_turn();
+  if (job.state == State::computing) learn(job, now);
+  if (had_turn) take_back(job);
+  std::erase(jobs_, &job);
+  if (had_turn) successor = hand_over(job.in_lane, now);
+  const auto client = clients_.find(job.client);
+  if (--client->second.places == 0) clients_.erase(client);
+  return successor;
+}
+
+std::size_t Schedule::count(State state) const {
+  return static_cast<std::size_t>(
+      std::count_if(jobs_.begin(), jobs_.end(), [&](const Job* job) { return job->state == state; }));
+}
+
+bool Schedule::precedes(const Job& a, const Job& b) const {
+  const auto rank = [&](const Job& job) {
+    const Client& client = clients_.at(job.client);
+    return std::tuple(job.state == State::paused, client.turns, client.last_turn, job.need.deadline);
+  };
+  return rank(a) < rank(b);
+}
+
+/// The job whose turn is next: the worker's, or the lane's.
+Schedule::Job* Schedule::next(bool for_lane, Time now) const {
+  Job* best = nullptr;
+  for (Job* job : jobs_) {
+    const bool waits = job->state == State::waiting && job->latest_start > now;
+    if (!waits && job->state != State::paused) continue;
+    if (for_lane && !job->need.is_short) continue;
+    if (best == nullptr || precedes(*job, *best)) best = job;
+  }
+  return best;
+}
+
+void Schedule::grant(Job& job, bool lane, Time now) {
+  job.state = job.state == State::paused ? State::improving : State::computing;
+  job.in_lane = lane;
+  job.since = now;
+  if (lane) {
+    lane_taken_ = true;
+  } else {
+    ++turns_;
+  }
+  Client& client = clients_.at(job.client);
+  ++client.turns;
+  client.last_turn = now;
+}
+
+void Schedule::take_back(Job& job) {
+  if (job.in_lane) {
+    lane_taken_ = false;
+  } else {
+    --turns_;
+  }
+  --clients_.at(job.client).turns;
+  job.state = State::accepted;
+}
+
+Schedule::Job* Schedule::hand_over(bool lane, Time now) {
+  Job* job = next(lane, now);
+  if (job != nullptr) grant(*job, lane, now);
+  return job;
+}
+
+void Schedule::learn(const Job& job, Time now) {
+  Pace& pace = paces_[static_cast<std::size_t>(job.need.kind)];
+  const double weight = pace.work == 0.0 ? 1.0 : kNewestWeight;
+  pace.seconds += weight * (Seconds(now - job.since).count() - pace.seconds);
+  pace.work += weight * (job.need.work - pace.work);
+}
+
+/// 0 while no job of its kind has ended.
+double Schedule::expected_s(const Job& job) const {
+  const Pace& pace = paces_[static_cast<std::size_t>(job.need.kind)];
+  return pace.work > 0.0 ? pace.seconds / pace.work * job.need.work : 0.0;
+}
+
+/// A job that computes longer than expected takes at least as long again as it has already. An improvement
+/// gives its turn away at once.
+double Schedule::remaining_s(const Job& job, Time now) const {
+  if (job.state == State::improving) return 0.0;
+  const double age_s = Seconds(now - job.since).count();
+  const double left_s = std::max(expected_s(job) - age_s, age_s);
+  if (job.need.deadline == Time::max()) return left_s;
+  return std::clamp(Seconds(job.need.deadline - now).count(), 0.0, left_s);
+}
+
+/// Gives the turns, in their order, to the jobs that precede `job`, or to all that wait or will wait if it is
+/// null.
+double Schedule::expected_wait_s(const Job* job, Time now) const {
+  std::vector<double> free_s(size_.workers + 1, 0.0);  // when each turn is free, the lane's last
+  std::vector<const Job*> ahead;
+  std::size_t worker = 0;
+  std::size_t parsing = 0;
+  for (const Job* other : jobs_) {
+    if (other->has_turn()) {
+      free_s[other->in_lane ? size_.workers : worker++] = remaining_s(*other, now);
+    } else if (other->state == State::waiting && (job == nullptr || precedes(*other, *job))) {
+      ahead.push_back(other);
+    } else if (job == nullptr && other->state == State::accepted) {
+      ++parsing;
+    }
+  }
+  std::sort(ahead.begin(), ahead.end(), [&](const Job* a, const Job* b) { return precedes(*a, *b); });
+  const auto first_free = [&](bool is_short) {
+    return std::min_element(free_s.begin(), free_s.end() - (is_short ? 0 : 1));
+  };
+  for (const Job* other : ahead) *first_free(other->need.is_short) += expected_s(*other);
+  const double plan_s = paces_[static_cast<std::size_t>(Kind::plan)].seconds;
+  for (; parsing > 0; --parsing) *first_free(false) += plan_s;
+  return *first_free(job != nullptr && job->need.is_short);
+}
+
+}  // namespace fleetplan::server

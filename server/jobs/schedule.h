@@ -1,0 +1,128 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fleetplan::server {
+
+/// Decides which jobs are accepted and whose turn it is to compute. This is the policy alone, without threads
+/// and without a clock: callers pass the time.
+///
+/// - **Turns.** As many jobs compute at a time as there are workers. One more turn, the lane, is for short
+///   jobs, so that these do not wait behind long ones.
+/// - **First plans before improvements.** A job that has its first plan and improves it gives its turn to a
+///   job that waits for its first, and gets one again when no such job waits. At most as many improvements
+///   are paused as there are workers; further ones end with what they have.
+/// - **Order.** Turns go round the clients: next is the client with the fewest turns, then the one whose last
+///   turn is the longest ago. Of a client's jobs, and of clients that have had no turn yet, the one with the
+///   earliest deadline is next.
+/// - **Places.** There are `queue` places for jobs that wait, and `burst` more while the expected wait is
+///   short. Beyond that, up to `queue` jobs of clients that have less than their share are accepted.
+/// - **Refusals.** A job that is not expected to get its turn with enough of its time left is refused when it
+///   asks for a turn. A job that waits gives up when less time is left than jobs like it need.
+class Schedule {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  static constexpr std::chrono::milliseconds kShortWait{250};
+
+  struct Size {
+    std::size_t workers = 1;
+    std::size_t queue = 0;
+    std::size_t burst = 0;
+  };
+
+  enum class Refusal { queue_full, share, too_late };
+  static constexpr std::size_t kRefusals = 3;
+
+  enum class Kind { plan, check };
+
+  /// What a job asks for when it asks for its turn.
+  struct Need {
+    Kind kind = Kind::plan;
+    Time deadline = Time::max();  // of the computation
+    double work = 1.0;            // proportional to the expected time, for the kind
+    bool is_short = false;        // may use the lane
+  };
+
+  /// A job from its acceptance to its end; its owner keeps it and only reads it.
+  struct Job {
+    enum class State { accepted, waiting, computing, improving, paused };
+
+    explicit Job(std::string client_name) : client(std::move(client_name)) {}
+    bool has_turn() const { return state == State::computing || state == State::improving; }
+
+    const std::string client;
+    Need need = {};
+    State state = State::accepted;
+    bool in_lane = false;             // the turn it has is the lane's
+    Time since = {};                  // its turn began
+    Time latest_start = Time::max();  // a turn after that comes too late
+  };
+
+  explicit Schedule(Size size) : size_(size) {}
+
+  /// Takes the job in, or says why not.
+  std::optional<Refusal> accept(Job& job, Time now);
+
+  /// An accepted job asks for its turn: it has it when this returns, or waits, or is refused.
+  std::optional<Refusal> request_turn(Job& job, const Need& need, Time now);
+
+  /// What happens to an improvement.
+  struct Improvement {
+    enum class Next { goes_on, pauses, ends } next = Next::goes_on;
+    Job* has_turn = nullptr;  // the job that has got the turn
+  };
+  /// A job that has its turn and a plan is about to improve it.
+  Improvement improve(Job& job, Time now);
+
+  /// The job waits no longer, but remains accepted.
+  void stop_waiting(Job& job) { job.state = Job::State::accepted; }
+
+  /// The job, which was accepted, has ended. Returns the job that has got its turn, or null.
+  Job* leave(Job& job, Time now);
+
+  std::size_t waiting() const { return count(Job::State::waiting); }
+  std::size_t paused() const { return count(Job::State::paused); }
+  std::size_t running() const { return turns_ + (lane_taken_ ? 1 : 0); }
+
+  /// Seconds until a job that arrived now would get its turn.
+  double expected_wait_s(Time now) const { return expected_wait_s(nullptr, now); }
+
+ private:
+  struct Client {
+    std::size_t places = 0;
+    std::size_t turns = 0;
+    Time last_turn = Time::min();
+  };
+  /// Running means of jobs until their first plan, or the end of a check.
+  struct Pace {
+    double seconds = 0.0;
+    double work = 0.0;
+  };
+
+  std::size_t count(Job::State state) const;
+  bool precedes(const Job& a, const Job& b) const;
+  Job* next(bool for_lane, Time now) const;
+  void grant(Job& job, bool lane, Time now);
+  void take_back(Job& job);
+  Job* hand_over(bool lane, Time now);
+  void learn(const Job& job, Time now);
+  double expected_s(const Job& job) const;
+  double remaining_s(const Job& job, Time now) const;
+  double expected_wait_s(const Job* job, Time now) const;
+
+  Size size_;
+  std::vector<Job*> jobs_;                 // in the order of their acceptance
+  std::map<std::string, Client> clients_;  // that have a job
+  std::size_t turns_ = 0;                  // without the lane's
+  bool lane_taken_ = false;
+  std::array<Pace, 2> paces_;  // by kind
+};
+
+}  // namespace fleetplan::server

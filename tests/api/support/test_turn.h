@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+
+#include "api/endpoints/turn.h"
+
+namespace fleetplan::api {
+
+/// A turn that a test grants or refuses.
+class TestTurn final : public Turn {
+ public:
+  bool request(const TurnNeed& asked) override {
+    need = asked;
+    ++requests;
+    return !refuses;
+  }
+  bool await() override {
+    on_await();
+    return comes && !need.stop.cancelled();
+  }
+
+  bool refuses = false;
+  bool comes = true;
+  std::function<void()> on_await = [] {};
+  TurnNeed need;
+  int requests = 0;
+};
+
+}  // namespace fleetplan::api

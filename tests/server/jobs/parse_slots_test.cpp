@@ -1,0 +1,70 @@
+#include "server/jobs/parse_slots.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+namespace fleetplan::server {
+namespace {
+
+using Slot = ParseSlots::Slot;
+
+constexpr std::size_t kLarge = 10 * ParseSlots::kSmall;
+
+const core::StopCondition kForever;
+const core::StopCondition kNow(core::StopCondition::Clock::time_point::min());
+
+TEST(ParseSlots, BoundHowManyBodiesAreParsed) {
+  ParseSlots slots(2);
+  Slot first(slots, kLarge, kForever);
+  const Slot second(slots, kLarge, kForever);
+  EXPECT_TRUE(first.has_slot() && second.has_slot());
+  EXPECT_FALSE(Slot(slots, kLarge, kNow).has_slot());
+  first.release();
+  EXPECT_TRUE(Slot(slots, kLarge, kNow).has_slot());
+}
+
+TEST(ParseSlots, HaveOneMoreForSmallBodies) {
+  ParseSlots slots(1);
+  const Slot large(slots, kLarge, kForever);
+  Slot small(slots, ParseSlots::kSmall, kForever);
+  EXPECT_TRUE(small.has_slot());
+  EXPECT_FALSE(Slot(slots, 1, kNow).has_slot());
+  small.release();
+  EXPECT_TRUE(Slot(slots, 1, kNow).has_slot());
+}
+
+TEST(ParseSlots, StopWaitingWhenTheClientLeaves) {
+  ParseSlots slots(1);
+  const Slot large(slots, kLarge, kForever);
+  std::stop_source leaves;
+  leaves.request_stop();
+  const core::StopCondition stop(core::StopCondition::Clock::time_point::max(), leaves.get_token());
+  EXPECT_FALSE(Slot(slots, kLarge, stop).has_slot());
+}
+
+TEST(ParseSlots, ServeEveryBodyWithoutMoreThanTheirNumber) {
+  ParseSlots slots(2);
+  std::atomic<int> parsing{0};
+  std::atomic<int> parsed{0};
+  std::vector<std::jthread> threads;
+  for (int t = 0; t < 6; ++t) {
+    threads.emplace_back([&, t] {
+      for (int k = 0; k < 200; ++k) {
+        const Slot slot(slots, t < 3 ? kLarge : 1, kForever);
+        EXPECT_LE(++parsing, 3);
+        std::this_thread::yield();
+        --parsing;
+        ++parsed;
+      }
+    });
+  }
+  threads.clear();
+  EXPECT_EQ(parsed, 1200);
+}
+
+}  // namespace
+}  // namespace fleetplan::server
