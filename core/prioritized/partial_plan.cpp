@@ -1,14 +1,22 @@
 #include "core/prioritized/partial_plan.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <utility>
 
 #include "core/prioritized/blocking_robots.h"
+#include "core/prioritized/without_way.h"
 
 namespace fleetplan::core {
 namespace {
 
 using Reason = Unplanned::Reason;
+
+/// The expansions of a search, round by round: most robots that have a path find it soon, and a search that
+/// fails may take as long as hundreds that do not.
+constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
+constexpr std::array<std::int64_t, 3> kExpansions{500, 5'000, kAnyNumber};
 
 class PartialPlanner {
  public:
@@ -17,7 +25,9 @@ class PartialPlanner {
         stop_(stop),
         progress_(progress),
         blocking_(state, stop),
-        has_no_path_(state.instance().size(), false) {}
+        has_no_path_(state.instance().size(), false),
+        earlier_(state.instance().size()),
+        waiting_for_(state.instance().size()) {}
 
   PartialPlan run(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
     staying_ = given_up;
@@ -26,7 +36,8 @@ class PartialPlanner {
     }
     stop_conflicting_robots();
     progress_.update();
-    while (plan_staying_robots()) {
+    for (std::size_t effort = 0; effort < kExpansions.size();) {
+      if (!plan_staying_robots(kExpansions[effort])) ++effort;
     }
     std::sort(staying_.begin(), staying_.end());
     for (const std::size_t robot : staying_) result_.unplanned.push_back(explain(robot));
@@ -35,6 +46,7 @@ class PartialPlanner {
 
  private:
   void stay(std::size_t robot) {
+    earlier_[robot] = state_.trajectory(robot);
     state_.stay_at_start(robot);
     staying_.push_back(robot);
   }
@@ -43,40 +55,61 @@ class PartialPlanner {
     for (std::size_t k = 0; k < staying_.size(); ++k) {  // staying_ grows
       for (const std::size_t crossing : state_.robots_crossing_start(staying_[k])) {
         if (state_.trajectory(crossing)) stay(crossing);
+        if (earlier_[crossing]) waiting_for_[staying_[k]].push_back(crossing);
       }
     }
   }
 
   /// Tries each robot that stays once; returns whether another round may help.
-  bool plan_staying_robots() {
-    std::vector<std::size_t> still_staying;
-    for (const std::size_t robot : staying_) {
-      if (!try_plan(robot)) still_staying.push_back(robot);
+  bool plan_staying_robots(std::int64_t max_expansions) {
+    const std::vector<std::size_t> robots = staying_;
+    for (const std::size_t robot : robots) {
+      if (!state_.trajectory(robot) && try_plan(robot, max_expansions)) resume_those_waiting_for(robot);
     }
-    const bool progress = still_staying.size() < staying_.size() && !still_staying.empty();
-    staying_ = std::move(still_staying);
-    return progress && !result_.cut_off;
+    std::erase_if(staying_, [&](std::size_t robot) { return state_.trajectory(robot).has_value(); });
+    return staying_.size() < robots.size() && !staying_.empty() && !stop_.met();
   }
 
-  bool try_plan(std::size_t robot) {
+  /// Robots that crossed the start of a robot that has left it may follow their earlier trajectories again.
+  void resume_those_waiting_for(std::size_t robot) {
+    std::vector<std::size_t> left{robot};
+    while (!left.empty()) {
+      const std::vector<std::size_t> waiting = std::move(waiting_for_[left.back()]);
+      left.pop_back();
+      for (const std::size_t other : waiting) {
+        if (state_.trajectory(other)) continue;
+        state_.remove(other);
+        if (state_.conflicting_robots(other, *earlier_[other]).empty()) {
+          state_.follow(other, *earlier_[other]);
+          left.push_back(other);
+        } else {
+          state_.stay_at_start(other);
+        }
+      }
+    }
+    progress_.update();
+  }
+
+  bool try_plan(std::size_t robot, std::int64_t max_expansions) {
     if (stop_.met()) {
       result_.cut_off = true;
       return false;
     }
     state_.remove(robot);
-    SearchResult result = state_.plan(robot, {}, stop_);
+    const SearchLimits limits{.thorough = max_expansions == kAnyNumber, .max_expansions = max_expansions};
+    SearchResult result = state_.plan(robot, limits, stop_);
     if (result.trajectory) {
       state_.follow(robot, std::move(*result.trajectory));
-      progress_.update();
       return true;
     }
     state_.stay_at_start(robot);
     has_no_path_[robot] = result.complete;
-    result_.cut_off = result_.cut_off || !result.complete;
+    result_.cut_off = result_.cut_off || (!result.complete && stop_.met());
     return false;
   }
 
   Unplanned explain(std::size_t robot) {
+    if (state_.way_to_goal(robot).none()) return unplanned_without_way(robot, state_.way_to_goal(robot));
     if (!has_no_path_[robot]) {
       return {robot, Reason::budget_exhausted, "The time budget ended before a way was found.", {}};
     }
@@ -90,7 +123,9 @@ class PartialPlanner {
   const StopCondition& stop_;
   ProgressReport& progress_;
   BlockingRobots blocking_;
-  std::vector<bool> has_no_path_;  // by robot; according to its last search
+  std::vector<bool> has_no_path_;                      // by robot; according to its last search
+  std::vector<std::optional<Trajectory>> earlier_;     // of robots that were stopped
+  std::vector<std::vector<std::size_t>> waiting_for_;  // by robot: those stopped as they cross its start
   std::vector<std::size_t> staying_;
   PartialPlan result_;
 };

@@ -1,6 +1,7 @@
 #include "core/prioritized/plan_state.h"
 
 #include <algorithm>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -20,6 +21,11 @@ std::size_t max_search_space_bytes() {
   return std::min(kMaxSearchSpaceBytes, static_cast<std::size_t>(account->limit()) / kSearchSpacePart);
 }
 
+/// Steps of Enclosure for each expansion of a search, which takes a hundred times as long.
+constexpr std::int64_t kEnclosureSteps = 8;
+/// Expansions of a search on the map before Enclosure is asked.
+constexpr std::int64_t kFirstExpansions = 1024;
+
 std::vector<double> radii(const Instance& instance) {
   std::vector<double> radii;
   radii.reserve(instance.size());
@@ -35,7 +41,9 @@ PlanState::PlanState(const Instance& instance)
              instance.problem().grid().resolution(), radii(instance)),
       search_(table_),
       trajectories_(instance.size()),
-      search_spaces_(instance.size()) {}
+      search_spaces_(instance.size()),
+      stays_(instance.size(), 0),
+      ways_(instance.size()) {}
 
 Trajectory PlanState::staying(std::size_t robot) const {
   return {instance_.robot(robot).start.position, {}, 0.0};
@@ -50,6 +58,7 @@ void PlanState::remove(std::size_t robot) {
   table_.remove(robot);
   if (trajectories_[robot]) --planned_count_;
   trajectories_[robot].reset();
+  set_staying(robot, false);
 }
 
 void PlanState::follow(std::size_t robot, Trajectory trajectory) {
@@ -58,7 +67,24 @@ void PlanState::follow(std::size_t robot, Trajectory trajectory) {
   ++planned_count_;
 }
 
-void PlanState::stay_at_start(std::size_t robot) { reserve(robot, timed_segments(staying(robot))); }
+void PlanState::stay_at_start(std::size_t robot) {
+  reserve(robot, timed_segments(staying(robot)));
+  set_staying(robot, true);
+}
+
+void PlanState::set_staying(std::size_t robot, bool stays) {
+  if ((stays_[robot] != 0) == stays) return;
+  stays_[robot] = stays ? 1 : 0;
+  if (stays) {
+    ++staying_count_;
+    return;
+  }
+  --staying_count_;
+  for (const std::size_t closed : closed_by_robots_) {
+    if (closed != robot) ways_[closed] = {};
+  }
+  std::erase_if(closed_by_robots_, [&](std::size_t closed) { return closed != robot; });
+}
 
 void PlanState::reserve_start(std::size_t robot, double seconds) {
   const Position start = instance_.robot(robot).start.position;
@@ -98,9 +124,35 @@ Result PlanState::within_memory(Result otherwise, const Compute& compute) {
   return otherwise;
 }
 
+/// Ends a search when robots that stay are found to close off the robot.
+class PlanState::EnclosureTest : public NoPathTest {
+ public:
+  EnclosureTest(PlanState& state, std::size_t robot) : state_(state), robot_(robot) {}
+  bool no_path(std::int64_t expansions) override {
+    return state_.test_enclosure(robot_, kEnclosureSteps * expansions);
+  }
+
+ private:
+  PlanState& state_;
+  std::size_t robot_;
+};
+
 SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
+  if (staying_count_ == 0) return search(robot, limits, stop);
+  EnclosureTest test(*this, robot);
+  SearchLimits with_test = limits;
+  with_test.no_path_test = &test;
+  return search(robot, with_test, stop);
+}
+
+SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
+  if (!goal_stays_free(robot)) return {};
   const SearchResult no_memory{std::nullopt, false, 0};
-  SearchResult result = within_memory(no_memory, [&] {
+  SearchResult result = within_memory(no_memory, [&]() -> SearchResult {
+    constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
+    const Way& way = way_to_goal(robot, kAnyNumber, stop);
+    if (way.kind == Way::Kind::unknown) return no_memory;
+    if (way.none()) return {};
     SearchSpace& space = search_space(robot);
     return search_.run(robot, space.vertices, space.cost_to_go, limits, stop);
   });
@@ -108,22 +160,70 @@ SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, cons
   return result;
 }
 
+/// Whether the robot may rest at its goal from some time on: if not, a search need not be prepared.
+bool PlanState::goal_stays_free(std::size_t robot) const {
+  const auto safe = table_.safe_intervals(robot, instance_.robot(robot).goal->position);
+  return !safe.empty() && safe.back().end == kForever;
+}
+
 SearchResult PlanState::plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,
                                       const SearchLimits& limits, const StopCondition& stop) {
+  const bool all_move =
+      std::none_of(ignored.begin(), ignored.end(), [&](std::size_t other) { return stays_[other] != 0; });
   for (const std::size_t other : ignored) table_.ignore(other, true);
-  SearchResult result = plan(robot, limits, stop);
+  SearchResult result = all_move ? plan(robot, limits, stop) : search(robot, limits, stop);
   for (const std::size_t other : ignored) table_.ignore(other, false);
   return result;
 }
 
-bool PlanState::goal_reachable(std::size_t robot, const StopCondition& stop) {
-  if (stop.met()) return true;
-  return within_memory(true, [&] {
-    SearchSpace& space = search_space(robot);
-    const Vertices& vertices = space.vertices;
-    return vertices.start() == vertices.goal() ||
-           space.cost_to_go.from(vertices.start(), stop).seconds < kForever;
+const Way& PlanState::way_to_goal(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop) {
+  Way& way = ways_[robot];
+  if (way.kind != Way::Kind::unknown) return way;
+  within_memory(false, [&] {
+    find_way(robot, max_expansions, stop);
+    return true;
   });
+  return way;
+}
+
+void PlanState::find_way(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop) {
+  Way& way = ways_[robot];
+  SearchSpace& space = search_space(robot);
+  const Vertices& vertices = space.vertices;
+  if (vertices.start() == vertices.goal()) {
+    way.kind = Way::Kind::on_lattice;
+    return;
+  }
+  const std::int64_t before = space.cost_to_go.expansions();
+  std::int64_t last = 0;
+  for (std::int64_t next = kFirstExpansions; way.kind == Way::Kind::unknown && last < max_expansions;) {
+    const std::int64_t count = std::min(next, max_expansions) - last;
+    const auto reaches = space.cost_to_go.reaches(vertices.start(), count, stop);
+    last += count;
+    next *= 2;
+    if (reaches) way.kind = *reaches ? Way::Kind::on_lattice : way_off_lattice(robot, kEnclosureSteps * last);
+    if (reaches || stop.met()) break;
+    test_enclosure(robot, kEnclosureSteps * last);
+  }
+  map_expansions_ += space.cost_to_go.expansions() - before;
+}
+
+/// For a robot without a way on the lattice: whether obstacles close off its goal on any lattice.
+Way::Kind PlanState::way_off_lattice(std::size_t robot, std::int64_t max_steps) const {
+  const Enclosure::Result result = Enclosure(instance_, robot, {}).find(max_steps);
+  return result.answer == Enclosure::Answer::closed ? Way::Kind::closed : Way::Kind::not_on_lattice;
+}
+
+bool PlanState::test_enclosure(std::size_t robot, std::int64_t max_steps) {
+  std::vector<std::size_t> staying;
+  for (std::size_t other = 0; other < stays_.size(); ++other) {
+    if (stays_[other] != 0 && other != robot) staying.push_back(other);
+  }
+  Enclosure::Result result = Enclosure(instance_, robot, staying).find(max_steps);
+  if (result.answer != Enclosure::Answer::closed) return false;
+  if (!result.robots.empty()) closed_by_robots_.push_back(robot);
+  ways_[robot] = {Way::Kind::closed, std::move(result.robots)};
+  return true;
 }
 
 Trajectory PlanState::plan_alone(std::size_t robot, const StopCondition& stop) {

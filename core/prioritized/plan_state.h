@@ -8,6 +8,7 @@
 
 #include "core/instance.h"
 #include "core/model/trajectory.h"
+#include "core/prioritized/enclosure.h"
 #include "core/reservation/reservation_table.h"
 #include "core/runtime/stop_condition.h"
 #include "core/sipp/aa_sipp.h"
@@ -15,6 +16,21 @@
 #include "core/sipp/vertices.h"
 
 namespace fleetplan::core {
+
+/// The way of a robot to its goal among obstacles and robots that stay for ever.
+struct Way {
+  enum class Kind : std::uint8_t {
+    unknown,
+    on_lattice,      // the lattice has a path past the obstacles; robots that stay may block it
+    not_on_lattice,  // it has none
+    closed,          // obstacles and perhaps robots close off the start or the goal, on any lattice
+  };
+  Kind kind = Kind::unknown;
+  std::vector<std::size_t> closed_by;  // see Enclosure::Result; none if obstacles do it alone
+
+  /// Whether there is none as long as the same robots stay.
+  bool none() const { return kind == Kind::not_on_lattice || kind == Kind::closed; }
+};
 
 /// The reservations of all robots while a plan is made. A robot is in one of four states: it follows a
 /// trajectory, stays at its start for ever, reserves its start for some time, or has no reservation (the
@@ -44,8 +60,13 @@ class PlanState {
   SearchResult plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,
                              const SearchLimits& limits, const StopCondition& stop);
 
-  /// Whether the static map has a path to the robot's goal; true if `stop` is met before that is known.
-  bool goal_reachable(std::size_t robot, const StopCondition& stop);
+  /// Whether the robot has a way to its goal past obstacles and the robots that stay; unknown if `stop` is
+  /// met first, or if that takes more than `max_expansions` expansions of a search on the map.
+  const Way& way_to_goal(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
+  /// What is known of it.
+  const Way& way_to_goal(std::size_t robot) const { return ways_[robot]; }
+  /// Expansions of searches on the map, for estimates of the cost to the goal.
+  std::int64_t map_expansions() const { return map_expansions_; }
   /// The trajectory of the robot alone on the map; it stays at its start if there is none.
   Trajectory plan_alone(std::size_t robot, const StopCondition& stop);
 
@@ -66,11 +87,19 @@ class PlanState {
         : vertices(instance, robot), cost_to_go(vertices) {}
   };
 
+  class EnclosureTest;
+
   SearchSpace& search_space(std::size_t robot);
   /// Returns the result of a search, or `otherwise` if the memory for it is not granted (see MemoryAccount).
   /// When memory is short, what searches keep for later is given up.
   template <class Result, class Compute>
   Result within_memory(Result otherwise, const Compute& compute);
+  SearchResult search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
+  void find_way(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
+  bool goal_stays_free(std::size_t robot) const;
+  void set_staying(std::size_t robot, bool stays);
+  Way::Kind way_off_lattice(std::size_t robot, std::int64_t max_steps) const;
+  bool test_enclosure(std::size_t robot, std::int64_t max_steps);
   void discard_search_spaces_except(std::size_t robot);
   void reserve(std::size_t robot, const std::vector<TimedSegment>& segments);
   Trajectory staying(std::size_t robot) const;
@@ -81,7 +110,12 @@ class PlanState {
   std::vector<std::optional<Trajectory>> trajectories_;
   std::size_t planned_count_ = 0;
   std::vector<std::unique_ptr<SearchSpace>> search_spaces_;  // by robot, created on first use
+  std::vector<char> stays_;  // by robot: at its start for ever; not bool, for speed
+  std::size_t staying_count_ = 0;
+  std::vector<Way> ways_;                      // by robot
+  std::vector<std::size_t> closed_by_robots_;  // robots whose way robots close, until one of those leaves
   std::int64_t expansions_ = 0;
+  std::int64_t map_expansions_ = 0;
 };
 
 }  // namespace fleetplan::core

@@ -1,13 +1,19 @@
 #include "core/prioritized/triage.h"
 
+#include <set>
 #include <utility>
 
-#include "core/geometry/tolerance.h"
+#include "core/prioritized/disk_index.h"
+#include "core/prioritized/without_way.h"
 
 namespace fleetplan::core {
 namespace {
 
 using Reason = Unplanned::Reason;
+
+/// The effort for paths on the map, expansions of all robots together: about a tenth of a second. Other paths
+/// are tested when a robot is planned for the first time.
+constexpr std::int64_t kMaxExpansions = 50'000;
 
 class Triage {
  public:
@@ -16,24 +22,30 @@ class Triage {
         instance_(state.instance()),
         stop_(stop),
         unplanned_(instance_.size()),
-        stays_(instance_.size(), false) {}
+        stays_(instance_.size(), false),
+        starts_(instance_),
+        goals_(instance_) {}
 
   std::vector<std::optional<Unplanned>> run() {
     for (std::size_t i = 0; i < instance_.size(); ++i) {
+      starts_.add(i, instance_.robot(i).start.position);
+      if (instance_.robot(i).goal) goals_.add(i, instance_.robot(i).goal->position);
       if (!instance_.robot(i).goal) stay(i);
     }
-    for (std::size_t i = 0; i < instance_.size(); ++i) check_start(i);
-    for (std::size_t i = 0; i < instance_.size(); ++i) check_goal(i);
-    for (std::size_t i = 0; i < instance_.size(); ++i) check_path(i);
-    // A robot that stays may block the goal of another one, which then stays as well.
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (std::size_t i = 0; i < instance_.size(); ++i) changed = check_goal_occupied(i) || changed;
-    }
+    for_each_robot([&](std::size_t i) { check_start(i); });
+    for_each_robot([&](std::size_t i) { check_goal(i); });
+    for_each_robot([&](std::size_t i) { check_path(i); });
+    check_goals_occupied();
     return std::move(unplanned_);
   }
 
  private:
+  template <class Check>
+  void for_each_robot(Check&& check) {
+    for (std::size_t i = 0; i < instance_.size() && !stop_.met(); ++i) {
+      if (!stays_[i]) check(i);
+    }
+  }
   void stay(std::size_t robot) {
     stays_[robot] = true;
     state_.stay_at_start(robot);
@@ -43,65 +55,78 @@ class Triage {
     unplanned_[robot] = Unplanned{robot, reason, detail, std::move(blocked_by)};
     stay(robot);
   }
-  bool overlap(std::size_t a, const Position& p, std::size_t b, const Position& q) const {
-    const double reach = instance_.motion(a).radius + instance_.motion(b).radius - kContactTolerance;
-    return (p - q).squaredNorm() < reach * reach;
-  }
+  /// The robots whose disks in the index overlap this disk of robot i and meet the condition, ascending.
   template <class Condition>
-  std::vector<std::size_t> others(std::size_t robot, Condition&& condition) const {
-    std::vector<std::size_t> found;
-    for (std::size_t j = 0; j < instance_.size(); ++j) {
-      if (j != robot && condition(j)) found.push_back(j);
-    }
+  std::vector<std::size_t> overlapping(const DiskIndex& index, std::size_t i, const Position& position,
+                                       Condition&& condition) const {
+    std::vector<std::size_t> found = index.overlapping(i, position);
+    std::erase_if(found, [&](std::size_t j) { return !condition(j); });
     return found;
   }
 
   void check_start(std::size_t i) {
-    if (stays_[i]) return;
     const Position& start = instance_.robot(i).start.position;
     if (!instance_.sight().disk_fits(start, instance_.motion(i).radius)) {
       return give_up(i, Reason::start_blocked,
                      "The inflated robot does not fit between the obstacles at its start.");
     }
-    auto overlapping =
-        others(i, [&](std::size_t j) { return overlap(i, start, j, instance_.robot(j).start.position); });
-    if (overlapping.empty()) return;
+    auto others = starts_.overlapping(i, start);
+    if (others.empty()) return;
     give_up(i, Reason::start_blocked, "The inflated robot overlaps another one at its start.",
-            std::move(overlapping));
+            std::move(others));
   }
 
   void check_goal(std::size_t i) {
-    if (stays_[i]) return;
     const Position& goal = instance_.robot(i).goal->position;
     if (!instance_.sight().disk_fits(goal, instance_.motion(i).radius)) {
       return give_up(i, Reason::goal_blocked,
                      "The inflated robot does not fit between the obstacles at its goal.");
     }
     // Of two robots whose inflated goals overlap, the first in the list is planned.
-    auto overlapping = others(i, [&](std::size_t j) {
-      return j < i && !stays_[j] && overlap(i, goal, j, instance_.robot(j).goal->position);
-    });
-    if (overlapping.empty()) return;
+    auto others = overlapping(goals_, i, goal, [&](std::size_t j) { return j < i && !stays_[j]; });
+    if (others.empty()) return;
     give_up(i, Reason::goal_blocked, "The inflated robot overlaps another one's goal at its goal.",
-            std::move(overlapping));
+            std::move(others));
   }
 
   void check_path(std::size_t i) {
-    if (stays_[i] || state_.goal_reachable(i, stop_)) return;
-    give_up(i, Reason::goal_unreachable,
-            "No way leads from the start to the goal that is wide enough for the robot.");
+    const std::int64_t left = kMaxExpansions - state_.map_expansions();
+    if (left <= 0) return;
+    const Way& way = state_.way_to_goal(i, left, stop_);
+    if (way.none()) give_up_without_way(i, way);
   }
 
-  bool check_goal_occupied(std::size_t i) {
-    if (stays_[i]) return false;
-    const Position& goal = instance_.robot(i).goal->position;
-    auto overlapping = others(i, [&](std::size_t j) {
-      return stays_[j] && overlap(i, goal, j, instance_.robot(j).start.position);
-    });
-    if (overlapping.empty()) return false;
+  void give_up_without_way(std::size_t i, const Way& way) {
+    unplanned_[i] = unplanned_without_way(i, way);
+    stay(i);
+  }
+
+  /// A robot that stays may block the goal of another one, which then stays as well.
+  void check_goals_occupied() {
+    for (std::size_t i = 0; i < instance_.size(); ++i) {
+      if (!stays_[i]) next_.insert(i);
+    }
+    while (!next_.empty() && !stop_.met()) {
+      current_ = std::exchange(next_, {});
+      while (!current_.empty() && !stop_.met()) {
+        const std::size_t i = *current_.begin();
+        current_.erase(current_.begin());
+        check_goal_occupied(i);
+      }
+    }
+  }
+
+  void check_goal_occupied(std::size_t i) {
+    if (stays_[i]) return;
+    auto others =
+        overlapping(starts_, i, instance_.robot(i).goal->position, [&](std::size_t j) { return stays_[j]; });
+    if (others.empty()) return;
     give_up(i, Reason::goal_blocked, "A robot that stays where it is stands in the way at the goal.",
-            std::move(overlapping));
-    return true;
+            std::move(others));
+    // Those whose goal it occupies are examined in the order of the list, again and again.
+    for (const std::size_t j : goals_.overlapping(i, instance_.robot(i).start.position)) {
+      if (!stays_[j]) (j > i ? current_ : next_).insert(j);
+    }
   }
 
   PlanState& state_;
@@ -109,6 +134,10 @@ class Triage {
   const StopCondition& stop_;
   std::vector<std::optional<Unplanned>> unplanned_;
   std::vector<bool> stays_;
+  DiskIndex starts_;
+  DiskIndex goals_;
+  std::set<std::size_t> current_;  // robots whose goals are examined in this round
+  std::set<std::size_t> next_;     // and in the next one
 };
 
 }  // namespace

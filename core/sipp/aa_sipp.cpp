@@ -32,6 +32,7 @@ class Search {
         cost_to_go_(cost_to_go),
         limits_(limits),
         stop_(stop),
+        pause_(std::min(limits.max_expansions, first_test(limits))),
         state_(std::move(state)) {}
 
   Outcome run(Pass pass);
@@ -48,6 +49,9 @@ class Search {
     double cost;
   };
 
+  static std::int64_t first_test(const SearchLimits& limits) {
+    return limits.no_path_test == nullptr ? limits.max_expansions : SearchLimits::kFirstTest;
+  }
   bool begin(Pass pass);
   void label_start();
   bool goal_entry_suffices() const;
@@ -88,6 +92,7 @@ class Search {
   Pass pass_ = Pass::quick;
   bool use_slack_ = false;
   std::int64_t expansions_ = 0;  // of all passes
+  std::int64_t pause_;           // expansions after which the limits are looked at
   SearchState state_;
 };
 
@@ -98,7 +103,11 @@ Outcome Search::run(Pass pass) {
   for (int step = 1; state_.goal_label == LabelId::none; ++step) {
     if (state_.open.empty()) return state_.incomplete ? Outcome::incomplete : Outcome::exhausted;
     if (step % kStopStride == 0 && stop_.met()) return Outcome::stopped;
-    if (expansions_ >= limits_.max_expansions) return Outcome::stopped;
+    if (expansions_ >= pause_) {
+      if (expansions_ >= limits_.max_expansions) return Outcome::stopped;
+      if (limits_.no_path_test->no_path(expansions_)) return Outcome::exhausted;
+      pause_ = std::min(limits_.max_expansions, 2 * expansions_);
+    }
     if (goal_entry_suffices()) {
       settle(state_.open[state_.best_goal_entry]);
       break;

@@ -46,6 +46,19 @@ class CostToGo::BackwardSearch {
     return {n.seconds, n.heading, false};
   }
 
+  std::optional<bool> reaches(int vertex, std::int64_t max_expansions, const StopCondition& stop) {
+    if (vertices_.any_angle() && goal_in_sight(vertex)) return true;
+    const Node& n = node(vertex);
+    const std::int64_t last = expansions_ + max_expansions;
+    while (n.state != State::closed) {
+      if (open_.empty()) return false;
+      if (expansions_ >= last || (expansions_ % kStopStride == 0 && stop.met())) return std::nullopt;
+      expand_best();
+    }
+    return n.seconds < kForever;
+  }
+
+  std::int64_t expansions() const { return expansions_; }
   std::size_t bytes() const { return nodes_.bytes(); }
 
  private:
@@ -77,6 +90,7 @@ class CostToGo::BackwardSearch {
   Position start_;
   PagedArray<Node> nodes_;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
+  std::int64_t expansions_ = 0;
 };
 
 /// The cost from `vertex` with a first translation straight to `next`, which is closed or the goal.
@@ -136,6 +150,7 @@ void CostToGo::BackwardSearch::close(int vertex) {
 }
 
 void CostToGo::BackwardSearch::expand_best() {
+  ++expansions_;
   const Open best = open_.top();
   open_.pop();
   Node& n = node(best.vertex);
@@ -151,6 +166,12 @@ CostToGo::~CostToGo() = default;
 CostToGo::Estimate CostToGo::from(int vertex, const StopCondition& stop) {
   return search_->from(vertex, stop);
 }
+
+std::optional<bool> CostToGo::reaches(int vertex, std::int64_t max_expansions, const StopCondition& stop) {
+  return search_->reaches(vertex, max_expansions, stop);
+}
+
+std::int64_t CostToGo::expansions() const { return search_->expansions(); }
 
 std::size_t CostToGo::bytes() const { return search_->bytes(); }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "core/runtime/stop_condition.h"
 
@@ -28,6 +30,13 @@ class CostToGo {
 
   /// From any vertex but the goal. If `stop` is met during the search, the estimate is the straight line's.
   Estimate from(int vertex, const StopCondition& stop);
+
+  /// Whether the map has a path from a vertex; none if that takes more than `max_expansions` more expansions,
+  /// or if `stop` is met first.
+  std::optional<bool> reaches(int vertex, std::int64_t max_expansions, const StopCondition& stop);
+
+  /// Of the backward search so far.
+  std::int64_t expansions() const;
 
   /// Approximate memory in use, bytes.
   std::size_t bytes() const;

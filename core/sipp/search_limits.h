@@ -9,6 +9,15 @@
 
 namespace fleetplan::core {
 
+/// Asked by a long search whether it can end, because there is no path.
+class NoPathTest {
+ public:
+  virtual bool no_path(std::int64_t expansions) = 0;
+
+ protected:
+  ~NoPathTest() = default;
+};
+
 /// The parameters of the search for one robot: limits of cost and effort, and the accepted suboptimality.
 struct SearchLimits {
   double bound = kForever;        // seconds; only trajectories that cost less are accepted
@@ -26,6 +35,9 @@ struct SearchLimits {
   bool thorough = true;
   /// Of both searches together; a search that needs more ends as not complete.
   std::int64_t max_expansions = std::numeric_limits<std::int64_t>::max();
+  /// May be null. Asked after kFirstTest expansions and whenever their number has doubled.
+  NoPathTest* no_path_test = nullptr;
+  static constexpr std::int64_t kFirstTest = 512;
 };
 
 /// The result of a search for one robot.

@@ -85,7 +85,7 @@ TEST(PlanState, PlansARobotAloneOnTheMap) {
 
 TEST(PlanState, PlansARobotWithoutAPathToStayAtItsStart) {
   Planning p(support::ascii_map({"..#..", "..#.."}), {robot_at(0.5, 0.5).to(4.5, 0.5)});
-  EXPECT_FALSE(p.state.goal_reachable(0, p.never));
+  EXPECT_TRUE(p.state.way_to_goal(0, 1000, p.never).none());
   const Trajectory alone = p.state.plan_alone(0, p.never);
   EXPECT_TRUE(alone.moves.empty());
   EXPECT_EQ(alone.start, Position(0.5, 0.5));
@@ -93,7 +93,7 @@ TEST(PlanState, PlansARobotWithoutAPathToStayAtItsStart) {
 
 TEST(PlanState, FindsAGoalAtTheStartReachable) {
   Planning p(support::ascii_map({"##.##", "#####"}), {robot_at(2.5, 1.5).to(2.5, 1.5, 2.0)});
-  EXPECT_TRUE(p.state.goal_reachable(0, p.never));
+  EXPECT_FALSE(p.state.way_to_goal(0, 1000, p.never).none());
 }
 
 }  // namespace

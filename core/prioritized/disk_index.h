@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "core/geometry/position.h"
+#include "core/instance.h"
+
+namespace fleetplan::core {
+
+/// Disks of robots, inflation included, by place: finds those that overlap another one.
+class DiskIndex {
+ public:
+  explicit DiskIndex(const Instance& instance);
+
+  /// One disk for each robot at most.
+  void add(std::size_t robot, const Position& center);
+
+  /// The robots but `robot` whose disks overlap the disk of `robot` at this position, ascending. Contact is
+  /// no overlap.
+  std::vector<std::size_t> overlapping(std::size_t robot, const Position& center) const;
+
+ private:
+  struct Disk {
+    std::size_t robot;
+    Position center;
+  };
+
+  std::int64_t bucket(double coordinate) const;
+  static std::uint64_t key(std::int64_t column, std::int64_t row);
+
+  const Instance& instance_;
+  double size_;  // of a bucket, metres; two disks that overlap are in the same or in neighbouring ones
+  std::unordered_map<std::uint64_t, std::vector<Disk>> buckets_;
+};
+
+}  // namespace fleetplan::core

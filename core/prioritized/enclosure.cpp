@@ -1,0 +1,215 @@
+#include "core/prioritized/enclosure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "core/geometry/tolerance.h"
+#include "core/map/obstacle_distance.h"
+#include "core/map/paged_array.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Subtracted from every required distance (metres), so that rounding and contact never close a way.
+constexpr double kSlack = 10.0 * kContactTolerance;
+/// Cells that are examined in the time of a step.
+constexpr std::int64_t kCellsPerStep = 8;
+/// The effort for the robots that close a way, in floods.
+constexpr std::int64_t kMaxFloods = 24;
+
+enum class Side : std::uint8_t { none, start, goal };
+constexpr std::array<Side, 2> kSides{Side::start, Side::goal};
+
+}  // namespace
+
+/// The cells that were reached from the start and from the goal.
+struct Enclosure::Flood {
+  explicit Flood(const OccupancyGrid& grid) : reached(static_cast<std::size_t>(grid.cell_count())) {}
+
+  Answer answer = Answer::unknown;
+  PagedArray<Side> reached;
+  std::array<std::vector<Cell>, 2> cells;     // in order of distance, by side
+  std::array<std::size_t, 2> expanded{};      // of the cells
+  std::array<std::vector<Disk*>, 2> closing;  // disks at borders that are not crossable
+  std::size_t closed_side = 0;
+};
+
+Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vector<std::size_t>& staying)
+    : instance_(instance), grid_(instance.problem().grid()), robot_(robot), clearance_(required_clearance()) {
+  const Position& start = instance.robot(robot).start.position;
+  for (const std::size_t other : staying) {
+    if (other == robot) continue;
+    const Position& center = instance.robot(other).start.position;
+    // A robot that starts too near to another one may leave, but come no nearer.
+    const double reach =
+        std::min(instance.motion(robot).radius + instance.motion(other).radius, (start - center).norm());
+    disks_.push_back({other, center, reach - kSlack, false});
+    longest_reach_ = std::max(longest_reach_, reach);
+  }
+  std::sort(disks_.begin(), disks_.end(),
+            [](const Disk& a, const Disk& b) { return a.center.x() < b.center.x(); });
+}
+
+/// The radius, or less if the robot is nearer to an obstacle at its start or goal.
+double Enclosure::required_clearance() const {
+  const Robot& robot = instance_.robot(robot_);
+  double clearance = instance_.motion(robot_).radius;
+  for (const Position& position : {robot.start.position, robot.goal->position}) {
+    if (instance_.sight().disk_fits(position, clearance)) continue;
+    clearance = std::min(clearance, obstacle_distance(grid_, position, clearance));
+  }
+  return clearance - kSlack;
+}
+
+Enclosure::Result Enclosure::find(std::int64_t max_steps) {
+  Flood last = flood(max_steps);
+  if (last.answer != Answer::closed) return {last.answer, {}};
+  std::vector<Disk*> removed;
+  while (last.answer == Answer::closed) {
+    const std::vector<Disk*>& closing = last.closing[last.closed_side];
+    if (closing.empty()) return {Answer::closed, {}};
+    for (Disk* disk : closing) {
+      if (!disk->removed) removed.push_back(disk);
+      disk->removed = true;
+    }
+    last = flood(max_steps);
+  }
+  return {Answer::closed, necessary(std::move(removed), max_steps)};
+}
+
+/// Puts the removed disks back, one by one, if the way remains open with them.
+std::vector<std::size_t> Enclosure::necessary(std::vector<Disk*> removed, std::int64_t max_steps) {
+  std::vector<std::size_t> robots;
+  std::int64_t floods = 0;
+  for (Disk* disk : removed) {
+    disk->removed = false;
+    const bool superfluous = ++floods <= kMaxFloods && flood(max_steps).answer != Answer::closed;
+    if (superfluous) continue;
+    disk->removed = true;
+    robots.push_back(disk->robot);
+  }
+  std::sort(robots.begin(), robots.end());
+  return robots;
+}
+
+Enclosure::Flood Enclosure::flood(std::int64_t max_steps) {
+  steps_ = 0;
+  Flood flood(grid_);
+  const Robot& robot = instance_.robot(robot_);
+  const std::array<Cell, 2> begins{grid_.cell_at(robot.start.position), grid_.cell_at(robot.goal->position)};
+  for (std::size_t side = 0; side < kSides.size(); ++side) {
+    flood.reached[grid_.index(begins[side])] = kSides[side];
+    flood.cells[side].push_back(begins[side]);
+  }
+  if (begins[0] == begins[1]) flood.answer = Answer::open;
+  while (flood.answer == Answer::unknown && steps_ <= max_steps) {
+    for (std::size_t side = 0; side < kSides.size() && flood.answer == Answer::unknown; ++side) {
+      expand(flood, side);
+      if (flood.answer == Answer::open || flood.expanded[side] < flood.cells[side].size()) continue;
+      flood.answer = Answer::closed;
+      flood.closed_side = side;
+    }
+  }
+  return flood;
+}
+
+/// Reaches the neighbours of one cell.
+void Enclosure::expand(Flood& flood, std::size_t side) {
+  const Cell cell = flood.cells[side][flood.expanded[side]++];
+  struct Neighbour {
+    int columns, rows;
+    int begin_column, begin_row;  // of the border, from the cell
+  };
+  constexpr std::array<Neighbour, 4> kNeighbours{{{1, 0, 1, 0}, {-1, 0, 0, 0}, {0, 1, 0, 1}, {0, -1, 0, 0}}};
+  for (const Neighbour& step : kNeighbours) {
+    const Cell next{cell.column + step.columns, cell.row + step.rows};
+    if (!grid_.inside(next)) continue;
+    Side& reached = flood.reached[grid_.index(next)];
+    if (reached == kSides[side]) continue;
+    const Position begin = grid_.resolution() * Position(cell.column + step.begin_column,  //
+                                                         cell.row + step.begin_row);
+    if (!crossable({begin, step.columns != 0}, flood, side)) continue;
+    if (reached != Side::none) {
+      flood.answer = Answer::open;
+      return;
+    }
+    reached = kSides[side];
+    flood.cells[side].push_back(next);
+  }
+}
+
+/// Whether the robot's centre may be at some point of the border, ends included. If not, and obstacles alone
+/// would leave a point, notes the disks that cover it.
+bool Enclosure::crossable(const Border& border, Flood& flood, std::size_t side) {
+  ++steps_;
+  const double length = grid_.resolution();
+  const Position middle = border.begin + 0.5 * length *
+                                             Position(border.vertical ? 0.0 : 1.0,  //
+                                                      border.vertical ? 1.0 : 0.0);
+  const std::vector<Disk*> disks = disks_near(border);
+  if (disks.empty() && instance_.sight().disk_fits(middle, clearance_)) return true;
+  covered_.clear();
+  cover_by_obstacles(border);
+  if (fully_covered(length)) return false;
+  for (const Disk* disk : disks) cover_by(border, disk->center, disk->center, disk->reach);
+  if (!fully_covered(length)) return true;
+  flood.closing[side].insert(flood.closing[side].end(), disks.begin(), disks.end());
+  return false;
+}
+
+/// The disks that may cover a part of the border.
+std::vector<Enclosure::Disk*> Enclosure::disks_near(const Border& border) {
+  const double length = grid_.resolution();
+  const Position end = border.begin + length * Position(border.vertical ? 0.0 : 1.0,  //
+                                                        border.vertical ? 1.0 : 0.0);
+  auto disk = std::lower_bound(disks_.begin(), disks_.end(), border.begin.x() - longest_reach_,
+                               [](const Disk& d, double x) { return d.center.x() < x; });
+  std::vector<Disk*> near;
+  for (; disk != disks_.end() && disk->center.x() <= end.x() + longest_reach_; ++disk) {
+    const double away = std::max({border.begin.y() - disk->center.y(), disk->center.y() - end.y(), 0.0});
+    if (!disk->removed && away < disk->reach) near.push_back(&*disk);
+  }
+  return near;
+}
+
+void Enclosure::cover_by_obstacles(const Border& border) {
+  const double far = clearance_ + grid_.resolution();
+  const Cell low = grid_.cell_at(border.begin - Position(clearance_, clearance_));
+  const Cell high = grid_.cell_at(border.begin + Position(far, far));
+  steps_ +=
+      static_cast<std::int64_t>(high.column - low.column + 1) * (high.row - low.row + 1) / kCellsPerStep;
+  for (int row = low.row; row <= high.row; ++row) {
+    for (int column = low.column; column <= high.column; ++column) {
+      if (!grid_.blocked({column, row})) continue;  // cells outside the map are
+      const Position corner = grid_.resolution() * Position(column, row);
+      cover_by(border, corner, corner + Position(grid_.resolution(), grid_.resolution()), clearance_);
+    }
+  }
+}
+
+/// Covers the points of the border that are nearer than `distance` to the box from `low` to `high`.
+void Enclosure::cover_by(const Border& border, const Position& low, const Position& high, double distance) {
+  const int along = border.vertical ? 1 : 0;
+  const int across = 1 - along;
+  const double away =
+      std::max({low[across] - border.begin[across], border.begin[across] - high[across], 0.0});
+  if (away >= distance) return;
+  const double half = std::sqrt(distance * distance - away * away);
+  covered_.push_back({low[along] - half - border.begin[along], high[along] + half - border.begin[along]});
+}
+
+bool Enclosure::fully_covered(double length) {
+  std::sort(covered_.begin(), covered_.end(),
+            [](const Covered& a, const Covered& b) { return a.begin < b.begin; });
+  double free_from = 0.0;
+  for (const Covered& covered : covered_) {
+    if (covered.begin >= free_from) return false;
+    free_from = std::max(free_from, covered.end);
+  }
+  return free_from > length;
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/position.h"
+#include "core/instance.h"
+
+namespace fleetplan::core {
+
+/// Finds out whether obstacles and robots that stay for ever close off a robot's goal or its start.
+///
+/// On its way the robot's centre crosses borders between cells. Two cells are joined if a point of their
+/// common border keeps the distance that the robot needs from obstacles and from the robots that stay. Cells
+/// are searched from the start and from the goal in turns, so the effort is that of the smaller enclosed
+/// area. A robot that is closed off has no path, whatever the other robots do. One that is not may have none
+/// either, as the inside of a cell is not examined.
+class Enclosure {
+ public:
+  enum class Answer : std::uint8_t { open, closed, unknown };
+  struct Result {
+    Answer answer = Answer::unknown;
+    /// If closed: robots without which the way would be open, none of them superfluous; ascending. None if
+    /// obstacles alone close the way.
+    std::vector<std::size_t> robots;
+  };
+
+  /// `robot` has a goal; `staying` are the robots that stay at their starts.
+  Enclosure(const Instance& instance, std::size_t robot, const std::vector<std::size_t>& staying);
+
+  /// The answer is unknown after `max_steps` steps, about 50 ns each. To find the robots may take a few times
+  /// as many; beyond that, more robots than necessary are returned.
+  Result find(std::int64_t max_steps);
+
+ private:
+  struct Disk {
+    std::size_t robot;
+    Position center;
+    double reach;  // the robot's centre has to be at least so far away, metres
+    bool removed;
+  };
+  struct Covered {  // of a border: an open interval of metres from its begin
+    double begin;
+    double end;
+  };
+  struct Border {
+    Position begin;
+    bool vertical;
+  };
+  struct Flood;
+
+  double required_clearance() const;
+  Flood flood(std::int64_t max_steps);
+  void expand(Flood& flood, std::size_t side);
+  bool crossable(const Border& border, Flood& flood, std::size_t side);
+  void cover_by_obstacles(const Border& border);
+  void cover_by(const Border& border, const Position& low, const Position& high, double distance);
+  std::vector<Disk*> disks_near(const Border& border);
+  bool fully_covered(double length);
+  std::vector<std::size_t> necessary(std::vector<Disk*> removed, std::int64_t max_steps);
+
+  const Instance& instance_;
+  const OccupancyGrid& grid_;
+  const std::size_t robot_;
+  const double clearance_;        // from obstacles, metres
+  double longest_reach_ = 0.0;    // of disks_
+  std::vector<Disk> disks_;       // by abscissa
+  std::vector<Covered> covered_;  // of the border that is examined
+  std::int64_t steps_ = 0;        // of the flood that runs
+};
+
+}  // namespace fleetplan::core
