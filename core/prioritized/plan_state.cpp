@@ -12,13 +12,11 @@ namespace {
 
 /// Memory for the robots' costs-to-go; beyond it they are discarded and computed again.
 constexpr std::size_t kMaxSearchSpaceBytes = std::size_t{384} << 20;
-/// Likewise, as a part of the job's memory: a half.
-constexpr std::size_t kSearchSpacePart = 2;
 
-std::size_t max_search_space_bytes() {
+/// Whether costs-to-go of so many bytes are too much to keep: half of the job's memory is for the rest.
+bool is_too_much(std::size_t bytes) {
   const MemoryAccount* account = MemoryScope::current();
-  if (account == nullptr) return kMaxSearchSpaceBytes;
-  return std::min(kMaxSearchSpaceBytes, static_cast<std::size_t>(account->limit()) / kSearchSpacePart);
+  return bytes >= kMaxSearchSpaceBytes || (account != nullptr && account->used() > account->limit() / 2);
 }
 
 /// Steps of Enclosure for each expansion of a search, which takes a hundred times as long.
@@ -103,7 +101,7 @@ PlanState::SearchSpace& PlanState::search_space(std::size_t robot) {
 void PlanState::discard_search_spaces_except(std::size_t robot) {
   std::size_t bytes = 0;
   for (const auto& space : search_spaces_) bytes += space ? space->cost_to_go.bytes() : 0;
-  if (bytes < max_search_space_bytes() && !is_short_of_memory()) return;
+  if (!is_too_much(bytes)) return;
   for (std::size_t i = 0; i < search_spaces_.size(); ++i) {
     if (i != robot) search_spaces_[i].reset();
   }

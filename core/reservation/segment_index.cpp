@@ -9,7 +9,7 @@ namespace {
 /// More classes cost memory and commit time, fewer cost longer bucket lists.
 constexpr std::size_t kMaxLayers = 6;
 /// Buckets of all layers together, to bound memory on huge maps.
-constexpr double kMaxBuckets = 1.5e6;
+constexpr double kMaxBuckets = 2.5e5;
 
 /// The class radii, ascending: the distinct radii if they are few, else evenly spread quantiles.
 std::vector<double> class_radii(std::vector<double> radii) {
