@@ -64,12 +64,14 @@ class ExchangeTurn final : public api::Turn {
 
 JobRunner::JobRunner(const Settings& settings, const RequestLog& log)
     : limits_(settings.limits),
+      trusted_proxies_(settings.trusted_proxies),
       log_(log),
       workers_({static_cast<std::size_t>(settings.workers), settings.queue, kBurst * settings.queue}),
       parse_slots_(static_cast<std::size_t>(settings.workers)) {}
 
 api::Reply JobRunner::run(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events) {
-  Workers::Job job(workers_, client_of(exchange));
+  Workers::Job job(
+      workers_, client_of(exchange.socket->peer(), exchange.head.field("x-forwarded-for"), trusted_proxies_));
   api::Reply reply =
       job.refusal() ? refused(exchange, *job.refusal()) : compute(exchange, endpoint, events, job);
   if (job.refusal()) exchange.retry_after_s = workers_.retry_after_s();

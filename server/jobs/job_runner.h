@@ -1,6 +1,7 @@
 #pragma once
 
 #include <stop_token>
+#include <vector>
 
 #include "api/endpoints/plan_events.h"
 #include "api/response/reply.h"
@@ -40,6 +41,7 @@ class JobRunner {
                       const api::RequestContext& context) const;
 
   const api::Limits limits_;
+  const std::vector<AddressRange> trusted_proxies_;
   const RequestLog& log_;
   std::stop_source cancel_all_;
   PeerWatch peers_;

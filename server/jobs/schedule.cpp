@@ -13,6 +13,10 @@ using Seconds = std::chrono::duration<double>;
 /// Weight of the newest job in the running means: about the last ten count.
 constexpr double kNewestWeight = 0.1;
 
+/// Expectations are means, so that enough time for a plan, and for a wait, is more than expected.
+constexpr double kEnough = 2.5;
+constexpr double kWaitMargin = 1.5;
+
 /// `seconds` before the deadline. Far deadlines have no exact difference to small times, which is harmless.
 Schedule::Time before(Schedule::Time deadline, double seconds) {
   if (deadline == Schedule::Time::max()) return deadline;
@@ -30,7 +34,7 @@ std::optional<Schedule::Refusal> Schedule::accept(Job& job, Time now) {
   if (jobs_.size() >= room && expected_wait_s(now) <= Seconds(kShortWait).count()) room += size_.burst;
   if (jobs_.size() >= room) {
     if (held >= share) return clients > 1 ? Refusal::share : Refusal::queue_full;
-    if (jobs_.size() >= room + size_.queue) return Refusal::queue_full;
+    if (jobs_.size() >= size_.workers + size_.queue + size_.burst + size_.queue) return Refusal::queue_full;
   }
   jobs_.push_back(&job);
   ++clients_[job.client].places;
@@ -47,11 +51,8 @@ std::optional<Schedule::Refusal> Schedule::request_turn(Job& job, const Need& ne
     grant(job, true, now);
     return std::nullopt;
   }
-  const double needed_s = expected_s(job);
-  job.latest_start = before(need.deadline, needed_s);
-  // Twice what jobs like it need, as the expectation is only a mean.
-  const double reserve_s = expected_wait_s(&job, now) + needed_s;
-  if (before(job.latest_start, reserve_s) <= now) return Refusal::too_late;
+  job.latest_start = before(need.deadline, kEnough * expected_s(job));
+  if (before(job.latest_start, kWaitMargin * expected_wait_s(&job, now)) <= now) return Refusal::too_late;
   job.state = State::waiting;
   return std::nullopt;
 }

@@ -22,7 +22,8 @@ namespace fleetplan::server {
 ///   turn is the longest ago. Of a client's jobs, and of clients that have had no turn yet, the one with the
 ///   earliest deadline is next.
 /// - **Places.** There are `queue` places for jobs that wait, and `burst` more while the expected wait is
-///   short. Beyond that, up to `queue` jobs of clients that have less than their share are accepted.
+///   short. A client that has less than its share, which is the number of places by that of the clients, is
+///   accepted beyond that, as long as there are no more jobs than at most plus `queue`.
 /// - **Refusals.** A job that is not expected to get its turn with enough of its time left is refused when it
 ///   asks for a turn. A job that waits gives up when less time is left than jobs like it need.
 class Schedule {

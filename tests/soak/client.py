@@ -24,8 +24,9 @@ class Connection:
     # The server closes idle connections after a second, so one that was used more recently is still open.
     MAX_IDLE_S = 0.5
 
-    def __init__(self, host, port, timeout=90.0):
-        self.address, self.timeout = (host, port), timeout
+    def __init__(self, host, port, timeout=90.0, source=None):
+        """`source`: the address to connect from."""
+        self.address, self.timeout, self.source = (host, port), timeout, (source, 0) if source else None
         self.socket, self.input, self.used_at = None, bytearray(), 0.0
 
     def close(self):
@@ -37,7 +38,7 @@ class Connection:
         if self.socket and time.monotonic() - self.used_at > self.MAX_IDLE_S:
             self.close()
         if not self.socket:
-            self.socket = socket.create_connection(self.address, self.timeout)
+            self.socket = socket.create_connection(self.address, self.timeout, self.source)
             self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
     def send(self, data):

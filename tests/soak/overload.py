@@ -7,6 +7,8 @@ Measures how many plans per second the server returns, sends four times as many 
 measures how it recovers. The exit status is 1 if an answer was wrong or lost, if an accepted request exceeded its budget,
 if a rejection took 50 ms (the 99th percentile) or had no Retry-After, or if the server did not return to its usual latency
 at once.
+
+Then the cases of fair.py: clients that compete for the workers.
 """
 
 import argparse
@@ -17,6 +19,7 @@ import re
 import sys
 import time
 
+import fair
 import workload
 from client import Connection, request
 from report import percentile, spread, verdict
@@ -178,6 +181,7 @@ def main():
         failures.append("rejections were slow")
     if percentile(after, 0.5) > 2 * percentile(usual, 0.5) or after[0] > 2 * max(usual):
         failures.append("the server did not recover at once")
+    failures += fair.cases(server, arguments.seconds / 2)
     if code := server.end():
         failures.append(f"the server ended with {code}")
     return verdict(failures)

@@ -112,6 +112,12 @@ class Flags {
         ->delimiter(',')
         ->allow_extra_args(false)
         ->default_str("none");
+    add("trusted-proxy", trusted_proxies_,
+        "Addresses (10.0.0.7, 10.0.0.0/8) of proxies whose X-Forwarded-For names the client, comma-separated "
+        "or repeated")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->default_str("none");
   }
 
   void add_limits() {
@@ -176,6 +182,11 @@ class Flags {
     for (const std::string& origin : settings_.cors_origins) {
       if (const auto fault = origin_fault(origin)) return "--cors-origin: " + *fault;
     }
+    for (const std::string& text : trusted_proxies_) {
+      const auto range = AddressRange::from_text(text);
+      if (!range) return "--trusted-proxy: '" + text + "' is not an address or a range such as 10.0.0.0/8";
+      settings_.trusted_proxies.push_back(*range);
+    }
     if (token_option_->count() == 0) return std::nullopt;
     auto token = AccessToken::from_file(token_file_);
     if (const auto* fault = std::get_if<std::string>(&token)) {
@@ -198,6 +209,7 @@ class Flags {
   std::int64_t drain_ms_ = Settings{}.drain.count();
   std::int64_t drain_delay_ms_ = Settings{}.drain_delay.count();
   int admin_port_ = 0;
+  std::vector<std::string> trusted_proxies_;
   std::string token_file_;
   CLI::Option* token_option_ = nullptr;
   std::string config_;

@@ -9,6 +9,7 @@
 
 #include "api/request/limits.h"
 #include "server/http/steps/access_token.h"
+#include "server/ops/settings/address_range.h"
 
 namespace fleetplan::server {
 
@@ -27,6 +28,7 @@ struct Settings {
   std::chrono::milliseconds drain_delay{0};         // before that: not ready, but serving
   std::optional<AccessToken> token = std::nullopt;  // required for all requests except health and readiness
   std::vector<std::string> cors_origins = {};       // see CrossOrigin
+  std::vector<AddressRange> trusted_proxies = {};   // whose X-Forwarded-For names the client
   std::string log_level = "info";
   std::string web_root;      // empty: no page
   bool healthcheck = false;  // probe the service that runs with these settings instead of serving

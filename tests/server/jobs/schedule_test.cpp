@@ -129,10 +129,10 @@ TEST_F(Schedules, RefuseAJobThatWouldGetItsTurnTooLate) {
   learn(100ms);
   for (int k = 0; k < 5; ++k) asking();
   Job& hopeless = accepted();
-  EXPECT_EQ(schedule.request_turn(hopeless, {Kind::plan, now + 90ms, 1.0, false}, now), Refusal::too_late)
-      << "the running job needs longer";
+  EXPECT_EQ(schedule.request_turn(hopeless, {Kind::plan, now + 390ms, 1.0, false}, now), Refusal::too_late)
+      << "the running job needs 100 ms, and so do jobs like this one";
   Job& urgent = accepted();
-  EXPECT_EQ(schedule.request_turn(urgent, {Kind::plan, now + 400ms, 1.0, false}, now), std::nullopt)
+  EXPECT_EQ(schedule.request_turn(urgent, {Kind::plan, now + 410ms, 1.0, false}, now), std::nullopt)
       << "the others are less urgent";
   Job& patient = accepted();
   EXPECT_EQ(schedule.request_turn(patient, {Kind::plan, now + 2h, 1.0, false}, now), std::nullopt);
@@ -222,6 +222,14 @@ TEST_F(Schedules, KeepPlacesForClientsBelowTheirShare) {
   EXPECT_EQ(refusal_of("greedy"), Refusal::share);
   accepted("other");
   EXPECT_EQ(refusal_of("one more"), Refusal::queue_full);
+}
+
+TEST_F(Schedules, KeepThosePlacesWhenABurstHasTheOthers) {
+  use({1, 3, 6});
+  for (int k = 0; k < 10; ++k) asking(1h, "greedy");
+  EXPECT_EQ(refusal_of("greedy"), Refusal::queue_full);
+  now += 1min;
+  accepted("polite");
 }
 
 TEST_F(Schedules, LetTurnsGoRoundTheClients) {

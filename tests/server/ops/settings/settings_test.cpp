@@ -77,6 +77,7 @@ TEST(Settings, AcceptOriginsRepeatedOrCommaSeparated) {
   const std::vector<std::string> both{"https://a.example", "http://b.example:3000"};
   EXPECT_EQ(settings_of({"--cors-origin", "https://a.example,http://b.example:3000"}).cors_origins, both);
   EXPECT_EQ(settings_of({"--cors-origin", both[0], "--cors-origin", both[1]}).cors_origins, both);
+  EXPECT_EQ(settings_of({"--trusted-proxy", "10.0.0.7,2001:db8::/32"}).trusted_proxies.size(), 2u);
   const Environment origins("FLEETPLAN_CORS_ORIGIN", "https://a.example,http://b.example:3000");
   EXPECT_EQ(settings_of({}).cors_origins, both);
   EXPECT_EQ(settings_of({"--cors-origin", "*"}).cors_origins, std::vector<std::string>{"*"});
@@ -123,6 +124,7 @@ TEST(Settings, RejectBadValuesAndNameTheFlag) {
                                "--admin-port=off",
                                "--auth-token-file=/no/such/file",
                                "--cors-origin=a.example",
+                               "--trusted-proxy=10.0.0.0/40",
                                "--drain-delay-ms=-1",
                                "--config=/no/such/file"}) {
     const auto exit = exit_of({argument});
