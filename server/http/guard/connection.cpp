@@ -59,6 +59,7 @@ void Connection::serve() {
     const UnderWay counted(context_.exchanges);
     Exchange exchange;
     exchange.socket = &socket_;
+    exchange.peer = peer_;
     exchange.memory.emplace(context_.body_memory);
     exchange.begun_at = Clock::now();
     serve_exchange(exchange);
@@ -82,7 +83,7 @@ void Connection::serve_exchange(Exchange& exchange) {
     return;  // the client left before its request was complete
   }
   open_ = open_ && sent.usable;
-  context_.steps.end(exchange, sent.bytes, peer_);
+  context_.steps.end(exchange, sent.bytes);
 }
 
 /// The answer, if it needs no handler.

@@ -2,7 +2,8 @@
 
 // What happens around every handler. In order:
 //
-//   1. request id      and the trace, taken over from the client if they are well formed
+//   1. request id      and the trace, taken over from the client if they are well formed; the client's
+//   address
 //   2. CORS            header fields for pages of other origins
 //   3. route           found by path
 //   4. preflight       204                  answered without a token: browsers send none
@@ -25,6 +26,7 @@
 #include "server/http/answer/answer_text.h"
 #include "server/http/exchange.h"
 #include "server/http/steps/cors.h"
+#include "server/http/steps/trusted_proxies.h"
 #include "server/ops/metrics/metrics.h"
 #include "server/ops/request_log.h"
 #include "server/ops/settings/settings.h"
@@ -45,8 +47,8 @@ class Steps {
   /// 4 to 9: an answer that needs no handler; none when the request may go on.
   std::optional<DirectAnswer> answer_to_head(const Exchange& exchange) const;
 
-  /// 10 and 11, once the answer has been sent. `bytes_out`: of the answer. `peer`: see Socket::peer.
-  void end(Exchange& exchange, std::uint64_t bytes_out, const std::string& peer) const;
+  /// 10 and 11, once the answer has been sent. `bytes_out`: of the answer.
+  void end(Exchange& exchange, std::uint64_t bytes_out) const;
 
  private:
   using Answer = std::optional<DirectAnswer>;
@@ -61,6 +63,7 @@ class Steps {
   const Port port_;
   const Settings& settings_;
   const RouteTable& routes_;
+  const TrustedProxies trusted_proxies_;
   const CrossOrigin& cross_origin_;
   const std::atomic<bool>& draining_;
   Metrics& metrics_;
