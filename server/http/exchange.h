@@ -19,8 +19,6 @@ struct Exchange {
   using Clock = std::chrono::steady_clock;
 
   Socket* socket = nullptr;
-  std::string peer;               // address and port, see Socket::peer
-  std::string client;             // its address alone, or that of the client before trusted proxies
   Clock::time_point begun_at;     // first byte in
   Clock::time_point received_at;  // last byte of the body in
   std::string request_id;

@@ -65,7 +65,6 @@ void RequestLog::request(const RequestRecord& record) const {
   if (record.outcome) add_outcome(line, *record.outcome);
   if (!record.problem.empty()) line.member("code", record.problem);
   line.member("peer", record.peer);
-  if (!record.client.empty()) line.member("client", record.client);
   if (!record.forwarded.empty()) line.member("forwarded", nearest(record.forwarded));
   write(*logger_, level, line);
 }

@@ -31,7 +31,6 @@ struct RequestRecord {
   std::string_view problem;                       // the error's code; empty: none
   std::optional<api::PlanOutcome> outcome = std::nullopt;
   std::string peer;       // address and port of the client, or of the proxy before it
-  std::string client;     // address of the client, also behind trusted proxies
   std::string forwarded;  // the clients that proxies name, as sent; empty: none
   bool admin = false;     // on the admin port
 };

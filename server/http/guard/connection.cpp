@@ -59,7 +59,6 @@ void Connection::serve() {
     const UnderWay counted(context_.exchanges);
     Exchange exchange;
     exchange.socket = &socket_;
-    exchange.peer = peer_;
     exchange.memory.emplace(context_.body_memory);
     exchange.begun_at = Clock::now();
     serve_exchange(exchange);
@@ -83,7 +82,7 @@ void Connection::serve_exchange(Exchange& exchange) {
     return;  // the client left before its request was complete
   }
   open_ = open_ && sent.usable;
-  context_.steps.end(exchange, sent.bytes);
+  context_.steps.end(exchange, sent.bytes, peer_);
 }
 
 /// The answer, if it needs no handler.

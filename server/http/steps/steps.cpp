@@ -17,7 +17,6 @@ Steps::Steps(Port port, const Settings& settings, const RouteTable& routes, cons
     : port_(port),
       settings_(settings),
       routes_(routes),
-      trusted_proxies_(settings.trusted_proxies),
       cross_origin_(cross_origin),
       draining_(draining),
       metrics_(metrics),
@@ -27,7 +26,6 @@ void Steps::begin(Exchange& exchange) const {
   const std::string sent_id = exchange.head.field("x-request-id");
   if (is_well_formed_request_id(sent_id)) exchange.request_id = sent_id;
   exchange.fields = cross_origin_.answer_fields(exchange.head);
-  exchange.client = trusted_proxies_.client_of(exchange.peer, exchange.head.field("x-forwarded-for"));
   const std::string traceparent = exchange.head.field("traceparent");
   if (auto trace_id = trace_id_of(traceparent)) {
     exchange.trace_id = std::move(*trace_id);
@@ -114,7 +112,7 @@ Steps::Answer Steps::draining(const Exchange& exchange) const {
   return refusal(exchange, ErrorCode::draining, "The service is shutting down: try another replica.");
 }
 
-void Steps::end(Exchange& exchange, std::uint64_t bytes_out) const {
+void Steps::end(Exchange& exchange, std::uint64_t bytes_out, const std::string& peer) const {
   if (exchange.abandoned) {
     exchange.status = 499;
     exchange.problem = {};  // no answer was sent
@@ -133,8 +131,7 @@ void Steps::end(Exchange& exchange, std::uint64_t bytes_out) const {
   record.queue_ms = exchange.queue_ms;
   record.problem = exchange.problem;
   record.outcome = exchange.outcome;
-  record.peer = exchange.peer;
-  record.client = exchange.client;
+  record.peer = peer;
   record.forwarded = exchange.head.field("x-forwarded-for");
   record.admin = port_ == Port::admin;
   log_.request(record);

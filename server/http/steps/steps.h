@@ -2,8 +2,7 @@
 
 // What happens around every handler. In order:
 //
-//   1. request id      and the trace, taken over from the client if they are well formed; the client's
-//   address
+//   1. request id      and the trace, taken over from the client if they are well formed
 //   2. CORS            header fields for pages of other origins
 //   3. route           found by path
 //   4. preflight       204                  answered without a token: browsers send none
@@ -26,7 +25,6 @@
 #include "server/http/answer/answer_text.h"
 #include "server/http/exchange.h"
 #include "server/http/steps/cors.h"
-#include "server/http/steps/trusted_proxies.h"
 #include "server/ops/metrics/metrics.h"
 #include "server/ops/request_log.h"
 #include "server/ops/settings/settings.h"
@@ -47,8 +45,8 @@ class Steps {
   /// 4 to 9: an answer that needs no handler; none when the request may go on.
   std::optional<DirectAnswer> answer_to_head(const Exchange& exchange) const;
 
-  /// 10 and 11, once the answer has been sent. `bytes_out`: of the answer.
-  void end(Exchange& exchange, std::uint64_t bytes_out) const;
+  /// 10 and 11, once the answer has been sent. `bytes_out`: of the answer. `peer`: see Socket::peer.
+  void end(Exchange& exchange, std::uint64_t bytes_out, const std::string& peer) const;
 
  private:
   using Answer = std::optional<DirectAnswer>;
@@ -63,7 +61,6 @@ class Steps {
   const Port port_;
   const Settings& settings_;
   const RouteTable& routes_;
-  const TrustedProxies trusted_proxies_;
   const CrossOrigin& cross_origin_;
   const std::atomic<bool>& draining_;
   Metrics& metrics_;

@@ -10,7 +10,6 @@
 
 #include "server/http/static_files.h"
 #include "server/http/steps/cors.h"
-#include "server/http/steps/trusted_proxies.h"
 #include "server/ops/settings/config_file.h"
 #include "server/ops/settings/cpu_count.h"
 #include "server/ops/version.h"
@@ -112,11 +111,6 @@ class Flags {
         ->delimiter(',')
         ->allow_extra_args(false)
         ->default_str("none");
-    add("trusted-proxies", settings_.trusted_proxies,
-        "Addresses and networks of proxies whose X-Forwarded-For is believed, comma-separated or repeated")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->default_str("none");
   }
 
   void add_limits() {
@@ -172,9 +166,6 @@ class Flags {
   std::optional<std::string> finish_access() {
     for (const std::string& origin : settings_.cors_origins) {
       if (const auto fault = origin_fault(origin)) return "--cors-origin: " + *fault;
-    }
-    for (const std::string& network : settings_.trusted_proxies) {
-      if (const auto fault = network_fault(network)) return "--trusted-proxies: " + *fault;
     }
     if (token_option_->count() == 0) return std::nullopt;
     auto token = AccessToken::from_file(token_file_);

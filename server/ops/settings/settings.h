@@ -27,7 +27,6 @@ struct Settings {
   std::chrono::milliseconds drain_delay{0};         // before that: not ready, but serving
   std::optional<AccessToken> token = std::nullopt;  // required for all requests except health and readiness
   std::vector<std::string> cors_origins = {};       // see CrossOrigin
-  std::vector<std::string> trusted_proxies = {};    // see TrustedProxies
   std::string log_level = "info";
   std::string web_root;      // empty: no page
   bool healthcheck = false;  // probe the service that runs with these settings instead of serving

@@ -80,13 +80,6 @@ TEST(Settings, AcceptOriginsRepeatedOrCommaSeparated) {
   EXPECT_EQ(settings_of({"--cors-origin", "*"}).cors_origins, std::vector<std::string>{"*"});
 }
 
-TEST(Settings, ListTrustedProxies) {
-  const std::vector<std::string> both{"10.0.0.0/8", "::1"};
-  EXPECT_EQ(settings_of({"--trusted-proxies", "10.0.0.0/8,::1"}).trusted_proxies, both);
-  const Environment proxies("FLEETPLAN_TRUSTED_PROXIES", "10.0.0.0/8,::1");
-  EXPECT_EQ(settings_of({}).trusted_proxies, both);
-}
-
 TEST(Settings, ComeFromTheEnvironmentUnlessAFlagIsGiven) {
   const Environment port("FLEETPLAN_PORT", "9001");
   const Environment body("FLEETPLAN_MAX_BODY", "4096");
@@ -126,7 +119,6 @@ TEST(Settings, RejectBadValuesAndNameTheFlag) {
                                "--admin-port=off",
                                "--auth-token-file=/no/such/file",
                                "--cors-origin=a.example",
-                               "--trusted-proxies=10.0.0.0/33",
                                "--drain-delay-ms=-1",
                                "--config=/no/such/file"}) {
     const auto exit = exit_of({argument});
