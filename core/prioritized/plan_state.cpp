@@ -1,5 +1,6 @@
 #include "core/prioritized/plan_state.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace fleetplan::core {
@@ -15,12 +16,16 @@ std::vector<double> radii(const Instance& instance) {
   return radii;
 }
 
+const Contacts* contacts(const Instance& instance) {
+  return instance.contacts().empty() ? nullptr : &instance.contacts();
+}
+
 }  // namespace
 
 PlanState::PlanState(const Instance& instance)
     : instance_(instance),
       table_(instance.problem().grid().width(), instance.problem().grid().height(),
-             instance.problem().grid().resolution(), radii(instance)),
+             instance.problem().grid().resolution(), radii(instance), contacts(instance)),
       search_(table_),
       trajectories_(instance.size()),
       search_spaces_(instance.size()) {}
@@ -73,7 +78,9 @@ void PlanState::discard_search_spaces_except(std::size_t robot) {
 
 SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
   SearchSpace& space = search_space(robot);
-  SearchResult result = search_.run(robot, space.vertices, space.cost_to_go, limits, stop);
+  SearchLimits within = limits;
+  within.bound = std::min(limits.bound, instance_.longest_plan(robot));
+  SearchResult result = search_.run(robot, space.vertices, space.cost_to_go, within, stop);
   expansions_ += result.expansions;
   return result;
 }
@@ -86,12 +93,26 @@ SearchResult PlanState::plan_ignoring(const std::vector<std::size_t>& ignored, s
   return result;
 }
 
+bool PlanState::can_leave_start(std::size_t robot) {
+  const Vertices& vertices = search_space(robot).vertices;
+  bool can_leave = false;
+  vertices.for_each_neighbour(vertices.start(), [&](int) { can_leave = true; });
+  return can_leave;
+}
+
 bool PlanState::goal_reachable(std::size_t robot, const StopCondition& stop) {
   if (stop.met()) return true;
   SearchSpace& space = search_space(robot);
   const Vertices& vertices = space.vertices;
   return vertices.start() == vertices.goal() ||
          space.cost_to_go.from(vertices.start(), stop).seconds < kForever;
+}
+
+bool PlanState::takes_too_long(std::size_t robot, const StopCondition& stop) {
+  SearchSpace& space = search_space(robot);
+  const Vertices& vertices = space.vertices;
+  return vertices.start() != vertices.goal() &&
+         space.cost_to_go.from(vertices.start(), stop).seconds >= instance_.longest_plan(robot);
 }
 
 Trajectory PlanState::plan_alone(std::size_t robot, const StopCondition& stop) {

@@ -44,8 +44,12 @@ class PlanState {
   SearchResult plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,
                              const SearchLimits& limits, const StopCondition& stop);
 
+  /// Whether obstacles allow the robot a move from its start.
+  bool can_leave_start(std::size_t robot);
   /// Whether the static map has a path to the robot's goal; true if `stop` is met before that is known.
   bool goal_reachable(std::size_t robot, const StopCondition& stop);
+  /// Whether the way to the robot's goal, alone on the map, takes longer than any plan may.
+  bool takes_too_long(std::size_t robot, const StopCondition& stop);
   /// The trajectory of the robot alone on the map; it stays at its start if there is none.
   Trajectory plan_alone(std::size_t robot, const StopCondition& stop);
 

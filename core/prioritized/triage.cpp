@@ -58,22 +58,21 @@ class Triage {
 
   void check_start(std::size_t i) {
     if (stays_[i]) return;
-    const Position& start = instance_.robot(i).start.position;
-    if (!instance_.sight().disk_fits(start, instance_.motion(i).radius)) {
-      return give_up(i, Reason::start_blocked,
-                     "The inflated robot does not fit between the obstacles at its start.");
+    if (!instance_.fits_at_start(i) && !state_.can_leave_start(i)) {
+      return give_up(
+          i, Reason::start_blocked,
+          "The inflated robot does not fit between the obstacles at its start, and no straight move "
+          "leads from there to where it fits.");
     }
-    auto overlapping =
-        others(i, [&](std::size_t j) { return overlap(i, start, j, instance_.robot(j).start.position); });
-    if (overlapping.empty()) return;
-    give_up(i, Reason::start_blocked, "The inflated robot overlaps another one at its start.",
-            std::move(overlapping));
+    if (!instance_.contacts().too_many(i)) return;
+    give_up(i, Reason::start_blocked, "The inflated robot overlaps too many others at its start to leave it.",
+            instance_.contacts().at_start(i));
   }
 
   void check_goal(std::size_t i) {
     if (stays_[i]) return;
     const Position& goal = instance_.robot(i).goal->position;
-    if (!instance_.sight().disk_fits(goal, instance_.motion(i).radius)) {
+    if (!instance_.fits_at_goal(i)) {
       return give_up(i, Reason::goal_blocked,
                      "The inflated robot does not fit between the obstacles at its goal.");
     }
@@ -87,7 +86,15 @@ class Triage {
   }
 
   void check_path(std::size_t i) {
-    if (stays_[i] || state_.goal_reachable(i, stop_)) return;
+    if (stays_[i]) return;
+    if (state_.goal_reachable(i, stop_)) {
+      if (!stop_.met() && state_.takes_too_long(i, stop_)) {
+        give_up(
+            i, Reason::goal_unreachable,
+            "The way to the goal takes longer than the longest plan: 1e8 s, or 1e9 m at the robot's speed.");
+      }
+      return;
+    }
     give_up(i, Reason::goal_unreachable,
             "No way leads from the start to the goal that is wide enough for the robot.");
   }
