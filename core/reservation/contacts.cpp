@@ -64,6 +64,7 @@ void Contacts::compare(const Point& a, const Point& b) {
 }
 
 void Contacts::add(std::size_t robot, const Contact& contact) {
+  if (too_many_[robot]) return;
   std::vector<Contact>& all = contacts_[robot];
   const auto known =
       std::find_if(all.begin(), all.end(), [&](const Contact& c) { return c.other == contact.other; });

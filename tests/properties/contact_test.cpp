@@ -109,7 +109,6 @@ PlannedFleet random_planned_fleet(Dice& dice) {
   while (true) {
     Problem problem = support::random_problem(dice, 2 + dice.below(6));
     PlanOptions options = support::random_options(dice, problem);
-    options.mode = PlanOptions::Mode::first;
     options.reordering = PlanOptions::Reordering::raise_failed;
     options.any_angle = true;
     Plan plan = planned(problem, options);
@@ -119,18 +118,21 @@ PlannedFleet random_planned_fleet(Dice& dice) {
 
 class Replanning : public testing::TestWithParam<int> {};
 
-TEST_P(Replanning, FromAnyMomentOfAPlanGivesAPlan) {
+TEST_P(Replanning, FromAnyMomentOfAPlanGivesAPlanAgainAndAgain) {
   SCOPED_TRACE(testing::Message() << "seed " << GetParam());
   Dice dice(static_cast<std::uint64_t>(GetParam()));
-  const PlannedFleet fleet = random_planned_fleet(dice);
+  PlannedFleet fleet = random_planned_fleet(dice);
   const Position origin = dice.chance(0.5) ? Position(0.0, 0.0) : Position(691'234.567, 5'334'999.789);
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < 6; ++k) {
     const double t = random_moment(dice, fleet.plan);
     const std::vector<Robot> robots = robots_at(fleet.problem, fleet.plan, t, origin);
     const auto problem = problem_of(fleet.problem.grid(), robots);
     ASSERT_TRUE(problem) << "at t = " << t << " the poses of the plan are not accepted";
-    const Plan plan = planned(*problem, fleet.options);
-    if (plan.unplanned.empty()) continue;
+    Plan plan = planned(*problem, fleet.options);
+    if (plan.unplanned.empty()) {
+      fleet = {*problem, fleet.options, std::move(plan)};
+      continue;
+    }
     // Robots that are a micrometre smaller are not in contact: what they cannot do has other reasons.
     std::vector<Robot> smaller = robots;
     for (Robot& robot : smaller) robot.radius -= 1e-6;
@@ -230,7 +232,10 @@ TEST_P(Contact, WithWallsStartsAndGoalsCanBeLeftAndReached) {
   SCOPED_TRACE(testing::Message() << "seed " << GetParam());
   Dice dice(static_cast<std::uint64_t>(GetParam()));
   const Problem problem = contact_problem(dice, -4.9e-7, 0.0, 0.0);
-  const Plan plan = planned(problem, {});
+  PlanOptions options;
+  options.mode = dice.chance(0.5) ? PlanOptions::Mode::anytime : PlanOptions::Mode::first;
+  options.max_iterations = 5;
+  const Plan plan = planned(problem, options);
   EXPECT_TRUE(plan.unplanned.empty()) << reasons(plan);
 }
 
