@@ -69,12 +69,23 @@ Position in_world(const Position& position, const Position& origin) {
   return world - origin;
 }
 
-/// A moment of the plan; half of them are the beginning or end of an action, where robots wait for each
-/// other.
-double random_moment(Dice& dice, const Plan& plan) {
-  const auto& robot = plan.plans[static_cast<std::size_t>(dice.below(static_cast<int>(plan.plans.size())))];
-  if (robot.actions.empty() || dice.chance(0.5)) return dice.between(0.0, plan.objectives.makespan);
-  return robot.actions[static_cast<std::size_t>(dice.below(static_cast<int>(robot.actions.size())))].t_end;
+/// Moments at which inflated robots are in contact with each other or with walls.
+std::vector<double> contact_moments(const Problem& problem, const PlanOptions& options, const Plan& plan) {
+  std::vector<Robot> larger = problem.robots();
+  for (Robot& robot : larger) robot.radius += options.inflation + 1e-7;
+  std::vector<double> moments;
+  for (const Violation& contact : verify(problem.grid(), larger, plan.plans, 0.0).violations) {
+    const bool of_robots = contact.kind == Violation::Kind::robot_collision;
+    if (of_robots || contact.kind == Violation::Kind::obstacle_collision) moments.push_back(contact.t);
+  }
+  return moments;
+}
+
+/// A moment of contact, if there is any, or any other.
+double random_moment(Dice& dice, const Problem& problem, const PlanOptions& options, const Plan& plan) {
+  const std::vector<double> contacts = contact_moments(problem, options, plan);
+  if (contacts.empty() || dice.chance(0.3)) return dice.between(0.0, plan.objectives.makespan);
+  return contacts[static_cast<std::size_t>(dice.below(static_cast<int>(contacts.size())))];
 }
 
 std::vector<Robot> robots_at(const Problem& problem, const Plan& plan, double t, const Position& origin) {
@@ -124,7 +135,7 @@ TEST_P(Replanning, FromAnyMomentOfAPlanGivesAPlanAgainAndAgain) {
   PlannedFleet fleet = random_planned_fleet(dice);
   const Position origin = dice.chance(0.5) ? Position(0.0, 0.0) : Position(691'234.567, 5'334'999.789);
   for (int k = 0; k < 6; ++k) {
-    const double t = random_moment(dice, fleet.plan);
+    const double t = random_moment(dice, fleet.problem, fleet.options, fleet.plan);
     const std::vector<Robot> robots = robots_at(fleet.problem, fleet.plan, t, origin);
     const auto problem = problem_of(fleet.problem.grid(), robots);
     ASSERT_TRUE(problem) << "at t = " << t << " the poses of the plan are not accepted";
