@@ -11,6 +11,7 @@
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
 #include "core/motion.h"
+#include "core/reservation/contacts.h"
 
 namespace fleetplan::core {
 
@@ -27,6 +28,17 @@ class Instance {
   const Motion& motion(std::size_t index) const { return motions_[index]; }
   const Lattice& lattice() const { return lattice_; }
   const LineOfSight& sight() const { return sight_; }
+  /// The pairs of robots that begin or end too near to each other.
+  const Contacts& contacts() const { return contacts_; }
+  /// The largest disk of the robot, inflated or not, that fits at its start and its goal: its radius, or less
+  /// where a wall is nearer. At the goal, only contact is allowed for.
+  double radius_at_start(std::size_t index) const;
+  double radius_at_goal(std::size_t index) const;
+  /// No plan of the robot takes so long, seconds.
+  double longest_plan(std::size_t index) const;
+  bool fits_at_start(std::size_t index) const;
+  /// Whether the robot's disk fits, or is in contact with a wall.
+  bool fits_at_goal(std::size_t index) const;
   /// The static moves of robots of this robot's radius.
   StaticMoves& moves(std::size_t index) const { return *moves_[index]; }
 
@@ -36,6 +48,7 @@ class Instance {
   Lattice lattice_;
   LineOfSight sight_;
   std::vector<Motion> motions_;
+  Contacts contacts_;
   std::unordered_map<double, std::unique_ptr<StaticMoves>> moves_by_radius_;
   std::vector<StaticMoves*> moves_;  // by robot
 };

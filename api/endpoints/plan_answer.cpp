@@ -1,31 +1,15 @@
 #include "api/endpoints/plan_answer.h"
 
-#include <algorithm>
 #include <chrono>
-#include <limits>
 #include <utility>
 
 #include "api/response/error.h"
-#include "core/geometry/tolerance.h"
+#include "core/verify/tolerances.h"
 #include "core/verify/verify.h"
 
 namespace fleetplan::api {
 
 namespace {
-
-/// How far off a plan may be: twice the contact that is allowed, as the search and the checker round in
-/// different ways, and what doubles lose in coordinates of the map's size and times as long as the plan's
-/// (64 ulp, as both add up many numbers).
-double check_tolerance(const core::Problem& problem, const core::Plan& plan) {
-  double fastest = 0.0;
-  for (const core::Robot& robot : problem.robots()) {
-    fastest = std::max({fastest, robot.linear_speed, robot.angular_speed});
-  }
-  const double extent = std::max(problem.grid().width(), problem.grid().height());
-  const double horizon = plan.objectives.makespan * std::max(1.0, fastest);
-  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
-  return 2.0 * core::kContactTolerance + kRounding * std::max(extent, horizon);
-}
 
 /// The 500 for a plan that the checker rejects.
 Reply rejected(PlanOutcome outcome, const core::VerifyReport& report, const std::string& request_id) {
@@ -45,8 +29,9 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
                   Stages stages) {
   stages.planned = Stages::Clock::now();
   const auto& robots = request.problem.robots();
-  const auto report =
-      core::verify(request.problem.grid(), robots, plan.plans, check_tolerance(request.problem, plan));
+  const core::OccupancyGrid& grid = request.problem.grid();
+  const auto tolerances = core::plan_tolerances(grid, robots, plan.plans);
+  const auto report = *core::verify(grid, robots, plan.plans, tolerances, core::StopCondition());
   stages.verified = Stages::Clock::now();
   const PlanOutcome outcome =
       outcome_of(plan, std::chrono::duration<double>(stages.planned - stages.started).count());

@@ -65,8 +65,9 @@ constexpr std::array<OptionRow, 12> kTable{{
      RealOption{kDuration, &PlanOptions::start_safe_interval},
      "Seconds for which the starts of robots that are not planned yet are kept free."},
     {"inflation", "Inflation", "m", RealOption{kLengthOrZero, &PlanOptions::inflation},
-     "Metres added to every radius during planning. A robot that fits only without the inflation stays "
-     "unplanned."},
+     "Metres added to every radius during planning. A robot that is too near to others at its start may "
+     "leave, "
+     "but comes no nearer; one that fits its goal only without the inflation stays unplanned."},
     {"wait_before_move", "Wait before a move", "s", RealOption{kDuration, &PlanOptions::wait_before_move},
      "Seconds that a robot stands still before every translation, already turned."},
     {"any_angle", "Any angle", "", BooleanOption{&PlanOptions::any_angle},

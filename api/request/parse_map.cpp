@@ -91,6 +91,19 @@ core::OccupancyGrid draw(const std::vector<std::string_view>& rows, double resol
   return grid;
 }
 
+/// Reports a map that is larger than the ranges of coordinates and speeds are made for.
+void check_extent(const JsonReader& map, const JsonReader& rows, std::size_t columns, std::size_t lines,
+                  double resolution) {
+  const double width = static_cast<double>(columns) * resolution;
+  const double height = static_cast<double>(lines) * resolution;
+  if (width <= kLargestExtent && height <= kLargestExtent) return;
+  const JsonReader given = map.find("resolution");
+  (given ? given : rows)
+      .fault(fault::kOutOfRange, "The map is " + number_text(width) + " m x " + number_text(height) +
+                                     " m; it must be at most " + number_text(kLargestExtent) +
+                                     " m in each direction. Use a smaller resolution or a part of the map.");
+}
+
 WorldFrame parse_origin(const JsonReader& member) {
   const JsonReader origin = member.object(kOriginMembers);
   const double x = origin.require("x").number(kCoordinate).value_or(0.0);
@@ -107,6 +120,7 @@ std::optional<WorldMap> parse_map(const JsonReader& member, std::int64_t max_cel
   const WorldFrame frame = parse_origin(map.find("origin"));
   const JsonReader rows = map.require("rows", "; give one string for each row, the top one first");
   const auto lines = parse_rows(rows, max_cells);
+  if (lines) check_extent(map, rows, lines->front().size(), lines->size(), resolution);
   if (!lines || member.fault_count() != before) return std::nullopt;
   return WorldMap{draw(*lines, resolution), frame};
 }

@@ -22,8 +22,8 @@ constexpr std::array<std::string_view, 5> kActionMembers{"type", "t_start", "t_e
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
 constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};  // as in core::Action::Type
 
-// Any finite time: a plan that begins before 0 is a violation to report, not a fault of the request.
-constexpr Range kTime{-1e30, 1e30, "seconds"};
+// A plan that begins before 0 is a violation to report, not a fault of the request.
+constexpr Range kTime{-kLongestTime, kLongestTime, "seconds"};
 
 core::Pose parse_pose(const JsonReader& member, const WorldFrame& frame) {
   const JsonReader pose = member.object(kPoseMembers);

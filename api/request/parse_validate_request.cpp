@@ -8,6 +8,7 @@
 #include "api/request/parse_body.h"
 #include "api/request/parse_plans.h"
 #include "api/request/ranges.h"
+#include "core/verify/tolerances.h"
 
 namespace fleetplan::api {
 
@@ -19,8 +20,9 @@ constexpr std::array<std::string_view, 18> kMembers{
     "status",   "request_id",     "unplanned",     "flowtime", "makespan",   "lower_bound",
     "verified", "min_clearance",  "deterministic", "search",   "timings_ms", "warnings"};
 
-constexpr double kDefaultTolerance = 1e-6;  // metres, seconds, radians; allows for rounded decimals
-constexpr Range kTolerance{0.0, kLargest, "(metres, seconds and radians)"};
+constexpr double kDefaultTolerance = core::kMostTolerance;  // metres, seconds, radians
+constexpr double kLargestTolerance = 1e9;
+constexpr Range kTolerance{0.0, kLargestTolerance, "(metres, seconds and radians)"};
 
 /// At least the default budget: the options may be those of the plan's request, which allowed less.
 std::chrono::nanoseconds check_budget(ReadOptions options, const Limits& limits) {

@@ -6,16 +6,18 @@
 
 namespace fleetplan::api {
 
-// Lengths, speeds and coordinates beyond a million kilometres or below an atom are mistakes; with these
-// bounds no computation of the core overflows.
-inline constexpr double kSmallest = 1e-9;
-inline constexpr double kLargest = 1e9;
-inline constexpr Range kLength{kSmallest, kLargest, "metres"};
-inline constexpr Range kLengthOrZero{0.0, kLargest, "metres"};
-inline constexpr Range kCoordinate{-kLargest, kLargest, "metres"};
-inline constexpr Range kLinearSpeed{kSmallest, kLargest, "metres per second"};
-inline constexpr Range kAngularSpeed{kSmallest, kLargest, "radians per second"};
-inline constexpr Range kDuration{0.0, kLargest, "seconds"};
+// What real fleets stay in. Within these ranges the planner and its check keep positions to far less than a
+// micrometre, whatever the numbers of other robots (docs/method.md, Tolerances).
+inline constexpr double kShortestLength = 1e-4;     // metres; 200 times the contact tolerance
+inline constexpr double kLargestExtent = 1e6;       // metres; of a map, and so of a robot
+inline constexpr double kFarthestCoordinate = 1e9;  // metres; doubles are a tenth of a micrometre apart there
+inline constexpr double kLongestTime = 1e8;         // seconds, three years
+inline constexpr Range kLength{kShortestLength, kLargestExtent, "metres"};
+inline constexpr Range kLengthOrZero{0.0, kLargestExtent, "metres"};
+inline constexpr Range kCoordinate{-kFarthestCoordinate, kFarthestCoordinate, "metres"};
+inline constexpr Range kLinearSpeed{1e-3, 1e3, "metres per second"};
+inline constexpr Range kAngularSpeed{1e-3, 1e6, "radians per second"};
+inline constexpr Range kDuration{0.0, kLongestTime, "seconds"};
 inline constexpr Range kAnyAngle{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
                                  "radians"};
 

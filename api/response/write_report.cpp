@@ -1,7 +1,6 @@
 #include "api/response/write_report.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 
 #include "api/json/json_writer.h"
@@ -34,8 +33,10 @@ std::string_view name_of(core::Violation::Kind kind) {
 }  // namespace
 
 std::optional<double> reported_clearance(const core::VerifyReport& report) {
-  const bool contact = report.min_clearance && std::abs(*report.min_clearance) <= core::kContactTolerance;
-  return contact ? 0.0 : report.min_clearance;
+  if (!report.min_clearance) return std::nullopt;
+  const bool contact = *report.min_clearance >= -core::kContactTolerance &&
+                       *report.min_clearance <= core::kSamePosition;
+  return contact ? 0.0 : *report.min_clearance;
 }
 
 std::string write_report(const core::VerifyReport& report, const std::vector<core::Robot>& robots) {

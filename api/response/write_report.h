@@ -9,7 +9,8 @@
 
 namespace fleetplan::api {
 
-/// The smallest clearance as answers report it, metres: contact, to within kContactTolerance, is 0.
+/// The smallest clearance as answers report it, metres: contact, an overlap of at most kContactTolerance, is
+/// 0.
 std::optional<double> reported_clearance(const core::VerifyReport& report);
 
 /// The answer of POST /v1/validate. It contains at most the first thousand violations, with

@@ -9,14 +9,14 @@ namespace fleetplan::core {
 double straight_cost(const Pose& from, const Goal& goal, const Motion& motion) {
   const Position d = goal.position - from.position;
   const double distance = d.norm();
-  if (distance <= kContactTolerance) return goal.theta ? motion.rotation_time(from.theta, *goal.theta) : 0.0;
+  if (distance <= kSamePosition) return goal.theta ? motion.rotation_time(from.theta, *goal.theta) : 0.0;
   const double heading = std::atan2(d.y(), d.x());
   const double last = goal.theta ? motion.rotation_time(heading, *goal.theta) : 0.0;
   return motion.rotation_time(from.theta, heading) + motion.translation_time(distance) + last;
 }
 
 double lower_bound(const Robot& robot, const Motion& motion) {
-  const bool stays = (robot.goal->position - robot.start.position).norm() <= kContactTolerance;
+  const bool stays = (robot.goal->position - robot.start.position).norm() <= kSamePosition;
   return straight_cost(robot.start, *robot.goal, motion) + (stays ? 0.0 : motion.wait_before_move);
 }
 

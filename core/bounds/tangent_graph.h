@@ -20,7 +20,7 @@ namespace fleetplan::core {
 /// disk that is in contact with obstacles is missed.
 class TangentGraph {
  public:
-  /// Metres by which the disk is smaller than the robot; a hundred times what plans may overlap obstacles, so
+  /// Metres by which the disk is smaller than the robot; 200 times the slack of the search, so
   /// that neither that nor rounding makes a path of the robot impossible for the disk.
   static constexpr double kRadiusReduction = 1e-7;
 

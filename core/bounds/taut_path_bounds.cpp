@@ -23,6 +23,11 @@ bool sees_goal(const Instance& instance, std::size_t robot, double radius) {
                                     instance.robot(robot).goal->position, radius);
 }
 
+/// Whether the robot's disk is clear of obstacles at both ends. Elsewhere it always is.
+bool fits_at_ends(const Instance& instance, std::size_t robot) {
+  return instance.fits_at_start(robot) && instance.radius_at_goal(robot) == instance.motion(robot).radius;
+}
+
 }  // namespace
 
 TautPathBounds::TautPathBounds(const Instance& instance, const std::vector<std::size_t>& robots,
@@ -32,7 +37,7 @@ TautPathBounds::TautPathBounds(const Instance& instance, const std::vector<std::
   for (const std::size_t robot : robots) {
     seconds_[robot] = lower_bound(instance.robot(robot), instance.motion(robot));
     const double reduced = instance.motion(robot).radius - 2.0 * TangentGraph::kRadiusReduction;
-    if (reduced <= 0.0 || sees_goal(instance, robot, reduced)) continue;
+    if (reduced <= 0.0 || sees_goal(instance, robot, reduced) || !fits_at_ends(instance, robot)) continue;
     out_of_sight[instance.motion(robot).radius].push_back(robot);
   }
   if (out_of_sight.empty()) return;

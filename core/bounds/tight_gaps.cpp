@@ -14,7 +14,7 @@ namespace {
 /// move, the goal is in sight, and no taut path is needed.)
 constexpr double kMaxDeviation = 0.1;
 /// The play that contact with the walls leaves to a disk that just fits, metres.
-constexpr double kPlay = 4.0 * kContactTolerance;
+constexpr double kPlay = 8.0 * kSearchSlack;
 /// A tangent in a tight gap is so close to a grid line, in cells and radians; far more than the reduction of
 /// the disk's radius causes.
 constexpr double kOnLine = 1e-3;

@@ -3,12 +3,24 @@
 namespace fleetplan::core {
 
 /// Two disks, or a disk and a wall, that overlap by no more than this are in contact, and contact is allowed
-/// (metres). The API guarantees it; it is wide enough for coordinates that went through decimal text.
-inline constexpr double kContactTolerance = 1e-9;
+/// (metres). Requests may start and end in contact, the search plans from and to such poses, and the check of
+/// a plan accepts them. It is wide enough for the poses of plans that went through decimal text and world
+/// coordinates: at 1e9 m, doubles are 1.2e-7 m apart.
+inline constexpr double kContactTolerance = 5e-7;
 
-/// What the search subtracts from every required distance (metres): half of the contact tolerance, so that
-/// neither its own rounding (about 1e-12) nor that of a start in contact with a neighbour has any effect.
-inline constexpr double kSearchSlack = 0.5 * kContactTolerance;
+/// What the search subtracts from every required distance (metres), so that its own rounding (about 1e-12)
+/// has no effect. Far below the contact tolerance, so that poses of plans stay within it.
+inline constexpr double kSearchSlack = 5e-10;
+
+/// Positions that differ by less are the same (metres): decimal text of the centre of a cell.
+inline constexpr double kSamePosition = 1e-9;
+
+/// No plan takes longer (seconds): three years.
+inline constexpr double kLongestPlan = 1e8;
+
+/// No robot is on its way for longer than it needs for this distance (metres). So rounding of times, half of
+/// 1.2e-7 m at full speed, stays below the contact tolerance.
+inline constexpr double kLongestTravel = 1e9;
 
 /// Directions that differ by less are the same (radians): far above rounding, far below a visible bend.
 inline constexpr double kSameHeading = 1e-12;

@@ -58,7 +58,7 @@ int Lattice::vertex_at(const Position& position) const {
   const int row = static_cast<int>(std::floor(position.y() / spacing_));
   if (column < 0 || column >= columns_ || row < 0 || row >= rows_) return -1;
   const int candidate = vertex(column, row);
-  return (this->position(candidate) - position).norm() <= kContactTolerance ? candidate : -1;
+  return (this->position(candidate) - position).norm() <= kSamePosition ? candidate : -1;
 }
 
 std::vector<int> Lattice::vertices_near(const Position& position, double distance) const {

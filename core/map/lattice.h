@@ -61,8 +61,13 @@ class Lattice {
     if (rows < 0) d.heading = -d.heading;
     return d;
   }
-  /// The vertex within kContactTolerance of a position, or -1.
+  /// The vertex within kSamePosition of a position, or -1.
   int vertex_at(const Position& position) const;
+  /// The position of the vertex at a position, or the position itself if there is none.
+  Position snapped(const Position& position) const {
+    const int vertex = vertex_at(position);
+    return vertex >= 0 ? this->position(vertex) : position;
+  }
   /// Vertices within `distance` metres of a position, ascending.
   std::vector<int> vertices_near(const Position& position, double distance) const;
 

@@ -64,6 +64,19 @@ bool LineOfSight::may_sweep(const Position& from, const Position& to, double rad
   return free_of_cells(capsule);
 }
 
+double LineOfSight::fitting_radius(const Position& center, double least, double most) const {
+  constexpr double kPrecision = 1e-12;
+  if (disk_fits(center, most)) return most;
+  double fits = least;
+  double too_large = most;
+  while (too_large - fits > kPrecision) {
+    const double middle = 0.5 * (fits + too_large);
+    if (middle <= fits || middle >= too_large) break;  // neighbouring doubles
+    (disk_fits(center, middle) ? fits : too_large) = middle;
+  }
+  return fits;
+}
+
 bool LineOfSight::free_of_cells(const Capsule& capsule) const {
   const auto [low, high] = std::minmax(capsule.from.y(), capsule.to.y());
   const int column_min = std::max(0, floor_int(capsule.from.x() - capsule.radius));

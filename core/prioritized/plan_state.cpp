@@ -31,12 +31,16 @@ std::vector<double> radii(const Instance& instance) {
   return radii;
 }
 
+const Contacts* contacts(const Instance& instance) {
+  return instance.contacts().empty() ? nullptr : &instance.contacts();
+}
+
 }  // namespace
 
 PlanState::PlanState(const Instance& instance)
     : instance_(instance),
       table_(instance.problem().grid().width(), instance.problem().grid().height(),
-             instance.problem().grid().resolution(), radii(instance)),
+             instance.problem().grid().resolution(), radii(instance), contacts(instance)),
       search_(table_),
       trajectories_(instance.size()),
       search_spaces_(instance.size()),
@@ -152,7 +156,9 @@ SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, co
     if (way.kind == Way::Kind::unknown) return no_memory;
     if (way.none()) return {};
     SearchSpace& space = search_space(robot);
-    return search_.run(robot, space.vertices, space.cost_to_go, limits, stop);
+    SearchLimits within = limits;
+    within.bound = std::min(limits.bound, instance_.longest_plan(robot));
+    return search_.run(robot, space.vertices, space.cost_to_go, within, stop);
   });
   expansions_ += result.expansions;
   return result;
@@ -172,6 +178,15 @@ SearchResult PlanState::plan_ignoring(const std::vector<std::size_t>& ignored, s
   SearchResult result = all_move ? plan(robot, limits, stop) : search(robot, limits, stop);
   for (const std::size_t other : ignored) table_.ignore(other, false);
   return result;
+}
+
+bool PlanState::can_leave_start(std::size_t robot) {
+  return within_memory(true, [&] {
+    const Vertices& vertices = search_space(robot).vertices;
+    bool can_leave = false;
+    vertices.for_each_neighbour(vertices.start(), [&](int) { can_leave = true; });
+    return can_leave;
+  });
 }
 
 const Way& PlanState::way_to_goal(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop) {
@@ -222,6 +237,15 @@ bool PlanState::test_enclosure(std::size_t robot, std::int64_t max_steps) {
   if (!result.robots.empty()) closed_by_robots_.push_back(robot);
   ways_[robot] = {Way::Kind::closed, std::move(result.robots)};
   return true;
+}
+
+bool PlanState::takes_too_long(std::size_t robot, const StopCondition& stop) {
+  return within_memory(false, [&] {
+    SearchSpace& space = search_space(robot);
+    const Vertices& vertices = space.vertices;
+    return vertices.start() != vertices.goal() &&
+           space.cost_to_go.from(vertices.start(), stop).seconds >= instance_.longest_plan(robot);
+  });
 }
 
 Trajectory PlanState::plan_alone(std::size_t robot, const StopCondition& stop) {

@@ -60,6 +60,8 @@ class PlanState {
   SearchResult plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,
                              const SearchLimits& limits, const StopCondition& stop);
 
+  /// Whether obstacles allow the robot a move from its start.
+  bool can_leave_start(std::size_t robot);
   /// Whether the robot has a way to its goal past obstacles and the robots that stay; unknown if `stop` is
   /// met first, or if that takes more than `max_expansions` expansions of a search on the map.
   const Way& way_to_goal(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
@@ -67,6 +69,8 @@ class PlanState {
   const Way& way_to_goal(std::size_t robot) const { return ways_[robot]; }
   /// Expansions of searches on the map, for estimates of the cost to the goal.
   std::int64_t map_expansions() const { return map_expansions_; }
+  /// Whether the way to the robot's goal, alone on the map, takes longer than any plan may.
+  bool takes_too_long(std::size_t robot, const StopCondition& stop);
   /// The trajectory of the robot alone on the map; it stays at its start if there is none.
   Trajectory plan_alone(std::size_t robot, const StopCondition& stop);
 

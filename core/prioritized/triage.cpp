@@ -65,20 +65,20 @@ class Triage {
   }
 
   void check_start(std::size_t i) {
-    const Position& start = instance_.robot(i).start.position;
-    if (!instance_.sight().disk_fits(start, instance_.motion(i).radius)) {
-      return give_up(i, Reason::start_blocked,
-                     "The inflated robot does not fit between the obstacles at its start.");
+    if (!instance_.fits_at_start(i) && !state_.can_leave_start(i)) {
+      return give_up(
+          i, Reason::start_blocked,
+          "The inflated robot does not fit between the obstacles at its start, and no straight move "
+          "leads from there to where it fits.");
     }
-    auto others = starts_.overlapping(i, start);
-    if (others.empty()) return;
-    give_up(i, Reason::start_blocked, "The inflated robot overlaps another one at its start.",
-            std::move(others));
+    if (!instance_.contacts().too_many(i)) return;
+    give_up(i, Reason::start_blocked, "The inflated robot overlaps too many others at its start to leave it.",
+            instance_.contacts().at_start(i));
   }
 
   void check_goal(std::size_t i) {
     const Position& goal = instance_.robot(i).goal->position;
-    if (!instance_.sight().disk_fits(goal, instance_.motion(i).radius)) {
+    if (!instance_.fits_at_goal(i)) {
       return give_up(i, Reason::goal_blocked,
                      "The inflated robot does not fit between the obstacles at its goal.");
     }
@@ -93,7 +93,12 @@ class Triage {
     const std::int64_t left = kMaxExpansions - state_.map_expansions();
     if (left <= 0) return;
     const Way& way = state_.way_to_goal(i, left, stop_);
-    if (way.none()) give_up_without_way(i, way);
+    if (way.none()) return give_up_without_way(i, way);
+    if (way.kind == Way::Kind::on_lattice && !stop_.met() && state_.takes_too_long(i, stop_)) {
+      give_up(
+          i, Reason::goal_unreachable,
+          "The way to the goal takes longer than the longest plan: 1e8 s, or 1e9 m at the robot's speed.");
+    }
   }
 
   void give_up_without_way(std::size_t i, const Way& way) {

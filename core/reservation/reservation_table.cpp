@@ -16,15 +16,32 @@ constexpr double kShortestSafeInterval = 1e-9;
 
 using Occupant = SegmentIndex::Occupant;
 
-/// The distance of the centres below which a robot of this radius collides with the other one.
-double collision_distance(double radius, const Occupant& other) {
-  return radius + other.radius - kSearchSlack;
-}
+/// The distance of the centres below which a robot on a straight path, or standing, collides with others.
+class CollisionDistance {
+ public:
+  CollisionDistance(const SegmentIndex& index, std::size_t robot, const Segment& path)
+      : robot_(robot), radius_(index.radius(robot)), contacts_(index.contacts()) {
+    if (contacts_ != nullptr) endpoint_ = contacts_->endpoint(robot, path);
+  }
+
+  double operator()(const Occupant& other) const {
+    const double full = radius_ + other.radius - kSearchSlack;
+    if (endpoint_ == Endpoint::none) return full;
+    return contacts_->distance(robot_, endpoint_, other.robot, other.endpoint, full);
+  }
+
+ private:
+  std::size_t robot_;
+  double radius_;
+  const Contacts* contacts_;
+  Endpoint endpoint_ = Endpoint::none;
+};
 
 }  // namespace
 
-ReservationTable::ReservationTable(double width, double height, double cell_size, std::vector<double> radii)
-    : index_(std::make_unique<SegmentIndex>(width, height, cell_size, std::move(radii))) {}
+ReservationTable::ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
+                                   const Contacts* contacts)
+    : index_(std::make_unique<SegmentIndex>(width, height, cell_size, std::move(radii), contacts)) {}
 
 ReservationTable::~ReservationTable() = default;
 
@@ -39,9 +56,9 @@ void ReservationTable::ignore(std::size_t robot, bool ignored) { index_->ignore(
 std::vector<SafeInterval> ReservationTable::safe_intervals(std::size_t robot,
                                                            const Position& position) const {
   std::vector<UnsafeInterval> unsafe;
-  const double radius = index_->radius(robot);
+  const CollisionDistance collision_distance(*index_, robot, {position, position});
   index_->visit(robot, index_->grid().at(position), -1.0, kForever, [&](const Occupant& other) {
-    const UnsafeInterval hit = unsafe_interval(position, other.disk, collision_distance(radius, other));
+    const UnsafeInterval hit = unsafe_interval(position, other.disk, collision_distance(other));
     if (!hit.empty()) unsafe.push_back(hit);
     return true;
   });
@@ -60,7 +77,7 @@ std::optional<double> ReservationTable::earliest_departure(std::size_t robot, co
                                                            double duration, double t_min,
                                                            double t_max) const {
   const SegmentIndex& index = *index_;
-  const double radius = index.radius(robot);
+  const CollisionDistance collision_distance(index, robot, path);
   MovingDisk mine;
   mine.from = path.from;
   mine.velocity = (path.to - path.from) / duration;
@@ -69,7 +86,7 @@ std::optional<double> ReservationTable::earliest_departure(std::size_t robot, co
   bool never = false;
   bool delayed = true;
   const auto delay_past = [&](const Occupant& other) {  // false: delayed, visit the same bucket again
-    const double distance = collision_distance(radius, other);
+    const double distance = collision_distance(other);
     if (!collide(mine, other.disk, distance)) return true;
     if (other.disk.t_end == kForever) {  // a later departure meets it as well
       never = true;
@@ -100,21 +117,21 @@ std::optional<double> ReservationTable::earliest_departure(std::size_t robot, co
 std::vector<std::size_t> ReservationTable::robots_hit(std::size_t robot,
                                                       const std::vector<TimedSegment>& segments) const {
   std::vector<std::size_t> hit;
-  const double radius = index_->radius(robot);
   for (const TimedSegment& segment : segments) {
+    const CollisionDistance collision_distance(*index_, robot, segment.path);
     const MovingDisk mine(segment);
     const bool moving = mine.velocity.squaredNorm() > 0.0;
     const double duration = moving ? segment.duration() : 0.0;
-    index_->grid().walk(
-        segment.path.from, segment.path.to, [&](std::size_t bucket, double enter, double exit) {
-          const double t_begin = mine.t_start + enter * duration;
-          const double t_end = moving ? mine.t_start + exit * duration : mine.t_end;
-          return index_->visit(robot, bucket, t_begin, t_end, [&](const Occupant& other) {
-            if (other.robot != robot && collide(mine, other.disk, collision_distance(radius, other)))
-              hit.push_back(other.robot);
-            return true;
-          });
-        });
+    index_->grid().walk(segment.path.from, segment.path.to,
+                        [&](std::size_t bucket, double enter, double exit) {
+                          const double t_begin = mine.t_start + enter * duration;
+                          const double t_end = moving ? mine.t_start + exit * duration : mine.t_end;
+                          return index_->visit(robot, bucket, t_begin, t_end, [&](const Occupant& other) {
+                            if (other.robot != robot && collide(mine, other.disk, collision_distance(other)))
+                              hit.push_back(other.robot);
+                            return true;
+                          });
+                        });
   }
   std::sort(hit.begin(), hit.end());
   hit.erase(std::unique(hit.begin(), hit.end()), hit.end());

@@ -10,6 +10,7 @@
 
 namespace fleetplan::core {
 
+class Contacts;
 class SegmentIndex;
 
 /// The reserved trajectories, which all other robots avoid, and what a search asks about them: safe
@@ -17,8 +18,9 @@ class SegmentIndex;
 class ReservationTable {
  public:
   /// `radii[i]` is the radius of robot i in metres, inflation included; the map is [0, width] x [0, height]
-  /// metres.
-  ReservationTable(double width, double height, double cell_size, std::vector<double> radii);
+  /// metres. `contacts` outlives the table; null if no two robots are in contact.
+  ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
+                   const Contacts* contacts = nullptr);
   ~ReservationTable();
 
   /// Reserves contiguous segments for a robot that has no reservation yet.
@@ -39,7 +41,7 @@ class ReservationTable {
   std::optional<double> earliest_departure(std::size_t robot, const Segment& path, double duration,
                                            double t_min, double t_max) const;
 
-  /// The robots whose reservations overlap these segments of `robot` by more than kContactTolerance,
+  /// The robots whose reservations come nearer to these segments of `robot` than they are kept apart,
   /// ascending.
   std::vector<std::size_t> robots_hit(std::size_t robot, const std::vector<TimedSegment>& segments) const;
 

@@ -31,8 +31,10 @@ double bucket_size(double width, double height, double cell_size, const std::vec
 
 }  // namespace
 
-SegmentIndex::SegmentIndex(double width, double height, double cell_size, std::vector<double> radii)
+SegmentIndex::SegmentIndex(double width, double height, double cell_size, std::vector<double> radii,
+                           const Contacts* contacts)
     : radii_(std::move(radii)),
+      contacts_(contacts),
       grid_(width, height, bucket_size(width, height, cell_size, radii_)),
       layer_of_(radii_.size()),
       held_(radii_.size()),
@@ -46,7 +48,8 @@ SegmentIndex::SegmentIndex(double width, double height, double cell_size, std::v
 }
 
 SegmentIndex::DiskId SegmentIndex::store(std::size_t robot, const TimedSegment& segment) {
-  const Occupant occupant{MovingDisk(segment), radii_[robot], robot};
+  const Endpoint endpoint = contacts_ != nullptr ? contacts_->endpoint(robot, segment.path) : Endpoint::none;
+  const Occupant occupant{MovingDisk(segment), radii_[robot], robot, endpoint};
   if (vacant_.empty()) return occupants_.push_back(occupant);
   const DiskId id = vacant_.back();
   vacant_.pop_back();

@@ -7,6 +7,7 @@
 #include "core/geometry/disk_motion.h"
 #include "core/geometry/segment.h"
 #include "core/reservation/bucket_grid.h"
+#include "core/reservation/contacts.h"
 #include "core/runtime/indexed_vector.h"
 
 namespace fleetplan::core {
@@ -24,13 +25,17 @@ class SegmentIndex {
     MovingDisk disk;
     double radius = 0.0;
     std::size_t robot = 0;
+    Endpoint endpoint = Endpoint::none;
   };
 
   /// As for ReservationTable.
-  SegmentIndex(double width, double height, double cell_size, std::vector<double> radii);
+  SegmentIndex(double width, double height, double cell_size, std::vector<double> radii,
+               const Contacts* contacts);
 
   double radius(std::size_t robot) const { return radii_[robot]; }
   const BucketGrid& grid() const { return grid_; }
+  /// Null if no two robots are in contact.
+  const Contacts* contacts() const { return contacts_; }
 
   void add(std::size_t robot, const std::vector<TimedSegment>& segments);
   /// Removes all segments of a robot.
@@ -86,6 +91,7 @@ class SegmentIndex {
   }
 
   std::vector<double> radii_;  // by robot
+  const Contacts* contacts_;
   BucketGrid grid_;
   std::vector<Layer> layers_;
   std::vector<std::size_t> layer_of_;  // by robot

@@ -11,6 +11,8 @@ namespace {
 
 /// Own vertices are linked to vertices within this distance, in lattice spacings.
 constexpr double kLinkDistance = 2.0;
+/// The same for a start that is too near to others, farther if the robot is clear of them only there.
+constexpr double kLongestLink = 12.0;
 
 }  // namespace
 
@@ -22,26 +24,44 @@ Vertices::Vertices(const Instance& instance, std::size_t robot)
       any_angle_(instance.options().any_angle),
       start_pose_(instance.robot(robot).start) {
   const Robot& r = instance.robot(robot);
-  start_ = add(r.start.position);
+  start_ = add_start(instance, robot);
   if (!r.goal) return;
   goal_heading_ = r.goal->theta;
-  const bool same = (r.goal->position - r.start.position).norm() <= kContactTolerance;
-  goal_ = same ? start_ : add(r.goal->position);
+  const bool same = (r.goal->position - r.start.position).norm() <= kSamePosition;
+  goal_ = same ? start_ : add_goal(instance, robot);
 }
 
-/// Adds an own vertex, unless the position is a vertex of the lattice.
-int Vertices::add(const Position& position) {
+int Vertices::add_start(const Instance& instance, std::size_t robot) {
+  const Position& position = start_pose_.position;
+  const double radius = instance.radius_at_start(robot);
+  const double deficit = std::max(motion_.radius - radius, instance.contacts().deficit(robot));
   const int vertex = lattice_.vertex_at(position);
-  if (vertex >= 0) return vertex;
-  const double reach = kLinkDistance * lattice_.spacing();
-  OwnVertex own{position, {}};
-  for (const int near : lattice_.vertices_near(position, reach)) {
-    if (sight_.may_sweep(position, lattice_.position(near), motion_.radius)) own.links.push_back(near);
+  if (vertex >= 0 && radius == motion_.radius && deficit <= kContactTolerance) return vertex;
+  // Two metres for one that is missing: the way need not lead straight away from the others.
+  const double reach = std::min(kLinkDistance * lattice_.spacing() + 2.0 * deficit,
+                                std::max(kLinkDistance, kLongestLink) * lattice_.spacing());
+  return add({position, radius, deficit <= kContactTolerance ? kForever : reach, {}}, reach);
+}
+
+int Vertices::add_goal(const Instance& instance, std::size_t robot) {
+  const Position& position = instance.robot(robot).goal->position;
+  const double radius = instance.radius_at_goal(robot);
+  const int vertex = lattice_.vertex_at(position);
+  if (vertex >= 0 && radius == motion_.radius) return vertex;
+  return add({position, radius, kForever, {}}, kLinkDistance * lattice_.spacing());
+}
+
+int Vertices::add(OwnVertex own, double reach) {
+  for (const int near : lattice_.vertices_near(own.position, reach)) {
+    const Position to = lattice_.position(near);
+    if ((to - own.position).norm() <= kSamePosition) continue;
+    const bool clear = own.radius == motion_.radius || sight_.disk_fits(to, motion_.radius);
+    if (clear && may_move(own, to, motion_.radius)) own.links.push_back(near);
   }
   const int id = count();
   for (std::size_t k = 0; k < own_.size(); ++k) {  // start and goal near each other
-    const bool near = (own_[k].position - position).norm() <= reach;
-    if (!near || !sight_.may_sweep(position, own_[k].position, motion_.radius)) continue;
+    const bool near = (own_[k].position - own.position).norm() <= reach;
+    if (!near || !may_move(own, own_[k].position, own_[k].radius)) continue;
     own.links.push_back(lattice_.vertex_count() + static_cast<int>(k));
     own_[k].links.push_back(id);
   }
@@ -49,11 +69,19 @@ int Vertices::add(const Position& position) {
   return id;
 }
 
+/// `radius`: at the other end.
+bool Vertices::may_move(const OwnVertex& own, const Position& to, double radius) const {
+  const bool within_reach = (to - own.position).norm() <= own.reach;
+  return sight_.may_sweep(own.position, to, within_reach ? std::min(own.radius, radius) : motion_.radius);
+}
+
 bool Vertices::linked(const OwnVertex& own, int vertex) {
   return std::binary_search(own.links.begin(), own.links.end(), vertex);
 }
 
 bool Vertices::in_sight(int from, int to) const {
+  if (is_own(from)) return may_move(own_[own_index(from)], position(to), radius(to));
+  if (is_own(to)) return may_move(own_[own_index(to)], position(from), motion_.radius);
   return sight_.may_sweep(position(from), position(to), motion_.radius);
 }
 

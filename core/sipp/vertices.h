@@ -17,7 +17,9 @@ class StaticMoves;
 
 /// One robot's view of the static map: the vertices that it may stop at and the straight moves between them.
 /// Vertices are those of the lattice, and its own start and goal where they lie off the lattice; these are
-/// linked to every lattice vertex in sight within two cells.
+/// linked to every lattice vertex in sight within two cells. A start or goal that is too near to a wall or to
+/// another robot's start is an own vertex, too. At such a vertex the robot keeps the distance from walls that
+/// it has there, and from a start it is linked to vertices that are far enough away to be clear.
 class Vertices {
  public:
   Vertices(const Instance& instance, std::size_t robot);
@@ -69,15 +71,23 @@ class Vertices {
  private:
   struct OwnVertex {
     Position position;
+    double radius = 0.0;     // metres; less than the robot's if a wall is nearer
+    double reach = 0.0;      // metres; the longest move to or from it with this radius
     std::vector<int> links;  // ascending
   };
 
+  /// Of the robot's disk there.
+  double radius(int vertex) const { return is_own(vertex) ? own_[own_index(vertex)].radius : motion_.radius; }
   bool is_own(int vertex) const { return vertex >= lattice_.vertex_count(); }
   std::size_t own_index(int vertex) const {
     return static_cast<std::size_t>(vertex - lattice_.vertex_count());
   }
   static bool linked(const OwnVertex& own, int vertex);
-  int add(const Position& position);
+  int add_start(const Instance& instance, std::size_t robot);
+  int add_goal(const Instance& instance, std::size_t robot);
+  /// Adds an own vertex with links to those within `reach` metres.
+  int add(OwnVertex own, double reach);
+  bool may_move(const OwnVertex& own, const Position& to, double radius) const;
   /// Bit k is set if step k of the lattice is free of obstacles.
   std::uint32_t free_steps(int vertex) const;
 

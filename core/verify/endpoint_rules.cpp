@@ -12,16 +12,17 @@ namespace {
 
 /// Compares a pose with the required one. The detail begins with `what` and names the required pose `which`.
 std::optional<Violation> check_pose(const Violation& blank, const Pose& pose, const Goal& required,
-                                    double tolerance, const std::string& what, const std::string& which) {
+                                    const Tolerance& tolerance, const std::string& what,
+                                    const std::string& which) {
   Violation violation = blank;
   const double away = (pose.position - required.position).norm();
-  if (away > tolerance) {
+  if (away > tolerance.metres) {
     violation.distance = away;
     violation.detail = what + " " + metres(away) + " from the robot's " + which;
     return violation;
   }
   const double turn = required.theta ? std::abs(rotation_between(pose.theta, *required.theta)) : 0.0;
-  if (turn > tolerance) {
+  if (turn > tolerance.radians) {
     violation.distance = turn;
     violation.detail = what + " with a heading " + radians(turn) + " from that of the robot's " + which;
     return violation;
@@ -31,7 +32,8 @@ std::optional<Violation> check_pose(const Violation& blank, const Pose& pose, co
 
 }  // namespace
 
-std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan, double tolerance) {
+std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan,
+                                       const Tolerance& tolerance) {
   std::vector<Violation> violations;
   const bool stays = plan.actions.empty();
   if (!stays) {

@@ -33,10 +33,10 @@ struct Box {
 class ClearanceSweep {
  public:
   ClearanceSweep(const std::vector<std::vector<Leg>>& legs_by_robot, const std::vector<double>& radii,
-                 double tolerance, std::size_t max_overlaps, const StopCondition& stop)
+                 const std::vector<double>& tolerances, std::size_t max_overlaps, const StopCondition& stop)
       : legs_(legs_by_robot),
         radii_(radii),
-        tolerance_(tolerance),
+        tolerances_(tolerances),
         max_overlaps_(max_overlaps),
         stop_(stop),
         current_leg_(radii.size(), 0),
@@ -44,6 +44,7 @@ class ClearanceSweep {
 
   std::optional<FleetClearance> run() {
     if (radii_.size() < 2) return FleetClearance{};
+    least_tolerance_ = *std::min_element(tolerances_.begin(), tolerances_.end());
     const std::vector<double> boundaries = time_windows(legs_);
     for (std::size_t k = 0; k < boundaries.size(); ++k) {
       if (stop_.met()) return std::nullopt;
@@ -67,7 +68,7 @@ class ClearanceSweep {
   }
 
   /// Pairs whose gap exceeds this neither overlap nor make the least gap smaller.
-  double interesting_gap() const { return std::max(least_, -tolerance_) + slack_; }
+  double interesting_gap() const { return std::max(least_, -least_tolerance_) + slack_; }
 
   void sweep(const TimeSpan& window) {
     const std::vector<Box> boxes = boxes_in(window);
@@ -108,7 +109,7 @@ class ClearanceSweep {
   /// Compares two robots leg by leg through the window.
   void compare(std::size_t first, std::size_t second, const TimeSpan& window) {
     const double contact = radii_[first] + radii_[second];
-    const double allowed = contact - tolerance_;
+    const double allowed = contact - std::max(tolerances_[first], tolerances_[second]);
     const Leg* a = &legs_[first][current_leg_[first]];
     const Leg* b = &legs_[second][current_leg_[second]];
     double least_squared = kInfinity;
@@ -136,7 +137,7 @@ class ClearanceSweep {
       Overlap& overlap = overlaps_[latest->second];
       overlap.t_end = span->end;
       // Robots with equal velocities come nearer only by rounding: that is not a later, deeper moment.
-      if (closest.distance < overlap.distance - kContactTolerance) overlap.t_deepest = closest.t;
+      if (closest.distance < overlap.distance - kSamePosition) overlap.t_deepest = closest.t;
       overlap.distance = std::min(overlap.distance, closest.distance);
     } else if (overlaps_.size() < max_overlaps_) {
       latest_overlap_[pair] = overlaps_.size();
@@ -146,11 +147,12 @@ class ClearanceSweep {
 
   const std::vector<std::vector<Leg>>& legs_;
   const std::vector<double>& radii_;
-  double tolerance_;
+  const std::vector<double>& tolerances_;  // by robot
   std::size_t max_overlaps_;
   const StopCondition& stop_;
   std::vector<std::size_t> current_leg_;  // by robot, the first that ends after the beginning of the window
   double slack_;
+  double least_tolerance_ = 0.0;
   double least_ = kInfinity;
   std::vector<Overlap> overlaps_;
   std::unordered_map<std::uint64_t, std::size_t> latest_overlap_;  // by pair, the index of its last overlap
@@ -159,9 +161,10 @@ class ClearanceSweep {
 }  // namespace
 
 std::optional<FleetClearance> fleet_clearance(const std::vector<std::vector<Leg>>& legs_by_robot,
-                                              const std::vector<double>& radii, double tolerance,
-                                              std::size_t max_overlaps, const StopCondition& stop) {
-  return ClearanceSweep(legs_by_robot, radii, tolerance, max_overlaps, stop).run();
+                                              const std::vector<double>& radii,
+                                              const std::vector<double>& tolerances, std::size_t max_overlaps,
+                                              const StopCondition& stop) {
+  return ClearanceSweep(legs_by_robot, radii, tolerances, max_overlaps, stop).run();
 }
 
 }  // namespace fleetplan::core

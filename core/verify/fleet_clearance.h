@@ -26,12 +26,14 @@ struct FleetClearance {
   std::vector<Overlap> overlaps;  // in no particular order
 };
 
-/// Exact up to rounding: a few ulp of the coordinates. `legs_by_robot` are results of `execute`, `radii` are
-/// in the same order. At most `max_overlaps` are listed: those that are missing begin later than those
-/// listed, or slightly earlier. `least` always includes all pairs and all time, and does not depend on the
-/// order of the robots. Returns none if `stop` is met first.
+/// Exact up to rounding: a few ulp of the coordinates. `legs_by_robot` are results of `execute`, `radii` and
+/// `tolerances` (metres) are in the same order; two robots may overlap by the larger one of theirs. At most
+/// `max_overlaps` are listed: those that are missing begin later than those listed, or slightly earlier.
+/// `least` always includes all pairs and all time, and does not depend on the order of the robots. Returns
+/// none if `stop` is met first.
 std::optional<FleetClearance> fleet_clearance(const std::vector<std::vector<Leg>>& legs_by_robot,
-                                              const std::vector<double>& radii, double tolerance,
-                                              std::size_t max_overlaps, const StopCondition& stop);
+                                              const std::vector<double>& radii,
+                                              const std::vector<double>& tolerances, std::size_t max_overlaps,
+                                              const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -33,7 +33,7 @@ double turn_between(const Pose& a, const Pose& b) { return std::abs(rotation_bet
 /// Checks the actions of one plan in order.
 class MotionCheck {
  public:
-  MotionCheck(const Robot& robot, const RobotPlan& plan, double tolerance)
+  MotionCheck(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance)
       : robot_(robot), plan_(plan), tolerance_(tolerance) {}
 
   std::vector<Violation> run() {
@@ -48,7 +48,7 @@ class MotionCheck {
   }
 
  private:
-  bool differ(double a, double b) const { return std::abs(a - b) > tolerance_; }
+  bool differ(double a, double b) const { return std::abs(a - b) > tolerance_.seconds; }
 
   void report(Kind kind, double t, double distance, double required, const std::string& detail) {
     violations_.push_back({kind, {plan_.robot}, t, distance, required, detail});
@@ -63,7 +63,7 @@ class MotionCheck {
                  (k == 0 ? ", but a plan starts at t = " : ", but the action before ends at t = ") +
                  seconds(required));
     }
-    if (action.t_end < action.t_start - tolerance_) {
+    if (action.t_end < action.t_start - tolerance_.seconds) {
       report(Kind::discontinuity, action.t_start, action.t_end, action.t_start,
              action_name(k) + " ends at t = " + seconds(action.t_end) +
                  ", before it starts at t = " + seconds(action.t_start));
@@ -74,12 +74,12 @@ class MotionCheck {
     const Action& action = plan_.actions[k];
     const Pose& before = plan_.actions[k - 1].to;
     const double jump = distance_between(before, action.from);
-    if (jump > tolerance_) {
+    if (jump > tolerance_.metres) {
       report(Kind::discontinuity, action.t_start, jump, 0.0,
              action_name(k) + " starts " + metres(jump) + " from where the action before ends");
     }
     const double turn = turn_between(before, action.from);
-    if (turn > tolerance_) {
+    if (turn > tolerance_.radians) {
       report(Kind::discontinuity, action.t_start, turn, 0.0,
              action_name(k) + " starts with a heading " + radians(turn) +
                  " from that with which the action before ends");
@@ -89,14 +89,14 @@ class MotionCheck {
   void check_type(std::size_t k) {
     const Action& action = plan_.actions[k];
     const double distance = distance_between(action.from, action.to);
-    if (action.type != Action::Type::translate && distance > tolerance_) {
+    if (action.type != Action::Type::translate && distance > tolerance_.metres) {
       report(Kind::discontinuity, action.t_start, distance, 0.0,
              action_name(k) +
                  (action.type == Action::Type::wait ? " waits, but moves by " : " rotates, but moves by ") +
                  metres(distance));
     }
     const double turn = turn_between(action.from, action.to);
-    if (action.type != Action::Type::rotate && turn > tolerance_) {
+    if (action.type != Action::Type::rotate && turn > tolerance_.radians) {
       report(
           Kind::discontinuity, action.t_start, turn, 0.0,
           action_name(k) +
@@ -108,22 +108,24 @@ class MotionCheck {
   void check_speed(std::size_t k) {
     const Action& action = plan_.actions[k];
     if (action.type == Action::Type::translate) {
-      check_duration(k, distance_between(action.from, action.to), robot_.linear_speed, "m/s");
+      check_duration(k, distance_between(action.from, action.to), robot_.linear_speed, tolerance_.metres,
+                     "m/s");
       check_direction(k);
     } else if (action.type == Action::Type::rotate) {
-      check_duration(k, turn_between(action.from, action.to), robot_.angular_speed, "rad/s");
+      check_duration(k, turn_between(action.from, action.to), robot_.angular_speed, tolerance_.radians,
+                     "rad/s");
     }
   }
 
   /// Reports an action that takes less time than necessary by more than the tolerance, and leads farther than
   /// possible by more than the tolerance: for a slow robot, rounded poses may amount to much time. Infinite
   /// speeds are reported as durations.
-  void check_duration(std::size_t k, double amount, double top_speed, const char* unit) {
+  void check_duration(std::size_t k, double amount, double top_speed, double tolerance, const char* unit) {
     const Action& action = plan_.actions[k];
     const double duration = std::max(0.0, action.t_end - action.t_start);
     const double least =
         std::min(amount / top_speed, std::numeric_limits<double>::max());  // even if denormal
-    if (duration >= least - tolerance_ || duration * top_speed >= amount - tolerance_) return;
+    if (duration >= least - tolerance_.seconds || duration * top_speed >= amount - tolerance) return;
     const double speed = amount / duration;
     if (usable(speed)) {
       report(Kind::speed, action.t_start, speed, top_speed,
@@ -143,7 +145,7 @@ class MotionCheck {
     const Position d = action.to.position - action.from.position;
     const double theta = action.from.theta;
     const double sideways = std::abs(d.x() * std::sin(theta) - d.y() * std::cos(theta));
-    if (sideways > tolerance_) {
+    if (sideways > tolerance_.metres) {
       report(Kind::speed, action.t_start, sideways, 0.0,
              action_name(k) + " moves " + metres(sideways) +
                  " sideways, but the robot can only move along its heading");
@@ -161,7 +163,7 @@ class MotionCheck {
 
   const Robot& robot_;
   const RobotPlan& plan_;
-  double tolerance_;
+  Tolerance tolerance_;
   std::vector<Violation> violations_;
 };
 
@@ -198,7 +200,7 @@ std::optional<Violation> find_unusable_number(std::size_t index, const Robot& ro
   return std::nullopt;
 }
 
-std::vector<Violation> check_motion(const Robot& robot, const RobotPlan& plan, double tolerance) {
+std::vector<Violation> check_motion(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance) {
   return MotionCheck(robot, plan, tolerance).run();
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/model/plan.h"
 #include "core/model/robot.h"
+#include "core/verify/tolerances.h"
 #include "core/verify/verify.h"
 
 namespace fleetplan::core {
@@ -16,6 +17,6 @@ std::optional<Violation> find_unusable_number(std::size_t index, const Robot& ro
 /// Checks that actions are contiguous in time and space, correspond to their types and end at the cost
 /// (`discontinuity`), and that the robot keeps to its speeds and moves along its heading (`speed`). All
 /// numbers are usable.
-std::vector<Violation> check_motion(const Robot& robot, const RobotPlan& plan, double tolerance);
+std::vector<Violation> check_motion(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance);
 
 }  // namespace fleetplan::core

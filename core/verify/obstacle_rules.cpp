@@ -43,14 +43,14 @@ std::vector<Violation> check_obstacles(const ObstacleField& field, std::size_t r
     // Along a wall only rounding makes one moment the deepest; the overlap then begins with the leg.
     const double distance = nearest->point.distance;
     const std::optional<NearestObstacle> at_first = field.nearest(leg.from, leg.from, reach);
-    const bool from_the_beginning = at_first && at_first->point.distance <= distance + kContactTolerance;
+    const bool from_the_beginning = at_first && at_first->point.distance <= distance + kSamePosition;
     const double t = time_at(leg, from_the_beginning ? 0.0 : nearest->point.fraction);
 
     const bool continues = overlapping != nullptr && overlapping->to == leg.from && at_first;
     overlapping = &leg;
     if (!continues) {
       violations.push_back(overlap_with(*nearest, robot, radius, t));
-    } else if (distance < violations.back().distance - kContactTolerance) {
+    } else if (distance < violations.back().distance - kSamePosition) {
       violations.back() = overlap_with(*nearest, robot, radius, t);
     }
   }

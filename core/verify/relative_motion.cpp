@@ -40,7 +40,7 @@ double least_squared_distance(const RelativeMotion& motion) {
 
 ClosestMoment closest_moment(const RelativeMotion& motion) {
   const double distance = std::sqrt(least_squared_distance(motion));
-  const bool from_the_beginning = motion.from.norm() <= distance + kContactTolerance;
+  const bool from_the_beginning = motion.from.norm() <= distance + kSamePosition;
   return {from_the_beginning ? motion.t_begin : time_at(motion, closest_fraction(motion)), distance};
 }
 

@@ -32,7 +32,7 @@ struct TimeSpan {
 double least_squared_distance(const RelativeMotion& motion);
 
 /// The moment of least distance, as exact as `least_squared_distance`. Where the points come nearer by at
-/// most kContactTolerance, which may be rounding, it is the beginning.
+/// most kSamePosition, which may be rounding, it is the beginning.
 ClosestMoment closest_moment(const RelativeMotion& motion);
 
 /// The open time span in which the distance is less than `distance`; none if it never is. If the span begins

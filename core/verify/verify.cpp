@@ -63,11 +63,18 @@ VerifyReport verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
 std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                    const std::vector<RobotPlan>& plans, double tolerance,
                                    const StopCondition& stop) {
+  return verify(grid, robots, plans, std::vector(robots.size(), Tolerance::of_all(tolerance)), stop);
+}
+
+std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
+                                   const std::vector<RobotPlan>& plans,
+                                   const std::vector<Tolerance>& tolerances, const StopCondition& stop) {
   VerifyReport report;
   const ObstacleField field(grid);
   const std::vector<const RobotPlan*> plan_of = plans_by_robot(robots.size(), plans);
   std::vector<std::size_t> checked;  // the robots whose numbers are usable
   std::vector<double> radii;
+  std::vector<double> overlaps;  // metres, the tolerances
   std::vector<std::vector<Leg>> legs;
   for (std::size_t index = 0; index < robots.size(); ++index) {
     if (stop.met()) return std::nullopt;
@@ -78,16 +85,17 @@ std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<
       continue;
     }
     if (plan != nullptr) {
-      append(report.violations, check_motion(robot, *plan, tolerance));
-      append(report.violations, check_endpoints(robot, *plan, tolerance));
+      append(report.violations, check_motion(robot, *plan, tolerances[index]));
+      append(report.violations, check_endpoints(robot, *plan, tolerances[index]));
     }
     checked.push_back(index);
     radii.push_back(robot.radius);
+    overlaps.push_back(tolerances[index].metres);
     legs.push_back(execute(robot, plan));
-    append(report.violations, check_obstacles(field, index, robot.radius, legs.back(), tolerance));
+    append(report.violations, check_obstacles(field, index, robot.radius, legs.back(), overlaps.back()));
   }
 
-  const auto clearance = fleet_clearance(legs, radii, tolerance, kMostCollisions, stop);
+  const auto clearance = fleet_clearance(legs, radii, overlaps, kMostCollisions, stop);
   if (!clearance) return std::nullopt;
   for (const Overlap& overlap : clearance->overlaps) {
     report.violations.push_back(collision(overlap, checked, radii));

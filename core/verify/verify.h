@@ -12,6 +12,7 @@
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
+#include "core/verify/tolerances.h"
 
 namespace fleetplan::core {
 
@@ -69,5 +70,10 @@ VerifyReport verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
 std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                    const std::vector<RobotPlan>& plans, double tolerance,
                                    const StopCondition& stop);
+
+/// The same with tolerances by robot.
+std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
+                                   const std::vector<RobotPlan>& plans,
+                                   const std::vector<Tolerance>& tolerances, const StopCondition& stop);
 
 }  // namespace fleetplan::core

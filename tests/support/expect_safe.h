@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/actions.h"
+#include "core/map/obstacle_distance.h"
 #include "core/model/plan.h"
 #include "core/model/problem.h"
 #include "core/prioritized/plan_state.h"
@@ -26,14 +27,28 @@ inline void expect_safe(const core::Problem& problem, const std::vector<core::Ro
   EXPECT_TRUE(report.valid()) << text(report);
 }
 
-/// Expects this also with radii enlarged by `inflation`, except those of robots whose start is blocked.
+/// Whether the robot is nearer to a wall or to the start of another robot than it should be, if all radii are
+/// enlarged by `inflation`.
+inline bool starts_too_near(const core::Problem& problem, std::size_t robot, double inflation) {
+  const core::Robot& self = problem.robots()[robot];
+  const double radius = self.radius + inflation;
+  bool near = core::obstacle_distance(problem.grid(), self.start.position, radius) < radius;
+  for (const core::Robot& other : problem.robots()) {
+    if (&other == &self) continue;
+    const double gap = (other.start.position - self.start.position).norm() - radius - other.radius;
+    near = near || gap < inflation;
+  }
+  return near;
+}
+
+/// Expects this also with radii enlarged by `inflation`, except those of robots that start too near to
+/// others.
 inline void expect_safe(const core::Problem& problem, const core::Plan& plan, double inflation = 0.0) {
   expect_safe(problem, plan.plans);
   if (inflation == 0.0) return;
   std::vector<core::Robot> robots = problem.robots();
-  for (core::Robot& robot : robots) robot.radius += inflation;
-  for (const core::Unplanned& robot : plan.unplanned) {
-    if (robot.reason == core::Unplanned::Reason::start_blocked) robots[robot.robot].radius -= inflation;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (!starts_too_near(problem, i, inflation)) robots[i].radius += inflation;
   }
   const core::VerifyReport report = core::verify(problem.grid(), robots, plan.plans, kSafeTolerance);
   EXPECT_TRUE(report.valid()) << "inflated by " << inflation << ": " << text(report);

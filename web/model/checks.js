@@ -18,7 +18,7 @@ const KINDS = {
   wrong_goal: "Does not end at the goal pose",
 };
 
-const TOLERANCE = 1e-9; // metres: the tolerance of planning
+const TOLERANCE = 5e-7; // metres: disks that overlap by no more are in contact
 const REST_MS = 350; // without a further edit
 
 /** A kind of violation in words. */

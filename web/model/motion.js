@@ -1,7 +1,7 @@
 // The centre of a robot over time, as a polyline: knots (t, x, y) with constant velocity in between. Two
 // knots at one time are a jump, which occurs only in faulty plans. Pure. Times in seconds, lengths in metres.
 
-const CONTACT = 1e-9; // metres: overlaps below this are rounding errors
+const CONTACT = 5e-7; // metres: disks that overlap by no more are in contact
 
 /**
  * The motion of a robot {start, radius} that executes `actions`: {radius, knots}, the knots one after the

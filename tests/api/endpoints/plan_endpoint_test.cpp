@@ -43,7 +43,7 @@ std::vector<std::string> keys_of(const Json& object) {
 TEST(PlanEndpoint, PlansTinyMovesFarFromTheOrigin) {
   const Json answer = planned(Json::parse(R"({
     "map": {"rows": ["......", "......", "......"], "resolution": 0.05, "origin": {"x": 10000, "y": 3}},
-    "robots": [{"id": "a", "radius": 0.0025, "linear_speed": 1e-9, "angular_speed": 0.5,
+    "robots": [{"id": "a", "radius": 0.0025, "linear_speed": 1e-3, "angular_speed": 0.5,
                 "start": {"x": 10000.225, "y": 3.025}, "goal": {"x": 10000.025, "y": 3.125}}]})"));
   EXPECT_EQ(answer["status"], "solved");
 }

@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"RowHasAnUnknownCharacter", [](Json& r) { r["map"]["rows"][2] = "...é....."; }, "/map/rows/2",
              "bad_map_row", "\"é\" in column 3"},
         Case{"ResolutionIsZero", [](Json& r) { r["map"]["resolution"] = 0; }, "/map/resolution",
-             "out_of_range", "from 1e-09 to 1e+09 metres, not 0"},
+             "out_of_range", "from 1e-04 to 1e+06 metres, not 0"},
         Case{"ResolutionIsText", [](Json& r) { r["map"]["resolution"] = "1"; }, "/map/resolution",
              "wrong_type", "must be a number"},
         Case{"OriginLacksY", [](Json& r) { r["map"]["origin"] = only_x(1); }, "/map/origin/y", "missing",

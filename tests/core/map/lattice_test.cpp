@@ -68,6 +68,8 @@ TEST(Lattice, FindsVertexAtPosition) {
   for (int v = 0; v < lattice.vertex_count(); ++v) EXPECT_EQ(lattice.vertex_at(lattice.position(v)), v);
   EXPECT_EQ(lattice.vertex_at({1.25 + 5e-10, 0.75}), 7);
   EXPECT_EQ(lattice.vertex_at({1.25 + 5e-9, 0.75}), -1);
+  EXPECT_EQ(lattice.snapped({1.25 + 5e-10, 0.75}), Position(1.25, 0.75));
+  EXPECT_EQ(lattice.snapped({1.25 + 5e-9, 0.75}), Position(1.25 + 5e-9, 0.75));
   EXPECT_EQ(lattice.vertex_at({1.0, 0.5}), -1) << "where four cells meet";
   EXPECT_EQ(lattice.vertex_at({-0.25, 0.25}), -1) << "outside";
   EXPECT_EQ(lattice.vertex_at({2.75, 0.25}), -1);

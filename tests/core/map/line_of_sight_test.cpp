@@ -32,6 +32,19 @@ TEST(LineOfSight, AllowsDiskThatJustFitsGap) {
   EXPECT_FALSE(sees(grid, {2.5 - kOverlap, 0.5}, {2.5 - kOverlap, 2.5}, 0.5));
 }
 
+TEST(LineOfSight, FindsTheLargestDiskThatFits) {
+  const LineOfSight sight(support::ascii_map({".....",  //
+                                              "....#",  //
+                                              "....."}));
+  EXPECT_EQ(sight.fitting_radius({1.5, 1.5}, 0.1, 1.0), 1.0);
+  EXPECT_NEAR(sight.fitting_radius({1.0, 1.5}, 0.5, 1.5), 1.0, 1e-9) << "the edge of the map";
+  EXPECT_NEAR(sight.fitting_radius({3.2, 1.5}, 0.5, 1.5), 0.8, 1e-9);
+  EXPECT_NEAR(sight.fitting_radius({3.7, 2.3}, 0.1, 1.5), std::hypot(0.3, 0.3), 1e-9) << "a corner";
+  const double fits = sight.fitting_radius({3.2, 1.5}, 0.5, 1.5);
+  EXPECT_TRUE(sight.disk_fits({3.2, 1.5}, fits));
+  EXPECT_EQ(sight.fitting_radius({3.9, 1.5}, 0.5, 1.5), 0.5) << "not even that fits";
+}
+
 TEST(LineOfSight, KeepsRadiusFromCorners) {
   const OccupancyGrid grid = support::ascii_map({".....",  //
                                                  ".....",  //

@@ -90,10 +90,10 @@ TEST(Problem, ListsAllFaultsInTheOrderOfTheRobots) {
 
 TEST(Problem, HasNoFaultWhereDisksAndWallsTouch) {
   EXPECT_TRUE(faults_of(room(), {robot_at(0.4, 0.4).to(2.6, 2.5), robot_at(1.2, 0.4).to(2.6, 3.3)}).empty());
-  EXPECT_TRUE(faults_of(room(), {robot_at(1, 1), robot_at(1.8 - 5e-10, 1)}).empty()) << "rounded input";
-  EXPECT_EQ(faults_of(room(), {robot_at(1, 1), robot_at(1.8 - 2e-9, 1)}).size(), 1u);
-  EXPECT_TRUE(faults_of(room(), {robot_at(0.4 - 7e-10, 1)}).empty());
-  EXPECT_EQ(faults_of(room(), {robot_at(0.4 - 2e-9, 1)}).size(), 1u);
+  EXPECT_TRUE(faults_of(room(), {robot_at(1, 1), robot_at(1.8 - 4e-7, 1)}).empty()) << "rounded input";
+  EXPECT_EQ(faults_of(room(), {robot_at(1, 1), robot_at(1.8 - 6e-7, 1)}).size(), 1u);
+  EXPECT_TRUE(faults_of(room(), {robot_at(0.4 - 4e-7, 1)}).empty());
+  EXPECT_EQ(faults_of(room(), {robot_at(0.4 - 6e-7, 1)}).size(), 1u);
 }
 
 TEST(Problem, HasNoFaultWhereAGoalIsTheStartOfAnotherRobot) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "tests/core/support/planning.h"
@@ -10,6 +12,7 @@ namespace fleetplan::core {
 namespace {
 
 using support::robot_at;
+constexpr double kPi = std::numbers::pi;
 using Reason = Unplanned::Reason;
 using Robots = std::vector<std::size_t>;
 
@@ -47,28 +50,50 @@ TEST(Triage, KeepsParkedRobotsAtTheirStarts) {
   EXPECT_EQ(p.state.conflicting_robots(0, through({{1, 1}, {3.5, 1}})), Robots{1});
 }
 
-TEST(Triage, GivesUpARobotThatIsTooWideAtItsStartWhenInflated) {
-  Planning p(rooms(), {robot_at(0.45, 1).to(3, 1), robot_at(3, 2).to(1, 2)}, inflated(0.1));
+TEST(Triage, GivesUpARobotThatCannotLeaveItsStartWhenInflated) {
+  // The niche at the left is as wide as the first robot; inflated, it fits nowhere near.
+  Planning p(support::ascii_map({"##########",  //
+                                 "......####",  //
+                                 "#####.....",  //
+                                 "#####....."}),
+             {robot_at(0.5, 2.5).to(6, 1), robot_at(8, 1).to(7.5, 1)}, inflated(0.2));
   const auto result = triage(p.state, p.never);
   expect_given_up(result[0], 0, Reason::start_blocked);
   EXPECT_FALSE(result[1]);
-  EXPECT_EQ(p.state.conflicting_robots(1, through({{3, 2}, {0.5, 1}})), Robots{0}) << "it stays at its start";
+  EXPECT_EQ(p.state.conflicting_robots(1, through({{6, 1}, {1.5, 2.5}})), Robots{0})
+      << "it stays at its start";
 }
 
-TEST(Triage, GivesUpRobotsThatOverlapAtTheirStartsWhenInflated) {
-  Planning p(rooms(), {robot_at(1, 1).to(3, 1), robot_at(1.9, 1).to(3, 2), robot_at(6, 1).to(8, 1)},
-             inflated(0.06));
-  const auto result = triage(p.state, p.never);
-  expect_given_up(result[0], 0, Reason::start_blocked, {1});
-  expect_given_up(result[1], 1, Reason::start_blocked, {0});
-  EXPECT_FALSE(result[2]);
+TEST(Triage, AcceptsARobotThatCanLeaveAWallThatIsTooNearWhenInflated) {
+  Planning p(rooms(), {robot_at(0.45, 1).to(3, 1)}, inflated(0.1));
+  EXPECT_FALSE(triage(p.state, p.never)[0]);
 }
 
-TEST(Triage, GivesUpARobotThatOverlapsAParkedOneWhenInflatedButNotTheParkedOne) {
-  Planning p(rooms(), {robot_at(1, 1), robot_at(1.9, 1).to(3, 2)}, inflated(0.06));
+TEST(Triage, AcceptsRobotsThatOverlapAtTheirStartsWhenInflated) {
+  Planning p(rooms(), {robot_at(1, 1).to(3, 1), robot_at(1.9, 1), robot_at(6, 1).to(8, 1)}, inflated(0.06));
+  for (const auto& robot : triage(p.state, p.never)) EXPECT_FALSE(robot);
+}
+
+TEST(Triage, GivesUpARobotThatOverlapsTooManyOthersAtItsStartWhenInflated) {
+  std::vector<Robot> robots{robot_at(4.5, 1.5).radius(0.4).to(8, 1)};
+  for (int k = 0; k < 66; ++k) {
+    const double angle = k * 2.0 * kPi / 66.0;
+    robots.push_back(robot_at(4.5 + 0.45 * std::cos(angle), 1.5 + 0.45 * std::sin(angle)).radius(0.01));
+  }
+  Planning p(OccupancyGrid(9, 3, 1.0), robots, inflated(0.1));
   const auto result = triage(p.state, p.never);
-  EXPECT_FALSE(result[0]);
-  expect_given_up(result[1], 1, Reason::start_blocked, {0});
+  ASSERT_TRUE(result[0]);
+  EXPECT_EQ(result[0]->reason, Reason::start_blocked);
+  EXPECT_EQ(result[0]->blocked_by.size(), 64u);
+  EXPECT_FALSE(result[1]);
+}
+
+TEST(Triage, GivesUpARobotWhoseWayTakesLongerThanAPlanMay) {
+  Planning p(OccupancyGrid(10, 1, 1e5), {robot_at(5e4, 5e4).to(9.5e5, 5e4).speeds(5e-3, 1.0),
+                                         robot_at(1.5e5, 5e4).to(8.5e5, 5e4).speeds(2e-2, 1.0)});
+  const auto result = triage(p.state, p.never);
+  expect_given_up(result[0], 0, Reason::goal_unreachable);
+  EXPECT_FALSE(result[1]);
 }
 
 TEST(Triage, GivesUpARobotThatIsTooWideAtItsGoalWhenInflated) {

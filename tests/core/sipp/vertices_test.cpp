@@ -51,6 +51,38 @@ TEST(Vertices, HasNoGoalForParkedRobot) {
   EXPECT_EQ(Vertices(p.instance, 0).goal(), -1);
 }
 
+PlanOptions inflated(double metres) {
+  PlanOptions options;
+  options.inflation = metres;
+  return options;
+}
+
+TEST(Vertices, AddsAStartOnTheLatticeThatIsTooNearToAWall) {
+  const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(0.5, 2.5).to(6.5, 4.5)}, inflated(0.2));
+  const Vertices vertices(p.instance, 0);
+  EXPECT_EQ(vertices.start(), 48);
+  EXPECT_EQ(vertices.position(48), Position(0.5, 2.5));
+  const auto from_start = neighbours(vertices, vertices.start());
+  EXPECT_TRUE(std::binary_search(from_start.begin(), from_start.end(), 17)) << "straight away from it";
+  EXPECT_FALSE(std::binary_search(from_start.begin(), from_start.end(), 16)) << "the same place";
+  EXPECT_FALSE(std::binary_search(from_start.begin(), from_start.end(), 24)) << "as near to the wall";
+  EXPECT_TRUE(vertices.in_sight(48, 17));
+  EXPECT_TRUE(vertices.in_sight(17, 48));
+  EXPECT_FALSE(vertices.in_sight(48, 22)) << "far away, the robot keeps its full distance";
+}
+
+TEST(Vertices, LinksAStartThatIsTooNearFarEnoughToBeClear) {
+  const Planning p(OccupancyGrid(80, 80, 0.1), {robot_at(4.05, 4.05).to(7.5, 7.5), robot_at(4.9, 4.05)},
+                   inflated(0.1));
+  const Vertices vertices(p.instance, 0);
+  ASSERT_GE(vertices.start(), 6400);
+  double farthest = 0.0;
+  for (const int vertex : neighbours(vertices, vertices.start())) {
+    farthest = std::max(farthest, (vertices.position(vertex) - Position(4.05, 4.05)).norm());
+  }
+  EXPECT_NEAR(farthest, 0.2 + 2.0 * 0.15, 0.1) << "two cells, and twice what is missing";
+}
+
 TEST(Vertices, LinksNearbyStartAndGoalDirectly) {
   const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.2, 2.7).to(2.3, 3.1)});
   const Vertices vertices(p.instance, 0);

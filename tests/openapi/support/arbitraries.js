@@ -158,7 +158,7 @@ export function plausibleRequests(document) {
     ...made,
     time_budget_ms: 1 + ((made.time_budget_ms ?? 0) % 40),
   }));
-  const sizes = fc.constantFrom(1, 0.5, 0.05, 25, 1e-9, 1e7);
+  const sizes = fc.constantFrom(1, 0.5, 0.05, 25, 1e-3, 1e4);
   const maps = fc.record(
     {
       rows: ROWS,

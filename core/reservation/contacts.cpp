@@ -1,0 +1,131 @@
+#include "core/reservation/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// A distance is reduced by this fraction before it is kept, so that rounding does not forbid to stay.
+constexpr double kRounding = 1e-14;
+
+bool same(const Position& a, const Position& b) {
+  return (a - b).squaredNorm() <= kSamePosition * kSamePosition;
+}
+
+}  // namespace
+
+struct Contacts::Point {
+  Position position;
+  std::size_t robot;
+  Endpoint endpoint;
+  double radius;
+  double rounding;
+};
+
+Contacts::Contacts(std::vector<Endpoints> robots)
+    : robots_(std::move(robots)), contacts_(robots_.size()), too_many_(robots_.size(), false) {
+  std::vector<Point> points;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    const Endpoints& robot = robots_[i];
+    points.push_back({robot.start, i, Endpoint::start, robot.radius, robot.start_rounding});
+    if (robot.goal) points.push_back({*robot.goal, i, Endpoint::goal, robot.radius, robot.goal_rounding});
+    largest = std::max(largest, robot.radius);
+  }
+  std::sort(points.begin(), points.end(),
+            [](const Point& a, const Point& b) { return a.position.x() < b.position.x(); });
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double reach = points[i].radius + largest;
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
+      if (points[j].position.x() - points[i].position.x() > reach) break;
+      compare(points[i], points[j]);
+    }
+  }
+}
+
+void Contacts::compare(const Point& a, const Point& b) {
+  if (a.robot == b.robot) return;
+  const double sum = a.radius + b.radius;
+  if (std::abs(a.position.y() - b.position.y()) > sum) return;
+  const double distance = (a.position - b.position).norm() - a.rounding - b.rounding;
+  if (distance >= sum - kSearchSlack) return;
+  const double kept = distance * (1.0 - kRounding);
+  if (a.endpoint == Endpoint::start && b.endpoint == Endpoint::start) {
+    add(a.robot, {b.robot, kept, kForever});
+    add(b.robot, {a.robot, kept, kForever});
+  } else if (distance >= sum - kContactTolerance - 4.0 * kSamePosition) {
+    add(a.robot, {b.robot, kForever, kept});
+    add(b.robot, {a.robot, kForever, kept});
+  }
+}
+
+void Contacts::add(std::size_t robot, const Contact& contact) {
+  if (too_many_[robot]) return;
+  std::vector<Contact>& all = contacts_[robot];
+  const auto known =
+      std::find_if(all.begin(), all.end(), [&](const Contact& c) { return c.other == contact.other; });
+  if (known != all.end()) {
+    known->leaving = std::min(known->leaving, contact.leaving);
+    known->touching = std::min(known->touching, contact.touching);
+  } else if (all.size() < kMaxContacts) {
+    all.push_back(contact);
+  } else {
+    too_many_[robot] = true;
+  }
+}
+
+/// Of two robots, one may have too many contacts to list the other one.
+const Contacts::Contact* Contacts::find(std::size_t robot, std::size_t other) const {
+  for (const auto& [of, with] : {std::pair{robot, other}, std::pair{other, robot}}) {
+    for (const Contact& contact : contacts_[of]) {
+      if (contact.other == with) return &contact;
+    }
+    if (!too_many_[of]) return nullptr;
+  }
+  return nullptr;
+}
+
+bool Contacts::empty() const {
+  return std::all_of(contacts_.begin(), contacts_.end(),
+                     [](const auto& contacts) { return contacts.empty(); });
+}
+
+std::vector<std::size_t> Contacts::at_start(std::size_t robot) const {
+  std::vector<std::size_t> others;
+  for (const Contact& contact : contacts_[robot]) {
+    if (contact.leaving < kForever) others.push_back(contact.other);
+  }
+  std::sort(others.begin(), others.end());
+  return others;
+}
+
+double Contacts::deficit(std::size_t robot) const {
+  double deficit = 0.0;
+  for (const Contact& contact : contacts_[robot]) {
+    const double sum = robots_[robot].radius + robots_[contact.other].radius;
+    deficit = std::max(deficit, sum - contact.leaving);
+  }
+  return deficit;
+}
+
+Endpoint Contacts::endpoint(std::size_t robot, const Segment& path) const {
+  if (none(robot)) return Endpoint::none;
+  const Endpoints& ends = robots_[robot];
+  if (same(path.from, ends.start)) return Endpoint::start;
+  return ends.goal && same(path.to, *ends.goal) ? Endpoint::goal : Endpoint::none;
+}
+
+double Contacts::distance(std::size_t robot, Endpoint at, std::size_t other, Endpoint other_at,
+                          double full) const {
+  if (at == Endpoint::none || other_at == Endpoint::none) return full;
+  const Contact* contact = find(robot, other);
+  if (contact == nullptr) return full;
+  const bool leaving = at == Endpoint::start && other_at == Endpoint::start;
+  return std::min(full, leaving ? contact->leaving : contact->touching);
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,73 @@
+#pragma once
+
+// Pairs of robots that begin or end nearer to each other than the search keeps them apart.
+//
+// A robot that starts nearer to another one than the sum of their inflated radii may leave: as long as both
+// stand at their starts or move straight away from them, they only have to come no nearer than they are. Bare
+// disks that overlap by no more than kContactTolerance may leave in the same way, and may rest at a goal that
+// touches another start or goal so.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/segment.h"
+
+namespace fleetplan::core {
+
+/// Where a robot begins and ends, and how far the search's vertices there may be from these positions.
+struct Endpoints {
+  Position start{0.0, 0.0};
+  std::optional<Position> goal;
+  double radius = 0.0;          // metres, inflation included
+  double start_rounding = 0.0;  // metres
+  double goal_rounding = 0.0;   // metres
+};
+
+/// Where a robot stands, or moves from or to.
+enum class Endpoint : std::uint8_t { none, goal, start };
+
+class Contacts {
+ public:
+  /// More are not listed; a robot that has more cannot leave its start.
+  static constexpr std::size_t kMaxContacts = 64;
+
+  explicit Contacts(std::vector<Endpoints> robots);
+
+  /// Whether no two robots are in contact.
+  bool empty() const;
+  /// Whether the robot is in contact with no other one.
+  bool none(std::size_t robot) const { return contacts_[robot].empty(); }
+  /// Whether there are more than kMaxContacts.
+  bool too_many(std::size_t robot) const { return too_many_[robot]; }
+  /// The robots that start too near to the start of this one, ascending.
+  std::vector<std::size_t> at_start(std::size_t robot) const;
+  /// How much nearer the start of the robot is to that of another one than they are kept apart, at most.
+  double deficit(std::size_t robot) const;
+
+  /// Whether the robot stands at its start or goal, or moves from its start or to its goal. `none` for a
+  /// robot without contacts.
+  Endpoint endpoint(std::size_t robot, const Segment& path) const;
+
+  /// The distance that two robots keep at these endpoints, metres; `full` where they are not in contact.
+  double distance(std::size_t robot, Endpoint at, std::size_t other, Endpoint other_at, double full) const;
+
+ private:
+  struct Contact {
+    std::size_t other;
+    double leaving = kForever;   // metres; the distance to keep while both are at their starts
+    double touching = kForever;  // metres; likewise where at least one of them is at its goal
+  };
+  struct Point;
+
+  void compare(const Point& a, const Point& b);
+  void add(std::size_t robot, const Contact& contact);
+  const Contact* find(std::size_t robot, std::size_t other) const;
+
+  std::vector<Endpoints> robots_;
+  std::vector<std::vector<Contact>> contacts_;  // by robot
+  std::vector<bool> too_many_;                  // by robot
+};
+
+}  // namespace fleetplan::core

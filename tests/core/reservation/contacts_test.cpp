@@ -1,0 +1,107 @@
+#include "core/reservation/contacts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/geometry/tolerance.h"
+#include "core/model/trajectory.h"
+#include "core/reservation/reservation_table.h"
+
+namespace fleetplan::core {
+namespace {
+
+using Robots = std::vector<std::size_t>;
+
+Endpoints at(double x, double y) { return {{x, y}, std::nullopt, 0.5, 0.0, 0.0}; }
+Endpoints at(double x, double y, double goal_x, double goal_y) {
+  return {{x, y}, Position(goal_x, goal_y), 0.5, 0.0, 0.0};
+}
+
+Segment rest(double x, double y) { return {{x, y}, {x, y}}; }
+std::vector<TimedSegment> resting(double x, double y) { return {{rest(x, y), 0.0, kForever}}; }
+
+TEST(Contacts, AreNoneWhereRobotsKeepTheirDistance) {
+  const Contacts contacts({at(1, 1, 5, 1), at(2, 1, 6, 1), at(2, 2)});
+  EXPECT_TRUE(contacts.empty()) << "touching is not too near";
+  EXPECT_EQ(contacts.endpoint(0, rest(1, 1)), Endpoint::none) << "nothing to look up";
+}
+
+TEST(Contacts, KeepTheDistanceOfTheStartsWhileBothLeave) {
+  const Contacts contacts({at(1, 1, 5, 1), at(1.75, 1), at(3, 3)});
+  EXPECT_EQ(contacts.at_start(0), Robots{1});
+  EXPECT_EQ(contacts.at_start(1), Robots{0});
+  EXPECT_TRUE(contacts.none(2));
+  EXPECT_NEAR(contacts.deficit(0), 0.25, 1e-12);
+  EXPECT_EQ(contacts.endpoint(0, {{1, 1}, {1, 2}}), Endpoint::start);
+  EXPECT_EQ(contacts.endpoint(0, {{1, 2}, {1, 1}}), Endpoint::none) << "only moves from the start leave";
+  EXPECT_NEAR(contacts.distance(0, Endpoint::start, 1, Endpoint::start, 1.0), 0.75, 1e-12);
+  EXPECT_LT(contacts.distance(0, Endpoint::start, 1, Endpoint::start, 1.0), 0.75) << "it may stay";
+  EXPECT_EQ(contacts.distance(0, Endpoint::none, 1, Endpoint::start, 1.0), 1.0);
+  EXPECT_EQ(contacts.distance(0, Endpoint::goal, 1, Endpoint::start, 1.0), 1.0);
+  EXPECT_EQ(contacts.distance(0, Endpoint::start, 2, Endpoint::start, 1.0), 1.0);
+}
+
+TEST(Contacts, AtGoalsAllowForContactOnly) {
+  const Contacts contacts({at(1, 1, 5, 1), at(1, 3, 6 - 4e-7, 1), at(1, 5, 5, 1.9), at(4 + 4e-7, 1)});
+  EXPECT_EQ(contacts.endpoint(0, {{3, 1}, {5, 1}}), Endpoint::goal);
+  EXPECT_NEAR(contacts.distance(0, Endpoint::goal, 1, Endpoint::goal, 1.0), 1.0 - 4e-7, 1e-12);
+  EXPECT_EQ(contacts.distance(0, Endpoint::goal, 2, Endpoint::goal, 1.0), 1.0) << "not just contact";
+  EXPECT_NEAR(contacts.distance(0, Endpoint::goal, 3, Endpoint::start, 1.0), 1.0 - 4e-7, 1e-12);
+}
+
+TEST(Contacts, AreLimitedInNumberButSeenFromBothSides) {
+  std::vector<Endpoints> robots{at(5, 5)};
+  for (int k = 0; k < 100; ++k) {
+    const double angle = k * std::numbers::pi / 50.0;
+    Endpoints small = at(5 + 0.5 * std::cos(angle), 5 + 0.5 * std::sin(angle));
+    small.radius = 0.01;
+    robots.push_back(small);
+  }
+  const Contacts contacts(robots);
+  EXPECT_TRUE(contacts.too_many(0));
+  EXPECT_EQ(contacts.at_start(0).size(), Contacts::kMaxContacts);
+  for (std::size_t k = 1; k <= 100; ++k) {
+    EXPECT_FALSE(contacts.too_many(k));
+    EXPECT_NEAR(contacts.distance(0, Endpoint::start, k, Endpoint::start, 0.51), 0.5, 1e-12);
+  }
+}
+
+/// Two robots of radius 0.5 m that start 0.75 m apart; robot 1 stands there.
+class TooNear : public testing::Test {
+ protected:
+  TooNear() : contacts({at(2, 2, 6, 2), at(2.75, 2)}), table(10.0, 10.0, 1.0, {0.5, 0.5}, &contacts) {
+    table.commit(1, resting(2.75, 2));
+  }
+  std::optional<double> departure(const Position& from, const Position& to) const {
+    return table.earliest_departure(0, {from, to}, 1.0, 0.0, kForever);
+  }
+
+  Contacts contacts;
+  ReservationTable table;
+};
+
+TEST_F(TooNear, TheStartIsSafe) {
+  ASSERT_EQ(table.safe_intervals(0, {2, 2}).size(), 1u);
+  EXPECT_TRUE(table.safe_intervals(0, {2.05, 2}).empty()) << "it may not stop elsewhere so near";
+  EXPECT_TRUE(table.robots_hit(0, resting(2, 2)).empty());
+}
+
+TEST_F(TooNear, AMoveMayLeadAwayButNotNearer) {
+  EXPECT_EQ(departure({2, 2}, {1, 2}), 0.0);
+  EXPECT_EQ(departure({2, 2}, {2, 3}), 0.0) << "across";
+  EXPECT_FALSE(departure({2, 2}, {3, 2.2}));
+  EXPECT_FALSE(departure({2, 2}, {2.1, 3})) << "a little nearer at first";
+  EXPECT_FALSE(departure({1, 2}, {2, 2})) << "back";
+}
+
+TEST_F(TooNear, BothMayLeaveAtOnce) {
+  table.remove(1);
+  table.commit(1, {{{{2.75, 2}, {4.75, 2}}, 0.0, 2.0}, {rest(4.75, 2), 2.0, kForever}});
+  EXPECT_EQ(departure({2, 2}, {3, 2}), 0.0) << "behind the other one, at its speed";
+  EXPECT_TRUE(table.robots_hit(0, {{{{2, 2}, {3, 2}}, 0.0, 1.0}}).empty());
+}
+
+}  // namespace
+}  // namespace fleetplan::core
