@@ -53,7 +53,7 @@ Reply plan_endpoint(std::string_view body, const RequestContext& context) {
 
 Reply plan_with(const Planner& planner, std::string_view body, const RequestContext& context) {
   Stages stages{context.received_at, {}, {}, {}, {}};
-  const auto request = parse_request(body, context.limits);
+  const auto request = parse_request(body, context.limits, context.parse_stop());
   if (!request) return problem_reply(request.failure(), context.request_id);
   stages.parsed = Clock::now();
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "api/endpoints/plan_events.h"
+#include "api/json/parse_stop.h"
 #include "api/request/limits.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
@@ -26,6 +27,10 @@ struct RequestContext {
   /// Called once, when the request is known to be valid: returns when computing may begin or `stop` is met,
   /// whichever comes first. Empty: at once.
   std::function<void(const core::StopCondition& stop)> await_turn;
+
+  /// When to give up reading the body.
+  ParseStop parse_stop() const { return ParseStop(stop, received_at, cpu_clock); }
+  ParseStop::CpuClock cpu_clock = ParseStop::thread_cpu_time;
 };
 
 }  // namespace fleetplan::api

@@ -30,7 +30,7 @@ Reply unfinished(const ValidateRequest& request, const core::StopCondition& stop
 }  // namespace
 
 Reply validate_endpoint(std::string_view body, const RequestContext& context) {
-  const auto request = parse_validate_request(body, context.limits);
+  const auto request = parse_validate_request(body, context.limits, context.parse_stop());
   if (!request) return problem_reply(request.failure(), context.request_id);
   using Clock = core::StopCondition::Clock;
   if (context.await_turn) context.await_turn(core::StopCondition(Clock::time_point::max(), context.stop));

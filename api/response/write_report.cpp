@@ -11,7 +11,7 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::size_t kMostWritten = 1000;
+constexpr std::size_t kMostWritten = 20;
 
 std::string_view name_of(core::Violation::Kind kind) {
   switch (kind) {
@@ -57,7 +57,8 @@ std::string write_report(const core::VerifyReport& report, const std::vector<cor
   }
   json.end_array();
   json.member("min_clearance", reported_clearance(report));
-  if (written < report.violations.size()) json.member("truncated", true);
+  json.member("violations_total", report.violation_count);
+  if (written < report.violation_count) json.member("truncated", true);
   json.end_object();
   return json.take();
 }

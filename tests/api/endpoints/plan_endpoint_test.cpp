@@ -131,7 +131,8 @@ TEST(PlanEndpoint, ReturnsTheReasonOfAnUnplannedRobot) {
   const Json answer = planned(request);
   EXPECT_EQ(answer["status"], "none");
   ASSERT_EQ(answer["unplanned"].size(), 2U);
-  EXPECT_THAT(keys_of(answer["unplanned"][0]), ElementsAre("robot", "reason", "detail", "blocked_by"));
+  EXPECT_THAT(keys_of(answer["unplanned"][0]),
+              ElementsAre("robot", "reason", "detail", "blocked_by", "blocked_by_total"));
   EXPECT_EQ(answer["unplanned"][0]["robot"], "a");
   EXPECT_EQ(answer["unplanned"][0]["reason"], "goal_unreachable");
 }

@@ -218,15 +218,15 @@ TEST(Faults, OfOneRobotDoNotHideFaultsOfOthers) {
   EXPECT_THAT(faults[2].detail, HasSubstr("\"b\" and number 2"));
 }
 
-TEST(Faults, AreListedUpToAHundredAndCounted) {
+TEST(Faults, AreListedUpToTwentyAndCounted) {
   Json request = swap_request();
   request["robots"] = Json::array();
   for (int index = 0; index < 150; ++index) request["robots"].push_back(1);
   const auto result = parse_request(request.dump(), {});
   const RequestError& error = result.failure();
   EXPECT_EQ(error.code, ErrorCode::invalid_request);
-  EXPECT_EQ(error.faults.size(), 100U);
-  EXPECT_EQ(error.faults.back().pointer, "/robots/99");
+  EXPECT_EQ(error.faults.size(), 20U);
+  EXPECT_EQ(error.faults.back().pointer, "/robots/19");
   EXPECT_THAT(error.detail, HasSubstr("150 faults"));
 }
 
