@@ -16,10 +16,14 @@ namespace {
 using Clock = RequestContext::Clock;
 
 /// When planning has to end so that there is time left to check the plan and write the answer: a twentieth of
-/// the budget, but at most what a thousand robots need.
-Clock::time_point planning_deadline(const RequestContext& context, std::chrono::nanoseconds budget) {
+/// the budget, but at most what a thousand robots need; or a quarter of what reading the request took, which
+/// tells how large it is and how busy the machine.
+Clock::time_point planning_deadline(const RequestContext& context, std::chrono::nanoseconds budget,
+                                    Clock::duration reading) {
   constexpr Clock::duration kMostForTheAnswer = std::chrono::milliseconds(25);
-  return context.received_at + budget - std::min<Clock::duration>(budget / 20, kMostForTheAnswer);
+  return context.received_at + budget -
+         std::max(std::min<Clock::duration>(budget / 20, kMostForTheAnswer),
+                  std::min<Clock::duration>(budget / 4, reading / 4));
 }
 
 /// The plan when the budget was spent in the queue: only parked robots are planned.
@@ -53,13 +57,15 @@ Reply plan_endpoint(std::string_view body, const RequestContext& context) {
 
 Reply plan_with(const Planner& planner, std::string_view body, const RequestContext& context) {
   Stages stages{context.received_at, {}, {}, {}, {}};
+  const auto begin = Clock::now();
   const auto request = parse_request(body, context.limits, context.parse_stop());
   if (!request) return problem_reply(request.failure(), context.request_id);
   stages.parsed = Clock::now();
 
-  const core::StopCondition stop(planning_deadline(context, request->budget), context.stop);
+  const core::StopCondition stop(planning_deadline(context, request->budget, stages.parsed - begin),
+                                 context.stop);
   const auto answer = [&](const core::Plan& plan) {
-    return plan_answer(plan, *request, context.request_id, stages);
+    return plan_answer(plan, *request, context.request_id, stages, stop);
   };
   std::optional<ProgressReporter> reporter;
   if (context.events != nullptr) {

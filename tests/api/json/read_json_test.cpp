@@ -172,5 +172,40 @@ TEST(ReadJson, BoundsTheNumberOfValues) {
   EXPECT_EQ(error_of(body + "]").kind, JsonError::Kind::too_large);
 }
 
+TEST(ReadJson, TakesLittleTimeForManyKeysWithEqualBeginnings) {
+  std::string body = "{";
+  for (int key = 0; key < 300'000; ++key)
+    body.append("\"").append(std::to_string(1'000'000 + key)).append("\":0,");
+  body += "\"1000001\":0}";
+  const auto begin = ParseStop::thread_cpu_time();
+  const JsonDocument read = document(body);
+  EXPECT_LT(ParseStop::thread_cpu_time() - begin, std::chrono::seconds(5)) << "minutes if it were quadratic";
+  EXPECT_EQ(brief(read.faults.listed()), (Faults{{"/1000001", "duplicate"}}));
+}
+
+TEST(FaultList, MakesTheTextsOfListedFaultsOnly) {
+  FaultList faults;
+  int made = 0;
+  const auto make_fault = [&made] {
+    ++made;
+    return Fault{"/", "code", "detail"};
+  };
+  for (JsonPlace place = 0; place < 100'000; ++place) faults.add(place, make_fault);
+  EXPECT_EQ(made, 20);
+  EXPECT_EQ(faults.count(), 100'000U);
+  EXPECT_EQ(faults.listed().size(), 20U);
+}
+
+TEST(FaultList, ListsTheFirstOfTheDocumentInItsOrder) {
+  FaultList faults;
+  for (int place = 99; place >= 0; --place) {
+    faults.add(static_cast<JsonPlace>(place), [&] { return Fault{std::to_string(place), "code", "detail"}; });
+  }
+  const auto listed = faults.listed();
+  ASSERT_EQ(listed.size(), 20U);
+  EXPECT_EQ(listed.front().pointer, "0");
+  EXPECT_EQ(listed.back().pointer, "19");
+}
+
 }  // namespace
 }  // namespace fleetplan::api
