@@ -21,20 +21,17 @@ struct Entry {
 };
 
 /// Reads an embedded file, which the tests check; null if it is not JSON.
-JsonValue read_embedded(std::string_view text) {
+JsonDocument read_embedded(std::string_view text) {
   auto document = read_json(text, Limits{}.max_depth);
-  return document ? std::move(document->root) : JsonValue();
+  return document ? std::move(*document) : std::move(*read_json("null", 1));
 }
 
 std::string string_member(const JsonValue& object, std::string_view key) {
-  const JsonValue* member = object.find(key);
-  const std::string* text = member != nullptr ? member->string() : nullptr;
-  return text != nullptr ? *text : std::string();
+  const auto member = object.find(key);
+  return std::string(member ? member->string().value_or("") : "");
 }
 
-std::size_t size_of(const JsonValue* value) {
-  return value != nullptr && value->array() != nullptr ? value->array()->size() : 0;
-}
+std::size_t size_of(const std::optional<JsonValue>& value) { return value ? value->size() : 0; }
 
 const Example* find_example(std::string_view name) {
   const auto all = examples();
@@ -46,13 +43,11 @@ const Example* find_example(std::string_view name) {
 /// All examples: first those of the index, in its order, then the rest.
 std::vector<Entry> entries() {
   std::vector<Entry> listed;
-  const JsonValue index = read_embedded(embedded_index());
-  if (index.array() != nullptr) {
-    for (const JsonValue& item : *index.array()) {
-      const Example* example = find_example(string_member(item, "name"));
-      if (example == nullptr) continue;
-      listed.push_back({example, string_member(item, "title"), string_member(item, "description")});
-    }
+  const JsonDocument index = read_embedded(embedded_index());
+  for (const JsonValue item : index.root().children()) {
+    const Example* example = find_example(string_member(item, "name"));
+    if (example == nullptr) continue;
+    listed.push_back({example, string_member(item, "title"), string_member(item, "description")});
   }
   for (const Example& example : examples()) {
     const bool known = std::any_of(listed.begin(), listed.end(),
@@ -70,14 +65,15 @@ Reply examples_endpoint() {
   JsonWriter json;
   json.begin_object().key("examples").begin_array();
   for (const Entry& entry : entries()) {
-    const JsonValue request = read_embedded(entry.example->body);
-    const JsonValue* map = request.find("map");
-    const JsonValue* rows = map != nullptr ? map->find("rows") : nullptr;
-    const std::string* row = size_of(rows) > 0 ? rows->array()->front().string() : nullptr;
+    const JsonDocument document = read_embedded(entry.example->body);
+    const JsonValue request = document.root();
+    const auto map = request.find("map");
+    const auto rows = map ? map->find("rows") : std::nullopt;
+    const std::size_t columns = size_of(rows) > 0 ? rows->item(0).string().value_or("").size() : 0;
     json.begin_object();
     json.member("name", entry.example->name).member("title", entry.title);
     json.member("description", entry.description).member("robots", size_of(request.find("robots")));
-    json.member("columns", row != nullptr ? row->size() : 0).member("rows", size_of(rows));
+    json.member("columns", columns).member("rows", size_of(rows));
     json.end_object();
   }
   json.end_array().end_object();

@@ -1,5 +1,6 @@
 #include "api/endpoints/plan_answer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -23,21 +24,57 @@ Reply rejected(PlanOutcome outcome, const core::VerifyReport& report, const std:
   return reply;
 }
 
+/// When to give up the check. A plan that was cancelled, as the service drains, may still be checked quickly.
+core::StopCondition check_stop(const core::StopCondition& planning) {
+  using Clock = core::StopCondition::Clock;
+  constexpr std::chrono::milliseconds kMostAfterPlanning{90};
+  if (planning.cancelled()) return core::StopCondition(Clock::now() + kMostAfterPlanning / 2);
+  if (planning.deadline() == Clock::time_point::max()) return planning;
+  return core::StopCondition(planning.deadline() + kMostAfterPlanning, planning.stop_token());
+}
+
+/// What is left of a plan when all robots that would move stay at their starts.
+core::Plan without_moves(const core::Plan& plan) {
+  core::Plan left;
+  left.deterministic = false;
+  left.search = plan.search;
+  left.unplanned = plan.unplanned;
+  for (const core::RobotPlan& robot : plan.plans) {
+    if (robot.actions.empty()) {
+      left.plans.push_back(robot);
+    } else {
+      left.unplanned.push_back({robot.robot,
+                                core::Unplanned::Reason::budget_exhausted,
+                                "The time budget ended before the plan was checked.",
+                                {}});
+    }
+  }
+  std::sort(left.unplanned.begin(), left.unplanned.end(),
+            [](const core::Unplanned& a, const core::Unplanned& b) { return a.robot < b.robot; });
+  return left;
+}
+
 }  // namespace
 
 Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std::string& request_id,
-                  Stages stages) {
+                  Stages stages, const core::StopCondition& stop) {
   stages.planned = Stages::Clock::now();
   const auto& robots = request.problem.robots();
-  const core::OccupancyGrid& grid = request.problem.grid();
-  const auto tolerances = core::plan_tolerances(grid, robots, plan.plans);
-  const auto report = *core::verify(grid, robots, plan.plans, tolerances, core::StopCondition());
+  const auto check = [&](const core::Plan& checked, const core::StopCondition& patience) {
+    return core::verify(request.problem.grid(), robots, checked.plans,
+                        core::plan_tolerances(request.problem.grid(), robots, checked.plans), patience);
+  };
+  auto report = check(plan, check_stop(stop));
+  core::Plan less;
+  if (!report) less = without_moves(plan);
+  const core::Plan& answered = report ? plan : less;
+  if (!report) report = check(less, core::StopCondition());
   stages.verified = Stages::Clock::now();
   const PlanOutcome outcome =
-      outcome_of(plan, std::chrono::duration<double>(stages.planned - stages.started).count());
-  if (!report.valid()) return rejected(outcome, report, request_id);
+      outcome_of(answered, std::chrono::duration<double>(stages.planned - stages.started).count());
+  if (!report->valid()) return rejected(outcome, *report, request_id);
   std::string text =
-      write_response({plan, report, robots, request.frame.origin, request.warnings}, request_id, stages);
+      write_response({answered, *report, robots, request.frame.origin, request.warnings}, request_id, stages);
   return {200, kJson, std::move(text), {}, outcome};
 }
 

@@ -18,10 +18,14 @@ namespace {
 using Clock = RequestContext::Clock;
 
 /// When planning has to end so that there is time left to check the plan and write the answer: a twentieth of
-/// the budget, but at most what a thousand robots need.
-Clock::time_point planning_deadline(const RequestContext& context, std::chrono::nanoseconds budget) {
+/// the budget, but at most what a thousand robots need; or a quarter of what reading the request took, which
+/// tells how large it is and how busy the machine.
+Clock::time_point planning_deadline(const RequestContext& context, std::chrono::nanoseconds budget,
+                                    Clock::duration reading) {
   constexpr Clock::duration kMostForTheAnswer = std::chrono::milliseconds(25);
-  return context.received_at + budget - std::min<Clock::duration>(budget / 20, kMostForTheAnswer);
+  return context.received_at + budget -
+         std::max(std::min<Clock::duration>(budget / 20, kMostForTheAnswer),
+                  std::min<Clock::duration>(budget / 4, reading / 4));
 }
 
 /// What the request asks of the server. A few robots on a small map take milliseconds, as a rule.
@@ -63,13 +67,15 @@ core::Plan plan_or_none(const Planner& planner, const PlanRequest& request, cons
 
 Reply planned(const Planner& planner, std::string_view body, const RequestContext& context) {
   Stages stages{context.received_at, {}, {}, {}, {}};
-  const auto request = parse_request(body, context.limits);
+  const auto begin = Clock::now();
+  const auto request = parse_request(body, context.limits, context.parse_stop());
   if (!request) return problem_reply(request.failure(), context.request_id);
   stages.parsed = Clock::now();
 
-  const core::StopCondition stop(planning_deadline(context, request->budget), context.stop);
+  const core::StopCondition stop(planning_deadline(context, request->budget, stages.parsed - begin),
+                                 context.stop);
   const auto answer = [&](const core::Plan& plan) {
-    return plan_answer(plan, *request, context.request_id, stages);
+    return plan_answer(plan, *request, context.request_id, stages, stop);
   };
   const bool has_turn = context.turn == nullptr || context.turn->request(need_of(*request, stop, context));
   if (!has_turn) return too_busy(context.request_id);

@@ -6,6 +6,7 @@
 
 #include "api/endpoints/plan_events.h"
 #include "api/endpoints/turn.h"
+#include "api/json/parse_stop.h"
 #include "api/request/limits.h"
 #include "core/runtime/executor.h"
 
@@ -22,6 +23,10 @@ struct RequestContext {
   core::Executor* executor = nullptr;  // of further threads; null: the caller's alone
   PlanEvents* events = nullptr;        // receives the progress of a plan; may be null
   Turn* turn = nullptr;                // to compute; null: at once
+
+  /// When to give up reading the body.
+  ParseStop parse_stop() const { return ParseStop(stop, received_at, cpu_clock); }
+  ParseStop::CpuClock cpu_clock = ParseStop::thread_cpu_time;
 };
 
 }  // namespace fleetplan::api

@@ -36,7 +36,7 @@ bool takes_turn(Turn& turn, const ValidateRequest& request, const core::StopCond
 }
 
 Reply check(std::string_view body, const RequestContext& context) {
-  const auto request = parse_validate_request(body, context.limits);
+  const auto request = parse_validate_request(body, context.limits, context.parse_stop());
   if (!request) return problem_reply(request.failure(), context.request_id);
   const core::StopCondition stop(context.received_at + request->budget, context.stop);
   if (context.turn != nullptr && !takes_turn(*context.turn, *request, stop)) {

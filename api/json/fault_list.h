@@ -1,39 +1,43 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "api/json/fault.h"
+#include "api/json/json_value.h"
 
 namespace fleetplan::api {
 
-/// The faults of one document, collected while it is read and returned in the order of the document. Those
-/// beyond a generous number are only counted, so that a hostile document cannot fill the memory.
+/// The faults of one document, collected while it is read. All are counted, and the first kMostListed in the
+/// order of the document are kept; of the others not even the text is made, so that a hostile document costs
+/// neither time nor memory.
 class FaultList {
  public:
-  /// Adds what `make_fault` returns, or only counts it. `place`: see JsonValue::begins().
+  static constexpr std::size_t kMostListed = 20;
+
+  /// Adds what `make_fault` returns, or only counts it.
   template <typename MakeFault>
-  void add(std::uint32_t place, const MakeFault& make_fault) {
+  void add(JsonPlace place, const MakeFault& make_fault) {
     ++count_;
-    if (!full()) keep({place, make_fault()});
+    if (wanted(place)) keep({place, make_fault()});
   }
+  /// Counts faults that were found, but not described.
+  void count_more(std::size_t faults) { count_ += faults; }
 
   bool empty() const { return count_ == 0; }
   std::size_t count() const { return count_; }
-  /// The first `most` faults in the order of the document.
-  std::vector<Fault> first(std::size_t most) const;
+  std::vector<Fault> listed() const;
 
  private:
   struct Placed {
-    std::uint32_t place = 0;
+    JsonPlace place = 0;
     Fault fault;
+    std::size_t bytes() const { return fault.pointer.size() + fault.detail.size(); }
   };
-  bool full() const;
+  bool wanted(JsonPlace place) const;
   void keep(Placed placed);
 
-  std::vector<Placed> placed_;
+  std::vector<Placed> placed_;  // in the order of the document
   std::size_t count_ = 0;
   std::size_t bytes_ = 0;  // of the texts in placed_
 };

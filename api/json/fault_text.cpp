@@ -61,11 +61,11 @@ std::string number_text(double number) {
 
 std::string described(const JsonValue& value) {
   if (value.is_null()) return "null";
-  if (const bool* boolean = value.boolean()) return *boolean ? "true" : "false";
+  if (const auto boolean = value.boolean()) return *boolean ? "true" : "false";
   if (const auto natural = value.natural()) return std::to_string(*natural);
   if (const auto number = value.number()) return number_text(*number);
-  if (const std::string* string = value.string()) return "the string " + in_quotes(*string);
-  return value.array() != nullptr ? "an array" : "an object";
+  if (const auto string = value.string()) return "the string " + in_quotes(*string);
+  return value.is_array() ? "an array" : "an object";
 }
 
 std::string listed(std::span<const std::string_view> words) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -28,14 +29,14 @@ class JsonReader {
  public:
   JsonReader() = default;  // absent
   /// The root of the document.
-  explicit JsonReader(JsonDocument& document) : JsonReader(document, &document.root) {}
+  explicit JsonReader(JsonDocument& document) : JsonReader(document, document.root()) {}
 
-  explicit operator bool() const { return value_ != nullptr; }
-  bool is_null() const { return value_ != nullptr && value_->is_null(); }
-  bool is_number() const { return value_ != nullptr && value_->number().has_value(); }
+  explicit operator bool() const { return value_.has_value(); }
+  bool is_null() const { return value_ && value_->is_null(); }
+  bool is_number() const { return value_ && value_->number().has_value(); }
   std::optional<std::uint64_t> natural() const;
-  /// The text of a string; null when the value is something else, which is no fault.
-  const std::string* string() const { return value_ != nullptr ? value_->string() : nullptr; }
+  /// The text of a string; none when the value is something else, which is no fault.
+  std::optional<std::string_view> string() const { return value_ ? value_->string() : std::nullopt; }
 
   /// The value itself if it is an object, otherwise absent. Members that are not `known` are faults.
   JsonReader object(std::span<const std::string_view> known) const;
@@ -47,7 +48,11 @@ class JsonReader {
   /// The value itself if it is an array, otherwise absent.
   JsonReader array() const;
   std::size_t size() const;  // of the array; 0 when absent
-  JsonReader item(std::size_t index) const;
+  /// One item; takes time in proportion to the index.
+  JsonReader item(std::size_t index) const { return at(value_->item(index)); }
+  /// All items of the array, for a range-based loop; ends early when the reading of the document is stopped.
+  class Items;
+  Items items() const;
 
   std::optional<double> number(const Range& range) const;
   /// A whole number from 0 to `most`.
@@ -61,21 +66,72 @@ class JsonReader {
   /// The value, which must be there, for a message: `the string "abc"`, `-1`, `an array`.
   std::string description() const;
   /// Adds a fault at the value, which must be there.
-  void fault(const char* code, const std::string& detail) const;
+  void fault(const char* code, const std::string& detail) const {
+    fault(code, [&] { return detail; });
+  }
+  /// The same for a value of which there may be many: makes the text only if it will be listed.
+  template <std::invocable MakeDetail>
+  void fault(const char* code, const MakeDetail& make_detail) const {
+    document_->faults.add(value_->begins(), [&] { return Fault{pointer(), code, make_detail()}; });
+  }
   /// The same with the detail "<name> must be <wanted>, not <value><note>."
-  void must_be(const char* code, std::string_view wanted, std::string_view note = {}) const;
+  void must_be(const char* code, std::string_view wanted, std::string_view note = {}) const {
+    must_be(
+        code, [&] { return wanted; }, note);
+  }
+  template <std::invocable MakeWanted>
+  void must_be(const char* code, const MakeWanted& make_wanted, std::string_view note = {}) const {
+    document_->faults.add(value_->begins(), [&] { return unwanted(code, make_wanted(), note); });
+  }
+  /// Counts faults of the document that are not described.
+  void count_more_faults(std::size_t faults) const { document_->faults.count_more(faults); }
   /// Faults of the document so far.
   std::size_t fault_count() const { return document_ != nullptr ? document_->faults.count() : 0; }
 
  private:
-  JsonReader(JsonDocument& document, const JsonValue* value) : document_(&document), value_(value) {}
-  JsonReader at(const JsonValue* value) const {
-    return value != nullptr ? JsonReader(*document_, value) : JsonReader();
-  }
+  JsonReader(JsonDocument& document, const JsonValue& value) : document_(&document), value_(value) {}
+  JsonReader at(const JsonValue& value) const { return JsonReader(*document_, value); }
+  std::string pointer() const;
+  std::string name_in_messages() const;
+  Fault unwanted(const char* code, std::string_view wanted, std::string_view note) const;
   void wrong_type(std::string_view wanted) const;
+  std::string_view note_on_null() const;
 
   JsonDocument* document_ = nullptr;
-  const JsonValue* value_ = nullptr;  // in the document; null: absent
+  std::optional<JsonValue> value_;  // in the document; none: absent
+};
+
+class JsonReader::Items {
+ public:
+  class Iterator {
+   public:
+    Iterator(JsonDocument* document, const std::optional<JsonValue::Children::Iterator>& at)
+        : document_(document), at_(at) {}
+    JsonReader operator*() const { return {*document_, **at_}; }
+    Iterator& operator++() {
+      ++*at_;
+      return *this;
+    }
+    /// Also true when the reading is stopped; to be compared with the end only.
+    bool operator==(const Iterator& end) const {
+      return !end.at_ || *at_ == *end.at_ || document_->stop.met_after(kWorkOfAValue);
+    }
+
+   private:
+    JsonDocument* document_;
+    std::optional<JsonValue::Children::Iterator> at_;  // none: of an absent array
+  };
+
+  explicit Items(const JsonReader& array);
+  Iterator begin() const { return begin_; }
+  Iterator end() const { return end_; }
+
+ private:
+  // What an item costs that is read, in bytes of text.
+  static constexpr std::size_t kWorkOfAValue = 64;
+
+  Iterator begin_;
+  Iterator end_;
 };
 
 }  // namespace fleetplan::api

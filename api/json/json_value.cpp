@@ -1,7 +1,7 @@
 #include "api/json/json_value.h"
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace fleetplan::api {
 
@@ -10,61 +10,93 @@ namespace {
 // Beyond 2^53 doubles cannot distinguish neighbouring whole numbers.
 constexpr double kLargestExactWhole = 9007199254740992.0;
 
+std::uint32_t narrow(std::size_t size) { return static_cast<std::uint32_t>(size); }
+
 }  // namespace
 
-JsonValue::JsonValue() = default;
-JsonValue::JsonValue(bool boolean) : data_(boolean) {}
-JsonValue::JsonValue(std::int64_t number) : data_(number) {}
-JsonValue::JsonValue(std::uint64_t number) : data_(number) {}
-JsonValue::JsonValue(double number) : data_(number) {}
-JsonValue::JsonValue(std::string string) : data_(std::make_unique<std::string>(std::move(string))) {}
-JsonValue::JsonValue(Array items) : data_(std::make_unique<Array>(std::move(items))) {}
-JsonValue::JsonValue(Object members) : data_(std::make_unique<Object>(std::move(members))) {}
-JsonValue::JsonValue(JsonValue&& other) noexcept = default;
-JsonValue& JsonValue::operator=(JsonValue&& other) noexcept = default;
-JsonValue::~JsonValue() = default;
+void JsonTape::add(Kind kind, Data data) { nodes_.push_back({kind, narrow(nodes_.size()) + 1, data}); }
+
+void JsonTape::add_string(std::string_view string, std::size_t end) {
+  const std::size_t length = string.size();
+  if (end >= length && end <= text_.size() && text_.substr(end - length, length) == string) {
+    return add(Kind::text, {.slice = {narrow(end - length), narrow(length)}});
+  }
+  add(Kind::decoded, {.slice = {narrow(decoded_.size()), narrow(length)}});
+  decoded_.append(string);
+}
+
+std::uint32_t JsonTape::open(Kind kind) {
+  nodes_.push_back({kind, kOpen, {.natural = 0}});
+  return narrow(nodes_.size()) - 1;
+}
+
+void JsonTape::close(std::uint32_t container, std::size_t size) {
+  nodes_[container].next = narrow(nodes_.size());
+  nodes_[container].data.natural = size;
+}
+
+std::string_view JsonTape::string(const Node& node) const {
+  const std::string_view all = node.kind == Kind::text ? text_ : std::string_view(decoded_);
+  return all.substr(node.data.slice.offset, node.data.slice.length);
+}
+
+std::optional<bool> JsonValue::boolean() const {
+  if (held().kind != JsonTape::Kind::boolean) return std::nullopt;
+  return held().data.natural != 0;
+}
 
 std::optional<double> JsonValue::number() const {
-  if (const auto* real = std::get_if<double>(&data_)) return *real;
-  if (const auto* natural = std::get_if<std::uint64_t>(&data_)) return static_cast<double>(*natural);
-  if (const auto* integer = std::get_if<std::int64_t>(&data_)) return static_cast<double>(*integer);
-  return std::nullopt;
+  switch (held().kind) {
+    case JsonTape::Kind::real:
+      return held().data.real;
+    case JsonTape::Kind::natural:
+      return static_cast<double>(held().data.natural);
+    case JsonTape::Kind::integer:
+      return static_cast<double>(held().data.integer);
+    default:
+      return std::nullopt;
+  }
 }
 
 std::optional<std::uint64_t> JsonValue::natural() const {
-  if (const auto* natural = std::get_if<std::uint64_t>(&data_)) return *natural;
-  if (const auto* integer = std::get_if<std::int64_t>(&data_)) {
-    if (*integer >= 0) return static_cast<std::uint64_t>(*integer);
-  }
-  if (const auto* real = std::get_if<double>(&data_)) {
-    const bool whole = *real >= 0.0 && *real <= kLargestExactWhole && std::floor(*real) == *real;
-    if (whole) return static_cast<std::uint64_t>(*real);
+  if (held().kind == JsonTape::Kind::natural) return held().data.natural;
+  if (held().kind == JsonTape::Kind::real) {
+    const double real = held().data.real;
+    const bool whole = real >= 0.0 && real <= kLargestExactWhole && std::floor(real) == real;
+    if (whole) return static_cast<std::uint64_t>(real);
   }
   return std::nullopt;
 }
 
-const std::string* JsonValue::string() const {
-  const auto* held = std::get_if<std::unique_ptr<std::string>>(&data_);
-  return held != nullptr ? held->get() : nullptr;
+std::optional<std::string_view> JsonValue::string() const {
+  const bool is_string = held().kind == JsonTape::Kind::text || held().kind == JsonTape::Kind::decoded;
+  return is_string ? std::optional(tape_->string(held())) : std::nullopt;
 }
 
-const JsonValue::Array* JsonValue::array() const {
-  const auto* held = std::get_if<std::unique_ptr<Array>>(&data_);
-  return held != nullptr ? held->get() : nullptr;
+JsonValue::Children JsonValue::children() const {
+  const std::uint32_t keys = is_object() ? 1 : 0;
+  const bool holds = is_object() || is_array();
+  const std::uint32_t last = std::min(held().next, narrow(tape_->nodes_.size()));
+  return {{*tape_, holds ? node_ + 1 : last, keys}, {*tape_, last, keys}};
 }
 
-const JsonValue::Object* JsonValue::object() const {
-  const auto* held = std::get_if<std::unique_ptr<Object>>(&data_);
-  return held != nullptr ? held->get() : nullptr;
+JsonValue JsonValue::item(std::size_t index) const {
+  auto child = children().begin();
+  for (std::size_t passed = 0; passed < index; ++passed) ++child;
+  return *child;
 }
 
-const JsonValue* JsonValue::find(std::string_view key) const {
-  const Object* members = object();
-  if (members == nullptr) return nullptr;
-  for (std::size_t index = 0; index < members->keys.size(); ++index) {
-    if (members->keys[index] == key) return &members->values[index];
+std::optional<JsonValue> JsonValue::find(std::string_view key) const {
+  if (!is_object()) return std::nullopt;
+  for (const JsonValue member : children()) {
+    if (member.key() == key) return member;
   }
-  return nullptr;
+  return std::nullopt;
+}
+
+JsonPlace JsonValue::ends() const {
+  // After all that is inside; of two values that end together, the inner one ends first.
+  return (JsonPlace{held().next} << 33U) - 1 - node_;
 }
 
 }  // namespace fleetplan::api

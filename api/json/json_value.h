@@ -1,69 +1,149 @@
 #pragma once
 
-// A JSON document in memory. Every value knows its place in the document, so that faults can be located and
-// reported in the order of the document.
+// A JSON document in memory: one node of 16 bytes for each value and each key, in the order of the document.
+// Strings stay in the text, unless they have escapes.
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
-#include <vector>
 
 namespace fleetplan::api {
 
-/// One JSON value. Numbers keep their 64-bit integers exactly; a number too large for a double is infinite.
+class JsonValue;
+
+/// Where something is in its document; comparable, otherwise meaningless.
+using JsonPlace = std::uint64_t;
+
+/// The nodes of a document. The text has to outlive it.
+class JsonTape {
+ public:
+  enum class Kind : std::uint8_t { null, boolean, natural, integer, real, text, decoded, array, object };
+
+  explicit JsonTape(std::string_view text) : text_(text) {}
+
+  void add_null() { add(Kind::null, {}); }
+  void add_boolean(bool boolean) { add(Kind::boolean, {.natural = boolean ? 1U : 0U}); }
+  void add_natural(std::uint64_t number) { add(Kind::natural, {.natural = number}); }
+  void add_integer(std::int64_t number) { add(Kind::integer, {.integer = number}); }
+  void add_real(double number) { add(Kind::real, {.real = number}); }
+  /// A string or a key, whose characters end before `end` in the text if they have no escapes.
+  void add_string(std::string_view string, std::size_t end);
+  /// Begins an array or object; returns its node.
+  std::uint32_t open(Kind kind);
+  void close(std::uint32_t container, std::size_t size);
+
+  std::size_t size() const { return nodes_.size(); }
+  JsonValue root() const;
+  /// The value at a node; of a key, its string.
+  JsonValue value(std::uint32_t node) const;
+
+ private:
+  friend class JsonValue;
+
+  static constexpr std::uint32_t kOpen = UINT32_MAX;
+
+  struct Slice {
+    std::uint32_t offset;
+    std::uint32_t length;
+  };
+  union Data {
+    std::uint64_t natural;
+    std::int64_t integer;
+    double real;
+    Slice slice;
+  };
+  struct Node {
+    Kind kind;
+    std::uint32_t next;  // the node after this one and all that is in it
+    Data data;           // of an array or object: the number of items or members
+  };
+  static_assert(sizeof(Node) == 16);
+
+  void add(Kind kind, Data data);
+  std::string_view string(const Node& node) const;
+
+  std::string_view text_;
+  std::string decoded_;
+  std::deque<Node> nodes_;  // grows without copies, and without room for twice as many
+};
+
+/// One value of a document: a handle, copied freely; its tape must outlive it and stay where it is. Numbers
+/// keep their 64-bit integers exactly; a number too large for a double is infinite.
 class JsonValue {
  public:
-  using Array = std::vector<JsonValue>;
-  struct Object;  // members in the order of the document
+  class Children;
 
-  JsonValue();
-  explicit JsonValue(bool boolean);
-  explicit JsonValue(std::int64_t number);
-  explicit JsonValue(std::uint64_t number);
-  explicit JsonValue(double number);
-  explicit JsonValue(std::string string);
-  explicit JsonValue(Array items);
-  explicit JsonValue(Object members);
-  JsonValue(JsonValue&& other) noexcept;
-  JsonValue& operator=(JsonValue&& other) noexcept;
-  ~JsonValue();
-
-  bool is_null() const { return std::holds_alternative<std::monostate>(data_); }
-  const bool* boolean() const { return std::get_if<bool>(&data_); }
+  bool is_null() const { return held().kind == JsonTape::Kind::null; }
+  std::optional<bool> boolean() const;
   /// Any number as a double; infinite when it was too large for one.
   std::optional<double> number() const;
   /// A number that is a whole one from 0 to 2^64 - 1 (also when written like 5.0).
   std::optional<std::uint64_t> natural() const;
-  /// The string, array or object, or null when the value is something else.
-  const std::string* string() const;
-  const Array* array() const;
-  const Object* object() const;
-  /// The first member of that name of an object, or null.
-  const JsonValue* find(std::string_view key) const;
+  std::optional<std::string_view> string() const;
+  bool is_array() const { return held().kind == JsonTape::Kind::array; }
+  bool is_object() const { return held().kind == JsonTape::Kind::object; }
+  /// Items of an array or members of an object; 0 for another value.
+  std::size_t size() const { return is_array() || is_object() ? held().data.natural : 0; }
 
-  /// Where the value begins and ends in the document: comparable with each other, otherwise meaningless.
-  std::uint32_t begins() const { return begins_; }
-  std::uint32_t ends() const { return ends_; }
-  void set_place(std::uint32_t begins, std::uint32_t ends) {
-    begins_ = begins;
-    ends_ = ends;
-  }
+  /// The items of an array, or the values of the members of an object.
+  Children children() const;
+  /// An item of an array; takes time in proportion to the index.
+  JsonValue item(std::size_t index) const;
+  /// The first member of that name of an object.
+  std::optional<JsonValue> find(std::string_view key) const;
+  /// The key of a value that is a member of an object.
+  std::string_view key() const { return tape_->string(tape_->nodes_[node_ - 1]); }
+
+  bool contains(const JsonValue& other) const { return node_ <= other.node_ && other.node_ < held().next; }
+  bool operator==(const JsonValue& other) const { return node_ == other.node_; }
+  std::uint32_t node() const { return node_; }
+  /// Where the value begins and ends in the document.
+  JsonPlace begins() const { return JsonPlace{node_} << 33U; }
+  JsonPlace ends() const;
 
  private:
-  std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, std::unique_ptr<std::string>,
-               std::unique_ptr<Array>, std::unique_ptr<Object>>
-      data_;
-  std::uint32_t begins_ = 0;
-  std::uint32_t ends_ = 0;
+  friend class JsonTape;
+
+  JsonValue(const JsonTape& tape, std::uint32_t node) : tape_(&tape), node_(node) {}
+  const JsonTape::Node& held() const { return tape_->nodes_[node_]; }
+
+  const JsonTape* tape_;
+  std::uint32_t node_;
 };
 
-struct JsonValue::Object {
-  std::vector<std::string> keys;
-  std::vector<JsonValue> values;  // as many as keys
+/// A range over the values that are directly in an array or object.
+class JsonValue::Children {
+ public:
+  class Iterator {
+   public:
+    Iterator(const JsonTape& tape, std::uint32_t node, std::uint32_t keys)
+        : tape_(&tape), node_(node), keys_(keys) {}
+    JsonValue operator*() const { return {*tape_, node_ + keys_}; }
+    Iterator& operator++() {
+      node_ = tape_->nodes_[node_ + keys_].next;
+      return *this;
+    }
+    bool operator==(const Iterator& other) const { return node_ == other.node_; }
+
+   private:
+    const JsonTape* tape_;
+    std::uint32_t node_;  // of the value, or of its key
+    std::uint32_t keys_;  // before each value: 1 in an object
+  };
+
+  Children(Iterator begin, Iterator end) : begin_(begin), end_(end) {}
+  Iterator begin() const { return begin_; }
+  Iterator end() const { return end_; }
+
+ private:
+  Iterator begin_;
+  Iterator end_;
 };
+
+inline JsonValue JsonTape::root() const { return value(0); }
+inline JsonValue JsonTape::value(std::uint32_t node) const { return {*this, node}; }
 
 }  // namespace fleetplan::api

@@ -1,21 +1,6 @@
 #include "api/json/location.h"
 
-#include <algorithm>
-#include <vector>
-
 namespace fleetplan::api {
-
-namespace {
-
-/// The index of the last of these values that begins at or before the place.
-std::size_t index_at(const std::vector<JsonValue>& values, std::uint32_t place) {
-  const auto after =
-      std::upper_bound(values.begin(), values.end(), place,
-                       [](std::uint32_t wanted, const JsonValue& value) { return wanted < value.begins(); });
-  return static_cast<std::size_t>(after - values.begin()) - 1;
-}
-
-}  // namespace
 
 std::string pointer_step(std::string_view key) {
   std::string step = "/";
@@ -33,19 +18,14 @@ std::string pointer_step(std::string_view key) {
 
 Location locate(const JsonValue& root, const JsonValue& value) {
   Location location{"", "the document"};
-  const JsonValue* outer = &root;
-  while (outer->begins() != value.begins()) {
-    if (const JsonValue::Object* object = outer->object()) {
-      const std::size_t index = index_at(object->values, value.begins());
-      location.name = object->keys[index];
-      location.pointer += pointer_step(location.name);
-      outer = &object->values[index];
-    } else {
-      const std::size_t index = index_at(*outer->array(), value.begins());
-      location.name = "item " + std::to_string(index);
-      location.pointer += pointer_step(std::to_string(index));
-      outer = &(*outer->array())[index];
-    }
+  JsonValue outer = root;
+  while (outer != value) {
+    std::size_t index = 0;
+    auto child = outer.children().begin();
+    for (; !(*child).contains(value); ++child) ++index;
+    location.name = outer.is_object() ? std::string((*child).key()) : "item " + std::to_string(index);
+    location.pointer += pointer_step(outer.is_object() ? location.name : std::to_string(index));
+    outer = *child;
   }
   return location;
 }

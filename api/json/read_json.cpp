@@ -4,56 +4,123 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "api/json/duplicate_keys.h"
 #include "api/json/explain_json.h"
-#include "api/json/fault_text.h"
-#include "api/json/location.h"
 
 namespace fleetplan::api {
 
 namespace {
 
-// No request comes near (32 MiB of actions are 2 million values), and memory stays within a few hundred MB.
-constexpr std::uint32_t kMostValues = 5'000'000;
-// Up to here a linear look for a key that comes twice is faster than a set.
-constexpr std::size_t kFewKeys = 16;
+// No request comes near: 32 MiB of actions are 4 million values.
+constexpr std::size_t kMostValues = 5'000'000;
 
-/// Builds a JsonValue from what the parser meets.
+/// A text as the parser reads it: as a stream, which ends early when the reading is stopped.
+class Input {
+ public:
+  class Iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = char;
+
+    explicit Iterator(Input* input) : input_(input) {}
+    char operator*() const { return *input_->at_; }
+    Iterator& operator++() {
+      if (++input_->at_ == input_->pause_) input_->pause();
+      return *this;
+    }
+    Iterator operator++(int) { return ++*this; }
+    bool operator==(const Iterator& other) const { return at_end() == other.at_end(); }
+
+   private:
+    bool at_end() const { return input_ == nullptr || input_->at_ == input_->end_; }
+
+    Input* input_;  // all iterators are at its position; null: the end
+  };
+
+  Input(std::string_view text, ParseStop& stop)
+      : begin_(text.data()), at_(begin_), pause_(begin_), end_(begin_ + text.size()), stop_(stop) {
+    pause();
+  }
+
+  Iterator begin() { return Iterator(this); }
+  Iterator end() { return Iterator(nullptr); }
+  std::size_t position() const { return static_cast<std::size_t>(at_ - begin_); }
+
+ private:
+  void pause() {
+    const std::size_t step = std::min(ParseStop::kStride, static_cast<std::size_t>(end_ - at_));
+    if (stop_.met_after(step)) {
+      end_ = at_;
+    } else {
+      pause_ = at_ + step;
+    }
+  }
+
+  const char* begin_;
+  const char* at_;
+  const char* pause_;
+  const char* end_;
+  ParseStop& stop_;
+};
+
+/// Puts on the tape what the parser meets.
 class Builder {
  public:
   using Json = nlohmann::json;
 
   /// `overflowing`: which numbers, counted from 0 in the order of the document, are too large for a double.
-  Builder(int max_depth, std::vector<std::size_t> overflowing)
-      : max_depth_(max_depth), overflowing_(std::move(overflowing)) {}
+  Builder(std::string_view text, const Input& input, int max_depth, std::vector<std::size_t> overflowing)
+      : input_(input), max_depth_(max_depth), overflowing_(std::move(overflowing)), tape_(text) {}
 
-  bool null() { return add(JsonValue()); }
-  bool boolean(bool value) { return add(JsonValue(value)); }
+  bool null() {
+    tape_.add_null();
+    return added();
+  }
+  bool boolean(bool value) {
+    tape_.add_boolean(value);
+    return added();
+  }
   bool number_integer(Json::number_integer_t value) {
     ++numbers_;
-    return add(JsonValue(std::int64_t{value}));
+    tape_.add_integer(value);
+    return added();
   }
   bool number_unsigned(Json::number_unsigned_t value) {
-    const bool overflows = std::binary_search(overflowing_.begin(), overflowing_.end(), numbers_++);
-    return add(overflows ? JsonValue(std::numeric_limits<double>::infinity())
-                         : JsonValue(std::uint64_t{value}));
+    if (std::binary_search(overflowing_.begin(), overflowing_.end(), numbers_++)) {
+      tape_.add_real(std::numeric_limits<double>::infinity());
+    } else {
+      tape_.add_natural(value);
+    }
+    return added();
   }
   bool number_float(Json::number_float_t value, const Json::string_t& /*written*/) {
     ++numbers_;
-    return add(JsonValue(value));
+    tape_.add_real(value);
+    return added();
   }
-  bool string(Json::string_t& value) { return add(JsonValue(std::move(value))); }
+  bool string(Json::string_t& value) {
+    tape_.add_string(value, input_.position() - 1);
+    return added();
+  }
   bool binary(Json::binary_t& /*value*/) { return false; }  // not in JSON text
-  bool start_object(std::size_t /*size*/) { return open(true); }
+  bool start_object(std::size_t /*size*/) { return open(JsonTape::Kind::object); }
   bool end_object() { return close(); }
-  bool start_array(std::size_t /*size*/) { return open(false); }
+  bool start_array(std::size_t /*size*/) { return open(JsonTape::Kind::array); }
   bool end_array() { return close(); }
-  bool key(Json::string_t& key);
+  bool key(Json::string_t& key) {
+    tape_.add_string(key, input_.position() - 1);
+    return true;
+  }
 
   bool parse_error(std::size_t position, const std::string& /*token*/, const Json::exception& error) {
     error_position_ = position;
@@ -62,105 +129,53 @@ class Builder {
   }
 
   bool too_deep() const { return too_deep_; }
-  bool too_many() const { return clock_ >= kMostValues; }
+  bool too_many() const { return values_ > kMostValues; }
   bool overflowed() const { return overflowed_; }
   std::size_t error_position() const { return error_position_; }
-  JsonDocument take() { return {std::move(root_), std::move(faults_)}; }
+  JsonTape take() { return std::move(tape_); }
 
  private:
   struct Frame {
-    bool is_object = false;
-    std::uint32_t begins = 0;
-    JsonValue::Array items;
-    JsonValue::Object members;  // one more key than values while a value is being read
-    // The keys, once there are more than a few; ordered, as keys can be made whose hashes are all the same.
-    std::set<std::string> seen;
+    std::uint32_t container;
+    std::size_t size = 0;
   };
 
-  bool open(bool is_object);
+  bool open(JsonTape::Kind kind);
   bool close();
-  bool add(JsonValue value);
-  void attach(JsonValue value);
-  static bool came_before(Frame& frame, const std::string& key);
-  std::string pointer() const;
+  bool added();
 
+  const Input& input_;
   int max_depth_;
   std::vector<std::size_t> overflowing_;
   std::vector<Frame> frames_;
-  JsonValue root_;
-  FaultList faults_;
-  std::uint32_t clock_ = 0;
+  JsonTape tape_;
+  std::size_t values_ = 0;
   std::size_t numbers_ = 0;
   std::size_t error_position_ = 0;
   bool too_deep_ = false;
   bool overflowed_ = false;
 };
 
-bool Builder::open(bool is_object) {
+bool Builder::open(JsonTape::Kind kind) {
   if (frames_.size() >= static_cast<std::size_t>(max_depth_)) {
     too_deep_ = true;
     return false;
   }
-  Frame frame;
-  frame.is_object = is_object;
-  frame.begins = clock_++;
-  frames_.push_back(std::move(frame));
-  return !too_many();
+  const bool goes_on = added();
+  frames_.push_back({tape_.open(kind)});
+  return goes_on;
 }
 
 bool Builder::close() {
-  Frame frame = std::move(frames_.back());
+  tape_.close(frames_.back().container, frames_.back().size);
   frames_.pop_back();
-  JsonValue value = frame.is_object ? JsonValue(std::move(frame.members)) : JsonValue(std::move(frame.items));
-  value.set_place(frame.begins, clock_++);
-  attach(std::move(value));
-  return !too_many();
-}
-
-bool Builder::add(JsonValue value) {
-  value.set_place(clock_, clock_);
-  ++clock_;
-  attach(std::move(value));
-  return !too_many();
-}
-
-void Builder::attach(JsonValue value) {
-  if (frames_.empty()) {
-    root_ = std::move(value);
-  } else if (frames_.back().is_object) {
-    frames_.back().members.values.push_back(std::move(value));
-  } else {
-    frames_.back().items.push_back(std::move(value));
-  }
-}
-
-bool Builder::key(Json::string_t& key) {
-  Frame& frame = frames_.back();
-  const bool duplicate = came_before(frame, key);
-  frame.members.keys.push_back(std::move(key));
-  if (duplicate) {
-    faults_.add(clock_, [&] {
-      return Fault{pointer(), fault::kDuplicate,
-                   "The key " + in_quotes(frame.members.keys.back()) +
-                       " occurs twice in this object; keep one of them."};
-    });
-  }
   return true;
 }
 
-bool Builder::came_before(Frame& frame, const std::string& key) {
-  const auto& keys = frame.members.keys;
-  if (keys.size() < kFewKeys) return std::find(keys.begin(), keys.end(), key) != keys.end();
-  if (frame.seen.empty()) frame.seen.insert(keys.begin(), keys.end());
-  return !frame.seen.insert(key).second;
-}
-
-std::string Builder::pointer() const {
-  std::string pointer;
-  for (const Frame& frame : frames_) {
-    pointer += pointer_step(frame.is_object ? frame.members.keys.back() : std::to_string(frame.items.size()));
-  }
-  return pointer;
+bool Builder::added() {
+  if (!frames_.empty()) ++frames_.back().size;
+  ++values_;
+  return !too_many();
 }
 
 /// Where a number ends that begins at the offset, by the grammar of JSON; what follows is not looked at.
@@ -192,11 +207,11 @@ struct Tamed {
 
 /// The parser stops at a number that is too large; to report it together with all other faults, a body that
 /// has one is read a second time without them.
-Tamed tame_overflowing(std::string_view body) {
+Tamed tame_overflowing(std::string_view body, ParseStop& stop) {
   Tamed tamed{std::string(body), {}};
   std::string& text = tamed.body;
   std::size_t numbers = 0;
-  for (std::size_t at = 0; at < text.size(); ++at) {
+  for (std::size_t at = 0; at < text.size() && !stop.met_after(1); ++at) {
     if (text[at] == '"') {
       for (++at; at < text.size() && text[at] != '"'; ++at) at += text[at] == '\\' ? 1 : 0;
     } else if (text[at] == '-' || (text[at] >= '0' && text[at] <= '9')) {
@@ -227,7 +242,7 @@ JsonError error_of(const Builder& builder, std::string_view body, int max_depth)
 
 }  // namespace
 
-Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth) {
+Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, ParseStop stop) {
   if (body.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     return JsonError{JsonError::Kind::malformed, "The body is empty; send the request as a JSON object."};
   }
@@ -235,13 +250,27 @@ Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth) 
   if (const std::size_t nul = body.find('\0'); nul != std::string_view::npos) {
     return JsonError{JsonError::Kind::malformed, explain_malformed(body, nul + 1)};
   }
-  Builder builder(max_depth, {});
-  if (nlohmann::json::sax_parse(body.begin(), body.end(), &builder)) return builder.take();
+  if (body.size() > std::numeric_limits<std::uint32_t>::max()) {
+    return JsonError{JsonError::Kind::too_large, "The JSON is longer than 4 GiB, which no request needs."};
+  }
+  const JsonError unfinished{JsonError::Kind::unfinished, ""};
+  const auto finished = [&](Builder& builder) -> Result<JsonDocument, JsonError> {
+    JsonDocument document{builder.take(), {}, std::move(stop)};
+    report_duplicate_keys(document);
+    if (document.stop.met()) return unfinished;
+    return document;
+  };
+  Input input(body, stop);
+  Builder builder(body, input, max_depth, {});
+  if (nlohmann::json::sax_parse(input.begin(), input.end(), &builder)) return finished(builder);
+  if (stop.met()) return unfinished;
   if (!builder.overflowed()) return error_of(builder, body, max_depth);
 
-  Tamed tamed = tame_overflowing(body);
-  Builder again(max_depth, std::move(tamed.overflowing));
-  if (nlohmann::json::sax_parse(tamed.body.begin(), tamed.body.end(), &again)) return again.take();
+  Tamed tamed = tame_overflowing(body, stop);
+  Input tame_input(tamed.body, stop);
+  Builder again(body, tame_input, max_depth, std::move(tamed.overflowing));
+  if (nlohmann::json::sax_parse(tame_input.begin(), tame_input.end(), &again)) return finished(again);
+  if (stop.met()) return unfinished;
   return error_of(again, body, max_depth);
 }
 

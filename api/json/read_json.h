@@ -7,14 +7,19 @@
 
 #include "api/json/fault_list.h"
 #include "api/json/json_value.h"
+#include "api/json/parse_stop.h"
 #include "api/json/result.h"
 
 namespace fleetplan::api {
 
-/// A document that is JSON, with the faults that only its reader can see (duplicate keys).
+/// A document that is JSON, with the faults that only its reader can see (duplicate keys), and when to end
+/// reading it. The text has to outlive it.
 struct JsonDocument {
-  JsonValue root;
+  JsonTape tape;
   FaultList faults;
+  ParseStop stop;
+
+  JsonValue root() const { return tape.root(); }
 };
 
 /// Why a body is not a document that can be read.
@@ -22,7 +27,8 @@ struct JsonError {
   enum class Kind {
     malformed,  // the detail has line, column and byte
     too_deep,
-    too_large,  // more values than any request needs
+    too_large,   // more values than any request needs
+    unfinished,  // the stop was met, with a detail only if nobody cancelled
   };
   Kind kind = Kind::malformed;
   std::string detail;
@@ -30,6 +36,6 @@ struct JsonError {
 
 /// Reads a body; arrays and objects may nest up to `max_depth` deep. Of two members with the same key the
 /// first counts, and the later is a fault. Uses no stack that grows with the body.
-Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth);
+Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, ParseStop stop = {});
 
 }  // namespace fleetplan::api

@@ -44,7 +44,7 @@ struct Example {
   std::string_view name = {};  // empty: that of the code
 };
 
-constexpr std::array<Example, 19> kExamples{{
+constexpr std::array<Example, 20> kExamples{{
     {ErrorCode::malformed_json,
      "Not JSON at line 3, column 14 (byte 47): NaN and infinities are not JSON; give a finite number."},
     {ErrorCode::too_deep, "The JSON nests arrays and objects deeper than the limit of 32 levels."},
@@ -71,6 +71,10 @@ constexpr std::array<Example, 19> kExamples{{
     {ErrorCode::memory_exceeded,
      "The request needs more than 256 MiB of memory, max_plan_memory of /v1/limits: send fewer robots or a "
      "map with fewer cells."},
+    {ErrorCode::parse_unfinished,
+     "Reading the request was given up after a second of CPU time: send a smaller map, or fewer robots, "
+     "actions "
+     "or other values."},
     {ErrorCode::head_too_large, "There are more than 100 header fields."},
     {ErrorCode::internal_error, "A bug in the service; its log has more under this request_id."},
     {ErrorCode::overloaded, "All workers are busy and the queue is full: try again later."},
@@ -100,8 +104,9 @@ Json examples_of(int status) {
   for (const Example& example : kExamples) {
     if (status_of(example.code) != status) continue;
     const std::string_view name = example.name.empty() ? name_of(example.code) : example.name;
+    const std::vector<Fault> faults = faults_of(example.code);
     const Reply reply =
-        problem_reply(example.code, std::string(example.detail), "shift-7.plan-42", faults_of(example.code));
+        problem_reply({example.code, std::string(example.detail), faults, faults.size()}, "shift-7.plan-42");
     examples[std::string(name)]["value"] = Json::parse(reply.body);
   }
   return examples;

@@ -59,7 +59,8 @@ void add_geometry_fault(const core::ProblemFault& found, const std::vector<ReadR
 
 }  // namespace
 
-std::optional<core::Problem> make_problem(core::OccupancyGrid grid, std::vector<ReadRobot> robots) {
+std::optional<core::Problem> make_problem(core::OccupancyGrid grid, const std::vector<ReadRobot>& robots,
+                                          const JsonReader& root, ParseStop& stop) {
   std::vector<core::Robot> placed;
   std::vector<std::size_t> indices;
   for (std::size_t index = 0; index < robots.size(); ++index) {
@@ -67,11 +68,12 @@ std::optional<core::Problem> make_problem(core::OccupancyGrid grid, std::vector<
     placed.push_back(robots[index].robot);
     indices.push_back(index);
   }
-  auto made = core::Problem::create(std::move(grid), std::move(placed));
+  auto made = core::Problem::create(std::move(grid), std::move(placed), stop.condition());
   if (auto* problem = std::get_if<core::Problem>(&made)) return std::move(*problem);
-  for (const auto& found : std::get<std::vector<core::ProblemFault>>(made)) {
-    add_geometry_fault(found, robots, indices);
-  }
+  const auto& faults = std::get<core::ProblemFaults>(made);
+  for (const auto& found : faults.listed) add_geometry_fault(found, robots, indices);
+  root.count_more_faults(faults.total - faults.listed.size());
+  if (!faults.finished) stop.look();
   return std::nullopt;
 }
 

@@ -6,8 +6,6 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::size_t kMostListed = 100;
-
 ErrorCode code_of(JsonError::Kind kind) {
   switch (kind) {
     case JsonError::Kind::malformed:
@@ -15,6 +13,7 @@ ErrorCode code_of(JsonError::Kind kind) {
     case JsonError::Kind::too_deep:
       return ErrorCode::too_deep;
     case JsonError::Kind::too_large:
+    case JsonError::Kind::unfinished:
       break;
   }
   return ErrorCode::invalid_request;
@@ -23,8 +22,7 @@ ErrorCode code_of(JsonError::Kind kind) {
 }  // namespace
 
 RequestError request_error(const FaultList& faults) {
-  RequestError error;
-  error.faults = faults.first(kMostListed);
+  RequestError error{ErrorCode::invalid_request, "", faults.listed(), faults.count()};
   if (faults.count() == 1) {
     error.detail = error.faults.front().detail;
   } else if (faults.count() == error.faults.size()) {
@@ -36,20 +34,37 @@ RequestError request_error(const FaultList& faults) {
   return error;
 }
 
-RequestError request_error(const JsonError& error) {
-  RequestError request{code_of(error.kind), error.detail, {}};
+RequestError request_error(const JsonError& error, const ParseStop& stop) {
+  if (error.kind == JsonError::Kind::unfinished) return unfinished(stop);
+  RequestError request{code_of(error.kind), error.detail, {}, 0};
   if (request.code == ErrorCode::invalid_request) {
     request.faults.push_back({"", fault::kOutOfRange, error.detail});
+    request.faults_total = 1;
   }
   return request;
 }
 
-Fleet parse_fleet(const JsonReader& root, const Limits& limits) {
+RequestError unfinished(const ParseStop& stop) {
+  if (stop.cancelled()) {
+    return {ErrorCode::draining, "The service is shutting down: try another replica.", {}, 0};
+  }
+  return {ErrorCode::parse_unfinished,
+          "Reading the request was given up after " +
+              std::string(stop.has_budget() ? "its time budget" : "a second of CPU time") +
+              ": send a smaller map, or fewer robots, actions or other values" +
+              (stop.has_budget() ? ", or increase options.time_budget_ms." : "."),
+          {},
+          0};
+}
+
+Fleet parse_fleet(const JsonReader& root, const Limits& limits,
+                  const std::function<void(const ReadOptions&)>& set_budget) {
   Fleet fleet;
+  fleet.options = parse_options(root.find("options"));
+  set_budget(fleet.options);
   fleet.map = parse_map(root.require("map"), limits.max_cells);
   const WorldFrame frame = fleet.map ? fleet.map->frame : WorldFrame{};
   fleet.robots = parse_robots(root.require("robots"), root.find("robot_defaults"), frame, limits.max_robots);
-  fleet.options = parse_options(root.find("options"));
   return fleet;
 }
 

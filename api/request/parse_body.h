@@ -2,6 +2,7 @@
 
 // What the requests of both endpoints share: reading the body, and the map, the robots and the options in it.
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -24,22 +25,27 @@ struct Fleet {
   ReadOptions options;
 };
 
-/// Reads them from the root of the document.
-Fleet parse_fleet(const JsonReader& root, const Limits& limits);
+/// Reads them from the root of the document. `set_budget` gets the options, which are read first.
+Fleet parse_fleet(const JsonReader& root, const Limits& limits,
+                  const std::function<void(const ReadOptions&)>& set_budget);
 
-RequestError request_error(const JsonError& error);
-/// The error with all faults, the first hundred one by one. There must be one.
+RequestError request_error(const JsonError& error, const ParseStop& stop);
+/// The error with the faults that are listed, and the number of all. There must be one.
 RequestError request_error(const FaultList& faults);
 
-/// Reads a body whose root has these members. `parse` gets a reader of the root and returns an optional
-/// request, which is empty only when it reported faults. Returns the request if the document has no fault at
-/// all.
+/// The error of a request whose reading was stopped.
+RequestError unfinished(const ParseStop& stop);
+
+/// Reads a body whose root has these members. `parse` gets a reader of the root and the stop, which it may
+/// give the budget, and returns an optional request, which is empty only when it reported faults or when the
+/// stop was met. Returns the request if the document has no fault at all.
 template <typename Request, typename Parse>
-Result<Request, RequestError> parse_body(std::string_view body, const Limits& limits,
+Result<Request, RequestError> parse_body(std::string_view body, const Limits& limits, const ParseStop& stop,
                                          std::span<const std::string_view> members, const Parse& parse) {
-  auto document = read_json(body, limits.max_depth);
-  if (!document) return request_error(document.failure());
-  std::optional<Request> request = parse(JsonReader(*document).object(members));
+  auto document = read_json(body, limits.max_depth, stop);
+  if (!document) return request_error(document.failure(), stop);
+  std::optional<Request> request = parse(JsonReader(*document).object(members), document->stop);
+  if (document->stop.met()) return unfinished(document->stop);
   if (!document->faults.empty()) return request_error(document->faults);
   return std::move(*request);
 }

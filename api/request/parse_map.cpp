@@ -27,25 +27,28 @@ std::string_view character_at(std::string_view text, std::size_t offset) {
   return text.substr(offset, end - offset);
 }
 
+/// What is wrong with a row of `columns` cells.
+std::string row_fault(const JsonReader& item, std::size_t number, std::size_t columns) {
+  const std::string place = "Row " + std::to_string(number) + " of the map";
+  const auto row = item.string();
+  if (!row) return place + " must be a string, not " + item.description() + ".";
+  if (row->empty()) return place + " is empty; a row has at least one cell.";
+  const std::size_t bad = row->find_first_not_of(kCells);
+  if (bad != std::string::npos) {
+    return place + " has " + in_quotes(character_at(*row, bad)) + " in column " + std::to_string(bad) +
+           " (both from 0); free cells are . and G, blocked ones #, @, O, T and W.";
+  }
+  return place + " (from 0) has " + std::to_string(row->size()) + " cells, but row 0 has " +
+         std::to_string(columns) + "; all rows must be of the same length.";
+}
+
 /// The row, if it is one of this many columns.
 std::optional<std::string_view> parse_row(const JsonReader& item, std::size_t number, std::size_t columns) {
-  const std::string* row = item.string();
-  const std::size_t bad = row != nullptr ? row->find_first_not_of(kCells) : std::string::npos;
-  if (row != nullptr && row->size() == columns && !row->empty() && bad == std::string::npos) return *row;
-  const std::string place = "Row " + std::to_string(number) + " of the map";
-  if (row == nullptr) {
-    item.fault(fault::kWrongType, place + " must be a string, not " + item.description() + ".");
-  } else if (row->empty()) {
-    item.fault(fault::kEmpty, place + " is empty; a row has at least one cell.");
-  } else if (bad != std::string::npos) {
-    item.fault(fault::kBadMapRow,
-               place + " has " + in_quotes(character_at(*row, bad)) + " in column " + std::to_string(bad) +
-                   " (both from 0); free cells are . and G, blocked ones #, @, O, T and W.");
-  } else {
-    item.fault(fault::kBadMapRow, place + " (from 0) has " + std::to_string(row->size()) +
-                                      " cells, but row 0 has " + std::to_string(columns) +
-                                      "; all rows must be of the same length.");
-  }
+  const auto row = item.string();
+  const bool usable = row && row->size() == columns && !row->empty();
+  if (usable && row->find_first_not_of(kCells) == std::string::npos) return row;
+  const char* const code = !row ? fault::kWrongType : row->empty() ? fault::kEmpty : fault::kBadMapRow;
+  item.fault(code, [&] { return row_fault(item, number, columns); });
   return std::nullopt;
 }
 
@@ -57,8 +60,7 @@ std::optional<std::vector<std::string_view>> parse_rows(const JsonReader& member
     items.fault(fault::kEmpty, "rows must contain at least one row of the map.");
     return std::nullopt;
   }
-  const std::string* first = items.item(0).string();
-  const std::size_t columns = first != nullptr ? first->size() : 0;
+  const std::size_t columns = items.item(0).string().value_or("").size();
   // A product of two sizes of things in memory does not overflow 64 bits.
   const std::uint64_t cells = static_cast<std::uint64_t>(columns) * items.size();
   if (cells > static_cast<std::uint64_t>(max_cells)) {
@@ -70,8 +72,9 @@ std::optional<std::vector<std::string_view>> parse_rows(const JsonReader& member
   }
   std::vector<std::string_view> rows;
   rows.reserve(items.size());
-  for (std::size_t number = 0; number < items.size(); ++number) {
-    if (const auto row = parse_row(items.item(number), number, columns)) rows.push_back(*row);
+  std::size_t number = 0;
+  for (const JsonReader item : items.items()) {
+    if (const auto row = parse_row(item, number++, columns)) rows.push_back(*row);
   }
   if (rows.size() != items.size()) return std::nullopt;
   return rows;

@@ -49,9 +49,11 @@ core::Action parse_action(const JsonReader& item, const WorldFrame& frame) {
 core::RobotPlan parse_plan(const JsonReader& json, const WorldFrame& frame) {
   core::RobotPlan plan;
   const JsonReader actions = json.require("actions").array();
-  plan.actions.reserve(actions.size());
-  for (std::size_t index = 0; index < actions.size(); ++index) {
-    plan.actions.push_back(parse_action(actions.item(index), frame));
+  const std::size_t before = json.fault_count();
+  for (const JsonReader item : actions.items()) {
+    const core::Action action = parse_action(item, frame);
+    // After the first fault only faults matter: items may be many more than actions of that size.
+    if (json.fault_count() == before) plan.actions.push_back(action);
   }
   const double end = plan.actions.empty() ? 0.0 : plan.actions.back().t_end;
   plan.cost = json.find("cost").number(kTime).value_or(end);
@@ -72,11 +74,13 @@ class Roster {
     if (!id) return std::nullopt;
     const auto found = robots_.find(*id);
     if (found == robots_.end()) {
-      robot.fault(fault::kUnknownRobot, "There is no robot " + in_quotes(*id) + " in robots.");
+      robot.fault(fault::kUnknownRobot,
+                  [&] { return "There is no robot " + in_quotes(*id) + " in robots."; });
       return std::nullopt;
     }
     if (!planned_.insert(found->second).second) {
-      robot.fault(fault::kDuplicate, "Robot " + in_quotes(*id) + " already has a plan; give only one.");
+      robot.fault(fault::kDuplicate,
+                  [&] { return "Robot " + in_quotes(*id) + " already has a plan; give only one."; });
       return std::nullopt;
     }
     return found->second;
@@ -93,9 +97,8 @@ std::vector<core::RobotPlan> parse_plans(const JsonReader& member, const std::ve
                                          const WorldFrame& frame) {
   std::vector<core::RobotPlan> plans;
   Roster roster(robots);
-  const JsonReader items = member.array();
-  for (std::size_t index = 0; index < items.size(); ++index) {
-    const JsonReader json = items.item(index).object(kMembers);
+  for (const JsonReader item : member.array().items()) {
+    const JsonReader json = item.object(kMembers);
     core::RobotPlan plan = parse_plan(json, frame);
     if (const auto owner = roster.assign(json.require("robot"))) {
       plan.robot = *owner;

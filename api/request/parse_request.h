@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/json/parse_stop.h"
 #include "api/json/result.h"
 #include "api/request/limits.h"
 #include "api/request/world_frame.h"
@@ -23,7 +24,8 @@ struct PlanRequest {
   std::vector<std::string> warnings;
 };
 
-/// Reads a body of POST /v1/plan.
-Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits);
+/// Reads a body of POST /v1/plan; ends with `parse_unfinished` or `draining` when the stop is met.
+Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits,
+                                                const ParseStop& stop = {});
 
 }  // namespace fleetplan::api

@@ -88,18 +88,22 @@ ReadRobot parse_robot(const JsonReader& item, const Traits& defaults, const Worl
 }
 
 /// Reports every id that an earlier robot has.
-void report_duplicate_ids(const std::vector<ReadRobot>& robots, const JsonReader& items) {
-  std::unordered_map<std::string, std::size_t> owner;  // of each id, the first robot that has it
-  for (std::size_t index = 0; index < robots.size(); ++index) {
-    const std::string& id = robots[index].robot.id;
-    if (id.empty()) continue;
-    const auto [first, is_new] = owner.emplace(id, index);
-    if (is_new) continue;
-    items.item(index).find("id").fault(
-        fault::kDuplicate, "Robots " + std::to_string(first->second) + " and " + std::to_string(index) +
-                               " (from 0) both have the id " + in_quotes(id) + "; ids must be unique.");
+class UniqueIds {
+ public:
+  /// `item`: of the robot with this index.
+  void check(const std::string& id, std::size_t index, const JsonReader& item) {
+    if (id.empty()) return;
+    const auto [first, is_new] = owner_.emplace(id, index);
+    if (is_new) return;
+    item.find("id").fault(fault::kDuplicate, [&, earlier = first->second] {
+      return "Robots " + std::to_string(earlier) + " and " + std::to_string(index) +
+             " (from 0) both have the id " + in_quotes(id) + "; ids must be unique.";
+    });
   }
-}
+
+ private:
+  std::unordered_map<std::string, std::size_t> owner_;  // of each id, the first robot that has it
+};
 
 }  // namespace
 
@@ -118,10 +122,11 @@ std::vector<ReadRobot> parse_robots(const JsonReader& robots, const JsonReader& 
   }
   std::vector<ReadRobot> read;
   read.reserve(items.size());
-  for (std::size_t index = 0; index < items.size(); ++index) {
-    read.push_back(parse_robot(items.item(index), common, frame));
+  UniqueIds ids;
+  for (const JsonReader item : items.items()) {
+    read.push_back(parse_robot(item, common, frame));
+    ids.check(read.back().robot.id, read.size() - 1, item);
   }
-  report_duplicate_ids(read, items);
   return read;
 }
 

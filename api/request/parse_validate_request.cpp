@@ -33,20 +33,22 @@ std::chrono::nanoseconds check_budget(ReadOptions options, const Limits& limits)
 
 }  // namespace
 
-Result<ValidateRequest, RequestError> parse_validate_request(std::string_view body, const Limits& limits) {
-  const auto parse = [&](const JsonReader& root) -> std::optional<ValidateRequest> {
-    Fleet fleet = parse_fleet(root, limits);
+Result<ValidateRequest, RequestError> parse_validate_request(std::string_view body, const Limits& limits,
+                                                             const ParseStop& stop) {
+  const auto parse = [&](const JsonReader& root, ParseStop& reading) -> std::optional<ValidateRequest> {
+    Fleet fleet = parse_fleet(
+        root, limits, [&](const ReadOptions& options) { reading.set_budget(check_budget(options, limits)); });
     const double tolerance = root.find("tolerance").number(kTolerance).value_or(kDefaultTolerance);
     const WorldFrame frame = fleet.map ? fleet.map->frame : WorldFrame{};
     auto plans = parse_plans(root.require("plans"), fleet.robots, frame);
-    if (!fleet.map) return std::nullopt;
+    if (!fleet.map || reading.met()) return std::nullopt;
     std::vector<core::Robot> robots;
     robots.reserve(fleet.robots.size());
     for (ReadRobot& robot : fleet.robots) robots.push_back(std::move(robot.robot));
     return ValidateRequest{std::move(fleet.map->grid), std::move(robots), std::move(plans), tolerance,
                            check_budget(fleet.options, limits)};
   };
-  return parse_body<ValidateRequest>(body, limits, kMembers, parse);
+  return parse_body<ValidateRequest>(body, limits, stop, kMembers, parse);
 }
 
 }  // namespace fleetplan::api

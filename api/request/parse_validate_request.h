@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/json/parse_stop.h"
 #include "api/json/result.h"
 #include "api/request/limits.h"
 #include "api/response/error.h"
@@ -23,7 +24,8 @@ struct ValidateRequest {
   std::chrono::nanoseconds budget{};  // of the check
 };
 
-/// Reads a body of POST /v1/validate.
-Result<ValidateRequest, RequestError> parse_validate_request(std::string_view body, const Limits& limits);
+/// Reads a body of POST /v1/validate; ends with `parse_unfinished` or `draining` when the stop is met.
+Result<ValidateRequest, RequestError> parse_validate_request(std::string_view body, const Limits& limits,
+                                                             const ParseStop& stop = {});
 
 }  // namespace fleetplan::api

@@ -8,7 +8,7 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<ErrorRow, 18> kTable{{
+constexpr std::array<ErrorRow, 19> kTable{{
     {ErrorCode::malformed_json, 400, "malformed_json", "Malformed JSON", "The body is not JSON."},
     {ErrorCode::too_deep, 400, "too_deep", "JSON Nested Too Deep",
      "The JSON of the body nests deeper than `max_depth` of `GET /v1/limits`."},
@@ -30,13 +30,16 @@ constexpr std::array<ErrorRow, 18> kTable{{
     {ErrorCode::unsupported_media_type, 415, "unsupported_media_type", "Unsupported Media Type",
      "The body is declared to be something other than JSON, plain or with gzip."},
     {ErrorCode::invalid_request, 422, "invalid_request", "Invalid Request",
-     "The body is JSON, but not a valid request. `errors` lists all faults (the first hundred, if there are "
-     "more), in the order of the document."},
+     "The body is JSON, but not a valid request. `errors` lists the first twenty faults in the order "
+     "of the document; `errors_total` counts all."},
     {ErrorCode::check_unfinished, 422, "check_unfinished", "Check Not Finished",
      "`/v1/validate` could not check the plans within the budget."},
     {ErrorCode::memory_exceeded, 422, "memory_exceeded", "Memory Limit Exceeded",
      "The request needs more memory than `max_plan_memory` of `GET /v1/limits`, so that there is not even a "
      "partial plan."},
+    {ErrorCode::parse_unfinished, 422, "parse_unfinished", "Request Not Read",
+     "Reading the body took more than a second of CPU time, or more than the time budget once that was read: "
+     "the request is too large for this service."},
     {ErrorCode::head_too_large, 431, "head_too_large", "Request Header Fields Too Large",
      "The head of the request is larger than 32 KiB, or has more than 100 fields."},
     {ErrorCode::internal_error, 500, "internal_error", "Internal Server Error",
@@ -61,22 +64,21 @@ std::span<const ErrorRow> error_table() { return kTable; }
 
 const ErrorRow& row_of(ErrorCode code) { return kTable[static_cast<std::size_t>(code)]; }
 
-Reply problem_reply(ErrorCode code, const std::string& detail, const std::string& request_id,
-                    const std::vector<Fault>& faults) {
-  const ErrorRow& row = row_of(code);
+Reply problem_reply(const RequestError& error, const std::string& request_id) {
+  const ErrorRow& row = row_of(error.code);
   JsonWriter json;
   json.begin_object();
   // A name, not an address: there is no page behind it.
   json.member("type", "urn:fleetplan:problem:" + std::string(row.name));
-  json.member("title", row.title).member("status", row.status).member("detail", detail);
+  json.member("title", row.title).member("status", row.status).member("detail", error.detail);
   json.member("code", row.name).member("request_id", request_id);
   json.key("errors").begin_array();
-  for (const Fault& fault : faults) {
+  for (const Fault& fault : error.faults) {
     json.begin_object();
     json.member("pointer", fault.pointer).member("code", fault.code).member("detail", fault.detail);
     json.end_object();
   }
-  json.end_array().end_object();
+  json.end_array().member("errors_total", error.faults_total).end_object();
   return {row.status, kProblemJson, json.take(), row.name};
 }
 

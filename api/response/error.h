@@ -2,6 +2,7 @@
 
 // Errors as RFC 9457 problem details, from one table.
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,7 @@ enum class ErrorCode {
   invalid_request,         // 422, with one entry in `errors` for each fault
   check_unfinished,        // 422, a plan that takes longer to check than the budget
   memory_exceeded,         // 422, a request that needs more memory than it is granted
+  parse_unfinished,        // 422, a request that takes too long to read
   head_too_large,          // 431, header fields by size or number
   internal_error,          // 500
   overloaded,              // 503, queue full
@@ -53,14 +55,14 @@ inline std::string_view name_of(ErrorCode code) { return row_of(code).name; }
 struct RequestError {
   ErrorCode code = ErrorCode::invalid_request;
   std::string detail;
-  std::vector<Fault> faults;
+  std::vector<Fault> faults;  // those that are listed
+  std::size_t faults_total = 0;
 };
 
 /// The error as application/problem+json.
-Reply problem_reply(ErrorCode code, const std::string& detail, const std::string& request_id,
-                    const std::vector<Fault>& faults = {});
-inline Reply problem_reply(const RequestError& error, const std::string& request_id) {
-  return problem_reply(error.code, error.detail, request_id, error.faults);
+Reply problem_reply(const RequestError& error, const std::string& request_id);
+inline Reply problem_reply(ErrorCode code, const std::string& detail, const std::string& request_id) {
+  return problem_reply({code, detail, {}, 0}, request_id);
 }
 
 }  // namespace fleetplan::api

@@ -10,7 +10,7 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::size_t kMostWritten = 1000;
+constexpr std::size_t kMostWritten = 20;
 
 std::string_view name_of(core::Violation::Kind kind) {
   switch (kind) {
@@ -34,8 +34,8 @@ std::string_view name_of(core::Violation::Kind kind) {
 
 std::optional<double> reported_clearance(const core::VerifyReport& report) {
   if (!report.min_clearance) return std::nullopt;
-  const bool contact = *report.min_clearance >= -core::kContactTolerance &&
-                       *report.min_clearance <= core::kSamePosition;
+  const bool contact =
+      *report.min_clearance >= -core::kContactTolerance && *report.min_clearance <= core::kSamePosition;
   return contact ? 0.0 : *report.min_clearance;
 }
 
@@ -58,7 +58,8 @@ std::string write_report(const core::VerifyReport& report, const std::vector<cor
   }
   json.end_array();
   json.member("min_clearance", reported_clearance(report));
-  if (written < report.violations.size()) json.member("truncated", true);
+  json.member("violations_total", report.violation_count);
+  if (written < report.violation_count) json.member("truncated", true);
   json.end_object();
   return json.take();
 }

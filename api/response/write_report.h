@@ -13,8 +13,8 @@ namespace fleetplan::api {
 /// 0.
 std::optional<double> reported_clearance(const core::VerifyReport& report);
 
-/// The answer of POST /v1/validate. It contains at most the first thousand violations, with
-/// `"truncated": true` if there are more.
+/// The answer of POST /v1/validate. It contains at most the first twenty violations and the
+/// number of all, with `"truncated": true` if there are more.
 std::string write_report(const core::VerifyReport& report, const std::vector<core::Robot>& robots);
 
 }  // namespace fleetplan::api

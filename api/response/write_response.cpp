@@ -73,7 +73,7 @@ void write_unplanned(JsonWriter& json, const core::Unplanned& unplanned, const V
   json.member("reason", name_of(unplanned.reason)).member("detail", unplanned.detail);
   json.key("blocked_by").begin_array();
   for (const std::size_t robot : unplanned.blocked_by) json.value(verified.robots[robot].id);
-  json.end_array().end_object();
+  json.end_array().member("blocked_by_total", unplanned.blocked_by.total()).end_object();
 }
 
 void write_timings(JsonWriter& json, const Stages& stages) {

@@ -2,8 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace fleetplan::core {
+namespace {
+
+/// The distance of a coordinate from the cell of this column or row.
+double distance_to_cell(double coordinate, int cell, double resolution) {
+  return std::max({cell * resolution - coordinate, coordinate - (cell + 1) * resolution, 0.0});
+}
+
+}  // namespace
 
 double obstacle_distance(const OccupancyGrid& grid, const Position& position, double limit) {
   const double edge =
@@ -11,17 +20,24 @@ double obstacle_distance(const OccupancyGrid& grid, const Position& position, do
   if (edge <= 0.0) return edge;
   double nearest = std::min(limit, edge);
   const double resolution = grid.resolution();
-  const Cell low = grid.cell_at(position - Position(nearest, nearest));
-  const Cell high = grid.cell_at(position + Position(nearest, nearest));
-  for (int row = std::max(0, low.row); row <= std::min(grid.rows() - 1, high.row); ++row) {
-    for (int column = std::max(0, low.column); column <= std::min(grid.columns() - 1, high.column);
-         ++column) {
-      if (!grid.blocked({column, row})) continue;
-      const double dx =
-          std::max({column * resolution - position.x(), position.x() - (column + 1) * resolution, 0.0});
-      const double dy =
-          std::max({row * resolution - position.y(), position.y() - (row + 1) * resolution, 0.0});
-      nearest = std::min(nearest, std::hypot(dx, dy));
+  const Cell centre = grid.cell_at(position);
+  // Row after row away from the position, and in each row cell after cell, as long as they can be nearer.
+  const auto look_along_row = [&](int row, double dy) {
+    for (const int step : {1, -1}) {
+      for (int column = centre.column; column >= 0 && column < grid.columns(); column += step) {
+        const double dx = distance_to_cell(position.x(), column, resolution);
+        if (dx >= nearest) break;
+        if (!grid.blocked({column, row})) continue;
+        nearest = std::min(nearest, std::hypot(dx, dy));
+        break;
+      }
+    }
+  };
+  for (const int step : {1, -1}) {
+    for (int row = centre.row; row >= 0 && row < grid.rows(); row += step) {
+      const double dy = distance_to_cell(position.y(), row, resolution);
+      if (dy >= nearest) break;
+      look_along_row(row, dy);
     }
   }
   return nearest;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry/position.h"
+#include "core/model/robot_list.h"
 
 namespace fleetplan::core {
 
@@ -36,8 +37,8 @@ struct Unplanned {
   enum class Reason { start_blocked, goal_blocked, goal_unreachable, blocked_by_robots, budget_exhausted };
   std::size_t robot = 0;
   Reason reason = Reason::budget_exhausted;
-  std::string detail;                   // a sentence for people, without robot indices
-  std::vector<std::size_t> blocked_by;  // indices of the blocking robots, ascending
+  std::string detail;    // a sentence for people, without robot indices
+  RobotList blocked_by;  // the blocking robots, ascending
 };
 
 /// The sum (flowtime) and the maximum (makespan) of the planned robots' costs, or of their lower bounds, in

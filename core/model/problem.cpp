@@ -9,59 +9,72 @@
 namespace fleetplan::core {
 namespace {
 
-using Faults = std::vector<ProblemFault>;
+/// Finds the faults of robot after robot. Exact distances are computed only for faults that are listed.
+class FaultSearch {
+ public:
+  FaultSearch(const OccupancyGrid& grid, const std::vector<Robot>& robots, const StopCondition& stop)
+      : grid_(grid), robots_(robots), stop_(stop), sight_(grid) {}
 
-/// Limits the memory: a hostile request can contain millions of faults.
-constexpr std::size_t kMaxFaults = 1000;
-
-/// The start and the goal of a robot against obstacles and the edge of the map.
-Faults obstacle_faults(const OccupancyGrid& grid, const LineOfSight& sight, const Robot& robot,
-                       std::size_t index) {
-  Faults faults;
-  const auto check = [&](const Position& position, ProblemFault::Kind kind) {
-    if (sight.disk_fits(position, robot.radius)) return;  // quick, whatever the radius
-    const double gap = obstacle_distance(grid, position, robot.radius) - robot.radius;
-    if (gap < -kContactTolerance) faults.push_back({kind, index, 0, gap});
-  };
-  check(robot.start.position, ProblemFault::Kind::start_in_obstacle);
-  if (robot.goal) check(robot.goal->position, ProblemFault::Kind::goal_in_obstacle);
-  return faults;
-}
-
-/// The starts and the goals of two robots against each other.
-Faults overlap_faults(const std::vector<Robot>& robots, std::size_t other, std::size_t index) {
-  Faults faults;
-  const Robot& a = robots[other];
-  const Robot& b = robots[index];
-  const auto check = [&](const Position& p, const Position& q, ProblemFault::Kind kind) {
-    const double gap = (p - q).norm() - a.radius - b.radius;
-    if (gap < -kContactTolerance) faults.push_back({kind, index, other, gap});
-  };
-  check(a.start.position, b.start.position, ProblemFault::Kind::starts_overlap);
-  if (a.goal && b.goal) check(a.goal->position, b.goal->position, ProblemFault::Kind::goals_overlap);
-  return faults;
-}
-
-Faults faults_of(const OccupancyGrid& grid, const std::vector<Robot>& robots) {
-  Faults faults;
-  const auto append = [&](const Faults& more) { faults.insert(faults.end(), more.begin(), more.end()); };
-  const LineOfSight sight(grid);
-  for (std::size_t i = 0; i < robots.size() && faults.size() < kMaxFaults; ++i) {
-    append(obstacle_faults(grid, sight, robots[i], i));
-    for (std::size_t j = 0; j < i && faults.size() < kMaxFaults; ++j) append(overlap_faults(robots, j, i));
+  ProblemFaults run() {
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      if (stop_.met()) {
+        faults_.finished = false;
+        break;
+      }
+      check_obstacles(i);
+      for (std::size_t j = 0; j < i; ++j) check_pair(j, i);
+    }
+    return std::move(faults_);
   }
-  return faults;
-}
+
+ private:
+  template <typename Gap>
+  void add(ProblemFault::Kind kind, std::size_t robot, std::size_t other, const Gap& gap) {
+    ++faults_.total;
+    if (faults_.listed.size() >= ProblemFaults::kMostListed) return;
+    faults_.listed.push_back({kind, robot, other, gap()});
+  }
+
+  /// The start and the goal of a robot against obstacles and the edge of the map.
+  void check_obstacles(std::size_t index) {
+    const Robot& robot = robots_[index];
+    const auto check = [&](const Position& position, ProblemFault::Kind kind) {
+      if (sight_.disk_fits(position, robot.radius - kContactTolerance + kSearchSlack)) return;
+      add(kind, index, 0, [&] { return obstacle_distance(grid_, position, robot.radius) - robot.radius; });
+    };
+    check(robot.start.position, ProblemFault::Kind::start_in_obstacle);
+    if (robot.goal) check(robot.goal->position, ProblemFault::Kind::goal_in_obstacle);
+  }
+
+  /// The starts and the goals of two robots against each other.
+  void check_pair(std::size_t other, std::size_t index) {
+    const Robot& a = robots_[other];
+    const Robot& b = robots_[index];
+    const double allowed = a.radius + b.radius - kContactTolerance;
+    const auto check = [&](const Position& p, const Position& q, ProblemFault::Kind kind) {
+      if (allowed <= 0.0 || (p - q).squaredNorm() >= allowed * allowed) return;
+      add(kind, index, other, [&] { return (p - q).norm() - a.radius - b.radius; });
+    };
+    check(a.start.position, b.start.position, ProblemFault::Kind::starts_overlap);
+    if (a.goal && b.goal) check(a.goal->position, b.goal->position, ProblemFault::Kind::goals_overlap);
+  }
+
+  const OccupancyGrid& grid_;
+  const std::vector<Robot>& robots_;
+  const StopCondition& stop_;
+  const LineOfSight sight_;
+  ProblemFaults faults_;
+};
 
 }  // namespace
 
 Problem::Problem(OccupancyGrid grid, std::vector<Robot> robots)
     : grid_(std::move(grid)), robots_(std::move(robots)) {}
 
-std::variant<Problem, std::vector<ProblemFault>> Problem::create(OccupancyGrid grid,
-                                                                 std::vector<Robot> robots) {
-  Faults faults = faults_of(grid, robots);
-  if (!faults.empty()) return faults;
+std::variant<Problem, ProblemFaults> Problem::create(OccupancyGrid grid, std::vector<Robot> robots,
+                                                     const StopCondition& stop) {
+  ProblemFaults faults = FaultSearch(grid, robots, stop).run();
+  if (faults.total > 0 || !faults.finished) return faults;
   return Problem(std::move(grid), std::move(robots));
 }
 

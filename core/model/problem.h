@@ -6,6 +6,7 @@
 
 #include "core/map/occupancy_grid.h"
 #include "core/model/robot.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 
@@ -23,15 +24,22 @@ struct ProblemFault {
   double gap = 0.0;       // metres, negative: the overlap of the disks, or of the disk and the obstacle
 };
 
+/// The faults of a map and a set of robots.
+struct ProblemFaults {
+  static constexpr std::size_t kMostListed = 20;
+  std::vector<ProblemFault> listed;  // the first ones, in the order of the robots
+  std::size_t total = 0;
+  bool finished = true;  // false when the stop condition was met first; then there may be more
+};
+
 /// A map and robots that can be planned for. A problem that exists is valid: radii and speeds are positive
 /// and finite, every start and goal is clear of obstacles by the bare radius, no two starts and no two goals
 /// overlap (by more than kContactTolerance). The planner relies on this and does not check it again.
 class Problem {
  public:
-  /// The problem, or its faults (the first 1000) in the order of the robots. `robots` have positive finite
-  /// radii and speeds.
-  static std::variant<Problem, std::vector<ProblemFault>> create(OccupancyGrid grid,
-                                                                 std::vector<Robot> robots);
+  /// The problem, or its faults. `robots` have positive finite radii and speeds.
+  static std::variant<Problem, ProblemFaults> create(OccupancyGrid grid, std::vector<Robot> robots,
+                                                     const StopCondition& stop = {});
 
   const OccupancyGrid& grid() const { return grid_; }
   const std::vector<Robot>& robots() const { return robots_; }

@@ -13,6 +13,8 @@
 namespace fleetplan::core {
 namespace {
 
+constexpr std::size_t kStepsBetweenPolls = 256;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The bounding box of the disk of a robot within a time window.
@@ -47,10 +49,10 @@ class ClearanceSweep {
     least_tolerance_ = *std::min_element(tolerances_.begin(), tolerances_.end());
     const std::vector<double> boundaries = time_windows(legs_);
     for (std::size_t k = 0; k < boundaries.size(); ++k) {
-      if (stop_.met()) return std::nullopt;
+      if (stop_.met() || stopped_) return std::nullopt;
       sweep({boundaries[k], k + 1 < boundaries.size() ? boundaries[k + 1] : kInfinity});
     }
-    if (stop_.cancelled()) return std::nullopt;  // a window may be incomplete
+    if (stopped_) return std::nullopt;
     return FleetClearance{least_, std::move(overlaps_)};
   }
 
@@ -70,9 +72,15 @@ class ClearanceSweep {
   /// Pairs whose gap exceeds this neither overlap nor make the least gap smaller.
   double interesting_gap() const { return std::max(least_, -least_tolerance_) + slack_; }
 
+  /// Looks at the stop condition once in many steps.
+  void poll() {
+    if (++steps_ % kStepsBetweenPolls == 0) stopped_ = stopped_ || stop_.met();
+  }
+
   void sweep(const TimeSpan& window) {
     const std::vector<Box> boxes = boxes_in(window);
-    for (std::size_t i = 0; i < boxes.size() && !stop_.cancelled(); ++i) {
+    for (std::size_t i = 0; i < boxes.size() && !stopped_; ++i) {
+      poll();
       const Box& a = boxes[i];
       for (std::size_t j = i + 1; j < boxes.size(); ++j) {
         const Box& b = boxes[j];
@@ -113,7 +121,8 @@ class ClearanceSweep {
     const Leg* a = &legs_[first][current_leg_[first]];
     const Leg* b = &legs_[second][current_leg_[second]];
     double least_squared = kInfinity;
-    for (double now = window.begin; now < window.end;) {
+    for (double now = window.begin; now < window.end && !stopped_;) {
+      poll();
       while (a->t_end <= now) ++a;
       while (b->t_end <= now) ++b;
       const double until = std::min({a->t_end, b->t_end, window.end});
@@ -150,6 +159,8 @@ class ClearanceSweep {
   const std::vector<double>& tolerances_;  // by robot
   std::size_t max_overlaps_;
   const StopCondition& stop_;
+  std::size_t steps_ = 0;
+  bool stopped_ = false;                  // then a window may be incomplete
   std::vector<std::size_t> current_leg_;  // by robot, the first that ends after the beginning of the window
   double slack_;
   double least_tolerance_ = 0.0;

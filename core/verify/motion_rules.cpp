@@ -18,6 +18,8 @@ using Kind = Violation::Kind;
 // the largest map takes less time.
 constexpr double kLargestUsable = 1e30;
 
+constexpr std::size_t kActionsBetweenPolls = 64;
+
 bool usable(double number) { return std::abs(number) <= kLargestUsable; }  // false for NaN too
 
 bool usable(const Pose& pose) {
@@ -36,8 +38,9 @@ class MotionCheck {
   MotionCheck(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance)
       : robot_(robot), plan_(plan), tolerance_(tolerance) {}
 
-  std::vector<Violation> run() {
+  ViolationList run(const StopCondition& stop) {
     for (std::size_t k = 0; k < plan_.actions.size(); ++k) {
+      if (k % kActionsBetweenPolls == 0 && stop.met()) break;
       check_times(k);
       if (k > 0) check_start_pose(k);
       check_type(k);
@@ -51,7 +54,7 @@ class MotionCheck {
   bool differ(double a, double b) const { return std::abs(a - b) > tolerance_.seconds; }
 
   void report(Kind kind, double t, double distance, double required, const std::string& detail) {
-    violations_.push_back({kind, {plan_.robot}, t, distance, required, detail});
+    violations_.add({kind, {plan_.robot}, t, distance, required, detail});
   }
 
   void check_times(std::size_t k) {
@@ -164,7 +167,7 @@ class MotionCheck {
   const Robot& robot_;
   const RobotPlan& plan_;
   Tolerance tolerance_;
-  std::vector<Violation> violations_;
+  ViolationList violations_;
 };
 
 }  // namespace
@@ -200,8 +203,9 @@ std::optional<Violation> find_unusable_number(std::size_t index, const Robot& ro
   return std::nullopt;
 }
 
-std::vector<Violation> check_motion(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance) {
-  return MotionCheck(robot, plan, tolerance).run();
+ViolationList check_motion(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance,
+                           const StopCondition& stop) {
+  return MotionCheck(robot, plan, tolerance).run(stop);
 }
 
 }  // namespace fleetplan::core

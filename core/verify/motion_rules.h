@@ -1,12 +1,12 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/verify/tolerances.h"
 #include "core/verify/verify.h"
+#include "core/verify/violation_list.h"
 
 namespace fleetplan::core {
 
@@ -16,7 +16,8 @@ std::optional<Violation> find_unusable_number(std::size_t index, const Robot& ro
 
 /// Checks that actions are contiguous in time and space, correspond to their types and end at the cost
 /// (`discontinuity`), and that the robot keeps to its speeds and moves along its heading (`speed`). All
-/// numbers are usable.
-std::vector<Violation> check_motion(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance);
+/// numbers are usable. Ends early when `stop` is met.
+ViolationList check_motion(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance,
+                           const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/geometry/tolerance.h"
 #include "core/verify/quantity_text.h"
@@ -29,12 +30,14 @@ Violation overlap_with(const NearestObstacle& obstacle, std::size_t robot, doubl
 
 }  // namespace
 
-std::vector<Violation> check_obstacles(const ObstacleField& field, std::size_t robot, double radius,
-                                       const std::vector<Leg>& legs, double tolerance) {
-  std::vector<Violation> violations;
+ViolationList check_obstacles(const ObstacleField& field, std::size_t robot, double radius,
+                              const std::vector<Leg>& legs, double tolerance, const StopCondition& stop) {
+  ViolationList violations;
+  std::optional<Violation> latest;  // may continue
   const double reach = radius - tolerance;
   const Leg* overlapping = nullptr;  // the previous leg, if it overlaps an obstacle
   for (const Leg& leg : legs) {
+    if (stop.met()) break;
     const std::optional<NearestObstacle> nearest = field.nearest(leg.from, leg.to, reach);
     if (!nearest) {
       overlapping = nullptr;
@@ -49,11 +52,13 @@ std::vector<Violation> check_obstacles(const ObstacleField& field, std::size_t r
     const bool continues = overlapping != nullptr && overlapping->to == leg.from && at_first;
     overlapping = &leg;
     if (!continues) {
-      violations.push_back(overlap_with(*nearest, robot, radius, t));
-    } else if (distance < violations.back().distance - kSamePosition) {
-      violations.back() = overlap_with(*nearest, robot, radius, t);
+      if (latest) violations.add(std::move(*latest));
+      latest = overlap_with(*nearest, robot, radius, t);
+    } else if (distance < latest->distance - kSamePosition) {
+      latest = overlap_with(*nearest, robot, radius, t);
     }
   }
+  if (latest) violations.add(std::move(*latest));
   return violations;
 }
 

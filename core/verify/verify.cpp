@@ -1,10 +1,7 @@
 #include "core/verify/verify.h"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 #include "core/verify/endpoint_rules.h"
@@ -13,6 +10,7 @@
 #include "core/verify/motion_rules.h"
 #include "core/verify/obstacle_rules.h"
 #include "core/verify/quantity_text.h"
+#include "core/verify/violation_list.h"
 
 namespace fleetplan::core {
 namespace {
@@ -43,16 +41,6 @@ Violation collision(const Overlap& overlap, const std::vector<std::size_t>& robo
           std::move(detail)};
 }
 
-void append(std::vector<Violation>& all, std::vector<Violation> more) {
-  std::move(more.begin(), more.end(), std::back_inserter(all));
-}
-
-void sort_by_time(std::vector<Violation>& violations) {
-  std::stable_sort(violations.begin(), violations.end(), [](const Violation& a, const Violation& b) {
-    return std::tie(a.t, a.kind, a.robots) < std::tie(b.t, b.kind, b.robots);
-  });
-}
-
 }  // namespace
 
 VerifyReport verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
@@ -69,7 +57,7 @@ std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<
 std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                    const std::vector<RobotPlan>& plans,
                                    const std::vector<Tolerance>& tolerances, const StopCondition& stop) {
-  VerifyReport report;
+  ViolationList violations;
   const ObstacleField field(grid);
   const std::vector<const RobotPlan*> plan_of = plans_by_robot(robots.size(), plans);
   std::vector<std::size_t> checked;  // the robots whose numbers are usable
@@ -81,28 +69,28 @@ std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<
     const Robot& robot = robots[index];
     const RobotPlan* plan = plan_of[index];
     if (const auto unusable = find_unusable_number(index, robot, plan)) {
-      report.violations.push_back(*unusable);
+      violations.add(*unusable);
       continue;
     }
     if (plan != nullptr) {
-      append(report.violations, check_motion(robot, *plan, tolerances[index]));
-      append(report.violations, check_endpoints(robot, *plan, tolerances[index]));
+      violations.add(check_motion(robot, *plan, tolerances[index], stop));
+      for (Violation& wrong : check_endpoints(robot, *plan, tolerances[index]))
+        violations.add(std::move(wrong));
     }
     checked.push_back(index);
     radii.push_back(robot.radius);
     overlaps.push_back(tolerances[index].metres);
     legs.push_back(execute(robot, plan));
-    append(report.violations, check_obstacles(field, index, robot.radius, legs.back(), overlaps.back()));
+    violations.add(check_obstacles(field, index, robot.radius, legs.back(), overlaps.back(), stop));
   }
 
   const auto clearance = fleet_clearance(legs, radii, overlaps, kMostCollisions, stop);
-  if (!clearance) return std::nullopt;
+  if (!clearance || stop.met()) return std::nullopt;
   for (const Overlap& overlap : clearance->overlaps) {
-    report.violations.push_back(collision(overlap, checked, radii));
+    violations.add(collision(overlap, checked, radii));
   }
-  report.min_clearance = clearance->least;
-  sort_by_time(report.violations);
-  return report;
+  const std::size_t count = violations.total();
+  return VerifyReport{violations.take(), count, clearance->least};
 }
 
 }  // namespace fleetplan::core

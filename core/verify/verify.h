@@ -19,6 +19,9 @@ namespace fleetplan::core {
 /// The maximum number of overlaps of robots in a report. Many robots in one place have millions of them.
 inline constexpr std::size_t kMostCollisions = 10'000;
 
+/// The maximum number of violations in a report. Every action may have several.
+inline constexpr std::size_t kMostViolations = 10'000;
+
 /// A violation of the rules by a plan. All numbers are finite.
 ///
 /// The kinds, and what `distance` and `required` are:
@@ -49,7 +52,8 @@ struct Violation {
 
 /// The outcome of a check.
 struct VerifyReport {
-  std::vector<Violation> violations;  // by time, then kind, then robots
+  std::vector<Violation> violations;  // by time, then kind, then robots; the first kMostViolations
+  std::size_t violation_count = 0;  // also those that are not listed, except overlaps beyond kMostCollisions
   // Metres: smallest gap between two disks without inflation over all time; none for fewer than two (usable)
   // robots.
   std::optional<double> min_clearance;

@@ -132,7 +132,8 @@ TEST(PlanEndpoint, ReturnsTheReasonOfAnUnplannedRobot) {
   const Json answer = planned(request);
   EXPECT_EQ(answer["status"], "none");
   ASSERT_EQ(answer["unplanned"].size(), 2U);
-  EXPECT_THAT(keys_of(answer["unplanned"][0]), ElementsAre("robot", "reason", "detail", "blocked_by"));
+  EXPECT_THAT(keys_of(answer["unplanned"][0]),
+              ElementsAre("robot", "reason", "detail", "blocked_by", "blocked_by_total"));
   EXPECT_EQ(answer["unplanned"][0]["robot"], "a");
   EXPECT_EQ(answer["unplanned"][0]["reason"], "goal_unreachable");
 }
@@ -318,6 +319,44 @@ TEST(PlanEndpoint, KeepsIdsInAnyLanguage) {
   const std::string id = "\"Wägelchen\" 🚚\n";
   request["robots"][0]["id"] = id;
   EXPECT_EQ(planned(request)["plans"][0]["robot"], id);
+}
+
+TEST(PlanEndpoint, PlansNobodyWhenThePlanCannotBeCheckedInTime) {
+  const auto late = [](const core::Problem& problem, const core::PlanOptions& options,
+                       const core::StopCondition& stop, core::Observer*) {
+    core::Plan plan = core::plan(problem, options, core::StopCondition());
+    while (core::StopCondition::Clock::now() < stop.deadline() + std::chrono::milliseconds(200)) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return plan;
+  };
+  Json request = swap_request();
+  request["options"] = {{"time_budget_ms", 50}};
+  const Json answer = json_of(plan_with(late, request.dump(), context()));
+  EXPECT_EQ(answer["status"], "none");
+  EXPECT_EQ(answer["unplanned"][1]["reason"], "budget_exhausted");
+  EXPECT_EQ(answer["unplanned"][1]["detail"], "The time budget ended before the plan was checked.");
+  EXPECT_EQ(answer["verified"], true);
+}
+
+TEST(PlanEndpoint, ListsTwentyOfTheRobotsThatBlockAnother) {
+  Json request = swap_request();
+  request["map"] = {{"rows", {"...", "...", "..."}}, {"resolution", 1000}};
+  request["robots"] = Json::array();
+  const int robots = 300;
+  for (int k = 0; k < robots; ++k) {
+    const Json start{{"x", 1100.0 + 20.0 * (k % 20)}, {"y", 1100.0 + 20.0 * (k / 20)}};
+    const Json goal{{"x", 1900.0 - 20.0 * (k % 20)}, {"y", 1100.0 + 20.0 * (k / 20)}};
+    request["robots"].push_back(
+        {{"id", std::string(252, 'r') + std::to_string(1000 + k)}, {"start", start}, {"goal", goal}});
+  }
+  request["options"] = {{"inflation", 900}};
+  const Reply reply = plan_endpoint(request.dump(), context());
+  const Json answer = json_of(reply);
+  EXPECT_EQ(answer["unplanned"][0]["reason"], "start_blocked");
+  EXPECT_EQ(answer["unplanned"][0]["blocked_by"].size(), 20U);
+  EXPECT_EQ(answer["unplanned"][0]["blocked_by_total"], robots - 1);
+  EXPECT_LT(reply.body.size(), 20 * request.dump().size());
 }
 
 }  // namespace

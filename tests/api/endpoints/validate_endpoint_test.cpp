@@ -217,10 +217,10 @@ Json heap_request(int robots, int actions) {
 TEST(ValidateEndpoint, StopsWhenTheBudgetIsSpent) {
   RequestContext context;
   context.limits.default_budget_ms = 1;
-  const Reply reply = validate_endpoint(heap_request(200, 100).dump(), context);
+  const Reply reply = validate_endpoint(heap_request(100, 40).dump(), context);
   EXPECT_EQ(reply.status, 422);
   EXPECT_EQ(json_of(reply)["code"], "check_unfinished");
-  Json patient = heap_request(200, 100);
+  Json patient = heap_request(100, 40);
   patient["options"] = {{"time_budget_ms", 100'000}};
   EXPECT_EQ(validate_endpoint(patient.dump(), context).status, 200);
 }
@@ -242,13 +242,15 @@ TEST(ValidateEndpoint, StopsOnRequest) {
   EXPECT_EQ(json_of(reply)["code"], "draining");
 }
 
-TEST(ValidateEndpoint, ReturnsAtMostAThousandViolations) {
+TEST(ValidateEndpoint, ReturnsAtMostTwentyViolationsAndTheNumberOfAll) {
   Json request = drive_request();
   const Json jump = action(request);
   for (int count = 0; count < 1100; ++count) request["plans"][0]["actions"].push_back(jump);
   const Json answer = validated(request);
-  EXPECT_EQ(answer["violations"].size(), 1000U);
+  EXPECT_EQ(answer["violations"].size(), 20U);
+  EXPECT_GT(answer["violations_total"], 1100);
   EXPECT_EQ(answer["truncated"], true);
+  EXPECT_EQ(validated(drive_request())["violations_total"], 0);
   EXPECT_FALSE(validated(drive_request()).contains("truncated"));
 }
 

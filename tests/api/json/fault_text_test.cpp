@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <limits>
+#include <string_view>
+
+#include "api/json/read_json.h"
 
 namespace fleetplan::api {
 namespace {
@@ -35,13 +37,15 @@ TEST(Quotes, CutLongTextAtACharacter) {
 }
 
 TEST(Descriptions, NameTypesAndValues) {
-  EXPECT_EQ(described(JsonValue()), "null");
-  EXPECT_EQ(described(JsonValue(true)), "true");
-  EXPECT_EQ(described(JsonValue(-1.5)), "-1.5");
-  EXPECT_EQ(described(JsonValue(std::uint64_t{18446744073709551615U})), "18446744073709551615");
-  EXPECT_EQ(described(JsonValue(std::string("a"))), "the string \"a\"");
-  EXPECT_EQ(described(JsonValue(JsonValue::Array{})), "an array");
-  EXPECT_EQ(described(JsonValue(std::numeric_limits<double>::infinity())), "a number too large for a double");
+  const auto description_of = [](std::string_view text) { return described(read_json(text, 9)->root()); };
+  EXPECT_EQ(description_of("null"), "null");
+  EXPECT_EQ(description_of("true"), "true");
+  EXPECT_EQ(description_of("-1.5"), "-1.5");
+  EXPECT_EQ(description_of("18446744073709551615"), "18446744073709551615");
+  EXPECT_EQ(description_of("\"a\""), "the string \"a\"");
+  EXPECT_EQ(description_of("[]"), "an array");
+  EXPECT_EQ(description_of("{}"), "an object");
+  EXPECT_EQ(description_of("1e999"), "a number too large for a double");
 }
 
 TEST(Alternatives, ReadLikeASentence) {

@@ -50,7 +50,7 @@ TEST(JsonReader, ReportsFaultsAtTheirPlacesInTheOrderOfTheDocument) {
   const JsonReader object = items.item(0).object(kMembers);
   EXPECT_FALSE(object.require("b", "; give it"));
   EXPECT_FALSE(object.require("a").number(kUnit));
-  const auto faults = read.faults.first(9);
+  const auto faults = read.faults.listed();
   EXPECT_EQ(brief(faults), (Faults{{"/0/c", "unknown_key"},
                                    {"/0/a", "out_of_range"},
                                    {"/0/b", "missing"},

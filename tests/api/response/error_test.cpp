@@ -43,6 +43,7 @@ TEST(Errors, HaveTheDocumentedStatus) {
       {ErrorCode::invalid_request, 422, "invalid_request"},
       {ErrorCode::check_unfinished, 422, "check_unfinished"},
       {ErrorCode::memory_exceeded, 422, "memory_exceeded"},
+      {ErrorCode::parse_unfinished, 422, "parse_unfinished"},
       {ErrorCode::head_too_large, 431, "head_too_large"},
       {ErrorCode::internal_error, 500, "internal_error"},
       {ErrorCode::overloaded, 503, "overloaded"},
@@ -60,8 +61,10 @@ TEST(Errors, HaveTheDocumentedStatus) {
 }
 
 TEST(Errors, ListEveryFault) {
-  const Json body = json_of(problem_reply(ErrorCode::invalid_request, "Two.", "i",
-                                          {{"/a", "missing", "A \"quoted\" word."}, {"/b~1c", "x", "y"}}));
+  const Json body = json_of(problem_reply(
+      {ErrorCode::invalid_request, "Two.", {{"/a", "missing", "A \"quoted\" word."}, {"/b~1c", "x", "y"}}, 7},
+      "i"));
+  EXPECT_EQ(body["errors_total"], 7);
   EXPECT_EQ(body["errors"], Json::parse(R"([
     {"pointer": "/a", "code": "missing", "detail": "A \"quoted\" word."},
     {"pointer": "/b~1c", "code": "x", "detail": "y"}])"));
