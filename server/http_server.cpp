@@ -90,8 +90,12 @@ void HttpServer::serve(int fd, Endpoint& endpoint) {
 }
 
 Gauges HttpServer::gauges() const {
-  return {main_.connections, admin_ ? admin_->connections.load() : 0,
-          static_cast<std::size_t>(settings_.workers), jobs_.running(), jobs_.queued()};
+  return {main_.connections,
+          admin_ ? admin_->connections.load() : 0,
+          static_cast<std::size_t>(settings_.workers),
+          jobs_.running(),
+          jobs_.queued(),
+          log_.dropped()};
 }
 
 }  // namespace fleetplan::server

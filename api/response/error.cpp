@@ -8,7 +8,7 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<ErrorRow, 17> kTable{{
+constexpr std::array<ErrorRow, 19> kTable{{
     {ErrorCode::malformed_json, 400, "malformed_json", "Malformed JSON", "The body is not JSON."},
     {ErrorCode::too_deep, 400, "too_deep", "JSON Nested Too Deep",
      "The JSON of the body nests deeper than `max_depth` of `GET /v1/limits`."},
@@ -16,6 +16,8 @@ constexpr std::array<ErrorRow, 17> kTable{{
      "The HTTP request itself is malformed."},
     {ErrorCode::unauthorized, 401, "unauthorized", "Unauthorized",
      "The service requires a token, and the request has none or a wrong one."},
+    {ErrorCode::foreign_origin, 403, "foreign_origin", "Forbidden",
+     "The request comes from a page of another origin (`Origin`), which `--cors-origin` does not list."},
     {ErrorCode::not_found, 404, "not_found", "Not Found", "There is no such path or example."},
     {ErrorCode::method_not_allowed, 405, "method_not_allowed", "Method Not Allowed",
      "The path does not support this method."},
@@ -28,7 +30,9 @@ constexpr std::array<ErrorRow, 17> kTable{{
     {ErrorCode::target_too_long, 414, "target_too_long", "URI Too Long",
      "The path with its query is longer than 8 KiB."},
     {ErrorCode::unsupported_media_type, 415, "unsupported_media_type", "Unsupported Media Type",
-     "The body is declared to be something other than JSON, plain or with gzip."},
+     "The body is not declared to be JSON (`Content-Type: application/json`), plain or with gzip."},
+    {ErrorCode::wrong_host, 421, "wrong_host", "Misdirected Request",
+     "The service listens on loopback, and `Host` is neither a local name nor in `--allowed-hosts`."},
     {ErrorCode::invalid_request, 422, "invalid_request", "Invalid Request",
      "The body is JSON, but not a valid request. `errors` lists all faults (the first hundred, if there are "
      "more), in the order of the document."},

@@ -23,6 +23,7 @@ struct Gauges {
   std::size_t workers = 0;            // jobs that compute at most
   std::size_t busy = 0;               // jobs that compute
   std::size_t queued = 0;             // jobs that wait for their turn
+  std::uint64_t log_dropped = 0;      // lines since the start
 };
 
 /// Counts requests and plans since the start. Thread-safe; counting takes no lock.
