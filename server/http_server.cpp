@@ -91,7 +91,7 @@ void HttpServer::serve(int fd, Endpoint& endpoint) {
 
 Gauges HttpServer::gauges() const {
   return {main_.connections, admin_ ? admin_->connections.load() : 0,
-          static_cast<std::size_t>(settings_.workers), jobs_.load()};
+          static_cast<std::size_t>(settings_.workers), jobs_.load(), log_.dropped()};
 }
 
 }  // namespace fleetplan::server

@@ -48,6 +48,8 @@ class HttpServer {
     draining_ = true;
   }
 
+  const RequestLog& log() const { return log_; }
+
   /// No request of the main port is being read, computed or answered.
   bool idle() const { return main_.exchanges == 0; }
 

@@ -2,11 +2,13 @@
 
 #include "server/ops/health_probe.h"
 #include "server/ops/settings/settings.h"
+#include "server/ops/standard_descriptors.h"
 #include "server/run.h"
 #include "server/service.h"
 
 int main(int argc, char** argv) {
   using namespace fleetplan::server;
+  open_standard_descriptors();
   const auto parsed = parse_settings({argv + 1, argv + argc});
   if (const auto* exit = std::get_if<SettingsExit>(&parsed)) {
     (exit->code == 0 ? std::cout : std::cerr) << exit->text;

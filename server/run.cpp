@@ -100,6 +100,7 @@ void drain(HttpServer& server, const Settings& settings, const EndSignals& signa
   server.cancel_jobs();
   if (await_idle(server, signals, Clock::now() + kStopGrace)) return;
   log.error("a request did not end in time");
+  log.flush();
   std::_Exit(1);
 }
 
@@ -114,7 +115,10 @@ int run(const Settings& settings, Service service) {
     std::cerr << "fleetplan: " << *fault << '\n';
     return 1;
   }
-  const RequestLog log(settings.log_level);
+  const RequestLog& log = server.log();
+  for (const std::string& name : settings.unknown_variables) {
+    log.warn("unknown environment variable", {{"name", name}});
+  }
   std::thread serving([&] { server.run(); });
   announce(settings, server, log);
 

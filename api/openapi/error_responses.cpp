@@ -21,9 +21,10 @@ struct Response {
   std::string_view field_component = {};
 };
 
-constexpr std::array<Response, 13> kResponses{{
+constexpr std::array<Response, 15> kResponses{{
     {400, "BadRequest"},
     {401, "Unauthorized", "WWW-Authenticate", "WwwAuthenticate"},
+    {403, "Forbidden"},
     {404, "NotFound"},
     {405, "MethodNotAllowed", "Allow", "Allow"},
     {406, "NotAcceptable"},
@@ -31,6 +32,7 @@ constexpr std::array<Response, 13> kResponses{{
     {413, "BodyTooLarge"},
     {414, "TargetTooLong"},
     {415, "UnsupportedMediaType", "Accept-Encoding", "AcceptEncoding"},
+    {421, "MisdirectedRequest"},
     {422, "InvalidRequest"},
     {431, "HeadTooLarge"},
     {500, "InternalError"},
@@ -51,6 +53,9 @@ constexpr std::array<Example, 20> kExamples{{
     {ErrorCode::malformed_request, "Content-Length and Transfer-Encoding must not be combined."},
     {ErrorCode::unauthorized,
      "Send the service's token as 'Authorization: Bearer ...', or as the password of Basic."},
+    {ErrorCode::foreign_origin,
+     "Pages of the origin 'https://other.example' may not use this service, unless it is started with "
+     "--cors-origin."},
     {ErrorCode::not_found,
      "There is no example 'corridor'; there are: charging-docks, corridor-swap, crossing, hall-100, "
      "hospital-ward, lab-polygon, partly-solvable, warehouse."},
@@ -64,6 +69,10 @@ constexpr std::array<Example, 20> kExamples{{
     {ErrorCode::unsupported_media_type,
      "The body is declared a web form, as 'curl -d' does: use 'curl --json', or add -H 'Content-Type: "
      "application/json'."},
+    {ErrorCode::wrong_host,
+     "This service listens on loopback for requests to a local name, not to 'rebound.example': use "
+     "localhost, "
+     "or start it with --allowed-hosts."},
     {ErrorCode::invalid_request, "The request has 2 faults; see errors."},
     {ErrorCode::check_unfinished,
      "The plans could not be checked within 5000 ms: increase options.time_budget_ms, up to max_budget_ms of "

@@ -19,6 +19,7 @@ enum class ErrorCode {
   too_deep,                // 400
   malformed_request,       // 400, framing
   unauthorized,            // 401
+  foreign_origin,          // 403, a page of another origin
   not_found,               // 404
   method_not_allowed,      // 405
   not_acceptable,          // 406
@@ -26,6 +27,7 @@ enum class ErrorCode {
   body_too_large,          // 413
   target_too_long,         // 414, request target
   unsupported_media_type,  // 415
+  wrong_host,              // 421, the Host of a request to a service on loopback
   invalid_request,         // 422, with one entry in `errors` for each fault
   check_unfinished,        // 422, a plan that takes longer to check than the budget
   memory_exceeded,         // 422, a request that needs more memory than it is granted

@@ -1,10 +1,11 @@
 #include "server/ops/request_log.h"
 
-#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "api/json/json_writer.h"
 
@@ -16,6 +17,24 @@ using api::JsonWriter;
 
 /// Time and level, then the members of a line, without its opening brace.
 constexpr const char* kPattern = R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l",%v)";
+
+/// Bytes of the lines that wait for a reader.
+constexpr std::size_t kMaxWaiting = 1 << 20;
+
+class QueueSink final : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  explicit QueueSink(std::shared_ptr<LogQueue> queue) : queue_(std::move(queue)) {}
+
+ private:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    queue_->push({line.data(), line.size()});
+  }
+  void flush_() override { queue_->flush(); }
+
+  std::shared_ptr<LogQueue> queue_;
+};
 
 /// Rounded to the third decimal, microseconds where these are milliseconds: enough, and short.
 double rounded(double ms) { return std::round(ms * 1000.0) / 1000.0; }
@@ -40,11 +59,23 @@ void write(spdlog::logger& logger, spdlog::level::level_enum level, JsonWriter& 
   logger.log(level, spdlog::string_view_t(json.data() + 1, json.size() - 1));  // without the opening brace
 }
 
+void write_event(spdlog::logger& logger, spdlog::level::level_enum level, std::string_view message,
+                 RequestLog::Members members) {
+  if (!logger.should_log(level)) return;
+  JsonWriter line;
+  line.begin_object().member("message", message);
+  for (const auto& [name, value] : members) {
+    line.key(name);
+    std::visit([&](const auto& held) { line.value(held); }, value);
+  }
+  write(logger, level, line);
+}
+
 }  // namespace
 
-RequestLog::RequestLog(const std::string& level)
-    : logger_(
-          std::make_shared<spdlog::logger>("fleetplan", std::make_shared<spdlog::sinks::stderr_sink_mt>())) {
+RequestLog::RequestLog(const std::string& level, int fd)
+    : queue_(std::make_shared<LogQueue>(fd, kMaxWaiting)),
+      logger_(std::make_shared<spdlog::logger>("fleetplan", std::make_shared<QueueSink>(queue_))) {
   logger_->set_pattern(kPattern, spdlog::pattern_time_type::utc);
   logger_->set_level(spdlog::level::from_str(level));
 }
@@ -70,14 +101,11 @@ void RequestLog::request(const RequestRecord& record) const {
 }
 
 void RequestLog::info(std::string_view message, Members members) const {
-  if (!logger_->should_log(spdlog::level::info)) return;
-  JsonWriter line;
-  line.begin_object().member("message", message);
-  for (const auto& [name, value] : members) {
-    line.key(name);
-    std::visit([&](const auto& held) { line.value(held); }, value);
-  }
-  write(*logger_, spdlog::level::info, line);
+  write_event(*logger_, spdlog::level::info, message, members);
+}
+
+void RequestLog::warn(std::string_view message, Members members) const {
+  write_event(*logger_, spdlog::level::warn, message, members);
 }
 
 void RequestLog::error(std::string_view message, std::string_view request_id) const {

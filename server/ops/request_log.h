@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "api/response/plan_outcome.h"
+#include "server/ops/log_queue.h"
 
 namespace spdlog {
 class logger;
@@ -35,11 +36,12 @@ struct RequestRecord {
   bool admin = false;     // on the admin port
 };
 
-/// JSON lines to stderr. Thread-safe.
+/// JSON lines to stderr, or to another descriptor. A reader that does not read delays nothing, see LogQueue.
+/// Thread-safe.
 class RequestLog {
  public:
   /// `level`: trace, debug, info, warn, error, critical or off.
-  explicit RequestLog(const std::string& level);
+  explicit RequestLog(const std::string& level, int fd = 2);
 
   /// At level info, error for a status of 500 and more except 503, debug for what the admin port answers.
   void request(const RequestRecord& record) const;
@@ -50,10 +52,20 @@ class RequestLog {
   /// An event of the process, at level info; `members` follow the message.
   void info(std::string_view message, Members members = {}) const;
 
+  /// Something that an operator should look at, at level warn.
+  void warn(std::string_view message, Members members = {}) const;
+
   /// A bug.
   void error(std::string_view message, std::string_view request_id = {}) const;
 
+  /// Waits until all lines have been written, but no longer than a second.
+  void flush() const { queue_->flush(); }
+
+  /// Lines that were dropped because the reader did not read.
+  std::uint64_t dropped() const { return queue_->dropped(); }
+
  private:
+  std::shared_ptr<LogQueue> queue_;
   std::shared_ptr<spdlog::logger> logger_;
 };
 

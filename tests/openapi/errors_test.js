@@ -14,6 +14,7 @@ import { openSession } from "./support/session.js";
 const MAX_BODY = 20_000;
 const { document, client } = await openSession(["--max-body", String(MAX_BODY), "--read-timeout-ms", "300"]);
 const POSTS = ["/v1/plan", "/v1/validate"];
+const JSON_FIELDS = "Host: localhost\r\nContent-Type: application/json\r\n";
 const seen = new Set();
 const texts = new Set();
 
@@ -60,6 +61,21 @@ test("405: every path accepts only its documented methods", async () => {
   }
 });
 
+test("403: a request from a page of another origin is rejected", async () => {
+  for (const path of POSTS) {
+    for (const Origin of ["https://other.example", "null"]) {
+      expectProblem(await client.post(path, {}, { Origin }), 403, "foreign_origin");
+    }
+  }
+});
+
+test("421: a request to a foreign name of a service on loopback is rejected", async () => {
+  for (const path of POSTS) {
+    expectProblem(await client.post(path, {}, { Host: "rebound.example" }), 421, "wrong_host");
+  }
+  expectProblem(await client.get("/v1/limits", { Host: "rebound.example:8080" }), 421, "wrong_host");
+});
+
 test("406: a plan in an unsupported media type is rejected", async () => {
   for (const accept of ["text/html", "image/*, application/json;q=0", "application/xml"]) {
     expectProblem(await client.post("/v1/plan", BUSY, { Accept: accept }), 406, "not_acceptable");
@@ -67,7 +83,7 @@ test("406: a plan in an unsupported media type is rejected", async () => {
 });
 
 test("408: a head or a body that does not arrive in time is rejected", async () => {
-  const head = "POST /v1/plan HTTP/1.1\r\nHost: here\r\n";
+  const head = `POST /v1/plan HTTP/1.1\r\n${JSON_FIELDS}`;
   expectProblem(await client.sendRaw("POST", "/v1/plan", head), 408, "request_timeout");
   const body = `${head}Content-Length: 10\r\n\r\n{`;
   expectProblem(await client.sendRaw("POST", "/v1/plan", body), 408, "request_timeout");
@@ -77,7 +93,7 @@ test("413: a body that is too large is rejected, declared, in chunks or after de
   const large = " ".repeat(MAX_BODY + 1);
   for (const path of POSTS) {
     expectProblem(await client.post(path, large), 413, "body_too_large");
-    const head = `POST ${path} HTTP/1.1\r\nHost: here\r\nConnection: close\r\nTransfer-Encoding: chunked\r\n\r\n`;
+    const head = `POST ${path} HTTP/1.1\r\n${JSON_FIELDS}Connection: close\r\nTransfer-Encoding: chunked\r\n\r\n`;
     const chunk = `${large.length.toString(16)}\r\n${large}\r\n0\r\n\r\n`;
     expectProblem(await client.sendRaw("POST", path, head + chunk), 413, "body_too_large");
     const zipped = gzipSync(large);
@@ -101,6 +117,8 @@ test("415: a body of another type or coding is rejected", async () => {
     ]) {
       expectProblem(await client.post(path, "{}", { "Content-Type": type }), 415, "unsupported_media_type");
     }
+    const untyped = await client.send("POST", path, { body: "{}" });
+    expectProblem(untyped, 415, "unsupported_media_type");
     const coded = await client.post(path, "{}", { "Content-Encoding": "br" });
     expectProblem(coded, 415, "unsupported_media_type");
     assert.equal(coded.headers["accept-encoding"], "gzip");
@@ -123,7 +141,7 @@ test("400: malformed JSON, framing and gzip, and too deep nesting are rejected",
     expectProblem(await client.post(path, "[".repeat(33) + "]".repeat(33)), 400, "too_deep");
     expectProblem(await client.post(path, "[".repeat(10_000)), 400, "too_deep");
     expectProblem(await client.post(path, "{}", { "Content-Encoding": "gzip" }), 400, "malformed_request");
-    const framing = "Host: here\r\nContent-Length: 2\r\nTransfer-Encoding: chunked";
+    const framing = `${JSON_FIELDS}Content-Length: 2\r\nTransfer-Encoding: chunked`;
     const both = await client.sendRaw("POST", path, `POST ${path} HTTP/1.1\r\n${framing}\r\n\r\n0\r\n\r\n`);
     expectProblem(both, 400, "malformed_request");
   }
@@ -220,7 +238,7 @@ test("503: requests are rejected while the queue is full", async () => {
 test("503: large bodies that exceed the reserved memory are rejected", async () => {
   const flags = ["--workers", "1", "--queue", "0", "--max-body", "1MiB", "--read-timeout-ms", "2000"];
   const { client: busy } = await separateService(flags);
-  const head = "POST /v1/plan HTTP/1.1\r\nHost: here\r\nContent-Length: 1000000\r\n\r\n";
+  const head = `POST /v1/plan HTTP/1.1\r\n${JSON_FIELDS}Content-Length: 1000000\r\n\r\n`;
   const unfinished = head + " ".repeat(900_000);
   const sent = Array.from({ length: 16 }, () => busy.sendRaw("POST", "/v1/plan", unfinished));
   const rejected = (await Promise.all(sent)).filter(({ status }) => status !== 408);

@@ -116,7 +116,7 @@ class Connection:
 
 def request(method, path, body=None, fields=()):
     """The bytes of a request; `fields`: pairs."""
-    lines = [f"{method} {path} HTTP/1.1", "Host: soak"]
+    lines = [f"{method} {path} HTTP/1.1", "Host: localhost"]
     lines += [f"{name}: {value}" for name, value in fields]
     if body is not None:
         lines += ["Content-Type: application/json", f"Content-Length: {len(body)}"]

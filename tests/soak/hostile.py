@@ -36,7 +36,7 @@ HONEST = {"map": {"rows": ["......"] * 4}, "robots": [
     {"id": "a", "start": {"x": 0.5, "y": 0.5}, "goal": {"x": 5.5, "y": 0.5}},
     {"id": "b", "start": {"x": 5.5, "y": 0.5}, "goal": {"x": 0.5, "y": 0.5}}],
     "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 2.0}}
-POST = b"POST /v1/plan HTTP/1.1\r\nHost: hostile\r\n"
+POST = b"POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
 
 
 class Attackers:
@@ -171,11 +171,11 @@ def attacks():
     flat = gzip.compress(b" " * 33_000_000, 9)
     bomb = gzip.compress(bytes(1 << 30), 9)
     chunks = POST + b"Transfer-Encoding: chunked\r\n\r\n" + b"1\r\n[\r\n" * 200_000
-    heads = b"GET / HTTP/1.1\r\n" + b"".join(b"X-%d: y\r\n" % i for i in range(5000)) + b"\r\n"
+    heads = b"GET / HTTP/1.1\r\nHost: localhost\r\n" + b"".join(b"X-%d: y\r\n" % i for i in range(5000)) + b"\r\n"
     ids = {**HONEST, "robots": [{**robot, "id": robot["id"] * 1_000_000} for robot in HONEST["robots"]]}
     return [
         ("500 idle sockets", 500, idle),
-        ("slow heads", 200, drip(b"GET / HTTP/1.1\r\nHost: a\r\nX: " + b"y" * 1000, 0.5)),
+        ("slow heads", 200, drip(b"GET / HTTP/1.1\r\nHost: localhost\r\nX: " + b"y" * 1000, 0.5)),
         ("slow bodies", 200, drip(POST + b"Content-Length: 1000\r\n\r\n" + b" " * 1000, 0.5)),
         ("header floods", 8, send_and_read(heads)),
         ("conflicting lengths", 8, send_and_read(POST + b"Content-Length: 1\r\nContent-Length: 2\r\n\r\nab")),

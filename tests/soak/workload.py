@@ -90,20 +90,26 @@ def bad_bodies(limits):
 
 def malformed_requests(limits):
     """Pairs of the bytes of a bad request and the expected status."""
-    post = b"POST /v1/plan HTTP/1.1\r\n"
+    host = b"Host: localhost\r\n"
+    post = b"POST /v1/plan HTTP/1.1\r\n" + host
+    json_post = post + b"Content-Type: application/json\r\n"
     return [
-        (b"GET / HTTP/1.1\n\n", 400), (b"PRI * HTTP/2.0\r\n\r\n", 400), (b"GET /a b HTTP/1.1\r\n\r\n", 400),
+        (b"GET / HTTP/1.1\n\n", 400), (b"PRI * HTTP/2.0\r\n\r\n", 400), (b"GET /a b HTTP/1.1\r\n" + host + b"\r\n", 400),
+        (b"GET / HTTP/1.1\r\n\r\n", 400), (b"GET / HTTP/1.1\r\n" + host + host + b"\r\n", 400),
+        (b"GET / HTTP/1.1\r\nHost: rebound.example\r\n\r\n", 421),
+        (json_post + b"Origin: http://other.example\r\nContent-Length: 2\r\n\r\n{}", 403),
         (post + b"Content-Length: -1\r\n\r\n", 400), (post + b"Content-Length: 1x\r\n\r\n", 400),
         (post + b"Content-Length: 1\r\nContent-Length: 2\r\n\r\nab", 400),
         (post + b"Content-Length: 1\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n", 400),
-        (post + b"Transfer-Encoding: gzip\r\n\r\n", 400), (post + b"Transfer-Encoding: chunked\r\n\r\nxyz\r\n", 400),
-        (post + b"Transfer-Encoding: chunked\r\n\r\nFFFFFFFFFFFFFFFF\r\n", 413),
-        (post + f"Content-Length: {limits['max_body'] + 1}\r\n\r\n".encode(), 413),
-        (b"GET /" + b"a" * 70_000 + b" HTTP/1.1\r\n\r\n", 414),
+        (post + b"Transfer-Encoding: gzip\r\n\r\n", 400), (json_post + b"Transfer-Encoding: chunked\r\n\r\nxyz\r\n", 400),
+        (json_post + b"Transfer-Encoding: chunked\r\n\r\nFFFFFFFFFFFFFFFF\r\n", 413),
+        (json_post + f"Content-Length: {limits['max_body'] + 1}\r\n\r\n".encode(), 413),
+        (b"GET /" + b"a" * 70_000 + b" HTTP/1.1\r\n" + host + b"\r\n", 414),
         (b"GET / HTTP/1.1\r\n" + b"A: b\r\n" * 200 + b"\r\n", 431),
-        (b"GET /nowhere HTTP/1.1\r\n\r\n", 404), (b"DELETE /v1/plan HTTP/1.1\r\n\r\n", 405),
+        (b"GET /nowhere HTTP/1.1\r\n" + host + b"\r\n", 404), (b"DELETE /v1/plan HTTP/1.1\r\n" + host + b"\r\n", 405),
+        (post + b"Content-Length: 2\r\n\r\n{}", 415),
         (post + b"Content-Type: text/plain\r\nContent-Length: 2\r\n\r\n{}", 415),
-        (post + b"Content-Encoding: br\r\nContent-Length: 2\r\n\r\n{}", 415),
-        (post + b"Content-Encoding: gzip\r\nContent-Length: 2\r\n\r\n{}", 400),
-        (post + b"Accept: text/html\r\nContent-Length: 2\r\n\r\n{}", 406),
+        (json_post + b"Content-Encoding: br\r\nContent-Length: 2\r\n\r\n{}", 415),
+        (json_post + b"Content-Encoding: gzip\r\nContent-Length: 2\r\n\r\n{}", 400),
+        (json_post + b"Accept: text/html\r\nContent-Length: 2\r\n\r\n{}", 406),
     ]

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "server/http/guard/authority.h"
+#include "server/http/guard/field_syntax.h"
 #include "server/http/text.h"
 
 namespace fleetplan::server {
@@ -10,23 +12,6 @@ namespace fleetplan::server {
 namespace {
 
 using Parsed = std::variant<RequestHead, BadHead>;
-
-bool is_token_char(char c) {
-  constexpr std::string_view kMarks = "!#$%&'*+-.^_`|~";
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-         kMarks.find(c) != std::string_view::npos;
-}
-
-bool is_token(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), is_token_char);
-}
-
-bool is_control(char c) {
-  const auto byte = static_cast<unsigned char>(c);
-  return byte < 0x20 || byte == 0x7f;
-}
-
-bool is_field_value_char(char c) { return c == '\t' || !is_control(c); }
 
 /// Takes the next line, without its CR LF, off `rest`.
 std::string_view take_line(std::string_view& rest) {
@@ -36,14 +21,26 @@ std::string_view take_line(std::string_view& rest) {
   return line;
 }
 
-/// The path of a request target in origin-form (`/a?b`) or absolute-form (`http://host/a?b`).
-std::string_view path_of_target(std::string_view target) {
-  const auto scheme = target.find("://");
-  if (!target.starts_with('/') && scheme != std::string_view::npos) {
-    const auto slash = target.find('/', scheme + 3);
-    target = slash == std::string_view::npos ? std::string_view("/") : target.substr(slash);
+/// Reads a request target in origin-form (`/a?b`), absolute-form (`http://host/a?b`) or, of OPTIONS,
+/// asterisk-form (RFC 9112, 3.2). None of them has a fragment.
+std::optional<BadHead> parse_target(std::string_view target, RequestHead& head) {
+  if (target.find('#') != std::string_view::npos) return BadHead{"The request target contains a fragment."};
+  const std::string scheme = lower_case(target.substr(0, target.find("://")));
+  if (scheme == "http" || scheme == "https") {
+    target.remove_prefix(scheme.size() + 3);
+    const auto authority = target.substr(0, target.find_first_of("/?"));
+    if (!parse_authority(authority)) return BadHead{"The request target has no valid host."};
+    head.host = std::string(authority);
+    target.remove_prefix(authority.size());
+  } else if (!target.starts_with('/') && (target != "*" || head.method != "OPTIONS")) {
+    return BadHead{"The request target is neither a path nor an HTTP address."};
   }
-  return target.substr(0, target.find_first_of("?#"));
+  const auto raw_path = target.substr(0, target.find('?'));
+  head.raw_path = std::string(raw_path.empty() ? std::string_view("/") : raw_path);
+  auto path = percent_decoded(head.raw_path);
+  if (!path) return BadHead{"The path is not percent-encoded properly."};
+  head.path = std::move(*path);
+  return std::nullopt;
 }
 
 BadHead target_too_long() {
@@ -64,15 +61,11 @@ std::optional<BadHead> parse_request_line(std::string_view line, RequestHead& he
   if (target.size() > kMaxTargetBytes) return target_too_long();
   head.method = line.substr(0, first);
   head.http_1_0 = version == "HTTP/1.0";
-  head.raw_path = path_of_target(target);
   if (!is_token(head.method)) return BadHead{"The method is not a token."};
   if (target.find(' ') != std::string_view::npos || std::any_of(target.begin(), target.end(), is_control)) {
     return BadHead{"The request target contains a space or a control character."};
   }
-  auto path = percent_decoded(head.raw_path);
-  if (!path || path->empty()) return BadHead{"The path is empty or not percent-encoded properly."};
-  head.path = std::move(*path);
-  return std::nullopt;
+  return parse_target(target, head);
 }
 
 std::optional<BadHead> parse_field(std::string_view line, RequestHead& head) {
@@ -86,6 +79,19 @@ std::optional<BadHead> parse_field(std::string_view line, RequestHead& head) {
     return BadHead{"A header value contains a control character."};
   }
   head.fields.emplace_back(lower_case(name), value);
+  return std::nullopt;
+}
+
+/// HTTP/1.1 demands exactly one Host field, HTTP/1.0 none (RFC 9112, 3.2). It may be empty.
+std::optional<BadHead> parse_host(RequestHead& head) {
+  const auto fields = std::count_if(head.fields.begin(), head.fields.end(),
+                                    [](const auto& entry) { return entry.first == "host"; });
+  if (fields > 1) return BadHead{"There is more than one Host field."};
+  if (fields == 0 && !head.http_1_0) return BadHead{"A request of HTTP/1.1 must have a Host field."};
+  if (fields == 0) return std::nullopt;
+  std::string host = head.field("host");
+  if (!host.empty() && !parse_authority(host)) return BadHead{"The Host field is not a host with its port."};
+  if (!head.host) head.host = std::move(host);
   return std::nullopt;
 }
 
@@ -171,6 +177,7 @@ Parsed parse_request_head(std::string_view text) {
     }
     if (auto bad = parse_field(line, head)) return *bad;
   }
+  if (auto bad = parse_host(head)) return *bad;
   if (auto bad = parse_framing(head)) return *bad;
   return head;
 }

@@ -25,6 +25,8 @@ struct RequestHead {
   std::string method;    // as sent, e.g. "POST"
   std::string raw_path;  // as sent, without query
   std::string path;      // percent-decoded
+  /// Of the target, else of the Host field, as sent; none: HTTP/1.0 without Host.
+  std::optional<std::string> host = std::nullopt;
   bool http_1_0 = false;
   HeaderFields fields;                          // names in lower case, values trimmed
   std::optional<std::uint64_t> content_length;  // bytes

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/http/guard/authority.h"
 #include "server/http/text.h"
 
 namespace fleetplan::server {
@@ -18,6 +19,18 @@ bool is_host_char(char c) {
   return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || kMarks.find(c) != std::string_view::npos;
 }
 
+/// True when the origin, `scheme://host[:port]`, has the host and port of `requested`.
+bool has_authority(std::string_view origin, std::string_view requested) {
+  const auto scheme_end = origin.find("://");
+  if (scheme_end == std::string_view::npos) return false;
+  const auto page = parse_authority(origin.substr(scheme_end + 3));
+  const auto service = parse_authority(requested);
+  if (!page || !service || page->host != service->host) return false;
+  const std::string usual = origin.starts_with("https:") ? "443" : "80";
+  const auto port_of = [&](const Authority& of) { return of.port.empty() ? usual : of.port; };
+  return port_of(*page) == port_of(*service);
+}
+
 }  // namespace
 
 CrossOrigin::CrossOrigin(std::vector<std::string> origins)
@@ -26,6 +39,12 @@ CrossOrigin::CrossOrigin(std::vector<std::string> origins)
 
 bool CrossOrigin::allows(std::string_view origin) const {
   return any_ || std::find(origins_.begin(), origins_.end(), origin) != origins_.end();
+}
+
+bool CrossOrigin::admits(const RequestHead& head) const {
+  if (!head.has_field("origin")) return true;
+  const std::string origin = head.field("origin");
+  return allows(origin) || has_authority(origin, head.host.value_or(""));
 }
 
 HeaderFields CrossOrigin::answer_fields(const RequestHead& head) const {

@@ -9,8 +9,8 @@
 
 namespace fleetplan::server {
 
-/// The pages of other origins that may read answers in a browser (the Fetch standard's CORS protocol).
-/// Without credentials of the browser: a page sends the token itself.
+/// The pages of other origins that may use the service and read answers in a browser (the Fetch standard's
+/// CORS protocol). Without credentials of the browser: a page sends the token itself.
 class CrossOrigin {
  public:
   /// `origins`: each `scheme://host[:port]`, or `*` for any. Empty: no page of another origin.
@@ -18,6 +18,11 @@ class CrossOrigin {
 
   /// Header fields of every answer to this request.
   HeaderFields answer_fields(const RequestHead& head) const;
+
+  /// True when the request is not one of a page of another origin, or that page is allowed. A page whose
+  /// origin has the host and port of the request is the service's own: with a proxy that terminates TLS, the
+  /// schemes differ.
+  bool admits(const RequestHead& head) const;
 
   /// True for the preflight that a browser sends before the request of a page that is allowed.
   bool is_preflight(const RequestHead& head) const;

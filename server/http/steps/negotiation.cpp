@@ -73,7 +73,8 @@ std::optional<std::string> content_type_fault(std::string_view content_type) {
       return "JSON must be encoded in UTF-8: send 'Content-Type: application/json'.";
     }
   }
-  if (type.empty() || type == "application/json" || type.ends_with("+json")) return std::nullopt;
+  if (type.empty()) return "The body has no Content-Type: send 'Content-Type: application/json'.";
+  if (type == "application/json" || type.ends_with("+json")) return std::nullopt;
   if (type == "application/x-www-form-urlencoded") {
     return "The body is declared a web form, as 'curl -d' does: use 'curl --json', or add "
            "-H 'Content-Type: application/json'.";

@@ -19,7 +19,8 @@ std::optional<PlanForm> plan_form(std::string_view accept);
 /// True when an Accept-Encoding field (empty: absent) allows gzip.
 bool accepts_gzip(std::string_view accept_encoding);
 
-/// None when a body of this Content-Type (empty: absent) is accepted; otherwise a detail with the remedy.
+/// None when a body of this Content-Type is accepted; otherwise a detail with the remedy. Empty, which is
+/// absent, is not accepted: browsers send such a body, or a form, for any page without asking the service.
 std::optional<std::string> content_type_fault(std::string_view content_type);
 
 enum class ContentCoding { identity, gzip, unknown };

@@ -17,6 +17,7 @@ Steps::Steps(Port port, const Settings& settings, const RouteTable& routes, cons
     : port_(port),
       settings_(settings),
       routes_(routes),
+      allowed_hosts_(settings.host, settings.allowed_hosts),
       cross_origin_(cross_origin),
       draining_(draining),
       metrics_(metrics),
@@ -37,12 +38,21 @@ void Steps::begin(Exchange& exchange) const {
 }
 
 std::optional<DirectAnswer> Steps::answer_to_head(const Exchange& exchange) const {
-  static constexpr std::array kInOrder{&Steps::preflight, &Steps::authentication, &Steps::path,
-                                       &Steps::method,    &Steps::content,        &Steps::draining};
+  static constexpr std::array kInOrder{&Steps::host,           &Steps::preflight, &Steps::origin,
+                                       &Steps::authentication, &Steps::path,      &Steps::method,
+                                       &Steps::content,        &Steps::draining};
   for (const auto step : kInOrder) {
     if (auto answer = (this->*step)(exchange)) return answer;
   }
   return std::nullopt;
+}
+
+Steps::Answer Steps::host(const Exchange& exchange) const {
+  if (allowed_hosts_.admits(exchange.head)) return std::nullopt;
+  return refusal(exchange, ErrorCode::wrong_host,
+                 std::string("This service listens on loopback for requests to a local name, not to ") +
+                     in_quotes(exchange.head.host.value_or("")) +
+                     ": use localhost, or start it with --allowed-hosts.");
 }
 
 Steps::Answer Steps::preflight(const Exchange& exchange) const {
@@ -50,6 +60,15 @@ Steps::Answer Steps::preflight(const Exchange& exchange) const {
   api::Reply no_content{204, "", ""};
   return DirectAnswer{std::move(no_content),
                       CrossOrigin::preflight_fields(exchange.route->allowed_methods())};
+}
+
+Steps::Answer Steps::origin(const Exchange& exchange) const {
+  const Route* route = exchange.route;
+  const bool has_effect = route != nullptr && route->takes_body() && route->allows(exchange.head.method);
+  if (!has_effect || cross_origin_.admits(exchange.head)) return std::nullopt;
+  return refusal(exchange, ErrorCode::foreign_origin,
+                 std::string("Pages of the origin ") + in_quotes(exchange.head.field("origin")) +
+                     " may not use this service, unless it is started with --cors-origin.");
 }
 
 /// Programs send the token as Bearer. For Basic, browsers show a login dialog.

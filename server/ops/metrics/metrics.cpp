@@ -23,9 +23,9 @@ constexpr const char* kCompiler = "g++ " __VERSION__;
 /// The statuses whose series exist from the start, so that none first appears when it goes up. A preflight
 /// (204) may name any route. Answers to a GET with a broken or endless body are not usual.
 std::set<int> usual_statuses(const Route& route) {
-  std::set<int> usual{200, 204, 405, 500};
+  std::set<int> usual{200, 204, 405, 421, 500};
   if (!route.traits.without_token) usual.insert(401);
-  if (route.takes_body()) usual.insert({400, 408, 413, 415, 422, 499, 503});
+  if (route.takes_body()) usual.insert({400, 403, 408, 413, 415, 422, 499, 503});
   if (route.traits.plans) usual.insert(406);
   usual.insert(route.traits.statuses.begin(), route.traits.statuses.end());
   return usual;
@@ -73,7 +73,7 @@ void write_jobs(MetricsText& text, const WorkerLoad& jobs) {
 
 Metrics::Metrics(const RouteTable& routes) {
   // The path is unknown, or the head was refused before the path was looked up.
-  requests_.emplace_back("unknown", std::set<int>{400, 401, 404, 408, 414, 431});
+  requests_.emplace_back("unknown", std::set<int>{400, 401, 404, 408, 414, 421, 431});
   for (const Route& route : routes.routes()) requests_.emplace_back(route.path, usual_statuses(route));
   for (const api::ErrorRow& row : api::error_table()) rejected_[row.name];
 }
@@ -167,6 +167,8 @@ std::string Metrics::text(const Gauges& now) const {
   text.sample(as_double(planned_robots_.value()), {{"outcome", "planned"}});
   text.sample(as_double(unplanned_robots_.value()), {{"outcome", "unplanned"}});
   counter("fleetplan_expansions_total", expansions_, "Search labels expanded.");
+  text.metric("fleetplan_log_lines_dropped_total", "counter", "Log lines dropped: stderr was not read.")
+      .sample(as_double(now.log_dropped));
   write_process(text, started_at_);
   return text.take();
 }

@@ -23,6 +23,7 @@ struct Gauges {
   std::size_t admin_connections = 0;  // the same, of the admin port
   std::size_t workers = 0;            // jobs that compute at most
   WorkerLoad jobs;
+  std::uint64_t log_dropped = 0;  // lines since the start
 };
 
 /// Counts requests and plans since the start. Thread-safe; counting takes no lock.

@@ -1,5 +1,7 @@
 #include "server/ops/settings/settings.h"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
@@ -9,6 +11,7 @@
 #include <sstream>
 
 #include "server/http/static_files.h"
+#include "server/http/steps/allowed_hosts.h"
 #include "server/http/steps/cors.h"
 #include "server/ops/settings/config_file.h"
 #include "server/ops/settings/cpu_count.h"
@@ -22,9 +25,21 @@ constexpr std::size_t kQueuePerWorker = 4;
 constexpr std::uint64_t kLeastPlanMemory = 1 << 20;
 constexpr std::int64_t kMaxMs = 86'400'000;  // a day
 
+constexpr std::string_view kEnvironmentPrefix = "FLEETPLAN_";
+
 std::string environment_name(std::string flag) {
   for (char& c : flag) c = c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return "FLEETPLAN_" + flag;
+  return std::string(kEnvironmentPrefix) + flag;
+}
+
+/// The names of all environment variables that begin like those of settings.
+std::vector<std::string> prefixed_variables() {
+  std::vector<std::string> names;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable;
+    if (text.starts_with(kEnvironmentPrefix)) names.emplace_back(text.substr(0, text.find('=')));
+  }
+  return names;
 }
 
 /// Flags with their environment names, and values that need conversion before they go into Settings.
@@ -75,6 +90,13 @@ class Flags {
     return std::nullopt;
   }
 
+  /// Most probably misspelt.
+  std::vector<std::string> unknown_environment() const {
+    std::vector<std::string> unknown = prefixed_variables();
+    for (const CLI::Option* option : app_.get_options()) std::erase(unknown, option->get_envname());
+    return unknown;
+  }
+
   template <typename T>
   CLI::Option* add(const std::string& flag, T& value, const std::string& description) {
     return app_.add_option("--" + flag, value, description)
@@ -115,6 +137,12 @@ class Flags {
     add("trusted-proxy", trusted_proxies_,
         "Addresses (10.0.0.7, 10.0.0.0/8) of proxies whose X-Forwarded-For names the client, comma-separated "
         "or repeated")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->default_str("none");
+    add("allowed-hosts", settings_.allowed_hosts,
+        "On a loopback host: names besides local ones by which requests may address the service, "
+        "comma-separated or repeated; * for any")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->default_str("none");
@@ -174,6 +202,7 @@ class Flags {
     settings_.read_timeout = std::chrono::milliseconds(read_timeout_ms_);
     settings_.drain = std::chrono::milliseconds(drain_ms_);
     settings_.drain_delay = std::chrono::milliseconds(drain_delay_ms_);
+    settings_.unknown_variables = unknown_environment();
     if (admin_->count() > 0) settings_.admin_port = admin_port_;
     return settings_;
   }
@@ -186,6 +215,9 @@ class Flags {
       const auto range = AddressRange::from_text(text);
       if (!range) return "--trusted-proxy: '" + text + "' is not an address or a range such as 10.0.0.0/8";
       settings_.trusted_proxies.push_back(*range);
+    }
+    for (const std::string& name : settings_.allowed_hosts) {
+      if (const auto fault = host_name_fault(name)) return "--allowed-hosts: " + *fault;
     }
     if (token_option_->count() == 0) return std::nullopt;
     auto token = AccessToken::from_file(token_file_);

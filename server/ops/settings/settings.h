@@ -29,8 +29,10 @@ struct Settings {
   std::optional<AccessToken> token = std::nullopt;  // required for all requests except health and readiness
   std::vector<std::string> cors_origins = {};       // see CrossOrigin
   std::vector<AddressRange> trusted_proxies = {};   // whose X-Forwarded-For names the client
+  std::vector<std::string> allowed_hosts = {};      // see AllowedHosts
   std::string log_level = "info";
-  std::string web_root;      // empty: no page
+  std::string web_root;                             // empty: no page
+  std::vector<std::string> unknown_variables = {};  // of the environment: named like settings, but none
   bool healthcheck = false;  // probe the service that runs with these settings instead of serving
 };
 

@@ -103,7 +103,7 @@ TEST_F(Page, HasNoHiddenLinkedOrOutsideFiles) {
                            "/..%2foutside.txt", "/link.txt", "/.hidden", "/modules", "/modules/",
                            "//index.html", "/./index.html", "/..\\outside.txt"}) {
     RawConnection raw(server.server.port());
-    raw.send("GET " + std::string(path) + " HTTP/1.1\r\n\r\n");
+    raw.send("GET " + std::string(path) + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
     const std::string answer = raw.receive();
     EXPECT_EQ(answer.find("HTTP/1.1 404 "), 0u) << path;
     EXPECT_EQ(answer.find("secret"), std::string::npos) << path;

@@ -90,7 +90,7 @@ TEST(Load, IdleConnectionsDoNotBlockOthers) {
   std::vector<std::unique_ptr<RawConnection>> idle;
   for (int i = 0; i < 64; ++i) {
     idle.push_back(std::make_unique<RawConnection>(server.server.port()));
-    idle.back()->send("GET /healthz HTTP/1.1\r\n\r\n");
+    idle.back()->send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
     ASSERT_NE(idle.back()->receive().find("200 OK"), std::string::npos);
   }
   const auto result = server.client().Get("/healthz");
@@ -106,7 +106,7 @@ TEST(Load, ConnectionsBeyondTheLimitWaitForOneToEnd) {
   std::vector<std::unique_ptr<RawConnection>> clients;
   for (int i = 0; i < 6; ++i) {
     clients.push_back(std::make_unique<RawConnection>(server.server.port()));
-    clients.back()->send("GET /healthz HTTP/1.1\r\n\r\n");
+    clients.back()->send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
   }
   for (auto& client : clients) EXPECT_NE(client->receive().find("200 OK"), std::string::npos);
 }
@@ -162,7 +162,9 @@ TEST(Leaving, StopsThePlan) {
   TestServer server(with_workers(1, 1));
   {
     RawConnection client(server.server.port());
-    client.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 4\r\n\r\ngate");
+    client.send(
+        "POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: "
+        "4\r\n\r\ngate");
     server.stub.gate.await_waiting(1);
   }
   // The only worker is free again, though the gate never opened.
@@ -175,7 +177,9 @@ TEST(Leaving, StopsThePlan) {
 TEST(Leaving, ByClosingOneHalfOfTheConnectionStopsThePlan) {
   TestServer server(with_workers(1, 1));
   RawConnection client(server.server.port());
-  client.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 4\r\n\r\ngate");
+  client.send(
+      "POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: "
+      "4\r\n\r\ngate");
   server.stub.gate.await_waiting(1);
   client.end_of_sending();
   EXPECT_TRUE(holds_soon([&] { return server.stub.stopped == 1; }));
@@ -245,7 +249,9 @@ TEST(Draining, IsAnnouncedBeforeAnythingIsRejected) {
 TEST(Draining, DoesNotWaitForBodiesOnceJobsAreCancelled) {
   TestServer server(with_workers(1, 4));
   RawConnection slow(server.server.port());
-  slow.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 10\r\nExpect: 100-continue\r\n\r\n");
+  slow.send(
+      "POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: "
+      "10\r\nExpect: 100-continue\r\n\r\n");
   EXPECT_EQ(slow.receive(), "HTTP/1.1 100 Continue\r\n\r\n");
   slow.send("abc");
   server.server.begin_drain();
@@ -263,7 +269,7 @@ TEST(Stopping, EndsIdleConnectionsAtOnce) {
   settings.idle_timeout = std::chrono::minutes(10);
   TestServer server(settings);
   RawConnection idle(server.server.port());
-  idle.send("GET /healthz HTTP/1.1\r\n\r\n");
+  idle.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_NE(idle.receive().find("200 OK"), std::string::npos);
   server.stop();
   EXPECT_TRUE(idle.closed_by_server());

@@ -37,7 +37,9 @@ Service planner_behind(StubService& stub) {
 }
 
 void send_gate(const RawConnection& client) {
-  client.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 4\r\n\r\ngate");
+  client.send(
+      "POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: "
+      "4\r\n\r\ngate");
 }
 
 /// One robot. Whether the job counts as short depends on the size of the map.

@@ -76,7 +76,9 @@ TEST(AdminPort, AnswersWhenAllWorkersAreBusyAndTheQueueIsFull) {
   settings.queue = 0;
   TestServer server(settings);
   RawConnection running(server.server.port());
-  running.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 4\r\n\r\ngate");
+  running.send(
+      "POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: "
+      "4\r\n\r\ngate");
   server.stub.gate.await_waiting(1);
   auto client = admin_client(server);
   EXPECT_EQ(status_of(client.Get("/readyz")), 200);

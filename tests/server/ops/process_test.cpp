@@ -8,6 +8,8 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <functional>
 #include <future>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -24,7 +26,8 @@ namespace {
 /// A running `fleetplan`, whose output and log can be read.
 class Process {
  public:
-  explicit Process(const std::vector<std::string>& arguments) {
+  /// `prepare`: called in the child before it becomes the server.
+  explicit Process(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}) {
     std::array<int, 2> out{};
     std::array<int, 2> log{};
     if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(log.data(), O_CLOEXEC) != 0) return;
@@ -32,6 +35,7 @@ class Process {
     if (pid_ == 0) {
       ::dup2(out[1], STDOUT_FILENO);
       ::dup2(log[1], STDERR_FILENO);
+      if (prepare) prepare();
       std::vector<std::string> words{FLEETPLAN_EXECUTABLE};
       words.insert(words.end(), arguments.begin(), arguments.end());
       std::vector<char*> pointers;
@@ -141,7 +145,7 @@ TEST(Process, LogsTheTraceAndTheForwardedAddresses) {
 TEST(Process, LogsAPathOfInvalidUtf8AsValidJson) {
   Process process({"--port", "0", "--workers", "1"});
   RawConnection client(port_in(process.output_line()));
-  client.send("GET /nowhere/\xff\"\xc3 HTTP/1.1\r\n\r\n");
+  client.send("GET /nowhere/\xff\"\xc3 HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_NE(client.receive().find("not_found"), std::string::npos);
   const std::string log = process.log_line_with("/nowhere");
   const auto line = nlohmann::json::parse(log, nullptr, false);
@@ -179,8 +183,9 @@ TEST(Process, LogsNoErrorWhenAClientLeaves) {
   Process process({"--port", "0", "--workers", "1", "--queue", "1"});
   const int port = port_in(process.output_line());
   const auto send = [](RawConnection& client, const std::string& path, const std::string& body) {
-    client.send("POST " + path + " HTTP/1.1\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" +
-                body);
+    client.send("POST " + path +
+                " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: " +
+                std::to_string(body.size()) + "\r\n\r\n" + body);
   };
   RawConnection busy(port);
   send(busy, "/v1/plan", swap_request("anytime"));
@@ -210,6 +215,60 @@ TEST(Process, LogsItsStartAndItsEnd) {
       << draining;
   EXPECT_NE(process.log_line().find(R"("message":"stopped")"), std::string::npos);
   EXPECT_EQ(process.exit_code(), 0);
+}
+
+TEST(Process, ServesAndEndsWhenNobodyReadsItsLog) {
+  Process process({"--port", "0", "--workers", "1"});
+  const int port = port_in(process.output_line());
+  httplib::Client client("127.0.0.1", port);
+  client.set_keep_alive(true);
+  const httplib::Headers long_id{{"X-Request-Id", std::string(128, 'a')}};
+  for (int i = 0; i < 6000; ++i) {  // 2 MB of log; the pipe holds 64 KiB and the queue 1 MiB
+    const auto health = client.Get("/healthz", long_id);
+    ASSERT_TRUE(health) << i;
+    ASSERT_EQ(health->status, 200);
+  }
+  const auto metrics = client.Get("/metrics");
+  ASSERT_TRUE(metrics);
+  EXPECT_NE(metrics->body.find("\nfleetplan_log_lines_dropped_total "), std::string::npos);
+  EXPECT_EQ(metrics->body.find("\nfleetplan_log_lines_dropped_total 0\n"), std::string::npos);
+  process.signal(SIGTERM);
+  EXPECT_EQ(process.exit_code(), 0);
+}
+
+TEST(Process, SendsNoLogToClientsWhenItsStandardDescriptorsAreClosed) {
+  // Nobody learns the port from the output, so another server finds a free one first.
+  std::string port;
+  {
+    Process other({"--port", "0", "--workers", "1"});
+    port = std::to_string(port_in(other.output_line()));
+  }
+  Process process({"--port", port, "--workers", "1"}, [] {
+    for (int fd = 0; fd <= 2; ++fd) ::close(fd);
+  });
+  httplib::Client client("127.0.0.1", std::stoi(port));
+  EXPECT_TRUE(holds_soon([&] { return client.Get("/healthz") != nullptr; }));
+  RawConnection raw(std::stoi(port));
+  for (int i = 0; i < 3; ++i) {
+    raw.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(raw.receive().find("HTTP/1.1 200 OK\r\n"), 0U);
+  }
+  process.signal(SIGTERM);
+  EXPECT_EQ(raw.receive_all(), "");
+  EXPECT_EQ(process.exit_code(), 0);
+}
+
+TEST(Process, WarnsOfUnknownEnvironmentVariables) {
+  Process process({"--port", "0", "--workers", "1"}, [] {
+    ::setenv("FLEETPLAN_MAX_BODDY", "1MiB", 1);
+    ::setenv("FLEETPLAN_MAX_BODY", "1MiB", 1);
+  });
+  process.output_line();
+  const std::string warning = process.log_line_with("unknown environment variable");
+  EXPECT_NE(warning.find(R"("level":"warning")"), std::string::npos) << warning;
+  EXPECT_NE(warning.find(R"("name":"FLEETPLAN_MAX_BODDY")"), std::string::npos) << warning;
+  process.signal(SIGTERM);
+  EXPECT_EQ(process.log_line_with("unknown environment variable"), "");
 }
 
 TEST(Process, LogsAdminRequestsAtDebugLevelOnly) {

@@ -12,7 +12,8 @@ export async function startService(flags = []) {
   if (!binary) throw new Error("FLEETPLAN_BIN must name the server binary");
   const port = String(await freePort());
   const all = ["--host", "127.0.0.1", "--port", port, "--log-level", "warn", ...flags];
-  const child = spawn(binary, all, { stdio: ["ignore", "pipe", "inherit"] });
+  const env = { ...process.env, FLEETPLAN_BIN: undefined }; // which the server would warn of
+  const child = spawn(binary, all, { env, stdio: ["ignore", "pipe", "inherit"] });
   const ended = new Promise((resolve) => child.once("exit", resolve));
   try {
     const url = await listening(child);

@@ -74,8 +74,9 @@ class EventStreams : public testing::Test {
 
   static std::string request(const std::string& body, const std::string& version = "1.1") {
     return "POST /v1/plan HTTP/" + version +
-           "\r\nAccept: text/event-stream\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" +
-           body;
+           "\r\nHost: localhost\r\nContent-Type: application/json\r\nAccept: "
+           "text/event-stream\r\nContent-Length: " +
+           std::to_string(body.size()) + "\r\n\r\n" + body;
   }
 
   EventfulService service;

@@ -15,7 +15,7 @@ RequestHead parsed(const std::string& text) {
 bool is_refused(const std::string& text) { return std::holds_alternative<BadHead>(parse_request_head(text)); }
 
 bool is_refused_with_fields(const std::string& fields) {
-  return is_refused("POST / HTTP/1.1\r\n" + fields + "\r\n");
+  return is_refused("POST / HTTP/1.1\r\nHost: a\r\n" + fields + "\r\n");
 }
 
 TEST(RequestHead, HasMethodPathWithoutQueryAndFields) {
@@ -29,12 +29,40 @@ TEST(RequestHead, HasMethodPathWithoutQueryAndFields) {
 }
 
 TEST(RequestHead, AcceptsTheAbsoluteFormOfATarget) {
-  EXPECT_EQ(parsed("GET http://host:80/healthz?q HTTP/1.1\r\n\r\n").path, "/healthz");
-  EXPECT_EQ(parsed("GET http://host HTTP/1.1\r\n\r\n").path, "/");
+  EXPECT_EQ(parsed("GET http://host:80/healthz?q HTTP/1.1\r\nHost: a\r\n\r\n").path, "/healthz");
+  EXPECT_EQ(parsed("GET http://host HTTP/1.1\r\nHost: a\r\n\r\n").path, "/");
+  EXPECT_EQ(parsed("GET HTTPS://host?a=/b HTTP/1.1\r\nHost: a\r\n\r\n").path, "/");
+  EXPECT_EQ(parsed("GET http://[::1]:80/a://b?c HTTP/1.1\r\nHost: a\r\n\r\n").path, "/a://b");
+}
+
+TEST(RequestHead, HasTheHostOfItsTargetElseOfItsField) {
+  EXPECT_EQ(parsed("GET http://Host:80/ HTTP/1.1\r\nHost: other\r\n\r\n").host, "Host:80");
+  EXPECT_EQ(parsed("GET / HTTP/1.1\r\nHost: [::1]:8080\r\n\r\n").host, "[::1]:8080");
+  EXPECT_EQ(parsed("GET / HTTP/1.1\r\nHost:\r\n\r\n").host, "");
+  EXPECT_EQ(parsed("GET / HTTP/1.0\r\n\r\n").host, std::nullopt);
+}
+
+TEST(RequestHead, RejectsHostFieldsThatAreMissingRepeatedOrMalformed) {
+  EXPECT_TRUE(is_refused("GET / HTTP/1.1\r\n\r\n"));
+  EXPECT_TRUE(is_refused("GET http://host/ HTTP/1.1\r\n\r\n"));
+  for (const char* fields :
+       {"Host: a\r\nHost: a\r\n", "Host: a\r\nhost: b\r\n", "Host: a b\r\n", "Host: a/b\r\n", "Host: a:b\r\n",
+        "Host: :80\r\n", "Host: user@a\r\n", "Host: [::1\r\n", "Host: [a]:1\r\n", "Host: a, b\r\n"}) {
+    EXPECT_TRUE(is_refused(std::string("GET / HTTP/1.1\r\n") + fields + "\r\n")) << fields;
+  }
+}
+
+TEST(RequestHead, RejectsTargetsThatAreNeitherAPathNorAnHttpAddress) {
+  for (const char* target :
+       {"healthz", "*", "/healthz#a", "http://host/#", "http://host#a", "http://", "http:///healthz",
+        "http://?a", "http://user@host/", "ftp://host/", "host:80", "?a", "://host/"}) {
+    EXPECT_TRUE(is_refused(std::string("GET ") + target + " HTTP/1.1\r\nHost: a\r\n\r\n")) << target;
+  }
+  EXPECT_EQ(parsed("OPTIONS * HTTP/1.1\r\nHost: a\r\n\r\n").path, "*");
 }
 
 TEST(RequestHead, JoinsFieldsOfOneName) {
-  EXPECT_EQ(parsed("GET / HTTP/1.1\r\nAccept: a\r\naccept: b\r\n\r\n").field("accept"), "a, b");
+  EXPECT_EQ(parsed("GET / HTTP/1.1\r\nHost: a\r\nAccept: a\r\naccept: b\r\n\r\n").field("accept"), "a, b");
 }
 
 TEST(RequestHead, RejectsAContentLengthThatIsNotACount) {
@@ -51,7 +79,7 @@ TEST(RequestHead, RejectsContentLengthTogetherWithTransferEncoding) {
 }
 
 TEST(RequestHead, AcceptsOnlyChunkedAsTransferCoding) {
-  EXPECT_TRUE(parsed("POST / HTTP/1.1\r\nTransfer-Encoding: Chunked\r\n\r\n").chunked);
+  EXPECT_TRUE(parsed("POST / HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: Chunked\r\n\r\n").chunked);
   EXPECT_TRUE(is_refused_with_fields("Transfer-Encoding: gzip, chunked\r\n"));
   EXPECT_TRUE(is_refused("POST / HTTP/1.0\r\nTransfer-Encoding: chunked\r\n\r\n"));
 }
@@ -59,10 +87,10 @@ TEST(RequestHead, AcceptsOnlyChunkedAsTransferCoding) {
 TEST(RequestHead, RejectsMalformedLines) {
   EXPECT_TRUE(is_refused("GET /\r\n\r\n"));
   EXPECT_TRUE(is_refused("GET / HTTP/2.0\r\n\r\n"));
-  EXPECT_TRUE(is_refused("GET /a b HTTP/1.1\r\n\r\n"));
+  EXPECT_TRUE(is_refused("GET /a b HTTP/1.1\r\nHost: a\r\n\r\n"));
   EXPECT_TRUE(is_refused("G@T / HTTP/1.1\r\n\r\n"));
-  EXPECT_TRUE(is_refused("GET /%zz HTTP/1.1\r\n\r\n"));
-  EXPECT_TRUE(is_refused("GET /%00 HTTP/1.1\r\n\r\n"));
+  EXPECT_TRUE(is_refused("GET /%zz HTTP/1.1\r\nHost: a\r\n\r\n"));
+  EXPECT_TRUE(is_refused("GET /%00 HTTP/1.1\r\nHost: a\r\n\r\n"));
   EXPECT_TRUE(is_refused_with_fields("Name : value\r\n"));
   EXPECT_TRUE(is_refused_with_fields(" folded\r\n"));
   EXPECT_TRUE(is_refused_with_fields("no colon\r\n"));
@@ -71,14 +99,14 @@ TEST(RequestHead, RejectsMalformedLines) {
 
 TEST(RequestHead, RejectsTooManyFields) {
   std::string fields;
-  for (std::size_t i = 0; i < kMaxHeaderFields; ++i) fields += "A: b\r\n";
+  for (std::size_t i = 1; i < kMaxHeaderFields; ++i) fields += "A: b\r\n";
   EXPECT_FALSE(is_refused_with_fields(fields));
   EXPECT_TRUE(is_refused_with_fields(fields + "A: b\r\n"));
 }
 
 TEST(RequestHead, KeepsAliveAccordingToVersionAndConnectionField) {
-  EXPECT_TRUE(parsed("GET / HTTP/1.1\r\n\r\n").keeps_alive());
-  EXPECT_FALSE(parsed("GET / HTTP/1.1\r\nConnection: x, Close\r\n\r\n").keeps_alive());
+  EXPECT_TRUE(parsed("GET / HTTP/1.1\r\nHost: a\r\n\r\n").keeps_alive());
+  EXPECT_FALSE(parsed("GET / HTTP/1.1\r\nHost: a\r\nConnection: x, Close\r\n\r\n").keeps_alive());
   EXPECT_FALSE(parsed("GET / HTTP/1.0\r\n\r\n").keeps_alive());
   EXPECT_TRUE(parsed("GET / HTTP/1.0\r\nConnection: Keep-Alive\r\n\r\n").keeps_alive());
 }

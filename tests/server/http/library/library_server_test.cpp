@@ -48,9 +48,9 @@ TEST_F(LibraryRouting, ReachesTheHandlerOfEveryPath) {
 
 TEST_F(LibraryRouting, IgnoresTheQueryAndTheWayAPathIsEncoded) {
   for (const char* target : {"/v1/examples/tiny?verbose=1&x", "/v1/examples/%74iny",
-                             "/%76%31/examples/tiny#a", "http://localhost/v1/examples/tiny"}) {
+                             "/%76%31/examples/tiny?a", "http://localhost/v1/examples/tiny"}) {
     RawConnection raw(server.server.port());
-    raw.send(std::string("GET ") + target + " HTTP/1.1\r\n\r\n");
+    raw.send(std::string("GET ") + target + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
     const std::string answer = raw.receive();
     EXPECT_EQ(answer.find("HTTP/1.1 200 OK\r\n"), 0U) << target << '\n' << answer;
     EXPECT_NE(answer.find(R"({"robots":[]})"), std::string::npos) << answer;

@@ -9,6 +9,7 @@ namespace fleetplan::server {
 namespace {
 
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using testing::UnorderedElementsAre;
@@ -66,9 +67,14 @@ TEST_F(CrossOriginPages, OfAnotherOriginMayNotReadAndVaryNamesOrigin) {
   for (const char* other : {"https://fleet.example", "https://evil.example", "null"}) {
     const auto result = client.Post("/v1/plan", from(other), "abc", kJsonType);
     ASSERT_TRUE(result);
-    EXPECT_EQ(result->status, 200);
+    EXPECT_EQ(result->status, 403);
     EXPECT_FALSE(result->has_header("Access-Control-Allow-Origin")) << other;
-    EXPECT_THAT(values_of(result, "Vary"), UnorderedElementsAre("Accept, Accept-Encoding", "Origin"));
+    EXPECT_THAT(values_of(result, "Vary"), ElementsAre("Origin"));
+    const auto read = client.Get("/healthz", from(other));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->status, 200) << "the browser keeps the answer from the page";
+    EXPECT_FALSE(read->has_header("Access-Control-Allow-Origin")) << other;
+    EXPECT_THAT(values_of(read, "Vary"), UnorderedElementsAre("Accept-Encoding", "Origin"));
     const auto preflight = client.Options("/v1/plan", preflight_from(other));
     ASSERT_TRUE(preflight);
     EXPECT_EQ(preflight->status, 405);
@@ -80,7 +86,7 @@ TEST_F(CrossOriginPages, GetAnAnswerToTheirPreflight) {
   const TestServer server(open_to({kOrigin}));
   RawConnection raw(server.server.port());
   for (int times = 0; times < 2; ++times) {  // the connection stays open
-    raw.send(std::string("OPTIONS /v1/plan HTTP/1.1\r\nOrigin: ") + kOrigin +
+    raw.send(std::string("OPTIONS /v1/plan HTTP/1.1\r\nHost: localhost\r\nOrigin: ") + kOrigin +
              "\r\nAccess-Control-Request-Method: POST\r\n\r\n");
     const std::string answer = raw.receive();
     EXPECT_THAT(answer, HasSubstr("HTTP/1.1 204 No Content\r\n"));
@@ -120,6 +126,29 @@ TEST_F(CrossOriginPages, NeedNoTokenForAPreflight) {
   ASSERT_TRUE(refused);
   EXPECT_EQ(refused->status, 401);
   EXPECT_EQ(refused->get_header_value("Access-Control-Allow-Origin"), kOrigin);
+}
+
+TEST_F(CrossOriginPages, CannotHaveAServicePlanUnlessTheyAreItsOwn) {
+  const TestServer server;
+  const std::string host = "localhost:" + std::to_string(server.server.port());
+  const auto post = [&](const std::string& fields) {
+    RawConnection raw(server.server.port());
+    raw.send("POST /v1/plan HTTP/1.1\r\nContent-Type: application/json\r\nContent-Length: 1\r\n" + fields +
+             "\r\na");
+    return raw.receive();
+  };
+  const std::string own = "Host: " + host + "\r\nOrigin: ";
+  for (const auto& fields : {own + "http://" + host, own + "https://" + host,
+                             std::string("Host: localhost\r\nOrigin: http://localhost:80"),
+                             std::string("Host: localhost:443\r\nOrigin: https://LOCALHOST")}) {
+    EXPECT_THAT(post(fields + "\r\n"), HasSubstr("HTTP/1.1 200 OK\r\n")) << fields;
+  }
+  for (const char* origin : {"null", "http://evil.example", "http://localhost", "http://localhost:1",
+                             "file://", "", "http://localhost:80, http://evil.example"}) {
+    const std::string answer = post(own + origin + "\r\n");
+    EXPECT_THAT(answer, HasSubstr("HTTP/1.1 403 Forbidden\r\n")) << origin;
+    EXPECT_THAT(answer, HasSubstr("foreign_origin")) << origin;
+  }
 }
 
 TEST(Origin, IsSchemeHostAndPort) {

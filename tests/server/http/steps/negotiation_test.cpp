@@ -46,15 +46,20 @@ TEST(AcceptEncoding, AllowsGzipByNameOrStarUnlessOfQualityZero) {
   }
 }
 
-TEST(ContentType, IsJsonOrAbsent) {
-  for (const char* type : {"", "application/json", "application/json; charset=utf-8",
+TEST(ContentType, IsJson) {
+  for (const char* type : {"application/json", "application/json; charset=utf-8",
                            "Application/JSON;charset=UTF-8", "application/vnd.fleet+json"}) {
     EXPECT_EQ(content_type_fault(type), std::nullopt) << type;
   }
   for (const char* type :
-       {"text/plain", "application/xml", "application/jsonx", "application/json; charset=utf-16"}) {
+       {"", ";", "text/plain", "application/xml", "application/jsonx", "application/json; charset=utf-16"}) {
     EXPECT_NE(content_type_fault(type), std::nullopt) << type;
   }
+}
+
+TEST(ContentType, ThatIsAbsentIsRejectedWithARemedy) {
+  EXPECT_NE(content_type_fault("").value_or("").find("send 'Content-Type: application/json'"),
+            std::string::npos);
 }
 
 TEST(ContentType, OfAWebFormIsRejectedWithARemedy) {

@@ -182,7 +182,7 @@ TEST(Metrics, ContainUsualStatusesFromTheStartAndOthersOnceTheyOccur) {
   const std::string unusual = R"(fleetplan_requests_total{route="/v1/limits",status="400"})";
   EXPECT_FALSE(at_start.contains(unusual));
   RawConnection(server.server.port())
-      .send("GET /v1/limits HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\nx\r\n");
+      .send("GET /v1/limits HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\nx\r\n");
   await_value(server, unusual, 1.0);
 }
 
@@ -291,7 +291,9 @@ TEST(Metrics, CountCancelledPlans) {
   TestServer server;
   {
     RawConnection client(server.server.port());
-    client.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 4\r\n\r\ngate");
+    client.send(
+        "POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: "
+        "4\r\n\r\ngate");
     server.stub.gate.await_waiting(1);
     EXPECT_EQ(samples_of(metrics_of(server))["fleetplan_workers_busy"], 1.0);
   }
@@ -307,7 +309,9 @@ TEST(Metrics, ReportTheQueueDepth) {
   settings.queue = 4;
   TestServer server(settings);
   const auto send_job = [](RawConnection& client) {
-    client.send("POST /v1/plan HTTP/1.1\r\nContent-Length: 4\r\n\r\ngate");
+    client.send(
+        "POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: "
+        "4\r\n\r\ngate");
   };
   RawConnection running(server.server.port());
   RawConnection first(server.server.port());
