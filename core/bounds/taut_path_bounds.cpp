@@ -36,6 +36,10 @@ TautPathBounds::TautPathBounds(const Instance& instance, const std::vector<std::
     out_of_sight[instance.motion(robot).radius].push_back(robot);
   }
   if (out_of_sight.empty()) return;
+  if (stop.met()) {
+    cut_off_ = true;
+    return;
+  }
   std::int64_t work = kMaxWork;
   CornerVisibility corners(instance.problem().grid(), out_of_sight.begin()->first,
                            out_of_sight.rbegin()->first);
