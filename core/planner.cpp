@@ -14,25 +14,13 @@
 #include "core/prioritized/progress_report.h"
 #include "core/prioritized/triage.h"
 #include "core/runtime/memory_account.h"
+#include "core/runtime/time_share.h"
 
 namespace fleetplan::core {
 namespace {
 
-/// The share of the remaining time for planning all robots; the rest is for a safe partial plan if that
-/// fails.
-constexpr double kAttemptsShare = 0.6;
-
 /// The maximum share of the remaining time for lower bounds in mode `anytime`; the rest is for improvement.
 constexpr double kBoundsShare = 0.2;
-
-/// Met after a share of the time that remains, or when `stop` is cancelled.
-StopCondition after_share(const StopCondition& stop, double share) {
-  using Clock = StopCondition::Clock;
-  if (stop.deadline() == Clock::time_point::max()) return stop;
-  const auto now = Clock::now();
-  const auto remaining = std::chrono::duration_cast<Clock::duration>((stop.deadline() - now) * share);
-  return StopCondition(now + remaining, stop.stop_token());
-}
 
 std::vector<std::size_t> robots_to_plan(const Instance& instance,
                                         const std::vector<std::optional<Unplanned>>& unplanned) {
@@ -95,7 +83,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   std::vector<std::optional<Unplanned>> unplanned = triage(state, stop);
   std::vector<std::size_t> movers = robots_to_plan(instance, unplanned);
   PrioritizedResult prioritized =
-      plan_prioritized(state, movers, random, after_share(stop, kAttemptsShare), stop, progress);
+      plan_prioritized(state, movers, random, PlanningTime::until(stop), progress);
   for (Unplanned& robot : prioritized.unplanned) unplanned[robot.robot] = std::move(robot);
   std::erase_if(movers, [&](std::size_t robot) { return !state.trajectory(robot); });
   progress.plan_found(objectives_of(state));
@@ -118,6 +106,8 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
 
   Plan plan = current_plan(lns);
   progress.plan_found(plan.objectives);
+  const bool may_plan_more = !plan.unplanned.empty() && prioritized.cut_off;
+  plan.search.exhausted = !may_plan_more && (anytime ? lns.exhausted : prioritized.exhausted);
   plan.deterministic = !prioritized.cut_off && !bounds.cut_off() && !lns.cut_off && !stop.cancelled();
   return memory_shortages() > 0 ? with_spent_memory_named(std::move(plan)) : plan;
 }

@@ -104,6 +104,7 @@ void write_summary(JsonWriter& json, const VerifiedPlan& verified) {
   json.key("search").begin_object();
   json.member("attempts", plan.search.attempts).member("expansions", plan.search.expansions);
   json.member("improvements", plan.search.improvements);
+  if (plan.search.exhausted) json.member("exhausted", true);
   json.end_object();
 }
 

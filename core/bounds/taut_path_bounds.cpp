@@ -41,6 +41,10 @@ TautPathBounds::TautPathBounds(const Instance& instance, const std::vector<std::
     out_of_sight[instance.motion(robot).radius].push_back(robot);
   }
   if (out_of_sight.empty()) return;
+  if (stop.met()) {
+    cut_off_ = true;
+    return;
+  }
   try {
     improve(instance, out_of_sight, costs, stop);
   } catch (const std::bad_alloc&) {  // not granted to the job: the bounds so far remain

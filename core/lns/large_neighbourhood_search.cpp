@@ -25,6 +25,15 @@ constexpr std::int64_t kIterationsPerRound = 4;
 constexpr double kMinGainShare = 0.15;
 constexpr std::size_t kIterationsPerAnyGain = 4;
 
+/// After so many rounds without an improvement it is tested whether one is possible.
+constexpr int kVainRounds = 8;
+/// The search that finds a cheaper path if one of the others can.
+constexpr SearchLimits kProof{
+    .heuristic_weight = 1.0, .suboptimality = 0.0, .suboptimality_growth = 0.0, .dominance_slack = 0.0};
+/// The effort for these tests: expansions at first, and as a share of those of the search.
+constexpr std::int64_t kFirstProofExpansions = 1'000;
+constexpr std::int64_t kProofShare = 8;
+
 struct Iteration {
   AdaptiveParameters::Choice parameters;
   std::size_t first = 0;  // the robot that is to become cheaper
@@ -44,10 +53,12 @@ class LargeNeighbourhoodSearch {
         random_(random),
         executor_(executor),
         stop_(stop),
-        first_robots_(state.instance().size()) {}
+        first_robots_(state.instance().size()),
+        cheapest_(state.instance().size(), 0) {}
 
   LnsResult run(std::int64_t max_iterations, const BeforeRound& before_round) {
-    while (max_iterations > 0 && !at_lower_bound() && !result_.cut_off) {
+    result_.exhausted = nothing_left();
+    while (max_iterations > 0 && !result_.exhausted && !result_.cut_off) {
       const std::int64_t count = std::min(kIterationsPerRound, max_iterations);
       max_iterations -= count;
       if (before_round && !stop_.met()) {
@@ -56,7 +67,9 @@ class LargeNeighbourhoodSearch {
       }
       const bool may_improve = executor_.may_improve(stop_);
       if (may_improve && !stop_.met()) run_round(static_cast<std::size_t>(count));
-      result_.cut_off = !may_improve || stop_.met() || !has_memory();
+      if (may_improve && !stop_.met() && vain_rounds_ >= kVainRounds) test_next_robot();
+      result_.exhausted = nothing_left();
+      result_.cut_off = !result_.exhausted && (!may_improve || stop_.met() || !has_memory());
     }
     workspaces_.update_all();
     return result_;
@@ -66,6 +79,35 @@ class LargeNeighbourhoodSearch {
   const std::vector<std::size_t>& planned() const { return incumbent_.planned(); }
   double delay(std::size_t robot) const { return std::max(0.0, incumbent_.cost(robot) - bounds_[robot]); }
   double makespan() const { return incumbent_.cost(incumbent_.last_to_arrive()); }
+
+  bool nothing_left() const {
+    return at_lower_bound() || std::all_of(planned().begin(), planned().end(), [&](std::size_t robot) {
+             return delay(robot) <= kLeastDelay || is_cheapest(robot);
+           });
+  }
+
+  /// Whether the robot's trajectory is known to be the cheapest that the search finds without other robots.
+  bool is_cheapest(std::size_t robot) const { return cheapest_[robot] == incumbent_.version(robot) + 1; }
+
+  /// Tests whether one of the delayed robots has a cheaper trajectory if no other robot moves.
+  void test_next_robot() {
+    const std::int64_t most = kFirstProofExpansions + result_.expansions / kProofShare - proof_expansions_;
+    if (most <= 0) return;
+    const std::size_t count = planned().size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t robot = planned()[next_to_test_++ % count];
+      if (delay(robot) <= kLeastDelay || is_cheapest(robot)) continue;
+      std::unique_ptr<Workspace> workspace = workspaces_.take();
+      SearchLimits limits = kProof;
+      limits.bound = incumbent_.cost(robot) - kLeastDelay;
+      limits.max_expansions = most;
+      const SearchResult result = workspace->state().plan_ignoring(planned(), robot, limits, stop_);
+      workspaces_.give_back(std::move(workspace));
+      proof_expansions_ += result.expansions;
+      if (!result.trajectory && result.complete) cheapest_[robot] = incumbent_.version(robot) + 1;
+      return;
+    }
+  }
 
   bool at_lower_bound() const {
     if (planned().empty()) return true;
@@ -103,11 +145,13 @@ class LargeNeighbourhoodSearch {
     for (std::size_t k = 0; k < count; ++k) iterations.push_back(next_iteration());
     run_tasks(count, [&](std::size_t k) { destroy_and_repair(iterations[k]); });
     std::vector<std::size_t> changed;
+    ++vain_rounds_;
     for (Iteration& iteration : iterations) {
       learn(iteration);
       std::optional<Change>& change = iteration.result.change;
       if (!change || is_outdated(*change, changed)) continue;
       ++result_.improvements;
+      vain_rounds_ = 0;
       for (Change::Part& part : change->parts) {
         changed.push_back(part.robot);
         incumbent_.replace(part.robot, std::move(part.trajectory));
@@ -197,6 +241,10 @@ class LargeNeighbourhoodSearch {
   const StopCondition& stop_;
   AdaptiveParameters parameters_;
   DelayedChoice first_robots_;
+  int vain_rounds_ = 0;
+  std::vector<std::int64_t> cheapest_;  // by robot: one more than the version known to be the cheapest; or 0
+  std::size_t next_to_test_ = 0;        // of planned()
+  std::int64_t proof_expansions_ = 0;
   LnsResult result_;
   bool may_help_ = true;  // threads of the executor
   std::int64_t shortages_ = memory_shortages();

@@ -17,6 +17,7 @@ struct LnsResult {
   std::int64_t improvements = 0;  // times that the plan became better
   std::int64_t expansions = 0;    // labels expanded
   bool cut_off = false;           // the stop condition or the executor ended it
+  bool exhausted = false;         // nothing is left to try: no robot can become cheaper
 };
 
 /// Called by the caller's thread before every round, with the state updated to the incumbent.
@@ -32,7 +33,9 @@ using BeforeRound = std::function<void(const LnsResult& so_far)>;
 ///    longer makespan.
 ///
 /// Success is measured per expansion, not per second. Ends when `stop` is met, after the options'
-/// max_iterations, or when the objective is equal to its lower bound. Replans those of
+/// max_iterations, or when nothing is left to try: when the objective is equal to its lower bound, or no
+/// delayed robot has a cheaper path even if it is alone with the robots that stay. That is tested, robot by
+/// robot, while rounds bring nothing. Replans those of
 /// `movers` that have a trajectory, and `bounds` has their lower bounds; all other robots stay at their
 /// starts.
 ///

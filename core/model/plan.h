@@ -53,6 +53,9 @@ struct SearchStatistics {
   std::int64_t attempts = 0;      // priority orders tried
   std::int64_t expansions = 0;    // search labels expanded
   std::int64_t improvements = 0;  // improvements found in mode `anytime`
+  /// More time would change nothing: in mode `anytime` no robot can become cheaper, or no further attempt can
+  /// plan a robot that is unplanned.
+  bool exhausted = false;
 };
 
 /// The result of the planner. `plans` and `unplanned` are in the order of the problem's robots; every robot

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
 #include "core/prioritized/blocking_robots.h"
@@ -13,34 +12,38 @@ namespace {
 
 using Reason = Unplanned::Reason;
 
-/// The expansions of a search, round by round: most robots that have a path find it soon, and a search that
+/// The searches for one robot, round by round: most robots that have a path find it soon, and a search that
 /// fails may take as long as hundreds that do not.
-constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
-constexpr std::array<std::int64_t, 3> kExpansions{500, 5'000, kAnyNumber};
+constexpr std::array<SearchLimits, 3> kRounds{{
+    {.heuristic_weight = 2.0, .thorough = false, .max_expansions = 200},
+    {.thorough = false, .max_expansions = 5'000},
+    {},
+}};
 
-class PartialPlanner {
+class SafePlanner {
  public:
-  PartialPlanner(PlanState& state, const StopCondition& stop, ProgressReport& progress)
+  SafePlanner(PlanState& state, Effort effort, const StopCondition& stop, ProgressReport& progress)
       : state_(state),
+        rounds_(effort == Effort::full ? kRounds.size() : kRounds.size() - 1),
         stop_(stop),
         progress_(progress),
-        blocking_(state, stop),
         has_no_path_(state.instance().size(), false),
         earlier_(state.instance().size()),
         waiting_for_(state.instance().size()) {}
 
-  PartialPlan run(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
+  SafePlan run(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
     staying_ = given_up;
     for (const std::size_t robot : unsolved) {
       if (!state_.trajectory(robot)) stay(robot);
     }
     stop_conflicting_robots();
+    sort_by_distance();
     progress_.update();
-    for (std::size_t effort = 0; effort < kExpansions.size();) {
-      if (!plan_staying_robots(kExpansions[effort])) ++effort;
+    for (std::size_t round = 0; round < rounds_;) {
+      if (!plan_staying_robots(kRounds[round])) ++round;
     }
     std::sort(staying_.begin(), staying_.end());
-    for (const std::size_t robot : staying_) result_.unplanned.push_back(explain(robot));
+    for (const std::size_t robot : staying_) result_.staying.push_back({robot, has_no_path_[robot]});
     return std::move(result_);
   }
 
@@ -60,11 +63,21 @@ class PartialPlanner {
     }
   }
 
+  /// Shortest first: they seldom cross the starts of others.
+  void sort_by_distance() {
+    const auto distance = [&](std::size_t robot) {
+      const Robot& r = state_.instance().robot(robot);
+      return (r.goal->position - r.start.position).norm();
+    };
+    std::stable_sort(staying_.begin(), staying_.end(),
+                     [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
+  }
+
   /// Tries each robot that stays once; returns whether another round may help.
-  bool plan_staying_robots(std::int64_t max_expansions) {
+  bool plan_staying_robots(const SearchLimits& limits) {
     const std::vector<std::size_t> robots = staying_;
     for (const std::size_t robot : robots) {
-      if (!state_.trajectory(robot) && try_plan(robot, max_expansions)) resume_those_waiting_for(robot);
+      if (!state_.trajectory(robot) && try_plan(robot, limits)) resume_those_waiting_for(robot);
     }
     std::erase_if(staying_, [&](std::size_t robot) { return state_.trajectory(robot).has_value(); });
     return staying_.size() < robots.size() && !staying_.empty() && !stop_.met();
@@ -90,13 +103,12 @@ class PartialPlanner {
     progress_.update();
   }
 
-  bool try_plan(std::size_t robot, std::int64_t max_expansions) {
+  bool try_plan(std::size_t robot, const SearchLimits& limits) {
     if (stop_.met()) {
       result_.cut_off = true;
       return false;
     }
     state_.remove(robot);
-    const SearchLimits limits{.thorough = max_expansions == kAnyNumber, .max_expansions = max_expansions};
     SearchResult result = state_.plan(robot, limits, stop_);
     if (result.trajectory) {
       state_.follow(robot, std::move(*result.trajectory));
@@ -108,34 +120,50 @@ class PartialPlanner {
     return false;
   }
 
-  Unplanned explain(std::size_t robot) {
-    if (state_.way_to_goal(robot).none()) return unplanned_without_way(robot, state_.way_to_goal(robot));
-    if (!has_no_path_[robot]) {
-      return {robot, Reason::budget_exhausted, "The time budget ended before a way was found.", {}};
-    }
-    Unplanned unplanned{robot, Reason::blocked_by_robots,
-                        "No way was found that keeps clear of the other robots.", blocking_.find(robot)};
-    result_.cut_off = result_.cut_off || stop_.met();
-    return unplanned;
-  }
-
   PlanState& state_;
+  const std::size_t rounds_;
   const StopCondition& stop_;
   ProgressReport& progress_;
-  BlockingRobots blocking_;
   std::vector<bool> has_no_path_;                      // by robot; according to its last search
   std::vector<std::optional<Trajectory>> earlier_;     // of robots that were stopped
   std::vector<std::vector<std::size_t>> waiting_for_;  // by robot: those stopped as they cross its start
   std::vector<std::size_t> staying_;
-  PartialPlan result_;
+  SafePlan result_;
 };
 
+Unplanned explain(PlanState& state, const SafePlan::Staying& staying, BlockingRobots& blocking) {
+  const std::size_t robot = staying.robot;
+  const Way& way = state.way_to_goal(robot);
+  if (way.none()) return unplanned_without_way(robot, way);
+  if (!staying.has_no_path) {
+    return {robot, Reason::budget_exhausted, "The time budget ended before a way was found.", {}};
+  }
+  return {robot, Reason::blocked_by_robots, "No way was found that keeps clear of the other robots.",
+          blocking.find(robot)};
+}
+
 }  // namespace
+
+SafePlan make_safe(PlanState& state, const std::vector<std::size_t>& unsolved,
+                   const std::vector<std::size_t>& given_up, Effort effort, const StopCondition& stop,
+                   ProgressReport& progress) {
+  return SafePlanner(state, effort, stop, progress).run(unsolved, given_up);
+}
+
+PartialPlan explain(PlanState& state, const SafePlan& plan, const StopCondition& stop) {
+  BlockingRobots blocking(state, stop);
+  PartialPlan partial;
+  for (const SafePlan::Staying& staying : plan.staying) {
+    partial.unplanned.push_back(explain(state, staying, blocking));
+  }
+  partial.cut_off = plan.cut_off || (!plan.staying.empty() && stop.met());
+  return partial;
+}
 
 PartialPlan make_partial_plan(PlanState& state, const std::vector<std::size_t>& unsolved,
                               const std::vector<std::size_t>& given_up, const StopCondition& stop,
                               ProgressReport& progress) {
-  return PartialPlanner(state, stop, progress).run(unsolved, given_up);
+  return explain(state, make_safe(state, unsolved, given_up, Effort::full, stop, progress), stop);
 }
 
 }  // namespace fleetplan::core

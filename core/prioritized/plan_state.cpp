@@ -42,9 +42,9 @@ PlanState::PlanState(const Instance& instance)
       table_(instance.problem().grid().width(), instance.problem().grid().height(),
              instance.problem().grid().resolution(), radii(instance), contacts(instance)),
       search_(table_),
-      trajectories_(instance.size()),
+      reservations_{std::vector<std::optional<Trajectory>>(instance.size()),
+                    std::vector<double>(instance.size(), 0.0)},
       search_spaces_(instance.size()),
-      stays_(instance.size(), 0),
       ways_(instance.size()) {}
 
 Trajectory PlanState::staying(std::size_t robot) const {
@@ -58,40 +58,62 @@ void PlanState::reserve(std::size_t robot, const std::vector<TimedSegment>& segm
 
 void PlanState::remove(std::size_t robot) {
   table_.remove(robot);
-  if (trajectories_[robot]) --planned_count_;
-  trajectories_[robot].reset();
-  set_staying(robot, false);
+  if (trajectory(robot)) --planned_count_;
+  reservations_.trajectories[robot].reset();
+  if (stays(robot)) {
+    --staying_count_;
+    forget_ways_closed_by_robots(robot);
+  }
+  reservations_.at_start_until[robot] = 0.0;
+}
+
+void PlanState::forget_ways_closed_by_robots(std::size_t except) {
+  const auto forget = [&](std::size_t robot) { return robot != except; };
+  for (const std::size_t robot : closed_by_robots_) {
+    if (forget(robot)) ways_[robot] = {};
+  }
+  std::erase_if(closed_by_robots_, forget);
 }
 
 void PlanState::follow(std::size_t robot, Trajectory trajectory) {
   reserve(robot, timed_segments(trajectory));
-  trajectories_[robot] = std::move(trajectory);
+  reservations_.trajectories[robot] = std::move(trajectory);
   ++planned_count_;
 }
 
-void PlanState::stay_at_start(std::size_t robot) {
-  reserve(robot, timed_segments(staying(robot)));
-  set_staying(robot, true);
-}
-
-void PlanState::set_staying(std::size_t robot, bool stays) {
-  if ((stays_[robot] != 0) == stays) return;
-  stays_[robot] = stays ? 1 : 0;
-  if (stays) {
-    ++staying_count_;
-    return;
-  }
-  --staying_count_;
-  for (const std::size_t closed : closed_by_robots_) {
-    if (closed != robot) ways_[closed] = {};
-  }
-  std::erase_if(closed_by_robots_, [&](std::size_t closed) { return closed != robot; });
-}
+void PlanState::stay_at_start(std::size_t robot) { reserve_start(robot, kForever); }
 
 void PlanState::reserve_start(std::size_t robot, double seconds) {
   const Position start = instance_.robot(robot).start.position;
   remove(robot);
   if (seconds > 0.0) table_.commit(robot, {{{start, start}, 0.0, seconds}});
+  reservations_.at_start_until[robot] = seconds;
+  if (seconds == kForever) ++staying_count_;
+}
+
+/// Whether the robot's reservation is the one that it has among these.
+bool PlanState::is_reserved(std::size_t robot, const Reservations& among) const {
+  const auto& now = trajectory(robot);
+  const auto& other = among.trajectories[robot];
+  if (now.has_value() != other.has_value()) return false;
+  if (!now) return reservations_.at_start_until[robot] == among.at_start_until[robot];
+  return now->cost == other->cost &&
+         std::equal(now->moves.begin(), now->moves.end(), other->moves.begin(), other->moves.end(),
+                    [](const TimedSegment& a, const TimedSegment& b) {
+                      return a.t_start == b.t_start && a.t_end == b.t_end && a.path.to == b.path.to;
+                    });
+}
+
+void PlanState::restore(const Reservations& reservations) {
+  const Reservations wanted = reservations;  // may be those of this state
+  for (std::size_t robot = 0; robot < instance_.size(); ++robot) {
+    if (is_reserved(robot, wanted)) continue;
+    if (wanted.trajectories[robot]) {
+      follow(robot, *wanted.trajectories[robot]);
+    } else {
+      reserve_start(robot, wanted.at_start_until[robot]);
+    }
+  }
 }
 
 PlanState::SearchSpace& PlanState::search_space(std::size_t robot) {
@@ -173,7 +195,7 @@ bool PlanState::goal_stays_free(std::size_t robot) const {
 SearchResult PlanState::plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,
                                       const SearchLimits& limits, const StopCondition& stop) {
   const bool all_move =
-      std::none_of(ignored.begin(), ignored.end(), [&](std::size_t other) { return stays_[other] != 0; });
+      std::none_of(ignored.begin(), ignored.end(), [&](std::size_t other) { return stays(other); });
   for (const std::size_t other : ignored) table_.ignore(other, true);
   SearchResult result = all_move ? plan(robot, limits, stop) : search(robot, limits, stop);
   for (const std::size_t other : ignored) table_.ignore(other, false);
@@ -229,8 +251,8 @@ Way::Kind PlanState::way_off_lattice(std::size_t robot, std::int64_t max_steps) 
 
 bool PlanState::test_enclosure(std::size_t robot, std::int64_t max_steps) {
   std::vector<std::size_t> staying;
-  for (std::size_t other = 0; other < stays_.size(); ++other) {
-    if (stays_[other] != 0 && other != robot) staying.push_back(other);
+  for (std::size_t other = 0; other < instance_.size(); ++other) {
+    if (stays(other) && other != robot) staying.push_back(other);
   }
   Enclosure::Result result = Enclosure(instance_, robot, staying).find(max_steps);
   if (result.answer != Enclosure::Answer::closed) return false;

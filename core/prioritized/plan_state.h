@@ -48,8 +48,19 @@ class PlanState {
   void reserve_start(std::size_t robot, double seconds);
   void remove(std::size_t robot);
 
+  /// The reservations of all robots.
+  struct Reservations {
+    std::vector<std::optional<Trajectory>> trajectories;
+    std::vector<double> at_start_until;  // seconds; kForever for a robot that stays there
+  };
+  const Reservations& reservations() const { return reservations_; }
+  /// Replaces all reservations.
+  void restore(const Reservations& reservations);
+
   /// None for a robot that does not follow a trajectory.
-  const std::optional<Trajectory>& trajectory(std::size_t robot) const { return trajectories_[robot]; }
+  const std::optional<Trajectory>& trajectory(std::size_t robot) const {
+    return reservations_.trajectories[robot];
+  }
 
   /// The number of robots that follow a trajectory.
   std::size_t planned_count() const { return planned_count_; }
@@ -100,8 +111,10 @@ class PlanState {
   Result within_memory(Result otherwise, const Compute& compute);
   SearchResult search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
   void find_way(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
+  bool is_reserved(std::size_t robot, const Reservations& among) const;
+  bool stays(std::size_t robot) const { return reservations_.at_start_until[robot] == kForever; }
+  void forget_ways_closed_by_robots(std::size_t except);
   bool goal_stays_free(std::size_t robot) const;
-  void set_staying(std::size_t robot, bool stays);
   Way::Kind way_off_lattice(std::size_t robot, std::int64_t max_steps) const;
   bool test_enclosure(std::size_t robot, std::int64_t max_steps);
   void discard_search_spaces_except(std::size_t robot);
@@ -111,10 +124,9 @@ class PlanState {
   const Instance& instance_;
   ReservationTable table_;
   AaSipp search_;
-  std::vector<std::optional<Trajectory>> trajectories_;
+  Reservations reservations_;
   std::size_t planned_count_ = 0;
   std::vector<std::unique_ptr<SearchSpace>> search_spaces_;  // by robot, created on first use
-  std::vector<char> stays_;  // by robot: at its start for ever; not bool, for speed
   std::size_t staying_count_ = 0;
   std::vector<Way> ways_;                      // by robot
   std::vector<std::size_t> closed_by_robots_;  // robots whose way robots close, until one of those leaves

@@ -1,11 +1,14 @@
 #include "core/prioritized/prioritized_planning.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/prioritized/ordering_result.h"
 #include "core/prioritized/partial_plan.h"
 #include "core/prioritized/repair_or_restart.h"
 #include "core/prioritized/restarts.h"
+#include "core/runtime/time_share.h"
 
 namespace fleetplan::core {
 namespace {
@@ -13,6 +16,11 @@ namespace {
 /// For at most so many robots all orders are tried: unlike repair, that ends where there is no solution and
 /// proves it for prioritized planning.
 constexpr std::size_t kFewRobots = 4;
+/// Attempts in random orders, each with repairs, if no deadline ends them.
+constexpr int kMaxOrdersWithoutDeadline = 10;
+/// The shares of the time after which a safe plan is made, and after which the making of it ends.
+constexpr double kFirstShare = 0.5;
+constexpr double kKeepingShare = 0.9;
 
 /// Plans every robot once, in this order.
 OrderingResult plan_each_once(PlanState& state, const PriorityOrder& order, const StopCondition& stop,
@@ -37,16 +45,6 @@ OrderingResult plan_each_once(PlanState& state, const PriorityOrder& order, cons
   return result;
 }
 
-OrderingResult plan_in_orders(PlanState& state, const PriorityOrder& order, Random& random,
-                              const StopCondition& stop, ProgressReport& progress) {
-  const auto reordering = state.instance().options().reordering;
-  if (reordering == PlanOptions::Reordering::none) return plan_each_once(state, order, stop, progress);
-  if (reordering == PlanOptions::Reordering::random || order.size() <= kFewRobots) {
-    return plan_with_restarts(state, order, random, stop, progress);
-  }
-  return repair_or_restart(state, order, random, stop, progress);
-}
-
 PrioritizedResult all_unplanned(const std::vector<std::size_t>& movers) {
   PrioritizedResult result;
   result.cut_off = true;
@@ -59,20 +57,128 @@ PrioritizedResult all_unplanned(const std::vector<std::size_t>& movers) {
   return result;
 }
 
+class PrioritizedPlanning {
+ public:
+  PrioritizedPlanning(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
+                      const PlanningTime& time, ProgressReport& progress)
+      : state_(state),
+        movers_(movers),
+        random_(random),
+        time_(time),
+        progress_(progress),
+        order_(initial_order(state.instance(), movers, random)),
+        stop_(time.first_part) {}
+
+  PrioritizedResult run() {
+    OrderingResult ordering = plan_in_orders();
+    result_.attempts = ordering.attempts;
+    result_.cut_off = ordering.cut_off || best_.has_value();
+    if (solved(ordering)) return std::move(result_);
+    const bool may_try_again = !ordering.cut_off && other_orders_may_help(ordering);
+    if (may_try_again || !best_ || !ordering.cut_off) {
+      keep_if_better(ordering.unsolved, ordering.given_up, may_try_again ? Effort::brief : Effort::full,
+                     time_.all);
+    }
+    if (may_try_again) try_other_orders(ordering.hopeless);
+    state_.restore(best_->reservations);
+    PartialPlan partial = explain(state_, best_->plan, time_.all);
+    result_.cut_off = result_.cut_off || partial.cut_off;
+    result_.exhausted = !result_.cut_off && !partial.unplanned.empty();
+    result_.unplanned = std::move(partial.unplanned);
+    return std::move(result_);
+  }
+
+ private:
+  struct Best {
+    SafePlan plan;
+    PlanState::Reservations reservations;
+  };
+
+  static bool solved(const OrderingResult& ordering) {
+    return ordering.unsolved.empty() && ordering.given_up.empty();
+  }
+
+  OrderingResult plan_in_orders() {
+    const auto reordering = state_.instance().options().reordering;
+    if (reordering == PlanOptions::Reordering::none) return plan_each_once(state_, order_, stop_, progress_);
+    const OnStop keep_plan = [this](const auto& unsolved, const auto& given_up) {
+      return keep_safe_plan(unsolved, given_up);
+    };
+    if (reordering == PlanOptions::Reordering::random || has_few_robots()) {
+      return plan_with_restarts(state_, order_, random_, stop_, progress_, keep_plan);
+    }
+    return repair_or_restart(state_, order_, random_, stop_, progress_, keep_plan);
+  }
+
+  /// At the end of the first part of the time: keeps a safe plan, then goes on where planning was.
+  bool keep_safe_plan(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
+    if (best_ || time_.all.met()) return false;
+    const PlanState::Reservations before = state_.reservations();
+    keep_if_better(unsolved, given_up, Effort::brief, time_.keeping);
+    if (best_->plan.staying.empty()) return false;
+    state_.restore(before);
+    stop_ = time_.all;
+    return !stop_.met();
+  }
+
+  void keep_if_better(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up,
+                      Effort effort, const StopCondition& stop) {
+    SafePlan plan = make_safe(state_, unsolved, given_up, effort, stop, progress_);
+    if (best_ && best_->plan.staying.size() <= plan.staying.size()) return;
+    best_ = Best{std::move(plan), state_.reservations()};
+  }
+
+  bool has_few_robots() const { return order_.size() <= kFewRobots; }
+
+  bool other_orders_may_help(const OrderingResult& ordering) const {
+    const auto reordering = state_.instance().options().reordering;
+    return reordering == PlanOptions::Reordering::raise_failed && !has_few_robots() &&
+           ordering.hopeless.size() < ordering.given_up.size();
+  }
+
+  /// Plans in random orders as long as a robot that is not hopeless stays.
+  void try_other_orders(std::vector<std::size_t> hopeless) {
+    const bool has_deadline = time_.all.deadline() != StopCondition::Clock::time_point::max();
+    PriorityOrder order = order_;
+    for (int k = 0; has_deadline || k < kMaxOrdersWithoutDeadline; ++k) {
+      std::erase_if(order, [&](std::size_t robot) {
+        return std::find(hopeless.begin(), hopeless.end(), robot) != hopeless.end();
+      });
+      if (best_->plan.staying.size() <= hopeless.size()) return;
+      if (time_.all.met()) break;
+      for (const std::size_t robot : order) state_.remove(robot);
+      for (const std::size_t robot : hopeless) state_.stay_at_start(robot);
+      random_.shuffle(order);
+      OrderingResult ordering = repair_once(state_, order, random_, time_.all, progress_);
+      result_.attempts += ordering.attempts;
+      ordering.given_up.insert(ordering.given_up.end(), hopeless.begin(), hopeless.end());
+      hopeless.insert(hopeless.end(), ordering.hopeless.begin(), ordering.hopeless.end());
+      keep_if_better(ordering.unsolved, ordering.given_up, Effort::brief, time_.all);
+    }
+    result_.cut_off = result_.cut_off || has_deadline;
+  }
+
+  PlanState& state_;
+  const std::vector<std::size_t>& movers_;
+  Random& random_;
+  const PlanningTime& time_;
+  ProgressReport& progress_;
+  const PriorityOrder order_;
+  StopCondition stop_;  // of the first attempt
+  std::optional<Best> best_;
+  PrioritizedResult result_;
+};
+
 }  // namespace
 
+PlanningTime PlanningTime::until(const StopCondition& stop) {
+  return {after_share(stop, kFirstShare), after_share(stop, kKeepingShare), stop};
+}
+
 PrioritizedResult plan_prioritized(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
-                                   const StopCondition& stop_attempts, const StopCondition& stop,
-                                   ProgressReport& progress) {
-  if (stop.met()) return all_unplanned(movers);
-  const PriorityOrder order = initial_order(state.instance(), movers, random);
-  const OrderingResult ordering = plan_in_orders(state, order, random, stop_attempts, progress);
-  PrioritizedResult result{{}, ordering.attempts, ordering.cut_off};
-  if (ordering.unsolved.empty() && ordering.given_up.empty()) return result;
-  PartialPlan partial = make_partial_plan(state, ordering.unsolved, ordering.given_up, stop, progress);
-  result.cut_off = result.cut_off || partial.cut_off;
-  result.unplanned = std::move(partial.unplanned);
-  return result;
+                                   const PlanningTime& time, ProgressReport& progress) {
+  if (time.all.met()) return all_unplanned(movers);
+  return PrioritizedPlanning(state, movers, random, time, progress).run();
 }
 
 }  // namespace fleetplan::core

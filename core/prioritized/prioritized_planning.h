@@ -18,15 +18,27 @@ namespace fleetplan::core {
 struct PrioritizedResult {
   std::vector<Unplanned> unplanned;  // ascending
   std::int64_t attempts = 0;
-  bool cut_off = false;  // the stop condition decided something
+  bool cut_off = false;    // the stop condition decided something
+  bool exhausted = false;  // robots are unplanned, but nothing is left to try
+};
+
+/// The use of a time budget.
+struct PlanningTime {
+  StopCondition first_part;  // when it is met, a safe partial plan is made and kept, in case the rest is vain
+  StopCondition keeping;     // ends the making of that plan
+  StopCondition all;
+
+  /// Shares of the time that remains until `stop` is met.
+  static PlanningTime until(const StopCondition& stop);
 };
 
 /// Prioritized planning of `movers` (ascending): one by one in the order of their priorities, each among the
 /// trajectories of those before it; after a failure again with other priorities, by the option `reordering`
-/// (paper, section Prioritized planning). Until `stop_attempts` is met it tries to plan all robots. If that
-/// fails, it makes a safe partial plan of as many as possible until `stop` is met.
+/// (paper, section Prioritized planning). If robots are given up, starts again in random orders until all are
+/// planned, the time is over, or nothing is left to try: when each unplanned robot has no path even if the
+/// others are absent, when the option forbids it, or with few robots when all orders have failed. Without a
+/// deadline the number of orders is limited. Leaves the best safe plan in the state.
 PrioritizedResult plan_prioritized(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
-                                   const StopCondition& stop_attempts, const StopCondition& stop,
-                                   ProgressReport& progress);
+                                   const PlanningTime& time, ProgressReport& progress);
 
 }  // namespace fleetplan::core

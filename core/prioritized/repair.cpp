@@ -21,12 +21,13 @@ constexpr int kMaxExtraRobots = 12;
 class Repair {
  public:
   Repair(PlanState& state, PriorityOrder order, Random& random, const StopCondition& stop,
-         ProgressReport& progress)
+         ProgressReport& progress, const OnStop& on_stop)
       : state_(state),
         order_(std::move(order)),
         random_(random),
         stop_(stop),
         progress_(progress),
+        on_stop_(on_stop),
         rank_(state.instance().size(), 0),
         failures_(state.instance().size(), 0) {
     for (std::size_t k = 0; k < order_.size(); ++k) {
@@ -36,7 +37,7 @@ class Repair {
   }
 
   std::optional<OrderingResult> run(std::int64_t max_failures) {
-    while (!pending_.empty() && !stop_.met()) {
+    while (!pending_.empty() && goes_on()) {
       if (result_.attempts > max_failures) return std::nullopt;
       progress_.update();
       const std::size_t robot = pending_.begin()->second;
@@ -54,15 +55,24 @@ class Repair {
         give_up(robot);
       } else {
         postpone(robot);
-        break;
+        if (!stop_.met()) break;
       }
     }
-    for (const auto& [rank, robot] : pending_) result_.unsolved.push_back(robot);
+    result_.unsolved = unsolved();
     result_.cut_off = !result_.unsolved.empty();
     return std::move(result_);
   }
 
  private:
+  bool goes_on() const { return !stop_.met() || (on_stop_ && on_stop_(unsolved(), result_.given_up)); }
+
+  /// By priority.
+  std::vector<std::size_t> unsolved() const {
+    std::vector<std::size_t> robots;
+    for (const auto& [rank, robot] : pending_) robots.push_back(robot);
+    return robots;
+  }
+
   void postpone(std::size_t robot) {
     state_.reserve_start(robot, state_.instance().options().start_safe_interval);
     pending_.insert({rank_[robot], robot});
@@ -134,6 +144,8 @@ class Repair {
   }
 
   void give_up(std::size_t robot) {
+    const bool others_may_move = result_.hopeless.size() < result_.given_up.size();
+    if (failures_[robot] <= kMaxFailuresOfRobot && !others_may_move) result_.hopeless.push_back(robot);
     result_.given_up.push_back(robot);
     state_.stay_at_start(robot);
     for (const std::size_t other : state_.robots_crossing_start(robot)) {
@@ -146,6 +158,7 @@ class Repair {
   Random& random_;
   const StopCondition& stop_;
   ProgressReport& progress_;
+  const OnStop& on_stop_;
   std::vector<std::int64_t> rank_;  // by robot; a smaller rank is a higher priority
   std::int64_t highest_rank_ = 0;
   std::vector<int> failures_;                               // by robot
@@ -156,8 +169,9 @@ class Repair {
 }  // namespace
 
 std::optional<OrderingResult> repair(PlanState& state, const PriorityOrder& order, std::int64_t max_failures,
-                                     Random& random, const StopCondition& stop, ProgressReport& progress) {
-  return Repair(state, order, random, stop, progress).run(max_failures);
+                                     Random& random, const StopCondition& stop, ProgressReport& progress,
+                                     const OnStop& on_stop) {
+  return Repair(state, order, random, stop, progress, on_stop).run(max_failures);
 }
 
 }  // namespace fleetplan::core

@@ -22,8 +22,10 @@ namespace fleetplan::core {
 ///
 /// If robots raise each other again and again, the priorities of those involved are shuffled, and a start
 /// delay is tried. A robot that fails at step 2, or too often, is given up: it stays at its start. Returns
-/// none as soon as `max_failures` attempts have failed.
+/// none as soon as `max_failures` attempts have failed. When `stop` is met, `on_stop` decides, if there is
+/// one, whether to go on.
 std::optional<OrderingResult> repair(PlanState& state, const PriorityOrder& order, std::int64_t max_failures,
-                                     Random& random, const StopCondition& stop, ProgressReport& progress);
+                                     Random& random, const StopCondition& stop, ProgressReport& progress,
+                                     const OnStop& on_stop = nullptr);
 
 }  // namespace fleetplan::core

@@ -30,16 +30,23 @@ PriorityOrder larger_first(const Instance& instance, PriorityOrder order) {
 }  // namespace
 
 OrderingResult repair_or_restart(PlanState& state, const PriorityOrder& order, Random& random,
-                                 const StopCondition& stop, ProgressReport& progress) {
+                                 const StopCondition& stop, ProgressReport& progress, const OnStop& on_stop) {
   progress.next_attempt();
   if (!differ_in_size(state.instance(), order)) {
-    return *repair(state, order, kAnyNumber, random, stop, progress);
+    return *repair(state, order, kAnyNumber, random, stop, progress, on_stop);
   }
-  if (auto result = repair(state, order, kMaxFailures, random, stop, progress)) return std::move(*result);
+  if (auto result = repair(state, order, kMaxFailures, random, stop, progress, on_stop))
+    return std::move(*result);
   const PriorityOrder second = larger_first(state.instance(), order);
-  OrderingResult result = *repair(state, second, kAnyNumber, random, stop, progress);
+  OrderingResult result = *repair(state, second, kAnyNumber, random, stop, progress, on_stop);
   result.attempts += kMaxFailures;
   return result;
+}
+
+OrderingResult repair_once(PlanState& state, const PriorityOrder& order, Random& random,
+                           const StopCondition& stop, ProgressReport& progress) {
+  progress.next_attempt();
+  return *repair(state, order, kAnyNumber, random, stop, progress);
 }
 
 }  // namespace fleetplan::core

@@ -13,6 +13,11 @@ namespace fleetplan::core {
 /// in size and many attempts fail, starts again once in an order with larger robots first, as small robots
 /// find other paths more easily. `unsolved` is empty unless `stop` was met.
 OrderingResult repair_or_restart(PlanState& state, const PriorityOrder& order, Random& random,
-                                 const StopCondition& stop, ProgressReport& progress);
+                                 const StopCondition& stop, ProgressReport& progress,
+                                 const OnStop& on_stop = nullptr);
+
+/// Plans all robots of `order` from the beginning, with repairs only; for further attempts.
+OrderingResult repair_once(PlanState& state, const PriorityOrder& order, Random& random,
+                           const StopCondition& stop, ProgressReport& progress);
 
 }  // namespace fleetplan::core

@@ -53,11 +53,12 @@ std::vector<std::size_t> restore(PlanState& state, Attempt best) {
 class Restarts {
  public:
   Restarts(PlanState& state, PriorityOrder order, Random& random, const StopCondition& stop,
-           ProgressReport& progress)
+           ProgressReport& progress, const OnStop& on_stop)
       : state_(state),
         random_(random),
         stop_(stop),
         progress_(progress),
+        on_stop_(on_stop),
         orders_(state.instance().options().reordering, std::move(order), random),
         best_{orders_.current(), {}, std::nullopt} {
     result_.attempts = 0;
@@ -88,6 +89,9 @@ class Restarts {
       return this->attempt(0.0);
     }
     if (attempt.trajectories.size() >= best_.trajectories.size()) best_ = std::move(attempt);
+    if (result_.cut_off && on_stop_ && on_stop_(restore(state_, best_), result_.given_up)) {
+      return this->attempt(start_delay);
+    }
     return failed_.has_value();
   }
 
@@ -102,6 +106,7 @@ class Restarts {
   Random& random_;
   const StopCondition& stop_;
   ProgressReport& progress_;
+  const OnStop& on_stop_;
   OrderSequence orders_;
   Attempt best_;
   std::optional<std::size_t> failed_;
@@ -111,8 +116,9 @@ class Restarts {
 }  // namespace
 
 OrderingResult plan_with_restarts(PlanState& state, PriorityOrder order, Random& random,
-                                  const StopCondition& stop, ProgressReport& progress) {
-  return Restarts(state, std::move(order), random, stop, progress).run();
+                                  const StopCondition& stop, ProgressReport& progress,
+                                  const OnStop& on_stop) {
+  return Restarts(state, std::move(order), random, stop, progress, on_stop).run();
 }
 
 }  // namespace fleetplan::core

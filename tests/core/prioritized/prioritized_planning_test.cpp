@@ -39,7 +39,7 @@ Robots robots_of(const PrioritizedResult& result) {
 }
 
 PrioritizedResult run(Planning& p) {
-  return plan_prioritized(p.state, p.movers(), p.random, p.never, p.never, p.progress);
+  return plan_prioritized(p.state, p.movers(), p.random, PlanningTime{}, p.progress);
 }
 
 TEST(Prioritized, NeedsOneAttemptWhereTheFirstOrderWorks) {
@@ -100,14 +100,14 @@ TEST(Prioritized, PlansTheOtherRobotsWhenOneIsBlockedByAParkedRobot) {
 
 TEST(Prioritized, PlansNothingWithoutMovers) {
   Planning p(OccupancyGrid(4, 4, 1.0), {robot_at(1, 1)});
-  const auto result = plan_prioritized(p.state, {}, p.random, p.never, p.never, p.progress);
+  const auto result = plan_prioritized(p.state, {}, p.random, PlanningTime{}, p.progress);
   EXPECT_TRUE(result.unplanned.empty());
   EXPECT_FALSE(result.cut_off);
 }
 
 TEST(Prioritized, CompletesAPartialPlanAfterTheTimeForAttempts) {
   Planning p(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5), robot_at(0.5, 1.5).to(0.5, 8.5)});
-  const auto result = plan_prioritized(p.state, p.movers(), p.random, met(), p.never, p.progress);
+  const auto result = plan_prioritized(p.state, p.movers(), p.random, PlanningTime{met(), {}, {}}, p.progress);
   EXPECT_TRUE(result.unplanned.empty()) << "there is time left to complete";
   EXPECT_TRUE(result.cut_off);
   expect_safe(p.state);
@@ -115,7 +115,7 @@ TEST(Prioritized, CompletesAPartialPlanAfterTheTimeForAttempts) {
 
 TEST(Prioritized, LeavesAllRobotsUnplannedAfterStop) {
   Planning p(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5), robot_at(0.5, 1.5).to(0.5, 8.5)});
-  const auto result = plan_prioritized(p.state, p.movers(), p.random, met(), met(), p.progress);
+  const auto result = plan_prioritized(p.state, p.movers(), p.random, PlanningTime{met(), met(), met()}, p.progress);
   EXPECT_EQ(robots_of(result), (Robots{0, 1}));
   EXPECT_TRUE(result.cut_off);
   EXPECT_EQ(static_cast<int>(result.unplanned[0].reason),
