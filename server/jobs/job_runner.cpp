@@ -78,10 +78,10 @@ api::Reply JobRunner::run(Exchange& exchange, const Service::Endpoint& endpoint,
   return reply;
 }
 
-api::Reply JobRunner::refused(Exchange& exchange, Schedule::Refusal refusal) {
+api::Reply JobRunner::refused(Exchange& exchange, Refusal refusal) {
   return api::problem_reply(
       api::ErrorCode::overloaded,
-      refusal == Schedule::Refusal::share
+      refusal == Refusal::share
           ? "All workers are busy and others wait, too: this client has as many places in "
             "the queue as its share. Try again later."
           : "All workers are busy and the queue is full: try again later.",

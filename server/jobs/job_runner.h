@@ -34,7 +34,7 @@ class JobRunner {
   void cancel_all() { cancel_all_.request_stop(); }
 
  private:
-  api::Reply refused(Exchange& exchange, Schedule::Refusal refusal);
+  api::Reply refused(Exchange& exchange, Refusal refusal);
   api::Reply compute(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events,
                      Workers::Job& job);
   api::Reply reply_of(const Service::Endpoint& endpoint, const Exchange& exchange,

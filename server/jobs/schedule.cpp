@@ -1,6 +1,7 @@
 #include "server/jobs/schedule.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace fleetplan::server {
@@ -14,7 +15,8 @@ using Seconds = std::chrono::duration<double>;
 constexpr double kNewestWeight = 0.1;
 
 /// Expectations are means, so that enough time for a plan, and for a wait, is more than expected.
-constexpr double kEnough = 2.5;
+constexpr double kLeastEnough = 2.0;
+constexpr double kDeviations = 4.0;
 constexpr double kWaitMargin = 1.5;
 
 /// `seconds` before the deadline. Far deadlines have no exact difference to small times, which is harmless.
@@ -25,7 +27,7 @@ Schedule::Time before(Schedule::Time deadline, double seconds) {
 
 }  // namespace
 
-std::optional<Schedule::Refusal> Schedule::accept(Job& job, Time now) {
+std::optional<Refusal> Schedule::accept(Job& job, Time now) {
   const auto found = clients_.find(job.client);
   const std::size_t held = found == clients_.end() ? 0 : found->second.places;
   const std::size_t clients = clients_.size() + (held == 0 ? 1 : 0);
@@ -41,7 +43,7 @@ std::optional<Schedule::Refusal> Schedule::accept(Job& job, Time now) {
   return std::nullopt;
 }
 
-std::optional<Schedule::Refusal> Schedule::request_turn(Job& job, const Need& need, Time now) {
+std::optional<Refusal> Schedule::request_turn(Job& job, const Need& need, Time now) {
   job.need = need;
   if (turns_ < size_.workers) {
     grant(job, false, now);
@@ -51,8 +53,9 @@ std::optional<Schedule::Refusal> Schedule::request_turn(Job& job, const Need& ne
     grant(job, true, now);
     return std::nullopt;
   }
-  job.latest_start = before(need.deadline, kEnough * expected_s(job));
-  if (before(job.latest_start, kWaitMargin * expected_wait_s(&job, now)) <= now) return Refusal::too_late;
+  job.latest_start = before(need.deadline, enough_s(job));
+  const double wait_s = std::max(expected_wait_s(&job, now), shared_wait_s(job));
+  if (before(job.latest_start, kWaitMargin * wait_s) <= now) return Refusal::too_late;
   job.state = State::waiting;
   return std::nullopt;
 }
@@ -139,15 +142,28 @@ Schedule::Job* Schedule::hand_over(bool lane, Time now) {
 
 void Schedule::learn(const Job& job, Time now) {
   Pace& pace = paces_[static_cast<std::size_t>(job.need.kind)];
-  const double weight = pace.work == 0.0 ? 1.0 : kNewestWeight;
-  pace.seconds += weight * (Seconds(now - job.since).count() - pace.seconds);
-  pace.work += weight * (job.need.work - pace.work);
+  const double seconds = Seconds(now - job.since).count();
+  if (pace.work == 0.0) {
+    pace = {seconds, 0.0, job.need.work};
+    return;
+  }
+  pace.deviation += kNewestWeight * (std::abs(seconds - expected_s(job)) - pace.deviation);
+  pace.seconds += kNewestWeight * (seconds - pace.seconds);
+  pace.work += kNewestWeight * (job.need.work - pace.work);
 }
 
 /// 0 while no job of its kind has ended.
 double Schedule::expected_s(const Job& job) const {
   const Pace& pace = paces_[static_cast<std::size_t>(job.need.kind)];
   return pace.work > 0.0 ? pace.seconds / pace.work * job.need.work : 0.0;
+}
+
+/// Time that suffices for most jobs like it.
+double Schedule::enough_s(const Job& job) const {
+  const double expected = expected_s(job);
+  const Pace& pace = paces_[static_cast<std::size_t>(job.need.kind)];
+  const double spread = pace.seconds > 0.0 ? kDeviations * pace.deviation / pace.seconds : 0.0;
+  return expected * std::max(kLeastEnough, 1.0 + spread);
 }
 
 /// A job that computes longer than expected takes at least as long again as it has already. An improvement
@@ -158,6 +174,16 @@ double Schedule::remaining_s(const Job& job, Time now) const {
   const double left_s = std::max(expected_s(job) - age_s, age_s);
   if (job.need.deadline == Time::max()) return left_s;
   return std::clamp(Seconds(job.need.deadline - now).count(), 0.0, left_s);
+}
+
+/// The wait when turns go round the clients there are and the client's own jobs come one after the other.
+double Schedule::shared_wait_s(const Job& job) const {
+  double own_s = 0.0;
+  for (const Job* other : jobs_) {
+    const bool is_ahead = other->client == job.client && other->state == State::waiting;
+    if (is_ahead && precedes(*other, job)) own_s += expected_s(*other);
+  }
+  return own_s * static_cast<double>(clients_.size()) / static_cast<double>(size_.workers);
 }
 
 /// Gives the turns, in their order, to the jobs that precede `job`, or to all that wait or will wait if it is

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "server/jobs/worker_load.h"
+
 namespace fleetplan::server {
 
 /// Decides which jobs are accepted and whose turn it is to compute. This is the policy alone, without threads
@@ -37,9 +39,6 @@ class Schedule {
     std::size_t queue = 0;
     std::size_t burst = 0;
   };
-
-  enum class Refusal { queue_full, share, too_late };
-  static constexpr std::size_t kRefusals = 3;
 
   enum class Kind { plan, check };
 
@@ -104,6 +103,7 @@ class Schedule {
   /// Running means of jobs until their first plan, or the end of a check.
   struct Pace {
     double seconds = 0.0;
+    double deviation = 0.0;  // of the seconds, from what was expected
     double work = 0.0;
   };
 
@@ -116,7 +116,9 @@ class Schedule {
   void learn(const Job& job, Time now);
   double expected_s(const Job& job) const;
   double remaining_s(const Job& job, Time now) const;
+  double enough_s(const Job& job) const;
   double expected_wait_s(const Job* job, Time now) const;
+  double shared_wait_s(const Job& job) const;
 
   Size size_;
   std::vector<Job*> jobs_;                 // in the order of their acceptance

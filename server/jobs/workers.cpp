@@ -49,7 +49,7 @@ Workers::Job::~Job() {
 }
 
 /// With the mutex locked.
-void Workers::Job::refuse(Schedule::Refusal refusal) {
+void Workers::Job::refuse(Refusal refusal) {
   refusal_ = refusal;
   ++workers_.load_.refused[static_cast<std::size_t>(refusal)];
 }
@@ -65,7 +65,7 @@ bool Workers::Job::request_turn(const Schedule::Need& need) {
 bool Workers::Job::await_turn(const core::StopCondition& stop) {
   std::unique_lock lock(workers_.mutex_);
   if (wait(lock, stop, std::min(stop.deadline(), entry_.latest_start))) return true;
-  if (!stop.cancelled()) refuse(Schedule::Refusal::too_late);
+  if (!stop.cancelled()) refuse(Refusal::too_late);
   return false;
 }
 

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <array>
 #include <condition_variable>
-#include <cstddef>
-#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <random>
@@ -13,17 +10,9 @@
 #include "core/runtime/stop_condition.h"
 #include "server/jobs/helpers.h"
 #include "server/jobs/schedule.h"
+#include "server/jobs/worker_load.h"
 
 namespace fleetplan::server {
-
-/// The load of the workers, and the jobs refused since the start by reason.
-struct WorkerLoad {
-  std::size_t waiting = 0;
-  std::size_t running = 0;
-  std::size_t paused = 0;
-  std::array<std::uint64_t, Schedule::kRefusals> refused{};
-  std::uint64_t ended_early = 0;  // improvements that others took the turn from
-};
 
 /// Gives jobs their turns as the schedule decides. A job computes in the thread that awaits its turn: a
 /// handover to another thread costs more than a small plan. Thread-safe.
@@ -59,7 +48,7 @@ class Workers::Job final : public core::Executor {
   ~Job() override;
 
   /// Why the job was refused, so far.
-  std::optional<Schedule::Refusal> refusal() const { return refusal_; }
+  std::optional<Refusal> refusal() const { return refusal_; }
 
   /// Asks for the job's turn, once. False when it is refused.
   bool request_turn(const Schedule::Need& need);
@@ -84,11 +73,11 @@ class Workers::Job final : public core::Executor {
   };
 
   bool wait(std::unique_lock<std::mutex>& lock, const core::StopCondition& stop, Clock::time_point until);
-  void refuse(Schedule::Refusal refusal);
+  void refuse(Refusal refusal);
 
   Workers& workers_;
   Entry entry_;
-  std::optional<Schedule::Refusal> refusal_;
+  std::optional<Refusal> refusal_;
   bool accepted_ = false;
 };
 

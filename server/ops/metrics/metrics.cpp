@@ -55,8 +55,7 @@ void write_process(MetricsText& text, std::chrono::system_clock::time_point star
 }
 
 void write_jobs(MetricsText& text, const WorkerLoad& jobs) {
-  static constexpr std::array<std::string_view, Schedule::kRefusals> kReasons{"queue_full", "share",
-                                                                              "too_late"};
+  static constexpr std::array<std::string_view, kRefusals> kReasons{"queue_full", "share", "too_late"};
   text.metric("fleetplan_jobs_refused_total", "counter",
               "Jobs that found no place, or would get no turn in time.");
   for (std::size_t reason = 0; reason < kReasons.size(); ++reason) {

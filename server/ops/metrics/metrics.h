@@ -12,7 +12,7 @@
 
 #include "server/http/exchange.h"
 #include "server/http/route_table.h"
-#include "server/jobs/workers.h"
+#include "server/jobs/worker_load.h"
 #include "server/ops/metrics/metric_types.h"
 
 namespace fleetplan::server {

@@ -138,6 +138,30 @@ TEST(LargeNeighbourhoodSearch, ChangesNothingWhenStopped) {
 
 class LnsRandomFleets : public testing::TestWithParam<Objective> {};
 
+/// Allows so many rounds.
+class Rounds final : public Executor {
+ public:
+  explicit Rounds(int count) : left_(count) {}
+  void run(std::size_t count, const Task& task) override { caller_.run(count, task); }
+  bool may_improve(const StopCondition& /*stop*/) override { return left_-- > 0; }
+
+ private:
+  CallerThread caller_;
+  int left_;
+};
+
+TEST(LargeNeighbourhoodSearch, AsksBeforeEveryRoundWhetherToGoOn) {
+  const auto improved = [](int rounds) {
+    Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(8));
+    const auto movers = plan_first_solution(p);
+    Rounds executor(rounds);
+    return large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, executor, p.never);
+  };
+  EXPECT_FALSE(improved(2).cut_off) << "eight iterations are two rounds";
+  EXPECT_TRUE(improved(1).cut_off);
+  EXPECT_EQ(improved(0).expansions, 0);
+}
+
 TEST_P(LnsRandomFleets, NeverMakesAPlanWorseOrUnsafe) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);

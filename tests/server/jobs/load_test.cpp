@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <future>
 #include <memory>
 #include <random>
@@ -64,6 +65,26 @@ TEST(Load, ManyClientsReceiveTheirOwnAnswers) {
   }
   for (auto& thread : threads) thread.join();
   EXPECT_EQ(right, 200);
+}
+
+TEST(Load, ParsesAsManyBodiesAtATimeAsThereAreWorkers) {
+  std::atomic<int> parsing{0};
+  std::atomic<int> most{0};
+  StubService stub;
+  Service service = stub.service();
+  service.plan = [&](std::string_view, const api::RequestContext& context) {
+    for (int now = ++parsing, before = most; now > before && !most.compare_exchange_weak(before, now);) {
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    --parsing;
+    if (!has_turn(context)) return api::too_busy(context.request_id);
+    return api::Reply{200, api::kJson, "{}"};
+  };
+  const TestServer server(with_workers(2, 8), service);
+  std::vector<std::future<int>> answers;
+  for (int k = 0; k < 10; ++k) answers.push_back(waiting_job(server, std::string(1 << 20, ' ')));
+  for (auto& answer : answers) EXPECT_EQ(answer.get(), 200);
+  EXPECT_EQ(most, 2);
 }
 
 TEST(Load, AFullQueueIs503WithRetryAfterWhileHealthAnswers) {

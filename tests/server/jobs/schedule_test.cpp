@@ -13,7 +13,6 @@ namespace {
 using namespace std::chrono_literals;
 using State = Schedule::Job::State;
 using Next = Schedule::Improvement::Next;
-using Refusal = Schedule::Refusal;
 using Kind = Schedule::Kind;
 
 /// A schedule and its clock.
@@ -42,8 +41,8 @@ class Schedules : public testing::Test {
   }
 
   /// Jobs that take this long each end one after the other, so that such times are expected.
-  void learn(Schedule::Time::duration each) {
-    for (int k = 0; k < 100; ++k) {
+  void learn(Schedule::Time::duration each, int count = 100) {
+    for (int k = 0; k < count; ++k) {
       Job& job = asking();
       ASSERT_TRUE(job.has_turn());
       now += each;
@@ -129,13 +128,34 @@ TEST_F(Schedules, RefuseAJobThatWouldGetItsTurnTooLate) {
   learn(100ms);
   for (int k = 0; k < 5; ++k) asking();
   Job& hopeless = accepted();
-  EXPECT_EQ(schedule.request_turn(hopeless, {Kind::plan, now + 390ms, 1.0, false}, now), Refusal::too_late)
+  EXPECT_EQ(schedule.request_turn(hopeless, {Kind::plan, now + 340ms, 1.0, false}, now), Refusal::too_late)
       << "the running job needs 100 ms, and so do jobs like this one";
   Job& urgent = accepted();
-  EXPECT_EQ(schedule.request_turn(urgent, {Kind::plan, now + 410ms, 1.0, false}, now), std::nullopt)
+  EXPECT_EQ(schedule.request_turn(urgent, {Kind::plan, now + 360ms, 1.0, false}, now), std::nullopt)
       << "the others are less urgent";
   Job& patient = accepted();
   EXPECT_EQ(schedule.request_turn(patient, {Kind::plan, now + 2h, 1.0, false}, now), std::nullopt);
+}
+
+TEST_F(Schedules, ReserveMoreTimeWhenTimesVary) {
+  for (int k = 0; k < 50; ++k) {
+    learn(10ms, 1);
+    learn(190ms, 1);
+  }
+  asking();
+  Job& job = accepted();
+  EXPECT_EQ(schedule.request_turn(job, {Kind::plan, now + 500ms, 1.0, false}, now), Refusal::too_late);
+  EXPECT_EQ(schedule.request_turn(job, {Kind::plan, now + 800ms, 1.0, false}, now), std::nullopt);
+}
+
+TEST_F(Schedules, ExpectAClientsJobsOneRoundAfterTheOther) {
+  learn(100ms);
+  for (int k = 0; k < 4; ++k) asking(900ms, "greedy");
+  accepted("polite");
+  Job& last = accepted("greedy");
+  EXPECT_EQ(schedule.request_turn(last, {Kind::plan, now + 1000ms, 1.0, false}, now), Refusal::too_late)
+      << "600 ms for three jobs of its own and as many of the other, half as much in addition";
+  EXPECT_EQ(schedule.request_turn(last, {Kind::plan, now + 1200ms, 1.0, false}, now), std::nullopt);
 }
 
 TEST_F(Schedules, NeverRefuseAJobWhileAWorkerIsIdle) {
