@@ -1,10 +1,7 @@
 #include "server/http_server.h"
 
-#include <exception>
 #include <thread>
 #include <utility>
-
-#include "server/http/guard/connection.h"
 
 namespace fleetplan::server {
 
@@ -12,6 +9,9 @@ namespace {
 
 /// Of the admin port: enough for probes and scrapers, and for a few that hang.
 constexpr std::size_t kAdminConnections = 64;
+
+/// Connections that may be open, for each that may be served at a time: the others wait for their clients.
+constexpr std::size_t kOpenPerServed = 4;
 
 }  // namespace
 
@@ -21,13 +21,16 @@ HttpServer::HttpServer(const Settings& settings, Service service)
       log_(settings.log_level),
       files_(settings.web_root),
       cross_origin_(settings.cors_origins),
-      body_memory_(settings.limits.max_body, settings.queue + static_cast<std::size_t>(settings.workers)),
+      body_memory_(settings.limits.max_body, settings.queue + static_cast<std::size_t>(settings.workers),
+                   settings.connections),
       jobs_(settings_, log_),
       backend_{settings_,
                service_,
                files_,
                [this](Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events) {
-                 return jobs_.run(exchange, endpoint, events);
+                 api::Reply reply = jobs_.run(exchange, endpoint, events);
+                 exchange.release_body();
+                 return reply;
                },
                [this] { return ready_.load(); },
                [this] { return metrics_.text(gauges()); }},
@@ -44,8 +47,11 @@ HttpServer::Endpoint::Endpoint(HttpServer& server, Steps::Port port, int number,
                                const RouteTable& routes)
     : steps(port, server.settings_, routes, server.cross_origin_, server.draining_, server.metrics_,
             server.log_),
-      library({server.settings_.host, number, max_connections, routes, server.settings_.limits.max_body,
-               server.log_, server.draining_, [&server, this](int fd) { server.serve(fd, *this); }}) {}
+      library({server.settings_.host, number, routes, server.log_, server.draining_}),
+      listener({max_connections, kOpenPerServed * max_connections, server.stop_signal_,
+                [&server, this](int fd) { return server.connect(fd, *this); },
+                [&server](const std::string& what) { server.log_.error(what); },
+                [&server](const std::string& why) { server.fail(why); }}) {}
 
 std::optional<std::string> HttpServer::bind() {
   if (auto fault = main_.library.bind()) return fault;
@@ -61,8 +67,8 @@ std::optional<int> HttpServer::admin_port() const {
 
 void HttpServer::run() {
   std::thread admin;
-  if (admin_) admin = std::thread([this] { admin_->library.run(); });
-  main_.library.run();
+  if (admin_) admin = std::thread([this] { admin_->listener.run(admin_->library.listening_fd()); });
+  main_.listener.run(main_.library.listening_fd());
   if (admin.joinable()) admin.join();
 }
 
@@ -73,24 +79,25 @@ void HttpServer::cancel_jobs() {
 
 void HttpServer::stop() {
   stop_signal_.raise();
-  main_.library.stop();
-  if (admin_) admin_->library.stop();
+  main_.listener.stop();
+  if (admin_) admin_->listener.stop();
 }
 
-void HttpServer::serve(int fd, Endpoint& endpoint) {
-  const UnderWay open(endpoint.connections);
-  try {
-    Connection connection(
-        fd, {settings_, endpoint.steps, body_memory_, draining_, endpoint.exchanges, stop_signal_.fd(),
-             [&endpoint](Exchange& exchange) { return endpoint.library.answer(exchange); }});
-    connection.serve();
-  } catch (const std::exception& failure) {  // e.g. no memory for its body: ends this connection only
-    log_.error(failure.what());
-  }
+std::unique_ptr<Connection> HttpServer::connect(int fd, Endpoint& endpoint) {
+  return std::make_unique<Connection>(
+      fd,
+      ConnectionContext{settings_, endpoint.steps, body_memory_, draining_, endpoint.exchanges, stop_signal_,
+                        [&endpoint](Exchange& exchange) { return endpoint.library.answer(exchange); }});
+}
+
+void HttpServer::fail(const std::string& why) {
+  log_.error("no more connections can be accepted: " + why);
+  failed_ = true;
+  if (on_failure_) on_failure_();
 }
 
 Gauges HttpServer::gauges() const {
-  return {main_.connections, admin_ ? admin_->connections.load() : 0,
+  return {main_.listener.connections(), admin_ ? admin_->listener.connections() : 0,
           static_cast<std::size_t>(settings_.workers), jobs_.load(), log_.dropped()};
 }
 

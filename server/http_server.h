@@ -2,12 +2,17 @@
 
 #include <atomic>
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "server/http/guard/body_memory.h"
+#include "server/http/guard/connection.h"
 #include "server/http/guard/stop_signal.h"
 #include "server/http/library/library_server.h"
+#include "server/http/listener/listener.h"
 #include "server/http/static_files.h"
 #include "server/http/steps/cors.h"
 #include "server/http/steps/steps.h"
@@ -39,6 +44,13 @@ class HttpServer {
   /// Serves until stop(); after bind().
   void run();
 
+  /// Calls this when a port cannot accept connections any more; set it before run(). Connections that are
+  /// open are still served.
+  void on_failure(std::function<void()> call) { on_failure_ = std::move(call); }
+
+  /// Whether that has happened.
+  bool failed() const { return failed_; }
+
   /// /readyz answers 503 from now on; everything is still served.
   void announce_end() { ready_ = false; }
 
@@ -65,13 +77,14 @@ class HttpServer {
     Endpoint(HttpServer& server, Steps::Port port, int number, std::size_t max_connections,
              const RouteTable& routes);
 
-    std::atomic<std::size_t> connections{0};
     std::atomic<std::size_t> exchanges{0};
     Steps steps;
     LibraryServer library;
+    Listener listener;
   };
 
-  void serve(int fd, Endpoint& endpoint);
+  std::unique_ptr<Connection> connect(int fd, Endpoint& endpoint);
+  void fail(const std::string& why);
   Gauges gauges() const;
 
   const Settings settings_;
@@ -82,6 +95,8 @@ class HttpServer {
   StopSignal stop_signal_;
   std::atomic<bool> ready_{true};
   std::atomic<bool> draining_{false};
+  std::atomic<bool> failed_{false};
+  std::function<void()> on_failure_;
   BodyMemory body_memory_;  // of as many large bodies as there may be jobs
   JobRunner jobs_;
   const Backend backend_;

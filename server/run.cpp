@@ -1,6 +1,7 @@
 #include "server/run.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -119,6 +120,7 @@ int run(const Settings& settings, Service service) {
   for (const std::string& name : settings.unknown_variables) {
     log.warn("unknown environment variable", {{"name", name}});
   }
+  server.on_failure([] { ::kill(::getpid(), SIGTERM); });  // ends in order
   std::thread serving([&] { server.run(); });
   announce(settings, server, log);
 
@@ -128,7 +130,7 @@ int run(const Settings& settings, Service service) {
   server.stop();
   serving.join();
   log.info("stopped");
-  return 0;
+  return server.failed() ? 1 : 0;
 }
 
 }  // namespace fleetplan::server

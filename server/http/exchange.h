@@ -14,11 +14,12 @@
 
 namespace fleetplan::server {
 
-/// One request and its answer, on the connection's thread.
+/// One request and its answer.
 struct Exchange {
   using Clock = std::chrono::steady_clock;
 
   Socket* socket = nullptr;
+  std::string unsent = {};        // end of the answer, which the client has not accepted yet
   Clock::time_point begun_at;     // first byte in
   Clock::time_point received_at;  // last byte of the body in
   std::string request_id;
@@ -27,7 +28,8 @@ struct Exchange {
   const Route* route = nullptr;                            // none: the path is unknown
   std::string parameter = {};                              // see RouteTable::Match
   std::optional<BodyMemory::Share> memory = std::nullopt;  // for the body
-  std::string body;                                        // as sent, perhaps gzip-coded
+  std::string body;                                        // decoded; see release_body
+  std::uint64_t bytes_in = 0;                              // of the body as sent
 
   HeaderFields fields;  // of the answer, besides those that every answer has
   int status = 0;
@@ -40,6 +42,19 @@ struct Exchange {
   std::optional<double> late_s = std::nullopt;  // the answer after the end of the budget; negative: before
   std::string_view problem;                     // see api::Reply
   std::optional<api::PlanOutcome> outcome = std::nullopt;
+
+  /// Gives the body and its memory back, once it has been used: a client may read its answer slowly.
+  void release_body() {
+    body = std::string();
+    memory.reset();
+  }
+
+  /// Sends what the client accepts at once; the rest is added to `unsent`. False when the client is gone.
+  bool send(std::string_view data) {
+    const auto sent = unsent.empty() ? socket->write_some(data) : 0;
+    if (sent) unsent.append(data.substr(*sent));
+    return sent.has_value();
+  }
 };
 
 /// How an answer was sent.

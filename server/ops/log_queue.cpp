@@ -84,7 +84,11 @@ void LogQueue::push(std::string line) {
     ++state_->dropped;
     return;
   }
-  state_->waiting += line;
+  if (state_->waiting.empty()) {
+    state_->waiting = std::move(line);
+  } else {
+    state_->waiting += line;
+  }
   if (!state_->writing) state_->changed.notify_all();
 }
 

@@ -1,6 +1,7 @@
 // Any bytes on a connection: head, framing, pipelining and rejections. The server reads the same requests and
 // sends well-formed answers, however the bytes are divided into packets.
 
+#include <poll.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -36,6 +37,14 @@ server::Settings settings() {
   return settings;
 }
 
+/// Until the connection ends.
+void serve(server::Connection&& connection) {
+  while (const auto wait = connection.go_on()) {
+    pollfd wanted{connection.fd(), static_cast<short>(wait->for_input ? POLLIN : POLLOUT), 0};
+    ::poll(&wanted, 1, 1000);
+  }
+}
+
 /// Sends the bytes in packets of the given size (0: all at once), closes the sending side, and serves the
 /// connection until it ends.
 Conversation converse(std::string_view bytes, std::size_t packet) {
@@ -47,7 +56,7 @@ Conversation converse(std::string_view bytes, std::size_t packet) {
   static const server::CrossOrigin kCrossOrigin({"https://a.example"});
   static const server::RequestLog kLog(kSettings.log_level);
   static server::Metrics metrics(kRoutes);
-  static server::BodyMemory memory(0, 1);
+  static server::BodyMemory memory(1 << 20, 1, 1);
   static server::StopSignal stop;
   std::array<int, 2> ends{};  // keeps packets apart, so that each is read separately
   require(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) == 0, "no socket pair");
@@ -70,7 +79,7 @@ Conversation converse(std::string_view bytes, std::size_t packet) {
   };
   const server::Steps steps(server::Steps::Port::main, kSettings, kRoutes, kCrossOrigin, draining, metrics,
                             kLog);
-  server::Connection(ends[0], {kSettings, steps, memory, draining, active, stop.fd(), answer}).serve();
+  serve(server::Connection(ends[0], {kSettings, steps, memory, draining, active, stop, answer}));
   require(active == 0, "an exchange has no end");
 
   std::array<char, 1 << 16> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled by recv

@@ -7,7 +7,8 @@ Measures small plans of one honest client alone, then beside each kind of hostil
 the admin port (not with --url). The exit status is 1 if an honest answer was wrong, lost or, in the median, more than
 twice as slow as alone, if too many were rejected with 503, if a health probe failed, or if the server ended or used more
 than 1 GiB. Then sends requests that are costly for the server: each must get the right answer, within its time and its
-memory, and no work may go on after the client has left.
+memory, and no work may go on after the client has left. Last, checks that servers survive a log that nobody reads and a
+lack of descriptors, and that one whose listener breaks ends.
 """
 
 import argparse
@@ -16,6 +17,7 @@ import gzip
 import http.client
 import json
 import multiprocessing
+import resource
 import socket
 import sys
 import threading
@@ -23,6 +25,7 @@ import time
 import urllib.request
 
 import costly
+import front_door
 from client import Connection, Lost, request
 from report import percentile, spread, verdict
 from server import Server
@@ -47,6 +50,10 @@ class Attackers:
 
     @staticmethod
     def _run(address, count, act):
+        _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
+        threading.stack_size(256 * 1024)
+
         def attack():
             while True:
                 with contextlib.suppress(OSError):
@@ -98,8 +105,10 @@ class Health:
                 self.faults.append("no probe was sent")
 
 
-def idle(_socket):
-    time.sleep(60)
+def idle(socket_):
+    """Sends nothing until the server closes the connection."""
+    socket_.settimeout(60)
+    socket_.recv(1)
 
 
 def read_until_closed(socket_):
@@ -116,6 +125,14 @@ def drip(data, pause):
         for at in range(len(data)):
             socket_.sendall(data[at:at + 1])
             time.sleep(pause)
+    return act
+
+
+def drip_rest(begin, data, pause):
+    """The same after a beginning that is sent at once."""
+    def act(socket_):
+        socket_.sendall(begin)
+        drip(data, pause)(socket_)
     return act
 
 
@@ -175,6 +192,10 @@ def attacks():
     ids = {**HONEST, "robots": [{**robot, "id": robot["id"] * 1_000_000} for robot in HONEST["robots"]]}
     return [
         ("500 idle sockets", 500, idle),
+        ("3000 idle sockets", 3000, idle),
+        ("3000 slow heads", 3000, drip(b"GET / HTTP/1.1\r\nHost: localhost\r\nX: " + b"y" * 1000, 3)),
+        ("3000 slow bodies", 3000, drip_rest(POST + b"Content-Length: 1000\r\n\r\n", b" " * 1000, 3)),
+        ("3000 slow readers", 3000, never_read(request("GET", "/v1/examples/hall-100"))),
         ("slow heads", 200, drip(b"GET / HTTP/1.1\r\nHost: localhost\r\nX: " + b"y" * 1000, 0.5)),
         ("slow bodies", 200, drip(POST + b"Content-Length: 1000\r\n\r\n" + b" " * 1000, 0.5)),
         ("header floods", 8, send_and_read(heads)),
@@ -271,6 +292,12 @@ def main():
     if code := server.end():
         failures.append(f"the server ended with {code}")
     failures += costly.measure(arguments.binary, arguments.url, arguments.late_ms)
+    if arguments.binary:
+        for name, check in front_door.CHECKS.items():
+            fault = check(arguments.binary)
+            print(f"{name:30} {fault or 'passed'}", flush=True)
+            if fault:
+                failures.append(f"{name}: {fault}")
     return verdict(failures)
 
 

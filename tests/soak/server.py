@@ -1,6 +1,7 @@
 """The server under test: a child process, or one that is already running."""
 
 import json
+import os
 import re
 import subprocess
 import urllib.parse
@@ -8,11 +9,12 @@ import urllib.request
 
 
 class Server:
-    def __init__(self, binary=None, url=None, flags=()):
+    def __init__(self, binary=None, url=None, flags=(), **process):
         self.process, self.url, self.admin_url = None, url, None
         if not url:
-            self.process = subprocess.Popen([binary, "--port", "0", "--log-level", "off", *flags],
-                                            stdout=subprocess.PIPE, text=True)
+            level = [] if "--log-level" in flags else ["--log-level", "off"]
+            self.process = subprocess.Popen([binary, "--port", "0", *level, *flags],
+                                            stdout=subprocess.PIPE, text=True, **process)
             self.url = self._read_url()
             if "--admin-port" in flags:
                 self.admin_url = self._read_url()
@@ -39,6 +41,12 @@ class Server:
                 return int(re.search(rf"{name}:\s+(\d+) kB", status.read()).group(1))
         except (AttributeError, OSError):
             return None
+
+    def cpu_seconds(self):
+        """CPU time of the child process so far."""
+        with open(f"/proc/{self.process.pid}/stat", encoding="ascii") as stat:
+            user, system = stat.read().rsplit(")", 1)[1].split()[11:13]
+        return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 
     def alive(self):
         return self.process is None or self.process.poll() is None

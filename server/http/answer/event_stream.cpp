@@ -46,7 +46,9 @@ void EventStream::end(const api::Reply& reply) {
   stop_writing();
   if (!failed_ && !exchange_.abandoned) {
     const std::string last = event(reply.status == 200 ? "plan" : "problem", reply.body);
-    failed_ = !send(chunked_ ? last + "0\r\n\r\n" : last);
+    const std::string text = chunked_ ? last + "0\r\n\r\n" : last;
+    failed_ = !exchange_.send(text);
+    sent_ += text.size();
   }
   if (failed_) exchange_.close = true;
   exchange_.streamed = sent_;

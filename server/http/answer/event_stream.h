@@ -36,8 +36,8 @@ class EventStream final : public api::PlanEvents {
   /// False: nothing has been written.
   bool begun() const { return begun_; }
 
-  /// The last event of one that has begun: the plan, or a problem. If it cannot be written, the connection is
-  /// closed.
+  /// The last event of one that has begun: the plan, or a problem. What the client does not accept at once
+  /// goes to Exchange::unsent. If the client is gone, the connection is closed.
   void end(const api::Reply& reply);
 
  private:

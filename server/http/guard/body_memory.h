@@ -6,30 +6,31 @@
 
 namespace fleetplan::server {
 
-/// Bounds the memory of the bodies of all requests together, in bytes as sent and as decoded, so that too
-/// many large ones at the same time are rejected. Memory for their content, such as parsed JSON, is not
+/// Bounds the memory of the heads and bodies of all requests together, in bytes as sent and as decoded, so
+/// that too many large ones at the same time are rejected. Small ones have a part of their own: other clients
+/// are served even while a few occupy the rest. Memory for their content, such as parsed JSON, is not
 /// counted. Thread-safe.
 class BodyMemory {
  public:
   /// Enough for `requests` (at least one) bodies of `max_body` bytes (up to 1 TiB), of which one is being
-  /// decoded, besides the small ones.
-  BodyMemory(std::uint64_t max_body, std::size_t requests);
+  /// decoded, besides `small` ones of kSmall bytes.
+  BodyMemory(std::uint64_t max_body, std::size_t requests, std::size_t small);
 
   /// The memory of one request, until its end.
   class Share {
    public:
     explicit Share(BodyMemory& memory) : memory_(memory) {}
-    ~Share() { memory_.left_ += held_; }
+    ~Share();
     Share(const Share&) = delete;
     Share& operator=(const Share&) = delete;
 
-    /// True when the request may hold so many bytes. Up to kSmall always: other clients are served even while
-    /// a few occupy the rest.
+    /// True when the request may hold so many bytes.
     bool grow_to(std::uint64_t bytes);
 
    private:
     BodyMemory& memory_;
     std::int64_t held_ = 0;
+    std::int64_t held_small_ = 0;
   };
 
   static constexpr std::uint64_t kSmall = 64 * 1024;
@@ -38,6 +39,7 @@ class BodyMemory {
 
  private:
   std::atomic<std::int64_t> left_;
+  std::atomic<std::int64_t> small_left_;
 };
 
 }  // namespace fleetplan::server

@@ -1,163 +1,119 @@
 #include "server/http/guard/body_reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
-#include <string_view>
 #include <utility>
+
+#include "server/http/guard/chunk_line.h"
+#include "server/http/guard/field_syntax.h"
 
 namespace fleetplan::server {
 
 namespace {
 
-/// A body that arrives more slowly falls behind; the `patience` limits how far.
-constexpr std::size_t kLeastBytesPerMs = 100;
-constexpr std::size_t kMaxChunkLine = 4096;
-constexpr std::size_t kMaxTrailerLines = 100;
-constexpr std::size_t kMaxSizeDigits = 16;
+constexpr std::size_t kMaxLine = 4096;
+constexpr std::size_t kMaxTrailers = 100;
 /// Of all chunks of a body. Extensions are read, but do not count towards the limit of the body.
 constexpr std::uint64_t kMaxExtensionBytes = 64 * 1024;
+/// Reserved for a promised body; a promise alone gets no more memory.
+constexpr std::uint64_t kMaxReserved = 64 * 1024;
 
-BodyFault malformed(std::string detail) { return {BodyFault::Kind::malformed, std::move(detail)}; }
+}  // namespace
 
-BodyFault too_large(const std::string& size, std::uint64_t limit) {
+BodyFault malformed_body(std::string detail) { return {BodyFault::Kind::malformed, std::move(detail)}; }
+
+BodyFault too_large_body(const std::string& size, std::uint64_t limit) {
   return {BodyFault::Kind::too_large,
           std::string("The body has ") + size + " bytes; the limit is " + std::to_string(limit) + "."};
 }
 
-/// Input of one body from a socket, against a slow client.
-class Source {
- public:
-  Source(Socket& socket, std::string& input, BodyMemory::Share& share, std::chrono::milliseconds patience)
-      : socket_(socket), input_(input), share_(share), patience_(patience), begin_(Socket::Clock::now()) {}
-  /// The rest stays in the input.
-  ~Source() { drop_taken(); }
-  Source(const Source&) = delete;
-  Source& operator=(const Source&) = delete;
-
-  /// Moves `count` bytes to `body`; false when they do not arrive or there is no room.
-  bool take(std::uint64_t count, std::string& body) {
-    while (count > 0) {
-      if (taken_ == input_.size() && !more()) return false;
-      const auto part = std::min<std::uint64_t>(count, input_.size() - taken_);
-      has_room_ = share_.grow_to(body.size() + part);
-      if (!has_room_) return false;
-      body.append(input_, taken_, part);
-      taken_ += part;
-      count -= part;
-    }
-    return true;
-  }
-
-  /// A line without its CR LF, valid until more is taken; none when it does not arrive or is too long.
-  std::optional<std::string_view> take_line() {
-    std::size_t end = 0;
-    while ((end = input_.find("\r\n", taken_)) == std::string::npos) {
-      if (input_.size() - taken_ > kMaxChunkLine || !more()) return std::nullopt;
-    }
-    const auto line = std::string_view(input_).substr(taken_, end - taken_);
-    taken_ = end + 2;
-    return line;
-  }
-
-  /// Why something could not be taken.
-  BodyFault fault() const {
-    if (!has_room_) {
-      return {BodyFault::Kind::no_room, BodyMemory::kFull};
-    }
-    switch (last_) {
-      case Socket::Read::timeout:
-        return {BodyFault::Kind::too_slow,
-                "The body did not arrive in time: it may pause for " + std::to_string(patience_.count()) +
-                    " ms and fall as far behind " + std::to_string(kLeastBytesPerMs) + " kB/s."};
-      case Socket::Read::stopped:
-        return {BodyFault::Kind::stopped, "The service is shutting down: try another replica."};
-      case Socket::Read::end:
-        return malformed("The body ended early.");
-      case Socket::Read::some:
-        break;
-    }
-    return malformed("A line between two chunks is too long.");
-  }
-
- private:
-  /// False when there is no more input, or none in time.
-  bool more() {
-    drop_taken();
-    const std::size_t before = input_.size();
-    const auto whole = begin_ + std::chrono::milliseconds(received_ / kLeastBytesPerMs);
-    last_ = socket_.read_some(input_, std::min(whole, Socket::Clock::now()) + patience_);
-    if (last_ != Socket::Read::some) return false;
-    received_ += input_.size() - before;
-    return true;
-  }
-
-  void drop_taken() {
-    input_.erase(0, taken_);
-    taken_ = 0;
-  }
-
-  Socket& socket_;
-  std::string& input_;
-  BodyMemory::Share& share_;
-  bool has_room_ = true;
-  std::size_t taken_ = 0;  // of the input; dropped together, as many small pieces may be taken from it
-  std::chrono::milliseconds patience_;
-  Socket::Clock::time_point begin_;
-  Socket::Read last_ = Socket::Read::some;
-  std::size_t received_ = 0;  // bytes, chunk sizes included
-};
-
-std::optional<std::uint64_t> parse_chunk_size(std::string_view line) {
-  std::uint64_t size = 0;
-  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), size, 16);
-  if (error != std::errc{}) return std::nullopt;
-  const bool at_end = end == line.data() + line.size() || *end == ';' || *end == ' ' || *end == '\t';
-  return at_end ? std::optional(size) : std::nullopt;
+BodyReader::BodyReader(const RequestHead& head, std::uint64_t limit, BodyMemory::Share* share)
+    : chunked_(head.chunked),
+      limit_(limit),
+      share_(share),
+      part_(chunked_ ? Part::size_line : Part::data),
+      left_(chunked_ ? 0 : head.content_length.value_or(0)) {
+  if (share_ != nullptr) body_.reserve(std::min(left_, kMaxReserved));
 }
 
-std::variant<std::string, BodyFault> read_chunked(Source& source, std::uint64_t limit) {
-  std::string body;
-  std::uint64_t extensions = 0;
-  while (true) {
-    const auto line = source.take_line();
-    if (!line) return source.fault();
-    const auto size = parse_chunk_size(*line);
-    if (!size) return malformed("A chunk does not begin with its size in hexadecimal.");
-    extensions += line->size() > kMaxSizeDigits ? line->size() : 0;
-    if (extensions > kMaxExtensionBytes) return malformed("The chunks have too many extensions.");
-    if (*size == 0) break;
-    if (*size > limit - body.size()) {
-      const auto read = static_cast<std::uint64_t>(body.size());
-      const auto at_least = read + std::min(*size, std::numeric_limits<std::uint64_t>::max() - read);
-      return too_large("at least " + std::to_string(at_least), limit);
-    }
-    if (!source.take(*size, body)) return source.fault();
-    const auto rest = source.take_line();
-    if (!rest) return source.fault();
-    if (!rest->empty()) return malformed("A chunk is longer than its declared size.");
+BodyReader::State BodyReader::take(std::string& input) {
+  if (!chunked_ && left_ + size_ > limit_) {
+    return fail(too_large_body(std::to_string(left_ + size_), limit_));
   }
-  for (std::size_t lines = 0; lines <= kMaxTrailerLines; ++lines) {
-    const auto line = source.take_line();
-    if (!line) return source.fault();
-    if (line->empty()) return body;
-  }
-  return malformed("The body has too many trailers.");
+  const State state = take_parts(input);
+  input.erase(0, std::exchange(taken_, 0));
+  return state;
 }
 
-}  // namespace
+BodyReader::State BodyReader::fail(BodyFault fault) {
+  fault_ = std::move(fault);
+  return State::failed;
+}
 
-std::variant<std::string, BodyFault> read_body(Socket& socket, std::string& input, const RequestHead& head,
-                                               std::uint64_t limit, BodyMemory::Share& share,
-                                               std::chrono::milliseconds patience) {
-  Source source(socket, input, share, patience);
-  if (head.chunked) return read_chunked(source, limit);
-  const std::uint64_t length = head.content_length.value_or(0);
-  if (length > limit) return too_large(std::to_string(length), limit);
-  std::string body;
-  body.reserve(std::min<std::uint64_t>(length, 1 << 20));  // a promise alone buys no memory
-  if (!source.take(length, body)) return source.fault();
-  return body;
+BodyReader::State BodyReader::take_parts(std::string_view input) {
+  while (part_ != Part::end) {
+    const State state = part_ == Part::data ? take_data(input) : take_line(input);
+    if (state != State::complete) return state;
+  }
+  return State::complete;
+}
+
+BodyReader::State BodyReader::take_data(std::string_view input) {
+  const auto size = std::min<std::uint64_t>(left_, input.size() - taken_);
+  if (share_ != nullptr) {
+    if (!share_->grow_to(size_ + size)) return fail({BodyFault::Kind::no_room, BodyMemory::kFull});
+    body_.append(input, taken_, size);
+  }
+  taken_ += size;
+  size_ += size;
+  left_ -= size;
+  if (left_ > 0) return State::incomplete;
+  part_ = chunked_ ? Part::data_end : Part::end;
+  return State::complete;
+}
+
+BodyReader::State BodyReader::take_line(std::string_view input) {
+  const auto end = input.find('\n', taken_);
+  if (std::min(end, input.size()) - taken_ > kMaxLine) {
+    return fail(malformed_body("A line between two chunks is too long."));
+  }
+  if (end == std::string_view::npos) return State::incomplete;
+  if (end == taken_ || input[end - 1] != '\r') {
+    return fail(malformed_body("The lines between the chunks of a body must end in CR LF."));
+  }
+  const auto line = input.substr(taken_, end - 1 - taken_);
+  taken_ = end + 1;
+  if (part_ == Part::size_line) return begin_chunk(line);
+  if (part_ == Part::trailers) return take_trailer(line);
+  if (!line.empty()) return fail(malformed_body("A chunk is longer than its declared size."));
+  part_ = Part::size_line;
+  return State::complete;
+}
+
+BodyReader::State BodyReader::begin_chunk(std::string_view line) {
+  const auto chunk = parse_chunk_line(line);
+  if (!chunk) {
+    return fail(malformed_body("A chunk does not begin with its size in hexadecimal and valid extensions."));
+  }
+  extensions_ += chunk->extension_bytes;
+  if (extensions_ > kMaxExtensionBytes) return fail(malformed_body("The chunks have too many extensions."));
+  if (chunk->size > limit_ - size_) {
+    const auto at_least = size_ + std::min(chunk->size, std::numeric_limits<std::uint64_t>::max() - size_);
+    return fail(too_large_body("at least " + std::to_string(at_least), limit_));
+  }
+  left_ = chunk->size;
+  part_ = left_ > 0 ? Part::data : Part::trailers;
+  return State::complete;
+}
+
+BodyReader::State BodyReader::take_trailer(std::string_view line) {
+  if (line.empty()) {
+    part_ = Part::end;
+    return State::complete;
+  }
+  if (++trailers_ > kMaxTrailers) return fail(malformed_body("The body has too many trailers."));
+  if (is_field_line(line)) return State::complete;
+  return fail(malformed_body("A trailer of the body is not of the form 'name: value'."));
 }
 
 }  // namespace fleetplan::server

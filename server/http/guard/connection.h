@@ -8,6 +8,8 @@
 #include "server/http/answer/answer_text.h"
 #include "server/http/exchange.h"
 #include "server/http/guard/body_memory.h"
+#include "server/http/guard/body_reader.h"
+#include "server/http/guard/stop_signal.h"
 #include "server/http/steps/steps.h"
 #include "server/ops/settings/settings.h"
 
@@ -19,8 +21,8 @@ struct ConnectionContext {
   const Steps& steps;
   BodyMemory& body_memory;
   const std::atomic<bool>& draining;
-  std::atomic<std::size_t>& exchanges;    // under way
-  int stop_fd;                            // see Socket
+  std::atomic<std::size_t>& exchanges;  // under way
+  const StopSignal& stop;
   std::function<Sent(Exchange&)> answer;  // has the library answer a request that passed all steps
 };
 
@@ -38,29 +40,77 @@ class UnderWay {
 
 /// One client's connection: reads its requests strictly and takes each through the steps. Sends the answers
 /// that need no handler itself.
+///
+/// It never waits for the client: where it would have to, it returns, and goes on once there is something to
+/// do. So a client that is idle or slow, in either direction, occupies no thread.
 class Connection {
  public:
+  using Clock = Socket::Clock;
+
+  /// What has to happen before a connection can go on.
+  struct Wait {
+    bool for_input;              // or else for room to send
+    Clock::time_point deadline;  // goes on at this time, whatever has happened
+    Clock::time_point since;     // when the client's turn began
+    bool stopped;                // the stop signal has been seen; until then, it goes on with the signal, too
+  };
+
   /// Takes the socket over.
   Connection(int fd, ConnectionContext context);
 
-  /// Until the client leaves, is idle for too long, or the server stops.
-  void serve();
+  /// Goes on until it has to wait; none: it is over, because the client left, was idle for too long, or the
+  /// server stops. Not from several threads at a time.
+  std::optional<Wait> go_on();
+
+  /// What go_on() has returned; before the first time, what has to happen first.
+  Wait wait() const;
+
+  int fd() const { return socket_.fd(); }
 
  private:
-  bool await_request();
-  void serve_exchange(Exchange& exchange);
-  std::optional<DirectAnswer> read_request(Exchange& exchange);
-  std::optional<DirectAnswer> read_head(Exchange& exchange);
-  std::optional<DirectAnswer> read_content(Exchange& exchange);
-  Sent send(Exchange& exchange, const DirectAnswer& answer);
-  void drop_body(Exchange& exchange);
+  enum class Phase { idle, head, body, sending, dropping, lingering, over };
+  enum class Input { some, nothing, end, timeout, stopped };
+
+  // Each continues its phase: true to go on with the phase that follows, false to wait.
+  bool idle();
+  bool head();
+  bool body();
+  bool sending();
+  bool dropping();
+  bool lingering();
+
+  void begin(Phase phase, Clock::time_point deadline);
+  void begin_exchange();
+  void judge_head(HeadScanner::State state);
+  void begin_body();
+  void set_body_deadline();
+  void end_body();
+  void refuse(api::ErrorCode code, const std::string& detail);
+  void refuse(const BodyFault& fault);
+  void answer_directly(const DirectAnswer& answer);
+  void answer();
+  void send_rest(const Sent& sent);
+  void end_exchange();
+  Input receive();
 
   ConnectionContext context_;
   Socket socket_;
   const std::string peer_;
   std::string input_;  // read and not used yet
-  bool open_ = true;
+  Phase phase_ = Phase::idle;
+  Clock::time_point since_;     // when the phase began
+  Clock::time_point deadline_;  // of the phase
+  bool stop_seen_ = false;
   bool unread_ = false;  // the client may still be sending
+
+  std::optional<Exchange> exchange_;  // from the first byte of a request to the last one of its answer
+  std::optional<UnderWay> under_way_;
+  HeadScanner scanner_;
+  std::optional<BodyReader> body_;  // of the exchange; later the body of one that was refused, to be dropped
+  std::uint64_t body_bytes_ = 0;    // read, chunk sizes included
+  Sent sent_;
+  std::size_t accepted_ = 0;  // by the client, of the exchange's `unsent`
+  std::optional<WritePatience> write_patience_;
 };
 
 }  // namespace fleetplan::server

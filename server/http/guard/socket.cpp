@@ -16,7 +16,6 @@ namespace {
 constexpr std::chrono::seconds kWriteTimeout{10};
 constexpr std::size_t kLeastBytesPerMs = 10;
 constexpr std::chrono::seconds kWriteTimeoutAtTheEnd{2};
-constexpr std::chrono::seconds kLinger{3};
 
 int milliseconds_until(Socket::Clock::time_point deadline) {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Socket::Clock::now()).count();
@@ -27,7 +26,7 @@ int milliseconds_until(Socket::Clock::time_point deadline) {
 
 Socket::~Socket() { ::close(fd_); }
 
-Socket::Read Socket::read_some(std::string& into, Clock::time_point deadline) {
+Socket::Read Socket::read_some(std::string& into) {
   std::array<char, 16 * 1024> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled by recv
   while (true) {
     const ssize_t got = ::recv(fd_, buffer.data(), buffer.size(), MSG_DONTWAIT);
@@ -37,34 +36,38 @@ Socket::Read Socket::read_some(std::string& into, Clock::time_point deadline) {
     }
     if (got == 0) return Read::end;
     if (errno == EINTR) continue;
-    if (errno != EAGAIN && errno != EWOULDBLOCK) return Read::end;
-    std::array<pollfd, 2> wanted{{{fd_, POLLIN, 0}, {stop_fd_, POLLIN, 0}}};
-    const int ready = ::poll(wanted.data(), wanted.size(), milliseconds_until(deadline));
-    if (ready == 0) return Read::timeout;
-    if (wanted[1].revents != 0) return Read::stopped;
+    return errno == EAGAIN || errno == EWOULDBLOCK ? Read::nothing : Read::end;
   }
 }
 
-bool Socket::write_all(std::string_view data) {
-  auto deadline = Clock::now() + kWriteTimeout + std::chrono::milliseconds(data.size() / kLeastBytesPerMs);
-  bool stopped = false;
-  while (!data.empty()) {
-    const ssize_t sent = ::send(fd_, data.data(), data.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+std::optional<std::size_t> Socket::write_some(std::string_view data) {
+  std::size_t written = 0;
+  while (written < data.size()) {
+    const ssize_t sent =
+        ::send(fd_, data.data() + written, data.size() - written, MSG_DONTWAIT | MSG_NOSIGNAL);
     if (sent > 0) {
-      data.remove_prefix(static_cast<std::size_t>(sent));
-      continue;
-    }
-    if (errno == EINTR) continue;
-    if (errno != EAGAIN && errno != EWOULDBLOCK) return false;
-    std::array<pollfd, 2> wanted{{{fd_, POLLOUT, 0}, {stop_fd_, POLLIN, 0}}};
-    const auto patience = std::min(deadline, Clock::now() + kWriteTimeout);
-    if (::poll(wanted.data(), stopped ? 1 : 2, milliseconds_until(patience)) == 0) return false;
-    if (!stopped && wanted[1].revents != 0) {
-      stopped = true;
-      deadline = std::min(deadline, Clock::now() + kWriteTimeoutAtTheEnd);
+      written += static_cast<std::size_t>(sent);
+    } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+      break;
+    } else if (errno != EINTR) {
+      return std::nullopt;
     }
   }
-  return true;
+  return written;
+}
+
+bool Socket::write_all(std::string_view data) {
+  WritePatience patience(data.size());
+  while (true) {
+    const auto written = write_some(data);
+    if (!written) return false;
+    data.remove_prefix(*written);
+    if (data.empty()) return true;
+    std::array<pollfd, 2> wanted{{{fd_, POLLOUT, 0}, {stop_fd_, POLLIN, 0}}};
+    const int timeout = milliseconds_until(patience.deadline());
+    if (::poll(wanted.data(), patience.stopped() ? 1 : 2, timeout) == 0) return false;
+    if (wanted[1].revents != 0) patience.stop();
+  }
 }
 
 bool Socket::has_input() const {
@@ -78,6 +81,8 @@ bool Socket::peer_gone() const {
 }
 
 void Socket::hang_up() { ::shutdown(fd_, SHUT_RDWR); }
+
+void Socket::end_sending() { ::shutdown(fd_, SHUT_WR); }
 
 std::string Socket::peer() const {
   sockaddr_storage address{};
@@ -94,11 +99,16 @@ std::string Socket::peer() const {
   return (address.ss_family == AF_INET6 ? '[' + name + ']' : name) + ':' + port.data();
 }
 
-void Socket::linger() {
-  ::shutdown(fd_, SHUT_WR);
-  const auto deadline = Clock::now() + kLinger;
-  std::string ignored;
-  while (Clock::now() < deadline && read_some(ignored, deadline) == Read::some) ignored.clear();
+WritePatience::WritePatience(std::size_t size)
+    : whole_(Socket::Clock::now() + kWriteTimeout + std::chrono::milliseconds(size / kLeastBytesPerMs)) {}
+
+void WritePatience::stop() {
+  if (!stopped_) whole_ = std::min(whole_, Socket::Clock::now() + kWriteTimeoutAtTheEnd);
+  stopped_ = true;
+}
+
+Socket::Clock::time_point WritePatience::deadline() const {
+  return std::min(whole_, Socket::Clock::now() + kWriteTimeout);
 }
 
 }  // namespace fleetplan::server

@@ -2,28 +2,32 @@
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace fleetplan::server {
 
-/// A connected socket, closed at the end, with deadlines on everything that waits.
+/// A connected socket, closed at the end. Reading never waits; writing waits only in write_all, which has a
+/// deadline.
 class Socket {
  public:
   using Clock = std::chrono::steady_clock;
-  enum class Read { some, end, timeout, stopped };
+  enum class Read { some, nothing, end };
 
-  /// `stop_fd`: once this descriptor becomes readable, reading ends at once and writing soon after.
+  /// `stop_fd`: once this descriptor becomes readable, write_all ends soon.
   Socket(int fd, int stop_fd) : fd_(fd), stop_fd_(stop_fd) {}
   ~Socket();
   Socket(const Socket&) = delete;
   Socket& operator=(const Socket&) = delete;
 
-  /// Waits for input and appends it.
-  Read read_some(std::string& into, Clock::time_point deadline);
+  /// Appends input that has arrived.
+  Read read_some(std::string& into);
 
-  /// False when the peer is gone, accepts nothing for 10 s, or accepts less than 10 kB/s after the first
-  /// 10 s.
+  /// Sends as much as the peer takes at once: the number of bytes, none when the peer is gone.
+  std::optional<std::size_t> write_some(std::string_view data);
+
+  /// False when the peer is gone or too slow, see WritePatience.
   bool write_all(std::string_view data);
 
   /// True when the peer has closed its side.
@@ -32,12 +36,11 @@ class Socket {
   /// Ends the connection in both directions; peer_gone() is true from then on.
   void hang_up();
 
+  /// Ends the sending side.
+  void end_sending();
+
   /// True when there is input that was not read.
   bool has_input() const;
-
-  /// Ends the sending side and discards input for a while, so that the last answer arrives: a close with
-  /// unread input would reset the connection and could lose that answer.
-  void linger();
 
   /// Address and port of the peer, e.g. 127.0.0.1:40310 or [::1]:40310; empty when it is gone.
   std::string peer() const;
@@ -47,6 +50,24 @@ class Socket {
  private:
   int fd_;
   int stop_fd_;
+};
+
+/// How long a peer may take to accept data: it may pause for 10 s, and fall behind 10 kB/s by 10 s in all.
+class WritePatience {
+ public:
+  /// From now on, for so many bytes.
+  explicit WritePatience(std::size_t size);
+
+  /// The service ends: 2 s are left.
+  void stop();
+  bool stopped() const { return stopped_; }
+
+  /// For the next bytes, if some have just been accepted.
+  Socket::Clock::time_point deadline() const;
+
+ private:
+  Socket::Clock::time_point whole_;
+  bool stopped_ = false;
 };
 
 }  // namespace fleetplan::server

@@ -3,6 +3,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <system_error>
 
@@ -18,11 +19,16 @@ class StopSignal {
   StopSignal(const StopSignal&) = delete;
   StopSignal& operator=(const StopSignal&) = delete;
 
-  void raise() { ::eventfd_write(fd_, 1); }  // NOLINT(readability-make-member-function-const): it changes
+  void raise() {
+    raised_ = true;
+    ::eventfd_write(fd_, 1);
+  }
+  bool raised() const { return raised_; }
   int fd() const { return fd_; }
 
  private:
   int fd_;
+  std::atomic<bool> raised_{false};
 };
 
 }  // namespace fleetplan::server

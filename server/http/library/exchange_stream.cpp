@@ -36,10 +36,7 @@ std::string request_for_library(const Exchange& exchange) {
   std::string request = head.method + ' ' + percent_encoded(head.path) + " HTTP/1.1\r\n";
   if (accepts_gzip(head.field("accept-encoding"))) request += "Accept-Encoding: gzip\r\n";
   if (!exchange.route->takes_body()) return request + "\r\n";
-  const bool coded = content_coding(head.field("content-encoding")) == ContentCoding::gzip;
-  if (!coded) return request + "Content-Length: 0\r\n\r\n";
-  request += "Content-Encoding: gzip\r\nContent-Length: " + std::to_string(exchange.body.size()) + "\r\n\r\n";
-  return request + exchange.body;
+  return request + "Content-Length: 0\r\n\r\n";
 }
 
 }  // namespace
@@ -60,7 +57,7 @@ ssize_t ExchangeStream::write(const char* data, size_t size) {
   written_ += size;
   if (held_.size() + size <= kHoldBytes) {
     held_.append(data, size);
-  } else if (!flush() || !exchange_.socket->write_all({data, size})) {
+  } else if (!flush() || !exchange_.send({data, size})) {
     return -1;
   }
   return static_cast<ssize_t>(size);
@@ -70,7 +67,7 @@ bool ExchangeStream::flush() {
   if (exchange_.abandoned) return false;
   const std::string held = std::move(held_);
   held_.clear();
-  return exchange_.socket->write_all(held);
+  return exchange_.send(held);
 }
 
 // The library puts the addresses into header fields of the request, which no handler reads.

@@ -12,9 +12,9 @@ namespace fleetplan::server {
 /// write the answer.
 ///
 /// The library reads the request's real method and its path, percent-encoded in one way, but no query and
-/// only those header fields that it has to act upon: no Range that would cut an answer, no brotli. A body
-/// without a coding stays in the exchange. When the answer has gone out as an EventStream, what the library
-/// writes is discarded.
+/// only those header fields that it has to act upon: no Range that would cut an answer, no brotli. The body
+/// stays in the exchange. What the client does not accept at once goes to Exchange::unsent. When the answer
+/// has gone out as an EventStream, what the library writes is discarded.
 class ExchangeStream final : public httplib::Stream {
  public:
   explicit ExchangeStream(Exchange& exchange);
@@ -27,7 +27,7 @@ class ExchangeStream final : public httplib::Stream {
   void get_local_ip_and_port(std::string& ip, int& port) const override;
   socket_t socket() const override { return exchange_.socket->fd(); }
 
-  /// Sends what is held back; false when the client takes no more.
+  /// Sends what is held back; false when the client is gone.
   bool flush();
 
   std::uint64_t written() const { return exchange_.streamed.value_or(written_); }

@@ -1,6 +1,6 @@
 #include "server/http/library/library_server.h"
 
-#include <netinet/tcp.h>
+#include <fcntl.h>
 #include <sys/socket.h>
 
 #include <cerrno>
@@ -11,9 +11,7 @@
 #include "api/response/error.h"
 #include "server/http/answer/answer_text.h"
 #include "server/http/answer/internal_error.h"
-#include "server/http/library/connection_threads.h"
 #include "server/http/library/exchange_stream.h"
-#include "server/http/steps/negotiation.h"
 
 namespace fleetplan::server {
 
@@ -27,50 +25,12 @@ void set_listening_options(int fd) {
   ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
 }
 
-void disable_nagle(int fd) {
-  const int yes = 1;
-  ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-}
-
-/// Replaces the body of an exchange that is gzip-coded by what the library decodes it to, at most `limit`
-/// bytes. The problem to reply with if that fails.
-std::optional<api::Reply> decode_body(Exchange& exchange, const httplib::ContentReader& reader,
-                                      std::uint64_t limit) {
-  using api::ErrorCode;
-  if (content_coding(exchange.head.field("content-encoding")) == ContentCoding::identity) return std::nullopt;
-  std::string decoded;
-  bool too_large = false;
-  bool has_room = true;
-  const bool complete = reader([&](const char* data, std::size_t size) {
-    too_large = size > limit - decoded.size();
-    has_room = exchange.memory->grow_to(exchange.body.size() + decoded.size() + size);
-    if (too_large || !has_room) return false;
-    decoded.append(data, size);
-    return true;
-  });
-  const auto problem = [&](ErrorCode code, const std::string& detail) {
-    return api::problem_reply(code, detail, exchange.request_id);
-  };
-  if (too_large) {
-    return problem(ErrorCode::body_too_large, "The body of " + std::to_string(exchange.body.size()) +
-                                                  " bytes exceeds the limit of " + std::to_string(limit) +
-                                                  " bytes when decompressed.");
-  }
-  if (!has_room) return problem(ErrorCode::overloaded, BodyMemory::kFull);
-  if (!complete)
-    return problem(ErrorCode::malformed_request,
-                   "The body is not valid gzip, which its Content-Encoding declares.");
-  exchange.body = std::move(decoded);
-  return std::nullopt;
-}
-
 }  // namespace
 
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see the header
 thread_local Exchange* LibraryServer::current_ = nullptr;
 
 LibraryServer::LibraryServer(Context context) : context_(std::move(context)) {
-  new_task_queue = [connections = context_.connections] { return new ConnectionThreads(connections); };
   set_socket_options(set_listening_options);
   for (const Route& route : context_.routes.routes()) add(route);
   set_exception_handler([this](const httplib::Request& /*request*/, httplib::Response& response,
@@ -86,17 +46,14 @@ LibraryServer::~LibraryServer() {
 }
 
 void LibraryServer::add(const Route& route) {
-  if (!route.takes_body()) {
-    Get(route.pattern(), [this, &route](const httplib::Request& /*request*/, httplib::Response& response) {
-      reply_with(route.handler(*current_), response);
-    });
-    return;
+  const auto handler = [this, &route](const httplib::Request& /*request*/, httplib::Response& response) {
+    reply_with(route.handler(*current_), response);
+  };
+  if (route.takes_body()) {
+    Post(route.pattern(), handler);
+  } else {
+    Get(route.pattern(), handler);
   }
-  Post(route.pattern(), [this, &route](const httplib::Request& /*request*/, httplib::Response& response,
-                                       const httplib::ContentReader& reader) {
-    auto bad_body = decode_body(*current_, reader, context_.max_body);
-    reply_with(bad_body ? std::move(*bad_body) : route.handler(*current_), response);
-  });
 }
 
 void LibraryServer::reply_with(api::Reply reply, httplib::Response& response) const {
@@ -130,24 +87,10 @@ std::optional<std::string> LibraryServer::bind() {
     const std::string reason = errno != 0 ? std::strerror(errno) : "no such address";
     return "cannot listen on " + context_.host + ':' + std::to_string(wanted) + ": " + reason;
   }
-  listening_fd_ = svr_sock_.load();
+  listening_fd_ = svr_sock_;
   ::listen(listening_fd_, kListenBacklog);  // again: the library's backlog of 5 refuses bursts
+  ::fcntl(listening_fd_, F_SETFL, O_NONBLOCK);
   return std::nullopt;
-}
-
-void LibraryServer::run() { listen_after_bind(); }
-
-void LibraryServer::stop() {
-  // Shut down, so that accept() returns, but not closed: the number may not serve another socket before run()
-  // has ended.
-  svr_sock_ = INVALID_SOCKET;
-  ::shutdown(listening_fd_, SHUT_RDWR);
-}
-
-bool LibraryServer::process_and_close_socket(socket_t fd) {
-  disable_nagle(fd);
-  context_.serve(fd);
-  return true;
 }
 
 Sent LibraryServer::answer(Exchange& exchange) {

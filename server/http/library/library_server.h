@@ -1,9 +1,7 @@
 #pragma once
 
 #include <atomic>
-#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -24,13 +22,10 @@ class LibraryServer final : private httplib::Server {
   /// What the adapter works with. References have to outlive it.
   struct Context {
     std::string host;
-    int port;                 // 0: any free one
-    std::size_t connections;  // served at a time; more wait
+    int port;  // 0: any free one
     const RouteTable& routes;
-    std::uint64_t max_body;  // bytes, decompressed
     const RequestLog& log;
     const std::atomic<bool>& draining;
-    std::function<void(int fd)> serve;  // serves one connection and closes it; called from many threads
   };
 
   explicit LibraryServer(Context context);
@@ -44,11 +39,8 @@ class LibraryServer final : private httplib::Server {
   /// The bound port, also if the setting was 0.
   int port() const { return context_.port; }
 
-  /// Accepts until stop(), then waits for the connections to end; after bind().
-  void run();
-
-  /// Ends run(). May be called from any thread.
-  void stop();
+  /// The bound socket, which listens and does not block.
+  int listening_fd() const { return listening_fd_; }
 
   /// Has the library route the request to its handler and send the answer.
   Sent answer(Exchange& exchange);
@@ -57,7 +49,6 @@ class LibraryServer final : private httplib::Server {
   void add(const Route& route);
   void reply_with(api::Reply reply, httplib::Response& response) const;
   void complete(httplib::Response& response) const;
-  bool process_and_close_socket(socket_t fd) override;
 
   /// The exchange of this thread. The library cannot pass it to handlers, but it handles a request from
   /// begin to end on the thread that hands it over, and each connection has its own thread.
@@ -65,7 +56,7 @@ class LibraryServer final : private httplib::Server {
   static thread_local Exchange* current_;
 
   Context context_;
-  std::atomic<int> listening_fd_{-1};
+  int listening_fd_ = -1;
 };
 
 }  // namespace fleetplan::server

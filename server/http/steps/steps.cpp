@@ -144,7 +144,7 @@ void Steps::end(Exchange& exchange, std::uint64_t bytes_out, const std::string& 
   record.method = exchange.head.method;
   record.path = exchange.head.raw_path;
   record.status = exchange.status;
-  record.bytes_in = exchange.body.size();
+  record.bytes_in = exchange.bytes_in;
   record.bytes_out = bytes_out;
   record.ms = elapsed.count();
   record.queue_ms = exchange.queue_ms;

@@ -120,7 +120,8 @@ class Flags {
                "Planning threads, by default the CPUs granted; idle ones help with anytime plans");
     queue_ = add_number<std::size_t>("queue", settings_.queue, 0, 100'000, "Jobs that may wait for a worker")
                  ->default_str("4 for each worker");
-    add_number<std::size_t>("connections", settings_.connections, 1, 65'536, "Connections served at a time");
+    add_number<std::size_t>("connections", settings_.connections, 1, 65'536,
+                            "Requests served at a time; four times as many connections may be open");
     add("log-level", settings_.log_level, "What to log")
         ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "critical", "off"}));
     add("web-root", settings_.web_root, "Folder of the page");

@@ -2,6 +2,9 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,6 +14,7 @@
 #include <cstdlib>
 #include <functional>
 #include <future>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -73,6 +77,24 @@ class Process {
   }
 
   void signal(int number) const { ::kill(pid_, number); }
+
+  /// Shuts its listening sockets down, as only a fault of the system would. False if that is not permitted.
+  bool break_listening_sockets() const {
+    const int process = static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0));
+    int broken = 0;
+    for (int fd = 0; fd < 64; ++fd) {
+      const int copy = static_cast<int>(::syscall(SYS_pidfd_getfd, process, fd, 0));
+      int listens = 0;
+      socklen_t size = sizeof listens;
+      if (copy < 0) continue;
+      if (::getsockopt(copy, SOL_SOCKET, SO_ACCEPTCONN, &listens, &size) == 0 && listens != 0) {
+        broken += ::shutdown(copy, SHUT_RDWR) == 0 ? 1 : 0;
+      }
+      ::close(copy);
+    }
+    ::close(process);
+    return broken > 0;
+  }
 
   /// Waits for the end; the exit code, or minus the signal that ended it.
   int exit_code() {
@@ -288,6 +310,40 @@ TEST(Process, ExitsWithZeroAfterSigterm) {
     process.signal(number);
     EXPECT_EQ(process.exit_code(), 0);
   }
+}
+
+TEST(Process, ExitsWithOneWhenItCannotAcceptConnectionsAnyMore) {
+  for (const bool admin : {false, true}) {
+    std::vector<std::string> arguments{"--port", "0", "--workers", "1"};
+    if (admin) arguments.insert(arguments.end(), {"--admin-port", "0"});
+    Process process(arguments);
+    RawConnection open(port_in(process.output_line()));
+    open.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_NE(open.receive().find("200 OK"), std::string::npos);
+    if (!process.break_listening_sockets()) GTEST_SKIP() << "needs the right to trace the process";
+    EXPECT_NE(process.log_line_with("no more connections can be accepted"), "");
+    EXPECT_EQ(process.exit_code(), 1);
+  }
+}
+
+TEST(Process, ServesNewClientsWhenItsDescriptorsAreUsedUp) {
+  Process process({"--port", "0", "--workers", "1", "--idle-timeout-ms", "600000"}, [] {
+    const rlimit few{48, 48};
+    ::setrlimit(RLIMIT_NOFILE, &few);
+  });
+  const int port = port_in(process.output_line());
+  std::vector<std::unique_ptr<RawConnection>> idle;
+  for (int i = 0; i < 200; ++i) {
+    idle.push_back(std::make_unique<RawConnection>(port));
+    if (i % 40 != 0) continue;
+    const auto health = httplib::Client("127.0.0.1", port).Get("/healthz");
+    ASSERT_TRUE(health) << i;
+    EXPECT_EQ(health->status, 200);
+  }
+  const auto metrics = httplib::Client("127.0.0.1", port).Get("/metrics");
+  ASSERT_TRUE(metrics);
+  process.signal(SIGTERM);
+  EXPECT_EQ(process.exit_code(), 0);
 }
 
 TEST(Process, FailsOnATakenPort) {

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t kMegabyte = 1 << 20;
 
 TEST(BodyMemory, IsGrantedUntilExhaustedAndAgainWhenARequestEnds) {
-  BodyMemory memory(kMegabyte, 3);
+  BodyMemory memory(kMegabyte, 3, 1);
   BodyMemory::Share first(memory);
   EXPECT_TRUE(first.grow_to(3 * kMegabyte));
   {
@@ -24,15 +24,32 @@ TEST(BodyMemory, IsGrantedUntilExhaustedAndAgainWhenARequestEnds) {
 }
 
 TEST(BodyMemory, IsAlwaysAvailableForASmallBody) {
-  BodyMemory memory(0, 1);
+  BodyMemory memory(0, 1, 1);
   BodyMemory::Share share(memory);
   EXPECT_TRUE(share.grow_to(BodyMemory::kSmall));
   EXPECT_FALSE(share.grow_to(BodyMemory::kSmall + 1));
 }
 
+TEST(BodyMemory, OfSmallBodiesIsApartAndBoundedToo) {
+  BodyMemory memory(kMegabyte, 1, 2);
+  BodyMemory::Share large(memory);
+  EXPECT_TRUE(large.grow_to(2 * kMegabyte));
+  BodyMemory::Share first(memory);
+  EXPECT_TRUE(first.grow_to(BodyMemory::kSmall));
+  {
+    BodyMemory::Share second(memory);
+    EXPECT_TRUE(second.grow_to(1));
+    EXPECT_TRUE(second.grow_to(BodyMemory::kSmall));
+    BodyMemory::Share third(memory);
+    EXPECT_FALSE(third.grow_to(1));
+  }
+  BodyMemory::Share fourth(memory);
+  EXPECT_TRUE(fourth.grow_to(BodyMemory::kSmall));
+}
+
 TEST(BodyMemory, SufficesForTheLargestBodyAsSentAndDecoded) {
   for (const std::uint64_t size : {std::uint64_t{1}, 2 * BodyMemory::kSmall, kMegabyte + 1}) {
-    BodyMemory memory(size, 1);
+    BodyMemory memory(size, 1, 1);
     BodyMemory::Share share(memory);
     EXPECT_TRUE(share.grow_to(size)) << size;
     EXPECT_TRUE(share.grow_to(2 * size)) << size;
@@ -40,7 +57,7 @@ TEST(BodyMemory, SufficesForTheLargestBodyAsSentAndDecoded) {
 }
 
 TEST(BodyMemory, IsNotReducedByRejectedRequests) {
-  BodyMemory memory(kMegabyte, 1);
+  BodyMemory memory(kMegabyte, 1, 1);
   const std::jthread greedy([&memory](const std::stop_token& stop) {
     while (!stop.stop_requested()) {
       BodyMemory::Share share(memory);
@@ -54,7 +71,7 @@ TEST(BodyMemory, IsNotReducedByRejectedRequests) {
 }
 
 TEST(BodyMemory, CountsCorrectlyAcrossThreads) {
-  BodyMemory memory(2 * kMegabyte, 3);
+  BodyMemory memory(2 * kMegabyte, 3, 1);
   std::vector<std::thread> threads;
   for (int t = 0; t < 8; ++t) {
     threads.emplace_back([&] {

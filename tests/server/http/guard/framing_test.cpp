@@ -99,6 +99,18 @@ TEST_F(Framing, ChunkedBodyIsRead) {
   EXPECT_NE(raw.receive().find(R"({"size":13})"), std::string::npos);
 }
 
+TEST_F(Framing, ChunksAndTrailersAreAsStrictAsHeads) {
+  using std::string_literals::operator""s;
+  for (const std::string& body :
+       {"3\nabc\r\n0\r\n\r\n"s, "3\rabc\r\n0\r\n\r\n"s, "3\r\nabc\n0\r\n\r\n"s, "3 \r\nabc\r\n0\r\n\r\n"s,
+        "3 x\r\nabc\r\n0\r\n\r\n"s, "3;\r\nabc\r\n0\r\n\r\n"s, "3;a=\x01\r\nabc\r\n0\r\n\r\n"s,
+        "3;a\0\r\nabc\r\n0\r\n\r\n"s, "3;a\rb\r\nabc\r\n0\r\n\r\n"s, "3;a\nb\r\nabc\r\n0\r\n\r\n"s,
+        "0\r\n\n"s, "0\r\nA: b\n\r\n"s, "0\r\nA: b\rc\r\n\r\n"s, "0\r\nA: b\0\r\n\r\n"s, "0\r\nA b\r\n\r\n"s,
+        "0\r\nA : b\r\n\r\n"s, "0\r\n folded\r\n\r\n"s, "0\r\n\r\r\n"s}) {
+    expect_400_and_close(post("Transfer-Encoding: chunked\r\n", body));
+  }
+}
+
 TEST_F(Framing, ChunkedBodyThatExceedsLimitIs413) {
   RawConnection raw(server.server.port());
   std::string body;

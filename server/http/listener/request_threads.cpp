@@ -1,6 +1,7 @@
-#include "server/http/library/connection_threads.h"
+#include "server/http/listener/request_threads.h"
 
 #include <system_error>
+#include <utility>
 
 namespace fleetplan::server {
 
@@ -10,9 +11,9 @@ constexpr std::chrono::seconds kKeepIdleThread{10};
 
 }  // namespace
 
-ConnectionThreads::~ConnectionThreads() { shutdown(); }
+RequestThreads::~RequestThreads() { shutdown(); }
 
-void ConnectionThreads::push(std::function<void()> task) {
+void RequestThreads::push(std::function<void()> task) {
   reap();
   const std::lock_guard lock(mutex_);
   tasks_.push_back(std::move(task));
@@ -22,14 +23,14 @@ void ConnectionThreads::push(std::function<void()> task) {
     try {
       *self = std::thread([this, self] { work(self); });
     } catch (const std::system_error&) {
-      threads_.erase(self);  // no more threads are available: the connection waits for an existing one
+      threads_.erase(self);  // no more threads are available: the request waits for an existing one
       if (threads_.empty()) throw;
     }
   }
   changed_.notify_one();
 }
 
-void ConnectionThreads::shutdown() {
+void RequestThreads::shutdown() {
   std::unique_lock lock(mutex_);
   stopping_ = true;
   changed_.notify_all();
@@ -38,7 +39,7 @@ void ConnectionThreads::shutdown() {
   reap();
 }
 
-void ConnectionThreads::reap() {
+void RequestThreads::reap() {
   Threads ended;
   {
     const std::lock_guard lock(mutex_);
@@ -47,7 +48,7 @@ void ConnectionThreads::reap() {
   for (auto& thread : ended) thread.join();
 }
 
-void ConnectionThreads::work(Threads::iterator self) {
+void RequestThreads::work(Threads::iterator self) {
   std::unique_lock lock(mutex_);
   while (true) {
     ++idle_;

@@ -1,0 +1,86 @@
+#include "server/http/guard/gzip.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <new>
+
+namespace fleetplan::server {
+
+namespace {
+
+constexpr std::size_t kStep = 64 * 1024;
+constexpr int kGzipOnly = 16 + MAX_WBITS;
+
+/// A decoder for one member after the other.
+class Inflater {
+ public:
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): zlib fills the buffer
+  explicit Inflater(std::string_view coded) : left_(coded.size()) {
+    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(coded.data()));  // zlib only reads it
+    if (inflateInit2(&stream_, kGzipOnly) != Z_OK) throw std::bad_alloc();
+  }
+  ~Inflater() { inflateEnd(&stream_); }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+
+  /// The next decoded bytes, valid until the next call; empty at the end or if the rest is not valid.
+  std::string_view next() {
+    while (valid_ && !ended_) {
+      feed();
+      stream_.next_out = reinterpret_cast<Bytef*>(buffer_.data());
+      stream_.avail_out = kStep;
+      const int result = inflate(&stream_, Z_NO_FLUSH);
+      valid_ = result == Z_OK || result == Z_STREAM_END;
+      if (result == Z_STREAM_END) end_member();
+      if (valid_ && stream_.avail_out < kStep) return {buffer_.data(), kStep - stream_.avail_out};
+    }
+    return {};
+  }
+
+  /// At the end: whether all of it was valid.
+  bool complete() const { return valid_ && ended_; }
+
+ private:
+  /// zlib counts the input in 32 bits.
+  void feed() {
+    if (stream_.avail_in > 0) return;
+    stream_.avail_in = static_cast<uInt>(std::min(left_, kStep));
+    left_ -= stream_.avail_in;
+  }
+
+  void end_member() {
+    ended_ = stream_.avail_in == 0 && left_ == 0;
+    if (!ended_) valid_ = inflateReset(&stream_) == Z_OK;
+  }
+
+  z_stream stream_{};
+  std::size_t left_;  // of the input, not fed yet
+  bool valid_ = true;
+  bool ended_ = false;
+  std::array<char, kStep> buffer_;
+};
+
+}  // namespace
+
+std::variant<std::string, BodyFault> gunzip(std::string_view coded, std::uint64_t limit,
+                                            BodyMemory::Share& share) {
+  Inflater inflater(coded);
+  std::string decoded;
+  for (auto part = inflater.next(); !part.empty(); part = inflater.next()) {
+    if (part.size() > limit - decoded.size()) {
+      return BodyFault{BodyFault::Kind::too_large, "The body of " + std::to_string(coded.size()) +
+                                                       " bytes exceeds the limit of " +
+                                                       std::to_string(limit) + " bytes when decompressed."};
+    }
+    if (!share.grow_to(coded.size() + decoded.size() + part.size())) {
+      return BodyFault{BodyFault::Kind::no_room, BodyMemory::kFull};
+    }
+    decoded += part;
+  }
+  if (inflater.complete()) return decoded;
+  return malformed_body("The body is not valid, complete gzip, which its Content-Encoding declares.");
+}
+
+}  // namespace fleetplan::server
