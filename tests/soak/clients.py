@@ -14,6 +14,7 @@ from client import Connection, Lost, request
 # Relative frequency of each kind of request. Huge requests are rare because each occupies the server for seconds.
 KINDS = {"scenario": 20, "random": 40, "gzip": 10, "stream": 6, "bad body": 10, "bad framing": 8, "small": 10,
          "cancelled": 6, "slow": 2, "pipelined": 4, "huge": 0.3}
+COSTLY = {"costly": 1}  # in addition, if they are asked for: see costly.py
 
 
 class Wrong(Exception):
@@ -40,7 +41,7 @@ class Record:
 
 
 class Client(threading.Thread):
-    def __init__(self, host, port, seed, limits, until, record, lock):
+    def __init__(self, host, port, seed, limits, until, record, lock, costly):
         super().__init__(daemon=True)
         self.connection = Connection(host, port)
         self.address = (host, port)
@@ -48,10 +49,12 @@ class Client(threading.Thread):
         self.limits, self.until = limits, until
         self.record, self.lock = record, lock
         self.scenarios = list(workload.scenarios().items())
+        self.costly = costly
         self.bad_bodies, self.malformed = workload.bad_bodies(limits), workload.malformed_requests(limits)
 
     def run(self):
-        kinds, weights = list(KINDS), list(KINDS.values())
+        frequencies = {**KINDS, **(COSTLY if self.costly else {})}
+        kinds, weights = list(frequencies), list(frequencies.values())
         actions = {kind: getattr(self, "do_" + kind.replace(" ", "_")) for kind in kinds}
         while time.monotonic() < self.until:
             kind = self.random.choices(kinds, weights)[0]
@@ -203,14 +206,28 @@ class Client(threading.Thread):
         finally:
             connection.close()
 
+    def do_costly(self, kind):
+        """Every third client leaves before the answer."""
+        connection = Connection(*self.address)
+        begin = time.monotonic()
+        connection.send(self.random.choice(self.costly).data)
+        try:
+            if self.random.random() < 1 / 3:
+                time.sleep(self.random.uniform(0.0, 0.5))
+            else:
+                self.check(kind, connection.receive(), {200, 422}, time.monotonic() - begin)
+        finally:
+            connection.close()
+
     def do_huge(self, kind):
         self.plan(kind, workload.huge(self.limits))
 
 
-def run_process(host, port, seed, connections, limits, seconds, result):
-    """Runs the clients of one process for this time and puts their record into `result`."""
+def run_process(host, port, seed, connections, limits, seconds, costly, result):
+    """Runs the clients of one process for this time and puts their record into `result`. `costly`: requests that cost
+    the server much, to mix in."""
     record, lock, until = Record(), threading.Lock(), time.monotonic() + seconds
-    clients = [Client(host, port, seed * 1000 + index, limits, until, record, lock)
+    clients = [Client(host, port, seed * 1000 + index, limits, until, record, lock, costly)
                for index in range(connections)]
     for client in clients:
         client.start()

@@ -17,7 +17,6 @@ from workload import endless
 MIB = 1 << 20
 LISTED = 20  # entries of a list in an answer
 ROBOT = {"radius": 0.3, "linear_speed": 1.0, "angular_speed": math.pi}
-IDLE_AFTER_S = 0.1  # after a client has left
 
 
 @dataclasses.dataclass
@@ -215,13 +214,13 @@ def cpu_seconds(server):
     return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 
 
-def cpu_after_leaving(server, costly):
-    """The seconds of CPU that the server uses in half a second, from IDLE_AFTER_S after the client has left on."""
+def cpu_after_leaving(server, costly, late_ms):
+    """The seconds of CPU that the server uses in half a second, from `late_ms` after the client has left on."""
     connection = Connection(server.host, server.port)
     connection.send(costly.data)
     time.sleep(0.1)
     connection.close()
-    time.sleep(IDLE_AFTER_S)
+    time.sleep(late_ms / 1000)
     before = cpu_seconds(server)
     time.sleep(0.5)
     return cpu_seconds(server) - before
@@ -248,7 +247,7 @@ def measure_one(binary, url, costly, late_ms):
         connection.close()
     peak_kib = server.peak_kib()
     peak_mib = peak_kib / 1024 if peak_kib else None
-    idle_cpu = cpu_after_leaving(server, costly) if binary and server.alive() else None
+    idle_cpu = cpu_after_leaving(server, costly, late_ms) if binary and server.alive() else None
     faults = list(faults_of(costly, outcomes, late_ms, peak_mib, idle_cpu))
     if not server.alive():
         faults.append("the server ended")
@@ -261,7 +260,8 @@ def measure_one(binary, url, costly, late_ms):
 
 
 def measure(binary, url, late_ms):
-    """Sends every costly request; returns the failures. `late_ms`: how much later than its time an answer may be."""
+    """Sends every costly request; returns the failures. `late_ms`: how much later than its time an answer may be,
+    and how long work may go on after a client has left."""
     print(f"\n{'costly request':30} {'ms':>9} {'of':>9} {'KiB':>9} {'MiB':>8} {'of':>8} {'CPU after':>9}")
     failures = []
     for costly in costly_requests():

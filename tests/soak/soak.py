@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Keeps a server saturated with good, bad, cancelled, slow and huge requests, and checks every answer.
 
-Usage: soak.py [--binary FLEETPLAN | --url URL] [--minutes N]
+Usage: soak.py [--binary FLEETPLAN | --url URL] [--minutes N] [--costly]
 
 Prints a table. The exit status is 1 if an answer was wrong or lost, if the server ended, or if its resident memory grew by
 more than 5 % after the first minute. Memory is measured in a pause of all clients after each round of a minute.
@@ -13,7 +13,8 @@ import multiprocessing
 import sys
 import time
 
-from clients import KINDS, run_process
+from clients import COSTLY, KINDS, run_process
+from costly import costly_requests
 from report import spread, verdict
 from server import Server
 
@@ -23,11 +24,11 @@ MAX_GROWTH = 0.05
 MAX_LISTED = 10
 
 
-def run_round(server, arguments, seed, limits, seconds):
+def run_round(server, arguments, seed, limits, seconds, costly):
     """Runs all clients for this time; returns their records."""
     results = multiprocessing.Queue()
     processes = [multiprocessing.Process(target=run_process, args=(
-        server.host, server.port, seed * 1000 + index, arguments.connections, limits, seconds, results))
+        server.host, server.port, seed * 1000 + index, arguments.connections, limits, seconds, costly, results))
         for index in range(arguments.processes)]
     for process in processes:
         process.start()
@@ -45,7 +46,7 @@ def print_report(records, seconds):
         for kind, values in record.latencies.items():
             latencies[kind] += values
     print(f"\n{'kind':12} {'sent':>9} {'answers':>9} {'p50 ms':>9} {'p99 ms':>9} {'max ms':>9}   (without 503)")
-    for kind in [*KINDS, "validate"]:
+    for kind in [*KINDS, *COSTLY, "validate"]:
         values = latencies[kind]
         times = [1000 * value for value in spread(values)] if values else []
         print(f"{kind:12} {sent[kind] or '':>9} {len(values):>9} " + " ".join(f"{time_:9.1f}" for time_ in times))
@@ -61,6 +62,7 @@ def main():
     parser.add_argument("--minutes", type=float, default=30.0)
     parser.add_argument("--processes", type=int, default=4, help="number of client processes")
     parser.add_argument("--connections", type=int, default=8, help="connections of each process")
+    parser.add_argument("--costly", action="store_true", help="mix in requests that cost the server much")
     parser.add_argument("--seed", type=int, default=int(time.time()), help="of the random requests")
     arguments = parser.parse_args()
     if not arguments.binary and not arguments.url:
@@ -70,11 +72,12 @@ def main():
     print(f"seed {arguments.seed}, {arguments.processes} x {arguments.connections} connections, {server.url}")
     memory = [server.resident_kib()]
     limits = server.get("/v1/limits")
+    costly = costly_requests() if arguments.costly else []
     records, begin = [], time.monotonic()
     end = begin + 60.0 * arguments.minutes
     failures = []
     while (left := end - time.monotonic()) > 1.0 and not failures:
-        records += run_round(server, arguments, arguments.seed + len(memory), limits, min(left, ROUND_S))
+        records += run_round(server, arguments, arguments.seed + len(memory), limits, min(left, ROUND_S), costly)
         time.sleep(PAUSE_S)
         memory.append(server.resident_kib())
         print(f"{time.monotonic() - begin:7.0f} s  {sum(sum(r.statuses.values()) for r in records):9} answers"
