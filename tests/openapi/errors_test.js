@@ -179,7 +179,14 @@ function overlappingPlans(robots, actions) {
 
 test("422: a check that exceeds its time budget is reported", async () => {
   const { client: limited } = await separateService(["--default-budget-ms", "1"]);
-  expectProblem(await limited.post("/v1/validate", overlappingPlans(200, 100)), 422, "check_unfinished");
+  expectProblem(await limited.post("/v1/validate", overlappingPlans(100, 40)), 422, "check_unfinished");
+});
+
+test("422: a request that takes too long to read is reported", async () => {
+  const { client: limited } = await separateService(["--default-budget-ms", "1"]);
+  const actions = Array.from({ length: 2_400_000 }, () => "{}").join();
+  const body = `{"map": {"rows": ["."]}, "robots": [], "plans": [{"robot": "a", "actions": [${actions}]}]}`;
+  expectProblem(await limited.post("/v1/validate", body), 422, "parse_unfinished");
 });
 
 test("422: a request that needs more memory than it is granted is reported", async () => {

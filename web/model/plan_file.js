@@ -87,6 +87,7 @@ const OF_UNPLANNED = {
   reason: isOptional(isText),
   detail: isOptional(isText),
   blocked_by: isOptional((value) => isList(value) && value.every(isText)),
+  blocked_by_total: isOptional(isNumber),
 };
 const OF_PLANS = {
   robot: isText,

@@ -39,7 +39,8 @@
  * Action
  */
 /** @typedef {{robot: string, cost: number, lower_bound?: number, actions: Action[]}} Plan */
-/** @typedef {{robot: string, reason: string, detail?: string, blocked_by?: string[]}} Unplanned */
+/** @typedef {{robot: string, reason: string, detail?: string, blocked_by?: string[],
+ * blocked_by_total?: number}} Unplanned */
 
 /**
  * The answer of POST /v1/plan. One from a file may lack what is optional here.
@@ -68,7 +69,7 @@
  * @typedef {object} Check
  * @property {boolean} valid
  * @property {Violation[]} violations
- * @property {boolean} [truncated]
+ * @property {number} [violations_total]
  * @property {number | null} min_clearance
  */
 

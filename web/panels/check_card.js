@@ -36,25 +36,26 @@ function showCheck(session, stage) {
   box.className = `card check ${check.valid ? "good" : "bad"}`;
   const gap = check.min_clearance;
   const nearest = gap === null ? "" : ` The smallest gap between two robots is ${metres(gap)}.`;
-  const title = check.valid ? "Valid" : `Not valid: ${count(check.violations.length, "violation")}`;
+  const total = check.violations_total ?? check.violations.length;
+  const title = check.valid ? "Valid" : `Not valid: ${count(total, "violation")}`;
   box.append(
-    element("h2", {}, icon(check.valid ? TICK : CROSS), check.truncated ? `${title} and more` : title),
+    element("h2", {}, icon(check.valid ? TICK : CROSS), title),
     element("p", {
       textContent: check.valid
         ? `The service checked every motion in continuous time and found no violation.${nearest}`
         : nearest.trim(),
     }),
   );
-  if (!check.valid) box.append(violationList(check.violations, session, stage));
+  if (!check.valid) box.append(violationList(check.violations, total, session, stage));
   session.announce(box.querySelector("h2").textContent);
 }
 
-function violationList(violations, session, stage) {
+function violationList(violations, total, session, stage) {
   const list = element("ol", { class: "violations" });
   for (const violation of violations.slice(0, MOST)) {
     list.append(element("li", {}, violationButton(violation, session, stage)));
   }
-  const more = violations.length - MOST;
+  const more = total - Math.min(violations.length, MOST);
   if (more > 0) list.append(element("li", { textContent: `and ${count(more, "more", "more")}` }));
   return list;
 }

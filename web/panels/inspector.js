@@ -6,7 +6,7 @@ import { actionInWords, totals, causeOfWait } from "../model/itinerary.js";
 import { actionIndexAt } from "../model/timeline.js";
 import { byId, element, icon, scrollWithin, setText } from "../ui/dom.js";
 import { seconds } from "../ui/format.js";
-import { robotChip } from "./robot_list.js";
+import { andMore, robotChip } from "./robot_list.js";
 import { REASONS } from "./summary.js";
 
 const EDITING = "tab-edit"; // whose form shows the robot instead
@@ -100,14 +100,16 @@ export class Inspector {
     return [costOf(track), sharesOf(sum), this.#table(robot, track.actions)];
   }
 
-  #whyUnplanned({ reason, detail, blocked_by }) {
+  #whyUnplanned({ reason, detail, blocked_by, blocked_by_total }) {
     const parts = [
       element("p", { class: "reason", textContent: REASONS[reason] ?? reason }),
       detail ? element("p", { textContent: detail }) : null,
     ];
     if (blocked_by?.length > 0) {
       const chips = blocked_by.map((id) => robotChip(this.#session, id));
-      parts.push(element("div", { class: "chips" }, "Blocked by:", ...chips));
+      parts.push(
+        element("div", { class: "chips" }, "Blocked by:", ...chips, andMore(blocked_by, blocked_by_total)),
+      );
     }
     return element("div", { class: "why" }, ...parts);
   }

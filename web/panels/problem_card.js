@@ -88,13 +88,13 @@ function showProblem(problem, request, show) {
   if (problem.retry_after) {
     box.append(element("p", { textContent: `Try again in ${count(problem.retry_after, "second")}.` }));
   }
-  if (problem.errors?.length > 0) box.append(errorList(problem.errors, request, show));
+  if (problem.errors?.length > 0) box.append(errorList(problem, request, show));
   if (problem.request_id) {
     box.append(element("p", { class: "request-id", textContent: `Request ${problem.request_id}` }));
   }
 }
 
-function errorList(errors, request, show) {
+function errorList({ errors, errors_total = errors.length }, request, show) {
   const list = element("ul", { class: "errors" });
   for (const { pointer = "", detail } of errors.slice(0, MOST_ERRORS)) {
     const place = element("button", { type: "button", class: "error", "data-error": pointer });
@@ -106,7 +106,7 @@ function errorList(errors, request, show) {
     place.addEventListener("click", () => show(pointer));
     list.append(element("li", {}, place));
   }
-  const more = errors.length - MOST_ERRORS;
+  const more = errors_total - Math.min(errors.length, MOST_ERRORS);
   if (more > 0) list.append(element("li", { textContent: `and ${count(more, "more", "more")}` }));
   return list;
 }

@@ -91,6 +91,11 @@ export class RobotList {
   #revealed = null;
 }
 
+/** The end of a list that names only the first of `total` robots; null when it names all. */
+export function andMore(listed, total) {
+  return total > listed.length ? `and ${count(total - listed.length, "more", "more")}` : null;
+}
+
 /** A button that names a robot and selects it. */
 export function robotChip(session, id) {
   const button = element("button", { type: "button", class: "chip", textContent: id, "data-chip": id });

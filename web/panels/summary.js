@@ -2,7 +2,7 @@
 
 import { byId, element, icon } from "../ui/dom.js";
 import { count, metres, milliseconds, seconds } from "../ui/format.js";
-import { robotChip } from "./robot_list.js";
+import { andMore, robotChip } from "./robot_list.js";
 
 const TICK = "M4.5 10.5 8.5 14.5 15.5 6";
 const CROSS = "M5 5 15 15M15 5 5 15";
@@ -131,7 +131,7 @@ function showUnplanned(unplanned, session) {
   box.hidden = unplanned.length === 0;
   box.replaceChildren();
   if (unplanned.length === 0) return;
-  const entries = unplanned.map(({ robot, reason, detail, blocked_by }) =>
+  const entries = unplanned.map(({ robot, reason, detail, blocked_by, blocked_by_total }) =>
     element(
       "li",
       { class: "card" },
@@ -143,7 +143,13 @@ function showUnplanned(unplanned, session) {
       ),
       detail ? element("p", { textContent: detail }) : null,
       blocked_by?.length > 0
-        ? element("div", { class: "chips" }, "Blocked by:", ...blocked_by.map((id) => robotChip(session, id)))
+        ? element(
+            "div",
+            { class: "chips" },
+            "Blocked by:",
+            ...blocked_by.map((id) => robotChip(session, id)),
+            andMore(blocked_by, blocked_by_total),
+          )
         : null,
     ),
   );
