@@ -46,7 +46,7 @@ struct Example {
   std::string_view name = {};  // empty: that of the code
 };
 
-constexpr std::array<Example, 20> kExamples{{
+constexpr std::array<Example, 22> kExamples{{
     {ErrorCode::malformed_json,
      "Not JSON at line 3, column 14 (byte 47): NaN and infinities are not JSON; give a finite number."},
     {ErrorCode::too_deep, "The JSON nests arrays and objects deeper than the limit of 32 levels."},

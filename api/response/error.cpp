@@ -8,7 +8,7 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<ErrorRow, 19> kTable{{
+constexpr std::array<ErrorRow, 21> kTable{{
     {ErrorCode::malformed_json, 400, "malformed_json", "Malformed JSON", "The body is not JSON."},
     {ErrorCode::too_deep, 400, "too_deep", "JSON Nested Too Deep",
      "The JSON of the body nests deeper than `max_depth` of `GET /v1/limits`."},
