@@ -65,16 +65,16 @@ bool LineOfSight::may_sweep(const Position& from, const Position& to, double rad
 }
 
 double LineOfSight::fitting_radius(const Position& center, double least, double most) const {
-  constexpr double kPrecision = 1e-12;
-  if (disk_fits(center, most)) return most;
+  constexpr double kMargin = 0.5e-11;  // metres; far above rounding, far below kSearchSlack
+  if (disk_fits(center, most + kMargin)) return most;
   double fits = least;
-  double too_large = most;
-  while (too_large - fits > kPrecision) {
+  double too_large = most + kMargin;
+  while (too_large - fits > kMargin) {
     const double middle = 0.5 * (fits + too_large);
     if (middle <= fits || middle >= too_large) break;  // neighbouring doubles
     (disk_fits(center, middle) ? fits : too_large) = middle;
   }
-  return fits;
+  return std::max(least, fits - kMargin);
 }
 
 bool LineOfSight::free_of_cells(const Capsule& capsule) const {

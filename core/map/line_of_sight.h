@@ -21,8 +21,8 @@ class LineOfSight {
   /// allowed.
   bool disk_fits(const Position& center, double radius) const { return may_sweep(center, center, radius); }
 
-  /// The largest radius of a disk that may stand at `center`, to within 1e-12 m, but at most `most` and at
-  /// least `least` (metres), even if that does not fit.
+  /// The largest radius of a disk that may stand at `center`, to within 1e-11 m, but at most `most` and at
+  /// least `least` (metres), even if that does not fit. Rounding does not keep such a disk from moving away.
   double fitting_radius(const Position& center, double least, double most) const;
 
   /// Returns whether a disk may sweep the segment, ends included. `radius` > 0 in metres.

@@ -52,8 +52,8 @@ void Contacts::compare(const Point& a, const Point& b) {
   const double sum = a.radius + b.radius;
   if (std::abs(a.position.y() - b.position.y()) > sum) return;
   const double distance = (a.position - b.position).norm() - a.rounding - b.rounding;
-  if (distance >= sum - kSearchSlack) return;
   const double kept = distance * (1.0 - kRounding);
+  if (kept >= sum - kSearchSlack) return;
   if (a.endpoint == Endpoint::start && b.endpoint == Endpoint::start) {
     add(a.robot, {b.robot, kept, kForever});
     add(b.robot, {a.robot, kept, kForever});

@@ -43,6 +43,20 @@ TEST(Contacts, KeepTheDistanceOfTheStartsWhileBothLeave) {
   EXPECT_EQ(contacts.distance(0, Endpoint::start, 2, Endpoint::start, 1.0), 1.0);
 }
 
+TEST(Contacts, DoNotDependOnTheRoundingOfSquares) {
+  for (int k = 0; k < 1000; ++k) {  // starts as near as the search keeps robots apart
+    const double angle = 0.1 + 0.006 * k;
+    const double distance = 1.0 - kSearchSlack;
+    const Position other(3 + distance * std::cos(angle), 3 + distance * std::sin(angle));
+    const Contacts contacts({at(3, 3, 5, 1), at(other.x(), other.y())});
+    ReservationTable table(10.0, 10.0, 1.0, {0.5, 0.5}, &contacts);
+    table.commit(1, resting(other.x(), other.y()));
+    const Position away(3 - std::cos(angle), 3 - std::sin(angle));
+    ASSERT_EQ(table.safe_intervals(0, {3, 3}).size(), 1u) << angle;
+    ASSERT_EQ(table.earliest_departure(0, {{3, 3}, away}, 1.0, 0.0, kForever), 0.0) << angle;
+  }
+}
+
 TEST(Contacts, AtGoalsAllowForContactOnly) {
   const Contacts contacts({at(1, 1, 5, 1), at(1, 3, 6 - 4e-7, 1), at(1, 5, 5, 1.9), at(4 + 4e-7, 1)});
   EXPECT_EQ(contacts.endpoint(0, {{3, 1}, {5, 1}}), Endpoint::goal);
