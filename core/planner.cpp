@@ -107,7 +107,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   Plan plan = current_plan(lns);
   progress.plan_found(plan.objectives);
   const bool may_plan_more = !plan.unplanned.empty() && prioritized.cut_off;
-  plan.search.exhausted = !may_plan_more && (anytime ? lns.exhausted : prioritized.exhausted);
+  plan.search.exhausted = !may_plan_more && (anytime ? lns.exhausted : !plan.unplanned.empty());
   plan.deterministic = !prioritized.cut_off && !bounds.cut_off() && !lns.cut_off && !stop.cancelled();
   return memory_shortages() > 0 ? with_spent_memory_named(std::move(plan)) : plan;
 }

@@ -20,6 +20,9 @@ constexpr std::int64_t kCellsPerStep = 8;
 /// The effort for the robots that close a way, in floods.
 constexpr std::int64_t kMaxFloods = 24;
 
+/// Of the width of a way, metres.
+constexpr double kGapAccuracy = 0.001;
+
 enum class Side : std::uint8_t { none, start, goal };
 constexpr std::array<Side, 2> kSides{Side::start, Side::goal};
 
@@ -78,6 +81,19 @@ Enclosure::Result Enclosure::find(std::int64_t max_steps) {
     last = flood(max_steps);
   }
   return {Answer::closed, necessary(std::move(removed), max_steps)};
+}
+
+std::optional<double> Enclosure::widest_way(double limit, std::int64_t max_steps) {
+  const double needed = clearance_;
+  if (flood(max_steps).answer != Answer::open) return std::nullopt;
+  double open = needed;
+  double closed = std::max(needed, 0.5 * limit);
+  while (closed - open > kGapAccuracy) {
+    clearance_ = 0.5 * (open + closed);
+    (flood(max_steps).answer == Answer::open ? open : closed) = clearance_;
+  }
+  clearance_ = needed;
+  return 2.0 * open;
 }
 
 /// Puts the removed disks back, one by one, if the way remains open with them.

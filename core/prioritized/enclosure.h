@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/geometry/position.h"
@@ -33,6 +34,10 @@ class Enclosure {
   /// as many; beyond that, more robots than necessary are returned.
   Result find(std::int64_t max_steps);
 
+  /// The width of the widest way between obstacles, up to `limit` metres; at least what the robot needs.
+  /// None if no way is found within `max_steps` steps.
+  std::optional<double> widest_way(double limit, std::int64_t max_steps);
+
  private:
   struct Disk {
     std::size_t robot;
@@ -63,7 +68,7 @@ class Enclosure {
   const Instance& instance_;
   const OccupancyGrid& grid_;
   const std::size_t robot_;
-  const double clearance_;        // from obstacles, metres
+  double clearance_;              // from obstacles, metres
   double longest_reach_ = 0.0;    // of disks_
   std::vector<Disk> disks_;       // by abscissa
   std::vector<Covered> covered_;  // of the border that is examined

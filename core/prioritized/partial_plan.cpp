@@ -134,7 +134,7 @@ class SafePlanner {
 Unplanned explain(PlanState& state, const SafePlan::Staying& staying, BlockingRobots& blocking) {
   const std::size_t robot = staying.robot;
   const Way& way = state.way_to_goal(robot);
-  if (way.none()) return unplanned_without_way(robot, way);
+  if (way.none()) return unplanned_without_way(robot, state.instance().motion(robot).radius, way);
   if (!staying.has_no_path) {
     return {robot, Reason::budget_exhausted, "The time budget ended before a way was found.", {}};
   }

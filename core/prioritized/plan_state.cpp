@@ -21,6 +21,10 @@ bool is_too_much(std::size_t bytes) {
 
 /// Steps of Enclosure for each expansion of a search, which takes a hundred times as long.
 constexpr std::int64_t kEnclosureSteps = 8;
+/// Steps of Enclosure for a way that the lattice misses: about 2 ms.
+constexpr std::int64_t kOffLatticeSteps = 50'000;
+/// A lattice has every way that is wider than the robot by this many spacings.
+constexpr double kWidestCells = 3.0;
 /// Expansions of a search on the map before Enclosure is asked.
 constexpr std::int64_t kFirstExpansions = 1024;
 
@@ -149,7 +153,7 @@ Result PlanState::within_memory(Result otherwise, const Compute& compute) {
 }
 
 /// Ends a search when robots that stay are found to close off the robot.
-class PlanState::EnclosureTest : public NoPathTest {
+class PlanState::EnclosureTest final : public NoPathTest {
  public:
   EnclosureTest(PlanState& state, std::size_t robot) : state_(state), robot_(robot) {}
   bool no_path(std::int64_t expansions) override {
@@ -236,7 +240,8 @@ void PlanState::find_way(std::size_t robot, std::int64_t max_expansions, const S
     const auto reaches = space.cost_to_go.reaches(vertices.start(), count, stop);
     last += count;
     next *= 2;
-    if (reaches) way.kind = *reaches ? Way::Kind::on_lattice : way_off_lattice(robot, kEnclosureSteps * last);
+    if (reaches && *reaches) way.kind = Way::Kind::on_lattice;
+    if (reaches && !*reaches) way = way_off_lattice(robot);
     if (reaches || stop.met()) break;
     test_enclosure(robot, kEnclosureSteps * last);
   }
@@ -244,9 +249,12 @@ void PlanState::find_way(std::size_t robot, std::int64_t max_expansions, const S
 }
 
 /// For a robot without a way on the lattice: whether obstacles close off its goal on any lattice.
-Way::Kind PlanState::way_off_lattice(std::size_t robot, std::int64_t max_steps) const {
-  const Enclosure::Result result = Enclosure(instance_, robot, {}).find(max_steps);
-  return result.answer == Enclosure::Answer::closed ? Way::Kind::closed : Way::Kind::not_on_lattice;
+Way PlanState::way_off_lattice(std::size_t robot) const {
+  Enclosure enclosure(instance_, robot, {});
+  if (enclosure.find(kOffLatticeSteps).answer == Enclosure::Answer::closed)
+    return {Way::Kind::closed, {}, {}};
+  const double limit = 2.0 * instance_.motion(robot).radius + kWidestCells * instance_.lattice().spacing();
+  return {Way::Kind::not_on_lattice, {}, enclosure.widest_way(limit, kOffLatticeSteps)};
 }
 
 bool PlanState::test_enclosure(std::size_t robot, std::int64_t max_steps) {
@@ -257,7 +265,7 @@ bool PlanState::test_enclosure(std::size_t robot, std::int64_t max_steps) {
   Enclosure::Result result = Enclosure(instance_, robot, staying).find(max_steps);
   if (result.answer != Enclosure::Answer::closed) return false;
   if (!result.robots.empty()) closed_by_robots_.push_back(robot);
-  ways_[robot] = {Way::Kind::closed, std::move(result.robots)};
+  ways_[robot] = {Way::Kind::closed, std::move(result.robots), {}};
   return true;
 }
 

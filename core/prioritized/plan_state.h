@@ -27,6 +27,7 @@ struct Way {
   };
   Kind kind = Kind::unknown;
   std::vector<std::size_t> closed_by;  // see Enclosure::Result; none if obstacles do it alone
+  std::optional<double> widest;        // metres; of the way between obstacles that the lattice misses
 
   /// Whether there is none as long as the same robots stay.
   bool none() const { return kind == Kind::not_on_lattice || kind == Kind::closed; }
@@ -115,7 +116,7 @@ class PlanState {
   bool stays(std::size_t robot) const { return reservations_.at_start_until[robot] == kForever; }
   void forget_ways_closed_by_robots(std::size_t except);
   bool goal_stays_free(std::size_t robot) const;
-  Way::Kind way_off_lattice(std::size_t robot, std::int64_t max_steps) const;
+  Way way_off_lattice(std::size_t robot) const;
   bool test_enclosure(std::size_t robot, std::int64_t max_steps);
   void discard_search_spaces_except(std::size_t robot);
   void reserve(std::size_t robot, const std::vector<TimedSegment>& segments);

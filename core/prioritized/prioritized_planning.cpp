@@ -83,7 +83,6 @@ class PrioritizedPlanning {
     state_.restore(best_->reservations);
     PartialPlan partial = explain(state_, best_->plan, time_.all);
     result_.cut_off = result_.cut_off || partial.cut_off;
-    result_.exhausted = !result_.cut_off && !partial.unplanned.empty();
     result_.unplanned = std::move(partial.unplanned);
     return std::move(result_);
   }

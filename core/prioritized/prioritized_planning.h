@@ -18,8 +18,7 @@ namespace fleetplan::core {
 struct PrioritizedResult {
   std::vector<Unplanned> unplanned;  // ascending
   std::int64_t attempts = 0;
-  bool cut_off = false;    // the stop condition decided something
-  bool exhausted = false;  // robots are unplanned, but nothing is left to try
+  bool cut_off = false;  // the stop condition decided something
 };
 
 /// The use of a time budget.

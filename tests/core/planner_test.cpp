@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -275,6 +276,80 @@ TEST(Planner, EndsWithoutADeadlineWhereNoRobotCanTranslate) {
   const Plan plan = checked_plan(problem);
   EXPECT_TRUE(plan.deterministic);
   EXPECT_GE(plan.plans.size(), 1u) << "robot 2 can rotate in place";
+}
+
+/// Met after a minute, which no test needs.
+StopCondition in_a_minute() { return StopCondition(StopCondition::Clock::now() + std::chrono::minutes(1)); }
+
+TEST(Planner, NamesTheRobotInTheOnlyDoorWithoutSearchingTheHall) {
+  OccupancyGrid grid(300, 300, 1.0);
+  for (int k = 0; k < 30; ++k) {
+    grid.block({270, 270 + k});
+    grid.block({270 + k, 270});
+  }
+  OccupancyGrid open(300, 300, 1.0);
+  for (int row = 0; row < 300; ++row) {
+    for (int column = 0; column < 300; ++column) {
+      if (grid.blocked({column, row}) && !(column == 270 && row == 285)) open.block({column, row});
+    }
+  }
+  const Problem problem =
+      support::make_problem(open, {robot_at(10.5, 10.5).to(290.5, 290.5), robot_at(270.5, 285.5)});
+  const Plan plan = checked_plan(problem, {}, in_a_minute());
+  expect_unplanned(plan, 0, Reason::blocked_by_robots, {1});
+  EXPECT_LT(plan.search.expansions, 10'000) << "the hall has 90,000 cells";
+  EXPECT_TRUE(plan.deterministic);
+  EXPECT_TRUE(plan.search.exhausted);
+}
+
+TEST(Planner, EndsAnytimeWhenNoRobotCanBecomeCheaper) {
+  // The lattice makes the path around the wall longer than the bound.
+  PlanOptions options;
+  options.mode = Mode::anytime;
+  const Problem problem = support::make_problem(support::ascii_map({"...........",  //
+                                                                    "....###....",  //
+                                                                    "....###....",  //
+                                                                    "..........."}),
+                                                {robot_at(3.2, 1.7).to(8.3, 1.9).radius(0.23)});
+  const Plan plan = checked_plan(problem, options, in_a_minute());
+  EXPECT_GT(plan.plans[0].cost, plan.plans[0].lower_bound + 1e-6);
+  EXPECT_TRUE(plan.search.exhausted);
+  EXPECT_TRUE(plan.deterministic);
+}
+
+/// Six large robots in a narrow hall, with a long wait before every move.
+Problem crowded_hall() {
+  OccupancyGrid grid(108, 72, 0.05);
+  const auto block = [&](int column, int row, int columns, int rows) {
+    for (int c = column; c < column + columns; ++c) {
+      for (int r = row; r < row + rows; ++r) grid.block({c, r});
+    }
+  };
+  block(52, 14, 10, 18);
+  block(26, 40, 16, 10);
+  block(74, 46, 14, 8);
+  std::vector<Robot> robots{robot_at(0.369, 0.901, -0.7693244442825105).to(0.858, 2.692),
+                            robot_at(3.299, 2.106, -1.8603628879585699).to(2.913, 3.148),
+                            robot_at(4.276, 0.949, -3.1172411769578803).to(3.927, 3.173),
+                            robot_at(4.926, 1.932, -1.3972468845166666).to(0.992, 1.801),
+                            robot_at(2.657, 2.832, 0.6167838510487322).to(1.783, 1.508),
+                            robot_at(2.151, 1.174, 2.3980589333648634).to(2.664, 2.228)};
+  for (Robot& robot : robots) {
+    robot.radius = 0.35;
+    robot.linear_speed = 0.1;
+    robot.angular_speed = 0.4188790204786391;
+  }
+  return support::make_problem(grid, robots);
+}
+
+TEST(Planner, PlansInOtherOrdersWhatTheFirstOneGaveUp) {
+  PlanOptions options;
+  options.wait_before_move = 5.0;
+  const Problem problem = crowded_hall();
+  const Plan plan =
+      checked_plan(problem, options, StopCondition(StopCondition::Clock::now() + std::chrono::minutes(20)));
+  EXPECT_TRUE(plan.unplanned.empty());
+  EXPECT_GT(plan.search.attempts, 114) << "the first order fails after 114 attempts";
 }
 
 }  // namespace

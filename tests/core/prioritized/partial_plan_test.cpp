@@ -127,5 +127,15 @@ TEST(PartialPlan, RemovesPlansThatCrossAnUnplannedRobotWhenStopped) {
   expect_safe(p.state);
 }
 
+TEST(PartialPlan, ReturnsRobotsToTheirPathsWhenTheOneInTheirWayHasLeft) {
+  Planning p(hall(), {robot_at(3.5, 3.5).to(3.5, 4.5), robot_at(0.5, 3.5).to(6.5, 3.5)});
+  p.state.follow(1, through({{0.5, 3.5}, {6.5, 3.5}}, 50.0));
+  const PartialPlan partial = make_partial_plan(p.state, {0}, {}, p.never, p.progress);
+  EXPECT_TRUE(partial.unplanned.empty());
+  ASSERT_TRUE(p.state.trajectory(1));
+  EXPECT_EQ(p.state.trajectory(1)->moves.front().t_start, 50.0) << "its earlier path, not a new one";
+  expect_safe(p.state);
+}
+
 }  // namespace
 }  // namespace fleetplan::core

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/prioritized/repair_or_restart.h"
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
@@ -107,7 +108,8 @@ TEST(Prioritized, PlansNothingWithoutMovers) {
 
 TEST(Prioritized, CompletesAPartialPlanAfterTheTimeForAttempts) {
   Planning p(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5), robot_at(0.5, 1.5).to(0.5, 8.5)});
-  const auto result = plan_prioritized(p.state, p.movers(), p.random, PlanningTime{met(), {}, {}}, p.progress);
+  const auto result =
+      plan_prioritized(p.state, p.movers(), p.random, PlanningTime{met(), {}, {}}, p.progress);
   EXPECT_TRUE(result.unplanned.empty()) << "there is time left to complete";
   EXPECT_TRUE(result.cut_off);
   expect_safe(p.state);
@@ -115,12 +117,59 @@ TEST(Prioritized, CompletesAPartialPlanAfterTheTimeForAttempts) {
 
 TEST(Prioritized, LeavesAllRobotsUnplannedAfterStop) {
   Planning p(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5), robot_at(0.5, 1.5).to(0.5, 8.5)});
-  const auto result = plan_prioritized(p.state, p.movers(), p.random, PlanningTime{met(), met(), met()}, p.progress);
+  const auto result =
+      plan_prioritized(p.state, p.movers(), p.random, PlanningTime{met(), met(), met()}, p.progress);
   EXPECT_EQ(robots_of(result), (Robots{0, 1}));
   EXPECT_TRUE(result.cut_off);
   EXPECT_EQ(static_cast<int>(result.unplanned[0].reason),
             static_cast<int>(Unplanned::Reason::budget_exhausted));
   expect_safe(p.state);
+}
+
+TEST(Prioritized, GoesOnAfterKeepingASafePlan) {
+  Planning p(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5), robot_at(0.5, 1.5).to(0.5, 8.5)});
+  const auto result =
+      plan_prioritized(p.state, p.movers(), p.random, PlanningTime{met(), met(), {}}, p.progress);
+  EXPECT_TRUE(result.unplanned.empty()) << "the time for the safe plan was over, but not all of it";
+  EXPECT_TRUE(result.cut_off);
+  expect_safe(p.state);
+}
+
+/// Two robots that cannot change places, and three others.
+Planning two_in_a_corridor() {
+  return Planning(
+      support::ascii_map({".......##",  //
+                          "#########",  //
+                          "........."}),
+      {robot_at(0.5, 2.5).to(6.5, 2.5), robot_at(6.5, 2.5, 3.0).to(0.5, 2.5), robot_at(0.5, 0.5).to(4.5, 0.5),
+       robot_at(1.5, 0.5).to(6.5, 0.5), robot_at(3.5, 0.5).to(8.5, 0.5)});
+}
+
+TEST(Prioritized, TriesOtherOrdersAfterARobotWasGivenUp) {
+  Planning p = two_in_a_corridor();
+  Planning once = two_in_a_corridor();
+  const OrderingResult first =
+      repair_or_restart(once.state, {0, 1, 2, 3, 4}, once.random, once.never, once.progress);
+  const auto result = run(p);
+  EXPECT_EQ(robots_of(result), (Robots{0, 1})) << "each is in the other's way";
+  EXPECT_GT(result.attempts, 2 * first.attempts);
+  expect_safe(p.state);
+}
+
+TEST(Prioritized, DoesNotTryOtherOrdersForARobotThatHasNoPathAtAll) {
+  // Robot 0 is parked in the only doorway; five others want to pass it or move in their room.
+  Planning p(
+      support::ascii_map({"....#....",  //
+                          ".........",  //
+                          "....#...."}),
+      {robot_at(4.5, 1.5), robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(8.5, 0.5).to(5.5, 0.5),
+       robot_at(2.5, 2.5).to(0.5, 2.5), robot_at(6.5, 2.5).to(8.5, 2.5), robot_at(2.5, 0.5).to(1.5, 0.5)});
+  p.state.stay_at_start(0);
+  const auto result = run(p);
+  EXPECT_EQ(robots_of(result), Robots{1});
+  EXPECT_EQ(result.unplanned[0].blocked_by, Robots{0});
+  EXPECT_LE(result.attempts, 3);
+  EXPECT_FALSE(result.cut_off);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <string>
 
@@ -155,6 +156,48 @@ TEST(Triage, DoesNotReportAGoalAsUnreachableWhenStopped) {
                                         "..............#."}),
                     {robot_at(15.5, 0.5).to(0.5, 0.5).radius(0.2)});
   EXPECT_FALSE(triage(reversed.state, met())[0]);
+}
+
+TEST(Triage, FollowsALongChainOfOccupiedGoalsInLittleTime) {
+  // The goal of each robot is the start of the next one; the last one is parked.
+  constexpr int kRobots = 2000;
+  const auto place = [](int k) { return Position(2 * (k % 50) + 0.5, 2 * (k / 50) + 0.5); };
+  std::vector<Robot> robots;
+  for (int k = 0; k < kRobots; ++k) {
+    robots.push_back(robot_at(place(k).x(), place(k).y()));
+    if (k + 1 < kRobots) robots.back().goal = Goal{place(k + 1), std::nullopt};
+  }
+  Planning p(OccupancyGrid(100, 80, 1.0), robots);
+  const std::clock_t before = std::clock();
+  const auto result = triage(p.state, p.never);
+  EXPECT_LT(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC, 3.0) << "cubic time takes 13 s";
+  for (std::size_t k = 0; k + 1 < kRobots; ++k) expect_given_up(result[k], k, Reason::goal_blocked, {k + 1});
+}
+
+TEST(Triage, SaysThatOnlyTheLatticeHasNoWay) {
+  // A gate of 1 m between cells of half a metre: no centre of a cell in it is far enough from its sides.
+  OccupancyGrid grid(21, 10, 0.5);
+  for (int row = 0; row < 10; ++row) {
+    if (row != 4 && row != 5) grid.block({10, row});
+  }
+  Planning p(grid, {robot_at(1.25, 1.25).to(9.25, 4.25).radius(0.3)});
+  const auto result = triage(p.state, p.never);
+  expect_given_up(result[0], 0, Reason::goal_unreachable);
+  EXPECT_NE(result[0]->detail.find("lattice"), std::string::npos) << result[0]->detail;
+  EXPECT_NE(result[0]->detail.find("1.00 m"), std::string::npos) << result[0]->detail;
+}
+
+TEST(Triage, LeavesTheMapSearchesOfMostRobotsForLater) {
+  OccupancyGrid grid(300, 300, 1.0);
+  for (int row = 0; row < 300; ++row) {
+    if (row != 150) grid.block({150, row});
+  }
+  std::vector<Robot> robots;
+  for (int k = 0; k < 60; ++k) robots.push_back(robot_at(10.5, 4 * k + 10.5).to(290.5, 280.5 - 4 * k));
+  Planning p(grid, robots);
+  triage(p.state, p.never);
+  EXPECT_EQ(p.state.way_to_goal(59).kind, Way::Kind::unknown);
+  EXPECT_LE(p.state.map_expansions(), 50'000);
 }
 
 }  // namespace
