@@ -69,9 +69,9 @@ constexpr std::array<Example, 19> kExamples{{
      "The plans could not be checked within 5000 ms: increase options.time_budget_ms, up to max_budget_ms of "
      "/v1/limits, or send fewer robots or a shorter part of the plans."},
     {ErrorCode::parse_unfinished,
-     "Reading the request was given up after a second of CPU time: send a smaller map, or fewer robots, "
-     "actions "
-     "or other values."},
+     "Reading the request was given up after its time budget: send a smaller map, or fewer robots, actions "
+     "or "
+     "other values, or increase options.time_budget_ms."},
     {ErrorCode::head_too_large, "There are more than 100 header fields."},
     {ErrorCode::internal_error, "A bug in the service; its log has more under this request_id."},
     {ErrorCode::overloaded, "All workers are busy and the queue is full: try again later."},
