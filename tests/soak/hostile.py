@@ -5,7 +5,7 @@ Usage: hostile.py [--binary FLEETPLAN | --url URL] [--seconds N] [--late-ms N]
 
 Measures small plans of one honest client alone, then beside each kind of hostile client in turn, while probing health on
 the admin port (not with --url). The exit status is 1 if an honest answer was wrong, lost or, in the median, more than
-twice as slow as alone, if too many were rejected with 503, if a health probe failed, or if the server ended or used more
+twice as slow as alone and slower than 10 ms, if too many were rejected with 503, if a health probe failed, or if the server ended or used more
 than 1 GiB. Then sends requests that are costly for the server: each must get the right answer, within its time and its
 memory, and no work may go on after the client has left. Last, checks that servers survive a log that nobody reads and a
 lack of descriptors, and that one whose listener breaks ends.
@@ -31,6 +31,7 @@ from report import percentile, spread, verdict
 from server import Server
 
 MAX_SLOWDOWN = 2.0
+FAST_MS = 10.0  # the attackers themselves, on the same machine, take CPU from an answer of a millisecond
 MAX_REJECTED = 0.1
 HEALTH_TIMEOUT_S = 5.0
 MAX_MEMORY_KIB = 1 << 20
@@ -257,8 +258,8 @@ def main():
         slower = p50 / usual
         print(f"{name:30} {len(times):8} {rejected:8} {p50:8.2f} {p99:8.2f} {most:8.2f} {slower:7.2f} "
               f"{(server.resident_kib() or 0) / 1024:7.1f} {health.worst()}", flush=True)
-        if slower > MAX_SLOWDOWN:
-            failures.append(f"{name}: more than {MAX_SLOWDOWN} times slower")
+        if slower > MAX_SLOWDOWN and p50 > FAST_MS:
+            failures.append(f"{name}: more than {MAX_SLOWDOWN} times slower, {p50:.1f} ms")
         if rejected > MAX_REJECTED * (len(times) + rejected):
             failures.append(f"{name}: {rejected} of {len(times) + rejected} were rejected")
 
