@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { outputOf, settingNames, textOf, yamlOf } from "./support/files.js";
+import { bytesOf, memoryOfReplica, outputOf, settingNames, textOf, yamlOf } from "./support/files.js";
 
 const { services } = yamlOf("deploy/compose.yaml");
 const replicas = Object.keys(services).filter((name) => name.startsWith("fleetplan"));
@@ -13,7 +13,6 @@ const haproxy = textOf("deploy/haproxy/haproxy.cfg");
 const prometheus = yamlOf("deploy/prometheus/prometheus.yml");
 
 const MIB = 1 << 20;
-const bytesOf = (size) => Number(/^(\d+)m$/.exec(size)[1]) * MIB;
 const inConfiguration = (pattern) => Number(pattern.exec(haproxy)[1]);
 
 test("every service has limits of memory, threads and log", () => {
@@ -24,6 +23,12 @@ test("every service has limits of memory, threads and log", () => {
     const { "max-size": size, "max-file": files } = service.logging.options;
     assert.ok(bytesOf(size) * Number(files) <= 100 * MIB, name);
   }
+});
+
+test("bodies and plans fit into the memory of a replica", () => {
+  const { FLEETPLAN_MAX_BODY: maxBody, FLEETPLAN_MAX_PLAN_MEMORY: maxPlanMemory } = replica.environment;
+  const most = memoryOfReplica({ workers: replica.cpus, maxBody, maxPlanMemory });
+  assert.ok(most <= bytesOf(replica.mem_limit), `${most / MIB} MiB`);
 });
 
 test("a replica may have a thread for each of its connections", () => {

@@ -3,7 +3,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { namesIn, outputOf, settingNames, textOf, yamlOf } from "./support/files.js";
+import {
+  bytesOf,
+  memoryOfReplica,
+  namesIn,
+  outputOf,
+  settingNames,
+  textOf,
+  yamlOf,
+} from "./support/files.js";
 import { metricsOfServer } from "./support/metrics.js";
 import { faultsOf, resourcesOf } from "./support/manifests.js";
 
@@ -78,6 +86,26 @@ test("the environment of the pods contains only settings, which variables for se
   const overlay = yamlOf("deploy/kubernetes/overlays/example/token.yaml").spec.template.spec.containers[0];
   for (const { name } of [...container.env, ...overlay.env]) assert.ok(known.has(name), name);
   assert.equal(pod.spec.enableServiceLinks, false);
+});
+
+test("bodies and plans fit into the memory of a pod", () => {
+  const overlay = yamlOf("deploy/kubernetes/overlays/example/larger-replicas.yaml").spec.template.spec
+    .containers[0];
+  const overlaid = new Map(
+    [...container.env, ...overlay.env].map(({ name, value }) => [name, { name, value }]),
+  );
+  for (const { env, resources } of [
+    container,
+    { env: [...overlaid.values()], resources: overlay.resources },
+  ]) {
+    const setting = (name) => env.find((entry) => entry.name === name).value;
+    const most = memoryOfReplica({
+      workers: Number(resources.limits.cpu),
+      maxBody: setting("FLEETPLAN_MAX_BODY"),
+      maxPlanMemory: setting("FLEETPLAN_MAX_PLAN_MEMORY"),
+    });
+    assert.ok(most <= bytesOf(resources.limits.memory), `${most / 2 ** 20} MiB`);
+  }
 });
 
 test("pods have more time to stop than delay and drain together", () => {

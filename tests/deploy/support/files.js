@@ -45,3 +45,17 @@ export function promtool(...words) {
 export function settingNames() {
   return new Set(outputOf("--help").match(/FLEETPLAN_[A-Z_]+/g));
 }
+
+/** The bytes of a size such as 4MiB, or of a memory limit such as 512m or 2Gi. */
+export function bytesOf(size) {
+  const [, number, prefix] = /^(\d+)([mMgG])(?:i|iB)?$/.exec(size);
+  return Number(number) * (prefix.toLowerCase() === "m" ? 2 ** 20 : 2 ** 30);
+}
+
+/** The most bytes that a replica needs, as docs/operations.md derives them. */
+export function memoryOfReplica({ workers, maxBody, maxPlanMemory }) {
+  const queue = 4 * workers;
+  const bodies = bytesOf(maxBody) * (workers + queue + 1 + queue);
+  const plans = bytesOf(maxPlanMemory) * (3 * workers + 1);
+  return bytesOf("30MiB") + bodies + plans;
+}
