@@ -8,19 +8,20 @@ namespace fleetplan::server {
 /// A body that waits; guarded by the mutex.
 struct ParseSlots::Waiting {
   std::size_t bytes;
-  Slot::Kind slot = Slot::Kind::none;  // once it has one
+  Kind slot = Kind::none;  // once it has one
   std::condition_variable_any changed = {};
 };
 
 ParseSlots::Slot::Slot(ParseSlots& slots, std::size_t bytes, const core::StopCondition& stop)
-    : slots_(slots) {
-  std::unique_lock lock(slots_.mutex_);
-  kind_ = take(slots_.free_, bytes);
-  if (has_slot()) return;
+    : slots_(slots), kind_(slots.await(bytes, stop)) {}
+
+ParseSlots::Kind ParseSlots::await(std::size_t bytes, const core::StopCondition& stop) {
+  std::unique_lock lock(mutex_);
+  if (const Kind kind = take(bytes); kind != Kind::none) return kind;
   Waiting waiting{bytes};
-  const auto larger = std::find_if(slots_.waiting_.begin(), slots_.waiting_.end(),
+  const auto larger = std::find_if(waiting_.begin(), waiting_.end(),
                                    [&](const Waiting* other) { return other->bytes > bytes; });
-  const auto place = slots_.waiting_.insert(larger, &waiting);
+  const auto place = waiting_.insert(larger, &waiting);
   const auto come = [&] { return waiting.slot != Kind::none; };
   // Some libraries overflow when they wait until the end of time.
   if (stop.deadline() == core::StopCondition::Clock::time_point::max()) {
@@ -28,33 +29,37 @@ ParseSlots::Slot::Slot(ParseSlots& slots, std::size_t bytes, const core::StopCon
   } else {
     waiting.changed.wait_until(lock, stop.stop_token(), stop.deadline(), come);
   }
-  kind_ = waiting.slot;
-  if (!has_slot()) slots_.waiting_.erase(place);
+  if (!come()) waiting_.erase(place);
+  return waiting.slot;
 }
 
-ParseSlots::Slot::Kind ParseSlots::Slot::take(Free& free, std::size_t bytes) {
-  if (free.any > 0) {
-    --free.any;
+/// With the mutex locked: a free slot for such a body, which is taken.
+ParseSlots::Kind ParseSlots::take(std::size_t bytes) {
+  if (free_ > 0) {
+    --free_;
     return Kind::any;
   }
-  if (bytes <= kSmall && std::exchange(free.small, false)) return Kind::small;
+  if (bytes <= kSmall && std::exchange(small_is_free_, false)) return Kind::small;
   return Kind::none;
 }
 
 void ParseSlots::Slot::release() {
   if (!has_slot()) return;
-  const std::lock_guard lock(slots_.mutex_);
-  if (kind_ == Kind::any) {
-    ++slots_.free_.any;
+  slots_.give_back(std::exchange(kind_, Kind::none));
+}
+
+void ParseSlots::give_back(Kind kind) {
+  const std::lock_guard lock(mutex_);
+  if (kind == Kind::any) {
+    ++free_;
   } else {
-    slots_.free_.small = true;
+    small_is_free_ = true;
   }
-  kind_ = Kind::none;
-  if (slots_.waiting_.empty()) return;
-  Waiting& next = *slots_.waiting_.front();  // the smallest: no other can use what it cannot
-  next.slot = take(slots_.free_, next.bytes);
+  if (waiting_.empty()) return;
+  Waiting& next = *waiting_.front();  // the smallest: no other can use what it cannot
+  next.slot = take(next.bytes);
   if (next.slot == Kind::none) return;
-  slots_.waiting_.pop_front();
+  waiting_.pop_front();
   next.changed.notify_one();
 }
 

@@ -22,15 +22,16 @@ class ParseSlots {
   class Slot;
 
  private:
+  enum class Kind { none, any, small };
   struct Waiting;
-  struct Free {
-    explicit Free(std::size_t slots) : any(slots) {}
-    std::size_t any;
-    bool small = true;
-  };
+
+  Kind await(std::size_t bytes, const core::StopCondition& stop);
+  Kind take(std::size_t bytes);
+  void give_back(Kind kind);
 
   std::mutex mutex_;
-  Free free_;
+  std::size_t free_;
+  bool small_is_free_ = true;
   std::list<Waiting*> waiting_;
 };
 
@@ -47,14 +48,8 @@ class ParseSlots::Slot {
   void release();
 
  private:
-  friend class ParseSlots;
-  enum class Kind { none, any, small };
-
-  /// A free slot for such a body, which is taken.
-  static Kind take(Free& free, std::size_t bytes);
-
   ParseSlots& slots_;
-  Kind kind_ = Kind::none;
+  Kind kind_;
 };
 
 }  // namespace fleetplan::server
