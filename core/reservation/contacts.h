@@ -55,7 +55,7 @@ class Contacts {
 
  private:
   struct Contact {
-    std::size_t other;
+    std::size_t other = 0;
     double leaving = kForever;   // metres; the distance to keep while both are at their starts
     double touching = kForever;  // metres; likewise where at least one of them is at its goal
   };

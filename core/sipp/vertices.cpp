@@ -22,9 +22,9 @@ Vertices::Vertices(const Instance& instance, std::size_t robot)
       sight_(instance.sight()),
       moves_(instance.moves(robot)),
       any_angle_(instance.options().any_angle),
-      start_pose_(instance.robot(robot).start) {
+      start_pose_(instance.robot(robot).start),
+      start_(add_start(instance, robot)) {
   const Robot& r = instance.robot(robot);
-  start_ = add_start(instance, robot);
   if (!r.goal) return;
   goal_heading_ = r.goal->theta;
   const bool same = (r.goal->position - r.start.position).norm() <= kSamePosition;
