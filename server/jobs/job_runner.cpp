@@ -3,6 +3,7 @@
 #include <chrono>
 #include <exception>
 #include <string>
+#include <utility>
 
 #include "api/response/error.h"
 #include "server/http/answer/internal_error.h"
@@ -29,7 +30,9 @@ api::Reply JobRunner::run(Exchange& exchange, const Service::Endpoint& endpoint,
                               "All workers are busy and the queue is full: try again later.",
                               exchange.request_id);
   }
-  return compute(exchange, endpoint, events, *job);
+  api::Reply reply = compute(exchange, endpoint, events, *job);
+  if (reply.leftovers) disposal_.take(std::move(reply.leftovers));
+  return reply;
 }
 
 api::Reply JobRunner::compute(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events,
