@@ -77,7 +77,7 @@ TEST(WithinMemory, AnswersWithoutAPlanWhenThePlannerNeedsMore) {
 TEST(WithinMemory, ChecksThePlanOfAJobThatIsShortOfMemory) {
   const Planner hoarder = [](const core::Problem& problem, const auto& options, const auto& stop, auto*) {
     core::Plan plan = core::plan(problem, options, stop);
-    core::keep_for_later(std::make_shared<std::vector<char>>(block(25)));
+    core::MemoryScope::current()->keep(std::make_shared<std::vector<char>>(block(25)));
     EXPECT_TRUE(core::is_short_of_memory());
     return plan;
   };
