@@ -1,6 +1,7 @@
 #include "core/planner.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -30,6 +31,15 @@ std::vector<std::size_t> robots_to_plan(const Instance& instance,
   }
   return movers;
 }
+
+/// The largest parts of the memory of a plan.
+struct PlanMemory {
+  PlanMemory(const Problem& problem, const PlanOptions& options)
+      : instance(problem, options), state(instance) {}
+
+  const Instance instance;
+  PlanState state;
+};
 
 /// The plan of a job that has been short of memory: says so of the robots that it could not plan.
 Plan with_spent_memory_named(Plan plan) {
@@ -75,8 +85,9 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
 
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop, Executor& executor,
           Observer* observer) {
-  const Instance instance(problem, options);
-  PlanState state(instance);
+  const auto memory = std::make_shared<PlanMemory>(problem, options);
+  const Instance& instance = memory->instance;
+  PlanState& state = memory->state;
   ProgressReport progress(state, observer);
   Random random(options.seed);
 
@@ -109,6 +120,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   const bool may_plan_more = !plan.unplanned.empty() && prioritized.cut_off;
   plan.search.exhausted = !may_plan_more && (anytime ? lns.exhausted : !plan.unplanned.empty());
   plan.deterministic = !prioritized.cut_off && !bounds.cut_off() && !lns.cut_off && !stop.cancelled();
+  keep_for_later(memory);
   return memory_shortages() > 0 ? with_spent_memory_named(std::move(plan)) : plan;
 }
 

@@ -7,6 +7,7 @@
 #include "api/request/parse_validate_request.h"
 #include "api/response/error.h"
 #include "api/response/write_report.h"
+#include "core/runtime/memory_account.h"
 #include "core/verify/verify.h"
 
 namespace fleetplan::api {
@@ -43,6 +44,7 @@ Reply check(std::string_view body, const RequestContext& context) {
     return stop.cancelled() ? unfinished(*request, stop, context.request_id) : too_busy(context.request_id);
   }
   const auto report = core::verify(request->grid, request->robots, request->plans, request->tolerance, stop);
+  if (!report && core::memory_shortages() > 0) return memory_exceeded(context);
   if (!report) return unfinished(*request, stop, context.request_id);
   return {200, kJson, write_report(*report, request->robots)};
 }

@@ -1,5 +1,7 @@
 #include "api/endpoints/within_memory.h"
 
+#include <cstdint>
+#include <memory>
 #include <new>
 
 #include "api/json/fault_text.h"
@@ -8,19 +10,32 @@
 
 namespace fleetplan::api {
 
+namespace {
+
+/// Less is freed at once: within about a millisecond.
+constexpr std::int64_t kMuch = 4 << 20;
+
+}  // namespace
+
 Reply within_memory(const RequestContext& context, const std::function<Reply()>& work) {
-  core::MemoryAccount account(context.limits.max_plan_memory);
+  const auto account = std::make_shared<core::MemoryAccount>(context.limits.max_plan_memory);
   try {
-    const core::MemoryScope scope(&account);
-    return work();
+    const core::MemoryScope scope(account.get());
+    Reply reply = work();
+    if (account->used() > kMuch) reply.leftovers = account;
+    return reply;
   } catch (const std::bad_alloc&) {
-    const double mebibytes = static_cast<double>(context.limits.max_plan_memory) / (1 << 20);
-    return problem_reply(ErrorCode::memory_exceeded,
-                         "The request needs more than " + number_text(mebibytes) +
-                             " MiB of memory, max_plan_memory of /v1/limits: send fewer robots or a map with "
-                             "fewer cells.",
-                         context.request_id);
+    return memory_exceeded(context);
   }
+}
+
+Reply memory_exceeded(const RequestContext& context) {
+  const double mebibytes = static_cast<double>(context.limits.max_plan_memory) / (1 << 20);
+  return problem_reply(ErrorCode::memory_exceeded,
+                       "The request needs more than " + number_text(mebibytes) +
+                           " MiB of memory, max_plan_memory of /v1/limits: send fewer robots or a map with "
+                           "fewer cells.",
+                       context.request_id);
 }
 
 }  // namespace fleetplan::api

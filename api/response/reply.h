@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,9 @@ struct Reply {
   // For metrics and the log, not for the client.
   std::string_view problem = {};  // the error's code, e.g. "not_found"; empty: none
   std::optional<PlanOutcome> outcome = std::nullopt;
+
+  /// What was needed to make the answer, to be freed once it is sent; null: nothing.
+  std::shared_ptr<const void> leftovers = nullptr;
 };
 
 }  // namespace fleetplan::api

@@ -57,6 +57,18 @@ class LargeNeighbourhoodSearch {
         cheapest_(state.instance().size(), 0) {}
 
   LnsResult run(std::int64_t max_iterations, const BeforeRound& before_round) {
+    try {
+      improve(max_iterations, before_round);
+    } catch (const std::bad_alloc&) {  // not granted to the job
+      result_.cut_off = true;
+    }
+    if (is_short_of_memory()) workspaces_.release_others();
+    workspaces_.update_all();
+    return result_;
+  }
+
+ private:
+  void improve(std::int64_t max_iterations, const BeforeRound& before_round) {
     result_.exhausted = nothing_left();
     while (max_iterations > 0 && !result_.exhausted && !result_.cut_off) {
       const std::int64_t count = std::min(kIterationsPerRound, max_iterations);
@@ -71,11 +83,8 @@ class LargeNeighbourhoodSearch {
       result_.exhausted = nothing_left();
       result_.cut_off = !result_.exhausted && (!may_improve || stop_.met() || !has_memory());
     }
-    workspaces_.update_all();
-    return result_;
   }
 
- private:
   const std::vector<std::size_t>& planned() const { return incumbent_.planned(); }
   double delay(std::size_t robot) const { return std::max(0.0, incumbent_.cost(robot) - bounds_[robot]); }
   double makespan() const { return incumbent_.cost(incumbent_.last_to_arrive()); }
@@ -260,8 +269,12 @@ LnsResult large_neighbourhood_search(PlanState& state, const std::vector<std::si
     if (state.trajectory(robot)) planned.push_back(robot);
   }
   constexpr auto kUnlimited = std::numeric_limits<std::int64_t>::max();
-  return LargeNeighbourhoodSearch(state, std::move(planned), bounds, random, executor, stop)
-      .run(state.instance().options().max_iterations.value_or(kUnlimited), before_round);
+  const auto search =
+      std::make_shared<LargeNeighbourhoodSearch>(state, std::move(planned), bounds, random, executor, stop);
+  const LnsResult result =
+      search->run(state.instance().options().max_iterations.value_or(kUnlimited), before_round);
+  keep_for_later(search);
+  return result;
 }
 
 }  // namespace fleetplan::core

@@ -3,6 +3,9 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace fleetplan::core {
 
@@ -39,6 +42,10 @@ class MemoryAccount {
   /// Likewise, unless that would exceed the limit: then it counts nothing and returns false.
   bool reserve(std::int64_t bytes);
 
+  /// Destroys the object with the account. Freeing the memory of a large plan takes longer than checking it,
+  /// so it may wait until the answer is sent. To be called by one thread at a time.
+  void keep(std::shared_ptr<const void> object) { kept_.push_back(std::move(object)); }
+
  private:
   void added(std::int64_t used, std::int64_t bytes);
 
@@ -47,6 +54,7 @@ class MemoryAccount {
   std::atomic<std::int64_t> used_{0};
   std::atomic<std::int64_t> peak_{0};
   std::atomic<std::int64_t> shortages_{0};
+  std::vector<std::shared_ptr<const void>> kept_;
 };
 
 /// What this thread has allocated since its last report, and the account that it reports to, if any.
@@ -96,6 +104,13 @@ class MemoryScope {
 inline bool is_short_of_memory() {
   const MemoryAccount* account = MemoryScope::current();
   return account != nullptr && account->is_short();
+}
+
+/// Keeps the object with the account of this thread; destroys it at once if there is none or its memory is
+/// needed.
+inline void keep_for_later(std::shared_ptr<const void> object) {
+  MemoryAccount* account = MemoryScope::current();
+  if (account != nullptr && !account->is_short()) account->keep(std::move(object));
 }
 
 /// The shortages of the job of this thread so far.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
+#include <limits>
 #include <stop_token>
 #include <utility>
 
@@ -8,22 +10,39 @@
 
 namespace fleetplan::core {
 
+/// Counts how often the stop conditions of a thread are asked: a clock for tests, the same on every machine.
+struct StepClock {
+  static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+  std::int64_t steps = 0;
+  std::int64_t end = kNever;  // the thread's stop conditions, those by default apart, are met after so many
+
+  bool tick() { return ++steps > end; }
+};
+
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): changed by tests only
+extern constinit thread_local StepClock step_clock;
+
 /// When to stop: at a deadline, when a stop is requested, or while the job of the calling thread is short of
-/// memory (see MemoryAccount). Cheap enough to test in every search loop.
+/// memory (see MemoryAccount). Cheap enough to test in every search loop. By default it is never met.
 class StopCondition {
  public:
   using Clock = std::chrono::steady_clock;
 
   StopCondition() = default;
   explicit StopCondition(Clock::time_point deadline, std::stop_token stop = {})
-      : deadline_(deadline), stop_(std::move(stop)) {}
+      : is_bounded_(true), deadline_(deadline), stop_(std::move(stop)) {}
 
-  bool met() const { return cancelled() || is_short_of_memory() || Clock::now() >= deadline_; }
+  bool met() const {
+    if (!is_bounded_) return false;
+    return step_clock.tick() || cancelled() || is_short_of_memory() || Clock::now() >= deadline_;
+  }
   bool cancelled() const { return stop_.stop_requested(); }
   Clock::time_point deadline() const { return deadline_; }
   const std::stop_token& stop_token() const { return stop_; }
 
  private:
+  bool is_bounded_ = false;
   Clock::time_point deadline_ = Clock::time_point::max();
   std::stop_token stop_;
 };

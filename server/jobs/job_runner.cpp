@@ -3,6 +3,7 @@
 #include <chrono>
 #include <exception>
 #include <string>
+#include <utility>
 
 #include "api/response/error.h"
 #include "server/http/answer/internal_error.h"
@@ -75,6 +76,7 @@ api::Reply JobRunner::run(Exchange& exchange, const Service::Endpoint& endpoint,
   api::Reply reply =
       job.refusal() ? refused(exchange, *job.refusal()) : compute(exchange, endpoint, events, job);
   if (job.refusal()) exchange.retry_after_s = workers_.retry_after_s();
+  if (reply.leftovers) disposal_.take(std::move(reply.leftovers));
   return reply;
 }
 

@@ -6,6 +6,7 @@
 #include "api/endpoints/plan_events.h"
 #include "api/response/reply.h"
 #include "server/http/exchange.h"
+#include "server/jobs/disposal.h"
 #include "server/jobs/parse_slots.h"
 #include "server/jobs/peer_watch.h"
 #include "server/jobs/workers.h"
@@ -45,6 +46,7 @@ class JobRunner {
   const RequestLog& log_;
   std::stop_source cancel_all_;
   PeerWatch peers_;
+  Disposal disposal_;
   Workers workers_;
   ParseSlots parse_slots_;
 };

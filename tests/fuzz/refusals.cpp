@@ -37,8 +37,9 @@ void require_proper_refusal(std::string_view body, const api::Reply& reply) {
   if (reply.status == 400) return;
   require(reply.status == 422, "a rejection has a status other than 400 and 422", reply.body);
   const Json& faults = problem.at("errors");
-  const bool late = problem.at("code") == "check_unfinished" || problem.at("code") == "parse_unfinished";
-  require(faults.empty() == late, "faults are missing, or present although the time ran out", reply.body);
+  const std::string code = problem.at("code");
+  const bool spent = code == "check_unfinished" || code == "parse_unfinished" || code == "memory_exceeded";
+  require(faults.empty() == spent, "faults are missing, or present although a budget was spent", reply.body);
   const Json document = Json::parse(body, nullptr, false);  // discarded where a number is too large for it
   if (document.is_discarded() || has_duplicate(faults)) return;
   for (const Json& fault : faults) require_existing_member(document, fault, reply.body);

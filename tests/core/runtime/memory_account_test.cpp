@@ -130,10 +130,11 @@ TEST(MemoryScope, ReturnsToTheAccountAroundIt) {
 TEST(StopCondition, IsMetWhileTheJobIsShortOfMemory) {
   MemoryAccount account(8 * kMiB);
   const MemoryScope scope(&account);
-  const StopCondition stop;
+  const StopCondition stop(StopCondition::Clock::time_point::max());
   EXPECT_FALSE(stop.met());
   auto most = block(7 * kMiB);
   EXPECT_TRUE(stop.met());
+  EXPECT_FALSE(StopCondition().met()) << "what has to be completed uses it";
   EXPECT_FALSE(stop.cancelled());
   most.reset();
   EXPECT_FALSE(stop.met());

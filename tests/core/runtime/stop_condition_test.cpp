@@ -28,5 +28,17 @@ TEST(StopCondition, IsMetOnceAStopIsRequested) {
   EXPECT_TRUE(stop.cancelled());
 }
 
+TEST(StopCondition, IsMetAfterTheStepsOfATest) {
+  const StopCondition stop(Clock::time_point::max());
+  step_clock = {0, 2};
+  EXPECT_FALSE(stop.met());
+  EXPECT_FALSE(stop.met());
+  EXPECT_TRUE(stop.met());
+  EXPECT_FALSE(StopCondition().met());
+  EXPECT_EQ(step_clock.steps, 3);
+  step_clock = {};
+  EXPECT_FALSE(stop.met());
+}
+
 }  // namespace
 }  // namespace fleetplan::core

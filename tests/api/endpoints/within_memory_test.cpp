@@ -1,0 +1,90 @@
+#include "api/endpoints/within_memory.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "api/endpoints/plan_endpoint.h"
+#include "api/endpoints/validate_endpoint.h"
+#include "core/runtime/memory_account.h"
+#include "tests/api/support/requests.h"
+
+namespace fleetplan::api {
+namespace {
+
+using testing::HasSubstr;
+
+RequestContext context_with(std::size_t mebibytes) {
+  RequestContext context;
+  context.request_id = "test-7";
+  context.limits.max_plan_memory = mebibytes << 20;
+  return context;
+}
+
+std::vector<char> block(std::size_t mebibytes) { return std::vector<char>(mebibytes << 20); }
+
+TEST(WithinMemory, RejectsWorkThatNeedsMoreThanItsLimit) {
+  const Reply reply = within_memory(context_with(8), [] {
+    block(9);
+    return Reply{};
+  });
+  EXPECT_EQ(reply.status, 422);
+  EXPECT_EQ(json_of(reply)["code"], "memory_exceeded");
+  EXPECT_EQ(json_of(reply)["request_id"], "test-7");
+  EXPECT_THAT(json_of(reply)["detail"].get<std::string>(), HasSubstr("8 MiB"));
+}
+
+TEST(WithinMemory, LeavesMuchMemoryToBeFreedAfterTheAnswer) {
+  const Reply large = within_memory(context_with(64), [] {
+    core::keep_for_later(std::make_shared<std::vector<char>>(block(16)));
+    return Reply{};
+  });
+  EXPECT_TRUE(large.leftovers);
+  const Reply small = within_memory(context_with(64), [] {
+    core::keep_for_later(std::make_shared<std::vector<char>>(block(1)));
+    return Reply{};
+  });
+  EXPECT_FALSE(small.leftovers);
+}
+
+TEST(WithinMemory, IsForTheBodiesOfBothEndpoints) {
+  Json request = swap_request();
+  request["map"]["rows"] = Json::array();
+  for (int row = 0; row < 2000; ++row) request["map"]["rows"].push_back(std::string(1000, '.'));
+  request["plans"] = Json::array();
+  EXPECT_EQ(json_of(validate_endpoint(request.dump(), context_with(1)))["code"], "memory_exceeded");
+  request.erase("plans");
+  EXPECT_EQ(json_of(plan_endpoint(request.dump(), context_with(1)))["code"], "memory_exceeded");
+}
+
+TEST(WithinMemory, AnswersWithoutAPlanWhenThePlannerNeedsMore) {
+  const Planner greedy = [](const auto&, const auto&, const auto&, auto*) -> core::Plan {
+    block(64);
+    return {};
+  };
+  const Reply reply = plan_with(greedy, swap_request().dump(), context_with(32));
+  ASSERT_EQ(reply.status, 200);
+  const Json answer = json_of(reply);
+  EXPECT_EQ(answer["status"], "none");
+  EXPECT_EQ(answer["deterministic"], false);
+  EXPECT_EQ(answer["unplanned"][0]["reason"], "budget_exhausted");
+  EXPECT_EQ(answer["unplanned"][0]["detail"], core::kMemorySpent);
+}
+
+/// The planner has used its memory, but still holds a plan to be checked.
+TEST(WithinMemory, ChecksThePlanOfAJobThatIsShortOfMemory) {
+  const Planner hoarder = [](const core::Problem& problem, const auto& options, const auto& stop, auto*) {
+    core::Plan plan = core::plan(problem, options, stop);
+    core::MemoryScope::current()->keep(std::make_shared<std::vector<char>>(block(25)));
+    EXPECT_TRUE(core::is_short_of_memory());
+    return plan;
+  };
+  const Json answer = json_of(plan_with(hoarder, swap_request().dump(), context_with(32)));
+  EXPECT_EQ(answer["status"], "solved");
+  EXPECT_EQ(answer["verified"], true);
+}
+
+}  // namespace
+}  // namespace fleetplan::api
