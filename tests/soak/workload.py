@@ -1,5 +1,6 @@
 """The requests of the clients: valid ones, and invalid ones with the expected status."""
 
+import gzip
 import json
 import pathlib
 import random
@@ -93,6 +94,8 @@ def malformed_requests(limits):
     host = b"Host: localhost\r\n"
     post = b"POST /v1/plan HTTP/1.1\r\n" + host
     json_post = post + b"Content-Type: application/json\r\n"
+    chunked = json_post + b"Transfer-Encoding: chunked\r\n\r\n"
+    cut_off = gzip.compress(b"{}")[:-8]  # without checksum and length
     return [
         (b"GET / HTTP/1.1\n\n", 400), (b"PRI * HTTP/2.0\r\n\r\n", 400), (b"GET /a b HTTP/1.1\r\n" + host + b"\r\n", 400),
         (b"GET / HTTP/1.1\r\n\r\n", 400), (b"GET / HTTP/1.1\r\n" + host + host + b"\r\n", 400),
@@ -107,6 +110,9 @@ def malformed_requests(limits):
         (b"GET /" + b"a" * 70_000 + b" HTTP/1.1\r\n" + host + b"\r\n", 414),
         (b"GET / HTTP/1.1\r\n" + b"A: b\r\n" * 200 + b"\r\n", 431),
         (b"GET /nowhere HTTP/1.1\r\n" + host + b"\r\n", 404), (b"DELETE /v1/plan HTTP/1.1\r\n" + host + b"\r\n", 405),
+        (chunked + b"2;\r\n{}\r\n0\r\n\r\n", 400), (chunked + b"2\n{}\r\n0\r\n\r\n", 400),
+        (chunked + b"2\r\n{}\r\n0\r\nA: b\n\r\n", 400), (b"GET /#a HTTP/1.1\r\n" + host + b"\r\n", 400),
+        (json_post + b"Content-Encoding: gzip\r\nContent-Length: %d\r\n\r\n" % len(cut_off) + cut_off, 400),
         (post + b"Content-Length: 2\r\n\r\n{}", 415),
         (post + b"Content-Type: text/plain\r\nContent-Length: 2\r\n\r\n{}", 415),
         (json_post + b"Content-Encoding: br\r\nContent-Length: 2\r\n\r\n{}", 415),
