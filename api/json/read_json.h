@@ -28,7 +28,7 @@ struct JsonError {
     malformed,  // the detail has line, column and byte
     too_deep,
     too_large,   // more values than any request needs
-    unfinished,  // the stop was met, with a detail only if nobody cancelled
+    unfinished,  // the stop was met first; no detail
   };
   Kind kind = Kind::malformed;
   std::string detail;
