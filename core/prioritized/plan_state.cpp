@@ -120,6 +120,13 @@ void PlanState::restore(const Reservations& reservations) {
   }
 }
 
+void PlanState::finish_with(const Reservations& reservations) {
+  reservations_ = reservations;
+  planned_count_ = static_cast<std::size_t>(
+      std::count_if(reservations_.trajectories.begin(), reservations_.trajectories.end(),
+                    [](const auto& trajectory) { return trajectory.has_value(); }));
+}
+
 PlanState::SearchSpace& PlanState::search_space(std::size_t robot) {
   if (!search_spaces_[robot]) {
     discard_search_spaces_except(robot);

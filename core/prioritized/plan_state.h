@@ -57,6 +57,8 @@ class PlanState {
   const Reservations& reservations() const { return reservations_; }
   /// Replaces all reservations.
   void restore(const Reservations& reservations);
+  /// Replaces the trajectories only, which takes no time; no search may follow.
+  void finish_with(const Reservations& reservations);
 
   /// None for a robot that does not follow a trajectory.
   const std::optional<Trajectory>& trajectory(std::size_t robot) const {

@@ -80,7 +80,7 @@ class PrioritizedPlanning {
                      time_.all);
     }
     if (may_try_again) try_other_orders(ordering.hopeless);
-    state_.restore(best_->reservations);
+    return_to_best();
     PartialPlan partial = explain(state_, best_->plan, time_.all);
     result_.cut_off = result_.cut_off || partial.cut_off;
     result_.unplanned = std::move(partial.unplanned);
@@ -92,6 +92,16 @@ class PrioritizedPlanning {
     SafePlan plan;
     PlanState::Reservations reservations;
   };
+
+  /// After the deadline no search follows, whatever else the stop condition may be met for.
+  void return_to_best() {
+    const bool over = time_.all.cancelled() || StopCondition::Clock::now() >= time_.all.deadline();
+    if (over) {
+      state_.finish_with(best_->reservations);
+    } else {
+      state_.restore(best_->reservations);
+    }
+  }
 
   static bool solved(const OrderingResult& ordering) {
     return ordering.unsolved.empty() && ordering.given_up.empty();
