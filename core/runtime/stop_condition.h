@@ -35,7 +35,15 @@ class StopCondition {
 
   bool met() const {
     if (!is_bounded_) return false;
-    return step_clock.tick() || cancelled() || is_short_of_memory() || Clock::now() >= deadline_;
+    return step_clock.tick() || cancelled() || (heeds_memory_ && is_short_of_memory()) ||
+           Clock::now() >= deadline_;
+  }
+  /// The same, but not met while the job is short of memory: for the end of a job, which has memory set
+  /// apart.
+  StopCondition despite_memory() const {
+    StopCondition without = *this;
+    without.heeds_memory_ = false;
+    return without;
   }
   bool cancelled() const { return stop_.stop_requested(); }
   Clock::time_point deadline() const { return deadline_; }
@@ -43,6 +51,7 @@ class StopCondition {
 
  private:
   bool is_bounded_ = false;
+  bool heeds_memory_ = true;
   Clock::time_point deadline_ = Clock::time_point::max();
   std::stop_token stop_;
 };

@@ -80,7 +80,7 @@ TEST(Enclosure, NeverClosesOffARobotThatHasAPath) {
     auto problem = Problem::create(grid, robots);
     while (robots.size() > 1 && !std::holds_alternative<Problem>(problem)) {
       robots.erase(robots.begin() +
-                   static_cast<std::ptrdiff_t>(std::get<std::vector<ProblemFault>>(problem).front().robot));
+                   static_cast<std::ptrdiff_t>(std::get<ProblemFaults>(problem).listed.front().robot));
       problem = Problem::create(grid, robots);
       if (robots.empty() || !robots.front().goal) break;
     }
