@@ -41,8 +41,8 @@ class ParseStop {
 
   void set_budget(std::chrono::nanoseconds budget);
   bool has_budget() const { return deadline_ != Clock::time_point::max(); }
-  /// For computations on what was read.
-  core::StopCondition condition() const { return core::StopCondition(deadline_, stop_); }
+  /// For computations on what was read. They end with an exception if the memory does not suffice.
+  core::StopCondition condition() const { return core::StopCondition(deadline_, stop_).despite_memory(); }
 
   static std::chrono::nanoseconds thread_cpu_time();
 

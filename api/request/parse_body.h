@@ -45,7 +45,8 @@ Result<Request, RequestError> parse_body(std::string_view body, const Limits& li
   auto document = read_json(body, limits.max_depth, stop);
   if (!document) return request_error(document.failure(), stop);
   std::optional<Request> request = parse(JsonReader(*document).object(members), document->stop);
-  if (document->stop.met()) return unfinished(document->stop);
+  const bool ended = !request && document->faults.empty();
+  if (ended || document->stop.met()) return unfinished(document->stop);
   if (!document->faults.empty()) return request_error(document->faults);
   return std::move(*request);
 }

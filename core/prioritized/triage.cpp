@@ -73,7 +73,7 @@ class Triage {
     }
     if (!instance_.contacts().too_many(i)) return;
     give_up(i, Reason::start_blocked, "The inflated robot overlaps too many others at its start to leave it.",
-            instance_.contacts().at_start(i));
+            starts_.overlapping(i, instance_.robot(i).start.position));
   }
 
   void check_goal(std::size_t i) {

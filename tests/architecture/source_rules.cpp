@@ -33,7 +33,7 @@ const std::vector<Layer>& layers() {
   static const std::vector<Layer> all = {
       {"core/",
        {"core/"},
-       {"Eigen/"},
+       {"Eigen/", "malloc.h"},
        false,
        {"getenv", "cout", "cerr", "clog", "printf", "fprintf", "puts", "std::exit", "std::abort",
         "system_clock", "random_device", "rand", "srand", "spdlog", "nlohmann", "httplib"}},

@@ -112,6 +112,11 @@ TEST(Queue, MakesFirstPlansWhileOthersImproveTheirs) {
     improving.push_back(std::make_unique<RawConnection>(server.server.port()));
     post(*improving.back(), endless_request());
   }
+  const auto has_metric = [&](const char* line) {
+    const auto metrics = server.client().Get("/metrics");
+    return metrics && metrics->body.find(line) != std::string::npos;
+  };
+  ASSERT_TRUE(holds_soon([&] { return has_metric("fleetplan_improvements_paused 1\n"); }));
   for (int k = 0; k < 3; ++k) {
     const auto planned = server.client().Post("/v1/plan", request_with_budget(50'000).dump(), kJsonType);
     ASSERT_TRUE(planned);
@@ -119,13 +124,7 @@ TEST(Queue, MakesFirstPlansWhileOthersImproveTheirs) {
     EXPECT_EQ(Json::parse(planned->body)["status"], "solved");
   }
   // The worker has one paused improvement at most, so that of two, one has ended with what it had.
-  const auto count_ended = [&](const std::string& metrics) {
-    return metrics.find("fleetplan_improvements_ended_total 1") != std::string::npos;
-  };
-  EXPECT_TRUE(holds_soon([&] {
-    const auto metrics = server.client().Get("/metrics");
-    return metrics && count_ended(metrics->body);
-  }));
+  EXPECT_TRUE(holds_soon([&] { return has_metric("fleetplan_improvements_ended_total 1\n"); }));
 }
 
 TEST(Queue, EstimatesRetryAfterFromTheWorkAhead) {
