@@ -70,8 +70,9 @@ Json endless_request() {
 
 void post(const RawConnection& client, const Json& request) {
   const std::string body = request.dump();
-  client.send("POST /v1/plan HTTP/1.1\r\nContent-Type: application/json\r\nContent-Length: " +
-              std::to_string(body.size()) + "\r\n\r\n" + body);
+  client.send(
+      "POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: " +
+      std::to_string(body.size()) + "\r\n\r\n" + body);
 }
 
 TEST(Queue, RefusesARequestWhoseTurnDoesNotComeInItsTime) {
