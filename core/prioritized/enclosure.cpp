@@ -23,10 +23,10 @@ constexpr std::int64_t kMaxFloods = 24;
 /// Of the width of a way, metres.
 constexpr double kGapAccuracy = 0.001;
 
-enum class Side : std::uint8_t { none, start, goal };
-constexpr std::array<Side, 2> kSides{Side::start, Side::goal};
-
 }  // namespace
+
+/// Where a cell was reached from.
+enum class Enclosure::Side : std::uint8_t { none, start, goal };
 
 /// The cells that were reached from the start and from the goal.
 struct Enclosure::Flood {
@@ -34,6 +34,7 @@ struct Enclosure::Flood {
 
   Answer answer = Answer::unknown;
   PagedArray<Side> reached;
+  static constexpr std::array<Side, 2> kSides{Side::start, Side::goal};
   std::array<std::vector<Cell>, 2> cells;     // in order of distance, by side
   std::array<std::size_t, 2> expanded{};      // of the cells
   std::array<std::vector<Disk*>, 2> closing;  // disks at borders that are not crossable
@@ -116,13 +117,13 @@ Enclosure::Flood Enclosure::flood(std::int64_t max_steps) {
   Flood flood(grid_);
   const Robot& robot = instance_.robot(robot_);
   const std::array<Cell, 2> begins{grid_.cell_at(robot.start.position), grid_.cell_at(robot.goal->position)};
-  for (std::size_t side = 0; side < kSides.size(); ++side) {
-    flood.reached[grid_.index(begins[side])] = kSides[side];
+  for (std::size_t side = 0; side < Flood::kSides.size(); ++side) {
+    flood.reached[grid_.index(begins[side])] = Flood::kSides[side];
     flood.cells[side].push_back(begins[side]);
   }
   if (begins[0] == begins[1]) flood.answer = Answer::open;
   while (flood.answer == Answer::unknown && steps_ <= max_steps) {
-    for (std::size_t side = 0; side < kSides.size() && flood.answer == Answer::unknown; ++side) {
+    for (std::size_t side = 0; side < Flood::kSides.size() && flood.answer == Answer::unknown; ++side) {
       expand(flood, side);
       if (flood.answer == Answer::open || flood.expanded[side] < flood.cells[side].size()) continue;
       flood.answer = Answer::closed;
@@ -144,7 +145,7 @@ void Enclosure::expand(Flood& flood, std::size_t side) {
     const Cell next{cell.column + step.columns, cell.row + step.rows};
     if (!grid_.inside(next)) continue;
     Side& reached = flood.reached[grid_.index(next)];
-    if (reached == kSides[side]) continue;
+    if (reached == Flood::kSides[side]) continue;
     const Position begin = grid_.resolution() * Position(cell.column + step.begin_column,  //
                                                          cell.row + step.begin_row);
     if (!crossable({begin, step.columns != 0}, flood, side)) continue;
@@ -152,7 +153,7 @@ void Enclosure::expand(Flood& flood, std::size_t side) {
       flood.answer = Answer::open;
       return;
     }
-    reached = kSides[side];
+    reached = Flood::kSides[side];
     flood.cells[side].push_back(next);
   }
 }

@@ -53,6 +53,7 @@ class Enclosure {
     Position begin;
     bool vertical;
   };
+  enum class Side : std::uint8_t;
   struct Flood;
 
   double required_clearance() const;

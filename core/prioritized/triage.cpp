@@ -13,7 +13,7 @@ using Reason = Unplanned::Reason;
 
 /// The effort for paths on the map, expansions of all robots together: about a tenth of a second. Other paths
 /// are tested when a robot is planned for the first time.
-constexpr std::int64_t kMaxExpansions = 50'000;
+constexpr std::int64_t kMaxMapExpansions = 50'000;
 
 class Triage {
  public:
@@ -90,7 +90,7 @@ class Triage {
   }
 
   void check_path(std::size_t i) {
-    const std::int64_t left = kMaxExpansions - state_.map_expansions();
+    const std::int64_t left = kMaxMapExpansions - state_.map_expansions();
     if (left <= 0) return;
     const Way& way = state_.way_to_goal(i, left, stop_);
     if (way.none()) return give_up_without_way(i, way);

@@ -10,7 +10,7 @@ namespace fleetplan::server {
 
 namespace {
 
-constexpr std::size_t kStep = 64 * 1024;
+constexpr std::size_t kPiece = 64 * 1024;
 constexpr int kGzipOnly = 16 + MAX_WBITS;
 
 /// A decoder for one member after the other.
@@ -30,11 +30,11 @@ class Inflater {
     while (valid_ && !ended_) {
       feed();
       stream_.next_out = reinterpret_cast<Bytef*>(buffer_.data());
-      stream_.avail_out = kStep;
+      stream_.avail_out = kPiece;
       const int result = inflate(&stream_, Z_NO_FLUSH);
       valid_ = result == Z_OK || result == Z_STREAM_END;
       if (result == Z_STREAM_END) end_member();
-      if (valid_ && stream_.avail_out < kStep) return {buffer_.data(), kStep - stream_.avail_out};
+      if (valid_ && stream_.avail_out < kPiece) return {buffer_.data(), kPiece - stream_.avail_out};
     }
     return {};
   }
@@ -46,7 +46,7 @@ class Inflater {
   /// zlib counts the input in 32 bits.
   void feed() {
     if (stream_.avail_in > 0) return;
-    stream_.avail_in = static_cast<uInt>(std::min(left_, kStep));
+    stream_.avail_in = static_cast<uInt>(std::min(left_, kPiece));
     left_ -= stream_.avail_in;
   }
 
@@ -59,7 +59,7 @@ class Inflater {
   std::size_t left_;  // of the input, not fed yet
   bool valid_ = true;
   bool ended_ = false;
-  std::array<char, kStep> buffer_;
+  std::array<char, kPiece> buffer_;
 };
 
 }  // namespace

@@ -9,12 +9,12 @@ namespace fleetplan::server {
 
 namespace {
 
-constexpr std::string_view kAny = "*";
+constexpr std::string_view kAnyHost = "*";
 
 }  // namespace
 
 AllowedHosts::AllowedHosts(std::string_view listening, const std::vector<std::string>& names)
-    : any_(!is_local_name(listening) || std::find(names.begin(), names.end(), kAny) != names.end()) {
+    : any_(!is_local_name(listening) || std::find(names.begin(), names.end(), kAnyHost) != names.end()) {
   for (const std::string& name : names) names_.push_back(lower_case(name));
 }
 
@@ -27,7 +27,7 @@ bool AllowedHosts::admits(const RequestHead& head) const {
 }
 
 std::optional<std::string> host_name_fault(std::string_view name) {
-  if (name == kAny) return std::nullopt;
+  if (name == kAnyHost) return std::nullopt;
   const auto authority = parse_authority(name);
   if (authority && authority->port.empty() && !name.ends_with(':')) return std::nullopt;
   return in_quotes(name) + " is not the name of a host such as fleet.example (without port), nor *";
