@@ -32,9 +32,10 @@ Reply unfinished(const ValidateRequest& request, const core::StopCondition& stop
 Reply validate_endpoint(std::string_view body, const RequestContext& context) {
   const auto request = parse_validate_request(body, context.limits);
   if (!request) return problem_reply(request.failure(), context.request_id);
-  using Steady = core::StopCondition::Clock;
-  if (context.await_turn) context.await_turn(core::StopCondition(Steady::time_point::max(), context.stop));
-  const core::StopCondition stop(Steady::now() + request->budget, context.stop);
+  if (context.await_turn) {
+    context.await_turn(core::StopCondition(RequestContext::Clock::time_point::max(), context.stop));
+  }
+  const core::StopCondition stop(RequestContext::Clock::now() + request->budget, context.stop);
   const auto report = core::verify(request->grid, request->robots, request->plans, request->tolerance, stop);
   if (!report) return unfinished(*request, stop, context.request_id);
   return {200, kJson, write_report(*report, request->robots)};
