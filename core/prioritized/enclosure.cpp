@@ -98,7 +98,7 @@ std::optional<double> Enclosure::widest_way(double limit, std::int64_t max_steps
 }
 
 /// Puts the removed disks back, one by one, if the way remains open with them.
-std::vector<std::size_t> Enclosure::necessary(std::vector<Disk*> removed, std::int64_t max_steps) {
+std::vector<std::size_t> Enclosure::necessary(const std::vector<Disk*>& removed, std::int64_t max_steps) {
   std::vector<std::size_t> robots;
   std::int64_t floods = 0;
   for (Disk* disk : removed) {

@@ -182,11 +182,11 @@ SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, cons
 
 SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
   if (!goal_stays_free(robot)) return {};
-  const SearchResult no_memory{std::nullopt, false, 0};
-  SearchResult result = within_memory(no_memory, [&]() -> SearchResult {
+  constexpr auto no_memory = [] { return SearchResult{std::nullopt, false, 0}; };
+  SearchResult result = within_memory(no_memory(), [&]() -> SearchResult {
     constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
     const Way& way = way_to_goal(robot, kAnyNumber, stop);
-    if (way.kind == Way::Kind::unknown) return no_memory;
+    if (way.kind == Way::Kind::unknown) return no_memory();
     if (way.none()) return {};
     SearchSpace& space = search_space(robot);
     SearchLimits within = limits;

@@ -12,10 +12,12 @@ namespace fleetplan::core {
 /// Asked by a long search whether it can end, because there is no path.
 class NoPathTest {
  public:
-  virtual bool no_path(std::int64_t expansions) = 0;
+  NoPathTest() = default;
+  virtual ~NoPathTest() = default;
+  NoPathTest(const NoPathTest&) = delete;
+  NoPathTest& operator=(const NoPathTest&) = delete;
 
- protected:
-  ~NoPathTest() = default;
+  virtual bool no_path(std::int64_t expansions) = 0;
 };
 
 /// The parameters of the search for one robot: limits of cost and effort, and the accepted suboptimality.
