@@ -64,7 +64,7 @@ class Enclosure {
   void cover_by(const Border& border, const Position& low, const Position& high, double distance);
   std::vector<Disk*> disks_near(const Border& border);
   bool fully_covered(double length);
-  std::vector<std::size_t> necessary(std::vector<Disk*> removed, std::int64_t max_steps);
+  std::vector<std::size_t> necessary(const std::vector<Disk*>& removed, std::int64_t max_steps);
 
   const Instance& instance_;
   const OccupancyGrid& grid_;
