@@ -37,6 +37,12 @@ server::Settings settings() {
   return settings;
 }
 
+std::string joined(const Requests& requests) {
+  std::string text;
+  for (const std::string& request : requests) text += request + '\n';
+  return text;
+}
+
 /// Until the connection ends.
 void serve(server::Connection&& connection) {
   while (const auto wait = connection.go_on()) {
@@ -135,7 +141,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t packet = std::max<std::size_t>(1 + data[0], bytes.size() / 100);
   const Conversation whole = converse(bytes, 0);
   const Conversation cut = converse(bytes, packet);
-  require(whole.requests == cut.requests, "the requests depend on the packets");
+  require(whole.requests == cut.requests, "the requests depend on the packets",
+          joined(whole.requests) + "\n--- in packets of " + std::to_string(packet) + " bytes:\n" +
+              joined(cut.requests));
   require(statuses(whole.answers) == statuses(cut.answers), "the answers depend on the packets",
           whole.answers + "\n---\n" + cut.answers);
   return 0;

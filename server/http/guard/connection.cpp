@@ -144,7 +144,8 @@ void Connection::begin_exchange() {
 
 bool Connection::head() {
   if (scanner_.size() == 0) skip_empty_lines(input_);
-  const HeadScanner::State state = scanner_.scan(input_);
+  const bool in_empty_line = scanner_.size() == 0 && input_ == "\r";
+  const auto state = in_empty_line ? HeadScanner::State::incomplete : scanner_.scan(input_);
   if (state == HeadScanner::State::incomplete && input_.size() <= kMaxHeadBytes) {
     const Input input = receive();
     if (input == Input::some && !exchange_->memory->grow_to(input_.size())) {
