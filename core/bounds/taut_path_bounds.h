@@ -28,7 +28,7 @@ class TautPathBounds {
   using RobotsByRadius = std::map<double, std::vector<std::size_t>>;
 
   /// Replaces the bounds of these robots by those of their taut paths.
-  void improve(const Instance& instance, const RobotsByRadius& robots, const std::vector<double>& costs,
+  void improve(const Instance& instance, const RobotsByRadius& out_of_sight, const std::vector<double>& costs,
                const StopCondition& stop);
 
   std::vector<double> seconds_;  // by robot
