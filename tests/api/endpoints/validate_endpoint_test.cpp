@@ -219,7 +219,8 @@ TEST(ValidateEndpoint, StopsWhenTheBudgetIsSpent) {
   context.limits.default_budget_ms = 1;
   const Reply reply = validate_endpoint(heap_request(100, 40).dump(), context);
   EXPECT_EQ(reply.status, 422);
-  EXPECT_EQ(json_of(reply)["code"], "check_unfinished");
+  // On a busy machine, reading may have spent it already.
+  EXPECT_THAT(json_of(reply)["code"], testing::AnyOf("check_unfinished", "parse_unfinished"));
   Json patient = heap_request(100, 40);
   patient["options"] = {{"time_budget_ms", 100'000}};
   EXPECT_EQ(validate_endpoint(patient.dump(), context).status, 200);

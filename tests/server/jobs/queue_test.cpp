@@ -81,7 +81,7 @@ TEST(Queue, RefusesARequestWhoseTurnDoesNotComeInItsTime) {
   const RawConnection running(server.server.port());
   send_gate(running);
   stub.gate.await_waiting(1);
-  const auto result = server.client().Post("/v1/plan", request_with_budget(100).dump(), kJsonType);
+  const auto result = server.client().Post("/v1/plan", request_with_budget(1000).dump(), kJsonType);
   ASSERT_TRUE(result);
   EXPECT_EQ(result->status, 503);
   EXPECT_EQ(Json::parse(result->body)["code"], "overloaded");
