@@ -20,7 +20,8 @@ export class Address {
     this.#session = session;
     this.#opening = opening;
     session.on("request", () => this.#showSoon());
-    addEventListener("hashchange", () => this.#follow());
+    // The event's address: by now, the page may have put that of its request in place of it.
+    addEventListener("hashchange", ({ newURL }) => this.#follow(new URL(newURL).hash));
   }
 
   /** Opens what the address identifies, or else the first of the examples ([{name}]). */
@@ -32,7 +33,7 @@ export class Address {
       if (await this.#opening.link(location.hash)) return;
       problem = this.#session.problem;
     }
-    const first = this.#named() ?? examples[0];
+    const first = this.#named(location.hash) ?? examples[0];
     if (first && (await this.#opening.example(first.name)) && problem) this.#session.setProblem(problem);
   }
 
@@ -43,13 +44,13 @@ export class Address {
     return { address: new URL(fragment, location.href).href, length: fragment.length };
   }
 
-  #named() {
-    return this.#examples.find(({ name }) => `#${name}` === location.hash);
+  #named(fragment) {
+    return this.#examples.find(({ name }) => `#${name}` === fragment);
   }
 
-  #follow() {
-    const named = this.#named();
-    if (isLinkState(location.hash)) this.#opening.link(location.hash);
+  #follow(fragment) {
+    const named = this.#named(fragment);
+    if (isLinkState(fragment)) this.#opening.link(fragment);
     else if (named && named.name !== this.#session.example) this.#opening.example(named.name);
   }
 

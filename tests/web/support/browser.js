@@ -55,16 +55,18 @@ async function begin(page, url) {
   await page.waitForFunction(() => window.fleetplan?.request);
 }
 
-/** Chooses an example and waits until it is drawn. */
+/** Chooses an example and waits until it is drawn, again if it was open already. */
 export async function choose(page, name) {
+  const before = await page.evaluateHandle(() => window.fleetplan.request);
   const expected = await page.evaluate(
     async (example) => (await fetch(`v1/examples/${example}`)).json(),
     name,
   );
   await page.selectOption("#example", name);
   await page.waitForFunction(
-    (text) => JSON.stringify(window.fleetplan.request) === text,
-    JSON.stringify(expected),
+    ({ before, text }) =>
+      window.fleetplan.request !== before && JSON.stringify(window.fleetplan.request) === text,
+    { before, text: JSON.stringify(expected) },
   );
   return expected;
 }
