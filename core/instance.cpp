@@ -36,6 +36,7 @@ Instance::Instance(const Problem& problem, const PlanOptions& options)
       sight_(problem.grid()),
       contacts_(endpoints(problem, lattice_, options.inflation)) {
   for (const Robot& robot : problem.robots()) {
+    itineraries_.push_back(itinerary_of(robot));
     motions_.push_back({robot.radius + options.inflation, robot.linear_speed, robot.angular_speed,
                         options.wait_before_move});
     auto& moves = moves_by_radius_[motions_.back().radius];

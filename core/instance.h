@@ -8,6 +8,7 @@
 #include "core/map/lattice.h"
 #include "core/map/line_of_sight.h"
 #include "core/map/static_moves.h"
+#include "core/model/itinerary.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
 #include "core/motion.h"
@@ -26,6 +27,8 @@ class Instance {
   const PlanOptions& options() const { return options_; }
   const Robot& robot(std::size_t index) const { return problem_.robots()[index]; }
   const Motion& motion(std::size_t index) const { return motions_[index]; }
+  /// What is left to plan for the robot after its committed actions.
+  const Itinerary& itinerary(std::size_t index) const { return itineraries_[index]; }
   const Lattice& lattice() const { return lattice_; }
   const LineOfSight& sight() const { return sight_; }
   /// The pairs of robots that begin or end too near to each other.
@@ -48,6 +51,7 @@ class Instance {
   Lattice lattice_;
   LineOfSight sight_;
   std::vector<Motion> motions_;
+  std::vector<Itinerary> itineraries_;
   Contacts contacts_;
   std::unordered_map<double, std::unique_ptr<StaticMoves>> moves_by_radius_;
   std::vector<StaticMoves*> moves_;  // by robot

@@ -54,6 +54,8 @@ void add_geometry_fault(const core::ProblemFault& found, const std::vector<ReadR
       return read.start.fault(fault::kStartsOverlap, overlap("starts", other(), name, found.gap));
     case Kind::goals_overlap:
       return read.goal.fault(fault::kGoalsOverlap, overlap("goals", other(), name, found.gap));
+    case Kind::committed_collision:
+      return;
   }
 }
 

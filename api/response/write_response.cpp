@@ -36,6 +36,10 @@ std::string_view name_of(core::Unplanned::Reason reason) {
       return "goal_unreachable";
     case core::Unplanned::Reason::blocked_by_robots:
       return "blocked_by_robots";
+    case core::Unplanned::Reason::committed_in_the_way:
+      return "committed_in_the_way";
+    case core::Unplanned::Reason::invalid:
+      return "invalid";
     case core::Unplanned::Reason::budget_exhausted:
       break;
   }

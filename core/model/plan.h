@@ -2,27 +2,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/geometry/position.h"
+#include "core/model/action.h"
 #include "core/model/robot_list.h"
+#include "core/model/visit.h"
 
 namespace fleetplan::core {
 
-/// One rotation, translation or wait of a robot, from one pose to another, at constant speed. Times in
-/// seconds from the start of the plan.
-struct Action {
-  enum class Type { rotate, translate, wait };
-  Type type = Type::wait;
-  double t_start = 0.0;
-  double t_end = 0.0;
-  Pose from;
-  Pose to;
-};
-
-/// The plan of one robot. The actions are contiguous in time and space, begin at t = 0 in the start pose and
-/// end at `cost` in the goal pose, where the robot stays. A robot that does not need to move has no actions
+/// The plan of one robot. The actions are contiguous in time and space, begin at t = 0 in the start pose with
+/// the committed actions, and end at `cost` in the last goal's pose, where the robot stays. A robot that does not need to move has no actions
 /// and cost 0. `lower_bound` bounds the robot's cost alone on the static map from below and never exceeds
 /// `cost`; the checker ignores it.
 struct RobotPlan {
@@ -30,15 +21,34 @@ struct RobotPlan {
   double cost = 0.0;      // seconds
   std::vector<Action> actions;
   double lower_bound = 0.0;  // seconds
+  std::vector<Visit> visits = {};  // one for each goal, in their order; the last one has no end
 };
 
-/// A robot without a plan. It stays at its start, and the plans of other robots keep clear of it.
+/// A robot without a plan. It executes its committed actions, if any, and stays at their end; the plans of
+/// other robots keep clear of it.
 struct Unplanned {
-  enum class Reason { start_blocked, goal_blocked, goal_unreachable, blocked_by_robots, budget_exhausted };
+  enum class Reason {
+    start_blocked,
+    goal_blocked,
+    goal_unreachable,
+    blocked_by_robots,
+    budget_exhausted,
+    committed_in_the_way,  // another's committed motion or an obstacle passes where it stands, see Meeting
+    invalid,               // see Robot::invalid
+  };
   std::size_t robot = 0;
   Reason reason = Reason::budget_exhausted;
   std::string detail;    // a sentence for people, without robot indices
   RobotList blocked_by;  // the blocking robots, ascending
+};
+
+/// A collision that no plan avoids: a robot that cannot leave its place in time from where the committed
+/// motion of another robot, or an obstacle, will pass. The check of a plan exempts these pairs.
+struct Meeting {
+  std::size_t robot = 0;
+  std::optional<std::size_t> other;     // another robot, or
+  std::optional<std::size_t> obstacle;  // index into the problem's obstacles
+  double t = 0.0;                       // seconds; the begin of the overlap
 };
 
 /// The sum (flowtime) and the maximum (makespan) of the planned robots' costs, or of their lower bounds, in
@@ -63,6 +73,7 @@ struct SearchStatistics {
 struct Plan {
   std::vector<RobotPlan> plans;
   std::vector<Unplanned> unplanned;
+  std::vector<Meeting> unavoidable = {};  // by time, each pair once
   Objectives objectives;
   Objectives lower_bound;
   bool deterministic = true;  // false if the clock or the load influenced the plan

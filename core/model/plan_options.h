@@ -11,6 +11,7 @@ struct PlanOptions {
   enum class Objective { flowtime, makespan };
   enum class Priority { shortest_first, longest_first, as_listed, random };
   enum class Reordering { raise_failed, random, none };
+  enum class Replan { all, where_needed };
 
   Mode mode = Mode::first;
   Objective objective = Objective::flowtime;
@@ -22,6 +23,13 @@ struct PlanOptions {
   double wait_before_move = 0.0;     // seconds, >= 0
   bool any_angle = true;
   int connectivity = 8;                        // 4, 8, 16 or 32
+  /// What becomes of previous plans that hold: the search begins with them, or changes them only where another
+  /// robot could not be planned otherwise.
+  Replan replan = Replan::all;
+  /// Seconds, >= 0: |p_i(t) - p_j(t + d)| >= r_i + r_j for all |d| <= interval_margin.
+  double interval_margin = 0.0;
+  /// Metres, >= 0: how much starts may overlap each other or a wall, inflation included.
+  double start_overlap = 0.0;
   std::optional<std::int64_t> max_iterations;  // of `anytime`; nullopt: until the stop condition is met
 };
 

@@ -68,14 +68,15 @@ class FaultSearch {
 
 }  // namespace
 
-Problem::Problem(OccupancyGrid grid, std::vector<Robot> robots)
-    : grid_(std::move(grid)), robots_(std::move(robots)) {}
+Problem::Problem(OccupancyGrid grid, std::vector<Robot> robots, std::vector<MovingObstacle> obstacles)
+    : grid_(std::move(grid)), robots_(std::move(robots)), obstacles_(std::move(obstacles)) {}
 
 std::variant<Problem, ProblemFaults> Problem::create(OccupancyGrid grid, std::vector<Robot> robots,
+                                                     ProblemConditions conditions,
                                                      const StopCondition& stop) {
   ProblemFaults faults = FaultSearch(grid, robots, stop).run();
   if (faults.total > 0 || !faults.finished) return faults;
-  return Problem(std::move(grid), std::move(robots));
+  return Problem(std::move(grid), std::move(robots), std::move(conditions.obstacles));
 }
 
 }  // namespace fleetplan::core

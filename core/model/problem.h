@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "core/map/occupancy_grid.h"
+#include "core/model/moving_obstacle.h"
 #include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
 
@@ -16,12 +18,17 @@ struct ProblemFault {
     start_in_obstacle,  // the robot's disk at its start overlaps a blocked cell or leaves the map
     goal_in_obstacle,   // likewise at its goal
     starts_overlap,     // the starts of `robot` and `other` (< robot) overlap
-    goals_overlap,      // the goals of `robot` and `other` (< robot) overlap
+    goals_overlap,      // the last goals of `robot` and `other` (< robot) overlap
+    /// The committed motion of `robot`, to its own end, meets that of another robot, a robot that stands at its
+    /// start, a wall or the edge of the map.
+    committed_collision,
   };
   Kind kind = Kind::start_in_obstacle;
   std::size_t robot = 0;
-  std::size_t other = 0;  // pairs only
+  std::size_t other = 0;  // pairs only; for committed_collision with a wall, the robot itself
   double gap = 0.0;       // metres, negative: the overlap of the disks, or of the disk and the obstacle
+  std::size_t goal = 0;   // of goal_in_obstacle: its number
+  double t = 0.0;         // of committed_collision: seconds
 };
 
 /// The faults of a map and a set of robots.
@@ -32,23 +39,39 @@ struct ProblemFaults {
   bool finished = true;  // false when the stop condition was met first; then there may be more
 };
 
+/// How much the starts of a problem may overlap, and what moves besides its robots.
+struct ProblemConditions {
+  std::vector<MovingObstacle> obstacles;
+  /// Metres: two bare disks, or a bare disk and a wall, may overlap by so much at the start. 0: contact only.
+  double pair_overlap = 0.0;
+  double wall_overlap = 0.0;
+};
+
 /// A map and robots that can be planned for. A problem that exists is valid: radii and speeds are positive
-/// and finite, every start and goal is clear of obstacles by the bare radius, no two starts and no two goals
-/// overlap (by more than kContactTolerance). The planner relies on this and does not check it again.
+/// and finite, every start and goal is clear of obstacles by the bare radius, no two starts and no two last
+/// goals overlap (by more than kContactTolerance, or starts by more than the conditions allow), and committed
+/// motion collides with nothing that is certain. The planner relies on this and does not check it again.
+/// Robots with Robot::invalid are exempt.
 class Problem {
  public:
   /// The problem, or its faults. `robots` have positive finite radii and speeds.
   static std::variant<Problem, ProblemFaults> create(OccupancyGrid grid, std::vector<Robot> robots,
-                                                     const StopCondition& stop = {});
+                                                     const StopCondition& stop = {}) {
+    return create(std::move(grid), std::move(robots), {}, stop);
+  }
+  static std::variant<Problem, ProblemFaults> create(OccupancyGrid grid, std::vector<Robot> robots,
+                                                     ProblemConditions conditions, const StopCondition& stop);
 
   const OccupancyGrid& grid() const { return grid_; }
   const std::vector<Robot>& robots() const { return robots_; }
+  const std::vector<MovingObstacle>& obstacles() const { return obstacles_; }
 
  private:
-  Problem(OccupancyGrid grid, std::vector<Robot> robots);
+  Problem(OccupancyGrid grid, std::vector<Robot> robots, std::vector<MovingObstacle> obstacles);
 
   OccupancyGrid grid_;
   std::vector<Robot> robots_;
+  std::vector<MovingObstacle> obstacles_;
 };
 
 }  // namespace fleetplan::core

@@ -1,27 +1,49 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/geometry/position.h"
+#include "core/model/action.h"
 
 namespace fleetplan::core {
 
-/// The pose in which a robot comes to rest; without theta, its heading there is free.
+/// A pose in which a robot comes to rest; without theta, its heading there is free.
 struct Goal {
   Position position{0.0, 0.0};
   std::optional<double> theta;  // radians, (-pi, pi]
+  double service = 0.0;         // seconds, >= 0, at rest in the pose
+  double not_before = 0.0;      // seconds, >= 0; the service begins at this time at the earliest
 };
 
 /// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead,
 /// without inertia (paper, Problem Statement).
+///
+/// It visits the goals of `via` in their order and then `goal`, where it stays. Goals are numbered in this
+/// order from 0. A goal is visited when the robot is at rest in its pose for the whole service, after the
+/// goals before it.
 struct Robot {
   std::string id;
   double radius = 0.0;         // metres, > 0
   double linear_speed = 0.0;   // metres per second, > 0
   double angular_speed = 0.0;  // radians per second, > 0
-  Pose start;
-  std::optional<Goal> goal;  // nullopt: parked, it stays at its start
+  Pose start;                  // at t = 0
+  std::optional<Goal> goal;    // nullopt: parked, it stays at its start or its committed end
+  std::vector<Goal> via = {};  // visited before `goal`
+  /// Executed whatever is planned: contiguous from t = 0 in `start`. The plan goes on from their end.
+  std::vector<Action> committed = {};
+  /// Of an earlier plan, from t = 0 in `start`, the committed ones included; nullopt if there is none.
+  std::optional<std::vector<Action>> previous = {};
+  /// Its geometry is at fault: it stands at its start for ever, as an obstacle.
+  bool invalid = false;
+
+  std::size_t goal_count() const { return via.size() + (goal ? 1 : 0); }
+  const Goal& goal_at(std::size_t index) const { return index < via.size() ? via[index] : *goal; }
+  /// Where and when the committed actions end: the start and 0 without any.
+  Pose committed_end() const { return committed.empty() ? start : committed.back().to; }
+  double committed_until() const { return committed.empty() ? 0.0 : committed.back().t_end; }
 };
 
 }  // namespace fleetplan::core

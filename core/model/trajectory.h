@@ -3,15 +3,17 @@
 #include <vector>
 
 #include "core/geometry/segment.h"
+#include "core/model/visit.h"
 
 namespace fleetplan::core {
 
-/// The motion of one robot's centre from t = 0 on. It waits between moves and stays at the end of the last
-/// one. Rotations take place during the waits.
+/// The motion of one robot's centre from t = 0 on, committed moves included. It waits between moves and stays
+/// at the end of the last one. Rotations and services take place during the waits.
 struct Trajectory {
   Position start{0.0, 0.0};
   std::vector<TimedSegment> moves;  // in order of time, each from the end of the previous one; lengths > 0
-  double cost = 0.0;                // seconds until it rests in the goal pose, the last rotation included
+  double cost = 0.0;                // seconds until it rests in the goal pose, the last rotation and service included
+  std::vector<Visit> visits = {};  // to goals of Robot::via that are served after the committed actions
 
   Position end() const { return moves.empty() ? start : moves.back().path.to; }
 };
