@@ -25,9 +25,17 @@ std::string_view name_of(core::Violation::Kind kind) {
     case core::Violation::Kind::wrong_start:
       return "wrong_start";
     case core::Violation::Kind::wrong_goal:
+      return "wrong_goal";
+    case core::Violation::Kind::wrong_visit:
+      return "wrong_visit";
+    case core::Violation::Kind::committed_changed:
+      return "committed_changed";
+    case core::Violation::Kind::margin:
+      return "margin";
+    case core::Violation::Kind::moving_obstacle:
       break;
   }
-  return "wrong_goal";
+  return "moving_obstacle";
 }
 
 }  // namespace

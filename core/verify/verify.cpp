@@ -4,12 +4,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/verify/endpoint_rules.h"
-#include "core/verify/execution.h"
-#include "core/verify/fleet_clearance.h"
-#include "core/verify/motion_rules.h"
-#include "core/verify/obstacle_rules.h"
+#include "core/verify/execution/execution.h"
+#include "core/verify/pairs/fleet_clearance.h"
 #include "core/verify/quantity_text.h"
+#include "core/verify/rules/endpoint_rules.h"
+#include "core/verify/rules/motion_rules.h"
+#include "core/verify/rules/obstacle_rules.h"
 #include "core/verify/violation_list.h"
 
 namespace fleetplan::core {
@@ -38,7 +38,8 @@ Violation collision(const Overlap& overlap, const std::vector<std::size_t>& robo
           overlap.t_deepest,
           overlap.distance,
           contact,
-          std::move(detail)};
+          std::move(detail),
+          {}};
 }
 
 }  // namespace
@@ -57,8 +58,18 @@ std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<
 std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                    const std::vector<RobotPlan>& plans,
                                    const std::vector<Tolerance>& tolerances, const StopCondition& stop) {
+  const std::vector<MovingObstacle> none;
+  CheckRules rules;
+  rules.tolerances = tolerances;
+  return verify({grid, robots, none}, plans, rules, stop);
+}
+
+std::optional<VerifyReport> verify(const CheckedFleet& fleet, const std::vector<RobotPlan>& plans,
+                                   const CheckRules& rules, const StopCondition& stop) {
+  const std::vector<Robot>& robots = fleet.robots;
+  const std::vector<Tolerance>& tolerances = rules.tolerances;
   ViolationList violations;
-  const ObstacleField field(grid);
+  const ObstacleField field(fleet.grid);
   const std::vector<const RobotPlan*> plan_of = plans_by_robot(robots.size(), plans);
   std::vector<std::size_t> checked;  // the robots whose numbers are usable
   std::vector<double> radii;

@@ -12,6 +12,7 @@
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
+#include "core/verify/check_rules.h"
 #include "core/verify/tolerances.h"
 
 namespace fleetplan::core {
@@ -38,16 +39,37 @@ inline constexpr std::size_t kMostViolations = 10'000;
 ///   duration, and the shortest possible one. Also a translation that leads off the line of its heading
 ///   (forwards or backwards): by how many metres, and 0.
 /// - wrong_start, wrong_goal: the distance of the first or the resting pose from the required one, and 0.
-///   Parked robots must rest at their start, in any heading. A robot without a plan is unplanned, which is
-///   allowed.
+///   Parked robots must rest at their start or committed end, in any heading. A robot without a plan is
+///   unplanned, which is allowed.
+/// - wrong_visit: a goal that is not served in its order, in time and for its service, or a visit that a plan
+///   or the `goal` of a wait claims but that does not take place. A time, and the required time; or how far
+///   the robot rests from the goal, and 0.
+/// - committed_changed: a plan that does not begin with the committed actions. By how much the first number
+///   that differs does, and 0; or the number of actions, and of committed ones.
+/// - margin: a robot passes where another one is up to the interval margin earlier or later. The distance of
+///   the centres, and the sum of the radii.
+/// - moving_obstacle: a disk overlaps a moving obstacle; one violation for each uninterrupted overlap. The
+///   distance of the centres, and the sum of the radii.
 struct Violation {
-  enum class Kind { robot_collision, obstacle_collision, discontinuity, speed, wrong_start, wrong_goal };
+  enum class Kind {
+    robot_collision,
+    obstacle_collision,
+    discontinuity,
+    speed,
+    wrong_start,
+    wrong_goal,
+    wrong_visit,
+    committed_changed,
+    margin,
+    moving_obstacle,
+  };
   Kind kind;
-  std::vector<std::size_t> robots;  // indices, ascending; two for robot_collision, one otherwise
+  std::vector<std::size_t> robots;  // indices, ascending; two for robot_collision and margin, one otherwise
   double t = 0.0;                   // seconds; of a collision, the first time at which the overlap is deepest
   double distance = 0.0;            // measured: metres, radians, seconds or metres (radians) per second
   double required = 0.0;            // the limit or required value, same unit
   std::string detail;               // a sentence for people, with units; names no robots by index
+  std::optional<std::size_t> obstacle = {};  // of moving_obstacle: its index
 };
 
 /// The outcome of a check.
@@ -60,17 +82,22 @@ struct VerifyReport {
   bool valid() const { return violations.empty(); }
 };
 
-/// Checks `plans` (at most one for each robot, in any order) against the map and robots: robot against robot,
-/// robot against obstacle and map edge, continuity, speeds, start and goal. A robot without a plan stays at
-/// its start; one with a plan rests where its last action ends. `tolerance` (>= 0) in metres, seconds and
-/// radians. Robots need not form a valid Problem: starts that overlap or are in an obstacle are violations at
-/// t = 0. Exact in continuous time up to rounding, a few ulp of the largest coordinate (1e-13 m on a map of 1
-/// km). Throws std::invalid_argument if a plan belongs to no robot, or two belong to the same one.
+/// Checks `plans` (at most one for each robot, in any order): robot against robot, moving obstacle, wall and
+/// map edge, continuity, speeds, start, visits, goal and commitments. A robot without a plan executes its
+/// committed actions and stays at their end; one with a plan rests where its last action ends. Robots need
+/// not form a valid Problem: starts that overlap or are in an obstacle are violations at t = 0, except those
+/// of robots with Robot::invalid. Exact in continuous time up to rounding, a few ulp of the largest
+/// coordinate (1e-13 m on a map of 1 km). Returns none if `stop` is met first: thousands of robots that move
+/// in one small area may take minutes. Throws std::invalid_argument if a plan belongs to no robot, or two
+/// belong to the same one.
+std::optional<VerifyReport> verify(const CheckedFleet& fleet, const std::vector<RobotPlan>& plans,
+                                   const CheckRules& rules, const StopCondition& stop);
+
+/// The plainest check, without moving obstacles. `tolerance` (>= 0) in metres, seconds and radians.
 VerifyReport verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                     const std::vector<RobotPlan>& plans, double tolerance);
 
-/// The same, but returns none if `stop` is met first. Thousands of robots that move in one small area may
-/// take minutes to check.
+/// The same, but returns none if `stop` is met first.
 std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                    const std::vector<RobotPlan>& plans, double tolerance,
                                    const StopCondition& stop);

@@ -99,7 +99,8 @@ TEST(SourceRules, RejectTheSearchInTheChecker) {
   const std::string path = "core/verify/a.cpp";
   for (const std::string header :
        {"core/reservation/reservation_table.h", "core/sipp/aa_sipp.h", "core/prioritized/plan_state.h",
-        "core/lns/incumbent.h", "core/bounds/lower_bound.h", "core/geometry/disk_motion.h"}) {
+        "core/lns/incumbent.h", "core/bounds/lower_bound.h", "core/replan/a.h",
+        "core/geometry/disk_motion.h"}) {
     EXPECT_THAT(violations(path, "#include \"" + header + "\"\n"),
                 ElementsAre(path + " must not include \"" + header + "\""));
   }

@@ -63,7 +63,7 @@ const std::vector<FolderRule>& folder_rules() {
       {"core/sipp/", all_robots, {}},
       // The checker is independent: it shares no collision test with the search.
       {"core/verify/",
-       {"core/reservation/", "core/sipp/", "core/prioritized/", "core/lns/", "core/bounds/",
+       {"core/reservation/", "core/sipp/", "core/prioritized/", "core/lns/", "core/bounds/", "core/replan/",
         "core/geometry/disk_motion.h"},
        {}},
   };

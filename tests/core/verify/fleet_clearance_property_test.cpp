@@ -8,7 +8,7 @@
 #include <string>
 #include <tuple>
 
-#include "core/verify/fleet_clearance.h"
+#include "core/verify/pairs/fleet_clearance.h"
 #include "tests/core/verify/random_fleet.h"
 #include "tests/core/verify/scene.h"
 

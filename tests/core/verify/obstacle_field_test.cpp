@@ -1,6 +1,6 @@
 // The distance to obstacles in known cases, and compared with a loop over all cells.
 
-#include "core/verify/obstacle_field.h"
+#include "core/verify/geometry/obstacle_field.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/verify/obstacle_field.h"
+#include "core/verify/geometry/obstacle_field.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "core/verify/relative_motion.h"
+#include "core/verify/geometry/relative_motion.h"
 
 #include <algorithm>
 #include <cmath>

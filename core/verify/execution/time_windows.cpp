@@ -1,4 +1,4 @@
-#include "core/verify/time_windows.h"
+#include "core/verify/execution/time_windows.h"
 
 #include <algorithm>
 #include <cmath>

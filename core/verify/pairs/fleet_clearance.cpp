@@ -1,4 +1,4 @@
-#include "core/verify/fleet_clearance.h"
+#include "core/verify/pairs/fleet_clearance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <unordered_map>
 
 #include "core/geometry/tolerance.h"
-#include "core/verify/relative_motion.h"
-#include "core/verify/time_windows.h"
+#include "core/verify/execution/time_windows.h"
+#include "core/verify/geometry/relative_motion.h"
 
 namespace fleetplan::core {
 namespace {

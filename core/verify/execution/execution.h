@@ -22,10 +22,11 @@ struct Leg {
 Position position_at(const Leg& leg, double t);
 
 /// The legs of a robot from t = 0 to infinity, in order, each beginning when the previous one ends. Without a
-/// plan (null), or with one without actions, the robot stays at its start; otherwise it rests where its last
-/// action ends. Invalid plans are executed as follows: in a gap between actions the robot stands; of an
-/// action that begins before the previous one has ended (or before 0), the overlapping part is omitted; an
-/// action that ends before it begins takes no time. Every number of the plan is finite.
+/// plan (null) the robot executes its committed actions. Without actions it stays at its start; otherwise it
+/// rests where its last action ends. Invalid plans are executed as follows: in a gap between actions the
+/// robot stands; of an action that begins before the previous one has ended (or before 0), the overlapping
+/// part is omitted; an action that ends before it begins takes no time. Every number of the plan (and of the
+/// committed actions) is finite.
 std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan);
 
 }  // namespace fleetplan::core

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/verify/execution.h"
+#include "core/verify/execution/execution.h"
 
 namespace fleetplan::core {
 

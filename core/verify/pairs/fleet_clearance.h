@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/runtime/stop_condition.h"
-#include "core/verify/execution.h"
+#include "core/verify/execution/execution.h"
 
 namespace fleetplan::core {
 

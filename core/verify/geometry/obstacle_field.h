@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/map/occupancy_grid.h"
-#include "core/verify/segment_to_rectangle.h"
+#include "core/verify/geometry/segment_to_rectangle.h"
 
 namespace fleetplan::core {
 

@@ -1,4 +1,4 @@
-#include "core/verify/obstacle_rules.h"
+#include "core/verify/rules/obstacle_rules.h"
 
 #include <optional>
 #include <string>

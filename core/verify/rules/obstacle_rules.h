@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/verify/execution.h"
-#include "core/verify/obstacle_field.h"
+#include "core/verify/execution/execution.h"
+#include "core/verify/geometry/obstacle_field.h"
 #include "core/verify/verify.h"
 #include "core/verify/violation_list.h"
 

@@ -1,4 +1,4 @@
-#include "core/verify/endpoint_rules.h"
+#include "core/verify/rules/endpoint_rules.h"
 
 #include <cmath>
 #include <optional>
@@ -46,7 +46,7 @@ std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan
   const Violation blank{
       Violation::Kind::wrong_goal, {plan.robot}, stays ? 0.0 : plan.actions.back().t_end, 0.0, 0.0, ""};
   const Pose& rest = stays ? robot.start : plan.actions.back().to;
-  const Goal required = robot.goal.value_or(Goal{robot.start.position, std::nullopt});
+  const Goal required = robot.goal.value_or(Goal{robot.committed_end().position, std::nullopt});
   const std::string place = robot.goal ? "goal" : "start, where it is parked";
   const auto wrong = check_pose(blank, rest, required, tolerance, "the plan ends", place);
   if (wrong) violations.push_back(*wrong);

@@ -1,4 +1,4 @@
-#include "core/verify/motion_rules.h"
+#include "core/verify/rules/motion_rules.h"
 
 #include <algorithm>
 #include <cmath>
