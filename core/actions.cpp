@@ -1,6 +1,9 @@
 #include "core/actions.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 #include "core/geometry/angle.h"
 
@@ -12,7 +15,12 @@ constexpr double kNegligible = 1e-12;
 
 class ActionList {
  public:
-  explicit ActionList(const Robot& robot) : robot_(robot), pose_(robot.start) {}
+  /// Begins with the committed actions.
+  explicit ActionList(const Robot& robot)
+      : robot_(robot),
+        pose_(robot.committed_end()),
+        now_(robot.committed_until()),
+        actions_(robot.committed) {}
 
   /// Rotates to a heading, then waits until `t_end`.
   void rotate_and_wait(double theta, double t_end) {
@@ -39,15 +47,22 @@ class ActionList {
 
   const Robot& robot_;
   Pose pose_;
-  double now_ = 0.0;
+  double now_;
   std::vector<Action> actions_;
 };
+
+/// Those after the committed actions.
+std::span<const TimedSegment> planned_moves(const Robot& robot, const Trajectory& trajectory) {
+  const auto committed = std::count_if(robot.committed.begin(), robot.committed.end(),
+                                       [](const Action& a) { return a.type == Action::Type::translate; });
+  return std::span(trajectory.moves).subspan(static_cast<std::size_t>(committed));
+}
 
 }  // namespace
 
 std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory) {
   ActionList list(robot);
-  for (const TimedSegment& move : trajectory.moves) {
+  for (const TimedSegment& move : planned_moves(robot, trajectory)) {
     const Position direction = move.path.to - move.path.from;
     list.rotate_and_wait(normalize_angle(std::atan2(direction.y(), direction.x())), move.t_start);
     list.translate(move);

@@ -8,7 +8,8 @@
 
 namespace fleetplan::core {
 
-/// The actions that execute the trajectory. The robot rotates as soon as it has arrived and then waits, so
+/// The actions that execute the trajectory. They begin with the robot's committed actions, whose moves the
+/// trajectory contains. After these the robot rotates as soon as it has arrived and then waits, so
 /// that it already has the next heading while it waits before a translation.
 std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory);
 

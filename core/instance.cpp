@@ -47,11 +47,12 @@ Instance::Instance(const Problem& problem, const PlanOptions& options)
 
 double Instance::radius_at_start(std::size_t index) const {
   const Robot& robot = problem_.robots()[index];
-  return sight_.fitting_radius(robot.start.position, robot.radius - kMostOverlap, motions_[index].radius);
+  return sight_.fitting_radius(itineraries_[index].pose.position, robot.radius - kMostOverlap,
+                               motions_[index].radius);
 }
 
 bool Instance::fits_at_start(std::size_t index) const {
-  return sight_.disk_fits(problem_.robots()[index].start.position, motions_[index].radius);
+  return sight_.disk_fits(itineraries_[index].pose.position, motions_[index].radius);
 }
 
 bool Instance::fits_at_goal(std::size_t index) const {

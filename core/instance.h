@@ -33,8 +33,8 @@ class Instance {
   const LineOfSight& sight() const { return sight_; }
   /// The pairs of robots that begin or end too near to each other.
   const Contacts& contacts() const { return contacts_; }
-  /// The largest disk of the robot, inflated or not, that fits at its start and its goal: its radius, or less
-  /// where a wall is nearer. At the goal, only contact is allowed for.
+  /// The largest disk of the robot, inflated or not, that fits where its plan begins and at its goal: its
+  /// radius, or less where a wall is nearer. At the goal, only contact is allowed for.
   double radius_at_start(std::size_t index) const;
   double radius_at_goal(std::size_t index) const;
   /// No plan of the robot takes so long, seconds.

@@ -16,8 +16,10 @@ double straight_cost(const Pose& from, const Goal& goal, const Motion& motion) {
 }
 
 double lower_bound(const Robot& robot, const Motion& motion) {
-  const bool stays = (robot.goal->position - robot.start.position).norm() <= kSamePosition;
-  return straight_cost(robot.start, *robot.goal, motion) + (stays ? 0.0 : motion.wait_before_move);
+  const Pose from = robot.committed_end();
+  const bool stays = (robot.goal->position - from.position).norm() <= kSamePosition;
+  return robot.committed_until() + straight_cost(from, *robot.goal, motion) +
+         (stays ? 0.0 : motion.wait_before_move);
 }
 
 }  // namespace fleetplan::core

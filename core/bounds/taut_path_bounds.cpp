@@ -19,7 +19,7 @@ constexpr std::int64_t kMaxWork = 30'000'000;
 constexpr std::int64_t kWorkDivisor = 64;
 
 bool sees_goal(const Instance& instance, std::size_t robot, double radius) {
-  return instance.sight().may_sweep(instance.robot(robot).start.position,
+  return instance.sight().may_sweep(instance.itinerary(robot).pose.position,
                                     instance.robot(robot).goal->position, radius);
 }
 
@@ -36,6 +36,7 @@ TautPathBounds::TautPathBounds(const Instance& instance, const std::vector<std::
   RobotsByRadius out_of_sight;  // to share tangents
   for (const std::size_t robot : robots) {
     seconds_[robot] = lower_bound(instance.robot(robot), instance.motion(robot));
+    if (!instance.robot(robot).committed.empty() || !instance.robot(robot).via.empty()) continue;
     const double reduced = instance.motion(robot).radius - 2.0 * TangentGraph::kRadiusReduction;
     if (reduced <= 0.0 || sees_goal(instance, robot, reduced) || !fits_at_ends(instance, robot)) continue;
     out_of_sight[instance.motion(robot).radius].push_back(robot);

@@ -127,7 +127,7 @@ void PlanState::finish_with(const Reservations& reservations) {
                     [](const auto& trajectory) { return trajectory.has_value(); }));
 }
 
-PlanState::SearchSpace& PlanState::search_space(std::size_t robot) {
+SearchSpace& PlanState::search_space(std::size_t robot) {
   if (!search_spaces_[robot]) {
     discard_search_spaces_except(robot);
     search_spaces_[robot] = std::make_unique<SearchSpace>(instance_, robot);
@@ -191,7 +191,7 @@ SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, co
     SearchSpace& space = search_space(robot);
     SearchLimits within = limits;
     within.bound = std::min(limits.bound, instance_.longest_plan(robot));
-    return search_.run(robot, space.vertices, space.cost_to_go, within, stop);
+    return search_.run(robot, space, within, stop);
   });
   expansions_ += result.expansions;
   return result;
@@ -280,8 +280,9 @@ bool PlanState::takes_too_long(std::size_t robot, const StopCondition& stop) {
   return within_memory(false, [&] {
     SearchSpace& space = search_space(robot);
     const Vertices& vertices = space.vertices;
-    return vertices.start() != vertices.goal() &&
-           space.cost_to_go.from(vertices.start(), stop).seconds >= instance_.longest_plan(robot);
+    if (vertices.start() == vertices.goal()) return false;
+    const double seconds = space.cost_to_go.from(vertices.start(), stop).seconds;
+    return space.itinerary.t_begin + seconds >= instance_.longest_plan(robot);
   });
 }
 
@@ -292,7 +293,7 @@ Trajectory PlanState::plan_alone(std::size_t robot, const StopCondition& stop) {
   SearchResult result = within_memory(SearchResult(), [&] {
     SearchSpace& space = search_space(robot);
     AaSipp search(empty);
-    return search.run(robot, space.vertices, space.cost_to_go, {}, stop);
+    return search.run(robot, space, {}, stop);
   });
   return result.trajectory ? std::move(*result.trajectory) : staying(robot);
 }

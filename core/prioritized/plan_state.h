@@ -12,8 +12,7 @@
 #include "core/reservation/reservation_table.h"
 #include "core/runtime/stop_condition.h"
 #include "core/sipp/aa_sipp.h"
-#include "core/sipp/cost_to_go.h"
-#include "core/sipp/vertices.h"
+#include "core/sipp/search_space.h"
 
 namespace fleetplan::core {
 
@@ -97,14 +96,6 @@ class PlanState {
   std::int64_t expansions() const { return expansions_; }
 
  private:
-  /// What a search for one robot needs of the static map.
-  struct SearchSpace {
-    Vertices vertices;
-    CostToGo cost_to_go;
-    SearchSpace(const Instance& instance, std::size_t robot)
-        : vertices(instance, robot), cost_to_go(vertices) {}
-  };
-
   class EnclosureTest;
 
   SearchSpace& search_space(std::size_t robot);

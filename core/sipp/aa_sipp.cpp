@@ -22,14 +22,15 @@ enum class Outcome : std::uint8_t { found, exhausted, incomplete, stopped };
 /// The search for one robot: its inputs and its state. Intervals are indices into SearchState::intervals.
 class Search {
  public:
-  Search(const ReservationTable& table, std::size_t robot, const Vertices& vertices, CostToGo& cost_to_go,
-         const SearchLimits& limits, const StopCondition& stop, SearchState state)
+  Search(const ReservationTable& table, std::size_t robot, SearchSpace& space, const SearchLimits& limits,
+         const StopCondition& stop, SearchState state)
       : table_(table),
         robot_(robot),
-        motion_(vertices.motion()),
+        itinerary_(space.itinerary),
+        motion_(space.vertices.motion()),
         timing_(motion_, table, robot),
-        vertices_(vertices),
-        cost_to_go_(cost_to_go),
+        vertices_(space.vertices),
+        cost_to_go_(space.cost_to_go),
         limits_(limits),
         stop_(stop),
         pause_(std::min(limits.max_expansions, first_test(limits))),
@@ -82,6 +83,7 @@ class Search {
 
   const ReservationTable& table_;
   const std::size_t robot_;
+  const Itinerary& itinerary_;
   const Motion& motion_;
   const EdgeTiming timing_;
   const Vertices& vertices_;
@@ -264,11 +266,13 @@ bool Search::begin(Pass pass) {
 /// Labels and expands the start, unless the robot cannot be there or the goal is out of bound.
 void Search::label_start() {
   const PlaceId start = place_of(vertices_.start());
-  if (state_.places[start].never_safe()) return;
-  const int interval = state_.places[start].first_interval;
-  if (state_.intervals[interval].begin > 0.0) return;
-  // A robot that may stay at its start for good rests there from t = 0, whatever the start delay.
-  const double t = is_final(start, interval) ? 0.0 : limits_.start_delay;
+  const double t_begin = itinerary_.t_begin;
+  const int end = state_.places[start].end_interval;
+  int interval = state_.places[start].first_interval;
+  while (interval < end && state_.intervals[interval].end < t_begin) ++interval;
+  if (interval == end || !state_.intervals[interval].contains(t_begin)) return;
+  // A robot that may stay where it begins for good rests there at once, whatever the start delay.
+  const double t = is_final(start, interval) ? t_begin : t_begin + limits_.start_delay;
   if (!state_.intervals[interval].contains(t)) return;
   const double heading = vertices_.start_pose().theta;
   if (!(evaluate(start, interval, t, heading).cost < limits_.bound)) return;
@@ -357,13 +361,14 @@ PlaceId Search::place_of(int vertex) {
   return known;
 }
 
-/// The path to the goal. Moves that continue straight without a stop are joined.
+/// The committed moves and the path to the goal. Moves of the path that continue straight without a stop are
+/// joined.
 Trajectory Search::trajectory() const {
   std::vector<LabelId> path;
   for (LabelId id = state_.goal_label; id != LabelId::none; id = state_.labels[id].parent) path.push_back(id);
   std::reverse(path.begin(), path.end());
-  Trajectory trajectory;
-  trajectory.start = place_at(path.front()).position;
+  Trajectory trajectory = itinerary_.committed;
+  if (trajectory.moves.empty()) trajectory.start = place_at(path.front()).position;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const Label& from = state_.labels[path[i - 1]];
     const Label& to = state_.labels[path[i]];
@@ -384,9 +389,9 @@ Trajectory Search::trajectory() const {
 
 }  // namespace
 
-SearchResult AaSipp::run(std::size_t robot, const Vertices& vertices, CostToGo& cost_to_go,
-                         const SearchLimits& limits, const StopCondition& stop) {
-  Search search(table_, robot, vertices, cost_to_go, limits, stop, std::move(state_));
+SearchResult AaSipp::run(std::size_t robot, SearchSpace& space, const SearchLimits& limits,
+                         const StopCondition& stop) {
+  Search search(table_, robot, space, limits, stop, std::move(state_));
   Outcome outcome = search.run(Pass::quick);
   if (outcome == Outcome::incomplete && limits.thorough) outcome = search.run(Pass::complete);
   SearchResult result;

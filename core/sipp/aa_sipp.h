@@ -4,10 +4,9 @@
 
 #include "core/reservation/reservation_table.h"
 #include "core/runtime/stop_condition.h"
-#include "core/sipp/cost_to_go.h"
 #include "core/sipp/search_limits.h"
+#include "core/sipp/search_space.h"
 #include "core/sipp/search_state.h"
-#include "core/sipp/vertices.h"
 
 namespace fleetplan::core {
 
@@ -56,9 +55,10 @@ class AaSipp {
  public:
   explicit AaSipp(const ReservationTable& table) : table_(table) {}
 
-  /// Plans `robot` from its start to its goal (which it has). The robot holds no reservation.
-  SearchResult run(std::size_t robot, const Vertices& vertices, CostToGo& cost_to_go,
-                   const SearchLimits& limits, const StopCondition& stop);
+  /// Plans `robot` from the end of its committed actions, or its start, to its goal (which it has). The robot
+  /// holds no reservation.
+  SearchResult run(std::size_t robot, SearchSpace& space, const SearchLimits& limits,
+                   const StopCondition& stop);
 
   /// Frees what is kept for the next search.
   void release_memory() { state_ = SearchState(); }

@@ -22,12 +22,12 @@ Vertices::Vertices(const Instance& instance, std::size_t robot)
       sight_(instance.sight()),
       moves_(instance.moves(robot)),
       any_angle_(instance.options().any_angle),
-      start_pose_(instance.robot(robot).start),
+      start_pose_(instance.itinerary(robot).pose),
       start_(add_start(instance, robot)) {
   const Robot& r = instance.robot(robot);
   if (!r.goal) return;
   goal_heading_ = r.goal->theta;
-  const bool same = (r.goal->position - r.start.position).norm() <= kSamePosition;
+  const bool same = (r.goal->position - start_pose_.position).norm() <= kSamePosition;
   goal_ = same ? start_ : add_goal(instance, robot);
 }
 

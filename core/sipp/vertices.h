@@ -31,6 +31,7 @@ class Vertices {
 
   int count() const { return lattice_.vertex_count() + static_cast<int>(own_.size()); }
   int start() const { return start_; }
+  /// The end of the committed actions, or the robot's start without any.
   const Pose& start_pose() const { return start_pose_; }
   /// -1 for a robot without a goal.
   int goal() const { return goal_; }
