@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/actions.h"
+#include "core/replan/previous_plan.h"
 
 namespace fleetplan::core {
 namespace {
@@ -15,8 +16,12 @@ RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
   const auto& trajectory = state.trajectory(index);
   if (!trajectory) return {index, 0.0, {}, 0.0};  // parked
   const double cost = trajectory->cost;
+  const Robot& robot = state.instance().robot(index);
+  if (trajectory->is_previous) {
+    return {index, cost, previous_actions(robot), std::min(bound, cost), previous_visits(robot)};
+  }
   // Rounding may leave a bound slightly above the cost that it bounds.
-  return {index, cost, to_actions(state.instance().robot(index), *trajectory), std::min(bound, cost)};
+  return {index, cost, to_actions(robot, *trajectory), std::min(bound, cost)};
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "core/planner.h"
 
+#include <algorithm>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,10 +12,13 @@
 #include "core/collect_plan.h"
 #include "core/instance.h"
 #include "core/lns/large_neighbourhood_search.h"
+#include "core/prioritized/plan_around_kept.h"
 #include "core/prioritized/plan_state.h"
 #include "core/prioritized/prioritized_planning.h"
 #include "core/prioritized/progress_report.h"
 #include "core/prioritized/triage.h"
+#include "core/replan/follow_kept.h"
+#include "core/replan/kept_plans.h"
 #include "core/runtime/memory_account.h"
 #include "core/runtime/time_share.h"
 
@@ -28,6 +33,32 @@ std::vector<std::size_t> robots_to_plan(const Instance& instance,
   std::vector<std::size_t> movers;
   for (std::size_t i = 0; i < instance.size(); ++i) {
     if (instance.robot(i).goal && !unplanned[i]) movers.push_back(i);
+  }
+  return movers;
+}
+
+/// The check of previous plans is not part of the budget, but does not take much longer.
+StopCondition beyond_budget(const StopCondition& stop) {
+  using Clock = StopCondition::Clock;
+  constexpr std::chrono::milliseconds kMostBeyond{50};
+  if (stop.deadline() == Clock::time_point::max() && !stop.cancelled()) return stop;
+  const auto now = Clock::now();
+  if (stop.cancelled()) return StopCondition(now + kMostBeyond);
+  return StopCondition(std::max(stop.deadline(), now) + kMostBeyond, stop.stop_token()).despite_memory();
+}
+
+PrioritizedResult first_plan(PlanState& state, const KeptPlans& previous,
+                             const std::vector<std::size_t>& movers, Random& random,
+                             const StopCondition& stop, ProgressReport& progress) {
+  const PlanningTime time = PlanningTime::until(stop);
+  return follow_kept_plans(state, previous) > 0 ? plan_around_kept(state, movers, random, time, progress)
+                                                : plan_prioritized(state, movers, random, time, progress);
+}
+
+/// The robots that large neighbourhood search may plan again.
+std::vector<std::size_t> those_that_may_change(const PlanState& state, std::vector<std::size_t> movers) {
+  if (state.instance().options().replan == PlanOptions::Replan::where_needed) {
+    std::erase_if(movers, [&](std::size_t robot) { return state.trajectory(robot)->is_previous; });
   }
   return movers;
 }
@@ -91,10 +122,10 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   ProgressReport progress(state, observer);
   Random random(options.seed);
 
-  std::vector<std::optional<Unplanned>> unplanned = triage(state, stop);
+  const KeptPlans previous = keep_previous_plans(problem, options, beyond_budget(stop));
+  std::vector<std::optional<Unplanned>> unplanned = triage(state, stop, previous.kept);
   std::vector<std::size_t> movers = robots_to_plan(instance, unplanned);
-  PrioritizedResult prioritized =
-      plan_prioritized(state, movers, random, PlanningTime::until(stop), progress);
+  PrioritizedResult prioritized = first_plan(state, previous, movers, random, stop, progress);
   for (Unplanned& robot : prioritized.unplanned) unplanned[robot.robot] = std::move(robot);
   std::erase_if(movers, [&](std::size_t robot) { return !state.trajectory(robot); });
   progress.plan_found(objectives_of(state));
@@ -112,14 +143,16 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   if (anytime) {
     BeforeRound before_round;
     if (observer != nullptr) before_round = ImprovementReport(state, progress, current_plan);
-    lns = large_neighbourhood_search(state, movers, bounds, random, executor, stop, before_round);
+    lns = large_neighbourhood_search(state, those_that_may_change(state, movers), bounds, random, executor,
+                                     stop, before_round);
   }
 
   Plan plan = current_plan(lns);
   progress.plan_found(plan.objectives);
   const bool may_plan_more = !plan.unplanned.empty() && prioritized.cut_off;
   plan.search.exhausted = !may_plan_more && (anytime ? lns.exhausted : !plan.unplanned.empty());
-  plan.deterministic = !prioritized.cut_off && !bounds.cut_off() && !lns.cut_off && !stop.cancelled();
+  plan.deterministic =
+      !previous.cut_off && !prioritized.cut_off && !bounds.cut_off() && !lns.cut_off && !stop.cancelled();
   keep_for_later(memory);
   return memory_shortages() > 0 ? with_spent_memory_named(std::move(plan)) : plan;
 }

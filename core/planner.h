@@ -18,6 +18,7 @@ inline constexpr const char* kMemorySpent =
 /// Plans collision-free timed motions for all robots of the problem (paper, Method), or for as many as it can
 /// until the stop condition is met:
 ///
+/// 0. Previous plans that hold are kept; the robots that they leave out are planned around them.
 /// 1. Triage: finds the robots that cannot move whatever the others do.
 /// 2. Prioritized planning: a first plan, or a safe partial plan.
 /// 3. Lower bounds of the cost of each robot alone on the map.

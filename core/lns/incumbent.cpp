@@ -9,7 +9,11 @@ Incumbent::Incumbent(const PlanState& state, std::vector<std::size_t> planned)
     : planned_(std::move(planned)),
       trajectories_(state.instance().size()),
       versions_(state.instance().size(), 0) {
-  for (const std::size_t robot : planned_) trajectories_[robot] = *state.trajectory(robot);
+  for (std::size_t robot = 0; robot < trajectories_.size(); ++robot) {
+    if (!state.trajectory(robot)) continue;
+    followers_.push_back(robot);
+    trajectories_[robot] = *state.trajectory(robot);
+  }
 }
 
 std::size_t Incumbent::last_to_arrive() const {

@@ -12,10 +12,12 @@ namespace fleetplan::core {
 /// The best plan so far: a trajectory for each planned robot.
 class Incumbent {
  public:
-  /// The trajectories of the robots of `planned` in `state`.
+  /// The trajectories in `state`; only those of the robots of `planned` may be replaced.
   Incumbent(const PlanState& state, std::vector<std::size_t> planned);
 
   const std::vector<std::size_t>& planned() const { return planned_; }
+  /// All robots with a trajectory, ascending.
+  const std::vector<std::size_t>& followers() const { return followers_; }
   const Trajectory& trajectory(std::size_t robot) const { return trajectories_[robot]; }
   double cost(std::size_t robot) const { return trajectories_[robot].cost; }
   /// The robot of the highest cost; there is at least one.
@@ -26,6 +28,7 @@ class Incumbent {
 
  private:
   std::vector<std::size_t> planned_;
+  std::vector<std::size_t> followers_;
   std::vector<Trajectory> trajectories_;  // by robot
   std::vector<std::int64_t> versions_;    // by robot
 };

@@ -36,8 +36,8 @@ using BeforeRound = std::function<void(const LnsResult& so_far)>;
 /// max_iterations, or when nothing is left to try: when the objective is equal to its lower bound, or no
 /// delayed robot has a cheaper path even if it is alone with the robots that stay. That is tested, robot by
 /// robot, while rounds bring nothing. Replans those of
-/// `movers` that have a trajectory, and `bounds` has their lower bounds; all other robots stay at their
-/// starts.
+/// `movers` that have a trajectory, and `bounds` has their lower bounds. All other robots keep their
+/// trajectories, or stay at their starts.
 ///
 /// Works in rounds of a fixed number of iterations, which all start from the same incumbent and may run on
 /// several threads of the executor. Their changes are accepted in order, except those that conflict with a

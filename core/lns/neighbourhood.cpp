@@ -61,7 +61,7 @@ std::vector<std::size_t> NeighbourhoodSelection::conflicting_with(std::size_t fi
     random.shuffle(conflicting);
     for (const std::size_t robot : conflicting) {
       const bool full = selected.size() == size;
-      if (!full && state_.trajectory(robot) && !contains(selected, robot)) selected.push_back(robot);
+      if (!full && is_planned_[robot] && !contains(selected, robot)) selected.push_back(robot);
     }
   }
   return selected;

@@ -29,8 +29,11 @@ class NeighbourhoodSelection {
   NeighbourhoodSelection(PlanState& state, std::vector<std::size_t> planned, const StopCondition& stop)
       : state_(state),
         planned_(std::move(planned)),
+        is_planned_(state.instance().size(), false),
         stop_(stop),
-        trajectories_alone_(state.instance().size()) {}
+        trajectories_alone_(state.instance().size()) {
+    for (const std::size_t robot : planned_) is_planned_[robot] = true;
+  }
 
   /// `first` and at most size - 1 others (size >= 1).
   std::vector<std::size_t> select(std::size_t first, Neighbourhood kind, std::size_t size, Random& random);
@@ -46,6 +49,7 @@ class NeighbourhoodSelection {
 
   PlanState& state_;
   std::vector<std::size_t> planned_;
+  std::vector<bool> is_planned_;  // by robot
   const StopCondition& stop_;
   std::vector<std::optional<Trajectory>> trajectories_alone_;  // by robot, computed on first use
 };

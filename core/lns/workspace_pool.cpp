@@ -21,7 +21,7 @@ Workspace::Workspace(const Problem& problem, const PlanOptions& options, const I
       versions_(own_instance_->size(), -1),
       neighbourhoods_(*state_, incumbent.planned(), stop) {
   std::vector<bool> stays(own_instance_->size(), true);
-  for (const std::size_t robot : incumbent.planned()) stays[robot] = false;
+  for (const std::size_t robot : incumbent.followers()) stays[robot] = false;
   for (std::size_t robot = 0; robot < stays.size(); ++robot) {
     if (stays[robot]) state_->stay_at_start(robot);
   }
@@ -29,7 +29,7 @@ Workspace::Workspace(const Problem& problem, const PlanOptions& options, const I
 
 void Workspace::update() {
   std::vector<std::size_t> outdated;
-  for (const std::size_t robot : incumbent_.planned()) {
+  for (const std::size_t robot : incumbent_.followers()) {
     if (versions_[robot] != incumbent_.version(robot)) outdated.push_back(robot);
   }
   for (const std::size_t robot : outdated) state_->remove(robot);

@@ -12,8 +12,9 @@ namespace fleetplan::core {
 struct Trajectory {
   Position start{0.0, 0.0};
   std::vector<TimedSegment> moves;  // in order of time, each from the end of the previous one; lengths > 0
-  double cost = 0.0;                // seconds until it rests in the goal pose, the last rotation and service included
+  double cost = 0.0;  // seconds until it rests in the goal pose, the last rotation and service included
   std::vector<Visit> visits = {};  // to goals of Robot::via that are served after the committed actions
+  bool is_previous = false;        // the motion of Robot::previous: its actions are those received
 
   Position end() const { return moves.empty() ? start : moves.back().path.to; }
 };

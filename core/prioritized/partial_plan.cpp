@@ -20,11 +20,16 @@ constexpr std::array<SearchLimits, 3> kRounds{{
     {},
 }};
 
+std::size_t rounds_of(Effort effort) {
+  if (effort == Effort::none) return 0;
+  return effort == Effort::full ? kRounds.size() : kRounds.size() - 1;
+}
+
 class SafePlanner {
  public:
   SafePlanner(PlanState& state, Effort effort, const StopCondition& stop, ProgressReport& progress)
       : state_(state),
-        rounds_(effort == Effort::full ? kRounds.size() : kRounds.size() - 1),
+        rounds_(rounds_of(effort)),
         stop_(stop),
         progress_(progress),
         has_no_path_(state.instance().size(), false),

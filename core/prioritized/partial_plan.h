@@ -21,8 +21,9 @@ struct SafePlan {
   bool cut_off = false;          // the stop condition decided something
 };
 
-/// How long to look for the path of a robot: `brief` where another attempt at all robots may follow.
-enum class Effort : std::uint8_t { brief, full };
+/// How long to look for the path of a robot: `brief` where another attempt at all robots may follow, `none`
+/// to plan no robot that stays.
+enum class Effort : std::uint8_t { none, brief, full };
 
 /// Makes the plan in `state` safe. Robots of `unsolved` may have a trajectory; those of `given_up` stay at
 /// their starts already. First, all robots without a trajectory stay at their starts, and so do robots whose

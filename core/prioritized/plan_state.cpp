@@ -101,7 +101,7 @@ bool PlanState::is_reserved(std::size_t robot, const Reservations& among) const 
   const auto& other = among.trajectories[robot];
   if (now.has_value() != other.has_value()) return false;
   if (!now) return reservations_.at_start_until[robot] == among.at_start_until[robot];
-  return now->cost == other->cost &&
+  return now->cost == other->cost && now->is_previous == other->is_previous &&
          std::equal(now->moves.begin(), now->moves.end(), other->moves.begin(), other->moves.end(),
                     [](const TimedSegment& a, const TimedSegment& b) {
                       return a.t_start == b.t_start && a.t_end == b.t_end && a.path.to == b.path.to;

@@ -23,11 +23,16 @@ std::size_t permutations(std::size_t count, std::size_t limit) {
 }  // namespace
 
 PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> robots, Random& random) {
+  return initial_order(instance.problem().robots(), instance.options(), std::move(robots), random);
+}
+
+PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& options,
+                            std::vector<std::size_t> robots, Random& random) {
   const auto weighted_distance = [&](std::size_t i) {
-    const double distance = (instance.robot(i).goal->position - instance.robot(i).start.position).norm();
-    return distance / std::pow(instance.motion(i).linear_speed, kSpeedWeight);
+    const double distance = (all[i].goal->position - all[i].start.position).norm();
+    return distance / std::pow(all[i].linear_speed, kSpeedWeight);
   };
-  switch (instance.options().priority) {
+  switch (options.priority) {
     case PlanOptions::Priority::shortest_first:
       std::stable_sort(robots.begin(), robots.end(),
                        [&](auto a, auto b) { return weighted_distance(a) < weighted_distance(b); });

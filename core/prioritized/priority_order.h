@@ -16,6 +16,8 @@ using PriorityOrder = std::vector<std::size_t>;
 /// from start to goal, where a faster robot counts as slightly nearer, as listed, or at random. Ties keep the
 /// order of the list.
 PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> robots, Random& random);
+PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& options,
+                            std::vector<std::size_t> robots, Random& random);
 
 /// A start delay that may give other robots time to get out of the way, seconds: uniform up to the lower
 /// bound of a random robot of the order.

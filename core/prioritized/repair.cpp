@@ -1,6 +1,7 @@
 #include "core/prioritized/repair.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <utility>
 #include <vector>
@@ -30,9 +31,16 @@ class Repair {
         on_stop_(on_stop),
         rank_(state.instance().size(), 0),
         failures_(state.instance().size(), 0) {
-    for (std::size_t k = 0; k < order_.size(); ++k) {
-      rank_[order_[k]] = static_cast<std::int64_t>(k);
-      postpone(order_[k]);
+    for (std::size_t k = 0; k < order_.size(); ++k) rank_[order_[k]] = static_cast<std::int64_t>(k);
+  }
+
+  void postpone_all() {
+    for (const std::size_t robot : order_) postpone(robot);
+  }
+
+  void postpone_those_without_trajectory() {
+    for (const std::size_t robot : order_) {
+      if (!state_.trajectory(robot)) postpone(robot);
     }
   }
 
@@ -171,7 +179,17 @@ class Repair {
 std::optional<OrderingResult> repair(PlanState& state, const PriorityOrder& order, std::int64_t max_failures,
                                      Random& random, const StopCondition& stop, ProgressReport& progress,
                                      const OnStop& on_stop) {
-  return Repair(state, order, random, stop, progress, on_stop).run(max_failures);
+  Repair repair(state, order, random, stop, progress, on_stop);
+  repair.postpone_all();
+  return repair.run(max_failures);
+}
+
+OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
+                             const StopCondition& stop, ProgressReport& progress, const OnStop& on_stop) {
+  progress.next_attempt();
+  Repair repair(state, order, random, stop, progress, on_stop);
+  repair.postpone_those_without_trajectory();
+  return *repair.run(std::numeric_limits<std::int64_t>::max());
 }
 
 }  // namespace fleetplan::core

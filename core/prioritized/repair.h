@@ -28,4 +28,10 @@ std::optional<OrderingResult> repair(PlanState& state, const PriorityOrder& orde
                                      Random& random, const StopCondition& stop, ProgressReport& progress,
                                      const OnStop& on_stop = nullptr);
 
+/// The same from a state in which some robots of `order` follow trajectories already: they do so until a
+/// robot with a higher priority needs their way.
+OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
+                             const StopCondition& stop, ProgressReport& progress,
+                             const OnStop& on_stop = nullptr);
+
 }  // namespace fleetplan::core

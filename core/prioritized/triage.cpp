@@ -17,10 +17,11 @@ constexpr std::int64_t kMaxMapExpansions = 50'000;
 
 class Triage {
  public:
-  Triage(PlanState& state, const StopCondition& stop)
+  Triage(PlanState& state, const StopCondition& stop, const std::vector<bool>& kept)
       : state_(state),
         instance_(state.instance()),
         stop_(stop),
+        kept_(kept),
         unplanned_(instance_.size()),
         stays_(instance_.size(), false),
         starts_(instance_),
@@ -43,9 +44,10 @@ class Triage {
   template <class Check>
   void for_each_robot(Check&& check) {
     for (std::size_t i = 0; i < instance_.size() && !stop_.met(); ++i) {
-      if (!stays_[i]) check(i);
+      if (!stays_[i] && !is_kept(i)) check(i);
     }
   }
+  bool is_kept(std::size_t robot) const { return !kept_.empty() && kept_[robot]; }
   void stay(std::size_t robot) {
     stays_[robot] = true;
     state_.stay_at_start(robot);
@@ -82,8 +84,9 @@ class Triage {
       return give_up(i, Reason::goal_blocked,
                      "The inflated robot does not fit between the obstacles at its goal.");
     }
-    // Of two robots whose inflated goals overlap, the first in the list is planned.
-    auto others = overlapping(goals_, i, goal, [&](std::size_t j) { return j < i && !stays_[j]; });
+    // Of two robots whose inflated goals overlap, the one with a plan is planned, or the first in the list.
+    auto others =
+        overlapping(goals_, i, goal, [&](std::size_t j) { return (j < i || is_kept(j)) && !stays_[j]; });
     if (others.empty()) return;
     give_up(i, Reason::goal_blocked, "The inflated robot overlaps another one's goal at its goal.",
             std::move(others));
@@ -109,7 +112,7 @@ class Triage {
   /// A robot that stays may block the goal of another one, which then stays as well.
   void check_goals_occupied() {
     for (std::size_t i = 0; i < instance_.size(); ++i) {
-      if (!stays_[i]) next_.insert(i);
+      if (!stays_[i] && !is_kept(i)) next_.insert(i);
     }
     while (!next_.empty() && !stop_.met()) {
       current_ = std::exchange(next_, {});
@@ -122,7 +125,7 @@ class Triage {
   }
 
   void check_goal_occupied(std::size_t i) {
-    if (stays_[i]) return;
+    if (stays_[i] || is_kept(i)) return;
     auto others =
         overlapping(starts_, i, instance_.robot(i).goal->position, [&](std::size_t j) { return stays_[j]; });
     if (others.empty()) return;
@@ -137,6 +140,7 @@ class Triage {
   PlanState& state_;
   const Instance& instance_;
   const StopCondition& stop_;
+  const std::vector<bool>& kept_;  // by robot; may be empty
   std::vector<std::optional<Unplanned>> unplanned_;
   std::vector<bool> stays_;
   DiskIndex starts_;
@@ -147,8 +151,9 @@ class Triage {
 
 }  // namespace
 
-std::vector<std::optional<Unplanned>> triage(PlanState& state, const StopCondition& stop) {
-  return Triage(state, stop).run();
+std::vector<std::optional<Unplanned>> triage(PlanState& state, const StopCondition& stop,
+                                             const std::vector<bool>& kept) {
+  return Triage(state, stop, kept).run();
 }
 
 }  // namespace fleetplan::core

@@ -13,6 +13,7 @@ namespace fleetplan::core {
 /// parked robots, and robots whose start or goal is blocked, or whose goal is unreachable, on the static map
 /// or because of robots that stay. Returns by robot why it has no plan; none for parked robots and for those
 /// that are left to be planned.
-std::vector<std::optional<Unplanned>> triage(PlanState& state, const StopCondition& stop);
+std::vector<std::optional<Unplanned>> triage(PlanState& state, const StopCondition& stop,
+                                             const std::vector<bool>& kept = {});
 
 }  // namespace fleetplan::core

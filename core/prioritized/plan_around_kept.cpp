@@ -1,0 +1,171 @@
+#include "core/prioritized/plan_around_kept.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "core/prioritized/ordering_result.h"
+#include "core/prioritized/partial_plan.h"
+#include "core/prioritized/repair.h"
+
+namespace fleetplan::core {
+namespace {
+
+class PlanningAroundKept {
+ public:
+  PlanningAroundKept(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
+                     const PlanningTime& time, ProgressReport& progress)
+      : state_(state),
+        movers_(movers),
+        random_(random),
+        time_(time),
+        progress_(progress),
+        stop_(time.first_part),
+        kept_(state.reservations()) {}
+
+  PrioritizedResult run() {
+    std::vector<std::size_t> others;
+    for (const std::size_t robot : movers_) {
+      if (!state_.trajectory(robot)) others.push_back(robot);
+    }
+    if (others.empty()) return std::move(result_);
+    keep_without_search(others);
+    const bool all_planned = !time_.all.met() && (repaired() || planned_anew());
+    if (!all_planned) explain_best();
+    if (state_.instance().options().replan == PlanOptions::Replan::where_needed) return_to_kept();
+    return std::move(result_);
+  }
+
+ private:
+  struct Best {
+    SafePlan plan;
+    PlanState::Reservations reservations;
+  };
+
+  /// The plan if no time is left: those that can do so follow their trajectories, all others stay.
+  void keep_without_search(const std::vector<std::size_t>& others) {
+    SafePlan plan = make_safe(state_, others, {}, Effort::none, time_.all, progress_);
+    best_ = Best{std::move(plan), state_.reservations()};
+    for (const std::size_t robot : movers_) {
+      if (state_.trajectory(robot)) certain_.push_back(robot);
+    }
+    if (!time_.all.met()) state_.restore(kept_);
+  }
+
+  /// Returns whether all robots are planned, by repairs of the plan.
+  bool repaired() {
+    const OnStop keep_plan = [this](const auto& unsolved, const auto& given_up) {
+      return keep_safe_plan(unsolved, given_up);
+    };
+    const OrderingResult ordering = repair_around(state_, order(), random_, stop_, progress_, keep_plan);
+    result_.attempts = ordering.attempts;
+    result_.cut_off = ordering.cut_off || in_second_part_;
+    if (ordering.unsolved.empty() && ordering.given_up.empty()) return true;
+    keep_if_better(
+        make_safe(state_, ordering.unsolved, ordering.given_up, Effort::full, time_.all, progress_));
+    others_may_help_ = ordering.hopeless.size() < ordering.given_up.size() || !ordering.unsolved.empty();
+    return best_->plan.staying.empty();
+  }
+
+  /// The robots with trajectories first.
+  PriorityOrder order() {
+    PriorityOrder order = initial_order(state_.instance(), movers_, random_);
+    std::stable_partition(order.begin(), order.end(),
+                          [&](std::size_t robot) { return state_.trajectory(robot).has_value(); });
+    return order;
+  }
+
+  /// At the end of the first part of the time: keeps a safe plan, then goes on where planning was.
+  bool keep_safe_plan(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
+    if (in_second_part_ || time_.all.met()) return false;
+    in_second_part_ = true;
+    const PlanState::Reservations before = state_.reservations();
+    keep_if_better(make_safe(state_, unsolved, given_up, Effort::brief, time_.keeping, progress_));
+    if (best_->plan.staying.empty()) return false;
+    state_.restore(before);
+    stop_ = time_.all;
+    return !stop_.met();
+  }
+
+  /// Keeps the plan in the state if it plans more robots, and all those that are certain.
+  void keep_if_better(SafePlan plan) {
+    result_.cut_off = result_.cut_off || plan.cut_off;
+    if (best_->plan.staying.size() <= plan.staying.size() || !plans_all_certain()) return;
+    best_ = Best{std::move(plan), state_.reservations()};
+  }
+
+  bool plans_all_certain() const {
+    return std::all_of(certain_.begin(), certain_.end(),
+                       [&](std::size_t robot) { return state_.trajectory(robot).has_value(); });
+  }
+
+  /// Returns whether all robots are planned, without regard to the trajectories that others had.
+  bool planned_anew() {
+    if (!others_may_help_ || time_.all.met()) return false;
+    for (const std::size_t robot : movers_) state_.remove(robot);
+    const PrioritizedResult anew =
+        plan_prioritized(state_, movers_, random_, PlanningTime::until(time_.all), progress_);
+    result_.attempts += anew.attempts;
+    result_.cut_off = result_.cut_off || anew.cut_off;
+    SafePlan plan;
+    for (const Unplanned& robot : anew.unplanned) {
+      plan.staying.push_back({robot.robot, robot.reason == Unplanned::Reason::blocked_by_robots});
+    }
+    keep_if_better(std::move(plan));
+    return best_->plan.staying.empty();
+  }
+
+  /// Returns to the best plan, plans more robots in it while there is time, and tells why the rest stays.
+  void explain_best() {
+    if (is_over()) {
+      state_.finish_with(best_->reservations);
+    } else {
+      state_.restore(best_->reservations);
+      std::vector<std::size_t> staying;
+      for (const SafePlan::Staying& robot : best_->plan.staying) staying.push_back(robot.robot);
+      SafePlan more = make_safe(state_, {}, staying, Effort::full, time_.all, progress_);
+      result_.cut_off = result_.cut_off || more.cut_off;
+      best_ = Best{std::move(more), state_.reservations()};
+    }
+    PartialPlan partial = explain(state_, best_->plan, time_.all);
+    result_.cut_off = result_.cut_off || partial.cut_off;
+    result_.unplanned = std::move(partial.unplanned);
+  }
+
+  /// After the deadline no search follows, whatever else the stop condition may be met for.
+  bool is_over() const {
+    return time_.all.cancelled() || StopCondition::Clock::now() >= time_.all.deadline();
+  }
+
+  /// A robot that had to give way may have its first trajectory back where that is free again.
+  void return_to_kept() {
+    for (const std::size_t robot : movers_) {
+      if (time_.all.met()) return;
+      const auto& first = kept_.trajectories[robot];
+      if (!first || !state_.trajectory(robot) || state_.trajectory(robot)->is_previous) continue;
+      if (state_.conflicting_robots(robot, *first).empty()) state_.follow(robot, *first);
+    }
+  }
+
+  PlanState& state_;
+  const std::vector<std::size_t>& movers_;
+  Random& random_;
+  const PlanningTime& time_;
+  ProgressReport& progress_;
+  StopCondition stop_;                  // of the repairs
+  const PlanState::Reservations kept_;  // at first
+  std::vector<std::size_t> certain_;    // robots that remain planned in every case
+  std::optional<Best> best_;
+  bool in_second_part_ = false;   // of the time
+  bool others_may_help_ = false;  // other orders
+  PrioritizedResult result_;
+};
+
+}  // namespace
+
+PrioritizedResult plan_around_kept(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
+                                   const PlanningTime& time, ProgressReport& progress) {
+  return PlanningAroundKept(state, movers, random, time, progress).run();
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,28 @@
+#include "core/replan/follow_kept.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "core/replan/previous_plan.h"
+
+namespace fleetplan::core {
+
+std::size_t follow_kept_plans(PlanState& state, const KeptPlans& previous) {
+  std::size_t followed = 0;
+  for (std::size_t robot = 0; robot < previous.kept.size(); ++robot) {
+    if (!previous.kept[robot]) continue;
+    Trajectory trajectory = previous_trajectory(state.instance().robot(robot));
+    const std::vector<std::size_t> conflicting = state.conflicting_robots(robot, trajectory);
+    // The checker has accepted all that are kept together.
+    if (!std::all_of(conflicting.begin(), conflicting.end(),
+                     [&](auto other) { return previous.kept[other]; })) {
+      continue;
+    }
+    state.follow(robot, std::move(trajectory));
+    ++followed;
+  }
+  return followed;
+}
+
+}  // namespace fleetplan::core

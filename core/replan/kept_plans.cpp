@@ -1,0 +1,119 @@
+#include "core/replan/kept_plans.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "core/model/plan.h"
+#include "core/prioritized/priority_order.h"
+#include "core/replan/previous_plan.h"
+#include "core/runtime/random.h"
+#include "core/verify/tolerances.h"
+#include "core/verify/verify.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Leaves out previous plans until the checker accepts the rest.
+class PlansThatHold {
+ public:
+  PlansThatHold(const Problem& problem, const PlanOptions& options, const StopCondition& stop)
+      : robots_(problem.robots()), problem_(problem), options_(options), stop_(stop) {}
+
+  KeptPlans run() {
+    for (const Robot& robot : robots_) kept_.push_back(robot.goal.has_value() && !robot.invalid);
+    while (true) {
+      const auto report = check();
+      if (!report) return {std::vector<bool>(robots_.size(), false), true};
+      const bool left_some_out = leave_out(*report);
+      // Of a complete report, nothing is left to judge: without its plan, a robot conflicts with no other.
+      if (!left_some_out || is_complete(*report)) return {std::move(kept_), false};
+    }
+  }
+
+ private:
+  using Pair = std::pair<std::size_t, std::size_t>;
+
+  std::optional<VerifyReport> check() const {
+    std::vector<RobotPlan> plans;
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      if (kept_[i]) plans.push_back(previous_plan(i, robots_[i]));
+    }
+    CheckRules rules;
+    rules.tolerances = plan_tolerances(problem_.grid(), robots_, plans);
+    rules.inflation = options_.inflation;
+    rules.interval_margin = options_.interval_margin;
+    rules.wait_before_move = options_.wait_before_move;
+    rules.start_overlap = options_.start_overlap;
+    rules.exact_commitments = true;
+    return verify({problem_.grid(), robots_, problem_.obstacles()}, plans, rules, stop_);
+  }
+
+  static bool is_complete(const VerifyReport& report) {
+    return report.violations.size() == report.violation_count && report.violation_count < kMostCollisions;
+  }
+
+  bool will_move(std::size_t robot) const { return robots_[robot].goal && !robots_[robot].invalid; }
+
+  /// Returns whether a plan was left out.
+  bool leave_out(const VerifyReport& report) {
+    const auto before = std::count(kept_.begin(), kept_.end(), true);
+    std::vector<Pair> conflicts;
+    for (const Violation& violation : report.violations) {
+      if (violation.robots.size() == 1) {
+        kept_[violation.robots.front()] = false;
+        continue;
+      }
+      const auto [a, b] = Pair{violation.robots[0], violation.robots[1]};
+      if (!will_move(a) || !will_move(b)) {  // one of them stays for ever
+        kept_[a] = kept_[b] = false;
+      } else {
+        conflicts.emplace_back(a, b);
+      }
+    }
+    leave_out_lower(conflicts);
+    return std::count(kept_.begin(), kept_.end(), true) < before;
+  }
+
+  /// Of conflicting plans, keeps those with the higher priorities.
+  void leave_out_lower(std::vector<Pair> conflicts) {
+    const std::vector<std::size_t> rank = ranks();
+    for (auto& [higher, lower] : conflicts) {
+      if (rank[lower] < rank[higher]) std::swap(higher, lower);
+    }
+    // In the order of the lower one: the higher one is decided by then.
+    std::sort(conflicts.begin(), conflicts.end(), [&](const Pair& a, const Pair& b) {
+      return std::pair(rank[a.second], rank[a.first]) < std::pair(rank[b.second], rank[b.first]);
+    });
+    for (const auto& [higher, lower] : conflicts) {
+      if (kept_[higher]) kept_[lower] = false;
+    }
+  }
+
+  std::vector<std::size_t> ranks() const {
+    std::vector<std::size_t> movers;
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      if (will_move(i)) movers.push_back(i);
+    }
+    Random random(options_.seed);  // as that of planning
+    const PriorityOrder order = initial_order(robots_, options_, std::move(movers), random);
+    std::vector<std::size_t> ranks(robots_.size(), order.size());
+    for (std::size_t k = 0; k < order.size(); ++k) ranks[order[k]] = k;
+    return ranks;
+  }
+
+  const std::vector<Robot>& robots_;
+  const Problem& problem_;
+  const PlanOptions& options_;
+  const StopCondition& stop_;
+  std::vector<bool> kept_;  // by robot
+};
+
+}  // namespace
+
+KeptPlans keep_previous_plans(const Problem& problem, const PlanOptions& options, const StopCondition& stop) {
+  if (!have_previous_plans(problem.robots())) return {};
+  return PlansThatHold(problem, options, stop).run();
+}
+
+}  // namespace fleetplan::core

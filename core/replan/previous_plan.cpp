@@ -1,0 +1,57 @@
+#include "core/replan/previous_plan.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/geometry/segment.h"
+#include "core/model/itinerary.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// The itinerary of the robot if all its previous actions were committed.
+Itinerary as_committed(const Robot& robot) {
+  Robot follower = robot;
+  follower.committed = previous_actions(robot);
+  return itinerary_of(follower);
+}
+
+}  // namespace
+
+bool have_previous_plans(const std::vector<Robot>& robots) {
+  return std::any_of(robots.begin(), robots.end(),
+                     [](const Robot& robot) { return robot.previous.has_value(); });
+}
+
+const std::vector<Action>& previous_actions(const Robot& robot) {
+  return robot.previous && !robot.previous->empty() ? *robot.previous : robot.committed;
+}
+
+RobotPlan previous_plan(std::size_t index, const Robot& robot) {
+  const std::vector<Action>& actions = previous_actions(robot);
+  return {index, actions.empty() ? 0.0 : actions.back().t_end, actions, 0.0};
+}
+
+std::vector<Visit> previous_visits(const Robot& robot) {
+  const Itinerary all = as_committed(robot);
+  std::vector<Visit> visits = all.visited;
+  const std::size_t last = robot.goal_count() - 1;
+  // A plan without actions visits all its goals at the start.
+  while (visits.size() < last) visits.push_back({visits.size(), all.t_begin, all.t_begin});
+  visits.push_back({last, all.arrived, kForever});
+  return visits;
+}
+
+Trajectory previous_trajectory(const Robot& robot) {
+  Itinerary all = as_committed(robot);
+  Trajectory trajectory = std::move(all.committed);
+  std::erase_if(trajectory.moves, [](const TimedSegment& move) { return move.path.from == move.path.to; });
+  const std::size_t first = itinerary_of(robot).first_goal;
+  for (const Visit& visit : all.visited) {
+    if (visit.goal >= first) trajectory.visits.push_back(visit);
+  }
+  trajectory.is_previous = true;
+  return trajectory;
+}
+
+}  // namespace fleetplan::core

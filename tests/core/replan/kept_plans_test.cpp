@@ -1,0 +1,134 @@
+#include "core/replan/kept_plans.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/planner.h"
+#include "core/replan/previous_plan.h"
+#include "tests/core/replan/fleets.h"
+#include "tests/core/support/planning.h"
+#include "tests/support/ascii_map.h"
+
+namespace fleetplan::core {
+namespace {
+
+using support::make_problem;
+using support::robot_at;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// A hall of 10 m x 10 m.
+OccupancyGrid hall() { return OccupancyGrid(10, 10, 1.0); }
+
+std::vector<Action> straight(const Robot& robot, double departure) {
+  const double distance = (robot.goal->position - robot.start.position).norm();
+  std::vector<Action> actions;
+  if (departure > 0.0) {
+    actions.push_back({Action::Type::wait, 0.0, departure, robot.start, robot.start});
+  }
+  actions.push_back({Action::Type::translate,
+                     departure,
+                     departure + distance / robot.linear_speed,
+                     robot.start,
+                     {robot.goal->position, robot.start.theta}});
+  return actions;
+}
+
+/// The robot drives straight ahead to its goal, which lies in its direction.
+Robot driving(Robot robot, double departure = 0.0) {
+  robot.previous = straight(robot, departure);
+  return robot;
+}
+
+/// Two robots that cross in the middle of the hall; the second one is later.
+std::vector<Robot> crossing(double later) {
+  return {driving(robot_at(1.5, 5.5).to(8.5, 5.5)),
+          driving(robot_at(5.5, 1.5, M_PI / 2).to(5.5, 8.5), later)};
+}
+
+TEST(KeptPlans, AreNoneWithoutPreviousPlans) {
+  const Problem problem = make_problem(hall(), {robot_at(1.5, 1.5).to(1.5, 1.5)});
+  EXPECT_THAT(keep_previous_plans(problem, {}, {}).kept, IsEmpty());
+}
+
+TEST(KeptPlans, AreAllIfTheyHoldTogether) {
+  const KeptPlans previous = keep_previous_plans(make_problem(hall(), crossing(2.0)), {}, {});
+  EXPECT_THAT(previous.kept, ElementsAre(true, true));
+  EXPECT_FALSE(previous.cut_off);
+}
+
+TEST(KeptPlans, AreThoseOfHigherPriorityWherePlansConflict) {
+  const Problem problem = make_problem(hall(), crossing(0.1));
+  PlanOptions options;
+  options.priority = PlanOptions::Priority::as_listed;
+  EXPECT_THAT(keep_previous_plans(problem, options, {}).kept, ElementsAre(true, false));
+  std::vector<Robot> robots = problem.robots();
+  robots[0].start.position.x() = 0.5;  // a longer way
+  robots[0].previous = straight(robots[0], 0.0);
+  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, {}).kept, ElementsAre(false, true));
+}
+
+TEST(KeptPlans, LeaveOutPlansThatEndElsewhere) {
+  std::vector<Robot> robots = crossing(2.0);
+  robots[0].goal->position.x() = 7.5;
+  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, {}).kept, ElementsAre(false, true));
+}
+
+TEST(KeptPlans, LeaveOutPlansThroughParkedRobots) {
+  std::vector<Robot> robots = crossing(2.0);
+  robots.push_back(robot_at(7.5, 5.5));
+  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, {}).kept,
+              ElementsAre(false, true, false));
+}
+
+TEST(KeptPlans, LeaveOutPlansThroughWalls) {
+  OccupancyGrid grid = hall();
+  grid.block({7, 5});
+  EXPECT_THAT(keep_previous_plans(make_problem(grid, crossing(2.0)), {}, {}).kept, ElementsAre(false, true));
+}
+
+TEST(KeptPlans, DoNotCareWhatARobotWithoutOneWillDo) {
+  std::vector<Robot> robots = crossing(2.0);
+  robots.push_back(robot_at(7.5, 5.5).to(7.5, 7.5));
+  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, {}).kept, ElementsAre(true, true, false));
+}
+
+TEST(KeptPlans, IncludeARobotThatRestsAtItsGoal) {
+  std::vector<Robot> robots = crossing(2.0);
+  robots.push_back(robot_at(1.5, 1.5).to(1.5, 1.5));
+  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, {}).kept, ElementsAre(true, true, true));
+  robots.back().previous = std::vector<Action>{};
+  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, {}).kept, ElementsAre(true, true, true));
+}
+
+TEST(KeptPlans, AreNoneIfTheCheckIsNotFinished) {
+  const KeptPlans previous = keep_previous_plans(make_problem(hall(), crossing(2.0)), {}, met());
+  EXPECT_THAT(previous.kept, ElementsAre(false, false));
+  EXPECT_TRUE(previous.cut_off);
+}
+
+TEST(PreviousPlan, HasTheMotionOfItsActions) {
+  const Robot robot = crossing(2.0)[1];
+  const Trajectory trajectory = previous_trajectory(robot);
+  EXPECT_TRUE(trajectory.is_previous);
+  ASSERT_EQ(trajectory.moves.size(), 1u);
+  EXPECT_EQ(trajectory.moves[0].t_start, 2.0);
+  EXPECT_EQ(trajectory.cost, 9.0);
+  EXPECT_EQ(trajectory.end(), robot.goal->position);
+}
+
+TEST(PreviousPlan, VisitsEachGoal) {
+  Robot robot = crossing(2.0)[1];
+  robot.via = {{robot.start.position, std::nullopt, 1.5, 0.25}};
+  const std::vector<Visit> visits = previous_visits(robot);
+  ASSERT_EQ(visits.size(), 2u);
+  EXPECT_EQ(visits[0].t_arrive, 0.0);
+  EXPECT_EQ(visits[0].t_leave, 1.75);
+  EXPECT_EQ(visits[1].goal, 1u);
+  EXPECT_EQ(visits[1].t_arrive, 9.0);
+  EXPECT_EQ(visits[1].t_leave, kForever);
+  EXPECT_EQ(previous_trajectory(robot).visits.size(), 1u);
+}
+
+}  // namespace
+}  // namespace fleetplan::core
