@@ -1,0 +1,64 @@
+#include "tests/bench/lifelong/lifelong.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace fleetplan::bench {
+namespace {
+
+LifelongJob job(const char* strategy) {
+  const nlohmann::json line = {{"name", strategy},
+                               {"strategy", strategy},
+                               {"shelves", {2, 3}},
+                               {"robots", 6},
+                               {"seconds", 120},
+                               {"seed", 1},
+                               {"budget_ms", 10'000},
+                               {"commit", 0.5},
+                               {"halt", 0.0},
+                               {"clock", "cpu"},
+                               {"options", {{"start_safe_interval", 0}}}};
+  return parse_lifelong_job(line.dump());
+}
+
+/// A simulation in which planning takes little time. It runs as usual in a slow build, only with a longer
+/// clock.
+LifelongResult run(const char* strategy) {
+  const LifelongResult result = simulate(job(strategy));
+  EXPECT_EQ(result.fault, "");
+  EXPECT_EQ(result.unplanned, 0u);
+  EXPECT_GE(result.robot_seconds, 6 * 120.0);
+  EXPECT_GT(result.tasks, 6u);
+  EXPECT_LE(result.lone_seconds, result.robot_seconds);
+  EXPECT_LE(result.moving_seconds + result.service_seconds, result.robot_seconds);
+  EXPECT_EQ(result.latencies.size(), result.replans);
+  return result;
+}
+
+TEST(Lifelong, ServesMoreWithSnapshotsThanWhenTheWorldStops) {
+  const LifelongResult stopped = run("stop");
+  const LifelongResult snapshots = run("snapshots");
+  EXPECT_EQ(stopped.under_way, 0u);
+  EXPECT_GT(snapshots.under_way, snapshots.replans);
+  EXPECT_GT(snapshots.tasks, stopped.tasks);
+  EXPECT_GT(snapshots.replans, stopped.replans);
+}
+
+TEST(Lifelong, TakesJobsOnly) {
+  EXPECT_THROW(parse_lifelong_job("{}"), std::runtime_error);
+  EXPECT_THROW(parse_lifelong_job("no"), std::runtime_error);
+}
+
+TEST(Lifelong, HasAValueForEveryColumn) {
+  const std::string header = lifelong_csv_header();
+  const std::string row =
+      lifelong_csv_row(job("stop"), {3, 720.0, 360.0, 300.0, 60.0, 2, 4, 1, 0, 0, {0.5}, ""});
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(row.begin(), row.end(), ','));
+  EXPECT_THAT(row, testing::StartsWith("\"stop\",6,120.000000,3,0.500000,15.000000,0.500000,2,0.250000,"));
+}
+
+}  // namespace
+}  // namespace fleetplan::bench
