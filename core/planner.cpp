@@ -43,7 +43,7 @@ StopCondition beyond_budget(const StopCondition& stop) {
   constexpr std::chrono::milliseconds kMostBeyond{50};
   if (stop.deadline() == Clock::time_point::max() && !stop.cancelled()) return stop;
   const auto now = Clock::now();
-  if (stop.cancelled()) return StopCondition(now + kMostBeyond);
+  if (stop.cancelled()) return StopCondition(now + kMostBeyond).despite_memory();
   return StopCondition(std::max(stop.deadline(), now) + kMostBeyond, stop.stop_token()).despite_memory();
 }
 

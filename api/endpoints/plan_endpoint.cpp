@@ -10,6 +10,8 @@
 #include "api/endpoints/within_memory.h"
 #include "api/request/parse_request.h"
 #include "api/response/error.h"
+#include "core/replan/plan_without_search.h"
+#include "core/replan/previous_plan.h"
 
 namespace fleetplan::api {
 
@@ -41,27 +43,24 @@ TurnNeed need_of(const PlanRequest& request, const core::StopCondition& stop, co
           static_cast<double>(std::max<std::ptrdiff_t>(1, moving)), is_short};
 }
 
-/// The plan when a budget was spent before planning: only parked robots are planned.
-core::Plan plan_without_budget(const core::Problem& problem, const char* detail) {
-  core::Plan plan;
-  plan.deterministic = false;
-  for (std::size_t index = 0; index < problem.robots().size(); ++index) {
-    if (!problem.robots()[index].goal) {
-      plan.plans.push_back({index, 0.0, {}});
-    } else {
-      plan.unplanned.push_back({index, core::Unplanned::Reason::budget_exhausted, detail, {}});
-    }
-  }
-  return plan;
+/// So long may the check of previous plans take beyond the budget.
+constexpr std::chrono::milliseconds kMostForPrevious{50};
+
+/// The end of planning, or now if previous plans were checked beyond it: the check of the answer follows.
+core::StopCondition end_of_planning(const core::StopCondition& stop, const PlanRequest& request) {
+  if (!core::have_previous_plans(request.problem.robots())) return stop;
+  return core::StopCondition(std::max(stop.deadline(), Clock::now()), stop.stop_token());
 }
 
-/// The planner's plan, or one of parked robots only if the memory does not suffice for any other.
+/// The planner's plan, or one that needs no search if the memory does not suffice for any other.
 core::Plan plan_or_none(const Planner& planner, const PlanRequest& request, const core::StopCondition& stop,
                         core::Observer* observer) {
   try {
     return planner(request.problem, request.options, stop, observer);
   } catch (const std::bad_alloc&) {
-    return plan_without_budget(request.problem, core::kMemorySpent);
+    const core::StopCondition patience(std::max(stop.deadline(), Clock::now()) + kMostForPrevious);
+    return core::plan_without_search(request.problem, request.options, core::kMemorySpent,
+                                     patience.despite_memory());
   }
 }
 
@@ -75,7 +74,7 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   const core::StopCondition stop(planning_deadline(context, request->budget, stages.parsed - begin),
                                  context.stop);
   const auto answer = [&](const core::Plan& plan) {
-    return plan_answer(plan, *request, context.request_id, stages, stop);
+    return plan_answer(plan, *request, context.request_id, stages, end_of_planning(stop, *request));
   };
   const bool has_turn = context.turn == nullptr || context.turn->request(need_of(*request, stop, context));
   if (!has_turn) return too_busy(context.request_id);
@@ -93,8 +92,10 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   }
   if (!has_come) return too_busy(context.request_id);
   if (stop.met()) {
-    Reply reply = answer(
-        plan_without_budget(request->problem, "The time budget was spent before planning could begin."));
+    const core::StopCondition patience(Clock::now() + kMostForPrevious);
+    Reply reply =
+        answer(core::plan_without_search(request->problem, request->options,
+                                         "The time budget was spent before planning could begin.", patience));
     if (reply.outcome) reply.outcome->plan_seconds.reset();
     return reply;
   }

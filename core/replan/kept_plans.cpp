@@ -17,8 +17,9 @@ namespace {
 /// Leaves out previous plans until the checker accepts the rest.
 class PlansThatHold {
  public:
-  PlansThatHold(const Problem& problem, const PlanOptions& options, const StopCondition& stop)
-      : robots_(problem.robots()), problem_(problem), options_(options), stop_(stop) {}
+  PlansThatHold(const Problem& problem, const PlanOptions& options, const StopCondition& stop,
+                LeftOut left_out)
+      : robots_(problem.robots()), problem_(problem), options_(options), stop_(stop), left_out_(left_out) {}
 
   KeptPlans run() {
     for (const Robot& robot : robots_) kept_.push_back(robot.goal.has_value() && !robot.invalid);
@@ -26,8 +27,9 @@ class PlansThatHold {
       const auto report = check();
       if (!report) return {std::vector<bool>(robots_.size(), false), true};
       const bool left_some_out = leave_out(*report);
-      // Of a complete report, nothing is left to judge: without its plan, a robot conflicts with no other.
-      if (!left_some_out || is_complete(*report)) return {std::move(kept_), false};
+      // Without its plan, a robot that need not stay conflicts with no other.
+      const bool is_final = left_out_ == LeftOut::unknown && is_complete(*report);
+      if (!left_some_out || is_final) return {std::move(kept_), false};
     }
   }
 
@@ -53,24 +55,25 @@ class PlansThatHold {
     return report.violations.size() == report.violation_count && report.violation_count < kMostCollisions;
   }
 
-  bool will_move(std::size_t robot) const { return robots_[robot].goal && !robots_[robot].invalid; }
+  bool may_move(std::size_t robot) const { return robots_[robot].goal && !robots_[robot].invalid; }
+  bool stays(std::size_t robot) const {
+    return !may_move(robot) || (left_out_ == LeftOut::stay && !kept_[robot]);
+  }
 
   /// Returns whether a plan was left out.
   bool leave_out(const VerifyReport& report) {
     const auto before = std::count(kept_.begin(), kept_.end(), true);
+    std::vector<Pair> staying;
     std::vector<Pair> conflicts;
     for (const Violation& violation : report.violations) {
-      if (violation.robots.size() == 1) {
-        kept_[violation.robots.front()] = false;
-        continue;
-      }
-      const auto [a, b] = Pair{violation.robots[0], violation.robots[1]};
-      if (!will_move(a) || !will_move(b)) {  // one of them stays for ever
-        kept_[a] = kept_[b] = false;
-      } else {
-        conflicts.emplace_back(a, b);
-      }
+      if (violation.robots.size() == 1) continue;
+      const Pair pair{violation.robots[0], violation.robots[1]};
+      (stays(pair.first) || stays(pair.second) ? staying : conflicts).push_back(pair);
     }
+    for (const Violation& violation : report.violations) {
+      if (violation.robots.size() == 1) kept_[violation.robots.front()] = false;
+    }
+    for (const Pair& pair : staying) kept_[pair.first] = kept_[pair.second] = false;
     leave_out_lower(conflicts);
     return std::count(kept_.begin(), kept_.end(), true) < before;
   }
@@ -93,7 +96,7 @@ class PlansThatHold {
   std::vector<std::size_t> ranks() const {
     std::vector<std::size_t> movers;
     for (std::size_t i = 0; i < robots_.size(); ++i) {
-      if (will_move(i)) movers.push_back(i);
+      if (may_move(i)) movers.push_back(i);
     }
     Random random(options_.seed);  // as that of planning
     const PriorityOrder order = initial_order(robots_, options_, std::move(movers), random);
@@ -106,14 +109,16 @@ class PlansThatHold {
   const Problem& problem_;
   const PlanOptions& options_;
   const StopCondition& stop_;
+  const LeftOut left_out_;
   std::vector<bool> kept_;  // by robot
 };
 
 }  // namespace
 
-KeptPlans keep_previous_plans(const Problem& problem, const PlanOptions& options, const StopCondition& stop) {
+KeptPlans keep_previous_plans(const Problem& problem, const PlanOptions& options, const StopCondition& stop,
+                              LeftOut left_out) {
   if (!have_previous_plans(problem.robots())) return {};
-  return PlansThatHold(problem, options, stop).run();
+  return PlansThatHold(problem, options, stop, left_out).run();
 }
 
 }  // namespace fleetplan::core

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/model/plan_options.h"
@@ -17,11 +18,18 @@ struct KeptPlans {
   bool contains(std::size_t robot) const { return !kept.empty() && kept[robot]; }
 };
 
+/// What becomes of the robots whose previous plans are left out.
+enum class LeftOut : std::uint8_t {
+  unknown,  // they will be planned, so nobody is in conflict with them here
+  stay,     // they stay at their starts or committed ends for ever
+};
+
 /// Judges the previous plans by the checker under the options' inflation, interval margin, added waits and
 /// start overlap. If some violate the rules, those that do so on their own are left out, and then of two that
-/// conflict the one with the lower priority. What becomes of a robot that is left out is not known yet, so
-/// it conflicts with no plan here. A robot without a previous plan, or with an empty one, has one without
-/// actions; this holds if it is at rest at its last goal. Takes as long as a check of the plans.
-KeptPlans keep_previous_plans(const Problem& problem, const PlanOptions& options, const StopCondition& stop);
+/// conflict the one with the lower priority. A robot without a previous plan, or with an empty one, has one
+/// without actions; this holds if it is at rest at its last goal. Takes as long as a check of the plans, or a
+/// few times as long if those left out stay.
+KeptPlans keep_previous_plans(const Problem& problem, const PlanOptions& options, const StopCondition& stop,
+                              LeftOut left_out = LeftOut::unknown);
 
 }  // namespace fleetplan::core

@@ -24,7 +24,7 @@ bool have_previous_plans(const std::vector<Robot>& robots) {
 }
 
 const std::vector<Action>& previous_actions(const Robot& robot) {
-  return robot.previous && !robot.previous->empty() ? *robot.previous : robot.committed;
+  return robot.goal && robot.previous && !robot.previous->empty() ? *robot.previous : robot.committed;
 }
 
 RobotPlan previous_plan(std::size_t index, const Robot& robot) {

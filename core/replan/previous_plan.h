@@ -13,11 +13,11 @@ namespace fleetplan::core {
 /// Whether any robot has a previous plan.
 bool have_previous_plans(const std::vector<Robot>& robots);
 
-/// The actions of the robot's previous plan as received. Without one, or if it is empty, the robot rests
-/// after its committed actions.
+/// The actions of the robot's previous plan as received. Without one, if it is empty or if the robot is
+/// parked, the robot rests after its committed actions.
 const std::vector<Action>& previous_actions(const Robot& robot);
 
-/// The previous plan of a robot with a goal: no visits, and 0 as lower bound.
+/// These actions as a plan without visits, with 0 as lower bound.
 RobotPlan previous_plan(std::size_t index, const Robot& robot);
 
 /// The visits of a previous plan that holds (see KeptPlans), one for each goal.

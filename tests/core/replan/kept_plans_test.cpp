@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "core/planner.h"
+#include "core/replan/plan_without_search.h"
 #include "core/replan/previous_plan.h"
 #include "tests/core/replan/fleets.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/ascii_map.h"
+#include "tests/support/expect_safe.h"
 
 namespace fleetplan::core {
 namespace {
@@ -105,6 +107,39 @@ TEST(KeptPlans, AreNoneIfTheCheckIsNotFinished) {
   const KeptPlans previous = keep_previous_plans(make_problem(hall(), crossing(2.0)), {}, met());
   EXPECT_THAT(previous.kept, ElementsAre(false, false));
   EXPECT_TRUE(previous.cut_off);
+}
+
+TEST(KeptPlans, AreSafeAmongRobotsThatStay) {
+  std::vector<Robot> robots = crossing(2.0);
+  robots.push_back(robot_at(7.5, 5.5).to(7.5, 7.5));
+  robots.push_back(driving(robot_at(1.5, 8.5, -M_PI / 2).to(1.5, 1.5), 3.0));
+  const Problem problem = make_problem(hall(), robots);
+  // The first robot cannot pass the third one; the last one cannot pass the first one then.
+  EXPECT_THAT(keep_previous_plans(problem, {}, {}, LeftOut::stay).kept,
+              ElementsAre(false, true, false, false));
+}
+
+TEST(PlanWithoutSearch, PlansRobotsWithSafePreviousPlans) {
+  std::vector<Robot> robots = crossing(2.0);
+  robots.push_back(robot_at(7.5, 5.5).to(7.5, 7.5));
+  const Problem problem = make_problem(hall(), robots);
+  const Plan plan = plan_without_search(problem, {}, "No time.", {});
+  support::expect_safe(problem, plan);
+  ASSERT_EQ(plan.plans.size(), 1u);
+  EXPECT_EQ(plan.plans[0].robot, 1u);
+  EXPECT_EQ(plan.objectives.flowtime, 9.0);
+  EXPECT_NEAR(plan.lower_bound.flowtime, 7.0, 1e-9);
+  EXPECT_FALSE(plan.deterministic);
+  ASSERT_EQ(plan.unplanned.size(), 2u);
+  EXPECT_EQ(plan.unplanned[0].detail, "No time.");
+}
+
+TEST(PlanWithoutSearch, PlansParkedRobotsOnlyIfTheCheckIsNotFinished) {
+  std::vector<Robot> robots = crossing(2.0);
+  robots.push_back(robot_at(7.5, 2.5));
+  const Plan plan = plan_without_search(make_problem(hall(), robots), {}, "No time.", met());
+  ASSERT_EQ(plan.plans.size(), 1u);
+  EXPECT_EQ(plan.plans[0].robot, 2u);
 }
 
 TEST(PreviousPlan, HasTheMotionOfItsActions) {

@@ -1,0 +1,56 @@
+#include "core/replan/plan_without_search.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "core/bounds/lower_bound.h"
+#include "core/motion.h"
+#include "core/replan/kept_plans.h"
+#include "core/replan/previous_plan.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// None where the memory does not suffice for the check.
+KeptPlans plans_that_are_safe(const Problem& problem, const PlanOptions& options, const StopCondition& stop) {
+  try {
+    return keep_previous_plans(problem, options, stop, LeftOut::stay);
+  } catch (const std::bad_alloc&) {
+    return {};
+  }
+}
+
+Motion motion_of(const Robot& robot, const PlanOptions& options) {
+  return {robot.radius + options.inflation, robot.linear_speed, robot.angular_speed,
+          options.wait_before_move};
+}
+
+}  // namespace
+
+Plan plan_without_search(const Problem& problem, const PlanOptions& options, const char* detail,
+                         const StopCondition& stop) {
+  const KeptPlans previous = plans_that_are_safe(problem, options, stop);
+  Plan plan;
+  for (std::size_t index = 0; index < problem.robots().size(); ++index) {
+    const Robot& robot = problem.robots()[index];
+    if (robot.goal && !previous.contains(index)) {
+      plan.unplanned.push_back({index, Unplanned::Reason::budget_exhausted, detail, {}});
+      continue;
+    }
+    RobotPlan kept = previous_plan(index, robot);
+    if (robot.goal) {
+      kept.visits = previous_visits(robot);
+      kept.lower_bound = std::min(kept.cost, lower_bound(robot, motion_of(robot, options)));
+    }
+    plan.objectives.flowtime += kept.cost;
+    plan.objectives.makespan = std::max(plan.objectives.makespan, kept.cost);
+    plan.lower_bound.flowtime += kept.lower_bound;
+    plan.lower_bound.makespan = std::max(plan.lower_bound.makespan, kept.lower_bound);
+    plan.plans.push_back(std::move(kept));
+  }
+  plan.deterministic = false;
+  return plan;
+}
+
+}  // namespace fleetplan::core
