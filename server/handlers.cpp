@@ -50,6 +50,11 @@ Handler validate(const Backend& backend) {
       [&backend](Exchange& exchange) { return backend.run_job(exchange, backend.service.validate, nullptr); };
 }
 
+Handler advance(const Backend& backend) {
+  return
+      [&backend](Exchange& exchange) { return backend.run_job(exchange, backend.service.advance, nullptr); };
+}
+
 Handler example_list(const Backend& backend) {
   return [&backend](Exchange& /*exchange*/) { return backend.service.example_list(); };
 }

@@ -15,6 +15,8 @@ Handler plan(const Backend& backend);
 
 Handler validate(const Backend& backend);
 
+Handler advance(const Backend& backend);
+
 Handler example_list(const Backend& backend);
 
 /// The named example, or a 404 that lists the names there are.

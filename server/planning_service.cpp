@@ -1,3 +1,4 @@
+#include "api/endpoints/advance_endpoint.h"
 #include "api/endpoints/examples.h"
 #include "api/endpoints/openapi.h"
 #include "api/endpoints/plan_endpoint.h"
@@ -7,8 +8,8 @@
 namespace fleetplan::server {
 
 Service planning_service() {
-  Service service{
-      api::plan_endpoint, api::validate_endpoint, api::examples_endpoint, api::openapi_endpoint, {}};
+  Service service{api::plan_endpoint,     api::validate_endpoint, api::advance_endpoint,
+                  api::examples_endpoint, api::openapi_endpoint,  {}};
   for (const auto& example : api::examples()) {
     service.examples.push_back({std::string(example.name), std::string(example.body)});
   }

@@ -8,6 +8,7 @@ RouteTable main_routes(const Backend& backend) {
   RouteTable routes;
   routes.post("/v1/plan", plan(backend), {.plans = true});
   routes.post("/v1/validate", validate(backend));
+  routes.post("/v1/advance", advance(backend));
   routes.get("/v1/examples", example_list(backend));
   routes.get("/v1/examples/{name}", example(backend), {.statuses = {404}});
   routes.get("/v1/limits", limits(backend));

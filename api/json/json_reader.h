@@ -63,6 +63,8 @@ class JsonReader {
   /// The index of the word that the string is.
   std::optional<std::size_t> word(std::span<const std::string_view> words) const;
 
+  /// The value, which must be there.
+  const JsonValue& value() const { return *value_; }
   /// The value, which must be there, for a message: `the string "abc"`, `-1`, `an array`.
   std::string description() const;
   /// Adds a fault at the value, which must be there.

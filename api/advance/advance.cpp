@@ -1,0 +1,144 @@
+#include "api/advance/advance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "api/advance/timeline.h"
+#include "core/model/itinerary.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+using core::Action;
+using Actions = std::vector<Action>;
+
+/// Of a service (seconds): rounding of times, far below what matters.
+constexpr double kSameService = 1e-9;
+
+/// The goals that are left when a robot has executed these actions, and how many it has visited.
+struct GoalsLeft {
+  std::vector<core::Goal> goals;
+  std::size_t visited = 0;
+};
+
+/// `progress`: the planned time of what the robot has executed of its actions. It stands after the last one.
+GoalsLeft goals_left(const core::Robot& robot, const Actions& actions, double progress, double at) {
+  core::Robot past = robot;
+  past.committed = actions_until(actions, progress);
+  if (past.committed_until() < progress) {
+    const core::Pose pose = past.committed_end();
+    past.committed.push_back({Action::Type::wait, past.committed_until(), progress, pose, pose});
+  }
+  const core::Itinerary itinerary = core::itinerary_of(past);
+  GoalsLeft left;
+  left.visited = past.committed.empty() ? 0 : itinerary.first_goal;
+  for (std::size_t k = left.visited; k < robot.goal_count(); ++k) {
+    core::Goal goal = robot.goal_at(k);
+    goal.not_before = std::max(0.0, goal.not_before - at);
+    left.goals.push_back(goal);
+  }
+  if (left.goals.empty()) return left;
+  core::Goal& next = left.goals.front();
+  next.service = std::max(0.0, next.service - itinerary.service_done);
+  if (next.service <= kSameService) next.service = 0.0;
+  return left;
+}
+
+void set_goals(core::Robot& robot, std::vector<core::Goal> goals) {
+  robot.goal.reset();
+  if (!goals.empty()) {
+    robot.goal = goals.back();
+    goals.pop_back();
+  }
+  robot.via = std::move(goals);
+}
+
+/// The wait for a goal is named after its new number, or has no name if the goal is behind.
+void renumber(Actions& actions, std::size_t visited) {
+  for (Action& action : actions) {
+    if (!action.goal) continue;
+    if (*action.goal < visited) {
+      action.goal.reset();
+    } else {
+      *action.goal -= visited;
+    }
+  }
+}
+
+/// A service under way and the wait that is left of it end together, whatever the rounding.
+void align_service(core::Robot& robot, const Remainder& rest) {
+  if (robot.goal_count() == 0 || rest.actions.empty() || rest.actions.front().goal != 0U) return;
+  core::Goal& next = robot.via.empty() ? *robot.goal : robot.via.front();
+  const double end = rest.actions.front().t_end;
+  if (next.not_before == 0.0 && std::abs(end - next.service) <= kSameService) next.service = end;
+}
+
+/// Until when the actions are committed.
+double horizon(const Actions& actions, const Moment& moment) {
+  std::size_t move = 0;
+  while (move < actions.size() && actions[move].type == Action::Type::wait) ++move;
+  double until = moment.commit.value_or(move == 0 && !actions.empty() ? actions.front().t_end : 0.0);
+  // A robot that has begun its wait before a move would have to begin it again at each moment.
+  const bool has_begun_the_wait = move > 0 && move < actions.size() && moment.at > 0.0 &&
+                                  actions[move].type == Action::Type::translate &&
+                                  actions[move].t_start < moment.wait_before_move;
+  if (has_begun_the_wait) until = std::max(until, actions[move].t_end);
+  return until;
+}
+
+}  // namespace
+
+core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+  const Actions& actions = execution.actions;
+  std::optional<Progress> progress = planned_progress(actions, moment.at);
+  if (execution.measured) {
+    progress = measured_progress(robot, actions, *execution.measured, moment.at, moment.pose_tolerance);
+  }
+  Remainder rest = !progress ? Remainder{*execution.measured, {}}
+                   : execution.measured
+                       ? remainder_of_measured(robot, actions, *execution.measured, *progress, moment.at)
+                       : remainder(robot, actions, moment.at);
+  GoalsLeft left = goals_left(robot, actions, progress ? progress->t : moment.at, moment.at);
+
+  core::Robot next = robot;
+  next.start = rest.start;
+  renumber(rest.actions, execution.goals ? robot.goal_count() : left.visited);
+  set_goals(next, execution.goals ? *execution.goals : std::move(left.goals));
+  if (!execution.goals) align_service(next, rest);
+
+  double until = horizon(rest.actions, moment);
+  if (execution.hold) {
+    hold(rest, *execution.hold);
+    until = *execution.hold;
+  }
+  next.committed = actions_until(rest.actions, until);
+  next.previous.reset();
+  if (execution.planned && progress && !execution.goals) next.previous = std::move(rest.actions);
+  return next;
+}
+
+std::optional<core::MovingObstacle> advanced(const core::MovingObstacle& obstacle, double at) {
+  core::MovingObstacle left = obstacle;
+  left.motion.clear();
+  for (const auto& entry : obstacle.motion) {
+    if (entry.t >= at) left.motion.push_back({entry.t - at, entry.position});
+  }
+  const std::size_t passed = obstacle.motion.size() - left.motion.size();
+  if (passed == 0) return left;
+  const auto& before = obstacle.motion[passed - 1];
+  if (left.motion.empty()) {
+    if (obstacle.after == core::MovingObstacle::After::leaves) return std::nullopt;
+    left.motion.push_back({0.0, before.position});
+  } else if (left.motion.front().t > 0.0) {
+    const auto& after = obstacle.motion[passed];
+    const double share = (at - before.t) / (after.t - before.t);
+    left.motion.insert(left.motion.begin(),
+                       {0.0, before.position + share * (after.position - before.position)});
+  }
+  return left;
+}
+
+}  // namespace fleetplan::api

@@ -1,0 +1,39 @@
+#pragma once
+
+// The fleet at a later moment of its plan. All poses are in the client's world, so that no number changes
+// that the moment does not change.
+
+#include <optional>
+#include <vector>
+
+#include "core/model/action.h"
+#include "core/model/moving_obstacle.h"
+#include "core/model/robot.h"
+
+namespace fleetplan::api {
+
+/// What holds for all robots. Seconds, metres.
+struct Moment {
+  double at = 0.0;
+  std::optional<double> commit;  // the horizon of commitment; none: the action under way
+  double pose_tolerance = 0.1;
+  double wait_before_move = 0.0;  // of the request's options
+};
+
+/// What a robot does, and what happened to it.
+struct Execution {
+  std::vector<core::Action> actions;  // that it executes, from t = 0 in its start
+  bool planned = false;               // they are a plan; otherwise a commitment, at whose end it stays
+  std::optional<core::Pose> measured = {};
+  std::optional<double> hold = {};  // until then on the clock of the moment
+  std::optional<std::vector<core::Goal>> goals = {};
+};
+
+/// The robot of the request of that moment: its start, goals, committed and previous actions. It has no
+/// previous actions if it has no plan, is elsewhere than planned, or gets other goals.
+core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment);
+
+/// What is left of an obstacle; nothing if it has left.
+std::optional<core::MovingObstacle> advanced(const core::MovingObstacle& obstacle, double at);
+
+}  // namespace fleetplan::api

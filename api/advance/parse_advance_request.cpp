@@ -1,0 +1,137 @@
+#include "api/advance/parse_advance_request.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "api/json/fault_text.h"
+#include "api/request/parse_body.h"
+#include "api/request/parse_plans.h"
+#include "api/request/ranges.h"
+#include "core/geometry/angle.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+using Robots = std::vector<ReadRobot>;
+
+constexpr std::array<std::string_view, 4> kRequestMembers{"map", "robot_defaults", "robots", "options"};
+constexpr std::array<std::string_view, 4> kPoseMembers{"robot", "x", "y", "theta"};
+constexpr std::array<std::string_view, 2> kHoldMembers{"robot", "until"};
+constexpr std::array<std::string_view, 2> kGoalsMembers{"robot", "goals"};
+constexpr std::array<std::string_view, 5> kGoalMembers{"x", "y", "theta", "service", "not_before"};
+
+/// The robots by id.
+class Ids {
+ public:
+  explicit Ids(const Robots& robots) {
+    for (std::size_t index = 0; index < robots.size(); ++index)
+      robots_.emplace(robots[index].robot.id, index);
+  }
+
+  std::optional<std::size_t> find(const JsonReader& robot) const {
+    const auto id = robot.name();
+    if (!id) return std::nullopt;
+    const auto found = robots_.find(*id);
+    if (found != robots_.end()) return found->second;
+    robot.fault(fault::kUnknownRobot,
+                [&] { return "There is no robot " + in_quotes(*id) + " in robots of the request."; });
+    return std::nullopt;
+  }
+
+ private:
+  std::unordered_map<std::string, std::size_t> robots_;
+};
+
+/// Reads a list of entries of robots, at most one for each. `read` gets an entry and its robot's index.
+template <typename Read>
+void read_entries(const JsonReader& list, std::span<const std::string_view> members, const Ids& ids,
+                  const Read& read) {
+  std::unordered_set<std::size_t> seen;
+  for (const JsonReader item : list.array().items()) {
+    const JsonReader entry = item.object(members);
+    const JsonReader robot = entry.require("robot");
+    const auto index = ids.find(robot);
+    if (index && !seen.insert(*index).second) {
+      robot.fault(fault::kDuplicate, "This robot already has an entry in this list; give only one.");
+    }
+    read(entry, index);
+  }
+}
+
+std::optional<core::Pose> parse_measured(const JsonReader& entry) {
+  const auto x = entry.require("x").number(kCoordinate);
+  const auto y = entry.require("y").number(kCoordinate);
+  const auto theta = entry.require("theta").number(kAnyAngle);
+  if (!x || !y || !theta) return std::nullopt;
+  return core::Pose{{*x, *y}, core::normalize_angle(*theta)};
+}
+
+std::vector<core::Goal> parse_goals(const JsonReader& list) {
+  std::vector<core::Goal> goals;
+  for (const JsonReader item : list.array().items()) {
+    const JsonReader json = item.object(kGoalMembers);
+    core::Goal goal;
+    goal.position.x() = json.require("x").number(kCoordinate).value_or(0.0);
+    goal.position.y() = json.require("y").number(kCoordinate).value_or(0.0);
+    if (const auto theta = json.find("theta").number(kAnyAngle)) goal.theta = core::normalize_angle(*theta);
+    goal.service = json.find("service").number(kDuration).value_or(0.0);
+    goal.not_before = json.find("not_before").number(kDuration).value_or(0.0);
+    goals.push_back(goal);
+  }
+  return goals;
+}
+
+void parse_events(const JsonReader& root, const Ids& ids, std::vector<Execution>& executions) {
+  read_entries(root.find("poses"), kPoseMembers, ids, [&](const JsonReader& entry, auto robot) {
+    const auto pose = parse_measured(entry);
+    if (robot) executions[*robot].measured = pose;
+  });
+  read_entries(root.find("holds"), kHoldMembers, ids, [&](const JsonReader& entry, auto robot) {
+    const auto until = entry.require("until").number(kDuration);
+    if (robot) executions[*robot].hold = until;
+  });
+  read_entries(root.find("goals"), kGoalsMembers, ids, [&](const JsonReader& entry, auto robot) {
+    auto goals = parse_goals(entry.require("goals"));
+    if (robot) executions[*robot].goals = std::move(goals);
+  });
+}
+
+}  // namespace
+
+std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
+                                                    ParseStop& stop) {
+  AdvanceRequest read;
+  read.request = root.require("request").object(kRequestMembers);
+  const Fleet fleet = parse_fleet(read.request, limits, [&](const ReadOptions& options) {
+    stop.set_budget(effective_budget(options, limits));
+  });
+  read.moment.at = root.require("at").number(kDuration).value_or(0.0);
+  read.moment.commit = root.find("commit").number(kDuration);
+  if (const auto tolerance = root.find("pose_tolerance").number(kLengthOrZero)) {
+    read.moment.pose_tolerance = *tolerance;
+  }
+  read.moment.wait_before_move = fleet.options.plan.wait_before_move;
+  const Ids ids(fleet.robots);
+  read.executions.resize(fleet.robots.size());
+  parse_events(root, ids, read.executions);
+  // Without the map's frame, so that no number changes.
+  for (core::RobotPlan& plan : parse_plans(root.require("plans"), fleet.robots, WorldFrame{})) {
+    read.executions[plan.robot].actions = std::move(plan.actions);
+    read.executions[plan.robot].planned = true;
+  }
+  if (root.fault_count() > 0 || stop.met()) return std::nullopt;
+  auto robots = parse_robots(read.request.find("robots"), read.request.find("robot_defaults"), WorldFrame{},
+                             limits.max_robots);
+  for (ReadRobot& robot : robots) read.robots.push_back(std::move(robot.robot));
+  for (std::size_t k = 0; k < read.robots.size(); ++k) {
+    if (!read.executions[k].planned) read.executions[k].actions = read.robots[k].committed;
+  }
+  return stop.met() ? std::nullopt : std::optional(std::move(read));
+}
+
+}  // namespace fleetplan::api

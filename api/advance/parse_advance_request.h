@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "api/advance/advance.h"
+#include "api/json/json_reader.h"
+#include "api/request/limits.h"
+
+namespace fleetplan::api {
+
+/// A readable body of POST /v1/advance, in the client's world.
+struct AdvanceRequest {
+  Moment moment;
+  std::vector<core::Robot> robots;
+  std::vector<Execution> executions;  // by robot
+  std::vector<core::MovingObstacle> obstacles;
+  JsonReader request;  // the member of the body
+};
+
+/// Reads the root of the document. Nothing if it has faults, or if its stop is met.
+std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
+                                                    ParseStop& stop);
+
+}  // namespace fleetplan::api

@@ -1,0 +1,227 @@
+#include "api/advance/timeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/geometry/angle.h"
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+using core::Action;
+using core::Pose;
+using Actions = std::vector<Action>;
+
+/// An action that has less left is done (seconds): far above the rounding of times, far below what matters.
+constexpr double kDone = 1e-9;
+
+/// A measured pose that is nearer to the end of a translation has reached it (metres).
+constexpr double kReached = 1e-6;
+
+double length(const Action& action) { return (action.to.position - action.from.position).norm(); }
+
+double turn(const Action& action) { return core::rotation_between(action.from.theta, action.to.theta); }
+
+/// The actions from an index on, on the clock of the moment.
+Actions shifted(const Actions& actions, std::size_t first, double at) {
+  Actions rest(actions.begin() + static_cast<std::ptrdiff_t>(std::min(first, actions.size())), actions.end());
+  for (Action& action : rest) {
+    action.t_start -= at;
+    action.t_end -= at;
+  }
+  return rest;
+}
+
+void delay(Actions& actions, std::size_t first, double seconds) {
+  for (std::size_t k = first; k < actions.size(); ++k) {
+    actions[k].t_start += seconds;
+    actions[k].t_end += seconds;
+  }
+}
+
+/// Appends actions that follow at their planned times; later if those before end later; after a wait if they
+/// end earlier.
+void append(Actions& actions, Actions following) {
+  if (following.empty()) return;
+  const double end = actions.empty() ? 0.0 : actions.back().t_end;
+  Action& next = following.front();
+  if (end > next.t_start + kDone) delay(following, 0, end - next.t_start);
+  const bool waits = next.type == Action::Type::wait && !next.goal;
+  if (end < next.t_start - kDone && !waits) {
+    actions.push_back({Action::Type::wait, end, next.t_start, next.from, next.from});
+  } else {
+    next.t_start = end;
+  }
+  actions.insert(actions.end(), following.begin(), following.end());
+}
+
+/// How far along a translation the pose is, from 0 to 1.
+double fraction(const Action& action, const Pose& pose) {
+  const core::Position path = action.to.position - action.from.position;
+  const double squared = path.squaredNorm();
+  return squared > 0.0 ? std::clamp((pose.position - action.from.position).dot(path) / squared, 0.0, 1.0)
+                       : 1.0;
+}
+
+/// The planned time at which the robot is where it was measured, if that is on the path of the action.
+std::optional<double> time_of(const Action& action, const Pose& pose, double at, double tolerance) {
+  const double duration = action.t_end - action.t_start;
+  if (action.type == Action::Type::translate) {
+    const double along = fraction(action, pose);
+    const core::Position nearest = action.from.position + along * (action.to.position - action.from.position);
+    const bool is_near = (nearest - pose.position).norm() <= tolerance &&
+                         core::angle_between(action.from.theta, pose.theta) <= tolerance;
+    return is_near ? std::optional(action.t_start + along * duration) : std::nullopt;
+  }
+  if ((action.from.position - pose.position).norm() > tolerance) return std::nullopt;
+  const double left = core::rotation_between(pose.theta, action.to.theta);
+  if (action.type == Action::Type::wait) {
+    if (std::abs(left) > tolerance) return std::nullopt;
+    return std::clamp(at, action.t_start, action.t_end);
+  }
+  const double whole = turn(action);
+  const double done = whole != 0.0 ? 1.0 - left / whole : 1.0;
+  const double slack = whole != 0.0 ? tolerance / std::abs(whole) : 0.0;
+  if (done < -slack || done > 1.0 + slack) return std::nullopt;
+  return action.t_start + std::clamp(done, 0.0, 1.0) * duration;
+}
+
+/// After a translation along another line than planned, the next rotation begins with that heading; if none
+/// follows, one turns the robot to its planned heading.
+void turn_back(Actions& driven, Actions& following, double planned_heading, double angular_speed) {
+  const Action& last = driven.back();
+  if (!following.empty() && following.front().type == Action::Type::rotate) {
+    Action& next = following.front();
+    const double planned_turn = std::abs(turn(next));
+    const double duration = next.t_end - next.t_start;
+    next.from.theta = last.to.theta;
+    const double longer = planned_turn > 0.0 ? duration * (std::abs(turn(next)) / planned_turn - 1.0) : 0.0;
+    if (longer > 0.0) {
+      next.t_end += longer;
+      delay(following, 1, longer);
+    }
+    return;
+  }
+  const double angle = core::angle_between(last.to.theta, planned_heading);
+  if (angle <= core::kSameHeading) return;
+  const double end = last.t_end + angle / angular_speed;
+  driven.push_back({Action::Type::rotate, last.t_end, end, last.to, {last.to.position, planned_heading}});
+}
+
+/// The action under way as it goes on from a measured pose; nothing if it is done.
+std::optional<Action> continued(Action action, const Pose& pose, double at) {
+  const double duration = action.t_end - action.t_start;
+  double left = std::max(0.0, action.t_end - at);  // of a wait: as planned
+  if (action.type == Action::Type::translate) {
+    const core::Position path = action.to.position - pose.position;
+    const bool has_reached = path.norm() <= kReached || length(action) <= 0.0;
+    left = has_reached ? 0.0 : path.norm() * duration / length(action);
+    action.from = {pose.position, std::atan2(path.y(), path.x())};
+    action.to.theta = action.from.theta;
+  } else if (action.type == Action::Type::rotate) {
+    const double angle = std::abs(core::rotation_between(pose.theta, action.to.theta));
+    const bool has_turned = angle <= core::kSameHeading || turn(action) == 0.0;
+    left = has_turned ? 0.0 : angle * duration / std::abs(turn(action));
+    action.from.theta = pose.theta;
+  }
+  action.t_start = 0.0;
+  action.t_end = left;
+  return left > kDone ? std::optional(action) : std::nullopt;
+}
+
+}  // namespace
+
+Pose pose_at(const Action& action, double t) {
+  const double duration = action.t_end - action.t_start;
+  const double left = duration > 0.0 ? std::clamp((action.t_end - t) / duration, 0.0, 1.0) : 0.0;
+  if (left == 1.0) return action.from;
+  Pose pose = action.to;
+  if (action.type == Action::Type::translate) {
+    pose.position -= left * (action.to.position - action.from.position);
+  } else if (action.type == Action::Type::rotate) {
+    pose.theta = core::normalize_angle(action.to.theta - left * turn(action));
+  }
+  return pose;
+}
+
+Progress planned_progress(const Actions& actions, double at) {
+  std::size_t index = 0;
+  while (index < actions.size() && actions[index].t_end <= at + kDone) ++index;
+  return {index, at};
+}
+
+std::optional<Progress> measured_progress(const core::Robot& robot, const Actions& actions, const Pose& pose,
+                                          double at, double tolerance) {
+  std::size_t index = planned_progress(actions, at).action;
+  if (index == actions.size()) {
+    const Pose end = actions.empty() ? robot.start : actions.back().to;
+    const bool is_there = (end.position - pose.position).norm() <= tolerance &&
+                          core::angle_between(end.theta, pose.theta) <= tolerance;
+    if (is_there) return Progress{index, at};
+  } else {
+    ++index;
+  }
+  while (index-- > 0) {
+    if (const auto t = time_of(actions[index], pose, at, tolerance)) return Progress{index, *t};
+  }
+  return std::nullopt;
+}
+
+Remainder remainder(const core::Robot& robot, const Actions& actions, double at) {
+  const std::size_t under_way = planned_progress(actions, at).action;
+  Remainder rest{actions.empty() ? robot.start : actions.back().to, shifted(actions, under_way, at)};
+  if (rest.actions.empty()) return rest;
+  rest.start = pose_at(actions[under_way], at);
+  rest.actions.front().t_start = 0.0;
+  rest.actions.front().from = rest.start;
+  return rest;
+}
+
+Remainder remainder_of_measured(const core::Robot& robot, const Actions& actions, const Pose& pose,
+                                const Progress& progress, double at) {
+  if (progress.action == actions.size()) return remainder(robot, actions, at);
+  const Action& planned = actions[progress.action];
+  Actions following = shifted(actions, progress.action + 1, at);
+  Remainder rest{planned.to, {}};
+  if (const auto action = continued(planned, pose, at)) {
+    rest.start = action->from;
+    rest.actions.push_back(*action);
+    if (planned.type == Action::Type::translate) {
+      turn_back(rest.actions, following, planned.to.theta, robot.angular_speed);
+    }
+  }
+  append(rest.actions, std::move(following));
+  return rest;
+}
+
+void hold(Remainder& rest, double until) {
+  Actions& actions = rest.actions;
+  const bool stands = !actions.empty() && actions.front().type == Action::Type::wait;
+  const Action wait{Action::Type::wait, 0.0, until, rest.start, rest.start};
+  if (!stands) {
+    delay(actions, 0, until);
+  } else if (actions.front().t_end > until + kDone) {
+    actions.front().t_start = until;
+  } else {
+    delay(actions, 1, until - actions.front().t_end);
+    actions.erase(actions.begin());
+  }
+  actions.insert(actions.begin(), wait);
+}
+
+Actions actions_until(const Actions& actions, double t) {
+  Actions done;
+  for (const Action& action : actions) {
+    if (action.t_start >= t - kDone) break;
+    done.push_back(action);
+    if (action.t_end <= t + kDone) continue;
+    done.back().to = pose_at(action, t);
+    done.back().t_end = t;
+  }
+  return done;
+}
+
+}  // namespace fleetplan::api

@@ -1,0 +1,122 @@
+#include "api/advance/write_advanced.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "api/json/copy_json.h"
+#include "api/json/json_writer.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+// The members of a robot that depend on the moment.
+constexpr std::array<std::string_view, 5> kChanging{"start", "goal", "goals", "committed", "previous"};
+
+void write_pose(JsonWriter& json, std::string_view key, const core::Pose& pose) {
+  json.key(key).begin_object();
+  json.member("x", pose.position.x()).member("y", pose.position.y()).member("theta", pose.theta);
+  json.end_object();
+}
+
+void write_goal(JsonWriter& json, const core::Goal& goal) {
+  json.begin_object().member("x", goal.position.x()).member("y", goal.position.y());
+  if (goal.theta) json.member("theta", *goal.theta);
+  if (goal.service > 0.0) json.member("service", goal.service);
+  if (goal.not_before > 0.0) json.member("not_before", goal.not_before);
+  json.end_object();
+}
+
+void write_actions(JsonWriter& json, std::string_view key, const std::vector<core::Action>& actions) {
+  constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};
+  json.key(key).begin_array();
+  for (const core::Action& action : actions) {
+    json.begin_object().member("type", kTypes[static_cast<std::size_t>(action.type)]);
+    json.member("t_start", action.t_start).member("t_end", action.t_end);
+    write_pose(json, "from", action.from);
+    write_pose(json, "to", action.to);
+    if (action.goal) json.member("goal", *action.goal);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+/// As one goal if the request gave one goal, otherwise as a list.
+void write_goals(JsonWriter& json, const core::Robot& robot, bool as_one) {
+  if (!robot.goal) return;
+  if (as_one && robot.via.empty()) {
+    json.key("goal");
+    return write_goal(json, *robot.goal);
+  }
+  json.key("goals").begin_array();
+  for (std::size_t k = 0; k < robot.goal_count(); ++k) write_goal(json, robot.goal_at(k));
+  json.end_array();
+}
+
+void write_robot(JsonWriter& json, const JsonValue& given, const core::Robot& robot) {
+  json.begin_object();
+  for (const JsonValue member : given.children()) {
+    if (std::find(kChanging.begin(), kChanging.end(), member.key()) != kChanging.end()) continue;
+    json.key(member.key());
+    copy_json(json, member);
+  }
+  write_pose(json, "start", robot.start);
+  write_goals(json, robot, given.find("goal").has_value());
+  if (!robot.committed.empty()) write_actions(json, "committed", robot.committed);
+  if (robot.previous) write_actions(json, "previous", *robot.previous);
+  json.end_object();
+}
+
+void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest& request) {
+  json.begin_array();
+  std::size_t index = 0;
+  for (const JsonValue robot : given.children()) {
+    write_robot(json, robot, advanced(request.robots[index], request.executions[index], request.moment));
+    ++index;
+  }
+  json.end_array();
+}
+
+void write_obstacles(JsonWriter& json, const JsonValue& given, const AdvanceRequest& request) {
+  json.begin_array();
+  std::size_t index = 0;
+  for (const JsonValue obstacle : given.children()) {
+    const auto left = advanced(request.obstacles[index++], request.moment.at);
+    if (!left) continue;
+    json.begin_object();
+    for (const JsonValue member : obstacle.children()) {
+      if (member.key() == "motion") continue;
+      json.key(member.key());
+      copy_json(json, member);
+    }
+    json.key("motion").begin_array();
+    for (const auto& entry : left->motion) {
+      json.begin_object().member("t", entry.t);
+      json.member("x", entry.position.x()).member("y", entry.position.y()).end_object();
+    }
+    json.end_array().end_object();
+  }
+  json.end_array();
+}
+
+}  // namespace
+
+std::string write_advanced(const AdvanceRequest& request) {
+  JsonWriter json;
+  json.begin_object();
+  for (const JsonValue member : request.request.value().children()) {
+    json.key(member.key());
+    if (member.key() == "robots") {
+      write_robots(json, member, request);
+    } else if (member.key() == "obstacles") {
+      write_obstacles(json, member, request);
+    } else {
+      copy_json(json, member);
+    }
+  }
+  json.end_object();
+  return json.take();
+}
+
+}  // namespace fleetplan::api

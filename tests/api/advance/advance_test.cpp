@@ -1,0 +1,199 @@
+#include "api/advance/advance.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+namespace fleetplan::api {
+namespace {
+
+using core::Action;
+using core::Pose;
+using Type = core::Action::Type;
+
+Pose at_x(double x) { return {{x, 1.0}, 0.0}; }
+
+core::Goal goal(double x, double service = 0.0, double not_before = 0.0) {
+  return {{x, 1.0}, std::nullopt, service, not_before};
+}
+
+/// Serves at x = 3 from 2 s to 7 s, waits for others until 8 s, and is at x = 6 from 11 s on.
+core::Robot robot() {
+  core::Robot robot;
+  robot.start = at_x(1.0);
+  robot.linear_speed = robot.angular_speed = 1.0;
+  robot.via = {goal(3.0, 5.0)};
+  robot.goal = goal(6.0, 1.0);
+  return robot;
+}
+
+Execution plan() {
+  return {{{Type::translate, 0.0, 2.0, at_x(1.0), at_x(3.0)},
+           {Type::wait, 2.0, 7.0, at_x(3.0), at_x(3.0), 0},
+           {Type::wait, 7.0, 8.0, at_x(3.0), at_x(3.0)},
+           {Type::translate, 8.0, 11.0, at_x(3.0), at_x(6.0)},
+           {Type::wait, 11.0, 12.0, at_x(6.0), at_x(6.0), 1}},
+          true};
+}
+
+Moment moment(double at, std::optional<double> commit = {}, double wait_before_move = 0.0) {
+  return {at, commit, 0.1, wait_before_move};
+}
+
+TEST(Advance, ByDefaultTheActionUnderWayIsCommitted) {
+  const core::Robot next = advanced(robot(), plan(), moment(0.5));
+  EXPECT_EQ(next.start.position.x(), 1.5);
+  ASSERT_EQ(next.committed.size(), 1U);
+  EXPECT_EQ(next.committed[0].t_end, 1.5);
+  EXPECT_EQ(next.committed[0].to.position.x(), 3.0);
+  ASSERT_EQ(next.previous->size(), 5U);
+  EXPECT_EQ(next.goal_count(), 2U);
+}
+
+TEST(Advance, AHorizonCutsTheActionUnderWay) {
+  const core::Robot next = advanced(robot(), plan(), moment(0.5, 1.0));
+  ASSERT_EQ(next.committed.size(), 1U);
+  EXPECT_EQ(next.committed[0].t_end, 1.0);
+  EXPECT_EQ(next.committed[0].to.position.x(), 2.5);
+  EXPECT_EQ(next.previous->front().t_end, 1.5);
+  EXPECT_TRUE(advanced(robot(), plan(), moment(0.5, 0.0)).committed.empty());
+}
+
+TEST(Advance, AServiceUnderWayKeepsWhatIsLeftOfIt) {
+  const core::Robot next = advanced(robot(), plan(), moment(4.5));
+  ASSERT_EQ(next.goal_count(), 2U);
+  EXPECT_DOUBLE_EQ(next.via[0].service, 2.5);
+  EXPECT_TRUE(next.committed.empty());
+  EXPECT_EQ(next.previous->front().t_end, 2.5);
+  EXPECT_EQ(next.previous->front().goal, 0U);
+}
+
+TEST(Advance, VisitedGoalsAreLeftOutAndTheWaitsAreNumberedAnew) {
+  const core::Robot next = advanced(robot(), plan(), moment(7.0));
+  EXPECT_TRUE(next.via.empty());
+  EXPECT_EQ(next.goal->service, 1.0);
+  EXPECT_EQ(next.previous->front().goal, std::nullopt);
+  EXPECT_EQ(next.previous->back().goal, 0U);
+}
+
+TEST(Advance, TheLastGoalStaysWithoutAServiceWhenItHasBeenServed) {
+  for (const double at : {12.0, 40.0}) {
+    const core::Robot next = advanced(robot(), plan(), moment(at));
+    ASSERT_EQ(next.goal_count(), 1U);
+    EXPECT_EQ(next.goal->position.x(), 6.0);
+    EXPECT_EQ(next.goal->service, 0.0);
+    EXPECT_TRUE(next.previous->empty());
+  }
+}
+
+TEST(Advance, TimesOfGoalsMove) {
+  core::Robot late = robot();
+  late.goal->not_before = 30.0;
+  EXPECT_EQ(advanced(late, plan(), moment(10.0)).goal->not_before, 20.0);
+  EXPECT_EQ(advanced(late, {{}, false}, moment(31.0)).goal->not_before, 0.0);
+}
+
+TEST(Advance, NewGoalsReplaceTheOthersAndThePreviousPlan) {
+  Execution execution = plan();
+  execution.goals = {goal(2.0), goal(8.0, 3.0)};
+  const core::Robot next = advanced(robot(), execution, moment(1.0));
+  ASSERT_EQ(next.goal_count(), 2U);
+  EXPECT_EQ(next.goal->service, 3.0);
+  EXPECT_FALSE(next.previous);
+  EXPECT_EQ(next.committed.size(), 1U);
+}
+
+TEST(Advance, AHoldIsCommittedAndBreaksTheActionOff) {
+  Execution execution = plan();
+  execution.hold = 30.0;
+  const core::Robot next = advanced(robot(), execution, moment(1.0, 1.0));
+  ASSERT_EQ(next.committed.size(), 1U);
+  EXPECT_EQ(next.committed[0].type, Type::wait);
+  EXPECT_EQ(next.committed[0].t_end, 30.0);
+  EXPECT_EQ(next.start.position.x(), 2.0);
+  EXPECT_EQ(next.previous->at(1).t_end, 31.0);
+}
+
+TEST(Advance, ARobotThatIsElsewhereHasNoCommitmentAndNoPreviousPlan) {
+  Execution execution = plan();
+  execution.measured = Pose{{2.0, 1.5}, 0.0};
+  const core::Robot next = advanced(robot(), execution, moment(1.0));
+  EXPECT_EQ(next.start.position.y(), 1.5);
+  EXPECT_TRUE(next.committed.empty());
+  EXPECT_FALSE(next.previous);
+  EXPECT_EQ(next.goal_count(), 2U);
+}
+
+TEST(Advance, ALateRobotHasNotVisitedWhatItsPlanHasVisited) {
+  Execution execution = plan();
+  execution.measured = Pose{{2.0, 1.0}, 0.0};
+  const core::Robot next = advanced(robot(), execution, moment(9.0));
+  ASSERT_EQ(next.goal_count(), 2U);
+  EXPECT_EQ(next.via[0].service, 5.0);
+  EXPECT_EQ(next.previous->back().t_end, 11.0);
+}
+
+TEST(Advance, ARobotWithoutAPlanFollowsItsCommitmentAndStays) {
+  const Execution execution{{{Type::translate, 0.0, 2.0, at_x(1.0), at_x(3.0)}}, false};
+  const core::Robot moving = advanced(robot(), execution, moment(1.0));
+  EXPECT_EQ(moving.committed.size(), 1U);
+  EXPECT_FALSE(moving.previous);
+  // It is served where it stands.
+  const core::Robot standing = advanced(robot(), execution, moment(4.0));
+  EXPECT_EQ(standing.start.position.x(), 3.0);
+  EXPECT_DOUBLE_EQ(standing.via[0].service, 3.0);
+}
+
+TEST(Advance, ARobotThatHasBegunTheWaitBeforeAMoveIsCommittedToTheMove) {
+  const core::Robot next = advanced(robot(), plan(), moment(7.5, 0.1, 2.0));
+  ASSERT_EQ(next.committed.size(), 2U);
+  EXPECT_EQ(next.committed[1].t_end, 3.5);
+  EXPECT_TRUE(advanced(robot(), plan(), moment(7.5, {}, 0.1)).committed.empty());
+}
+
+TEST(Advance, ItsResultCanBeAdvancedAgain) {
+  for (int step = 0; step < 36; ++step) {
+    const double first = 0.37 * step;
+    const core::Robot once = advanced(robot(), plan(), moment(first));
+    const core::Robot twice = advanced(once, {*once.previous, true}, moment(0.7));
+    const core::Robot direct = advanced(robot(), plan(), moment(first + 0.7));
+    EXPECT_NEAR(twice.start.position.x(), direct.start.position.x(), 1e-9) << first;
+    ASSERT_EQ(twice.goal_count(), direct.goal_count()) << first;
+    EXPECT_NEAR(twice.goal_at(0).service, direct.goal_at(0).service, 1e-9) << first;
+    EXPECT_EQ(twice.previous->size(), direct.previous->size()) << first;
+  }
+}
+
+core::MovingObstacle walker(core::MovingObstacle::After after) {
+  return {"walker", 0.3, {{2.0, {1.0, 1.0}}, {4.0, {5.0, 1.0}}, {8.0, {5.0, 3.0}}}, after};
+}
+
+TEST(AdvancedObstacle, IsCutToWhatIsLeftOfIt) {
+  const auto left = advanced(walker(core::MovingObstacle::After::leaves), 3.0);
+  ASSERT_TRUE(left);
+  ASSERT_EQ(left->motion.size(), 3U);
+  EXPECT_EQ(left->motion[0].t, 0.0);
+  EXPECT_EQ(left->motion[0].position.x(), 3.0);
+  EXPECT_EQ(left->motion[2].t, 5.0);
+  EXPECT_EQ(advanced(walker(core::MovingObstacle::After::leaves), 4.0)->motion.size(), 2U);
+}
+
+TEST(AdvancedObstacle, ThatIsNotThereYetComesLater) {
+  const auto left = advanced(walker(core::MovingObstacle::After::leaves), 1.0);
+  ASSERT_TRUE(left);
+  ASSERT_EQ(left->motion.size(), 3U);
+  EXPECT_EQ(left->motion[0].t, 1.0);
+}
+
+TEST(AdvancedObstacle, VanishesOrStays) {
+  EXPECT_EQ(advanced(walker(core::MovingObstacle::After::leaves), 8.0)->motion.size(), 1U);
+  EXPECT_FALSE(advanced(walker(core::MovingObstacle::After::leaves), 8.1));
+  const auto stays = advanced(walker(core::MovingObstacle::After::stays), 9.0);
+  ASSERT_TRUE(stays);
+  ASSERT_EQ(stays->motion.size(), 1U);
+  EXPECT_EQ(stays->motion[0].t, 0.0);
+  EXPECT_EQ(stays->motion[0].position.y(), 3.0);
+}
+
+}  // namespace
+}  // namespace fleetplan::api

@@ -1,0 +1,205 @@
+#include "api/advance/timeline.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace fleetplan::api {
+namespace {
+
+using core::Action;
+using core::Pose;
+using Type = core::Action::Type;
+
+constexpr double kQuarter = std::numbers::pi / 2.0;
+
+core::Robot robot() {
+  core::Robot robot;
+  robot.start = {{1.0, 1.0}, 0.0};
+  robot.linear_speed = 1.0;
+  robot.angular_speed = kQuarter;
+  return robot;
+}
+
+/// 4 m east, a quarter turn, a wait, 2 m north: 4 s, 1 s, 2 s, 2 s.
+std::vector<Action> corner() {
+  const Pose start{{1.0, 1.0}, 0.0};
+  const Pose bend{{5.0, 1.0}, 0.0};
+  const Pose turned{{5.0, 1.0}, kQuarter};
+  const Pose end{{5.0, 3.0}, kQuarter};
+  return {{Type::translate, 0.0, 4.0, start, bend},
+          {Type::rotate, 4.0, 5.0, bend, turned},
+          {Type::wait, 5.0, 7.0, turned, turned},
+          {Type::translate, 7.0, 9.0, turned, end}};
+}
+
+void expect_pose(const Pose& pose, double x, double y, double theta) {
+  EXPECT_NEAR(pose.position.x(), x, 1e-9);
+  EXPECT_NEAR(pose.position.y(), y, 1e-9);
+  EXPECT_NEAR(pose.theta, theta, 1e-9);
+}
+
+void expect_contiguous(const Remainder& rest) {
+  Pose pose = rest.start;
+  double t = 0.0;
+  for (const Action& action : rest.actions) {
+    EXPECT_EQ(action.t_start, t);
+    EXPECT_EQ(action.from.position, pose.position);
+    EXPECT_EQ(action.from.theta, pose.theta);
+    EXPECT_GT(action.t_end, action.t_start);
+    if (action.type == Type::translate) {
+      const core::Position path = action.to.position - action.from.position;
+      EXPECT_NEAR(std::atan2(path.y(), path.x()), action.from.theta, 1e-9);
+      EXPECT_EQ(action.from.theta, action.to.theta);
+    }
+    pose = action.to;
+    t = action.t_end;
+  }
+}
+
+TEST(Timeline, ATranslationUnderWayKeepsItsEndAndItsSpeed) {
+  const Remainder rest = remainder(robot(), corner(), 1.5);
+  expect_contiguous(rest);
+  expect_pose(rest.start, 2.5, 1.0, 0.0);
+  ASSERT_EQ(rest.actions.size(), 4U);
+  EXPECT_EQ(rest.actions[0].t_end, 2.5);
+  EXPECT_EQ(rest.actions[3].t_end, 7.5);
+}
+
+TEST(Timeline, ARotationUnderWayIsInterpolatedTheShorterWay) {
+  auto actions = corner();
+  actions.resize(2);
+  actions[1].from.theta = 3.0;
+  actions[1].to.theta = -3.0;
+  const Remainder rest = remainder(robot(), actions, 4.75);
+  ASSERT_EQ(rest.actions.size(), 1U);
+  const double turn = 2.0 * (std::numbers::pi - 3.0);
+  expect_pose(rest.start, 5.0, 1.0, 3.0 + 0.75 * turn - 2.0 * std::numbers::pi);
+  expect_contiguous(rest);
+}
+
+TEST(Timeline, NothingIsLeftAfterTheLastAction) {
+  const Remainder rest = remainder(robot(), corner(), 9.0);
+  expect_pose(rest.start, 5.0, 3.0, kQuarter);
+  EXPECT_TRUE(rest.actions.empty());
+  expect_pose(remainder(robot(), {}, 3.0).start, 1.0, 1.0, 0.0);
+}
+
+TEST(Timeline, AnActionThatEndsAtTheMomentIsDone) {
+  const Remainder rest = remainder(robot(), corner(), 4.0 - 1e-12);
+  ASSERT_EQ(rest.actions.size(), 3U);
+  expect_contiguous(rest);
+  EXPECT_EQ(rest.actions[0].type, Type::rotate);
+}
+
+TEST(Timeline, ActionsAreCutWhereTheyAreUnderWay) {
+  const auto cut = actions_until(corner(), 6.0);
+  ASSERT_EQ(cut.size(), 3U);
+  EXPECT_EQ(cut[2].t_end, 6.0);
+  const auto in_a_move = actions_until(corner(), 1.0);
+  ASSERT_EQ(in_a_move.size(), 1U);
+  expect_pose(in_a_move[0].to, 2.0, 1.0, 0.0);
+  EXPECT_TRUE(actions_until(corner(), 0.0).empty());
+}
+
+TEST(Timeline, AHoldDelaysTheRest) {
+  Remainder rest = remainder(robot(), corner(), 1.0);
+  hold(rest, 30.0);
+  expect_contiguous(rest);
+  ASSERT_EQ(rest.actions.size(), 5U);
+  EXPECT_EQ(rest.actions[0].type, Type::wait);
+  EXPECT_EQ(rest.actions[0].t_end, 30.0);
+  EXPECT_EQ(rest.actions[1].t_end, 33.0);
+  EXPECT_EQ(rest.actions[4].t_end, 38.0);
+}
+
+TEST(Timeline, AHoldTakesPlaceDuringAWaitUnderWay) {
+  Remainder shorter = remainder(robot(), corner(), 5.5);
+  hold(shorter, 0.5);
+  expect_contiguous(shorter);
+  ASSERT_EQ(shorter.actions.size(), 3U);
+  EXPECT_EQ(shorter.actions[2].t_end, 3.5);
+  Remainder longer = remainder(robot(), corner(), 5.5);
+  hold(longer, 10.0);
+  expect_contiguous(longer);
+  ASSERT_EQ(longer.actions.size(), 2U);
+  EXPECT_EQ(longer.actions[1].t_start, 10.0);
+  EXPECT_EQ(longer.actions[1].t_end, 12.0);
+}
+
+Remainder measured(const Pose& pose, double at) {
+  const auto progress = measured_progress(robot(), corner(), pose, at, 0.1);
+  EXPECT_TRUE(progress);
+  Remainder rest = remainder_of_measured(robot(), corner(), pose, progress.value_or(Progress{}), at);
+  expect_contiguous(rest);
+  return rest;
+}
+
+TEST(Timeline, APoseThatIsAsPlannedChangesNoTime) {
+  const Remainder rest = measured({{2.5, 1.0}, 0.0}, 1.5);
+  const Remainder planned = remainder(robot(), corner(), 1.5);
+  ASSERT_EQ(rest.actions.size(), planned.actions.size());
+  for (std::size_t k = 0; k < rest.actions.size(); ++k) {
+    EXPECT_NEAR(rest.actions[k].t_end, planned.actions[k].t_end, 1e-12);
+  }
+}
+
+TEST(Timeline, ALateRobotDrivesStraightToTheEndOfItsActionAndTheRestIsLater) {
+  const Remainder rest = measured({{2.0, 1.09}, 0.02}, 3.0);
+  ASSERT_EQ(rest.actions.size(), 4U);
+  const double left = std::hypot(3.0, 0.09);
+  expect_pose(rest.start, 2.0, 1.09, std::atan2(-0.09, 3.0));
+  EXPECT_NEAR(rest.actions[0].t_end, left, 1e-12);
+  expect_pose(rest.actions[0].to, 5.0, 1.0, std::atan2(-0.09, 3.0));
+  // The rotation is longer, at its planned speed.
+  EXPECT_NEAR(rest.actions[1].t_end - left, 1.0 + std::atan2(0.09, 3.0) / kQuarter, 1e-12);
+  EXPECT_NEAR(rest.actions[3].t_end - rest.actions[1].t_end, 4.0, 1e-12);
+}
+
+TEST(Timeline, ARobotMayStillBeInAnEarlierActionThanPlanned) {
+  const Remainder driving = measured({{3.0, 1.0}, 0.0}, 8.0);
+  ASSERT_EQ(driving.actions.size(), 4U);
+  EXPECT_NEAR(driving.actions[3].t_end, 2.0 + 5.0, 1e-12);
+  const Remainder turning = measured({{5.0, 1.0}, 0.5 * kQuarter}, 8.0);
+  ASSERT_EQ(turning.actions.size(), 3U);
+  EXPECT_NEAR(turning.actions[0].t_end, 0.5, 1e-12);
+  EXPECT_NEAR(turning.actions[2].t_end, 4.5, 1e-12);
+}
+
+TEST(Timeline, ARobotThatIsEarlyWaitsForItsPlan) {
+  const Remainder rest = measured({{4.0, 1.0}, 0.0}, 1.0);
+  ASSERT_EQ(rest.actions.size(), 5U);
+  EXPECT_NEAR(rest.actions[0].t_end, 1.0, 1e-12);
+  EXPECT_EQ(rest.actions[1].type, Type::wait);
+  EXPECT_EQ(rest.actions[1].t_end, 3.0);
+  EXPECT_EQ(rest.actions[4].t_end, 8.0);
+}
+
+TEST(Timeline, ATranslationAlongAnotherLineEndsInThePlannedHeading) {
+  auto actions = corner();
+  actions.resize(1);
+  const Remainder rest = remainder_of_measured(robot(), actions, {{2.0, 0.95}, 0.0}, {0, 1.0}, 1.0);
+  expect_contiguous(rest);
+  ASSERT_EQ(rest.actions.size(), 2U);
+  expect_pose(rest.actions[1].to, 5.0, 1.0, 0.0);
+}
+
+TEST(Timeline, ARobotThatStandsIsWhereItsPlanHasIt) {
+  const Remainder rest = measured({{5.05, 1.0}, kQuarter - 0.05}, 6.0);
+  expect_pose(rest.start, 5.0, 1.0, kQuarter);
+  ASSERT_FALSE(rest.actions.empty());
+  EXPECT_EQ(rest.actions[0].t_end, 1.0);
+  EXPECT_TRUE(measured({{5.0, 3.05}, kQuarter}, 20.0).actions.empty());
+}
+
+TEST(Timeline, APoseBesideThePathIsNoProgress) {
+  EXPECT_FALSE(measured_progress(robot(), corner(), {{2.0, 1.2}, 0.0}, 1.0, 0.1));
+  EXPECT_FALSE(measured_progress(robot(), corner(), {{2.0, 1.0}, 0.5}, 1.0, 0.1));
+  EXPECT_FALSE(measured_progress(robot(), {}, {{1.2, 1.0}, 0.0}, 1.0, 0.1));
+  // Not yet planned.
+  EXPECT_FALSE(measured_progress(robot(), corner(), {{5.0, 2.0}, kQuarter}, 1.0, 0.1));
+}
+
+}  // namespace
+}  // namespace fleetplan::api

@@ -1,0 +1,104 @@
+#include "api/endpoints/advance_endpoint.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "api/endpoints/plan_endpoint.h"
+#include "tests/api/support/requests.h"
+
+namespace fleetplan::api {
+namespace {
+
+Json planned(const Json& request) {
+  const Reply reply = plan_endpoint(request.dump(), {});
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  return json_of(reply);
+}
+
+Json advance_request(const Json& request, double at) {
+  return {{"request", request}, {"plans", planned(request)["plans"]}, {"at", at}};
+}
+
+Json advanced_json(const Json& body) {
+  const Reply reply = advance_endpoint(body.dump(), {});
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  return json_of(reply);
+}
+
+Faults faults_of_advance(const Json& body) {
+  const Reply reply = advance_endpoint(body.dump(), {});
+  EXPECT_EQ(reply.status, 422) << reply.body;
+  Faults faults;
+  const Json problem = json_of(reply);
+  for (const auto& fault : problem["errors"]) faults.emplace_back(fault["pointer"], fault["code"]);
+  return faults;
+}
+
+TEST(AdvanceEndpoint, CopiesWhatTheMomentDoesNotChange) {
+  Json request = swap_request();
+  request["map"]["origin"] = {{"x", 0.1}, {"y", 0.2}};
+  for (auto& robot : request["robots"]) robot["start"]["y"] = robot["goal"]["y"] = 1.7;
+  request["options"] = {{"seed", 18446744073709551615U}, {"any_angle", true}, {"max_iterations", nullptr}};
+  const Json next = advanced_json(advance_request(request, 1.0));
+  for (const char* member : {"map", "robot_defaults", "options"}) EXPECT_EQ(next[member], request[member]);
+  EXPECT_EQ(next["robots"][0]["id"], "a");
+  EXPECT_EQ(next["robots"][1]["goal"], request["robots"][1]["goal"]);
+}
+
+TEST(AdvanceEndpoint, KeepsTheNumbersOfThePlan) {
+  Json request = swap_request();
+  request["map"]["origin"] = {{"x", 0.1}, {"y", 0.2}};
+  for (auto& robot : request["robots"]) robot["start"]["y"] = robot["goal"]["y"] = 1.7;
+  const Json body = advance_request(request, 0.1);
+  const Json robot = advanced_json(body)["robots"][0];
+  const Json& actions = body["plans"][0]["actions"];
+  EXPECT_EQ(robot["previous"].size(), actions.size());
+  EXPECT_EQ(robot["previous"].back()["to"], actions.back()["to"]);
+  EXPECT_EQ(robot["previous"][0]["from"], robot["start"]);
+  EXPECT_EQ(robot["committed"][0], robot["previous"][0]);
+}
+
+TEST(AdvanceEndpoint, ReportsFaultsWhereTheyAre) {
+  const Json good = advance_request(swap_request(), 1.0);
+  const auto with = [&](const char* member, const char* value) {
+    Json body = good;
+    body[member] = Json::parse(value);
+    return faults_of_advance(body);
+  };
+  EXPECT_EQ(with("at", "-1"), (Faults{{"/at", "out_of_range"}}));
+  EXPECT_EQ(with("commit", "\"1\""), (Faults{{"/commit", "wrong_type"}}));
+  EXPECT_EQ(with("pose_tolerance", "-0.1"), (Faults{{"/pose_tolerance", "out_of_range"}}));
+  EXPECT_EQ(with("horizon", "1"), (Faults{{"/horizon", "unknown_key"}}));
+  EXPECT_EQ(with("poses", R"([{"robot": "a", "x": 1, "y": 1}])"), (Faults{{"/poses/0/theta", "missing"}}));
+  EXPECT_EQ(with("holds", R"([{"robot": "z", "until": 1}])"), (Faults{{"/holds/0/robot", "unknown_robot"}}));
+  EXPECT_EQ(with("holds", R"([{"robot": "a", "until": 1}, {"robot": "a", "until": 2}])"),
+            (Faults{{"/holds/1/robot", "duplicate"}}));
+  EXPECT_EQ(with("goals", R"([{"robot": "a", "goals": [{"x": 1}]}])"),
+            (Faults{{"/goals/0/goals/0/y", "missing"}}));
+  EXPECT_EQ(with("plans", R"([{"robot": "a", "actions": [{"type": "fly"}]}])").front(),
+            (std::pair<std::string, std::string>{"/plans/0/actions/0/type", "unknown_value"}));
+}
+
+TEST(AdvanceEndpoint, ReportsFaultsOfTheRequestBelowIt) {
+  Json body = advance_request(swap_request(), 1.0);
+  body["request"]["robots"][1]["start"]["x"] = "left";
+  body["request"]["robot"] = 1;
+  EXPECT_EQ(faults_of_advance(body),
+            (Faults{{"/request/robots/1/start/x", "wrong_type"}, {"/request/robot", "unknown_key"}}));
+  EXPECT_EQ(faults_of_advance(Json::object()),
+            (Faults{{"/request", "missing"}, {"/at", "missing"}, {"/plans", "missing"}}));
+}
+
+TEST(AdvanceEndpoint, ARequestThatNeedsTooMuchMemoryIsRefused) {
+  RequestContext context;
+  context.limits.max_plan_memory = 4 << 20;
+  Json body = advance_request(swap_request(), 1.0);
+  const Json action = body["plans"][0]["actions"][0];
+  for (int k = 0; k < 20'000; ++k) body["plans"][0]["actions"].push_back(action);
+  const Reply reply = advance_endpoint(body.dump(), context);
+  EXPECT_EQ(json_of(reply)["code"], "memory_exceeded");
+}
+
+}  // namespace
+}  // namespace fleetplan::api
