@@ -47,9 +47,23 @@ StopCondition beyond_budget(const StopCondition& stop) {
   return StopCondition(std::max(stop.deadline(), now) + kMostBeyond, stop.stop_token()).despite_memory();
 }
 
+/// Whether all robots keep their previous plans, and no search can change that.
+bool is_final(const KeptPlans& previous, const std::vector<std::size_t>& movers, const PlanOptions& options,
+              const StopCondition& stop) {
+  const bool is_over = stop.cancelled() || StopCondition::Clock::now() >= stop.deadline();
+  const bool may_improve =
+      options.mode == PlanOptions::Mode::anytime && options.replan == PlanOptions::Replan::all;
+  return !previous.kept.empty() && (is_over || !may_improve) &&
+         std::all_of(movers.begin(), movers.end(), [&](auto robot) { return previous.contains(robot); });
+}
+
 PrioritizedResult first_plan(PlanState& state, const KeptPlans& previous,
                              const std::vector<std::size_t>& movers, Random& random,
                              const StopCondition& stop, ProgressReport& progress) {
+  if (is_final(previous, movers, state.instance().options(), stop)) {
+    finish_with_kept_plans(state, movers);
+    return {};
+  }
   const PlanningTime time = PlanningTime::until(stop);
   return follow_kept_plans(state, previous) > 0 ? plan_around_kept(state, movers, random, time, progress)
                                                 : plan_prioritized(state, movers, random, time, progress);

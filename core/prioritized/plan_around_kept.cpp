@@ -24,12 +24,10 @@ class PlanningAroundKept {
         kept_(state.reservations()) {}
 
   PrioritizedResult run() {
-    std::vector<std::size_t> others;
     for (const std::size_t robot : movers_) {
-      if (!state_.trajectory(robot)) others.push_back(robot);
+      if (!state_.trajectory(robot)) others_.push_back(robot);
     }
-    if (others.empty()) return std::move(result_);
-    keep_without_search(others);
+    if (others_.empty()) return std::move(result_);
     const bool all_planned = !time_.all.met() && (repaired() || planned_anew());
     if (!all_planned) explain_best();
     if (state_.instance().options().replan == PlanOptions::Replan::where_needed) return_to_kept();
@@ -42,14 +40,17 @@ class PlanningAroundKept {
     PlanState::Reservations reservations;
   };
 
-  /// The plan if no time is left: those that can do so follow their trajectories, all others stay.
-  void keep_without_search(const std::vector<std::size_t>& others) {
-    SafePlan plan = make_safe(state_, others, {}, Effort::none, time_.all, progress_);
+  /// The plan that needs no search: those that can do so follow their trajectories, all others stay.
+  void keep_without_search() {
+    if (best_) return;
+    const PlanState::Reservations before = state_.reservations();
+    state_.restore(kept_);
+    SafePlan plan = make_safe(state_, others_, {}, Effort::none, time_.all, progress_);
     best_ = Best{std::move(plan), state_.reservations()};
     for (const std::size_t robot : movers_) {
       if (state_.trajectory(robot)) certain_.push_back(robot);
     }
-    if (!time_.all.met()) state_.restore(kept_);
+    state_.restore(before);
   }
 
   /// Returns whether all robots are planned, by repairs of the plan.
@@ -90,6 +91,11 @@ class PlanningAroundKept {
   /// Keeps the plan in the state if it plans more robots, and all those that are certain.
   void keep_if_better(SafePlan plan) {
     result_.cut_off = result_.cut_off || plan.cut_off;
+    if (plan.staying.empty()) {
+      best_ = Best{std::move(plan), state_.reservations()};
+      return;
+    }
+    keep_without_search();
     if (best_->plan.staying.size() <= plan.staying.size() || !plans_all_certain()) return;
     best_ = Best{std::move(plan), state_.reservations()};
   }
@@ -117,6 +123,7 @@ class PlanningAroundKept {
 
   /// Returns to the best plan, plans more robots in it while there is time, and tells why the rest stays.
   void explain_best() {
+    keep_without_search();
     if (is_over()) {
       state_.finish_with(best_->reservations);
     } else {
@@ -154,6 +161,7 @@ class PlanningAroundKept {
   ProgressReport& progress_;
   StopCondition stop_;                  // of the repairs
   const PlanState::Reservations kept_;  // at first
+  std::vector<std::size_t> others_;     // without a trajectory at first
   std::vector<std::size_t> certain_;    // robots that remain planned in every case
   std::optional<Best> best_;
   bool in_second_part_ = false;   // of the time

@@ -25,4 +25,12 @@ std::size_t follow_kept_plans(PlanState& state, const KeptPlans& previous) {
   return followed;
 }
 
+void finish_with_kept_plans(PlanState& state, const std::vector<std::size_t>& movers) {
+  PlanState::Reservations reservations = state.reservations();
+  for (const std::size_t robot : movers) {
+    reservations.trajectories[robot] = previous_trajectory(state.instance().robot(robot));
+  }
+  state.finish_with(reservations);
+}
+
 }  // namespace fleetplan::core

@@ -10,4 +10,7 @@ namespace fleetplan::core {
 /// that do.
 std::size_t follow_kept_plans(PlanState& state, const KeptPlans& previous);
 
+/// The same where all of `movers` are kept and no search follows: takes hardly any time.
+void finish_with_kept_plans(PlanState& state, const std::vector<std::size_t>& movers);
+
 }  // namespace fleetplan::core
