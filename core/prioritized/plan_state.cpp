@@ -35,6 +35,24 @@ std::vector<double> radii(const Instance& instance) {
   return radii;
 }
 
+/// The part of contiguous segments from `t` on.
+std::vector<TimedSegment> from_time(double t, std::vector<TimedSegment> segments) {
+  std::erase_if(segments, [&](const TimedSegment& segment) { return segment.t_end <= t; });
+  if (!segments.empty() && segments.front().t_start < t) {
+    TimedSegment& first = segments.front();
+    first.path.from += first.velocity() * (t - first.t_start);
+    first.t_start = t;
+  }
+  return segments;
+}
+
+/// The part of contiguous segments until `t`, between two of them or in a wait.
+std::vector<TimedSegment> until_time(double t, std::vector<TimedSegment> segments) {
+  std::erase_if(segments, [&](const TimedSegment& segment) { return segment.t_start >= t; });
+  if (!segments.empty()) segments.back().t_end = std::min(segments.back().t_end, t);
+  return segments;
+}
+
 const Contacts* contacts(const Instance& instance) {
   return instance.contacts().empty() ? nullptr : &instance.contacts();
 }
@@ -49,10 +67,20 @@ PlanState::PlanState(const Instance& instance)
       reservations_{std::vector<std::optional<Trajectory>>(instance.size()),
                     std::vector<double>(instance.size(), 0.0)},
       search_spaces_(instance.size()),
-      ways_(instance.size()) {}
+      ways_(instance.size()) {
+  for (std::size_t robot = 0; robot < instance.size(); ++robot) {
+    const Itinerary& itinerary = instance.itinerary(robot);
+    if (itinerary.t_begin <= 0.0) continue;
+    table_.commit_certain(robot, until_time(itinerary.t_begin, timed_segments(itinerary.committed)));
+  }
+}
 
-Trajectory PlanState::staying(std::size_t robot) const {
-  return {instance_.robot(robot).start.position, {}, 0.0};
+Trajectory PlanState::staying(std::size_t robot) const { return instance_.itinerary(robot).committed; }
+
+std::vector<TimedSegment> PlanState::after_commitment(std::size_t robot, const Trajectory& trajectory) const {
+  const double t_begin = instance_.itinerary(robot).t_begin;
+  std::vector<TimedSegment> segments = timed_segments(trajectory);
+  return t_begin > 0.0 ? from_time(t_begin, std::move(segments)) : segments;
 }
 
 void PlanState::reserve(std::size_t robot, const std::vector<TimedSegment>& segments) {
@@ -80,7 +108,7 @@ void PlanState::forget_ways_closed_by_robots(std::size_t except) {
 }
 
 void PlanState::follow(std::size_t robot, Trajectory trajectory) {
-  reserve(robot, timed_segments(trajectory));
+  reserve(robot, after_commitment(robot, trajectory));
   reservations_.trajectories[robot] = std::move(trajectory);
   ++planned_count_;
 }
@@ -88,9 +116,12 @@ void PlanState::follow(std::size_t robot, Trajectory trajectory) {
 void PlanState::stay_at_start(std::size_t robot) { reserve_start(robot, kForever); }
 
 void PlanState::reserve_start(std::size_t robot, double seconds) {
-  const Position start = instance_.robot(robot).start.position;
+  const Itinerary& itinerary = instance_.itinerary(robot);
+  const Position& place = itinerary.pose.position;
   remove(robot);
-  if (seconds > 0.0) table_.commit(robot, {{{start, start}, 0.0, seconds}});
+  if (seconds > 0.0) {
+    table_.commit(robot, {{{place, place}, itinerary.t_begin, itinerary.t_begin + seconds}});
+  }
   reservations_.at_start_until[robot] = seconds;
   if (seconds == kForever) ++staying_count_;
 }
@@ -101,7 +132,12 @@ bool PlanState::is_reserved(std::size_t robot, const Reservations& among) const 
   const auto& other = among.trajectories[robot];
   if (now.has_value() != other.has_value()) return false;
   if (!now) return reservations_.at_start_until[robot] == among.at_start_until[robot];
+  const auto same_visit = [](const Visit& a, const Visit& b) {
+    return a.goal == b.goal && a.t_arrive == b.t_arrive && a.t_leave == b.t_leave;
+  };
   return now->cost == other->cost && now->is_previous == other->is_previous &&
+         std::equal(now->visits.begin(), now->visits.end(), other->visits.begin(), other->visits.end(),
+                    same_visit) &&
          std::equal(now->moves.begin(), now->moves.end(), other->moves.begin(), other->moves.end(),
                     [](const TimedSegment& a, const TimedSegment& b) {
                       return a.t_start == b.t_start && a.t_end == b.t_end && a.path.to == b.path.to;
@@ -300,7 +336,12 @@ Trajectory PlanState::plan_alone(std::size_t robot, const StopCondition& stop) {
 
 std::vector<std::size_t> PlanState::conflicting_robots(std::size_t robot,
                                                        const Trajectory& trajectory) const {
-  return table_.robots_hit(robot, timed_segments(trajectory));
+  return table_.robots_hit(robot, after_commitment(robot, trajectory));
+}
+
+std::vector<std::size_t> PlanState::robots_committed_against(std::size_t robot,
+                                                             const Trajectory& trajectory) const {
+  return table_.robots_certainly_hit(robot, after_commitment(robot, trajectory));
 }
 
 std::vector<std::size_t> PlanState::robots_crossing_start(std::size_t robot) const {

@@ -32,9 +32,10 @@ struct Way {
   bool none() const { return kind == Kind::not_on_lattice || kind == Kind::closed; }
 };
 
-/// The reservations of all robots while a plan is made. A robot is in one of four states: it follows a
-/// trajectory, stays at its start for ever, reserves its start for some time, or has no reservation (the
-/// initial state). Plans one robot among the reservations of the others (paper, section Prioritized
+/// The reservations of all robots while a plan is made. The committed motion of every robot is always
+/// reserved. After it a robot is in one of four states: it follows a trajectory, stays for ever, reserves its
+/// place for some time, or has no reservation (the initial state). Its place is its start, or the end of its
+/// committed motion. Plans one robot among the reservations of the others (paper, section Prioritized
 /// planning).
 class PlanState {
  public:
@@ -42,16 +43,18 @@ class PlanState {
 
   const Instance& instance() const { return instance_; }
 
-  /// Each of these replaces the robot's reservation.
+  /// Each of these replaces the robot's reservation. A trajectory begins with the committed motion.
   void follow(std::size_t robot, Trajectory trajectory);
   void stay_at_start(std::size_t robot);
+  /// For so many seconds from the end of the committed motion on.
   void reserve_start(std::size_t robot, double seconds);
   void remove(std::size_t robot);
 
   /// The reservations of all robots.
   struct Reservations {
     std::vector<std::optional<Trajectory>> trajectories;
-    std::vector<double> at_start_until;  // seconds; kForever for a robot that stays there
+    /// Seconds from the end of the committed motion on; kForever for a robot that stays there.
+    std::vector<double> at_start_until;
   };
   const Reservations& reservations() const { return reservations_; }
   /// Replaces all reservations.
@@ -87,9 +90,13 @@ class PlanState {
   /// The trajectory of the robot alone on the map; it stays at its start if there is none.
   Trajectory plan_alone(std::size_t robot, const StopCondition& stop);
 
-  /// The robots whose reservations conflict with the trajectory, ascending.
+  /// The robots whose reservations conflict with the trajectory, ascending. Committed motion is left out, of
+  /// this robot and of the others: it does not change.
   std::vector<std::size_t> conflicting_robots(std::size_t robot, const Trajectory& trajectory) const;
-  /// The robots whose reservations conflict with the robot's staying at its start, ascending.
+  /// Likewise those whose committed motion conflicts with what follows the robot's own.
+  std::vector<std::size_t> robots_committed_against(std::size_t robot, const Trajectory& trajectory) const;
+  /// The robots whose reservations conflict with the robot's staying, ascending; committed motion is left
+  /// out.
   std::vector<std::size_t> robots_crossing_start(std::size_t robot) const;
 
   /// Of all searches among reservations.
@@ -113,6 +120,7 @@ class PlanState {
   bool test_enclosure(std::size_t robot, std::int64_t max_steps);
   void discard_search_spaces_except(std::size_t robot);
   void reserve(std::size_t robot, const std::vector<TimedSegment>& segments);
+  std::vector<TimedSegment> after_commitment(std::size_t robot, const Trajectory& trajectory) const;
   Trajectory staying(std::size_t robot) const;
 
   const Instance& instance_;

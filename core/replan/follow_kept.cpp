@@ -13,10 +13,12 @@ std::size_t follow_kept_plans(PlanState& state, const KeptPlans& previous) {
   for (std::size_t robot = 0; robot < previous.kept.size(); ++robot) {
     if (!previous.kept[robot]) continue;
     Trajectory trajectory = previous_trajectory(state.instance().robot(robot));
-    const std::vector<std::size_t> conflicting = state.conflicting_robots(robot, trajectory);
     // The checker has accepted all that are kept together.
-    if (!std::all_of(conflicting.begin(), conflicting.end(),
-                     [&](auto other) { return previous.kept[other]; })) {
+    const auto all_kept = [&](const std::vector<std::size_t>& robots) {
+      return std::all_of(robots.begin(), robots.end(), [&](auto other) { return previous.kept[other]; });
+    };
+    if (!all_kept(state.conflicting_robots(robot, trajectory)) ||
+        !all_kept(state.robots_committed_against(robot, trajectory))) {
       continue;
     }
     state.follow(robot, std::move(trajectory));

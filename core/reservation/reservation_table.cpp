@@ -46,7 +46,11 @@ ReservationTable::ReservationTable(double width, double height, double cell_size
 ReservationTable::~ReservationTable() = default;
 
 void ReservationTable::commit(std::size_t robot, const std::vector<TimedSegment>& segments) {
-  index_->add(robot, segments);
+  index_->add(robot, segments, false);
+}
+
+void ReservationTable::commit_certain(std::size_t robot, const std::vector<TimedSegment>& segments) {
+  index_->add(robot, segments, true);
 }
 
 void ReservationTable::remove(std::size_t robot) { index_->remove(robot); }
@@ -116,22 +120,32 @@ std::optional<double> ReservationTable::earliest_departure(std::size_t robot, co
 
 std::vector<std::size_t> ReservationTable::robots_hit(std::size_t robot,
                                                       const std::vector<TimedSegment>& segments) const {
+  return hits(robot, segments, false);
+}
+
+std::vector<std::size_t> ReservationTable::robots_certainly_hit(
+    std::size_t robot, const std::vector<TimedSegment>& segments) const {
+  return hits(robot, segments, true);
+}
+
+std::vector<std::size_t> ReservationTable::hits(std::size_t robot, const std::vector<TimedSegment>& segments,
+                                                bool certain) const {
   std::vector<std::size_t> hit;
   for (const TimedSegment& segment : segments) {
     const CollisionDistance collision_distance(*index_, robot, segment.path);
     const MovingDisk mine(segment);
     const bool moving = mine.velocity.squaredNorm() > 0.0;
     const double duration = moving ? segment.duration() : 0.0;
-    index_->grid().walk(segment.path.from, segment.path.to,
-                        [&](std::size_t bucket, double enter, double exit) {
-                          const double t_begin = mine.t_start + enter * duration;
-                          const double t_end = moving ? mine.t_start + exit * duration : mine.t_end;
-                          return index_->visit(robot, bucket, t_begin, t_end, [&](const Occupant& other) {
-                            if (other.robot != robot && collide(mine, other.disk, collision_distance(other)))
-                              hit.push_back(other.robot);
-                            return true;
-                          });
-                        });
+    index_->grid().walk(
+        segment.path.from, segment.path.to, [&](std::size_t bucket, double enter, double exit) {
+          const double t_begin = mine.t_start + enter * duration;
+          const double t_end = moving ? mine.t_start + exit * duration : mine.t_end;
+          return index_->visit(robot, bucket, t_begin, t_end, [&](const Occupant& other) {
+            if (other.certain == certain && collide(mine, other.disk, collision_distance(other)))
+              hit.push_back(other.robot);
+            return true;
+          });
+        });
   }
   std::sort(hit.begin(), hit.end());
   hit.erase(std::unique(hit.begin(), hit.end()), hit.end());

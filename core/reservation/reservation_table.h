@@ -27,8 +27,11 @@ class ReservationTable {
   void commit(std::size_t robot, const std::vector<TimedSegment>& segments);
   /// Removes the robot's reservation; no effect if it has none.
   void remove(std::size_t robot);
+  /// Reserves motion of a robot that it executes whatever is planned, besides its other reservation. It is
+  /// never removed nor ignored, except in queries of the robot itself.
+  void commit_certain(std::size_t robot, const std::vector<TimedSegment>& segments);
 
-  /// Queries leave out the reservations of an ignored robot.
+  /// Queries leave out the reservations of an ignored robot, except its certain motion.
   void ignore(std::size_t robot, bool ignored);
 
   /// When the robot may stand at `position` (paper, "Computing intervals"); ascending, without intervals
@@ -42,10 +45,16 @@ class ReservationTable {
                                            double t_min, double t_max) const;
 
   /// The robots whose reservations come nearer to these segments of `robot` than they are kept apart,
-  /// ascending.
+  /// ascending. Certain motion is left out.
   std::vector<std::size_t> robots_hit(std::size_t robot, const std::vector<TimedSegment>& segments) const;
+  /// Likewise those whose certain motion does.
+  std::vector<std::size_t> robots_certainly_hit(std::size_t robot,
+                                                const std::vector<TimedSegment>& segments) const;
 
  private:
+  std::vector<std::size_t> hits(std::size_t robot, const std::vector<TimedSegment>& segments,
+                                bool certain) const;
+
   std::unique_ptr<SegmentIndex> index_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
@@ -89,6 +91,66 @@ TEST(PlanState, PlansARobotWithoutAPathToStayAtItsStart) {
   const Trajectory alone = p.state.plan_alone(0, p.never);
   EXPECT_TRUE(alone.moves.empty());
   EXPECT_EQ(alone.start, Position(0.5, 0.5));
+}
+
+/// Robot 0 may cross the middle of a hall, through which robot 1 is committed to drive from above, from t = 0
+/// to t = 3. It ends below the way of robot 0.
+struct CommittedHall : Planning {
+  CommittedHall()
+      : Planning(OccupancyGrid(9, 5, 1.0), {robot_at(0.5, 2.5).to(8.5, 2.5),
+                                            robot_at(4.5, 3.5, -kPi / 2).to(0.5, 4.5).drives(4.5, 0.5)}) {}
+  static constexpr double kPi = 3.141592653589793;
+
+  Trajectory towards_it() const { return through({{3.5, 2.5}, {4.5, 2.5}, {4.5, 4.5}}); }
+};
+
+TEST(PlanState, AlwaysReservesCommittedMotion) {
+  CommittedHall p;
+  const Trajectory early = p.towards_it();
+  EXPECT_EQ(p.state.robots_committed_against(0, early), Robots{1});
+  EXPECT_EQ(p.state.conflicting_robots(0, early), Robots{}) << "committed motion does not change";
+  p.state.stay_at_start(1);
+  p.state.remove(1);
+  EXPECT_EQ(p.state.robots_committed_against(0, early), Robots{1});
+  EXPECT_EQ(p.state.robots_committed_against(1, p.instance.itinerary(1).committed), Robots{});
+}
+
+TEST(PlanState, ARobotStaysAtItsCommittedEnd) {
+  CommittedHall p;
+  const Trajectory below = through({{0.5, 0.5}, {8.5, 0.5}}, 10.0);
+  EXPECT_EQ(p.state.conflicting_robots(0, below), Robots{});
+  p.state.stay_at_start(1);
+  EXPECT_EQ(p.state.conflicting_robots(0, below), Robots{1});
+  EXPECT_EQ(p.state.conflicting_robots(0, through({{4.5, 2.5}, {4.5, 4.5}}, 3.0)), Robots{})
+      << "it has left its start for good";
+  p.state.reserve_start(1, 9.0);
+  EXPECT_EQ(p.state.conflicting_robots(0, below), Robots{}) << "until t = 12, and robot 0 arrives after 13";
+  p.state.reserve_start(1, 11.0);
+  EXPECT_EQ(p.state.conflicting_robots(0, below), Robots{1});
+}
+
+TEST(PlanState, NeverIgnoresCommittedMotion) {
+  Planning p(support::ascii_map({"####.####",  //
+                                 ".........",  //
+                                 "####.####"}),
+             {robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(4.5, 2.5).to(4.5, 2.5).waits(2.0).drives(4.5, 0.5)});
+  const SearchResult result = p.state.plan_ignoring({1}, 0, {}, p.never);
+  ASSERT_TRUE(result.trajectory);
+  EXPECT_NEAR(result.trajectory->cost, 8.0 + 0.8 * std::sqrt(2.0), 1e-6) << "it lets robot 1 pass";
+}
+
+TEST(PlanState, FollowsATrajectoryThatBeginsWithCommittedMotion) {
+  CommittedHall p;
+  Trajectory trajectory = through({{4.5, 3.5}, {4.5, 0.5}, {8.5, 0.5}});
+  p.state.follow(1, trajectory);
+  EXPECT_TRUE(p.state.trajectory(1));
+  EXPECT_EQ(p.state.conflicting_robots(0, through({{4.5, 3.5}, {4.5, 2.5}})), Robots{})
+      << "only the committed part";
+  EXPECT_EQ(p.state.conflicting_robots(0, through({{8.5, 2.5}, {8.5, 0.5}}, 4.0)), Robots{1});
+  const auto before = p.state.reservations();
+  p.state.remove(1);
+  p.state.restore(before);
+  EXPECT_TRUE(p.state.trajectory(1));
 }
 
 TEST(PlanState, FindsAGoalAtTheStartReachable) {
