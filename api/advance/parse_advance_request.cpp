@@ -125,8 +125,9 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
     read.executions[plan.robot].planned = true;
   }
   if (root.fault_count() > 0 || stop.met()) return std::nullopt;
+  UniqueIds unique_ids;
   auto robots = parse_robots(read.request.find("robots"), read.request.find("robot_defaults"), WorldFrame{},
-                             limits.max_robots);
+                             limits, unique_ids);
   for (ReadRobot& robot : robots) read.robots.push_back(std::move(robot.robot));
   for (std::size_t k = 0; k < read.robots.size(); ++k) {
     if (!read.executions[k].planned) read.executions[k].actions = read.robots[k].committed;

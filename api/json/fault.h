@@ -26,6 +26,9 @@ inline constexpr const char* kStartInObstacle = "start_in_obstacle";
 inline constexpr const char* kGoalInObstacle = "goal_in_obstacle";
 inline constexpr const char* kStartsOverlap = "starts_overlap";
 inline constexpr const char* kGoalsOverlap = "goals_overlap";
+inline constexpr const char* kDiscontinuity = "discontinuity";  // of committed and previous actions
+inline constexpr const char* kSpeed = "speed";                  // faster than possible
+inline constexpr const char* kCommittedCollision = "committed_collision";
 }  // namespace fault
 
 }  // namespace fleetplan::api

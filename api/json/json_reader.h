@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "api/json/read_json.h"
 
@@ -84,6 +85,10 @@ class JsonReader {
   template <std::invocable MakeWanted>
   void must_be(const char* code, const MakeWanted& make_wanted, std::string_view note = {}) const {
     document_->faults.add(value_->begins(), [&] { return unwanted(code, make_wanted(), note); });
+  }
+  /// A fault at the value, which must be there, that is not added to those of the document.
+  Fault described_fault(const char* code, std::string detail) const {
+    return {pointer(), code, std::move(detail)};
   }
   /// Counts faults of the document that are not described.
   void count_more_faults(std::size_t faults) const { document_->faults.count_more(faults); }

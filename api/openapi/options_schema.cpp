@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const core::PlanOptions kDefaults;
+const ReadOptions kDefaults;
 
 /// Whole numbers without a decimal point.
 Json number(double value) {
@@ -30,7 +30,7 @@ Json with_range(Json schema, const Range& range) {
 
 Json schema_of(const RealOption& option) {
   Json schema = with_range({{"type", "number"}}, option.range);
-  schema["default"] = number(kDefaults.*option.field);
+  schema["default"] = number(kDefaults.plan.*option.field);
   return schema;
 }
 
@@ -41,8 +41,10 @@ Json schema_of(const ServiceOption& option) {
 }
 
 Json schema_of(const NaturalOption& option) {
-  return {
-      {"type", "integer"}, {"minimum", 0}, {"maximum", option.most}, {"default", kDefaults.*option.field}};
+  return {{"type", "integer"},
+          {"minimum", 0},
+          {"maximum", option.most},
+          {"default", kDefaults.plan.*option.field}};
 }
 
 Json schema_of(const BoundOption& option) {
@@ -53,11 +55,11 @@ Json schema_of(const BoundOption& option) {
 }
 
 Json schema_of(const CountOption& option) {
-  return {{"type", "integer"}, {"enum", option.values}, {"default", kDefaults.*option.field}};
+  return {{"type", "integer"}, {"enum", option.values}, {"default", kDefaults.plan.*option.field}};
 }
 
 Json schema_of(const BooleanOption& option) {
-  return {{"type", "boolean"}, {"default", kDefaults.*option.field}};
+  return {{"type", "boolean"}, {"default", kDefaults.plan.*option.field}};
 }
 
 Json schema_of(const WordOption& option) {

@@ -1,82 +1,119 @@
 #include "api/request/make_problem.h"
 
-#include <array>
-#include <charconv>
-#include <string>
+#include <algorithm>
 #include <utility>
 #include <variant>
 
-#include "api/json/fault_text.h"
+#include "api/request/geometry_faults.h"
 
 namespace fleetplan::api {
 
 namespace {
 
-/// With three significant digits: a gap may be as small as a nanometre.
-std::string metres(double length) {
-  std::array<char, 32> buffer{};
-  const auto result =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), length, std::chars_format::general, 3);
-  return std::string(buffer.data(), result.ptr) + " m";
-}
-
-/// The robot's id, or its number when it has none.
-std::string name_of(const std::vector<ReadRobot>& robots, std::size_t index) {
-  const std::string& id = robots[index].robot.id;
-  return id.empty() ? "number " + std::to_string(index) : in_quotes(id);
-}
-
-std::string in_obstacle(const char* pose, const std::string& robot, double radius, double gap) {
-  return "The " + std::string(pose) + " of robot " + robot +
-         " does not fit: its disk overlaps a blocked cell or the edge of the map by " + metres(-gap) +
-         " (radius " + number_text(radius) + " m). Move it or make the robot smaller.";
-}
-
-std::string overlap(const char* poses, const std::string& earlier, const std::string& later, double gap) {
-  return "The " + std::string(poses) + " of robots " + earlier + " and " + later +
-         " overlap: the gap between their disks is " + metres(gap) + "; move them apart.";
-}
-
-/// `indices`: of the problem's robots in `robots`.
-void add_geometry_fault(const core::ProblemFault& found, const std::vector<ReadRobot>& robots,
-                        const std::vector<std::size_t>& indices) {
+bool is_of_a_pair(const core::ProblemFault& found) {
   using Kind = core::ProblemFault::Kind;
-  const ReadRobot& read = robots[indices[found.robot]];
-  const std::string name = name_of(robots, indices[found.robot]);
-  const auto other = [&] { return name_of(robots, indices[found.other]); };
-  switch (found.kind) {
-    case Kind::start_in_obstacle:
-      return read.start.fault(fault::kStartInObstacle,
-                              in_obstacle("start", name, read.robot.radius, found.gap));
-    case Kind::goal_in_obstacle:
-      return read.goal.fault(fault::kGoalInObstacle, in_obstacle("goal", name, read.robot.radius, found.gap));
-    case Kind::starts_overlap:
-      return read.start.fault(fault::kStartsOverlap, overlap("starts", other(), name, found.gap));
-    case Kind::goals_overlap:
-      return read.goal.fault(fault::kGoalsOverlap, overlap("goals", other(), name, found.gap));
-    case Kind::committed_collision:
-      return;
-  }
+  return found.kind != Kind::start_in_obstacle && found.kind != Kind::goal_in_obstacle &&
+         found.other != found.robot;
 }
+
+/// Makes the problem, if need be again and again with more robots that are invalid.
+class ProblemMaker {
+ public:
+  ProblemMaker(Fleet& fleet, const JsonReader& root, ParseStop& stop)
+      : fleet_(fleet), root_(root), stop_(stop), reports_(reports()) {
+    // What could not be read may be what would make committed motion valid.
+    const bool poses_only = root.fault_count() > 0;
+    for (std::size_t index = 0; index < fleet.robots.size(); ++index) {
+      if (!fleet.robots[index].placed) continue;
+      robots_.push_back(taken(fleet.robots[index], poses_only));
+      indices_.push_back(index);
+    }
+    if (reports_) errors_.resize(robots_.size());
+  }
+
+  std::optional<MadeProblem> run() {
+    while (true) {
+      auto made = reports_ ? core::Problem::create(fleet_.map->grid, robots_, conditions(), stop_.condition())
+                           : core::Problem::create(std::move(fleet_.map->grid), std::move(robots_),
+                                                   conditions(), stop_.condition());
+      if (auto* problem = std::get_if<core::Problem>(&made)) {
+        return MadeProblem{std::move(*problem), std::move(errors_)};
+      }
+      const auto& faults = std::get<core::ProblemFaults>(made);
+      if (!faults.finished) stop_.look();
+      if (reports_ && faults.finished && mark_invalid(faults)) continue;
+      for (const auto& found : faults.listed) {
+        const GeometryFault fault = describe(found, fleet_.robots, indices_);
+        fault.place.fault(fault.code, fault.detail);
+      }
+      root_.count_more_faults(faults.total - faults.listed.size());
+      return std::nullopt;
+    }
+  }
+
+ private:
+  /// A request with other faults is refused anyway.
+  bool reports() const {
+    return fleet_.options.invalid_robots == InvalidRobots::report && root_.fault_count() == 0;
+  }
+
+  static core::Robot taken(ReadRobot& read, bool poses_only) {
+    core::Robot robot = std::move(read.robot);
+    read.robot.id = robot.id;  // for messages
+    if (!poses_only) return robot;
+    robot.committed.clear();
+    robot.previous.reset();
+    return robot;
+  }
+
+  core::ProblemConditions conditions() {
+    const core::PlanOptions& options = fleet_.options.plan;
+    core::ProblemConditions conditions;
+    conditions.pair_overlap = std::max(0.0, options.start_overlap - 2.0 * options.inflation);
+    conditions.wall_overlap = std::max(0.0, options.start_overlap - options.inflation);
+    conditions.list_faults_of_every_robot = reports_;
+    conditions.obstacles = reports_ ? fleet_.obstacles : std::move(fleet_.obstacles);
+    return conditions;
+  }
+
+  /// Makes the robots at fault invalid; false if all of them were before.
+  bool mark_invalid(const core::ProblemFaults& faults) {
+    bool any = false;
+    for (const core::ProblemFault& found : faults.listed) {
+      const GeometryFault fault = describe(found, fleet_.robots, indices_);
+      if (stop_.look()) return false;
+      const Fault error = fault.place.described_fault(fault.code, fault.detail);
+      any = make_invalid(found.robot, error) || any;
+      if (is_of_a_pair(found)) any = make_invalid(found.other, error) || any;
+    }
+    return any;
+  }
+
+  bool make_invalid(std::size_t index, const Fault& error) {
+    errors_[index].push_back(error);
+    core::Robot& robot = robots_[index];
+    if (robot.invalid) return false;
+    robot.invalid = true;
+    robot.goal.reset();
+    robot.via.clear();
+    robot.committed.clear();
+    robot.previous.reset();
+    return true;
+  }
+
+  Fleet& fleet_;
+  const JsonReader& root_;
+  ParseStop& stop_;
+  bool reports_;
+  std::vector<core::Robot> robots_;   // that are placed
+  std::vector<std::size_t> indices_;  // of each of them in the fleet
+  std::vector<std::vector<Fault>> errors_;
+};
 
 }  // namespace
 
-std::optional<core::Problem> make_problem(core::OccupancyGrid grid, const std::vector<ReadRobot>& robots,
-                                          const JsonReader& root, ParseStop& stop) {
-  std::vector<core::Robot> placed;
-  std::vector<std::size_t> indices;
-  for (std::size_t index = 0; index < robots.size(); ++index) {
-    if (!robots[index].placed) continue;
-    placed.push_back(robots[index].robot);
-    indices.push_back(index);
-  }
-  auto made = core::Problem::create(std::move(grid), std::move(placed), stop.condition());
-  if (auto* problem = std::get_if<core::Problem>(&made)) return std::move(*problem);
-  const auto& faults = std::get<core::ProblemFaults>(made);
-  for (const auto& found : faults.listed) add_geometry_fault(found, robots, indices);
-  root.count_more_faults(faults.total - faults.listed.size());
-  if (!faults.finished) stop.look();
-  return std::nullopt;
+std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, ParseStop& stop) {
+  return ProblemMaker(fleet, root, stop).run();
 }
 
 }  // namespace fleetplan::api

@@ -3,16 +3,23 @@
 #include <optional>
 #include <vector>
 
-#include "api/request/parse_robots.h"
-#include "core/map/occupancy_grid.h"
+#include "api/json/fault.h"
+#include "api/request/parse_body.h"
 #include "core/model/problem.h"
 
 namespace fleetplan::api {
 
-/// The problem of a map and the robots whose radius and start could be read; the faults of other robots hide
-/// none of these. Poses in obstacles and overlapping starts or goals are faults; then there is no problem,
-/// nor if the stop is met.
-std::optional<core::Problem> make_problem(core::OccupancyGrid grid, const std::vector<ReadRobot>& robots,
-                                          const JsonReader& root, ParseStop& stop);
+struct MadeProblem {
+  core::Problem problem;
+  /// Of each robot, why it is invalid; empty lists for the others, or no lists at all.
+  std::vector<std::vector<Fault>> errors;
+};
+
+/// The problem of a fleet with a map, and of its robots whose radius and start could be read; the faults of
+/// other robots hide none of these. Takes the map, the actions, the goals and the obstacles out of the fleet.
+/// Poses in obstacles, overlapping starts or last goals and committed motion that collides are faults; then
+/// there is no problem, nor if the stop is met. If invalid robots are to be reported, there is one: these
+/// robots are in it as invalid ones, which stand at their starts.
+std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, ParseStop& stop);
 
 }  // namespace fleetplan::api

@@ -39,15 +39,32 @@ constexpr std::array<Word, 3> kReorderings{{
 }};
 constexpr std::array<int, 4> kConnectivities{4, 8, 16, 32};
 
+constexpr std::array<Word, 2> kReplans{{
+    {"all", "Improve all plans"},
+    {"where_needed", "Change only what must change"},
+}};
+constexpr std::array<Word, 2> kInvalidRobots{{
+    {"refuse", "Refuse the request"},
+    {"report", "Report them, plan the others"},
+}};
+
 template <auto kField>
 constexpr WordOption one_of(std::span<const Word> words) {
-  return {words, [](const PlanOptions& plan) { return static_cast<std::size_t>(plan.*kField); },
-          [](PlanOptions& plan, std::size_t index) {
-            plan.*kField = static_cast<std::decay_t<decltype(plan.*kField)>>(index);
+  return {words, [](const ReadOptions& options) { return static_cast<std::size_t>(options.plan.*kField); },
+          [](ReadOptions& options, std::size_t index) {
+            options.plan.*kField = static_cast<std::decay_t<decltype(options.plan.*kField)>>(index);
           }};
 }
 
-constexpr std::array<OptionRow, 12> kTable{{
+constexpr WordOption one_of_invalid_robots() {
+  return {kInvalidRobots,
+          [](const ReadOptions& options) { return static_cast<std::size_t>(options.invalid_robots); },
+          [](ReadOptions& options, std::size_t index) {
+            options.invalid_robots = static_cast<InvalidRobots>(index);
+          }};
+}
+
+constexpr std::array<OptionRow, 16> kTable{{
     {"time_budget_ms", "Time budget", "ms", ServiceOption{kBudget, &ReadOptions::budget_ms, 5000.0},
      "Milliseconds for the whole answer, counted from the last byte received. `GET /v1/limits` returns the "
      "default (`default_budget_ms`) and the maximum (`max_budget_ms`); a larger value is clamped, with a "
@@ -63,7 +80,8 @@ constexpr std::array<OptionRow, 12> kTable{{
      "How the order changes when no plan is found for a robot. `none` plans every robot just once."},
     {"start_safe_interval", "Start safe interval", "s",
      RealOption{kDuration, &PlanOptions::start_safe_interval},
-     "Seconds for which the starts of robots that are not planned yet are kept free."},
+     "Seconds for which the starts of robots that are not planned yet, or the ends of their committed "
+     "actions, are kept free. If any robot has `committed` or `previous`, the default is 0."},
     {"inflation", "Inflation", "m", RealOption{kLengthOrZero, &PlanOptions::inflation},
      "Metres added to every radius during planning. A robot that is too near to others at its start may "
      "leave, "
@@ -76,6 +94,20 @@ constexpr std::array<OptionRow, 12> kTable{{
      "Number of neighbours of a cell."},
     {"max_iterations", "Improvement steps", "", BoundOption{kMostIterations, &PlanOptions::max_iterations},
      "Bounds `anytime` by a number of improvement steps instead of the clock."},
+    {"replan", "Previous plans", "", one_of<&PlanOptions::replan>(kReplans),
+     "What becomes of `previous` plans that still hold. `all`: the search begins with them and improves "
+     "them. `where_needed`: they are kept, unless a robot could not be planned otherwise."},
+    {"interval_margin", "Time margin", "s", RealOption{kDuration, &PlanOptions::interval_margin},
+     "Seconds by which robots may be early or late without meeting: any two keep clear of each other at "
+     "times that differ by up to so much. Not between committed motions, nor of robots that have not left "
+     "their start or the end of their committed actions."},
+    {"start_overlap", "Overlap at the start", "m", RealOption{kLengthOrZero, &PlanOptions::start_overlap},
+     "Metres by which measured starts may overlap each other or a wall, inflation included. Such robots come "
+     "no nearer until they are clear."},
+    {"invalid_robots", "Invalid robots", "", one_of_invalid_robots(),
+     "What becomes of robots whose poses or committed actions collide: `refuse` answers 422; `report` lists "
+     "them in `unplanned` with the reason `invalid` and their `errors`, as obstacles at their starts, and "
+     "plans the others."},
 }};
 
 }  // namespace

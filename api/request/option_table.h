@@ -17,9 +17,14 @@
 
 namespace fleetplan::api {
 
+/// What becomes of robots whose poses are at fault: the request is refused, or they are reported as invalid
+/// and all others are planned.
+enum class InvalidRobots { refuse, report };
+
 /// The member `options` of a request.
 struct ReadOptions {
   core::PlanOptions plan;
+  InvalidRobots invalid_robots = InvalidRobots::refuse;
   std::optional<double> budget_ms;    // as requested, >= 1; none: the service's default
   std::vector<std::string> warnings;  // of options that are accepted, but without the expected effect
 };
@@ -71,8 +76,8 @@ struct WordOption {
     std::string_view meaning;
   };
   std::span<const Word> words;
-  std::size_t (*get)(const core::PlanOptions&);
-  void (*set)(core::PlanOptions&, std::size_t);
+  std::size_t (*get)(const ReadOptions&);
+  void (*set)(ReadOptions&, std::size_t);
 };
 
 struct OptionRow {
@@ -84,7 +89,7 @@ struct OptionRow {
   std::string_view description;  // CommonMark
 };
 
-/// All options. The defaults are those of core::PlanOptions.
+/// All options. The defaults are those of ReadOptions.
 std::span<const OptionRow> option_table();
 
 }  // namespace fleetplan::api

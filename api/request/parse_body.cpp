@@ -1,5 +1,6 @@
 #include "api/request/parse_body.h"
 
+#include <algorithm>
 #include <string>
 
 namespace fleetplan::api {
@@ -17,6 +18,16 @@ ErrorCode code_of(JsonError::Kind kind) {
       break;
   }
   return ErrorCode::invalid_request;
+}
+
+/// A fleet that is planned anew while it drives needs no start kept free: its plans begin where robots are.
+void set_default_start_safe_interval(const JsonReader& options, const std::vector<ReadRobot>& robots,
+                                     core::PlanOptions& plan) {
+  const bool is_given = options && options.find("start_safe_interval");
+  const bool in_motion = std::any_of(robots.begin(), robots.end(), [](const ReadRobot& read) {
+    return read.committed || read.robot.previous;
+  });
+  if (in_motion && !is_given) plan.start_safe_interval = 0.0;
 }
 
 }  // namespace
@@ -64,7 +75,10 @@ Fleet parse_fleet(const JsonReader& root, const Limits& limits,
   set_budget(fleet.options);
   fleet.map = parse_map(root.require("map"), limits.max_cells);
   const WorldFrame frame = fleet.map ? fleet.map->frame : WorldFrame{};
-  fleet.robots = parse_robots(root.require("robots"), root.find("robot_defaults"), frame, limits.max_robots);
+  UniqueIds ids;
+  fleet.robots = parse_robots(root.require("robots"), root.find("robot_defaults"), frame, limits, ids);
+  fleet.obstacles = parse_obstacles(root.find("obstacles"), frame, limits, ids);
+  set_default_start_safe_interval(root.find("options"), fleet.robots, fleet.options.plan);
   return fleet;
 }
 

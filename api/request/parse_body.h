@@ -11,6 +11,7 @@
 
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
+#include "api/request/motion/parse_obstacles.h"
 #include "api/request/parse_map.h"
 #include "api/request/parse_options.h"
 #include "api/request/parse_robots.h"
@@ -18,10 +19,12 @@
 
 namespace fleetplan::api {
 
-/// `map`, `robots` (with `robot_defaults`) and `options` of a request, as far as they could be read.
+/// `map`, `robots` (with `robot_defaults`), `obstacles` and `options` of a request, as far as they could be
+/// read.
 struct Fleet {
   std::optional<WorldMap> map;
   std::vector<ReadRobot> robots;
+  std::vector<core::MovingObstacle> obstacles;
   ReadOptions options;
 };
 

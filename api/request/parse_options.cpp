@@ -75,7 +75,7 @@ void OptionReader::read(const CountOption& option, const JsonReader& member) {
 void OptionReader::read(const WordOption& option, const JsonReader& member) {
   std::vector<std::string_view> words;
   for (const WordOption::Word& word : option.words) words.push_back(word.name);
-  if (const auto index = member.word(words)) option.set(options_.plan, *index);
+  if (const auto index = member.word(words)) option.set(options_, *index);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "api/request/parse_plans.h"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,41 +10,30 @@
 #include <utility>
 
 #include "api/json/fault_text.h"
+#include "api/request/motion/parse_actions.h"
 #include "api/request/ranges.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/segment.h"
 
 namespace fleetplan::api {
 
 namespace {
 
 // `lower_bound` belongs to an answer of /v1/plan and is ignored.
-constexpr std::array<std::string_view, 4> kMembers{"robot", "cost", "lower_bound", "actions"};
-constexpr std::array<std::string_view, 5> kActionMembers{"type", "t_start", "t_end", "from", "to"};
-constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
-constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};  // as in core::Action::Type
+constexpr std::array<std::string_view, 5> kMembers{"robot", "cost", "lower_bound", "actions", "visits"};
+constexpr std::array<std::string_view, 3> kVisitMembers{"goal", "t_arrive", "t_leave"};
+constexpr std::uint64_t kMostGoals = 1'000'000'000;  // of a robot, far beyond any limit of a request
 
 // A plan that begins before 0 is a violation to report, not a fault of the request.
 constexpr Range kTime{-kLongestTime, kLongestTime, "seconds"};
 
-core::Pose parse_pose(const JsonReader& member, const WorldFrame& frame) {
-  const JsonReader pose = member.object(kPoseMembers);
-  const double x = pose.require("x").number(kCoordinate).value_or(0.0);
-  const double y = pose.require("y").number(kCoordinate).value_or(0.0);
-  const double theta = pose.require("theta").number(kAnyAngle).value_or(0.0);
-  return {frame.to_map({x, y}), core::normalize_angle(theta)};
-}
-
-core::Action parse_action(const JsonReader& item, const WorldFrame& frame) {
-  const JsonReader json = item.object(kActionMembers);
-  core::Action action;
-  if (const auto type = json.require("type").word(kTypes)) {
-    action.type = static_cast<core::Action::Type>(*type);
-  }
-  action.t_start = json.require("t_start").number(kTime).value_or(0.0);
-  action.t_end = json.require("t_end").number(kTime).value_or(0.0);
-  action.from = parse_pose(json.require("from"), frame);
-  action.to = parse_pose(json.require("to"), frame);
-  return action;
+core::Visit parse_visit(const JsonReader& item) {
+  const JsonReader json = item.object(kVisitMembers);
+  core::Visit visit;
+  visit.goal = json.require("goal").natural(kMostGoals).value_or(0);
+  visit.t_arrive = json.require("t_arrive").number(kTime).value_or(0.0);
+  const JsonReader leaves = json.require("t_leave", "; give null for the last goal");
+  visit.t_leave = leaves.is_null() ? core::kForever : leaves.number(kTime).value_or(0.0);
+  return visit;
 }
 
 core::RobotPlan parse_plan(const JsonReader& json, const WorldFrame& frame) {
@@ -51,12 +41,16 @@ core::RobotPlan parse_plan(const JsonReader& json, const WorldFrame& frame) {
   const JsonReader actions = json.require("actions").array();
   const std::size_t before = json.fault_count();
   for (const JsonReader item : actions.items()) {
-    const core::Action action = parse_action(item, frame);
+    const core::Action action = to_map(parse_action(item, kTime), frame);
     // After the first fault only faults matter: items may be many more than actions of that size.
     if (json.fault_count() == before) plan.actions.push_back(action);
   }
   const double end = plan.actions.empty() ? 0.0 : plan.actions.back().t_end;
   plan.cost = json.find("cost").number(kTime).value_or(end);
+  for (const JsonReader item : json.find("visits").array().items()) {
+    const core::Visit visit = parse_visit(item);
+    if (json.fault_count() == before) plan.visits.push_back(visit);
+  }
   return plan;
 }
 

@@ -11,7 +11,18 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kMembers{"map", "robot_defaults", "robots", "options"};
+constexpr std::array<std::string_view, 5> kMembers{"map", "robot_defaults", "robots", "obstacles", "options"};
+
+/// `errors`: of each robot, or none.
+std::vector<ReceivedRobot> received(std::vector<ReadRobot>& robots, std::vector<std::vector<Fault>> errors) {
+  std::vector<ReceivedRobot> received(robots.size());
+  for (std::size_t index = 0; index < robots.size(); ++index) {
+    ReadRobot& read = robots[index];
+    received[index] = {std::move(read.received_committed), std::move(read.received_previous),
+                       read.lists_visits, errors.empty() ? std::vector<Fault>{} : std::move(errors[index])};
+  }
+  return received;
+}
 
 }  // namespace
 
@@ -22,12 +33,13 @@ Result<PlanRequest, RequestError> parse_request(std::string_view body, const Lim
       reading.set_budget(effective_budget(options, limits));
     });
     if (!fleet.map || reading.met()) return std::nullopt;
-    auto problem = make_problem(std::move(fleet.map->grid), fleet.robots, root, reading);
-    if (!problem) return std::nullopt;
+    auto made = make_problem(fleet, root, reading);
+    if (!made) return std::nullopt;
     std::vector<std::string> warnings = std::move(fleet.options.warnings);
     if (auto warning = budget_warning(fleet.options, limits)) warnings.push_back(std::move(*warning));
-    return PlanRequest{std::move(*problem), fleet.options.plan, effective_budget(fleet.options, limits),
-                       fleet.map->frame, std::move(warnings)};
+    return PlanRequest{
+        std::move(made->problem), fleet.options.plan,  effective_budget(fleet.options, limits),
+        fleet.map->frame,         std::move(warnings), received(fleet.robots, std::move(made->errors))};
   };
   return parse_body<PlanRequest>(body, limits, stop, kMembers, parse);
 }

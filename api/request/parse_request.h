@@ -8,6 +8,7 @@
 #include "api/json/parse_stop.h"
 #include "api/json/result.h"
 #include "api/request/limits.h"
+#include "api/request/received_robot.h"
 #include "api/request/world_frame.h"
 #include "api/response/error.h"
 #include "core/model/plan_options.h"
@@ -22,6 +23,7 @@ struct PlanRequest {
   std::chrono::nanoseconds budget;  // the smaller of the request's and the service's
   WorldFrame frame;
   std::vector<std::string> warnings;
+  std::vector<ReceivedRobot> received;  // of each robot
 };
 
 /// Reads a body of POST /v1/plan; ends with `parse_unfinished` or `draining` when the stop is met.

@@ -4,19 +4,19 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 
-#include "api/json/fault_text.h"
+#include "api/request/motion/parse_actions.h"
+#include "api/request/motion/parse_goals.h"
+#include "api/request/motion/quota.h"
 #include "api/request/ranges.h"
-#include "core/geometry/angle.h"
 
 namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kMembers{"id",    "radius", "linear_speed", "angular_speed",
-                                                   "start", "goal"};
+constexpr std::array<std::string_view, 9> kMembers{"id",   "radius", "linear_speed", "angular_speed", "start",
+                                                   "goal", "goals",  "committed",    "previous"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
 
 // The members that `robot_defaults` can give as well.
@@ -54,78 +54,93 @@ Traits parse_traits(const JsonReader& robot, const Traits& defaults) {
   return traits;
 }
 
-/// A pose with or without a heading, in the map frame. Nothing when it is absent or has a fault.
-std::optional<core::Goal> parse_pose(const JsonReader& member, const WorldFrame& frame) {
-  const std::size_t before = member.fault_count();
-  const JsonReader json = member.object(kPoseMembers);
-  const auto x = json.require("x").number(kCoordinate);
-  const auto y = json.require("y").number(kCoordinate);
-  const auto theta = json.find("theta").number(kAnyAngle);
-  if (!x || !y || member.fault_count() != before) return std::nullopt;
-  core::Goal pose;
-  pose.position = frame.to_map({*x, *y});
-  if (theta) pose.theta = core::normalize_angle(*theta);
-  return pose;
-}
-
-ReadRobot parse_robot(const JsonReader& item, const Traits& defaults, const WorldFrame& frame) {
-  const JsonReader json = item.object(kMembers);
-  ReadRobot read;
-  if (!json) return read;
-  core::Robot& robot = read.robot;
-  robot.id = json.require("id").name().value_or("");
-  const Traits traits = parse_traits(json, defaults);
-  robot.radius = traits.values[0].value_or(1.0);
-  robot.linear_speed = traits.values[1].value_or(1.0);
-  robot.angular_speed = traits.values[2].value_or(1.0);
-  read.start = json.require("start", "; give {\"x\", \"y\"} and optionally \"theta\"");
-  const auto start = parse_pose(read.start, frame);
-  if (start) robot.start = {start->position, start->theta.value_or(0.0)};
-  read.goal = json.find("goal");
-  robot.goal = parse_pose(read.goal, frame);
-  read.placed = start.has_value() && traits.values[0].has_value();
-  return read;
-}
-
-/// Reports every id that an earlier robot has.
-class UniqueIds {
+/// Reads one robot after the other; counts their goals and actions.
+class RobotReader {
  public:
-  /// `item`: of the robot with this index.
-  void check(const std::string& id, std::size_t index, const JsonReader& item) {
-    if (id.empty()) return;
-    const auto [first, is_new] = owner_.emplace(id, index);
-    if (is_new) return;
-    item.find("id").fault(fault::kDuplicate, [&, earlier = first->second] {
-      return "Robots " + std::to_string(earlier) + " and " + std::to_string(index) +
-             " (from 0) both have the id " + in_quotes(id) + "; ids must be unique.";
-    });
+  RobotReader(const Traits& defaults, const WorldFrame& frame, const Limits& limits)
+      : defaults_(defaults),
+        frame_(frame),
+        goals_(limits.max_goals, "goals"),
+        actions_(limits.max_actions, "actions in committed and previous") {}
+
+  ReadRobot read(const JsonReader& item) {
+    const JsonReader json = item.object(kMembers);
+    ReadRobot read;
+    if (!json) return read;
+    core::Robot& robot = read.robot;
+    robot.id = json.require("id").name().value_or("");
+    const Traits traits = parse_traits(json, defaults_);
+    robot.radius = traits.values[0].value_or(1.0);
+    robot.linear_speed = traits.values[1].value_or(1.0);
+    robot.angular_speed = traits.values[2].value_or(1.0);
+    ActionsOwner owner{std::nullopt, traits.values[1], traits.values[2]};
+    read.start = json.require("start", "; give {\"x\", \"y\"} and optionally \"theta\"");
+    if (const auto start = parse_pose(read.start.object(kPoseMembers), frame_)) {
+      robot.start = {start->position, start->theta.value_or(0.0)};
+      owner.start = robot.start;
+    }
+    read.placed = owner.start && traits.values[0];
+    read_goals(json, read);
+    read_actions(json, owner, read);
+    return read;
   }
 
  private:
-  std::unordered_map<std::string, std::size_t> owner_;  // of each id, the first robot that has it
+  void read_goals(const JsonReader& json, ReadRobot& read) {
+    ReadGoals goals = parse_goals(json, frame_, goals_);
+    read.goals = std::move(goals.places);
+    read.lists_visits = goals.lists_visits;
+    if (goals.goals.empty()) return;
+    read.robot.goal = goals.goals.back();
+    goals.goals.pop_back();
+    read.robot.via = std::move(goals.goals);
+  }
+
+  void read_actions(const JsonReader& json, const ActionsOwner& owner, ReadRobot& read) {
+    read.committed = json.find("committed");
+    if (auto committed = parse(read.committed, owner)) {
+      read.robot.committed = std::move(committed->actions);
+      read.received_committed = std::move(committed->received);
+    }
+    if (auto previous = parse(json.find("previous"), owner)) {
+      read.robot.previous = std::move(previous->actions);
+      read.received_previous = std::move(previous->received);
+    }
+  }
+
+  std::optional<ReadActions> parse(const JsonReader& member, const ActionsOwner& owner) {
+    const JsonReader list = member.array();
+    if (!list || !actions_.take(list)) return std::nullopt;
+    return parse_actions(list, owner, frame_);
+  }
+
+  const Traits& defaults_;
+  const WorldFrame& frame_;
+  Quota goals_;
+  Quota actions_;
 };
 
 }  // namespace
 
 std::vector<ReadRobot> parse_robots(const JsonReader& robots, const JsonReader& defaults,
-                                    const WorldFrame& frame, std::size_t max_robots) {
+                                    const WorldFrame& frame, const Limits& limits, UniqueIds& ids) {
   if (!robots) return {};
   const Traits common = parse_traits(defaults.object(kTraits));
   const JsonReader items = robots.array();
   if (!items) return {};
   if (items.size() == 0) items.fault(fault::kEmpty, "robots must contain at least one robot.");
-  if (items.size() > max_robots) {
+  if (items.size() > limits.max_robots) {
     items.fault(fault::kOutOfRange, "There are " + std::to_string(items.size()) +
                                         " robots; this service accepts at most " +
-                                        std::to_string(max_robots) + ".");
+                                        std::to_string(limits.max_robots) + ".");
     return {};
   }
   std::vector<ReadRobot> read;
   read.reserve(items.size());
-  UniqueIds ids;
+  RobotReader reader(common, frame, limits);
   for (const JsonReader item : items.items()) {
-    read.push_back(parse_robot(item, common, frame));
-    ids.check(read.back().robot.id, read.size() - 1, item);
+    read.push_back(reader.read(item));
+    ids.check(UniqueIds::Kind::robot, read.back().robot.id, read.size() - 1, item);
   }
   return read;
 }

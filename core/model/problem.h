@@ -19,8 +19,8 @@ struct ProblemFault {
     goal_in_obstacle,   // likewise at its goal
     starts_overlap,     // the starts of `robot` and `other` (< robot) overlap
     goals_overlap,      // the last goals of `robot` and `other` (< robot) overlap
-    /// The committed motion of `robot`, to its own end, meets that of another robot, a robot that stands at its
-    /// start, a wall or the edge of the map.
+    /// The committed motion of `robot`, to its own end, meets that of another robot, a robot that stands at
+    /// its start, a wall or the edge of the map.
     committed_collision,
   };
   Kind kind = Kind::start_in_obstacle;
@@ -34,7 +34,8 @@ struct ProblemFault {
 /// The faults of a map and a set of robots.
 struct ProblemFaults {
   static constexpr std::size_t kMostListed = 20;
-  std::vector<ProblemFault> listed;  // the first ones, in the order of the robots
+  static constexpr std::size_t kMostListedOfARobot = 3;  // see ProblemConditions
+  std::vector<ProblemFault> listed;                      // the first ones, in the order of the robots
   std::size_t total = 0;
   bool finished = true;  // false when the stop condition was met first; then there may be more
 };
@@ -45,6 +46,8 @@ struct ProblemConditions {
   /// Metres: two bare disks, or a bare disk and a wall, may overlap by so much at the start. 0: contact only.
   double pair_overlap = 0.0;
   double wall_overlap = 0.0;
+  /// Lists the first faults of every robot, instead of the first ones of all.
+  bool list_faults_of_every_robot = false;
 };
 
 /// A map and robots that can be planned for. A problem that exists is valid: radii and speeds are positive

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "api/json/json_reader.h"
+#include "api/request/parse_robots.h"
+#include "core/model/problem.h"
+
+namespace fleetplan::api {
+
+/// A fault of poses or committed motion as it is told to the client.
+struct GeometryFault {
+  JsonReader place;
+  const char* code;
+  std::string detail;
+};
+
+/// `indices`: of the problem's robots in `robots`.
+GeometryFault describe(const core::ProblemFault& found, const std::vector<ReadRobot>& robots,
+                       const std::vector<std::size_t>& indices);
+
+}  // namespace fleetplan::api

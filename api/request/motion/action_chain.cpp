@@ -1,0 +1,136 @@
+#include "api/request/motion/action_chain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "api/json/fault_text.h"
+#include "api/request/motion/parse_actions.h"
+#include "core/geometry/angle.h"
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+constexpr double kTolerance = core::kContactTolerance;
+/// Radians: a rotation is not drawn to a vertex, and the check of the answer allows it no more.
+constexpr double kTurnTolerance = core::kSamePosition;
+
+double distance_between(const core::Pose& a, const core::Pose& b) { return (b.position - a.position).norm(); }
+
+double turn_between(const core::Pose& a, const core::Pose& b) {
+  return core::angle_between(a.theta, b.theta);
+}
+
+/// How far a translation leads off the line of its heading, metres. A robot may drive backwards.
+double sideways(const core::Action& action) {
+  const core::Position d = action.to.position - action.from.position;
+  return std::abs(d.x() * std::sin(action.from.theta) - d.y() * std::cos(action.from.theta));
+}
+
+std::string seconds(double t) { return number_text(t) + " s"; }
+
+}  // namespace
+
+ActionChain::ActionChain(const ActionsOwner& owner)
+    : linear_speed_(owner.linear_speed), angular_speed_(owner.angular_speed), pose_(owner.start) {}
+
+std::string ActionChain::name() const { return "Action " + std::to_string(count_) + " (from 0)"; }
+
+core::Action ActionChain::append(core::Action action, const JsonReader& item) {
+  check_times(action, item);
+  check_begin(action, item);
+  check_type(action, item);
+  action = joined(action);
+  check_speed(action, item);
+  now_ = action.t_end;
+  pose_ = action.to;
+  ++count_;
+  return action;
+}
+
+void ActionChain::skip() {
+  now_.reset();
+  pose_.reset();
+  ++count_;
+}
+
+void ActionChain::check_times(const core::Action& action, const JsonReader& item) const {
+  if (now_ && std::abs(action.t_start - *now_) > kTolerance) {
+    item.find("t_start").fault(fault::kDiscontinuity, [&] {
+      return name() + " starts at " + seconds(action.t_start) + ", but " +
+             (count_ == 0 ? "the first one must start at 0 s"
+                          : "the action before ends at " + seconds(*now_)) +
+             "; actions must be contiguous in time.";
+    });
+  }
+  if (action.t_end < action.t_start - kTolerance) {
+    item.find("t_end").fault(fault::kDiscontinuity, [&] {
+      return name() + " ends at " + seconds(action.t_end) + ", before it starts at " +
+             seconds(action.t_start) + "; t_end must be at least t_start.";
+    });
+  }
+}
+
+void ActionChain::check_begin(const core::Action& action, const JsonReader& item) const {
+  if (!pose_) return;
+  const double jump = distance_between(*pose_, action.from);
+  const double turn = turn_between(*pose_, action.from);
+  if (jump <= kTolerance && turn <= kTolerance) return;
+  item.find("from").fault(fault::kDiscontinuity, [&] {
+    return name() + " begins " + (jump > kTolerance ? number_text(jump) + " m" : number_text(turn) + " rad") +
+           " off " + (count_ == 0 ? "the robot's start" : "where the action before ends") +
+           "; actions must be contiguous in space, from the start on.";
+  });
+}
+
+void ActionChain::check_type(const core::Action& action, const JsonReader& item) const {
+  const double distance = distance_between(action.from, action.to);
+  const double turn = turn_between(action.from, action.to);
+  const bool moves = action.type != core::Action::Type::translate && distance > kTolerance;
+  const bool turns = action.type != core::Action::Type::rotate && turn > kTolerance;
+  if (!moves && !turns) return;
+  item.find("to").fault(fault::kDiscontinuity, [&] {
+    const bool waits = action.type == core::Action::Type::wait;
+    const char* const does = waits ? " waits" : moves ? " rotates" : " translates";
+    return name() + does + ", but " +
+           (moves ? "moves by " + number_text(distance) + " m" : "turns by " + number_text(turn) + " rad") +
+           "; use a " + (moves ? "translate" : "rotate") + " action for that.";
+  });
+}
+
+void ActionChain::check_speed(const core::Action& action, const JsonReader& item) const {
+  const double duration = action.t_end - action.t_start;
+  const bool translates = action.type == core::Action::Type::translate;
+  const double amount =
+      translates ? distance_between(action.from, action.to) : turn_between(action.from, action.to);
+  const auto& speed = translates ? linear_speed_ : angular_speed_;
+  const char* const unit = translates ? "m" : "rad";
+  const bool instant = translates && duration <= 0.0 && amount > 0.0;
+  const double tolerance = translates ? kTolerance : kTurnTolerance;
+  if (instant || (speed && amount > *speed * duration + tolerance)) {
+    item.fault(fault::kSpeed, [&] {
+      return name() + (translates ? " translates " : " rotates ") + number_text(amount) + " " + unit +
+             " in " + seconds(duration) +
+             (speed ? ", but the robot's speed is " + number_text(*speed) + " " + unit + "/s" : "") +
+             "; give it more time.";
+    });
+  }
+  if (!translates || sideways(action) <= kTolerance) return;
+  item.fault(fault::kSpeed, [&] {
+    return name() + " moves " + number_text(sideways(action)) +
+           " m sideways; a translation must lead along the heading, forwards or backwards.";
+  });
+}
+
+/// Without the differences within the tolerance.
+core::Action ActionChain::joined(core::Action action) const {
+  if (now_) action.t_start = *now_;
+  action.t_end = std::max(action.t_start, action.t_end);
+  if (pose_) action.from = *pose_;
+  if (action.type != core::Action::Type::translate) action.to.position = action.from.position;
+  if (action.type != core::Action::Type::rotate) action.to.theta = action.from.theta;
+  return action;
+}
+
+}  // namespace fleetplan::api

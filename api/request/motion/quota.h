@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "api/json/json_reader.h"
+
+namespace fleetplan::api {
+
+/// How many things of one kind a request may contain in total, wherever they are.
+class Quota {
+ public:
+  /// `what`: in the plural, for the fault.
+  Quota(std::size_t most, std::string_view what) : left_(most), most_(most), what_(what) {}
+
+  /// Whether all items of the array are within the limit. Only the first array beyond it is a fault; then
+  /// nothing more is.
+  bool take(const JsonReader& array) {
+    if (exceeded_) return false;
+    exceeded_ = array.size() > left_;
+    if (exceeded_) {
+      array.fault(fault::kOutOfRange, "The request has more than " + std::to_string(most_) + " " +
+                                          std::string(what_) + ", the maximum of this service; send fewer.");
+      return false;
+    }
+    left_ -= array.size();
+    return true;
+  }
+
+ private:
+  std::size_t left_;
+  std::size_t most_;
+  std::string_view what_;
+  bool exceeded_ = false;
+};
+
+}  // namespace fleetplan::api
