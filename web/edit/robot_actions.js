@@ -1,6 +1,7 @@
 // Actions on the selected robot by buttons and keys; each is one undo step and is announced.
 
 import { deleteRobot, duplicateRobot, nameOf, removeGoal, robotsOf, setPose } from "../model/edit_request.js";
+import { lastGoalOf } from "../model/goals.js";
 import { nearestFreePlace } from "../model/placement.js";
 import { degrees } from "../ui/format.js";
 
@@ -23,7 +24,8 @@ export class RobotActions {
 
   /** Announces where the "start" or "goal" of the selected robot is now. */
   announcePose(pose) {
-    const at = robotsOf(this.#session.request)[this.#choice.index]?.[pose];
+    const robot = robotsOf(this.#session.request)[this.#choice.index];
+    const at = pose === "goal" ? lastGoalOf(robot) : robot?.[pose];
     const place = `(${at?.x}, ${at?.y}) m`;
     const heading = Number.isFinite(at?.theta) ? `, facing ${degrees(at.theta)}` : "";
     this.#session.announce(

@@ -3,6 +3,7 @@
 
 import { tidy } from "../model/cells.js";
 import { nameOf, robotsOf, setDefault, setRobot } from "../model/edit_request.js";
+import { lastGoalOf, lastGoalPlace } from "../model/goals.js";
 import { robotIndexOf } from "../model/problem.js";
 import { byId, element, setText } from "../ui/dom.js";
 import { NumberField } from "../ui/number_field.js";
@@ -94,18 +95,20 @@ export class RobotForm {
       field.input.dataset.pointer = `${pointer}/${name}`;
       field.show(robot[name], { placeholder: String(defaults?.[name] ?? "") });
     }
-    for (const pose of POSES) this.#refreshPose(robot, pose, `${pointer}/${pose}`);
-    this.#hasGoal.checked = robot.goal !== undefined;
-    byId("robot-goal-numbers").hidden = robot.goal === undefined;
+    const goal = lastGoalOf(robot);
+    this.#refreshPose("start", robot.start, `${pointer}/start`);
+    this.#refreshPose("goal", goal, `${pointer}/${lastGoalPlace(robot)}`);
+    this.#hasGoal.checked = goal !== undefined;
+    byId("robot-goal-numbers").hidden = goal === undefined;
   }
 
-  #refreshPose(robot, pose, pointer) {
+  #refreshPose(pose, place, pointer) {
     const fields = this.#poses.get(pose);
     byId(`robot-${pose}`).dataset.pointer = pointer;
     for (const [name, field] of Object.entries(fields)) field.input.dataset.pointer = `${pointer}/${name}`;
-    fields.x.show(robot[pose]?.x);
-    fields.y.show(robot[pose]?.y);
-    const theta = robot[pose]?.theta;
+    fields.x.show(place?.x);
+    fields.y.show(place?.y);
+    const theta = place?.theta;
     const known = typeof theta === "number";
     const degrees = known ? tidy((theta * 180) / Math.PI) : theta;
     const otherwise = pose === "goal" ? "any" : "0";

@@ -2,6 +2,7 @@
 // words. No DOM; the service is passed in.
 
 import { robotsOf } from "./edit_request.js";
+import { lastGoalOf, lastGoalPlace } from "./goals.js";
 import { Follower } from "./motion.js";
 import { ProblemError } from "./problem.js";
 
@@ -16,8 +17,13 @@ const KINDS = {
   speed: "Exceeds the speed limit",
   wrong_start: "Does not start at the start pose",
   wrong_goal: "Does not end at the goal pose",
+  wrong_visit: "Does not visit a goal as asked",
+  committed_changed: "Does not begin with its committed actions",
+  margin: "Robots pass too soon after each other",
+  moving_obstacle: "Collides with a moving obstacle",
 };
 
+const PLACEMENT_KINDS = new Set(["robot_collision", "obstacle_collision"]);
 const TOLERANCE = 5e-7; // metres: disks that overlap by no more are in contact
 const REST_MS = 350; // without a further edit
 
@@ -45,22 +51,32 @@ function overlap(motions, ids, time) {
   return Math.hypot(other.x - one.x, other.y - one.y) < a.radius + b.radius - CONTACT;
 }
 
-/** The plan file that checks the starts of a request: its robots stand there. */
+/** The plan file that checks the starts of a request: without plans, its robots are there at time 0. */
 export function standingAtStarts(request) {
   return { ...request, plans: [], tolerance: TOLERANCE };
 }
 
-/** The plan file that checks the goals: the robots with goals stand there; null if there are none. */
+/**
+ * The plan file that checks the last goals: the robots with goals stand there, and nothing moves; null if there
+ * are none.
+ */
 export function standingAtGoals(request) {
-  const robots = robotsOf(request).filter(({ goal }) => goal !== undefined);
+  const { obstacles: _, ...still } = standingAtStarts(request);
+  const robots = robotsOf(request).filter((robot) => lastGoalOf(robot) !== undefined);
   if (robots.length === 0) return null;
-  return { ...standingAtStarts(request), robots: robots.map((robot) => ({ ...robot, start: robot.goal })) };
+  return { ...still, robots: robots.map(standingAtGoal) };
+}
+
+function standingAtGoal({ goals: _, committed: __, previous: ___, ...robot }, index, all) {
+  const { service: ____, not_before: _____, ...goal } = lastGoalOf(all[index]);
+  return { ...robot, start: goal, goal };
 }
 
 /** The errors, [{pointer, detail}], for the violations of robots standing at their "start" or "goal". */
 export function placementErrors(request, violations, pose) {
   const indices = new Map(robotsOf(request).map(({ id }, index) => [id, index]));
-  return violations.map(({ kind, robots, distance, required }) => {
+  const standing = violations.filter(({ kind, t }) => PLACEMENT_KINDS.has(kind) && !(t > 0));
+  return standing.map(({ kind, robots, distance, required }) => {
     const placed = robots.map((id) => indices.get(id)).sort((a, b) => a - b);
     const room = `${inMetres(distance)} of the required ${inMetres(required)}`;
     const others = robots.filter((id) => indices.get(id) !== placed.at(-1));
@@ -68,7 +84,9 @@ export function placementErrors(request, violations, pose) {
       kind === "robot_collision"
         ? `The ${pose} overlaps that of ${others.join(" and ")}: ${room}, between the centres.`
         : `The ${pose} does not fit: ${room}, from its centre to a wall or the edge of the map.`;
-    return { pointer: `/robots/${placed.at(-1)}/${pose}`, detail };
+    const index = placed.at(-1);
+    const place = pose === "goal" ? lastGoalPlace(robotsOf(request)[index]) : pose;
+    return { pointer: `/robots/${index}/${place}`, detail };
   });
 }
 

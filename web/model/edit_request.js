@@ -3,6 +3,7 @@
 // goes; a faulty map is edited as it is drawn, see readScene. Pure.
 
 import { isFree, tidy } from "./cells.js";
+import { lastGoalOf, withLastGoal, withoutGoals } from "./goals.js";
 import { readGrid } from "./scene.js";
 
 const FREE = ".";
@@ -149,18 +150,19 @@ export function setDefault(request, name, value) {
 }
 
 /**
- * The request with members of a robot's `pose`, "start" or "goal", set: {x, y, theta}, undefined
+ * The request with members of a robot's `pose`, "start" or "goal" (the last one), set: {x, y, theta}, undefined
  * ones removed (theta: the default of a start, any heading of a goal).
  */
 export function setPose(request, index, pose, members) {
   return withRobot(request, index, (robot) => {
+    if (pose === "goal") return withLastGoal(robot, withMembers(objectOf(lastGoalOf(robot)), members));
     return withMember(robot, pose, withMembers(objectOf(robot[pose]), members));
   });
 }
 
-/** The request with a robot without a goal. */
+/** The request with a robot without goals. */
 export function removeGoal(request, index) {
-  return withRobot(request, index, (robot) => withMember(robot, "goal", undefined));
+  return withRobot(request, index, withoutGoals);
 }
 
 /**
@@ -181,13 +183,17 @@ export function addRobot(request, start, goal = undefined) {
   return { ...objectOf(request), robots: [...robots, robot] };
 }
 
-/** The request with a copy of a robot at the end, with its own id, start and goal (if it has one). */
+/**
+ * The request with a copy of a robot at the end, with its own id, start and last goal (if it has one). What the
+ * robot does already, and was planned to do, begins at its start and is not copied.
+ */
 export function duplicateRobot(request, index, start, goal) {
   const robots = robotsOf(request);
   const robot = objectOf(robots[index]);
-  const copy = { ...robot, id: freshId(request, robot.id), start: { ...robot.start, ...start } };
-  if (goal) copy.goal = { ...robot.goal, ...goal };
-  return { ...objectOf(request), robots: [...robots, copy] };
+  const { committed: _, previous: __, ...kept } = robot;
+  const copy = { ...kept, id: freshId(request, robot.id), start: { ...robot.start, ...start } };
+  const whole = goal ? withLastGoal(copy, { ...lastGoalOf(robot), ...goal }) : copy;
+  return { ...objectOf(request), robots: [...robots, whole] };
 }
 
 export function deleteRobot(request, index) {

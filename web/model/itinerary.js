@@ -16,10 +16,13 @@ export function totals(actions) {
   return sum;
 }
 
-/** An action in words: "drive 3.2 m", "turn 90° left", "wait 1.4 s". */
+/** An action in words: "drive 3.2 m", "turn 90° left", "wait 1.4 s", "wait 2 s at goal 1". */
 export function actionInWords(action) {
   if (action.type === "translate") return `drive ${short(lengthOf(action))} m`;
-  if (action.type === "wait") return `wait ${short(action.t_end - action.t_start)} s`;
+  if (action.type === "wait") {
+    const where = Number.isInteger(action.goal) ? ` at goal ${action.goal + 1}` : "";
+    return `wait ${short(action.t_end - action.t_start)} s${where}`;
+  }
   const turn = turnBetween(action.from.theta, action.to.theta);
   return `turn ${short((Math.abs(turn) / WHOLE_TURN) * 360)}° ${turn < 0 ? "right" : "left"}`;
 }

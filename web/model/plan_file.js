@@ -79,6 +79,7 @@ export const OF_ANSWERS = {
   deterministic: isFlag,
   search: (value) => isNumber(value?.expansions),
   timings_ms: (value) => isNumber(value?.plan) && isNumber(value.total),
+  unavoidable: isList,
   warnings: (value) => isList(value) && value.every((each) => isText(each?.detail ?? each)),
   tolerance: isNumber, // of the check
 };
@@ -88,6 +89,7 @@ const OF_UNPLANNED = {
   detail: isOptional(isText),
   blocked_by: isOptional((value) => isList(value) && value.every(isText)),
   blocked_by_total: isOptional(isNumber),
+  actions: isOptional(isList),
 };
 const OF_PLANS = {
   robot: isText,
@@ -107,7 +109,9 @@ const OF_ACTIONS = {
 export function checkAnswer(answer) {
   checkMembers(answer, Object.keys(answer), OF_ANSWERS, "");
   for (const [index, entry] of (answer.unplanned ?? []).entries()) {
-    checkMembers(entry, Object.keys(OF_UNPLANNED), OF_UNPLANNED, `unplanned[${index}].`);
+    const place = `unplanned[${index}].`;
+    checkMembers(entry, Object.keys(OF_UNPLANNED), OF_UNPLANNED, place);
+    checkActions(entry.actions ?? [], place);
   }
   const seen = new Set();
   for (const [index, plan] of answer.plans.entries()) {
@@ -116,9 +120,13 @@ export function checkAnswer(answer) {
     if (seen.has(plan.robot))
       throw new FileError(`${place} is a second plan of ${plan.robot}; a robot has one.`);
     seen.add(plan.robot);
-    for (const [number, action] of plan.actions.entries()) {
-      checkMembers(action, Object.keys(OF_ACTIONS), OF_ACTIONS, `${place}.actions[${number}].`);
-    }
+    checkActions(plan.actions, `${place}.`);
+  }
+}
+
+function checkActions(actions, place) {
+  for (const [number, action] of actions.entries()) {
+    checkMembers(action, Object.keys(OF_ACTIONS), OF_ACTIONS, `${place}actions[${number}].`);
   }
 }
 

@@ -1,6 +1,8 @@
 // What to draw of a request and its answer. Faulty requests are drawn as far
 // as possible; the service reports their faults.
 
+import { goalsOf } from "./goals.js";
+import { readObstacles } from "./moving_obstacles.js";
 import { doingAt, pathOf, poseAt } from "./timeline.js";
 
 /** @import {Answer, Grid, Robot, Scene, Track} from "./types.js" */
@@ -51,10 +53,26 @@ function readRobots(request) {
     const start = readPose(robot?.start);
     if (!start || !positive(radius)) return;
     const id = typeof robot.id === "string" ? robot.id : `#${index}`;
-    const goal = readPose(robot.goal);
-    robots.push({ index, id, radius, start: { ...start, theta: start.theta ?? 0 }, goal });
+    const goals = goalsOf(robot).map(readPose);
+    const goal = goals.at(-1) ?? null;
+    const committed = pathOf(readActions(robot.committed));
+    robots.push({
+      index,
+      id,
+      radius,
+      start: { ...start, theta: start.theta ?? 0 },
+      goal,
+      via: goals.slice(0, -1),
+      committed,
+    });
   });
   return robots;
+}
+
+/** The actions that can be drawn. */
+function readActions(listed) {
+  if (!Array.isArray(listed)) return [];
+  return listed.filter((action) => readPose(action?.from) !== null && readPose(action.to) !== null);
 }
 
 function readPose(pose) {
@@ -63,7 +81,7 @@ function readPose(pose) {
 }
 
 /**
- * The scene of a parsed request: {grid, robots}; the grid is null when there is no map to draw. `previous`,
+ * The scene of a parsed request: {grid, robots, obstacles}; the grid is null when there is no map to draw. `previous`,
  * the scene of an earlier request, makes it cheap to read an edited one.
  * @param {Scene | null} previous
  * @returns {Scene}
@@ -72,12 +90,14 @@ export function readScene(request, previous = null) {
   const robots = readRobots(request);
   const shared = commonPrefixLength(robots.map(({ id }) => id));
   for (const robot of robots) robot.label = robot.id.slice(shared);
-  return { grid: readGrid(request?.map, previous?.grid ?? null), robots };
+  const grid = readGrid(request?.map, previous?.grid ?? null);
+  return { grid, robots, obstacles: readObstacles(request) };
 }
 
 /**
  * The track of each robot of the scene, by id: {status, actions, path, cost, lowerBound, unplanned}. The
- * status is "ready" before there is an answer, then "planned", "parked" (it has no goal) or "unplanned";
+ * status is "ready" before there is an answer, then "planned", "parked" (it has no goal and does not move) or
+ * "unplanned" (it executes its committed actions, if any);
  * `lowerBound`, the lower bound of its cost (seconds), is null if the answer lacks it.
  * @param {Scene} scene
  * @param {Answer | null} answer
@@ -88,7 +108,7 @@ export function readTracks(scene, answer) {
   const failures = new Map((answer?.unplanned ?? []).map((entry) => [entry.robot, entry]));
   const tracks = new Map();
   for (const robot of scene.robots) {
-    const actions = plans.get(robot.id)?.actions ?? [];
+    const actions = (plans.get(robot.id) ?? failures.get(robot.id))?.actions ?? [];
     tracks.set(robot.id, {
       status: statusOf(robot, plans, failures),
       actions,
@@ -103,8 +123,9 @@ export function readTracks(scene, answer) {
 
 function statusOf(robot, plans, failures) {
   if (failures.has(robot.id)) return "unplanned";
-  if (!robot.goal) return "parked";
-  return plans.has(robot.id) ? "planned" : "ready";
+  const plan = plans.get(robot.id);
+  if (!robot.goal && !(plan?.actions.length > 0)) return "parked";
+  return plan === undefined ? "ready" : "planned";
 }
 
 /** The pose of a robot at t on its track. */

@@ -186,7 +186,8 @@ export class Session {
     this.answer = answer;
     this.tracks = readTracks(this.scene, answer);
     this.#focus.keep(this.#robots);
-    this.player.reset(Math.max(0, ...(answer?.plans ?? []).map(({ cost }) => cost)));
+    const stops = (answer?.unplanned ?? []).map(({ actions }) => actions?.at(-1)?.t_end ?? 0);
+    this.player.reset(Math.max(0, ...(answer?.plans ?? []).map(({ cost }) => cost), ...stops));
     this.#setCheck(null);
   }
 

@@ -12,6 +12,17 @@
  * @typedef {{x: number, y: number, theta?: number}} GivenPose
  */
 
+/** @typedef {GivenPose & {service?: number, not_before?: number}} GivenGoal */
+
+/**
+ * A disk that nobody controls; it leaves after its motion unless `after` is "stays".
+ * @typedef {object} RequestObstacle
+ * @property {string} id
+ * @property {number} radius
+ * @property {{t: number, x: number, y: number}[]} motion
+ * @property {"stays" | "leaves"} [after]
+ */
+
 /**
  * @typedef {object} RequestRobot
  * @property {string} id
@@ -19,7 +30,10 @@
  * @property {number} [linear_speed]
  * @property {number} [angular_speed]
  * @property {GivenPose} start
- * @property {GivenPose} [goal]
+ * @property {GivenGoal} [goal]
+ * @property {GivenGoal[]} [goals] in the order of the visits, instead of `goal`
+ * @property {Action[]} [committed]
+ * @property {Action[]} [previous]
  */
 
 /** @typedef {{rows: string[], resolution?: number, origin?: Position}} RequestMap */
@@ -31,16 +45,18 @@
  * @property {RequestMap} map
  * @property {RequestRobot[]} robots
  * @property {RobotDefaults} [robot_defaults]
+ * @property {RequestObstacle[]} [obstacles]
  * @property {Record<string, any>} [options]
  */
 
 /**
- * @typedef {{type: "rotate" | "translate" | "wait", t_start: number, t_end: number, from: Pose, to: Pose}}
- * Action
+ * An action; `goal`, of a wait, is the number of the goal that is served, from 0.
+ * @typedef {{type: "rotate" | "translate" | "wait", t_start: number, t_end: number, from: Pose, to: Pose,
+ * goal?: number}} Action
  */
 /** @typedef {{robot: string, cost: number, lower_bound?: number, actions: Action[]}} Plan */
 /** @typedef {{robot: string, reason: string, detail?: string, blocked_by?: string[],
- * blocked_by_total?: number}} Unplanned */
+ * blocked_by_total?: number, actions?: Action[]}} Unplanned */
 
 /**
  * The answer of POST /v1/plan. One from a file may lack what is optional here.
@@ -57,6 +73,7 @@
  * @property {{expansions: number}} [search]
  * @property {Record<string, number>} [timings_ms]
  * @property {(string | {detail?: string})[]} warnings
+ * @property {object[]} [unavoidable]
  */
 
 /**
@@ -127,7 +144,8 @@
 /** @typedef {{left: number, bottom: number, right: number, top: number}} Bounds metres */
 
 /**
- * A robot as it is drawn, at `index` of the request's robots. A goal's theta is null for any heading.
+ * A robot as it is drawn, at `index` of the request's robots. A goal's theta is null for any heading. `via` are
+ * the goals before the last one, null where they are faulty; `committed` is the path of its committed actions.
  * @typedef {object} Robot
  * @property {number} index
  * @property {string} id
@@ -135,9 +153,14 @@
  * @property {number} radius
  * @property {Pose} start
  * @property {{x: number, y: number, theta: number | null} | null} goal
+ * @property {({x: number, y: number, theta: number | null} | null)[]} via
+ * @property {Position[]} committed
  */
 
-/** @typedef {{grid: Grid | null, robots: Robot[]}} Scene */
+/** @typedef {{id: string, radius: number, motion: {t: number, x: number, y: number}[], stays: boolean}}
+ * MovingObstacle */
+
+/** @typedef {{grid: Grid | null, robots: Robot[], obstacles: MovingObstacle[]}} Scene */
 
 /**
  * What a robot does under an answer; see readTracks.

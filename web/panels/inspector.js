@@ -143,6 +143,7 @@ export class Inspector {
 
   /** The text after a wait. */
   #causeOf(robot, actions, at) {
+    if (Number.isInteger(actions[at].goal)) return []; // a service, whatever the others do
     const hit = causeOfWait(robot.id, actions, at, this.#fleet.byId);
     if (hit) return this.#causeInWords("for", hit);
     const inflation = this.#session.request.options?.inflation ?? 0;

@@ -2,7 +2,8 @@
 // Pressing a listed error leads to its place.
 
 import { nameOf, robotsOf } from "../model/edit_request.js";
-import { mapRowOf, robotIndexOf } from "../model/problem.js";
+import { goalAt } from "../model/goals.js";
+import { mapRowOf, partsOf, robotIndexOf } from "../model/problem.js";
 import { markRow, markWrong } from "../scene/marks.js";
 import { byId, element } from "../ui/dom.js";
 import { fieldOf, showFieldErrors } from "../ui/field_errors.js";
@@ -67,7 +68,7 @@ function focusOn(field, tabs) {
  */
 function diskOf({ request, scene }, pointer) {
   const robot = robotsOf(request)[robotIndexOf(pointer) ?? -1];
-  const pose = (/^\/robots\/\d+\/goal/.test(pointer) && robot?.goal) || robot?.start;
+  const pose = goalAt(robot, partsOf(pointer).slice(2)) ?? robot?.start;
   if (!Number.isFinite(pose?.x) || !Number.isFinite(pose?.y)) return null;
   const radius = robot.radius ?? request.robot_defaults?.radius;
   return { x: pose.x, y: pose.y, radius: radius > 0 ? radius : (scene.grid?.resolution ?? 1) / 2 };
@@ -119,5 +120,6 @@ function placeInWords(pointer, request) {
   if (row !== null) return `Row ${row + 1} of the map`;
   if (pointer.startsWith("/map")) return "Map";
   if (pointer.startsWith("/options")) return "Option";
+  if (pointer.startsWith("/obstacles")) return "Obstacle";
   return "Request";
 }

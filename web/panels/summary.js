@@ -119,6 +119,8 @@ export const REASONS = {
   goal_unreachable: "Goal unreachable",
   blocked_by_robots: "Blocked by other robots",
   budget_exhausted: "Out of time",
+  committed_in_the_way: "In the way of what is certain to move",
+  invalid: "Invalid",
 };
 
 /** Lists the robots that the session's answer leaves without a plan. */

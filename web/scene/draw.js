@@ -1,16 +1,19 @@
 // Paints a scene on a canvas. What does not move during playback (map, starts, goals, paths) is painted on a
 // backdrop once for each camera; a frame is a copy of it, the robots and the overlays.
 
+import { obstacleAt } from "../model/moving_obstacles.js";
 import { robotPoseAt, robotStateAt } from "../model/scene.js";
 import { remainingPath } from "../model/timeline.js";
 import { contextOf } from "../ui/dom.js";
 import { MapRaster } from "./map_raster.js";
-import { drawGoal, drawPath, drawRobot, drawStart } from "./marks.js";
+import { drawGoal, drawNumber, drawObstacle, drawPath, drawRobot, drawStart } from "./marks.js";
 import { robotColour } from "./palette.js";
 import { toScreen } from "./view.js";
 
 const GRID_LINES_FROM = 14; // pixels per cell: below, lines would only darken the floor
 const NAME_ROOM = 40; // pixels beside a robot that its marks may take
+const COMMITTED = { width: 3.5, alpha: 0.7 };
+const CROSSING = { width: 1, alpha: 0.5, dashes: [2, 4] };
 const FAINT = { width: 1.25, alpha: 0.34 };
 
 export class Painter {
@@ -65,6 +68,7 @@ export class Painter {
     if (this.#look.paths === "remaining") this.#paintRemainingPaths(context, view);
     this.#paintMarkedPaths(context, view);
     this.#paintRobots(context, view);
+    this.#paintObstacles(context, view);
     for (const overlay of overlays) overlay(context, view);
   }
 
@@ -102,15 +106,37 @@ export class Painter {
   }
 
   #paintPlan(context, camera, viewport) {
+    const screen = (point) => toScreen(camera, viewport, point);
+    const shown = this.#look.paths !== "none";
+    for (const { motion } of this.#scene.obstacles) {
+      if (shown) drawPath(context, motion.map(screen), this.#theme.ink, CROSSING);
+    }
     this.#scene.robots.forEach((robot, at) => {
       const track = this.#tracks.get(robot.id);
-      const screen = (point) => toScreen(camera, viewport, point);
       const radius = robot.radius * camera.scale;
       const colour = this.#colours[at];
       if (this.#look.paths === "whole") drawPath(context, track.path.map(screen), colour, FAINT);
+      if (shown) drawPath(context, robot.committed.map(screen), colour, COMMITTED);
       if (track.actions.length > 0) drawStart(context, screen(robot.start), radius, colour);
-      if (robot.goal) drawGoal(context, screen(robot.goal), robot.goal.theta, radius, colour);
+      this.#paintGoals(context, robot, radius, colour, screen);
     });
+  }
+
+  /** The goals of a robot; several ones with their numbers, from 1. */
+  #paintGoals(context, { via, goal }, radius, colour, screen) {
+    const goals = [...via, goal];
+    goals.forEach((each, at) => {
+      if (each === null) return;
+      drawGoal(context, screen(each), each.theta, radius, colour);
+      if (goals.length > 1) drawNumber(context, this.#theme, screen(each), radius, colour, at + 1);
+    });
+  }
+
+  #paintObstacles(context, { time, scale, screen }) {
+    for (const obstacle of this.#scene.obstacles) {
+      const place = obstacleAt(obstacle, time);
+      if (place !== null) drawObstacle(context, this.#theme, screen(place), obstacle.radius * scale);
+    }
   }
 
   #paintRemainingPaths(context, { time, screen }) {
@@ -130,7 +156,8 @@ export class Painter {
         const rest = remainingPath(track.actions, robot.start, time).map(screen);
         drawPath(context, rest, this.#colours[at], { width: 3, alpha: 0.95 });
       } else if (robot.goal && track.status !== "planned") {
-        drawPath(context, [robot.start, robot.goal].map(screen), this.#colours[at], {
+        const stops = [robot.start, ...robot.via.filter((goal) => goal !== null), robot.goal];
+        drawPath(context, stops.map(screen), this.#colours[at], {
           width: 1.5,
           alpha: 0.8,
           dashes: [3, 5],

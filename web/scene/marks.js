@@ -3,6 +3,7 @@
 
 const SMALLEST_DOT = 2.5; // pixels: the least radius of a robot
 const SMALLEST_LABEL = 8; // font pixels
+const CROSS = { width: 2, alpha: 0.9 };
 
 /**
  * A robot as a disk with a wedge for its heading and, if there is room, its label or, if `state` is not null,
@@ -38,6 +39,46 @@ export function drawGoal(context, centre, theta, radius, colour) {
   context.lineTo(centre.x + Math.cos(theta) * shown * 1.3, centre.y - Math.sin(theta) * shown * 1.3);
   context.stroke();
   context.restore();
+}
+
+/** The number of a goal, in its ring. */
+export function drawNumber(context, theme, centre, radius, colour, number) {
+  const size = Math.min(14, radius * 1.3);
+  if (size < SMALLEST_LABEL) return;
+  context.font = `600 ${size.toFixed(1)}px ${theme.font}`;
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  context.fillStyle = colour;
+  context.fillText(String(number), centre.x, centre.y + size * 0.06);
+}
+
+/** Something that moves on its own: a disk with a cross, in no robot's colour. */
+export function drawObstacle(context, theme, centre, radius) {
+  const shown = Math.max(radius, SMALLEST_DOT);
+  context.beginPath();
+  context.arc(centre.x, centre.y, shown, 0, 2 * Math.PI);
+  context.fillStyle = theme.muted;
+  context.fill();
+  ring(context, centre, shown, theme.ink, { width: 1.5, alpha: 0.9, dashes: [] });
+  const arm = shown * 0.5;
+  drawPath(
+    context,
+    [
+      { x: centre.x - arm, y: centre.y },
+      { x: centre.x + arm, y: centre.y },
+    ],
+    theme.floor,
+    CROSS,
+  );
+  drawPath(
+    context,
+    [
+      { x: centre.x, y: centre.y - arm },
+      { x: centre.x, y: centre.y + arm },
+    ],
+    theme.floor,
+    CROSS,
+  );
 }
 
 /** @param {{width: number, alpha: number, dashes?: number[]}} line */
