@@ -21,7 +21,8 @@ struct Tolerance {
 inline constexpr double kMostTolerance = 1e-6;
 
 /// By robot, the tolerances for a plan of the planner: contact, and what doubles lose in coordinates of the
-/// map's size and, at the robot's own speed, in times as long as its own plan's.
+/// map's size and, at the robot's own speed, in times as long as its own plan's. For robots with actions of
+/// the request, kMostTolerance.
 std::vector<Tolerance> plan_tolerances(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                        const std::vector<RobotPlan>& plans);
 

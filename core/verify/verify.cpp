@@ -1,15 +1,16 @@
 #include "core/verify/verify.h"
 
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "core/verify/execution/execution.h"
-#include "core/verify/pairs/fleet_clearance.h"
-#include "core/verify/quantity_text.h"
+#include "core/verify/execution/executed_fleet.h"
+#include "core/verify/pairs/check_pairs.h"
+#include "core/verify/rules/commitment_rules.h"
 #include "core/verify/rules/endpoint_rules.h"
 #include "core/verify/rules/motion_rules.h"
 #include "core/verify/rules/obstacle_rules.h"
+#include "core/verify/rules/visit_rules.h"
+#include "core/verify/rules/wait_rules.h"
 #include "core/verify/violation_list.h"
 
 namespace fleetplan::core {
@@ -27,20 +28,67 @@ std::vector<const RobotPlan*> plans_by_robot(std::size_t robots, const std::vect
   return by_robot;
 }
 
-Violation collision(const Overlap& overlap, const std::vector<std::size_t>& robots,
-                    const std::vector<double>& radii) {
-  const double contact = radii[overlap.first] + radii[overlap.second];
-  std::string detail = "the disks overlap by " + metres(contact - overlap.distance) +
-                       " from t = " + seconds(overlap.t_begin) +
-                       (std::isfinite(overlap.t_end) ? " to " + seconds(overlap.t_end) : " on, for ever");
-  return {Violation::Kind::robot_collision,
-          {robots[overlap.first], robots[overlap.second]},
-          overlap.t_deepest,
-          overlap.distance,
-          contact,
-          std::move(detail),
-          {}};
-}
+/// Checks each robot alone, and then all of them together.
+class FleetCheck {
+ public:
+  FleetCheck(const CheckedFleet& fleet, const std::vector<RobotPlan>& plans, const CheckRules& rules,
+             const StopCondition& stop)
+      : request_(fleet), rules_(rules), stop_(stop), plan_of_(plans_by_robot(fleet.robots.size(), plans)) {}
+
+  std::optional<VerifyReport> run() {
+    const ObstacleField field(request_.grid);
+    for (std::size_t index = 0; index < request_.robots.size(); ++index) {
+      if (stop_.met()) return std::nullopt;
+      check_alone(index, field);
+    }
+    std::optional<PairReport> pairs = check_pairs(fleet_, request_.obstacles, rules_, stop_);
+    if (!pairs || stop_.met()) return std::nullopt;
+    violations_.add(std::move(pairs->violations));
+    const std::size_t count = violations_.total();
+    return VerifyReport{violations_.take(), count, pairs->min_clearance};
+  }
+
+ private:
+  void check_alone(std::size_t index, const ObstacleField& field) {
+    const Robot& robot = request_.robots[index];
+    const RobotPlan* plan = plan_of_[index];
+    if (const auto unusable = find_unusable_number(index, robot, plan)) {
+      violations_.add(*unusable);
+      return;
+    }
+    const Tolerance& tolerance = rules_.tolerances[index];
+    if (plan != nullptr) check_plan(robot, *plan, tolerance);
+    fleet_.robots.push_back(index);
+    fleet_.radii.push_back(robot.radius);
+    fleet_.tolerances.push_back(tolerance.metres);
+    fleet_.legs.push_back(execute(robot, plan));
+    fleet_.departures.push_back(departure_of(robot, plan));
+    fleet_.invalid.push_back(robot.invalid);
+    if (robot.invalid) return;  // it may stand in a wall
+    const std::vector<Leg>& legs = fleet_.legs.back();
+    const std::vector<double> kept =
+        distances_from_walls(field, robot.radius, legs, fleet_.departures.back(), tolerance.metres, rules_);
+    violations_.add(check_obstacles(field, index, kept, legs, tolerance.metres, stop_));
+  }
+
+  void check_plan(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance) {
+    const auto changed = check_commitments(robot, plan, tolerance, rules_.exact_commitments);
+    if (changed) violations_.add(*changed);
+    // Committed actions that are those of the request are as good as the request.
+    const std::size_t given = rules_.exact_commitments && !changed ? robot.committed.size() : 0;
+    violations_.add(check_motion(robot, plan, given, tolerance, stop_));
+    for (Violation& wrong : check_endpoints(robot, plan, tolerance)) violations_.add(std::move(wrong));
+    for (Violation& wrong : check_visits(robot, plan, tolerance, stop_)) violations_.add(std::move(wrong));
+    violations_.add(check_waits(robot, plan, rules_.wait_before_move, tolerance, stop_));
+  }
+
+  const CheckedFleet& request_;
+  const CheckRules& rules_;
+  const StopCondition& stop_;
+  std::vector<const RobotPlan*> plan_of_;
+  ExecutedFleet fleet_;  // the robots whose numbers are usable
+  ViolationList violations_;
+};
 
 }  // namespace
 
@@ -66,42 +114,7 @@ std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<
 
 std::optional<VerifyReport> verify(const CheckedFleet& fleet, const std::vector<RobotPlan>& plans,
                                    const CheckRules& rules, const StopCondition& stop) {
-  const std::vector<Robot>& robots = fleet.robots;
-  const std::vector<Tolerance>& tolerances = rules.tolerances;
-  ViolationList violations;
-  const ObstacleField field(fleet.grid);
-  const std::vector<const RobotPlan*> plan_of = plans_by_robot(robots.size(), plans);
-  std::vector<std::size_t> checked;  // the robots whose numbers are usable
-  std::vector<double> radii;
-  std::vector<double> overlaps;  // metres, the tolerances
-  std::vector<std::vector<Leg>> legs;
-  for (std::size_t index = 0; index < robots.size(); ++index) {
-    if (stop.met()) return std::nullopt;
-    const Robot& robot = robots[index];
-    const RobotPlan* plan = plan_of[index];
-    if (const auto unusable = find_unusable_number(index, robot, plan)) {
-      violations.add(*unusable);
-      continue;
-    }
-    if (plan != nullptr) {
-      violations.add(check_motion(robot, *plan, tolerances[index], stop));
-      for (Violation& wrong : check_endpoints(robot, *plan, tolerances[index]))
-        violations.add(std::move(wrong));
-    }
-    checked.push_back(index);
-    radii.push_back(robot.radius);
-    overlaps.push_back(tolerances[index].metres);
-    legs.push_back(execute(robot, plan));
-    violations.add(check_obstacles(field, index, robot.radius, legs.back(), overlaps.back(), stop));
-  }
-
-  const auto clearance = fleet_clearance(legs, radii, overlaps, kMostCollisions, stop);
-  if (!clearance || stop.met()) return std::nullopt;
-  for (const Overlap& overlap : clearance->overlaps) {
-    violations.add(collision(overlap, checked, radii));
-  }
-  const std::size_t count = violations.total();
-  return VerifyReport{violations.take(), count, clearance->least};
+  return FleetCheck(fleet, plans, rules, stop).run();
 }
 
 }  // namespace fleetplan::core

@@ -29,7 +29,7 @@ void ViolationList::keep(Violation violation) {
 
 void ViolationList::sort_and_cut() {
   std::stable_sort(kept_.begin(), kept_.end(), [](const Violation& a, const Violation& b) {
-    return std::tie(a.t, a.kind, a.robots) < std::tie(b.t, b.kind, b.robots);
+    return std::tie(a.t, a.kind, a.robots, a.obstacle) < std::tie(b.t, b.kind, b.robots, b.obstacle);
   });
   if (kept_.size() > kMostViolations) {
     kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(kMostViolations), kept_.end());

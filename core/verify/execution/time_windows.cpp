@@ -13,25 +13,26 @@ constexpr std::size_t kFewestWindows = 64;
 constexpr std::size_t kMostWindows = 4096;
 constexpr std::size_t kWindowsPerLeg = 2;
 
-std::vector<double> leg_end_times(const std::vector<std::vector<Leg>>& legs_by_robot) {
-  std::vector<double> times;
-  for (const std::vector<Leg>& legs : legs_by_robot) {
+void add_leg_end_times(const std::vector<std::vector<Leg>>& legs_by_body, std::vector<double>& times) {
+  for (const std::vector<Leg>& legs : legs_by_body) {
     for (const Leg& leg : legs) {
       if (std::isfinite(leg.t_end)) times.push_back(leg.t_end);
     }
   }
-  std::sort(times.begin(), times.end());
-  return times;
 }
 
 }  // namespace
 
-std::vector<double> time_windows(const std::vector<std::vector<Leg>>& legs_by_robot) {
-  const std::vector<double> times = leg_end_times(legs_by_robot);
+std::vector<double> time_windows(const std::vector<std::vector<Leg>>& legs_by_robot,
+                                 const std::vector<std::vector<Leg>>& others) {
+  std::vector<double> times;
+  add_leg_end_times(legs_by_robot, times);
+  add_leg_end_times(others, times);
+  std::sort(times.begin(), times.end());
   std::vector<double> boundaries{0.0};
   if (times.empty() || times.back() <= 0.0) return boundaries;
 
-  const std::size_t legs_per_robot = 1 + times.size() / legs_by_robot.size();
+  const std::size_t legs_per_robot = 1 + times.size() / (legs_by_robot.size() + others.size());
   const std::size_t wanted = std::min(kWindowsPerLeg * legs_per_robot, kMostWindows);
   const std::size_t parts = (kFewestWindows + wanted - 1) / wanted;
   for (std::size_t k = 1; k <= wanted; ++k) {

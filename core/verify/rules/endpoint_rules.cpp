@@ -37,14 +37,14 @@ std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan
   std::vector<Violation> violations;
   const bool stays = plan.actions.empty();
   if (!stays) {
-    const Violation blank{Violation::Kind::wrong_start, {plan.robot}, 0.0, 0.0, 0.0, ""};
+    const Violation blank{Violation::Kind::wrong_start, {plan.robot}, 0.0, 0.0, 0.0, "", {}};
     const Goal start{robot.start.position, robot.start.theta};
     const auto wrong =
         check_pose(blank, plan.actions.front().from, start, tolerance, "the plan starts", "start");
     if (wrong) violations.push_back(*wrong);
   }
   const Violation blank{
-      Violation::Kind::wrong_goal, {plan.robot}, stays ? 0.0 : plan.actions.back().t_end, 0.0, 0.0, ""};
+      Violation::Kind::wrong_goal, {plan.robot}, stays ? 0.0 : plan.actions.back().t_end, 0.0, 0.0, "", {}};
   const Pose& rest = stays ? robot.start : plan.actions.back().to;
   const Goal required = robot.goal.value_or(Goal{robot.committed_end().position, std::nullopt});
   const std::string place = robot.goal ? "goal" : "start, where it is parked";

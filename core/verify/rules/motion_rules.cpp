@@ -26,6 +26,21 @@ bool usable(const Pose& pose) {
   return usable(pose.position.x()) && usable(pose.position.y()) && usable(pose.theta);
 }
 
+bool usable_action(const Action& action) {
+  return usable(action.t_start) && usable(action.t_end) && usable(action.from) && usable(action.to);
+}
+
+bool goals_usable(const Robot& robot) {
+  for (std::size_t k = 0; k < robot.goal_count(); ++k) {
+    const Goal& goal = robot.goal_at(k);
+    if (!usable(goal.position.x()) || !usable(goal.position.y()) || !usable(goal.theta.value_or(0.0)) ||
+        !usable(goal.service) || !usable(goal.not_before)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 std::string action_name(std::size_t action) { return "actions[" + std::to_string(action) + "]"; }
 
 double distance_between(const Pose& a, const Pose& b) { return (b.position - a.position).norm(); }
@@ -38,8 +53,8 @@ class MotionCheck {
   MotionCheck(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance)
       : robot_(robot), plan_(plan), tolerance_(tolerance) {}
 
-  ViolationList run(const StopCondition& stop) {
-    for (std::size_t k = 0; k < plan_.actions.size(); ++k) {
+  ViolationList run(std::size_t given, const StopCondition& stop) {
+    for (std::size_t k = given; k < plan_.actions.size(); ++k) {
       if (k % kActionsBetweenPolls == 0 && stop.met()) break;
       check_times(k);
       if (k > 0) check_start_pose(k);
@@ -54,7 +69,7 @@ class MotionCheck {
   bool differ(double a, double b) const { return std::abs(a - b) > tolerance_.seconds; }
 
   void report(Kind kind, double t, double distance, double required, const std::string& detail) {
-    violations_.add({kind, {plan_.robot}, t, distance, required, detail});
+    violations_.add({kind, {plan_.robot}, t, distance, required, detail, {}});
   }
 
   void check_times(std::size_t k) {
@@ -183,10 +198,8 @@ std::optional<Violation> find_unusable_number(std::size_t index, const Robot& ro
                          " has a number that is not finite or larger than 1e30; the robot is left out of "
                          "all other checks"};
   };
-  const bool goal_usable =
-      !robot.goal || (usable(robot.goal->position.x()) && usable(robot.goal->position.y()) &&
-                      usable(robot.goal->theta.value_or(0.0)));
-  if (!goal_usable || !usable(robot.start) || !usable(robot.radius) || !usable(robot.linear_speed) ||
+  if (!goals_usable(robot) || !std::all_of(robot.committed.begin(), robot.committed.end(), usable_action) ||
+      !usable(robot.start) || !usable(robot.radius) || !usable(robot.linear_speed) ||
       !usable(robot.angular_speed)) {
     return violation(0.0, "the robot");
   }
@@ -194,7 +207,7 @@ std::optional<Violation> find_unusable_number(std::size_t index, const Robot& ro
   double latest = 0.0;  // the last time before the unusable number that is a time
   for (std::size_t k = 0; k < plan->actions.size(); ++k) {
     const Action& action = plan->actions[k];
-    if (!usable(action.t_start) || !usable(action.t_end) || !usable(action.from) || !usable(action.to)) {
+    if (!usable_action(action)) {
       return violation(latest, action_name(k));
     }
     latest = action.t_end;
@@ -203,9 +216,9 @@ std::optional<Violation> find_unusable_number(std::size_t index, const Robot& ro
   return std::nullopt;
 }
 
-ViolationList check_motion(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance,
-                           const StopCondition& stop) {
-  return MotionCheck(robot, plan, tolerance).run(stop);
+ViolationList check_motion(const Robot& robot, const RobotPlan& plan, std::size_t given,
+                           const Tolerance& tolerance, const StopCondition& stop) {
+  return MotionCheck(robot, plan, tolerance).run(given, stop);
 }
 
 }  // namespace fleetplan::core

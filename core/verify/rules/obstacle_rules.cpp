@@ -1,5 +1,7 @@
 #include "core/verify/rules/obstacle_rules.h"
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +11,8 @@
 
 namespace fleetplan::core {
 namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
 
 double time_at(const Leg& leg, double fraction) {
   return fraction > 0.0 ? leg.t_begin + fraction * (leg.t_end - leg.t_begin) : leg.t_begin;
@@ -28,16 +32,47 @@ Violation overlap_with(const NearestObstacle& obstacle, std::size_t robot, doubl
   return {Violation::Kind::obstacle_collision, {robot}, t, distance, radius, detail};
 }
 
+/// The distance of a position from the nearest obstacle, at most `reach`.
+double distance_from_walls(const ObstacleField& field, const Position& position, double reach) {
+  const auto nearest = field.nearest(position, position, reach);
+  return nearest ? nearest->point.distance : reach;
+}
+
 }  // namespace
 
-ViolationList check_obstacles(const ObstacleField& field, std::size_t robot, double radius,
+std::vector<double> distances_from_walls(const ObstacleField& field, double radius,
+                                         const std::vector<Leg>& legs, const Departure& departure,
+                                         double tolerance, const CheckRules& rules) {
+  std::vector<double> kept(legs.size(), radius);
+  if (rules.inflation <= 0.0 && rules.start_overlap <= 0.0) return kept;
+  const double inflated = radius + rules.inflation;
+  double reduced = kNone;  // what it keeps until it has been clear
+  bool planned = false;
+  for (std::size_t k = 0; k < legs.size(); ++k) {
+    const double full = departure.commits(legs[k].t_end) ? radius : inflated;
+    const bool begins_to_plan = !planned && !departure.commits(legs[k].t_end);
+    planned = planned || begins_to_plan;
+    if (k == 0 || begins_to_plan) {
+      const double here = distance_from_walls(field, legs[k].from, full);
+      const bool measured = k == 0 && inflated - here <= rules.start_overlap + tolerance;
+      if (here < full && (measured || here >= radius - tolerance)) reduced = std::min(here, reduced);
+    }
+    kept[k] = std::min(full, reduced);
+    if (reduced < full && distance_from_walls(field, legs[k].to, full) >= full - tolerance) reduced = kNone;
+  }
+  return kept;
+}
+
+ViolationList check_obstacles(const ObstacleField& field, std::size_t robot, const std::vector<double>& radii,
                               const std::vector<Leg>& legs, double tolerance, const StopCondition& stop) {
   ViolationList violations;
-  std::optional<Violation> latest;  // may continue
-  const double reach = radius - tolerance;
+  std::optional<Violation> latest;   // may continue
   const Leg* overlapping = nullptr;  // the previous leg, if it overlaps an obstacle
-  for (const Leg& leg : legs) {
+  for (std::size_t k = 0; k < legs.size(); ++k) {
     if (stop.met()) break;
+    const Leg& leg = legs[k];
+    const double radius = radii[k];
+    const double reach = radius - tolerance;
     const std::optional<NearestObstacle> nearest = field.nearest(leg.from, leg.to, reach);
     if (!nearest) {
       overlapping = nullptr;

@@ -1,0 +1,190 @@
+#include "core/verify/pairs/check_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "core/verify/pairs/exemptions.h"
+#include "core/verify/pairs/fleet_clearance.h"
+#include "core/verify/pairs/margin_sweep.h"
+#include "core/verify/pairs/near_starts.h"
+#include "core/verify/pairs/obstacle_sweep.h"
+#include "core/verify/quantity_text.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Overlaps that are allowed, as the robots start so, must not hide others: so many for each robot are listed
+/// in addition.
+constexpr std::size_t kNearStartsPerRobot = 64;
+
+std::string overlap_text(const Overlap& overlap, double contact, const std::string& what) {
+  return what + metres(contact - overlap.distance) + " from t = " + seconds(overlap.t_begin) +
+         (std::isfinite(overlap.t_end) ? " to " + seconds(overlap.t_end) : " on, for ever");
+}
+
+class PairCheck {
+ public:
+  PairCheck(const ExecutedFleet& fleet, const std::vector<MovingObstacle>& obstacles, const CheckRules& rules,
+            const StopCondition& stop)
+      : fleet_(fleet),
+        rules_(rules),
+        stop_(stop),
+        obstacles_(legs_of_all(obstacles)),
+        radii_(radii(obstacles)),
+        exemptions_(rules.exempt, fleet, rules.inflation, obstacles_, radii_, stop) {}
+
+  std::optional<PairReport> run() {
+    const bool finished = compare_robots() && compare_margin() && compare_obstacles();
+    return finished ? std::optional(std::move(report_)) : std::nullopt;
+  }
+
+ private:
+  using Pair = std::pair<std::size_t, std::size_t>;
+
+  static std::vector<std::vector<Leg>> legs_of_all(const std::vector<MovingObstacle>& obstacles) {
+    std::vector<std::vector<Leg>> legs;
+    legs.reserve(obstacles.size());
+    for (const MovingObstacle& obstacle : obstacles) legs.push_back(legs_of(obstacle));
+    return legs;
+  }
+  static std::vector<double> radii(const std::vector<MovingObstacle>& obstacles) {
+    std::vector<double> all;
+    for (const MovingObstacle& obstacle : obstacles) all.push_back(obstacle.radius);
+    return all;
+  }
+
+  double contact(std::size_t first, std::size_t second) const {
+    return fleet_.radii[first] + fleet_.radii[second] + 2.0 * rules_.inflation;
+  }
+
+  /// Ascending, like their positions.
+  std::vector<std::size_t> robots(std::size_t first, std::size_t second) const {
+    return {fleet_.robots[first], fleet_.robots[second]};
+  }
+
+  bool compare_robots() {
+    std::vector<double> planned = fleet_.radii;
+    const bool near_starts = rules_.inflation > 0.0 || rules_.start_overlap > 0.0;
+    for (double& radius : planned) radius += rules_.inflation;
+    const std::size_t invalid =
+        static_cast<std::size_t>(std::count(fleet_.invalid.begin(), fleet_.invalid.end(), true));
+    const std::size_t more = (near_starts ? fleet_.size() : 0) + invalid + rules_.exempt.size();
+    const auto clearance = fleet_clearance(fleet_.legs, planned, fleet_.tolerances,
+                                           kMostCollisions + kNearStartsPerRobot * more, stop_);
+    if (!clearance) return false;
+    if (clearance->least) {
+      report_.min_clearance = *clearance->least;
+      if (rules_.inflation > 0.0) *report_.min_clearance += 2.0 * rules_.inflation;
+    }
+    std::size_t listed = 0;
+    for (const Overlap& overlap : clearance->overlaps) {
+      if (stop_.met()) return false;
+      if (is_allowed(overlap) || ++listed > kMostCollisions) continue;
+      report(overlap);
+    }
+    return true;
+  }
+
+  bool is_allowed(const Overlap& overlap) {
+    const auto [first, second] = Pair(overlap.first, overlap.second);
+    if (fleet_.invalid[first] && fleet_.invalid[second]) return true;
+    if (any_contains(exemptions_.of_robots(first, second), overlap.t_begin)) return true;
+    const auto until = leaves_overlap(fleet_, overlap, rules_);
+    if (!until) return false;
+    double& left = left_at_[{first, second}];
+    left = std::max(left, *until);
+    return true;
+  }
+
+  void report(const Overlap& overlap) {
+    const double kept = contact(overlap.first, overlap.second);
+    collided_.insert({overlap.first, overlap.second});
+    report_.violations.add({Violation::Kind::robot_collision,
+                            robots(overlap.first, overlap.second),
+                            overlap.t_deepest,
+                            overlap.distance,
+                            kept,
+                            overlap_text(overlap, kept, "the disks overlap by "),
+                            {}});
+  }
+
+  bool compare_margin() {
+    const LeftOut left_out = [this](std::size_t first, std::size_t second) {
+      return times_left_out(first, second);
+    };
+    const auto overlaps = overlaps_within_margin(fleet_, rules_.interval_margin, rules_.inflation, left_out,
+                                                 kMostCollisions, stop_);
+    if (!overlaps) return false;
+    for (const ShiftedOverlap& overlap : *overlaps) {
+      if (collided_.contains({overlap.first, overlap.second})) continue;
+      const double kept = contact(overlap.first, overlap.second);
+      report_.violations.add({Violation::Kind::margin,
+                              robots(overlap.first, overlap.second),
+                              std::min(overlap.t_first, overlap.t_second),
+                              overlap.distance,
+                              kept,
+                              "the disk of the one robot at t = " + seconds(overlap.t_first) +
+                                  " overlaps that of the other at t = " + seconds(overlap.t_second) + " by " +
+                                  metres(kept - overlap.distance) + ", but the interval margin is " +
+                                  seconds(rules_.interval_margin),
+                              {}});
+    }
+    return true;
+  }
+
+  std::vector<TimeSpan> times_left_out(std::size_t first, std::size_t second) const {
+    std::vector<TimeSpan> times;
+    const double margin = rules_.interval_margin;
+    for (const TimeSpan& span : exemptions_.of_robots(first, second)) {
+      times.push_back({span.begin - margin, span.end + margin});
+    }
+    const auto left = left_at_.find({first, second});
+    if (left != left_at_.end()) times.push_back({-std::numeric_limits<double>::infinity(), left->second});
+    return times;
+  }
+
+  bool compare_obstacles() {
+    const auto overlaps =
+        overlaps_with_obstacles(fleet_, obstacles_, radii_, kMostCollisions + rules_.exempt.size(), stop_);
+    if (!overlaps) return false;
+    std::size_t listed = 0;
+    for (const Overlap& overlap : *overlaps) {
+      if (any_contains(exemptions_.with_obstacle(overlap.first, overlap.second), overlap.t_begin)) continue;
+      if (++listed > kMostCollisions) break;
+      const double kept = fleet_.radii[overlap.first] + radii_[overlap.second];
+      report_.violations.add({Violation::Kind::moving_obstacle,
+                              {fleet_.robots[overlap.first]},
+                              overlap.t_deepest,
+                              overlap.distance,
+                              kept,
+                              overlap_text(overlap, kept, "the disk overlaps the moving obstacle by "),
+                              overlap.second});
+    }
+    return true;
+  }
+
+  const ExecutedFleet& fleet_;
+  const CheckRules& rules_;
+  const StopCondition& stop_;
+  std::vector<std::vector<Leg>> obstacles_;
+  std::vector<double> radii_;  // of the obstacles
+  Exemptions exemptions_;
+  PairReport report_;
+  std::set<Pair> collided_;
+  std::map<Pair, double> left_at_;  // robots that begin too near: from then on they keep their distance
+};
+
+}  // namespace
+
+std::optional<PairReport> check_pairs(const ExecutedFleet& fleet,
+                                      const std::vector<MovingObstacle>& obstacles, const CheckRules& rules,
+                                      const StopCondition& stop) {
+  return PairCheck(fleet, obstacles, rules, stop).run();
+}
+
+}  // namespace fleetplan::core

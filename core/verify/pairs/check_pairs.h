@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/model/moving_obstacle.h"
+#include "core/runtime/stop_condition.h"
+#include "core/verify/check_rules.h"
+#include "core/verify/execution/executed_fleet.h"
+#include "core/verify/violation_list.h"
+
+namespace fleetplan::core {
+
+/// What the robots do to each other and to moving obstacles.
+struct PairReport {
+  ViolationList violations;
+  std::optional<double> min_clearance;  // see VerifyReport
+};
+
+/// Checks robots against robots, also with the interval margin, and against moving obstacles. Returns none if
+/// `stop` is met first.
+std::optional<PairReport> check_pairs(const ExecutedFleet& fleet,
+                                      const std::vector<MovingObstacle>& obstacles, const CheckRules& rules,
+                                      const StopCondition& stop);
+
+}  // namespace fleetplan::core

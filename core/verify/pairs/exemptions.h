@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "core/model/plan.h"
+#include "core/runtime/stop_condition.h"
+#include "core/verify/execution/executed_fleet.h"
+#include "core/verify/geometry/relative_motion.h"
+
+namespace fleetplan::core {
+
+/// The times at which pairs may collide, see CheckRules::exempt.
+class Exemptions {
+ public:
+  /// `obstacles` are the legs of the moving obstacles, `obstacle_radii` theirs. All robots are enlarged by
+  /// `inflation` against robots. Incomplete if `stop` is met.
+  Exemptions(const std::vector<Meeting>& meetings, const ExecutedFleet& fleet, double inflation,
+             const std::vector<std::vector<Leg>>& obstacles, const std::vector<double>& obstacle_radii,
+             const StopCondition& stop);
+
+  /// Positions in the fleet, in any order.
+  const std::vector<TimeSpan>& of_robots(std::size_t one, std::size_t other) const;
+  const std::vector<TimeSpan>& with_obstacle(std::size_t robot, std::size_t obstacle) const;
+
+ private:
+  using Spans = std::unordered_map<std::uint64_t, std::vector<TimeSpan>>;
+
+  static const std::vector<TimeSpan>& find(const Spans& spans, std::uint64_t pair);
+  std::uint64_t key(std::size_t one, std::size_t other) const;
+
+  std::size_t robots_;
+  Spans of_robots_;
+  Spans with_obstacles_;
+};
+
+/// Whether an overlap that begins at `t` lies in one of the spans.
+bool any_contains(const std::vector<TimeSpan>& spans, double t);
+
+}  // namespace fleetplan::core

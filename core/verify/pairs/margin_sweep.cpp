@@ -1,0 +1,159 @@
+#include "core/verify/pairs/margin_sweep.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "core/verify/execution/time_windows.h"
+#include "core/verify/geometry/shifted_motion.h"
+#include "core/verify/pairs/moving_boxes.h"
+
+namespace fleetplan::core {
+namespace {
+
+constexpr std::size_t kComparisonsBetweenPolls = 64;
+
+enum class Phase { committed, staying, planned };
+
+Phase phase_of(const Leg& leg, const Departure& departure) {
+  if (departure.plans(leg.t_begin)) return Phase::planned;
+  return departure.commits(leg.t_end) ? Phase::committed : Phase::staying;
+}
+
+/// What remains of a time span without others.
+std::vector<TimeSpan> without(const TimeSpan& span, const std::vector<TimeSpan>& left_out) {
+  std::vector<TimeSpan> rest{span};
+  for (const TimeSpan& out : left_out) {
+    std::vector<TimeSpan> smaller;
+    for (const TimeSpan& part : rest) {
+      if (out.end <= part.begin || out.begin >= part.end) {
+        smaller.push_back(part);
+        continue;
+      }
+      if (part.begin < out.begin) smaller.push_back({part.begin, out.begin});
+      if (out.end < part.end) smaller.push_back({out.end, part.end});
+    }
+    rest = std::move(smaller);
+  }
+  return rest;
+}
+
+class MarginSweep {
+ public:
+  MarginSweep(const ExecutedFleet& fleet, double margin, double inflation, const LeftOut& left_out,
+              std::size_t most, const StopCondition& stop)
+      : fleet_(fleet),
+        margin_(margin),
+        inflation_(inflation),
+        left_out_(left_out),
+        most_(most),
+        stop_(stop) {}
+
+  std::optional<std::vector<ShiftedOverlap>> run() {
+    const std::vector<double> boundaries = time_windows(fleet_.legs);
+    std::vector<double> reach = fleet_.radii;
+    for (double& radius : reach) radius += inflation_ + 1e-6;
+    MovingBoxes boxes(fleet_.legs, reach);
+    // After the last boundary all robots rest, where the plain rule is the same.
+    for (std::size_t k = 0; k + 1 < boundaries.size(); ++k) {
+      if (stop_.met() || stopped_) return std::nullopt;
+      const TimeSpan window{boundaries[k], boundaries[k + 1]};
+      sweep(boxes.in({window.begin - margin_, window.end + margin_}), window);
+    }
+    if (stopped_) return std::nullopt;
+    std::vector<ShiftedOverlap> overlaps;
+    for (const auto& [pair, overlap] : deepest_) overlaps.push_back(overlap);
+    return overlaps;
+  }
+
+ private:
+  void sweep(const std::vector<MovingBox>& boxes, const TimeSpan& window) {
+    for (std::size_t i = 0; i < boxes.size() && !stopped_; ++i) {
+      for (std::size_t j = i + 1; j < boxes.size() && boxes[j].left <= boxes[i].right && !stopped_; ++j) {
+        if (boxes[i].bottom > boxes[j].top || boxes[j].bottom > boxes[i].top) continue;
+        compare(std::min(boxes[i].body, boxes[j].body), std::max(boxes[i].body, boxes[j].body), window);
+      }
+    }
+  }
+
+  /// Compares the first robot within the window with the second one up to the margin earlier and later.
+  void compare(std::size_t first, std::size_t second, const TimeSpan& window) {
+    poll();
+    const std::vector<Leg>& others = fleet_.legs[second];
+    for (auto leg = ending_after(fleet_.legs[first], window.begin);
+         leg != fleet_.legs[first].end() && leg->t_begin < window.end && !stopped_; ++leg) {
+      const TimeSpan time{std::max(leg->t_begin, window.begin), std::min(leg->t_end, window.end)};
+      const Phase phase = phase_of(*leg, fleet_.departures[first]);
+      if (phase == Phase::staying || time.begin >= time.end) continue;
+      for (auto other = ending_after(others, time.begin - margin_);
+           other != others.end() && other->t_begin <= time.end + margin_ && !stopped_; ++other) {
+        const Phase its_phase = phase_of(*other, fleet_.departures[second]);
+        if (its_phase == Phase::staying || (phase == Phase::committed && its_phase == Phase::committed))
+          continue;
+        const TimeSpan its_time{std::max(other->t_begin, time.begin - margin_),
+                                std::min(other->t_end, time.end + margin_)};
+        if (its_time.begin < its_time.end) compare(first, *leg, time, second, *other, its_time);
+      }
+    }
+  }
+
+  void compare(std::size_t first, const Leg& leg, const TimeSpan& time, std::size_t second, const Leg& other,
+               const TimeSpan& its_time) {
+    poll();
+    const double kept = fleet_.radii[first] + fleet_.radii[second] + 2.0 * inflation_ -
+                        std::max(fleet_.tolerances[first], fleet_.tolerances[second]);
+    const auto record = [&](const TimeSpan& a, const TimeSpan& b) {
+      const ShiftedMoment nearest = least_shifted_distance(leg, a, other, b, margin_);
+      if (nearest.distance >= kept) return false;
+      add({first, second, nearest.t_first, nearest.t_second, nearest.distance});
+      return true;
+    };
+    if (least_shifted_distance(leg, time, other, its_time, margin_).distance >= kept) return;
+    const std::vector<TimeSpan> left_out = left_out_(first, second);
+    for (const TimeSpan& a : without(time, left_out)) {
+      for (const TimeSpan& b : without(its_time, left_out)) record(a, b);
+    }
+  }
+
+  void add(const ShiftedOverlap& overlap) {
+    const std::pair pair(overlap.first, overlap.second);
+    const auto found = deepest_.find(pair);
+    if (found != deepest_.end()) {
+      if (overlap.distance < found->second.distance) found->second = overlap;
+    } else if (deepest_.size() < most_) {
+      deepest_.emplace(pair, overlap);
+    }
+  }
+
+  static std::vector<Leg>::const_iterator ending_after(const std::vector<Leg>& legs, double t) {
+    return std::lower_bound(legs.begin(), legs.end(), t,
+                            [](const Leg& leg, double time) { return leg.t_end < time; });
+  }
+
+  void poll() {
+    if (++steps_ % kComparisonsBetweenPolls == 0) stopped_ = stopped_ || stop_.met();
+  }
+
+  const ExecutedFleet& fleet_;
+  double margin_;
+  double inflation_;
+  const LeftOut& left_out_;
+  std::size_t most_;
+  const StopCondition& stop_;
+  std::size_t steps_ = 0;
+  bool stopped_ = false;
+  std::map<std::pair<std::size_t, std::size_t>, ShiftedOverlap> deepest_;  // by pair
+};
+
+}  // namespace
+
+std::optional<std::vector<ShiftedOverlap>> overlaps_within_margin(const ExecutedFleet& fleet, double margin,
+                                                                  double inflation, const LeftOut& left_out,
+                                                                  std::size_t most,
+                                                                  const StopCondition& stop) {
+  if (margin <= 0.0) return std::vector<ShiftedOverlap>{};
+  return MarginSweep(fleet, margin, inflation, left_out, most, stop).run();
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "core/model/plan.h"
+#include "core/model/robot.h"
+#include "core/runtime/stop_condition.h"
+#include "core/verify/tolerances.h"
+#include "core/verify/verify.h"
+
+namespace fleetplan::core {
+
+/// Checks that the robot visits its goals (`wrong_visit`): in their order it rests in the pose of each, from
+/// `not_before` on, for the whole service, the last one at the end of its plan. Rests are uninterrupted
+/// waits, the instants between two actions included. Reports the first goal that is not visited, and each
+/// visit, or `goal` of a wait that is not committed, that does not take place. Whether the robot ends at its
+/// last goal is not part of this (see check_endpoints).
+std::vector<Violation> check_visits(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance,
+                                    const StopCondition& stop);
+
+}  // namespace fleetplan::core
