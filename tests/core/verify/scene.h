@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -64,6 +65,13 @@ class Scene {
     return *this;
   }
 
+  /// A disk of radius 0.5 m that appears at the first entry and leaves after the last one.
+  Scene& obstacle(std::vector<MovingObstacle::Entry> motion,
+                  MovingObstacle::After after = MovingObstacle::After::leaves) {
+    obstacles_.push_back({std::to_string(obstacles_.size()), 0.5, std::move(motion), after});
+    return *this;
+  }
+
   std::vector<Robot>& robots() { return robots_; }
   std::vector<RobotPlan>& plans() { return plans_; }
   Action& action(std::size_t index, std::size_t plan = 0) { return plans_[plan].actions[index]; }
@@ -75,10 +83,20 @@ class Scene {
     return check(tolerance).violations;
   }
 
+  /// With moving obstacles and these rules.
+  std::optional<VerifyReport> check(CheckRules rules, const StopCondition& stop) const {
+    rules.tolerances.assign(robots_.size(), Tolerance::of_all(kTolerance));
+    return verify({grid_, robots_, obstacles_}, plans_, rules, stop);
+  }
+  std::vector<Violation> violations(const CheckRules& rules) const {
+    return check(rules, StopCondition())->violations;
+  }
+
  private:
   OccupancyGrid grid_;
   std::vector<Robot> robots_;
   std::vector<RobotPlan> plans_;
+  std::vector<MovingObstacle> obstacles_;
 };
 
 inline std::vector<Kind> kinds_of(const std::vector<Violation>& violations) {
