@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "core/geometry/angle.h"
+#include "core/model/served_goals.h"
 
 namespace fleetplan::core {
 namespace {
 
 /// Radians and seconds; smaller rotations and waits are rounding. Far below the tolerances of the verifier.
 constexpr double kNegligible = 1e-12;
+/// Seconds: rounding of the end of a rotation before a visit.
+constexpr double kRounding = 1e-9;
 
 class ActionList {
  public:
@@ -24,23 +28,44 @@ class ActionList {
 
   /// Rotates to a heading, then waits until `t_end`.
   void rotate_and_wait(double theta, double t_end) {
-    const double rotation = std::abs(rotation_between(pose_.theta, theta));
-    if (rotation > kNegligible) {
-      double rotated = now_ + rotation / robot_.angular_speed;
-      if (std::abs(t_end - rotated) <= kNegligible) rotated = t_end;
-      append(Action::Type::rotate, rotated, {pose_.position, theta});
-    }
-    if (t_end - now_ > kNegligible) append(Action::Type::wait, t_end, pose_);
+    rotate(theta, t_end, kNegligible);
+    wait(t_end, {});
+  }
+  /// Rests in the pose of a goal, and waits there until its service ends.
+  void visit(const Visit& visit) {
+    const auto& theta = robot_.goal_at(visit.goal).theta;
+    // A rest that the committed actions have begun goes on, as exactly in the pose as it is.
+    if (theta && visit.t_arrive - now_ > kNegligible) rotate(*theta, visit.t_arrive, kRounding);
+    wait(visit.t_arrive, {});
+    wait(visit.t_leave, visit.goal);
+  }
+  void visit_last(double t_leave) {
+    const Goal& goal = *robot_.goal;
+    const bool goes_on = !robot_.committed.empty() && is_at_committed_end() && is_in_pose(pose_, goal);
+    if (goal.theta && !goes_on) rotate(*goal.theta, t_leave, kNegligible);
+    const bool serves = goal.service > 0.0 || goal.not_before > 0.0;
+    if (goal.theta || serves) wait(t_leave, serves ? std::optional(robot_.via.size()) : std::nullopt);
   }
   void translate(const TimedSegment& move) {
-    append(Action::Type::translate, move.t_end, {move.path.to, pose_.theta});
+    append(Action::Type::translate, move.t_end, {move.path.to, pose_.theta}, {});
   }
-  double now() const { return now_; }
   std::vector<Action> take() { return std::move(actions_); }
 
  private:
-  void append(Action::Type type, double t_end, const Pose& to) {
-    actions_.push_back({type, now_, t_end, pose_, to});
+  bool is_at_committed_end() const { return actions_.size() == robot_.committed.size(); }
+  /// The rotation ends at `t_end` if that is right up to `rounding` seconds.
+  void rotate(double theta, double t_end, double rounding) {
+    const double rotation = std::abs(rotation_between(pose_.theta, theta));
+    if (rotation <= kNegligible) return;
+    double rotated = now_ + rotation / robot_.angular_speed;
+    if (std::abs(t_end - rotated) <= rounding) rotated = t_end;
+    append(Action::Type::rotate, rotated, {pose_.position, theta}, {});
+  }
+  void wait(double t_end, std::optional<std::size_t> goal) {
+    if (t_end - now_ > kNegligible) append(Action::Type::wait, t_end, pose_, goal);
+  }
+  void append(Action::Type type, double t_end, const Pose& to, std::optional<std::size_t> goal) {
+    actions_.push_back({type, now_, t_end, pose_, to, goal});
     now_ = t_end;
     pose_ = to;
   }
@@ -62,12 +87,15 @@ std::span<const TimedSegment> planned_moves(const Robot& robot, const Trajectory
 
 std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory) {
   ActionList list(robot);
+  auto visit = trajectory.visits.begin();
   for (const TimedSegment& move : planned_moves(robot, trajectory)) {
+    for (; visit != trajectory.visits.end() && visit->t_leave <= move.t_start; ++visit) list.visit(*visit);
     const Position direction = move.path.to - move.path.from;
     list.rotate_and_wait(normalize_angle(std::atan2(direction.y(), direction.x())), move.t_start);
     list.translate(move);
   }
-  if (robot.goal && robot.goal->theta) list.rotate_and_wait(*robot.goal->theta, trajectory.cost);
+  for (; visit != trajectory.visits.end(); ++visit) list.visit(*visit);
+  if (robot.goal) list.visit_last(trajectory.cost);
   return list.take();
 }
 

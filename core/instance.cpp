@@ -56,16 +56,19 @@ bool Instance::fits_at_start(std::size_t index) const {
 }
 
 bool Instance::fits_at_goal(std::size_t index) const {
-  return sight_.disk_fits(problem_.robots()[index].goal->position, motions_[index].radius - kMostOverlap);
+  const std::vector<Goal>& goals = itineraries_[index].goals;
+  return std::all_of(goals.begin(), goals.end(), [&](const Goal& goal) {
+    return sight_.disk_fits(goal.position, motions_[index].radius - kMostOverlap);
+  });
 }
 
 double Instance::longest_plan(std::size_t index) const {
   return std::min(kLongestPlan, kLongestTravel / motions_[index].linear_speed);
 }
 
-double Instance::radius_at_goal(std::size_t index) const {
+double Instance::radius_at_goal(std::size_t index, const Position& goal) const {
   const double radius = motions_[index].radius;
-  return sight_.fitting_radius(problem_.robots()[index].goal->position, radius - kMostOverlap, radius);
+  return sight_.fitting_radius(goal, radius - kMostOverlap, radius);
 }
 
 }  // namespace fleetplan::core

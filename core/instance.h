@@ -33,14 +33,14 @@ class Instance {
   const LineOfSight& sight() const { return sight_; }
   /// The pairs of robots that begin or end too near to each other.
   const Contacts& contacts() const { return contacts_; }
-  /// The largest disk of the robot, inflated or not, that fits where its plan begins and at its goal: its
+  /// The largest disk of the robot, inflated or not, that fits where its plan begins and at a goal: its
   /// radius, or less where a wall is nearer. At the goal, only contact is allowed for.
   double radius_at_start(std::size_t index) const;
-  double radius_at_goal(std::size_t index) const;
+  double radius_at_goal(std::size_t index, const Position& goal) const;
   /// No plan of the robot takes so long, seconds.
   double longest_plan(std::size_t index) const;
   bool fits_at_start(std::size_t index) const;
-  /// Whether the robot's disk fits, or is in contact with a wall.
+  /// Whether the robot's disk fits at all goals that are left, or is in contact with a wall.
   bool fits_at_goal(std::size_t index) const;
   /// The static moves of robots of this robot's radius.
   StaticMoves& moves(std::size_t index) const { return *moves_[index]; }

@@ -25,7 +25,9 @@ bool sees_goal(const Instance& instance, std::size_t robot, double radius) {
 
 /// Whether the robot's disk is clear of obstacles at both ends. Elsewhere it always is.
 bool fits_at_ends(const Instance& instance, std::size_t robot) {
-  return instance.fits_at_start(robot) && instance.radius_at_goal(robot) == instance.motion(robot).radius;
+  return instance.fits_at_start(robot) &&
+         instance.radius_at_goal(robot, instance.robot(robot).goal->position) ==
+             instance.motion(robot).radius;
 }
 
 }  // namespace

@@ -173,7 +173,7 @@ SearchSpace& PlanState::search_space(std::size_t robot) {
 
 void PlanState::discard_search_spaces_except(std::size_t robot) {
   std::size_t bytes = 0;
-  for (const auto& space : search_spaces_) bytes += space ? space->cost_to_go.bytes() : 0;
+  for (const auto& space : search_spaces_) bytes += space ? space->bytes() : 0;
   if (!is_too_much(bytes)) return;
   for (std::size_t i = 0; i < search_spaces_.size(); ++i) {
     if (i != robot) search_spaces_[i].reset();
@@ -251,7 +251,7 @@ SearchResult PlanState::plan_ignoring(const std::vector<std::size_t>& ignored, s
 
 bool PlanState::can_leave_start(std::size_t robot) {
   return within_memory(true, [&] {
-    const Vertices& vertices = search_space(robot).vertices;
+    const Vertices& vertices = search_space(robot).vertices();
     bool can_leave = false;
     vertices.for_each_neighbour(vertices.start(), [&](int) { can_leave = true; });
     return can_leave;
@@ -269,18 +269,31 @@ const Way& PlanState::way_to_goal(std::size_t robot, std::int64_t max_expansions
 }
 
 void PlanState::find_way(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop) {
+  SearchSpace& space = search_space(robot);
+  const std::int64_t before = space.expansions();
+  for (std::size_t goal = 0; goal < space.goal_count(); ++goal) {
+    ways_[robot] = {};
+    find_leg(robot, goal, max_expansions - (space.expansions() - before), stop);
+    if (ways_[robot].kind != Way::Kind::on_lattice) break;
+  }
+  map_expansions_ += space.expansions() - before;
+}
+
+/// The way to a goal from the one before, or from where the plan begins.
+void PlanState::find_leg(std::size_t robot, std::size_t goal, std::int64_t max_expansions,
+                         const StopCondition& stop) {
   Way& way = ways_[robot];
   SearchSpace& space = search_space(robot);
-  const Vertices& vertices = space.vertices;
-  if (vertices.start() == vertices.goal()) {
+  const auto& goals = space.vertices().goals();
+  const int from = goal == 0 ? space.vertices().start() : goals[goal - 1].vertex;
+  if (from == goals[goal].vertex) {
     way.kind = Way::Kind::on_lattice;
     return;
   }
-  const std::int64_t before = space.cost_to_go.expansions();
   std::int64_t last = 0;
   for (std::int64_t next = kFirstExpansions; way.kind == Way::Kind::unknown && last < max_expansions;) {
     const std::int64_t count = std::min(next, max_expansions) - last;
-    const auto reaches = space.cost_to_go.reaches(vertices.start(), count, stop);
+    const auto reaches = space.cost_to_go(goal).reaches(from, count, stop);
     last += count;
     next *= 2;
     if (reaches && *reaches) way.kind = Way::Kind::on_lattice;
@@ -288,7 +301,6 @@ void PlanState::find_way(std::size_t robot, std::int64_t max_expansions, const S
     if (reaches || stop.met()) break;
     test_enclosure(robot, kEnclosureSteps * last);
   }
-  map_expansions_ += space.cost_to_go.expansions() - before;
 }
 
 /// For a robot without a way on the lattice: whether obstacles close off its goal on any lattice.
@@ -315,10 +327,7 @@ bool PlanState::test_enclosure(std::size_t robot, std::int64_t max_steps) {
 bool PlanState::takes_too_long(std::size_t robot, const StopCondition& stop) {
   return within_memory(false, [&] {
     SearchSpace& space = search_space(robot);
-    const Vertices& vertices = space.vertices;
-    if (vertices.start() == vertices.goal()) return false;
-    const double seconds = space.cost_to_go.from(vertices.start(), stop).seconds;
-    return space.itinerary.t_begin + seconds >= instance_.longest_plan(robot);
+    return estimated_end(space, stop) >= instance_.longest_plan(robot);
   });
 }
 

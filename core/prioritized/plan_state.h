@@ -112,6 +112,7 @@ class PlanState {
   Result within_memory(Result otherwise, const Compute& compute);
   SearchResult search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
   void find_way(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
+  void find_leg(std::size_t robot, std::size_t goal, std::int64_t max_expansions, const StopCondition& stop);
   bool is_reserved(std::size_t robot, const Reservations& among) const;
   bool stays(std::size_t robot) const { return reservations_.at_start_until[robot] == kForever; }
   void forget_ways_closed_by_robots(std::size_t except);

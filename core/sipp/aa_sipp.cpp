@@ -6,6 +6,7 @@
 
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
+#include "core/sipp/label_path.h"
 
 namespace fleetplan::core {
 namespace {
@@ -26,18 +27,17 @@ class Search {
          const StopCondition& stop, SearchState state)
       : table_(table),
         robot_(robot),
-        itinerary_(space.itinerary),
-        motion_(space.vertices.motion()),
+        space_(space),
+        motion_(space.vertices().motion()),
         timing_(motion_, table, robot),
-        vertices_(space.vertices),
-        cost_to_go_(space.cost_to_go),
+        vertices_(space.vertices()),
         limits_(limits),
         stop_(stop),
         pause_(std::min(limits.max_expansions, first_test(limits))),
         state_(std::move(state)) {}
 
   Outcome run(Pass pass);
-  Trajectory trajectory() const;
+  Trajectory trajectory() const { return trajectory_of(state_, space_); }
   std::int64_t expansions() const { return expansions_; }
   SearchState take_state() { return std::move(state_); }
 
@@ -54,11 +54,13 @@ class Search {
     return limits.no_path_test == nullptr ? limits.max_expansions : SearchLimits::kFirstTest;
   }
   bool begin(Pass pass);
+  bool can_serve_all();
   void label_start();
   bool goal_entry_suffices() const;
   LabelId settle(const OpenEntry& entry);
   LabelId add_label(const Label& label);
   void expand(LabelId id);
+  bool serve(LabelId id);
   void offer_goal(LabelId from);
   void offer_from(EdgeId id, int interval);
   bool offer(EdgeId id, EdgeKind kind, int interval, bool next_interval_follows);
@@ -72,7 +74,9 @@ class Search {
   Evaluation evaluate(PlaceId place, int interval, double arrival, double heading) const;
   double to_go(PlaceId place, double heading) const;
 
-  PlaceId place_of(int vertex);
+  PlaceId place_of(int vertex, std::size_t stage);
+  void append_intervals(Place& place);
+  PlaceId goal_of(std::size_t stage) { return place_of(state_.stages[stage].goal.vertex, stage); }
   LabelId source_of(const Edge& edge, EdgeKind kind) const {
     return kind == EdgeKind::shortcut ? state_.labels[edge.via].parent : edge.via;
   }
@@ -83,11 +87,10 @@ class Search {
 
   const ReservationTable& table_;
   const std::size_t robot_;
-  const Itinerary& itinerary_;
+  SearchSpace& space_;
   const Motion& motion_;
   const EdgeTiming timing_;
   const Vertices& vertices_;
-  CostToGo& cost_to_go_;
   const SearchLimits& limits_;
   const StopCondition& stop_;
 
@@ -149,24 +152,53 @@ Outcome Search::run(Pass pass) {
   return Outcome::found;
 }
 
-/// Offers the moves to all neighbours.
+/// Offers the moves to all neighbours, and the service at the goal of the stage.
 void Search::expand(LabelId id) {
   ++expansions_;
-  const LabelId parent = state_.labels[id].parent;
-  const int before = parent == LabelId::none ? -1 : place_at(parent).vertex;
+  if (state_.stages.size() > 1 && serve(id)) return;
+  const Label& label = state_.labels[id];
+  const int before = label.by_translation ? place_at(label.parent).vertex : -1;
+  const std::size_t stage = place_at(id).stage;
   if (vertices_.any_angle()) offer_goal(id);
   vertices_.for_each_neighbour(place_at(id).vertex, [&](int neighbour) {
-    const PlaceId target = place_of(neighbour);
+    const PlaceId target = place_of(neighbour, stage);
     if (state_.places[target].never_safe()) return;
-    const bool with_shortcut = vertices_.any_angle() && parent != LabelId::none && neighbour != before;
+    const bool with_shortcut = vertices_.any_angle() && before >= 0 && neighbour != before;
     offer_from(add_edge(id, target, with_shortcut), state_.places[target].first_interval);
   });
 }
 
-/// If the goal is in sight, offers the straight move there, in the interval in which the robot may stay.
+/// If the label is at the goal of a stage before the last one, offers its service. Returns true if nothing
+/// else is worth while, because the service takes no time or the robot may stay until it ends.
+bool Search::serve(LabelId id) {
+  const Label label = state_.labels[id];
+  const Place place = state_.places[label.place];
+  const Stage& stage = state_.stages[place.stage];
+  if (place.vertex != stage.goal.vertex || place.stage + 1 == state_.stages.size()) return false;
+  const ServiceStop stop = service_stop(label, stage, space_);
+  const double t_end = std::max(stop.t_end, label.arrival);
+  const double safe_until = state_.intervals[label.interval].end;
+  if (t_end > safe_until) return false;
+  const PlaceId next = place_of(place.vertex, place.stage + 1);
+  const int interval = state_.places[next].first_interval + label.interval - place.first_interval;
+  Move at_rest;
+  at_rest.heading = stop.heading;
+  const EdgeId edge = state_.edges.push_back({at_rest, {}, id, next, Edge::Sight::blocked});
+  push_timed({t_end, stop.t_rest, edge, interval, ArrivalId::none, EdgeKind::service, false},
+             evaluate(next, interval, t_end, stop.heading).f);
+  return safe_until == kForever || (t_end == label.arrival && stop.heading == label.heading);
+}
+
+/// If the goal of the stage is in sight, offers the straight move there; to the last goal in the interval in
+/// which the robot may stay.
 void Search::offer_goal(LabelId from) {
   const PlaceId place = state_.labels[from].place;
+  const std::size_t stage = state_.places[place].stage;
   if (place == state_.goal || !state_.places[place].estimate.straight) return;
+  if (stage + 1 < state_.stages.size()) {
+    const PlaceId goal = goal_of(stage);
+    return offer_from(add_edge(from, goal, false), state_.places[goal].first_interval);
+  }
   const int last = state_.places[state_.goal].end_interval - 1;
   offer(add_edge(from, state_.goal, false), EdgeKind::local, last, false);
 }
@@ -221,7 +253,8 @@ void Search::push_timed(OpenEntry entry, double f_lower_bound) {
 LabelId Search::settle(const OpenEntry& entry) {
   const Edge& edge = state_.edges[entry.edge];
   return add_label({entry.arrival, edge.move(entry.kind).heading, entry.departure,
-                    source_of(edge, entry.kind), edge.target, entry.interval});
+                    source_of(edge, entry.kind), edge.target, entry.interval,
+                    entry.kind != EdgeKind::service});
 }
 
 /// Adds a label. If it is in the last safe interval of the goal, it is the result.
@@ -240,13 +273,14 @@ EdgeId Search::add_edge(LabelId via, PlaceId target, bool with_shortcut) {
 
 inline Move Search::move_between(LabelId from, PlaceId target) const {
   const Label& label = state_.labels[from];
-  const MoveSource source{label.arrival, label.heading, label.parent != LabelId::none,
+  const MoveSource source{label.arrival, label.heading, label.by_translation,
                           state_.intervals[label.interval]};
   const Displacement d = vertices_.between(place_at(from).vertex, state_.places[target].vertex);
   return timing_.move(source, d.heading, d.length);
 }
 
-/// Prepares a pass. Returns false if the goal has no safe interval without end.
+/// Prepares a pass. Returns false if the last goal has no safe interval without end, or another one has none
+/// that is long enough.
 bool Search::begin(Pass pass) {
   pass_ = pass;
   use_slack_ = pass == Pass::quick && limits_.dominance_slack > 0.0;
@@ -255,18 +289,35 @@ bool Search::begin(Pass pass) {
       std::max(state_.place_of_vertex.size(), static_cast<std::size_t>(vertices_.count())), PlaceId::none);
   const double slack = use_slack_ ? limits_.dominance_slack * vertices_.spacing() : 0.0;
   state_.dominance.reset(motion_, motion_.translation_time(slack));
-  state_.goal = place_of(vertices_.goal());
+  state_.stages = stages_of(space_, stop_);
+  state_.goal = goal_of(state_.stages.size() - 1);
   const Place& goal = state_.places[state_.goal];
   if (goal.never_safe()) return false;
   const SafeInterval& last = state_.intervals[goal.end_interval - 1];
-  state_.goal_free_from = last.begin;
-  return last.end == kForever;
+  set_releases(state_.stages, last.begin);
+  state_.release = state_.stages.front().release;
+  return last.end == kForever && can_serve_all();
+}
+
+/// Whether each goal before the last one is free for long enough, at some time.
+bool Search::can_serve_all() {
+  for (std::size_t k = 0; k + 1 < state_.stages.size(); ++k) {
+    const Place goal = state_.places[goal_of(k)];
+    const double done = k == 0 ? space_.itinerary().service_done : 0.0;
+    bool can_serve = false;
+    for (int i = goal.first_interval; i < goal.end_interval; ++i) {
+      const SafeInterval& safe = state_.intervals[i];
+      can_serve = can_serve || state_.stages[k].service_end(safe.begin) - done <= safe.end;
+    }
+    if (!can_serve) return false;
+  }
+  return true;
 }
 
 /// Labels and expands the start, unless the robot cannot be there or the goal is out of bound.
 void Search::label_start() {
-  const PlaceId start = place_of(vertices_.start());
-  const double t_begin = itinerary_.t_begin;
+  const PlaceId start = place_of(vertices_.start(), 0);
+  const double t_begin = space_.itinerary().t_begin;
   const int end = state_.places[start].end_interval;
   int interval = state_.places[start].first_interval;
   while (interval < end && state_.intervals[interval].end < t_begin) ++interval;
@@ -275,9 +326,10 @@ void Search::label_start() {
   const double t = is_final(start, interval) ? t_begin : t_begin + limits_.start_delay;
   if (!state_.intervals[interval].contains(t)) return;
   const double heading = vertices_.start_pose().theta;
-  if (!(evaluate(start, interval, t, heading).cost < limits_.bound)) return;
+  const double served = space_.itinerary().service_done;
+  if (!(evaluate(start, interval, t, heading).cost - served < limits_.bound)) return;
   state_.dominance.add(interval, t, heading);
-  const LabelId label = add_label({t, heading, t, LabelId::none, start, interval});
+  const LabelId label = add_label({t, heading, t, LabelId::none, start, interval, false});
   if (state_.goal_label == LabelId::none) expand(label);
 }
 
@@ -316,9 +368,9 @@ std::optional<double> Search::earliest_departure(const OpenEntry& entry) {
 /// Returns whether the arrival is dominated. Sets `incomplete` if the complete pass may keep it.
 inline bool Search::is_dominated(int interval, double arrival, double heading, double f) {
   if (state_.dominance.empty(interval)) return false;
-  // The quick pass keeps one label per interval while the goal is not free yet at time f. No path ends before
-  // the goal is free, so an earlier arrival would gain nothing.
-  const bool waiting = pass_ == Pass::quick && f <= state_.goal_free_from;
+  // The quick pass keeps one label per interval while no path ends before time f, because a goal is not free
+  // yet or has to wait. An earlier arrival would gain nothing.
+  const bool waiting = pass_ == Pass::quick && f <= state_.release;
   const bool dominated =
       waiting || state_.dominance.dominated_from(interval, heading) <= arrival + kSameTime ||
       (motion_.wait_before_move > 0.0 && state_.dominance.contains(interval, arrival, heading));
@@ -329,62 +381,60 @@ inline bool Search::is_dominated(int interval, double arrival, double heading, d
 inline Search::Evaluation Search::evaluate(PlaceId place, int interval, double arrival,
                                            double heading) const {
   const double h = to_go(place, heading);
-  const double cost = std::max(arrival + h, state_.goal_free_from);
   // An arrival at the goal that is within the suboptimality bound is popped before other entries. Without
   // this, many entries could have the same f as long as the goal is not free.
-  if (is_final(place, interval)) return {cost / (1.0 + limits_.suboptimality), h, cost};
-  return {std::max(arrival + limits_.heuristic_weight * h, state_.goal_free_from), h, cost};
+  if (is_final(place, interval)) {
+    const double cost = std::max(arrival + h, state_.stages.back().release);
+    return {cost / (1.0 + limits_.suboptimality), h, cost};
+  }
+  const double cost = std::max(arrival + h, state_.release);
+  return {std::max(arrival + limits_.heuristic_weight * h, state_.release), h, cost};
 }
 
-/// h: an estimate of the seconds from an arrival to rest in the goal pose, without other robots.
+/// h: an estimate of the seconds from an arrival to the end of the last service, or to rest in the pose of
+/// the last goal if that has none; without other robots.
 inline double Search::to_go(PlaceId place, double heading) const {
-  if (place == state_.goal) {
-    const auto& goal_heading = vertices_.goal_heading();
-    return goal_heading ? motion_.rotation_time(heading, *goal_heading) : 0.0;
-  }
   const CostToGo::Estimate& estimate = state_.places[place].estimate;
+  if (state_.places[place].any_heading) return estimate.seconds;
   return estimate.seconds + motion_.rotation_time(heading, estimate.heading);
 }
 
-/// The place of a vertex, with its safe intervals; computed when the vertex is reached for the first time.
-PlaceId Search::place_of(int vertex) {
-  PlaceId& known = state_.place_of_vertex[vertex];
+/// The place of a vertex in a stage, with its safe intervals; computed when it is reached for the first time.
+PlaceId Search::place_of(int vertex, std::size_t stage) {
+  PlaceId& latest = state_.place_of_vertex[vertex];
+  PlaceId known = latest;
+  while (known != PlaceId::none && state_.places[known].stage != stage) {
+    known = state_.places[known].other_stage;
+  }
   if (known != PlaceId::none) return known;
-  Place place{vertex, vertices_.position(vertex), {}, state_.intervals.next_index(), 0};
-  if (vertex != vertices_.goal()) place.estimate = cost_to_go_.from(vertex, stop_);
-  for (const SafeInterval& safe : table_.safe_intervals(robot_, place.position)) {
-    state_.intervals.push_back(safe);
+  Place place{vertex, stage, vertices_.position(vertex), {}, false, state_.intervals.next_index(), 0, latest};
+  const Stage& at = state_.stages[stage];
+  if (vertex != at.goal.vertex) {
+    place.estimate = space_.cost_to_go(stage).from(vertex, stop_);
+    place.estimate.seconds += at.after;
+  } else {
+    place.estimate = {at.after, at.goal.heading.value_or(0.0), false};
+    place.any_heading = !at.goal.heading;
+  }
+  append_intervals(place);
+  latest = state_.places.push_back(place);
+  return latest;
+}
+
+/// Those of the vertex in another stage are the same.
+void Search::append_intervals(Place& place) {
+  if (place.other_stage != PlaceId::none) {
+    const Place& other = state_.places[place.other_stage];
+    for (int k = other.first_interval; k < other.end_interval; ++k) {
+      state_.intervals.push_back(SafeInterval(state_.intervals[k]));
+    }
+  } else {
+    for (const SafeInterval& safe : table_.safe_intervals(robot_, place.position)) {
+      state_.intervals.push_back(safe);
+    }
   }
   place.end_interval = state_.intervals.next_index();
   state_.dominance.set_interval_count(state_.intervals.size());
-  known = state_.places.push_back(place);
-  return known;
-}
-
-/// The committed moves and the path to the goal. Moves of the path that continue straight without a stop are
-/// joined.
-Trajectory Search::trajectory() const {
-  std::vector<LabelId> path;
-  for (LabelId id = state_.goal_label; id != LabelId::none; id = state_.labels[id].parent) path.push_back(id);
-  std::reverse(path.begin(), path.end());
-  Trajectory trajectory = itinerary_.committed;
-  if (trajectory.moves.empty()) trajectory.start = place_at(path.front()).position;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const Label& from = state_.labels[path[i - 1]];
-    const Label& to = state_.labels[path[i]];
-    const Position& target = state_.places[to.place].position;
-    const bool continues =
-        i > 1 && to.departure == from.arrival && angle_between(from.heading, to.heading) <= kSameHeading;
-    if (continues) {
-      trajectory.moves.back().path.to = target;
-      trajectory.moves.back().t_end = to.arrival;
-    } else {
-      trajectory.moves.push_back({{state_.places[from.place].position, target}, to.departure, to.arrival});
-    }
-  }
-  const Label& last = state_.labels[path.back()];
-  trajectory.cost = last.arrival + to_go(last.place, last.heading);
-  return trajectory;
 }
 
 }  // namespace

@@ -21,26 +21,28 @@ constexpr int kStopStride = 64;
 
 class CostToGo::BackwardSearch {
  public:
-  explicit BackwardSearch(const Vertices& vertices)
+  BackwardSearch(const Vertices& vertices, std::size_t goal)
       : motion_(vertices.motion()),
         vertices_(vertices),
-        start_(vertices.start_pose().position),
+        goal_(vertices.goals()[goal].vertex),
+        goal_heading_(vertices.goals()[goal].heading),
+        start_(goal == 0 ? vertices.start_pose().position
+                         : vertices.position(vertices.goals()[goal - 1].vertex)),
         nodes_(static_cast<std::size_t>(vertices.count())) {
-    Node& goal = node(vertices_.goal());
-    goal.state = State::closed;
-    vertices_.for_each_neighbour(vertices_.goal(), [&](int vertex) { relax(vertex, vertices_.goal()); });
+    node(goal_).state = State::closed;
+    vertices_.for_each_neighbour(goal_, [&](int vertex) { relax(vertex, goal_); });
   }
 
   Estimate from(int vertex, const StopCondition& stop) {
     if (vertices_.any_angle() && goal_in_sight(vertex)) {
-      Estimate estimate = via(vertex, vertices_.goal());
+      Estimate estimate = via(vertex, goal_);
       estimate.straight = true;
       return estimate;
     }
     const Node& n = node(vertex);
     for (int step = 0; n.state != State::closed; ++step) {
       if (open_.empty()) return {kForever, 0.0, false};
-      if (step % kStopStride == kStopStride - 1 && stop.met()) return via(vertex, vertices_.goal());
+      if (step % kStopStride == kStopStride - 1 && stop.met()) return via(vertex, goal_);
       expand_best();
     }
     return {n.seconds, n.heading, false};
@@ -87,7 +89,9 @@ class CostToGo::BackwardSearch {
 
   const Motion& motion_;
   const Vertices& vertices_;
-  Position start_;
+  const int goal_;
+  const std::optional<double> goal_heading_;
+  const Position start_;  // or the goal before; the search is directed there
   PagedArray<Node> nodes_;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
   std::int64_t expansions_ = 0;
@@ -99,13 +103,13 @@ CostToGo::Estimate CostToGo::BackwardSearch::via(int vertex, int next) {
   Estimate estimate;
   estimate.heading = d.heading;
   estimate.seconds = motion_.translation_time(d.length) + motion_.wait_before_move;
-  if (next != vertices_.goal()) {
+  if (next != goal_) {
     const Node& onward = node(next);
     estimate.seconds += onward.seconds + motion_.rotation_time(estimate.heading, onward.heading);
     const bool continues_straight = angle_between(estimate.heading, onward.heading) <= kSameHeading;
     if (continues_straight) estimate.seconds -= motion_.wait_before_move;  // both are one translation
-  } else if (const auto& heading = vertices_.goal_heading()) {
-    estimate.seconds += motion_.rotation_time(estimate.heading, *heading);
+  } else if (goal_heading_) {
+    estimate.seconds += motion_.rotation_time(estimate.heading, *goal_heading_);
   }
   return estimate;
 }
@@ -114,7 +118,7 @@ bool CostToGo::BackwardSearch::goal_in_sight(int vertex) {
   Node& n = node(vertex);
   if (!n.sight_known) {
     n.sight_known = true;
-    n.in_sight = vertices_.in_sight(vertex, vertices_.goal());
+    n.in_sight = vertices_.in_sight(vertex, goal_);
   }
   return n.in_sight;
 }
@@ -135,12 +139,12 @@ void CostToGo::BackwardSearch::relax(int vertex, int next) {
 void CostToGo::BackwardSearch::close(int vertex) {
   Node& n = node(vertex);
   n.state = State::closed;
-  const bool free = n.next == vertices_.goal() ? goal_in_sight(vertex) : vertices_.in_sight(vertex, n.next);
+  const bool free = n.next == goal_ ? goal_in_sight(vertex) : vertices_.in_sight(vertex, n.next);
   if (free) return;
   // Lazy Theta* (Nash, Koenig, Tovey, AAAI 2010): only now is it known that the shortcut is blocked.
   n.seconds = kForever;
   vertices_.for_each_neighbour(vertex, [&](int neighbour) {
-    if (neighbour != vertices_.goal() && node(neighbour).state != State::closed) return;
+    if (neighbour != goal_ && node(neighbour).state != State::closed) return;
     const Estimate estimate = via(vertex, neighbour);
     if (estimate.seconds >= n.seconds) return;
     n.seconds = estimate.seconds;
@@ -160,7 +164,8 @@ void CostToGo::BackwardSearch::expand_best() {
   vertices_.for_each_neighbour(best.vertex, [&](int neighbour) { relax(neighbour, next); });
 }
 
-CostToGo::CostToGo(const Vertices& vertices) : search_(std::make_unique<BackwardSearch>(vertices)) {}
+CostToGo::CostToGo(const Vertices& vertices, std::size_t goal)
+    : search_(std::make_unique<BackwardSearch>(vertices, goal)) {}
 CostToGo::~CostToGo() = default;
 
 CostToGo::Estimate CostToGo::from(int vertex, const StopCondition& stop) {

@@ -11,7 +11,7 @@ namespace fleetplan::core {
 
 class Vertices;
 
-/// Estimates h: the cost for one robot, alone on the static map, to get from a vertex to its goal. In sight
+/// Estimates h: the cost for one robot, alone on the static map, to get from a vertex to a goal. In sight
 /// of the goal it is the cost of the straight line. Elsewhere it comes from a backward search from the goal
 /// (Lazy Theta*; Nash, Koenig and Tovey, AAAI 2010; rotations included) that is resumed when it has not
 /// reached the vertex yet. It is the cost of an existing path, so it may exceed the optimum: it guides the
@@ -24,8 +24,8 @@ class CostToGo {
     bool straight = false;  // the goal is in sight
   };
 
-  /// The robot must have a goal. `vertices` outlives this object.
-  explicit CostToGo(const Vertices& vertices);
+  /// To the goal with this index in Vertices::goals(). `vertices` outlives this object.
+  explicit CostToGo(const Vertices& vertices, std::size_t goal = 0);
   ~CostToGo();
 
   /// From any vertex but the goal. If `stop` is met during the search, the estimate is the straight line's.

@@ -13,8 +13,9 @@ namespace fleetplan::core {
 enum class EdgeId : int {};
 enum class EntryId : int { none = -1 };
 
-/// Where an edge starts: at the label that is expanded, or at its parent (any-angle).
-enum class EdgeKind : std::uint8_t { local, shortcut };
+/// Where an edge starts: at the label that is expanded, or at its parent (any-angle). A service leads from a
+/// stage to the next one, at the same vertex.
+enum class EdgeKind : std::uint8_t { local, shortcut, service };
 
 /// A move along an edge into one safe interval of its target.
 struct OpenEntry {

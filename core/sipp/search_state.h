@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "core/geometry/interval.h"
 #include "core/geometry/position.h"
@@ -9,19 +11,23 @@
 #include "core/sipp/dominance_table.h"
 #include "core/sipp/edge_timing.h"
 #include "core/sipp/open_list.h"
+#include "core/sipp/stage.h"
 
 namespace fleetplan::core {
 
 enum class PlaceId : int { none = -1 };
 enum class LabelId : int { none = -1 };
 
-/// A vertex that the search has reached, with its safe intervals (paper, "Computing intervals").
+/// A vertex that the search has reached in a stage, with its safe intervals (paper, "Computing intervals").
 struct Place {
   int vertex;
+  std::size_t stage;
   Position position;
-  CostToGo::Estimate estimate;
-  int first_interval;  // of SearchState::intervals
-  int end_interval;    // one past the last one
+  CostToGo::Estimate estimate;  // to the end of the last service
+  bool any_heading;             // the goal of the stage, in which the robot may rest with any heading
+  int first_interval;           // of SearchState::intervals
+  int end_interval;             // one past the last one
+  PlaceId other_stage;          // of the same vertex; none for the one that was reached first
 
   bool never_safe() const { return first_interval == end_interval; }
 };
@@ -34,6 +40,7 @@ struct Label {
   LabelId parent;    // none at the start
   PlaceId place;
   int interval;
+  bool by_translation;  // from the parent; otherwise the parent's stage ends here
 };
 
 /// The two ways to reach a place when a label is expanded: a local move from the label or, any-angle, a
@@ -52,15 +59,16 @@ struct Edge {
 
 /// The state of one search.
 struct SearchState {
-  IndexedVector<PlaceId> place_of_vertex;  // none for vertices that were not reached
+  std::vector<Stage> stages;
+  IndexedVector<PlaceId> place_of_vertex;  // the latest; none for vertices that were not reached
   IndexedVector<Place, PlaceId> places;
   IndexedVector<SafeInterval> intervals;  // of all places
   IndexedVector<Label, LabelId> labels;
   IndexedVector<Edge, EdgeId> edges;
   OpenList open;
   DominanceTable dominance;
-  PlaceId goal = PlaceId::none;
-  double goal_free_from = 0.0;              // begin of the goal's last safe interval
+  PlaceId goal = PlaceId::none;             // the last one, in the last stage
+  double release = 0.0;                     // estimate: no path ends earlier; see Stage
   EntryId best_goal_entry = EntryId::none;  // the cheapest timed entry into the goal's last safe interval
   double best_goal_cost = kForever;
   LabelId goal_label = LabelId::none;

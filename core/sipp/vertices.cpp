@@ -24,11 +24,13 @@ Vertices::Vertices(const Instance& instance, std::size_t robot)
       any_angle_(instance.options().any_angle),
       start_pose_(instance.itinerary(robot).pose),
       start_(add_start(instance, robot)) {
-  const Robot& r = instance.robot(robot);
-  if (!r.goal) return;
-  goal_heading_ = r.goal->theta;
-  const bool same = (r.goal->position - start_pose_.position).norm() <= kSamePosition;
-  goal_ = same ? start_ : add_goal(instance, robot);
+  // Committed actions that end in contact with the goal end there: a service goes on, without a move.
+  double same = instance.robot(robot).committed.empty() ? kSamePosition : kContactTolerance;
+  for (const Goal& goal : instance.itinerary(robot).goals) {
+    const bool at_start = (goal.position - start_pose_.position).norm() <= same;
+    goals_.push_back({at_start ? start_ : add_goal(instance, robot, goal.position), goal.theta});
+    same = kSamePosition;
+  }
 }
 
 int Vertices::add_start(const Instance& instance, std::size_t robot) {
@@ -43,11 +45,19 @@ int Vertices::add_start(const Instance& instance, std::size_t robot) {
   return add({position, radius, deficit <= kContactTolerance ? kForever : reach, {}}, reach);
 }
 
-int Vertices::add_goal(const Instance& instance, std::size_t robot) {
-  const Position& position = instance.robot(robot).goal->position;
-  const double radius = instance.radius_at_goal(robot);
+int Vertices::own_vertex_at(const Position& position) const {
+  const auto own = std::find_if(own_.begin(), own_.end(), [&](const OwnVertex& vertex) {
+    return (vertex.position - position).norm() <= kSamePosition;
+  });
+  return own == own_.end() ? -1 : lattice_.vertex_count() + static_cast<int>(own - own_.begin());
+}
+
+int Vertices::add_goal(const Instance& instance, std::size_t robot, const Position& position) {
+  const double radius = instance.radius_at_goal(robot, position);
   const int vertex = lattice_.vertex_at(position);
   if (vertex >= 0 && radius == motion_.radius) return vertex;
+  const int own = own_vertex_at(position);
+  if (own >= 0) return own;
   return add({position, radius, kForever, {}}, kLinkDistance * lattice_.spacing());
 }
 

@@ -16,7 +16,7 @@ class LineOfSight;
 class StaticMoves;
 
 /// One robot's view of the static map: the vertices that it may stop at and the straight moves between them.
-/// Vertices are those of the lattice, and its own start and goal where they lie off the lattice; these are
+/// Vertices are those of the lattice, and its own start and goals where they lie off the lattice; these are
 /// linked to every lattice vertex in sight within two cells. A start or goal that is too near to a wall or to
 /// another robot's start is an own vertex, too. At such a vertex the robot keeps the distance from walls that
 /// it has there, and from a start it is linked to vertices that are far enough away to be clear.
@@ -33,10 +33,16 @@ class Vertices {
   int start() const { return start_; }
   /// The end of the committed actions, or the robot's start without any.
   const Pose& start_pose() const { return start_pose_; }
-  /// -1 for a robot without a goal.
-  int goal() const { return goal_; }
-  /// None if the robot may rest at its goal with any heading.
-  const std::optional<double>& goal_heading() const { return goal_heading_; }
+  /// The pose of a goal; without a heading, any will do.
+  struct GoalPose {
+    int vertex = -1;
+    std::optional<double> heading;
+    bool operator==(const GoalPose&) const = default;
+  };
+  /// Of the goals that are left to visit, in their order. None for a parked robot.
+  const std::vector<GoalPose>& goals() const { return goals_; }
+  /// The vertex of the last one, -1 for a parked robot.
+  int goal() const { return goals_.empty() ? -1 : goals_.back().vertex; }
 
   Position position(int vertex) const {
     return is_own(vertex) ? own_[own_index(vertex)].position : lattice_.position(vertex);
@@ -85,7 +91,9 @@ class Vertices {
   }
   static bool linked(const OwnVertex& own, int vertex);
   int add_start(const Instance& instance, std::size_t robot);
-  int add_goal(const Instance& instance, std::size_t robot);
+  int add_goal(const Instance& instance, std::size_t robot, const Position& position);
+  /// An own vertex at this position, or -1.
+  int own_vertex_at(const Position& position) const;
   /// Adds an own vertex with links to those within `reach` metres.
   int add(OwnVertex own, double reach);
   bool may_move(const OwnVertex& own, const Position& to, double radius) const;
@@ -98,10 +106,9 @@ class Vertices {
   StaticMoves& moves_;
   bool any_angle_;
   Pose start_pose_;
-  std::optional<double> goal_heading_;
   std::vector<OwnVertex> own_;
   int start_ = -1;
-  int goal_ = -1;
+  std::vector<GoalPose> goals_;
 };
 
 }  // namespace fleetplan::core

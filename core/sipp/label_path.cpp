@@ -1,0 +1,67 @@
+#include "core/sipp/label_path.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/geometry/angle.h"
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// The labels from the start to the goal.
+std::vector<LabelId> path_to(LabelId last, const SearchState& state) {
+  std::vector<LabelId> path;
+  for (LabelId id = last; id != LabelId::none; id = state.labels[id].parent) path.push_back(id);
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+}  // namespace
+
+ServiceStop service_stop(const Label& label, const Stage& stage, const SearchSpace& space) {
+  const bool at_start = label.parent == LabelId::none;
+  ServiceStop stop{label.arrival, 0.0, label.heading};
+  if (at_start && space.begins_in_goal_pose()) {
+    stop.t_rest = space.itinerary().arrived;
+  } else {
+    if (at_start) stop.t_rest = space.itinerary().t_begin;  // also if it has to stay there for longer
+    if (stage.goal.heading) {
+      stop.t_rest += space.vertices().motion().rotation_time(label.heading, *stage.goal.heading);
+      stop.heading = *stage.goal.heading;
+    }
+  }
+  stop.t_end = stage.service_end(stop.t_rest);
+  return stop;
+}
+
+Trajectory trajectory_of(const SearchState& state, const SearchSpace& space) {
+  const std::vector<LabelId> path = path_to(state.goal_label, state);
+  const auto place_of = [&](const Label& label) -> const Place& { return state.places[label.place]; };
+  Trajectory trajectory = space.itinerary().committed;
+  if (trajectory.moves.empty()) trajectory.start = place_of(state.labels[path.front()]).position;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Label& from = state.labels[path[i - 1]];
+    const Label& to = state.labels[path[i]];
+    if (!to.by_translation) {
+      const std::size_t stage = place_of(from).stage;
+      const ServiceStop stop = service_stop(from, state.stages[stage], space);
+      trajectory.visits.push_back({space.itinerary().first_goal + stage, stop.t_rest, stop.t_end});
+      continue;
+    }
+    const bool continues = from.by_translation && to.departure == from.arrival &&
+                           angle_between(from.heading, to.heading) <= kSameHeading;
+    if (continues) {
+      trajectory.moves.back().path.to = place_of(to).position;
+      trajectory.moves.back().t_end = to.arrival;
+    } else {
+      trajectory.moves.push_back(
+          {{place_of(from).position, place_of(to).position}, to.departure, to.arrival});
+    }
+  }
+  const Label& last = state.labels[path.back()];
+  trajectory.cost = std::max(service_stop(last, state.stages.back(), space).t_end, last.arrival);
+  return trajectory;
+}
+
+}  // namespace fleetplan::core

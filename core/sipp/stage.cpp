@@ -1,0 +1,48 @@
+#include "core/sipp/stage.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Estimates the way from one goal to the next one, seconds. A heading that is free is the best one.
+double estimated_leg(SearchSpace& space, std::size_t from, const StopCondition& stop) {
+  const Motion& motion = space.vertices().motion();
+  const Vertices::GoalPose& here = space.vertices().goals()[from];
+  const Vertices::GoalPose& next = space.vertices().goals()[from + 1];
+  if (here.vertex == next.vertex) {
+    return here.heading && next.heading ? motion.rotation_time(*here.heading, *next.heading) : 0.0;
+  }
+  const CostToGo::Estimate estimate = space.cost_to_go(from + 1).from(here.vertex, stop);
+  return estimate.seconds + (here.heading ? motion.rotation_time(*here.heading, estimate.heading) : 0.0);
+}
+
+}  // namespace
+
+std::vector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
+  const std::vector<Goal>& goals = space.itinerary().goals;
+  std::vector<Stage> stages(goals.size());
+  for (std::size_t k = goals.size(); k-- > 0;) {
+    stages[k] = {space.vertices().goals()[k], goals[k].service, goals[k].not_before, goals[k].service, 0.0};
+    if (k + 1 < goals.size()) stages[k].after += estimated_leg(space, k, stop) + stages[k + 1].after;
+  }
+  return stages;
+}
+
+double estimated_end(SearchSpace& space, const StopCondition& stop) {
+  std::vector<Stage> stages = stages_of(space, stop);
+  set_releases(stages, 0.0);
+  const Stage& first = stages.front();
+  const int start = space.vertices().start();
+  const bool leaves = start != first.goal.vertex;
+  const double leg = leaves ? space.cost_to_go(0).from(start, stop).seconds : 0.0;
+  return std::max(first.release, space.itinerary().t_begin + leg + first.after);
+}
+
+void set_releases(std::vector<Stage>& stages, double last_free_from) {
+  double release = stages.back().service_end(last_free_from);
+  for (std::size_t k = stages.size(); k-- > 0;) {
+    if (k + 1 < stages.size()) release = std::max(release, stages[k].not_before + stages[k].after);
+    stages[k].release = release;
+  }
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "core/geometry/segment.h"
+#include "core/runtime/stop_condition.h"
+#include "core/sipp/search_space.h"
+
+namespace fleetplan::core {
+
+/// A part of the way of a robot: from the goal before, or from where its plan begins, to the next goal.
+struct Stage {
+  Vertices::GoalPose goal;
+  double service = 0.0;     // seconds
+  double not_before = 0.0;  // seconds
+  /// Estimate: seconds from rest in the goal's pose to the end of the last service, without waiting for any
+  /// `not_before`. The service at this goal is included.
+  double after = 0.0;
+  /// Estimate: no path ends earlier, because of this `not_before` and the later ones.
+  double release = 0.0;
+
+  double service_end(double t_rest) const { return std::max(t_rest, not_before) + service; }
+};
+
+/// The stages of a robot with a goal, without the releases.
+std::vector<Stage> stages_of(SearchSpace& space, const StopCondition& stop);
+/// Estimates when a robot ends its last service if it is alone on the static map; seconds.
+double estimated_end(SearchSpace& space, const StopCondition& stop);
+/// `last_free_from`: when the last goal becomes free for good.
+void set_releases(std::vector<Stage>& stages, double last_free_from);
+
+}  // namespace fleetplan::core
