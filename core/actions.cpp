@@ -78,9 +78,10 @@ class ActionList {
 
 /// Those after the committed actions.
 std::span<const TimedSegment> planned_moves(const Robot& robot, const Trajectory& trajectory) {
-  const auto committed = std::count_if(robot.committed.begin(), robot.committed.end(),
-                                       [](const Action& a) { return a.type == Action::Type::translate; });
-  return std::span(trajectory.moves).subspan(static_cast<std::size_t>(committed));
+  const double t_begin = robot.committed_until();
+  const auto first = std::find_if(trajectory.moves.begin(), trajectory.moves.end(),
+                                  [&](const TimedSegment& move) { return move.t_start >= t_begin; });
+  return {first, trajectory.moves.end()};
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 #include "core/collect_plan.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <utility>
 
 #include "core/actions.h"
+#include "core/model/served_goals.h"
 #include "core/replan/previous_plan.h"
 
 namespace fleetplan::core {
@@ -12,16 +15,29 @@ Objectives including(const Objectives& objectives, double cost) {
   return {objectives.flowtime + cost, std::max(objectives.makespan, cost)};
 }
 
+/// The search may let a robot rest for long enough in a goal's pose and serve the goal when it comes back.
+/// The goal counts as served by the first rest, so the later wait is for none.
+void remove_wrong_goals(std::vector<Action>& actions, const std::vector<Visit>& visits, std::size_t first) {
+  for (std::size_t i = first; i < actions.size(); ++i) {
+    std::optional<std::size_t>& goal = actions[i].goal;
+    if (goal && *goal < visits.size() && visits[*goal].t_leave <= actions[i].t_start) goal.reset();
+  }
+}
+
 RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
   const auto& trajectory = state.trajectory(index);
-  if (!trajectory) return {index, 0.0, {}, 0.0};  // parked
-  const double cost = trajectory->cost;
   const Robot& robot = state.instance().robot(index);
+  if (!trajectory)
+    return {index, robot.committed_until(), robot.committed, robot.committed_until()};  // parked
+  const double cost = trajectory->cost;
   if (trajectory->is_previous) {
     return {index, cost, previous_actions(robot), std::min(bound, cost), previous_visits(robot)};
   }
   // Rounding may leave a bound slightly above the cost that it bounds.
-  return {index, cost, to_actions(robot, *trajectory), std::min(bound, cost)};
+  std::vector<Action> actions = to_actions(robot, *trajectory);
+  std::vector<Visit> visits = visits_of(robot, actions);
+  remove_wrong_goals(actions, visits, robot.committed.size());
+  return {index, cost, std::move(actions), std::min(bound, cost), std::move(visits)};
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ Trajectory committed_trajectory(const Robot& robot) {
   Trajectory trajectory;
   trajectory.start = robot.start.position;
   for (const Action& action : robot.committed) {
-    if (action.type != Action::Type::translate) continue;
+    if (action.type != Action::Type::translate || action.from.position == action.to.position) continue;
     trajectory.moves.push_back({{action.from.position, action.to.position}, action.t_start, action.t_end});
   }
   trajectory.cost = robot.committed_until();

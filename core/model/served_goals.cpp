@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/geometry/angle.h"
+#include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {
@@ -63,6 +64,15 @@ bool is_in_pose(const Pose& pose, const Goal& goal) {
 
 ServedGoals served_goals(const Robot& robot, std::span<const Action> actions) {
   return GoalService(robot).run(actions);
+}
+
+std::vector<Visit> visits_of(const Robot& robot, std::span<const Action> actions) {
+  ServedGoals served = served_goals(robot, actions);
+  const std::size_t last = robot.goal_count() - 1;
+  if (robot.goal && served.in_next_pose && served.visits.size() == last) {
+    served.visits.push_back({last, served.arrived, kForever});
+  }
+  return std::move(served.visits);
 }
 
 }  // namespace fleetplan::core
