@@ -28,8 +28,16 @@ class PlanningAroundKept {
       if (!state_.trajectory(robot)) others_.push_back(robot);
     }
     if (others_.empty()) return std::move(result_);
-    const bool all_planned = !time_.all.met() && (repaired() || planned_anew());
-    if (!all_planned) explain_best();
+    if (time_.all.met()) {
+      keep_without_search();
+      explain_best();
+      return std::move(result_);
+    }
+    if (!repaired() && !planned_anew()) {
+      find_certain();
+      plan_more_of_best();
+      explain_best();
+    }
     if (state_.instance().options().replan == PlanOptions::Replan::where_needed) return_to_kept();
     return std::move(result_);
   }
@@ -42,14 +50,19 @@ class PlanningAroundKept {
 
   /// The plan that needs no search: those that can do so follow their trajectories, all others stay.
   void keep_without_search() {
-    if (best_) return;
-    const PlanState::Reservations before = state_.reservations();
-    state_.restore(kept_);
     SafePlan plan = make_safe(state_, others_, {}, Effort::none, time_.all, progress_);
     best_ = Best{std::move(plan), state_.reservations()};
     for (const std::size_t robot : movers_) {
       if (state_.trajectory(robot)) certain_.push_back(robot);
     }
+  }
+
+  /// Finds this plan if it is not known yet.
+  void find_certain() {
+    if (best_) return;
+    const PlanState::Reservations before = state_.reservations();
+    state_.restore(kept_);
+    keep_without_search();
     state_.restore(before);
   }
 
@@ -95,7 +108,7 @@ class PlanningAroundKept {
       best_ = Best{std::move(plan), state_.reservations()};
       return;
     }
-    keep_without_search();
+    find_certain();
     if (best_->plan.staying.size() <= plan.staying.size() || !plans_all_certain()) return;
     best_ = Best{std::move(plan), state_.reservations()};
   }
@@ -121,9 +134,8 @@ class PlanningAroundKept {
     return best_->plan.staying.empty();
   }
 
-  /// Returns to the best plan, plans more robots in it while there is time, and tells why the rest stays.
-  void explain_best() {
-    keep_without_search();
+  /// Returns to the best plan, and plans more robots in it while there is time.
+  void plan_more_of_best() {
     if (is_over()) {
       state_.finish_with(best_->reservations);
     } else {
@@ -134,6 +146,10 @@ class PlanningAroundKept {
       result_.cut_off = result_.cut_off || more.cut_off;
       best_ = Best{std::move(more), state_.reservations()};
     }
+  }
+
+  /// Tells why the others stay.
+  void explain_best() {
     PartialPlan partial = explain(state_, best_->plan, time_.all);
     result_.cut_off = result_.cut_off || partial.cut_off;
     result_.unplanned = std::move(partial.unplanned);
@@ -144,14 +160,47 @@ class PlanningAroundKept {
     return time_.all.cancelled() || StopCondition::Clock::now() >= time_.all.deadline();
   }
 
-  /// A robot that had to give way may have its first trajectory back where that is free again.
-  void return_to_kept() {
+  /// The robots with a trajectory other than that which they had at first.
+  std::vector<std::size_t> robots_that_gave_way() const {
+    std::vector<std::size_t> robots;
     for (const std::size_t robot : movers_) {
-      if (time_.all.met()) return;
-      const auto& first = kept_.trajectories[robot];
-      if (!first || !state_.trajectory(robot) || state_.trajectory(robot)->is_previous) continue;
-      if (state_.conflicting_robots(robot, *first).empty()) state_.follow(robot, *first);
+      const auto& now = state_.trajectory(robot);
+      if (kept_.trajectories[robot] && now && !now->is_previous) robots.push_back(robot);
     }
+    return robots;
+  }
+
+  /// Robots that gave way may have their first trajectories back where these are free again.
+  void return_to_kept() {
+    std::vector<std::size_t> changed = robots_that_gave_way();
+    while (!changed.empty() && !time_.all.met()) {
+      const PlanState::Reservations before = state_.reservations();
+      const std::size_t count = changed.size();
+      const bool all_planned = returned_together(changed);
+      changed = robots_that_gave_way();
+      if (!all_planned) state_.restore(before);
+      if (!all_planned || changed.size() >= count) break;
+    }
+  }
+
+  /// Plans them again: those whose first trajectories are free follow them, the others among these.
+  bool returned_together(const std::vector<std::size_t>& robots) {
+    for (const std::size_t robot : robots) state_.remove(robot);
+    std::vector<std::size_t> left;
+    for (const std::size_t robot : robots) {
+      const Trajectory& first = *kept_.trajectories[robot];
+      if (state_.conflicting_robots(robot, first).empty()) {
+        state_.follow(robot, first);
+      } else {
+        left.push_back(robot);
+      }
+    }
+    for (const std::size_t robot : left) {
+      SearchResult result = state_.plan(robot, {.thorough = false}, time_.all);
+      if (!result.trajectory) return false;
+      state_.follow(robot, std::move(*result.trajectory));
+    }
+    return true;
   }
 
   PlanState& state_;
