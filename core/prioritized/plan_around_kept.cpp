@@ -1,7 +1,7 @@
 #include "core/prioritized/plan_around_kept.h"
 
 #include <algorithm>
-#include <optional>
+#include <chrono>
 #include <utility>
 
 #include "core/prioritized/ordering_result.h"
@@ -10,6 +10,14 @@
 
 namespace fleetplan::core {
 namespace {
+
+/// To keep a safe plan and to return to where planning was takes some 0.1 s for 500 robots. In less time than
+/// this, repairs of the plan are better left to run.
+constexpr std::chrono::milliseconds kLeastFirstPart{250};
+
+bool has_time_for_two_parts(const PlanningTime& time) {
+  return time.first_part.deadline() - StopCondition::Clock::now() >= kLeastFirstPart;
+}
 
 class PlanningAroundKept {
  public:
@@ -20,7 +28,7 @@ class PlanningAroundKept {
         random_(random),
         time_(time),
         progress_(progress),
-        stop_(time.first_part),
+        stop_(has_time_for_two_parts(time) ? time.first_part : time.keeping),
         kept_(state.reservations()) {}
 
   PrioritizedResult run() {
@@ -28,16 +36,9 @@ class PlanningAroundKept {
       if (!state_.trajectory(robot)) others_.push_back(robot);
     }
     if (others_.empty()) return std::move(result_);
-    if (time_.all.met()) {
-      keep_without_search();
-      explain_best();
-      return std::move(result_);
-    }
-    if (!repaired() && !planned_anew()) {
-      find_certain();
-      plan_more_of_best();
-      explain_best();
-    }
+    keep_without_search();
+    const bool all_planned = !time_.all.met() && (repaired() || planned_anew());
+    if (!all_planned) explain_best();
     if (state_.instance().options().replan == PlanOptions::Replan::where_needed) return_to_kept();
     return std::move(result_);
   }
@@ -50,20 +51,26 @@ class PlanningAroundKept {
 
   /// The plan that needs no search: those that can do so follow their trajectories, all others stay.
   void keep_without_search() {
-    SafePlan plan = make_safe(state_, others_, {}, Effort::none, time_.all, progress_);
-    best_ = Best{std::move(plan), state_.reservations()};
-    for (const std::size_t robot : movers_) {
-      if (state_.trajectory(robot)) certain_.push_back(robot);
+    std::vector<bool> stays(state_.instance().size(), false);
+    std::vector<std::size_t> staying = others_;
+    for (const std::size_t robot : staying) stays[robot] = true;
+    for (std::size_t k = 0; k < staying.size(); ++k) {  // staying grows
+      for (const std::size_t crossing : state_.robots_crossing_start(staying[k])) {
+        if (stays[crossing] || !state_.trajectory(crossing)) continue;
+        stays[crossing] = true;
+        staying.push_back(crossing);
+      }
     }
-  }
-
-  /// Finds this plan if it is not known yet.
-  void find_certain() {
-    if (best_) return;
-    const PlanState::Reservations before = state_.reservations();
-    state_.restore(kept_);
-    keep_without_search();
-    state_.restore(before);
+    std::sort(staying.begin(), staying.end());
+    best_ = Best{{}, kept_};
+    for (const std::size_t robot : staying) {
+      best_.plan.staying.push_back({robot, false});
+      best_.reservations.trajectories[robot].reset();
+      best_.reservations.at_start_until[robot] = kForever;
+    }
+    for (const std::size_t robot : movers_) {
+      if (!stays[robot]) certain_.push_back(robot);
+    }
   }
 
   /// Returns whether all robots are planned, by repairs of the plan.
@@ -78,7 +85,7 @@ class PlanningAroundKept {
     keep_if_better(
         make_safe(state_, ordering.unsolved, ordering.given_up, Effort::full, time_.all, progress_));
     others_may_help_ = ordering.hopeless.size() < ordering.given_up.size() || !ordering.unsolved.empty();
-    return best_->plan.staying.empty();
+    return best_.plan.staying.empty();
   }
 
   /// The robots with trajectories first.
@@ -95,7 +102,7 @@ class PlanningAroundKept {
     in_second_part_ = true;
     const PlanState::Reservations before = state_.reservations();
     keep_if_better(make_safe(state_, unsolved, given_up, Effort::brief, time_.keeping, progress_));
-    if (best_->plan.staying.empty()) return false;
+    if (best_.plan.staying.empty()) return false;
     state_.restore(before);
     stop_ = time_.all;
     return !stop_.met();
@@ -104,12 +111,7 @@ class PlanningAroundKept {
   /// Keeps the plan in the state if it plans more robots, and all those that are certain.
   void keep_if_better(SafePlan plan) {
     result_.cut_off = result_.cut_off || plan.cut_off;
-    if (plan.staying.empty()) {
-      best_ = Best{std::move(plan), state_.reservations()};
-      return;
-    }
-    find_certain();
-    if (best_->plan.staying.size() <= plan.staying.size() || !plans_all_certain()) return;
+    if (best_.plan.staying.size() <= plan.staying.size() || !plans_all_certain()) return;
     best_ = Best{std::move(plan), state_.reservations()};
   }
 
@@ -131,26 +133,22 @@ class PlanningAroundKept {
       plan.staying.push_back({robot.robot, robot.reason == Unplanned::Reason::blocked_by_robots});
     }
     keep_if_better(std::move(plan));
-    return best_->plan.staying.empty();
+    return best_.plan.staying.empty();
   }
 
-  /// Returns to the best plan, and plans more robots in it while there is time.
-  void plan_more_of_best() {
+  /// Returns to the best plan, plans more robots in it while there is time, and tells why the rest stays.
+  void explain_best() {
     if (is_over()) {
-      state_.finish_with(best_->reservations);
+      state_.finish_with(best_.reservations);
     } else {
-      state_.restore(best_->reservations);
+      state_.restore(best_.reservations);
       std::vector<std::size_t> staying;
-      for (const SafePlan::Staying& robot : best_->plan.staying) staying.push_back(robot.robot);
+      for (const SafePlan::Staying& robot : best_.plan.staying) staying.push_back(robot.robot);
       SafePlan more = make_safe(state_, {}, staying, Effort::full, time_.all, progress_);
       result_.cut_off = result_.cut_off || more.cut_off;
       best_ = Best{std::move(more), state_.reservations()};
     }
-  }
-
-  /// Tells why the others stay.
-  void explain_best() {
-    PartialPlan partial = explain(state_, best_->plan, time_.all);
+    PartialPlan partial = explain(state_, best_.plan, time_.all);
     result_.cut_off = result_.cut_off || partial.cut_off;
     result_.unplanned = std::move(partial.unplanned);
   }
@@ -212,7 +210,7 @@ class PlanningAroundKept {
   const PlanState::Reservations kept_;  // at first
   std::vector<std::size_t> others_;     // without a trajectory at first
   std::vector<std::size_t> certain_;    // robots that remain planned in every case
-  std::optional<Best> best_;
+  Best best_;
   bool in_second_part_ = false;   // of the time
   bool others_may_help_ = false;  // other orders
   PrioritizedResult result_;

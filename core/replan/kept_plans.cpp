@@ -70,12 +70,22 @@ class PlansThatHold {
       const Pair pair{violation.robots[0], violation.robots[1]};
       (stays(pair.first) || stays(pair.second) ? staying : conflicts).push_back(pair);
     }
-    for (const Violation& violation : report.violations) {
-      if (violation.robots.size() == 1) kept_[violation.robots.front()] = false;
-    }
+    for (const Violation& violation : report.violations) leave_out_alone(violation);
     for (const Pair& pair : staying) kept_[pair.first] = kept_[pair.second] = false;
     leave_out_lower(conflicts);
     return std::count(kept_.begin(), kept_.end(), true) < before;
+  }
+
+  /// A plan that breaks a rule on its own, or conflicts with what another robot is committed to.
+  void leave_out_alone(const Violation& violation) {
+    const std::size_t robot = violation.robots.front();
+    if (violation.robots.size() == 1) {
+      kept_[robot] = false;
+      return;
+    }
+    const std::size_t other = violation.robots[1];
+    if (violation.t < robots_[other].committed_until()) kept_[robot] = false;
+    if (violation.t < robots_[robot].committed_until()) kept_[other] = false;
   }
 
   /// Of conflicting plans, keeps those with the higher priorities.
