@@ -43,13 +43,13 @@ TurnNeed need_of(const PlanRequest& request, const core::StopCondition& stop, co
           static_cast<double>(std::max<std::ptrdiff_t>(1, moving)), is_short};
 }
 
-/// So long may the check of previous plans take beyond the budget.
-constexpr std::chrono::milliseconds kMostForPrevious{50};
+/// So long may a check take beyond the budget if there are previous plans: it decides whether they are kept.
+constexpr std::chrono::milliseconds kMostForPrevious{500};
 
-/// The end of planning, or now if previous plans were checked beyond it: the check of the answer follows.
+/// The end of planning, after which the answer is checked; later if there are previous plans.
 core::StopCondition end_of_planning(const core::StopCondition& stop, const PlanRequest& request) {
   if (!core::have_previous_plans(request.problem.robots())) return stop;
-  return core::StopCondition(std::max(stop.deadline(), Clock::now()), stop.stop_token());
+  return core::StopCondition(std::max(stop.deadline(), Clock::now()) + kMostForPrevious, stop.stop_token());
 }
 
 /// The planner's plan, or one that needs no search if the memory does not suffice for any other.
