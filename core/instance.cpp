@@ -1,6 +1,7 @@
 #include "core/instance.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/geometry/tolerance.h"
 
@@ -9,6 +10,8 @@ namespace {
 
 /// More than what a disk in contact with an obstacle overlaps it, rounding included.
 constexpr double kMostOverlap = kContactTolerance + 2.0 * kSamePosition;
+/// However much a start may overlap a wall, this fraction of the disk keeps clear of it.
+constexpr double kSmallestDisk = 1e-3;
 
 std::vector<Endpoints> endpoints(const Problem& problem, const Lattice& lattice, double inflation) {
   const auto rounding = [&](const Position& p) { return (lattice.snapped(p) - p).norm(); };
@@ -16,7 +19,7 @@ std::vector<Endpoints> endpoints(const Problem& problem, const Lattice& lattice,
   for (const Robot& robot : problem.robots()) {
     Endpoints ends;
     ends.radius = robot.radius + inflation;
-    ends.start = robot.start.position;
+    ends.start = robot.committed_end().position;
     ends.start_rounding = rounding(ends.start);
     if (robot.goal) {
       ends.goal = robot.goal->position;
@@ -27,14 +30,43 @@ std::vector<Endpoints> endpoints(const Problem& problem, const Lattice& lattice,
   return all;
 }
 
+/// The segments from t = 0 to the end of the commitment, waits included.
+std::vector<TimedSegment> committed_segments(const Itinerary& itinerary) {
+  if (itinerary.t_begin <= 0.0) return {};
+  std::vector<TimedSegment> segments = timed_segments(itinerary.committed);
+  std::erase_if(segments, [&](const TimedSegment& segment) { return segment.t_start >= itinerary.t_begin; });
+  if (!segments.empty()) segments.back().t_end = std::min(segments.back().t_end, itinerary.t_begin);
+  return segments;
+}
+
+std::shared_ptr<const FixedReservations> fixed(const Problem& problem, double inflation,
+                                               const Contacts& contacts, const StopCondition& stop) {
+  std::vector<FixedReservations::Robot> robots;
+  for (const Robot& robot : problem.robots()) {
+    const Itinerary itinerary = itinerary_of(robot);
+    robots.push_back({robot.radius, robot.start.position, itinerary.pose.position, itinerary.t_begin,
+                      committed_segments(itinerary)});
+  }
+  return std::make_shared<FixedReservations>(problem.grid().width(), problem.grid().height(), inflation,
+                                             std::move(robots), problem.obstacles(),
+                                             contacts.empty() ? nullptr : &contacts, stop);
+}
+
 }  // namespace
 
-Instance::Instance(const Problem& problem, const PlanOptions& options)
+Instance::Instance(const Problem& problem, const PlanOptions& options, const StopCondition& stop)
+    : Instance(problem, options, nullptr) {
+  fixed_reservations_ = fixed(problem, options.inflation, contacts_, stop);
+}
+
+Instance::Instance(const Problem& problem, const PlanOptions& options,
+                   std::shared_ptr<const FixedReservations> fixed_reservations)
     : problem_(problem),
       options_(options),
       lattice_(problem.grid(), options.connectivity),
       sight_(problem.grid()),
-      contacts_(endpoints(problem, lattice_, options.inflation)) {
+      contacts_(endpoints(problem, lattice_, options.inflation)),
+      fixed_reservations_(std::move(fixed_reservations)) {
   for (const Robot& robot : problem.robots()) {
     itineraries_.push_back(itinerary_of(robot));
     motions_.push_back({robot.radius + options.inflation, robot.linear_speed, robot.angular_speed,
@@ -47,8 +79,9 @@ Instance::Instance(const Problem& problem, const PlanOptions& options)
 
 double Instance::radius_at_start(std::size_t index) const {
   const Robot& robot = problem_.robots()[index];
-  return sight_.fitting_radius(itineraries_[index].pose.position, robot.radius - kMostOverlap,
-                               motions_[index].radius);
+  const double overlap = std::max(0.0, options_.start_overlap - options_.inflation);  // of the bare disk
+  const double least = std::max(robot.radius - overlap - kMostOverlap, kSmallestDisk * robot.radius);
+  return sight_.fitting_radius(itineraries_[index].pose.position, least, motions_[index].radius);
 }
 
 bool Instance::fits_at_start(std::size_t index) const {

@@ -13,6 +13,8 @@
 #include "core/model/problem.h"
 #include "core/motion.h"
 #include "core/reservation/contacts.h"
+#include "core/reservation/fixed_reservations.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 
@@ -20,7 +22,11 @@ namespace fleetplan::core {
 /// request is planned. Not thread-safe, because static moves are computed on first use.
 class Instance {
  public:
-  Instance(const Problem& problem, const PlanOptions& options);
+  /// If the stop condition is met while obstacles and committed motion are indexed, nothing can be planned.
+  Instance(const Problem& problem, const PlanOptions& options, const StopCondition& stop = {});
+  /// With the fixed reservations of another instance of the same problem and options.
+  Instance(const Problem& problem, const PlanOptions& options,
+           std::shared_ptr<const FixedReservations> fixed_reservations);
 
   std::size_t size() const { return problem_.robots().size(); }
   const Problem& problem() const { return problem_; }
@@ -33,6 +39,8 @@ class Instance {
   const LineOfSight& sight() const { return sight_; }
   /// The pairs of robots that begin or end too near to each other.
   const Contacts& contacts() const { return contacts_; }
+  /// Obstacles and committed motion; never null. Instances for other threads may share them.
+  const std::shared_ptr<const FixedReservations>& fixed_reservations() const { return fixed_reservations_; }
   /// The largest disk of the robot, inflated or not, that fits where its plan begins and at a goal: its
   /// radius, or less where a wall is nearer. At the goal, only contact is allowed for.
   double radius_at_start(std::size_t index) const;
@@ -53,6 +61,7 @@ class Instance {
   std::vector<Motion> motions_;
   std::vector<Itinerary> itineraries_;
   Contacts contacts_;
+  std::shared_ptr<const FixedReservations> fixed_reservations_;
   std::unordered_map<double, std::unique_ptr<StaticMoves>> moves_by_radius_;
   std::vector<StaticMoves*> moves_;  // by robot
 };

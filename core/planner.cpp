@@ -80,8 +80,8 @@ std::vector<std::size_t> those_that_may_change(const PlanState& state, std::vect
 
 /// The largest parts of the memory of a plan.
 struct PlanMemory {
-  PlanMemory(const Problem& problem, const PlanOptions& options)
-      : instance(problem, options), state(instance) {}
+  PlanMemory(const Problem& problem, const PlanOptions& options, const StopCondition& stop)
+      : instance(problem, options, stop), state(instance) {}
 
   const Instance instance;
   PlanState state;
@@ -131,7 +131,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
 
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop, Executor& executor,
           Observer* observer) {
-  const auto memory = std::make_shared<PlanMemory>(problem, options);
+  const auto memory = std::make_shared<PlanMemory>(problem, options, stop);
   const Instance& instance = memory->instance;
   PlanState& state = memory->state;
   ProgressReport progress(state, observer);

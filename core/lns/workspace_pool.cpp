@@ -12,9 +12,9 @@ Workspace::Workspace(PlanState& state, const Incumbent& incumbent, const StopCon
       versions_(state.instance().size(), 0),
       neighbourhoods_(state, incumbent.planned(), stop) {}
 
-Workspace::Workspace(const Problem& problem, const PlanOptions& options, const Incumbent& incumbent,
-                     const StopCondition& stop)
-    : own_instance_(std::make_unique<Instance>(problem, options)),
+Workspace::Workspace(const Instance& instance, const Incumbent& incumbent, const StopCondition& stop)
+    : own_instance_(
+          std::make_unique<Instance>(instance.problem(), instance.options(), instance.fixed_reservations())),
       own_state_(std::make_unique<PlanState>(*own_instance_)),
       state_(own_state_.get()),
       incumbent_(incumbent),
@@ -42,17 +42,14 @@ void Workspace::update() {
 void Workspace::invalidate() { std::fill(versions_.begin(), versions_.end(), -1); }
 
 WorkspacePool::WorkspacePool(PlanState& state, const Incumbent& incumbent, const StopCondition& stop)
-    : problem_(state.instance().problem()),
-      options_(state.instance().options()),
-      incumbent_(incumbent),
-      stop_(stop) {
+    : instance_(state.instance()), incumbent_(incumbent), stop_(stop) {
   idle_.push_back(std::make_unique<Workspace>(state, incumbent, stop));
 }
 
 std::unique_ptr<Workspace> WorkspacePool::take() {
   std::unique_ptr<Workspace> workspace = take_idle();
   try {
-    if (!workspace) workspace = std::make_unique<Workspace>(problem_, options_, incumbent_, stop_);
+    if (!workspace) workspace = std::make_unique<Workspace>(instance_, incumbent_, stop_);
     workspace->update();
     return workspace;
   } catch (const std::bad_alloc&) {  // not granted to the job

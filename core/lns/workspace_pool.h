@@ -19,9 +19,9 @@ class Workspace {
  public:
   /// With the caller's state, which follows the incumbent already.
   Workspace(PlanState& state, const Incumbent& incumbent, const StopCondition& stop);
-  /// With an instance and a state of its own. Robots that are not in the incumbent stay at their starts.
-  Workspace(const Problem& problem, const PlanOptions& options, const Incumbent& incumbent,
-            const StopCondition& stop);
+  /// With an instance like this one and a state of its own. Robots that are not in the incumbent stay at
+  /// their starts.
+  Workspace(const Instance& instance, const Incumbent& incumbent, const StopCondition& stop);
 
   PlanState& state() { return *state_; }
   bool has_own_state() const { return own_state_ != nullptr; }
@@ -57,8 +57,7 @@ class WorkspacePool {
  private:
   std::unique_ptr<Workspace> take_idle();
 
-  const Problem& problem_;
-  const PlanOptions options_;
+  const Instance& instance_;
   const Incumbent& incumbent_;
   const StopCondition& stop_;
   std::mutex mutex_;

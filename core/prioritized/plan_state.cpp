@@ -46,15 +46,13 @@ std::vector<TimedSegment> from_time(double t, std::vector<TimedSegment> segments
   return segments;
 }
 
-/// The part of contiguous segments until `t`, between two of them or in a wait.
-std::vector<TimedSegment> until_time(double t, std::vector<TimedSegment> segments) {
-  std::erase_if(segments, [&](const TimedSegment& segment) { return segment.t_start >= t; });
-  if (!segments.empty()) segments.back().t_end = std::min(segments.back().t_end, t);
-  return segments;
-}
-
 const Contacts* contacts(const Instance& instance) {
   return instance.contacts().empty() ? nullptr : &instance.contacts();
+}
+
+const FixedReservations* fixed_reservations(const Instance& instance) {
+  const FixedReservations& fixed = *instance.fixed_reservations();
+  return fixed.empty() ? nullptr : &fixed;
 }
 
 }  // namespace
@@ -62,18 +60,13 @@ const Contacts* contacts(const Instance& instance) {
 PlanState::PlanState(const Instance& instance)
     : instance_(instance),
       table_(instance.problem().grid().width(), instance.problem().grid().height(),
-             instance.problem().grid().resolution(), radii(instance), contacts(instance)),
+             instance.problem().grid().resolution(), radii(instance), contacts(instance),
+             fixed_reservations(instance), instance.options().interval_margin),
       search_(table_),
       reservations_{std::vector<std::optional<Trajectory>>(instance.size()),
                     std::vector<double>(instance.size(), 0.0)},
       search_spaces_(instance.size()),
-      ways_(instance.size()) {
-  for (std::size_t robot = 0; robot < instance.size(); ++robot) {
-    const Itinerary& itinerary = instance.itinerary(robot);
-    if (itinerary.t_begin <= 0.0) continue;
-    table_.commit_certain(robot, until_time(itinerary.t_begin, timed_segments(itinerary.committed)));
-  }
-}
+      ways_(instance.size()) {}
 
 Trajectory PlanState::staying(std::size_t robot) const { return instance_.itinerary(robot).committed; }
 

@@ -5,6 +5,7 @@
 
 #include "core/geometry/disk_motion.h"
 #include "core/geometry/tolerance.h"
+#include "core/reservation/fixed_reservations.h"
 #include "core/reservation/segment_index.h"
 
 namespace fleetplan::core {
@@ -37,20 +38,153 @@ class CollisionDistance {
   Endpoint endpoint_ = Endpoint::none;
 };
 
+/// The interval margin of a robot that stands somewhere. What has passed before the robot's commitment ended
+/// there needs none.
+struct MarginAtRest {
+  double margin;     // seconds
+  double departure;  // seconds; the end of the commitment, if the robot stands there
+
+  UnsafeInterval widened(const UnsafeInterval& hit) const {
+    if (margin == 0.0 || hit.end <= departure + kSameTime) return hit;
+    return {hit.begin - margin, hit.end + margin};
+  }
+};
+
+/// Whether the two come closer than `reach` at times that differ by at most `margin` seconds.
+bool meet(const MovingDisk& a, const MovingDisk& b, double reach, double margin) {
+  if (collide(a, b, reach)) return true;
+  if (margin == 0.0) return false;
+  if (a.velocity.squaredNorm() > 0.0) {
+    const UnsafeInterval hit = forbidden_departures(a.from, a.velocity, a.t_end - a.t_start, b, reach);
+    return !hit.empty() && hit.begin - margin < a.t_start && a.t_start < hit.end + margin;
+  }
+  const UnsafeInterval hit = unsafe_interval(a.from, b, reach);
+  return !hit.empty() && hit.begin - margin < a.t_end && a.t_start < hit.end + margin;
+}
+
+std::vector<std::size_t> ascending(std::vector<std::size_t> all) {
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
 }  // namespace
+
+/// A straight move whose departure is delayed past others.
+class ReservationTable::Departure {
+ public:
+  Departure(const Segment& path, double duration, double t_min, double t_max)
+      : duration_(duration), t_max_(t_max) {
+    mine_.from = path.from;
+    mine_.velocity = (path.to - path.from) / duration;
+    mine_.t_start = t_min;
+    mine_.t_end = t_min + duration;
+  }
+
+  const MovingDisk& move() const { return mine_; }
+  bool is_never() const { return never_; }
+  /// Whether it has been delayed since the last round began.
+  bool is_delayed() const { return delayed_; }
+  void begin_round() { delayed_ = false; }
+
+  /// Returns false if the move was delayed: then others may be in the way.
+  bool delay_past(const MovingDisk& other, double distance, double margin) {
+    if (margin > 0.0) return delay_past_with_margin(other, distance, margin);
+    if (!collide(mine_, other, distance)) return true;
+    if (other.t_end == kForever) {  // a later departure meets it as well
+      never_ = true;
+      return false;
+    }
+    const UnsafeInterval hit = forbidden_departures(mine_.from, mine_.velocity, duration_, other, distance);
+    if (hit.empty() || hit.end <= mine_.t_start) return true;  // they only touch, up to rounding
+    delay_to(hit.end);
+    return false;
+  }
+
+ private:
+  bool delay_past_with_margin(const MovingDisk& other, double distance, double margin) {
+    const UnsafeInterval hit = forbidden_departures(mine_.from, mine_.velocity, duration_, other, distance);
+    if (hit.empty() || mine_.t_start <= hit.begin - margin || mine_.t_start >= hit.end + margin) return true;
+    delay_to(hit.end + margin);
+    return false;
+  }
+
+  void delay_to(double t) {
+    mine_.t_start = t;
+    mine_.t_end = t + duration_;
+    never_ = t > t_max_ || t == kForever;
+    delayed_ = true;
+  }
+
+  MovingDisk mine_;
+  double duration_;
+  double t_max_;
+  bool never_ = false;
+  bool delayed_ = true;
+};
+
+/// The same for obstacles and committed motion.
+class ReservationTable::FixedDistance {
+ public:
+  FixedDistance(const ReservationTable& table, std::size_t robot, const Segment& path)
+      : fixed_(*table.fixed_), index_(*table.index_), robot_(robot) {
+    departs_ = fixed_.departs(robot, path.from);
+    stays_ = departs_ && path.from == path.to;
+    if (index_.contacts() != nullptr) endpoint_ = index_.contacts()->endpoint(robot, path);
+  }
+
+  /// Inflation is for pairs of robots that may choose: a robot that still stands where its commitment ends
+  /// need not leave because committed motion passes within the inflated distance only.
+  double operator()(const FixedReservations::Occupant& other) const {
+    const FixedReservations::Robot& mine = fixed_.robot(robot_);
+    if (other.is_obstacle) {
+      const double slack = departs_ ? kContactTolerance : kSearchSlack;
+      return mine.radius + fixed_.obstacle_radius(other.obstacle) - slack;
+    }
+    double distance = index_.radius(robot_) + index_.radius(other.robot) - kSearchSlack;
+    if (endpoint_ != Endpoint::none) {
+      distance = index_.contacts()->distance(robot_, endpoint_, other.robot, other.endpoint, distance);
+    }
+    if (!stays_) return distance;
+    const FixedReservations::Robot& theirs = fixed_.robot(other.robot);
+    distance = std::min(distance, mine.radius + theirs.radius - kContactTolerance);
+    if (!other.from_start || mine.start != mine.departure) return distance;
+    return std::min(distance, (mine.start - theirs.start).norm() - 2.0 * kSamePosition);
+  }
+
+ private:
+  const FixedReservations& fixed_;
+  const SegmentIndex& index_;
+  std::size_t robot_;
+  bool departs_;
+  bool stays_;
+  Endpoint endpoint_ = Endpoint::none;
+};
 
 ReservationTable::ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
                                    const Contacts* contacts)
     : index_(std::make_unique<SegmentIndex>(width, height, cell_size, std::move(radii), contacts)) {}
 
-ReservationTable::~ReservationTable() = default;
-
-void ReservationTable::commit(std::size_t robot, const std::vector<TimedSegment>& segments) {
-  index_->add(robot, segments, false);
+ReservationTable::ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
+                                   const Contacts* contacts, const FixedReservations* fixed,
+                                   double interval_margin)
+    : ReservationTable(width, height, cell_size, std::move(radii), contacts) {
+  fixed_ = fixed;
+  margin_ = interval_margin;
 }
 
-void ReservationTable::commit_certain(std::size_t robot, const std::vector<TimedSegment>& segments) {
-  index_->add(robot, segments, true);
+ReservationTable::~ReservationTable() = default;
+
+double ReservationTable::departure(std::size_t robot) const {
+  return fixed_ != nullptr ? fixed_->robot(robot).t_departure : 0.0;
+}
+
+bool ReservationTable::departs(std::size_t robot, const Position& from) const {
+  return fixed_ != nullptr && fixed_->departs(robot, from);
+}
+
+void ReservationTable::commit(std::size_t robot, const std::vector<TimedSegment>& segments) {
+  index_->add(robot, segments);
 }
 
 void ReservationTable::remove(std::size_t robot) { index_->remove(robot); }
@@ -60,12 +194,24 @@ void ReservationTable::ignore(std::size_t robot, bool ignored) { index_->ignore(
 std::vector<SafeInterval> ReservationTable::safe_intervals(std::size_t robot,
                                                            const Position& position) const {
   std::vector<UnsafeInterval> unsafe;
-  const CollisionDistance collision_distance(*index_, robot, {position, position});
+  const MarginAtRest margin(margin_, departs(robot, position) ? departure(robot) : 0.0);
+  const Segment here{position, position};
+  const CollisionDistance collision_distance(*index_, robot, here);
   index_->visit(robot, index_->grid().at(position), -1.0, kForever, [&](const Occupant& other) {
     const UnsafeInterval hit = unsafe_interval(position, other.disk, collision_distance(other));
-    if (!hit.empty()) unsafe.push_back(hit);
+    if (!hit.empty()) unsafe.push_back(margin.widened(hit));
     return true;
   });
+  if (fixed_ != nullptr) {
+    if (!fixed_->known()) return {};
+    const FixedDistance fixed_distance(*this, robot, here);
+    const MovingDisk mine({here, 0.0, kForever});
+    fixed_->visit(robot, mine, index_->radius(robot), 0.0, [&](const FixedReservations::Occupant& other) {
+      const UnsafeInterval hit = unsafe_interval(position, other.disk, fixed_distance(other));
+      if (!hit.empty()) unsafe.push_back(other.is_obstacle ? hit : margin.widened(hit));
+      return true;
+    });
+  }
   std::sort(unsafe.begin(), unsafe.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
   std::vector<SafeInterval> safe;
   double free_from = 0.0;
@@ -82,74 +228,99 @@ std::optional<double> ReservationTable::earliest_departure(std::size_t robot, co
                                                            double t_max) const {
   const SegmentIndex& index = *index_;
   const CollisionDistance collision_distance(index, robot, path);
-  MovingDisk mine;
-  mine.from = path.from;
-  mine.velocity = (path.to - path.from) / duration;
-  mine.t_start = t_min;
-  mine.t_end = t_min + duration;
-  bool never = false;
-  bool delayed = true;
-  const auto delay_past = [&](const Occupant& other) {  // false: delayed, visit the same bucket again
-    const double distance = collision_distance(other);
-    if (!collide(mine, other.disk, distance)) return true;
-    if (other.disk.t_end == kForever) {  // a later departure meets it as well
-      never = true;
-      return false;
-    }
-    const UnsafeInterval hit = forbidden_departures(mine.from, mine.velocity, duration, other.disk, distance);
-    if (hit.empty() || hit.end <= mine.t_start) return true;  // they only touch, up to rounding
-    mine.t_start = hit.end;
-    mine.t_end = hit.end + duration;
-    never = mine.t_start > t_max;
-    delayed = true;
-    return false;
+  Departure departure(path, duration, t_min, t_max);
+  const MovingDisk& mine = departure.move();
+  const auto visit = [&](const Occupant& other) {
+    return departure.delay_past(other.disk, collision_distance(other), margin_);
   };
-  while (delayed) {
-    delayed = false;
+  while (departure.is_delayed()) {
+    departure.begin_round();
     index.grid().walk(path.from, path.to, [&](std::size_t bucket, double enter, double exit) {
-      while (!index.visit(robot, bucket, mine.t_start + enter * duration, mine.t_start + exit * duration,
-                          delay_past)) {
-        if (never) return false;
+      while (!index.visit(robot, bucket, mine.t_start + enter * duration - margin_,
+                          mine.t_start + exit * duration + margin_, visit)) {
+        if (departure.is_never()) return false;
       }
       return true;
     });
-    if (never) return std::nullopt;
+    if (departure.is_never()) return std::nullopt;
+    if (fixed_ != nullptr && !delay_past_fixed(robot, path, departure)) return std::nullopt;
   }
   return mine.t_start;
 }
 
+/// Returns false if the move is never possible.
+bool ReservationTable::delay_past_fixed(std::size_t robot, const Segment& path, Departure& departure) const {
+  if (!fixed_->known()) return false;
+  const FixedDistance fixed_distance(*this, robot, path);
+  const auto visit = [&](const FixedReservations::Occupant& other) {
+    return departure.delay_past(other.disk, fixed_distance(other), other.is_obstacle ? 0.0 : margin_);
+  };
+  while (!fixed_->visit(robot, departure.move(), index_->radius(robot), margin_, visit)) {
+    if (departure.is_never()) return false;
+  }
+  return true;
+}
+
 std::vector<std::size_t> ReservationTable::robots_hit(std::size_t robot,
                                                       const std::vector<TimedSegment>& segments) const {
-  return hits(robot, segments, false);
-}
-
-std::vector<std::size_t> ReservationTable::robots_certainly_hit(
-    std::size_t robot, const std::vector<TimedSegment>& segments) const {
-  return hits(robot, segments, true);
-}
-
-std::vector<std::size_t> ReservationTable::hits(std::size_t robot, const std::vector<TimedSegment>& segments,
-                                                bool certain) const {
   std::vector<std::size_t> hit;
   for (const TimedSegment& segment : segments) {
-    const CollisionDistance collision_distance(*index_, robot, segment.path);
     const MovingDisk mine(segment);
+    const CollisionDistance collision_distance(*index_, robot, segment.path);
     const bool moving = mine.velocity.squaredNorm() > 0.0;
     const double duration = moving ? segment.duration() : 0.0;
+    const double margin = margin_of(robot, segment);
     index_->grid().walk(
         segment.path.from, segment.path.to, [&](std::size_t bucket, double enter, double exit) {
-          const double t_begin = mine.t_start + enter * duration;
-          const double t_end = moving ? mine.t_start + exit * duration : mine.t_end;
+          const double t_begin = mine.t_start + enter * duration - margin;
+          const double t_end = (moving ? mine.t_start + exit * duration : mine.t_end) + margin;
           return index_->visit(robot, bucket, t_begin, t_end, [&](const Occupant& other) {
-            if (other.certain == certain && collide(mine, other.disk, collision_distance(other)))
+            if (other.robot != robot && meet(mine, other.disk, collision_distance(other), margin))
               hit.push_back(other.robot);
             return true;
           });
         });
   }
-  std::sort(hit.begin(), hit.end());
-  hit.erase(std::unique(hit.begin(), hit.end()), hit.end());
-  return hit;
+  return ascending(std::move(hit));
+}
+
+std::vector<std::size_t> ReservationTable::robots_certainly_hit(
+    std::size_t robot, const std::vector<TimedSegment>& segments) const {
+  std::vector<std::size_t> hit;
+  if (fixed_ == nullptr) return hit;
+  for (const TimedSegment& segment : segments) {
+    const MovingDisk mine(segment);
+    const double margin = margin_of(robot, segment);
+    const FixedDistance fixed_distance(*this, robot, segment.path);
+    fixed_->visit(robot, mine, index_->radius(robot), margin, [&](const FixedReservations::Occupant& other) {
+      if (!other.is_obstacle && meet(mine, other.disk, fixed_distance(other), margin))
+        hit.push_back(other.robot);
+      return true;
+    });
+  }
+  return ascending(std::move(hit));
+}
+
+/// A robot that has not yet left the place where its commitment ends needs no margin.
+double ReservationTable::margin_of(std::size_t robot, const TimedSegment& segment) const {
+  const bool stays = segment.path.from == segment.path.to && segment.t_start <= departure(robot);
+  return stays ? 0.0 : margin_;
+}
+
+std::vector<std::size_t> ReservationTable::obstacles_hit(std::size_t robot,
+                                                         const std::vector<TimedSegment>& segments) const {
+  std::vector<std::size_t> hit;
+  if (fixed_ == nullptr) return hit;
+  for (const TimedSegment& segment : segments) {
+    const MovingDisk mine(segment);
+    const FixedDistance fixed_distance(*this, robot, segment.path);
+    fixed_->visit(robot, mine, index_->radius(robot), 0.0, [&](const FixedReservations::Occupant& other) {
+      if (other.is_obstacle && collide(mine, other.disk, fixed_distance(other)))
+        hit.push_back(other.obstacle);
+      return true;
+    });
+  }
+  return ascending(std::move(hit));
 }
 
 }  // namespace fleetplan::core

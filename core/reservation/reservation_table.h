@@ -11,27 +11,33 @@
 namespace fleetplan::core {
 
 class Contacts;
+class FixedReservations;
 class SegmentIndex;
 
 /// The reserved trajectories, which all other robots avoid, and what a search asks about them: safe
 /// intervals, earliest departures, conflicts.
+///
+/// Obstacles and committed motion (FixedReservations) are reserved at all times: they are neither removed nor
+/// ignored, and no robot collides with its own commitment. What is reserved for a robot counts from the end
+/// of its commitment on.
 class ReservationTable {
  public:
   /// `radii[i]` is the radius of robot i in metres, inflation included; the map is [0, width] x [0, height]
   /// metres. `contacts` outlives the table; null if no two robots are in contact.
   ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
                    const Contacts* contacts = nullptr);
+  /// Likewise with obstacles and committed motion, which outlive the table (null: there are none), and with
+  /// an interval margin (PlanOptions) in seconds.
+  ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
+                   const Contacts* contacts, const FixedReservations* fixed, double interval_margin);
   ~ReservationTable();
 
-  /// Reserves contiguous segments for a robot that has no reservation yet.
+  /// Reserves contiguous segments for a robot that has no reservation yet; they follow its commitment.
   void commit(std::size_t robot, const std::vector<TimedSegment>& segments);
   /// Removes the robot's reservation; no effect if it has none.
   void remove(std::size_t robot);
-  /// Reserves motion of a robot that it executes whatever is planned, besides its other reservation. It is
-  /// never removed nor ignored, except in queries of the robot itself.
-  void commit_certain(std::size_t robot, const std::vector<TimedSegment>& segments);
 
-  /// Queries leave out the reservations of an ignored robot, except its certain motion.
+  /// Queries leave out the reservations of an ignored robot.
   void ignore(std::size_t robot, bool ignored);
 
   /// When the robot may stand at `position` (paper, "Computing intervals"); ascending, without intervals
@@ -45,17 +51,26 @@ class ReservationTable {
                                            double t_min, double t_max) const;
 
   /// The robots whose reservations come nearer to these segments of `robot` than they are kept apart,
-  /// ascending. Certain motion is left out.
+  /// ascending. Committed motion is left out. The segments follow the robot's commitment.
   std::vector<std::size_t> robots_hit(std::size_t robot, const std::vector<TimedSegment>& segments) const;
-  /// Likewise those whose certain motion does.
+  /// Likewise those whose committed motion does.
   std::vector<std::size_t> robots_certainly_hit(std::size_t robot,
                                                 const std::vector<TimedSegment>& segments) const;
+  /// The obstacles that these segments of `robot` meet, ascending.
+  std::vector<std::size_t> obstacles_hit(std::size_t robot, const std::vector<TimedSegment>& segments) const;
 
  private:
-  std::vector<std::size_t> hits(std::size_t robot, const std::vector<TimedSegment>& segments,
-                                bool certain) const;
+  class Departure;
+  class FixedDistance;
+
+  bool delay_past_fixed(std::size_t robot, const Segment& path, Departure& departure) const;
+  double margin_of(std::size_t robot, const TimedSegment& segment) const;
+  bool departs(std::size_t robot, const Position& from) const;
+  double departure(std::size_t robot) const;
 
   std::unique_ptr<SegmentIndex> index_;
+  const FixedReservations* fixed_ = nullptr;  // null: none
+  double margin_ = 0.0;                       // seconds
 };
 
 }  // namespace fleetplan::core

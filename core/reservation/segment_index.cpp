@@ -47,9 +47,9 @@ SegmentIndex::SegmentIndex(double width, double height, double cell_size, std::v
   }
 }
 
-SegmentIndex::DiskId SegmentIndex::store(std::size_t robot, const TimedSegment& segment, bool certain) {
+SegmentIndex::DiskId SegmentIndex::store(std::size_t robot, const TimedSegment& segment) {
   const Endpoint endpoint = contacts_ != nullptr ? contacts_->endpoint(robot, segment.path) : Endpoint::none;
-  const Occupant occupant{MovingDisk(segment), radii_[robot], robot, endpoint, certain};
+  const Occupant occupant{MovingDisk(segment), radii_[robot], robot, endpoint};
   if (vacant_.empty()) return occupants_.push_back(occupant);
   const DiskId id = vacant_.back();
   vacant_.pop_back();
@@ -74,10 +74,10 @@ void SegmentIndex::enter(Layer& layer, DiskId id) {
       });
 }
 
-void SegmentIndex::add(std::size_t robot, const std::vector<TimedSegment>& segments, bool certain) {
+void SegmentIndex::add(std::size_t robot, const std::vector<TimedSegment>& segments) {
   for (const TimedSegment& segment : segments) {
-    const DiskId id = store(robot, segment, certain);
-    if (!certain) held_[robot].push_back(id);
+    const DiskId id = store(robot, segment);
+    held_[robot].push_back(id);
     for (Layer& layer : layers_) enter(layer, id);
   }
 }

@@ -26,7 +26,6 @@ class SegmentIndex {
     double radius = 0.0;
     std::size_t robot = 0;
     Endpoint endpoint = Endpoint::none;
-    bool certain = false;  // executed whatever is planned; never removed or ignored
   };
 
   /// As for ReservationTable.
@@ -38,17 +37,17 @@ class SegmentIndex {
   /// Null if no two robots are in contact.
   const Contacts* contacts() const { return contacts_; }
 
-  void add(std::size_t robot, const std::vector<TimedSegment>& segments, bool certain);
-  /// Removes all segments of a robot but the certain ones.
+  void add(std::size_t robot, const std::vector<TimedSegment>& segments);
+  /// Removes all segments of a robot.
   void remove(std::size_t robot);
-  /// Visits leave out the segments of an ignored robot, but not the certain ones.
+  /// Visits leave out the segments of an ignored robot.
   void ignore(std::size_t robot, bool ignored) { ignored_[robot] = ignored; }
 
-  /// Calls visit(occupant) for every other robot that could touch `robot` in this bucket of the grid within
-  /// the open time window. Stops when visit returns false; returns false then, and true otherwise.
+  /// Calls visit(occupant) for every occupant that could touch `robot` in this bucket of the grid within the
+  /// open time window. Stops when visit returns false; returns false then, and true otherwise.
   template <class Visit>
   bool visit(std::size_t robot, std::size_t bucket, double t_begin, double t_end, Visit&& visit) const {
-    return visit_bucket(layers_[layer_of_[robot]].buckets[bucket], robot, t_begin, t_end, visit);
+    return visit_bucket(layers_[layer_of_[robot]].buckets[bucket], t_begin, t_end, visit);
   }
 
  private:
@@ -71,16 +70,12 @@ class SegmentIndex {
     std::vector<Bucket> buckets;
   };
 
-  DiskId store(std::size_t robot, const TimedSegment& segment, bool certain);
+  DiskId store(std::size_t robot, const TimedSegment& segment);
   void enter(Layer& layer, DiskId id);
 
   template <class Visit>
-  bool visit_bucket(const Bucket& bucket, std::size_t robot, double t_begin, double t_end,
-                    Visit& visit) const {
-    const auto pass = [&](const Occupant& occupant) {
-      const bool ignored = ignored_[occupant.robot] && !occupant.certain;
-      return ignored || occupant.robot == robot || visit(occupant);
-    };
+  bool visit_bucket(const Bucket& bucket, double t_begin, double t_end, Visit& visit) const {
+    const auto pass = [&](const Occupant& occupant) { return ignored_[occupant.robot] || visit(occupant); };
     for (const DiskId id : bucket.resting) {
       if (occupants_[id].disk.t_start < t_end && !pass(occupants_[id])) return false;
     }

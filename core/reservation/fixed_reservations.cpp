@@ -1,0 +1,102 @@
+#include "core/reservation/fixed_reservations.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Seconds; obstacles are there for so much longer at both ends, so that the instants at which they appear
+/// and vanish are occupied. Far above the rounding of times.
+constexpr double kInstant = 1e-6;
+/// Seconds; no motion is shorter, so that velocities are finite.
+constexpr double kShortestMotion = 1e-9;
+
+bool same(const Position& a, const Position& b) {
+  return (a - b).squaredNorm() <= kSamePosition * kSamePosition;
+}
+
+}  // namespace
+
+/// Collects the disks of the tree and their owners.
+class FixedReservations::Collector {
+ public:
+  explicit Collector(std::vector<Owner>& owners) : owners_(owners) {}
+
+  void add(const TimedSegment& segment, double radius, const Owner& owner) {
+    disks_.push_back({MovingDisk(segment), radius});
+    owners_.push_back(owner);
+  }
+
+  void add_obstacle(const MovingObstacle& obstacle, std::uint32_t index) {
+    const Owner owner{index, true};
+    const auto& first = obstacle.motion.front();
+    const auto& last = obstacle.motion.back();
+    const auto rest = [&](const Position& position, double t_begin, double t_end) {
+      add({{position, position}, t_begin, t_end}, obstacle.radius, owner);
+    };
+    rest(first.position, first.t - kInstant, first.t);
+    for (std::size_t k = 1; k < obstacle.motion.size(); ++k) {
+      const auto& from = obstacle.motion[k - 1];
+      const auto& to = obstacle.motion[k];
+      const double t_end = std::max(to.t, from.t + kShortestMotion);
+      add({{from.position, to.position}, from.t, t_end}, obstacle.radius, owner);
+    }
+    rest(last.position, last.t,
+         obstacle.after == MovingObstacle::After::stays ? kForever : last.t + kInstant);
+  }
+
+  void add_robot(const Robot& robot, std::uint32_t index, double inflation, const Contacts* contacts) {
+    bool from_start = true;
+    for (const TimedSegment& segment : robot.committed) {
+      from_start = from_start && same(segment.path.from, robot.start);
+      const Endpoint endpoint =
+          contacts != nullptr ? contacts->endpoint(index, segment.path) : Endpoint::none;
+      add(segment, robot.radius + inflation, {index, false, from_start, endpoint});
+    }
+  }
+
+  std::vector<MotionTree::Disk> disks() { return std::move(disks_); }
+
+ private:
+  std::vector<Owner>& owners_;
+  std::vector<MotionTree::Disk> disks_;
+};
+
+FixedReservations::FixedReservations(double width, double height, double inflation, std::vector<Robot> robots,
+                                     const std::vector<MovingObstacle>& obstacles, const Contacts* contacts,
+                                     const StopCondition& stop)
+    : robots_(std::move(robots)) {
+  double largest = 0.0;
+  for (const Robot& robot : robots_) {
+    largest = std::max(largest, robot.radius + inflation);
+    if (!robot.committed.empty()) empty_ = false;
+  }
+  for (const MovingObstacle& obstacle : obstacles) obstacle_radii_.push_back(obstacle.radius);
+  if (!obstacles.empty()) empty_ = false;
+  if (empty_) return;
+  try {
+    Collector collector(owners_);
+    for (std::uint32_t i = 0; i < obstacles.size() && !stop.met(); ++i) {
+      collector.add_obstacle(obstacles[i], i);
+    }
+    for (std::uint32_t i = 0; i < robots_.size(); ++i)
+      collector.add_robot(robots_[i], i, inflation, contacts);
+    tree_ = MotionTree(collector.disks(), {width, height, largest}, stop);
+    known_ = tree_.finished();
+  } catch (const std::bad_alloc&) {  // not granted to the job
+    known_ = false;
+  }
+  if (known_) return;
+  tree_ = MotionTree();
+  owners_ = {};
+}
+
+bool FixedReservations::departs(std::size_t robot, const Position& from) const {
+  return same(robots_[robot].departure, from);
+}
+
+}  // namespace fleetplan::core

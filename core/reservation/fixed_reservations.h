@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/geometry/segment.h"
+#include "core/model/moving_obstacle.h"
+#include "core/reservation/contacts.h"
+#include "core/reservation/motion_tree.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Reservations that no order of the robots can change: moving obstacles, and the committed motion of robots.
+/// They are immutable, so that all tables of a request share them, in any thread.
+class FixedReservations {
+ public:
+  /// A robot's committed motion, and where it begins what is planned for it.
+  struct Robot {
+    double radius = 0.0;                  // metres, inflation not included
+    Position start{0.0, 0.0};             // at t = 0
+    Position departure{0.0, 0.0};         // at `t_departure`: the end of the committed motion, or the start
+    double t_departure = 0.0;             // seconds
+    std::vector<TimedSegment> committed;  // contiguous, from t = 0 to `t_departure`
+  };
+  /// A part of the motion of an obstacle or of a robot.
+  struct Occupant {
+    MovingDisk disk;
+    std::size_t robot = 0;     // index, or
+    std::size_t obstacle = 0;  // index, if `is_obstacle`
+    bool is_obstacle = false;
+    bool from_start = false;             // of a robot: it stands at its start, or moves away from there
+    Endpoint endpoint = Endpoint::none;  // of a robot, see Contacts
+  };
+
+  FixedReservations() = default;
+  /// The map is [0, width] x [0, height] metres. `inflation` is what planning adds to the robots' radii. Null
+  /// `contacts`: no two robots are in contact. If the stop condition is met first, or memory is spent, the
+  /// reservations are not known, see below.
+  FixedReservations(double width, double height, double inflation, std::vector<Robot> robots,
+                    const std::vector<MovingObstacle>& obstacles, const Contacts* contacts,
+                    const StopCondition& stop);
+
+  bool empty() const { return empty_; }
+  /// False if they could not be indexed. Then nothing may be planned.
+  bool known() const { return known_; }
+  std::size_t obstacle_count() const { return obstacle_radii_.size(); }
+  double obstacle_radius(std::size_t obstacle) const { return obstacle_radii_[obstacle]; }
+  const Robot& robot(std::size_t index) const { return robots_[index]; }
+  /// Whether the robot stands at the place where its committed motion ends, or moves from there.
+  bool departs(std::size_t robot, const Position& from) const;
+
+  /// Calls visit(occupant) for every part of an obstacle or of another robot's committed motion that could
+  /// touch this robot's disk of the given radius (metres) at times that differ by at most `margin` seconds. A
+  /// part may be visited more than once. Stops when visit returns false; returns false then, and true
+  /// otherwise.
+  template <class Visit>
+  bool visit(std::size_t robot, const MovingDisk& mine, double radius, double margin, Visit&& visit) const {
+    return tree_.visit(mine, radius, margin, [&](std::size_t index) {
+      const Occupant other = occupant(index);
+      return (!other.is_obstacle && other.robot == robot) || visit(other);
+    });
+  }
+
+ private:
+  struct Owner {
+    std::uint32_t index = 0;
+    bool is_obstacle = false;
+    bool from_start = false;
+    Endpoint endpoint = Endpoint::none;
+  };
+
+  class Collector;
+
+  Occupant occupant(std::size_t index) const {
+    const Owner& owner = owners_[index];
+    return {tree_[index].motion, owner.index,      owner.index,
+            owner.is_obstacle,   owner.from_start, owner.endpoint};
+  }
+
+  std::vector<Robot> robots_;
+  std::vector<double> obstacle_radii_;
+  MotionTree tree_;
+  std::vector<Owner> owners_;  // of the disks of the tree
+  bool empty_ = true;
+  bool known_ = true;
+};
+
+}  // namespace fleetplan::core
