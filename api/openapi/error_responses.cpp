@@ -57,8 +57,8 @@ constexpr std::array<Example, 22> kExamples{{
      "Pages of the origin 'https://other.example' may not use this service, unless it is started with "
      "--cors-origin."},
     {ErrorCode::not_found,
-     "There is no example 'corridor'; there are: charging-docks, corridor-swap, crossing, hall-100, "
-     "hospital-ward, lab-polygon, partly-solvable, warehouse."},
+     "There is no example 'corridor'; there are: charging-docks, corridor-swap, crossing, crossing-people, "
+     "hall-100, hospital-ward, lab-polygon, late-pallet, partly-solvable, rush-hour, warehouse."},
     {ErrorCode::method_not_allowed, "'/v1/plan' allows POST, not 'GET'."},
     {ErrorCode::not_acceptable,
      "Plans are application/json or text/event-stream, which Accept: 'text/html' excludes: add "

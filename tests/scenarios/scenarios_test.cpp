@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -84,6 +85,44 @@ INSTANTIATE_TEST_SUITE_P(Every, Scenario, testing::ValuesIn(examples().begin(), 
                            for (char& c : name) c = c == '-' ? '_' : c;
                            return name;
                          });
+
+/// A request with its answer in which these robots have their previous plans again.
+json with_previous_plans(const json& request, const json& answer, const std::set<std::string>& robots) {
+  json both = request;
+  both.update(answer);
+  for (json& plan : both.at("plans")) {
+    if (!robots.contains(plan.at("robot"))) continue;
+    for (const json& robot : request.at("robots")) {
+      if (robot.at("id") == plan.at("robot")) plan.at("actions") = robot.at("previous");
+    }
+  }
+  return both;
+}
+
+TEST(Scenarios, ALatePalletChangesOnlyThePlansThatMust) {
+  const auto all = examples();
+  const auto late = std::find_if(all.begin(), all.end(),
+                                 [](const Example& example) { return example.name == "late-pallet"; });
+  ASSERT_NE(late, all.end());
+  const json request = request_with_long_budget(*late);
+  const json answer = json::parse(plan_endpoint(request.dump(), RequestContext{}).body);
+  ASSERT_EQ(answer.at("plans").size(), request.at("robots").size());
+  std::set<std::string> changed;
+  for (std::size_t i = 0; i < answer.at("plans").size(); ++i) {
+    const json& plan = answer.at("plans").at(i);
+    const json& robot = request.at("robots").at(i);
+    ASSERT_EQ(plan.at("robot"), robot.at("id"));
+    if (plan.at("actions") != robot.at("previous")) changed.insert(plan.at("robot").get<std::string>());
+  }
+  EXPECT_FALSE(changed.empty());
+  EXPECT_LE(changed.size(), 3u) << "of 40 robots";
+  for (const std::string& robot : changed) {
+    const json back = with_previous_plans(request, answer, {robot});
+    const Reply verdict = validate_endpoint(back.dump(), RequestContext{});
+    ASSERT_EQ(verdict.status, 200) << verdict.body;
+    EXPECT_EQ(json::parse(verdict.body).at("valid"), false) << robot << " could have kept its plan";
+  }
+}
 
 TEST(Scenarios, AreTheFilesOfTheFolderAndTheEntriesOfItsIndex) {
   std::set<std::string> files;

@@ -325,6 +325,12 @@ SCENARIOS = [  # in display order
     ("partly-solvable", "Partly solvable", partly_solvable,
      "One robot is too wide for a door and one has its goal behind a parked robot; the others are served."),
 ]
+MOVING = [  # written by make_moving_scenarios.py
+    ("crossing-people", "Crossing people",
+     "Six robots cross a hall, where five people walk on their own ways and one stays; robots make way."),
+    ("late-pallet", "Late pallet",
+     "A pallet robot stands still for 12 s; of the plans of the other robots, only those change that must."),
+]
 
 
 # ---------------------------------------------------------------- checking and writing
@@ -358,6 +364,9 @@ def text(request):
         parts.append('  "robot_defaults": ' + json.dumps(request["robot_defaults"]))
     robots = ",\n".join("    " + json.dumps(made) for made in request["robots"])
     parts.append(f'  "robots": [\n{robots}\n  ]')
+    if "obstacles" in request:
+        obstacles = ",\n".join("    " + json.dumps(made) for made in request["obstacles"])
+        parts.append(f'  "obstacles": [\n{obstacles}\n  ]')
     if "options" in request:
         parts.append('  "options": ' + json.dumps(request["options"]))
     return "{\n" + ",\n".join(parts) + "\n}\n"
@@ -375,7 +384,7 @@ def main():
         assert json.loads(written) == request
         (folder / f"{name}.json").write_text(written)
     index = [json.dumps({"name": name, "title": title, "description": description})
-             for name, title, _, description in SCENARIOS]
+             for name, title, description in [(n, t, d) for n, t, _, d in SCENARIOS] + MOVING]
     (folder / "index.json").write_text("[\n  " + ",\n  ".join(index) + "\n]\n")
 
 
