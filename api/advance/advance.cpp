@@ -81,11 +81,11 @@ double horizon(const Actions& actions, const Moment& moment) {
   std::size_t move = 0;
   while (move < actions.size() && actions[move].type == Action::Type::wait) ++move;
   double until = moment.commit.value_or(move == 0 && !actions.empty() ? actions.front().t_end : 0.0);
-  // A robot that has begun its wait before a move would have to begin it again at each moment.
+  // Of a wait before a move that has begun, the rest is committed, so that it counts as begun.
   const bool has_begun_the_wait = move > 0 && move < actions.size() && moment.at > 0.0 &&
                                   actions[move].type == Action::Type::translate &&
                                   actions[move].t_start < moment.wait_before_move;
-  if (has_begun_the_wait) until = std::max(until, actions[move].t_end);
+  if (has_begun_the_wait) until = std::max(until, actions[move].t_start);
   return until;
 }
 

@@ -48,7 +48,7 @@ void append(Actions& actions, Actions following) {
   if (following.empty()) return;
   const double end = actions.empty() ? 0.0 : actions.back().t_end;
   Action& next = following.front();
-  if (end > next.t_start + kDone) delay(following, 0, end - next.t_start);
+  if (end > next.t_start) delay(following, 0, end - next.t_start);
   const bool waits = next.type == Action::Type::wait && !next.goal;
   if (end < next.t_start - kDone && !waits) {
     actions.push_back({Action::Type::wait, end, next.t_start, next.from, next.from});
@@ -111,6 +111,14 @@ void turn_back(Actions& driven, Actions& following, double planned_heading, doub
   driven.push_back({Action::Type::rotate, last.t_end, end, last.to, {last.to.position, planned_heading}});
 }
 
+/// The heading of a robot that drives along a path; backwards if it has planned to.
+double heading_along(const core::Position& path, const Action& planned) {
+  const core::Position ahead(std::cos(planned.from.theta), std::sin(planned.from.theta));
+  const core::Position planned_path = planned.to.position - planned.from.position;
+  const double sign = ahead.dot(planned_path) < 0.0 ? -1.0 : 1.0;
+  return std::atan2(sign * path.y(), sign * path.x());
+}
+
 /// The action under way as it goes on from a measured pose; nothing if it is done.
 std::optional<Action> continued(Action action, const Pose& pose, double at) {
   const double duration = action.t_end - action.t_start;
@@ -119,7 +127,7 @@ std::optional<Action> continued(Action action, const Pose& pose, double at) {
     const core::Position path = action.to.position - pose.position;
     const bool has_reached = path.norm() <= kReached || length(action) <= 0.0;
     left = has_reached ? 0.0 : path.norm() * duration / length(action);
-    action.from = {pose.position, std::atan2(path.y(), path.x())};
+    action.from = {pose.position, heading_along(path, action)};
     action.to.theta = action.from.theta;
   } else if (action.type == Action::Type::rotate) {
     const double angle = std::abs(core::rotation_between(pose.theta, action.to.theta));

@@ -144,10 +144,10 @@ TEST(Advance, ARobotWithoutAPlanFollowsItsCommitmentAndStays) {
   EXPECT_DOUBLE_EQ(standing.via[0].service, 3.0);
 }
 
-TEST(Advance, ARobotThatHasBegunTheWaitBeforeAMoveIsCommittedToTheMove) {
+TEST(Advance, WhatIsLeftOfAWaitBeforeAMoveIsCommitted) {
   const core::Robot next = advanced(robot(), plan(), moment(7.5, 0.1, 2.0));
-  ASSERT_EQ(next.committed.size(), 2U);
-  EXPECT_EQ(next.committed[1].t_end, 3.5);
+  ASSERT_EQ(next.committed.size(), 1U);
+  EXPECT_EQ(next.committed[0].t_end, 0.5);
   EXPECT_TRUE(advanced(robot(), plan(), moment(7.5, {}, 0.1)).committed.empty());
 }
 
