@@ -116,7 +116,7 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
   }
   next.committed = actions_until(rest.actions, until);
   next.previous.reset();
-  if (execution.planned && progress && !execution.goals) next.previous = std::move(rest.actions);
+  if (execution.planned && progress && !execution.goals) next.previous = split_at(rest.actions, until);
   return next;
 }
 

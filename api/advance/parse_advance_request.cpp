@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "api/json/fault_text.h"
+#include "api/request/motion/parse_goals.h"
+#include "api/request/motion/parse_obstacles.h"
 #include "api/request/parse_body.h"
 #include "api/request/parse_plans.h"
 #include "api/request/ranges.h"
@@ -19,11 +21,11 @@ namespace {
 
 using Robots = std::vector<ReadRobot>;
 
-constexpr std::array<std::string_view, 4> kRequestMembers{"map", "robot_defaults", "robots", "options"};
+constexpr std::array<std::string_view, 5> kRequestMembers{"map", "robot_defaults", "robots", "obstacles",
+                                                          "options"};
 constexpr std::array<std::string_view, 4> kPoseMembers{"robot", "x", "y", "theta"};
 constexpr std::array<std::string_view, 2> kHoldMembers{"robot", "until"};
 constexpr std::array<std::string_view, 2> kGoalsMembers{"robot", "goals"};
-constexpr std::array<std::string_view, 5> kGoalMembers{"x", "y", "theta", "service", "not_before"};
 
 /// The robots by id.
 class Ids {
@@ -71,22 +73,9 @@ std::optional<core::Pose> parse_measured(const JsonReader& entry) {
   return core::Pose{{*x, *y}, core::normalize_angle(*theta)};
 }
 
-std::vector<core::Goal> parse_goals(const JsonReader& list) {
-  std::vector<core::Goal> goals;
-  for (const JsonReader item : list.array().items()) {
-    const JsonReader json = item.object(kGoalMembers);
-    core::Goal goal;
-    goal.position.x() = json.require("x").number(kCoordinate).value_or(0.0);
-    goal.position.y() = json.require("y").number(kCoordinate).value_or(0.0);
-    if (const auto theta = json.find("theta").number(kAnyAngle)) goal.theta = core::normalize_angle(*theta);
-    goal.service = json.find("service").number(kDuration).value_or(0.0);
-    goal.not_before = json.find("not_before").number(kDuration).value_or(0.0);
-    goals.push_back(goal);
-  }
-  return goals;
-}
-
-void parse_events(const JsonReader& root, const Ids& ids, std::vector<Execution>& executions) {
+void parse_events(const JsonReader& root, const Ids& ids, const Limits& limits,
+                  std::vector<Execution>& executions) {
+  Quota quota(limits.max_goals, "goals");
   read_entries(root.find("poses"), kPoseMembers, ids, [&](const JsonReader& entry, auto robot) {
     const auto pose = parse_measured(entry);
     if (robot) executions[*robot].measured = pose;
@@ -96,8 +85,8 @@ void parse_events(const JsonReader& root, const Ids& ids, std::vector<Execution>
     if (robot) executions[*robot].hold = until;
   });
   read_entries(root.find("goals"), kGoalsMembers, ids, [&](const JsonReader& entry, auto robot) {
-    auto goals = parse_goals(entry.require("goals"));
-    if (robot) executions[*robot].goals = std::move(goals);
+    entry.require("goals");
+    if (robot) executions[*robot].goals = parse_goals(entry, WorldFrame{}, quota).goals;
   });
 }
 
@@ -118,7 +107,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   read.moment.wait_before_move = fleet.options.plan.wait_before_move;
   const Ids ids(fleet.robots);
   read.executions.resize(fleet.robots.size());
-  parse_events(root, ids, read.executions);
+  parse_events(root, ids, limits, read.executions);
   // Without the map's frame, so that no number changes.
   for (core::RobotPlan& plan : parse_plans(root.require("plans"), fleet.robots, WorldFrame{})) {
     read.executions[plan.robot].actions = std::move(plan.actions);
@@ -129,6 +118,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   auto robots = parse_robots(read.request.find("robots"), read.request.find("robot_defaults"), WorldFrame{},
                              limits, unique_ids);
   for (ReadRobot& robot : robots) read.robots.push_back(std::move(robot.robot));
+  read.obstacles = parse_obstacles(read.request.find("obstacles"), WorldFrame{}, limits, unique_ids);
   for (std::size_t k = 0; k < read.robots.size(); ++k) {
     if (!read.executions[k].planned) read.executions[k].actions = read.robots[k].committed;
   }

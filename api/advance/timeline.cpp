@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "core/geometry/angle.h"
@@ -230,6 +231,20 @@ Actions actions_until(const Actions& actions, double t) {
     done.back().t_end = t;
   }
   return done;
+}
+
+Actions split_at(const Actions& actions, double t) {
+  Actions split = actions_until(actions, t);
+  const bool is_cut = !split.empty() && split.back().t_end < actions[split.size() - 1].t_end;
+  const auto next = actions.begin() + static_cast<std::ptrdiff_t>(split.size());
+  if (is_cut) {
+    Action later = *std::prev(next);
+    later.t_start = split.back().t_end;
+    later.from = split.back().to;
+    split.push_back(later);
+  }
+  split.insert(split.end(), next, actions.end());
+  return split;
 }
 
 }  // namespace fleetplan::api

@@ -48,6 +48,9 @@ void hold(Remainder& rest, double until);
 /// The actions until `t`, on the clock of the actions; one under way is cut there.
 std::vector<core::Action> actions_until(const std::vector<core::Action>& actions, double t);
 
+/// The same with the actions after `t`: an action under way becomes two.
+std::vector<core::Action> split_at(const std::vector<core::Action>& actions, double t);
+
 /// The pose in an action at a time within it.
 core::Pose pose_at(const core::Action& action, double t);
 

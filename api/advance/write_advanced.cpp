@@ -80,9 +80,11 @@ void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest
 
 void write_obstacles(JsonWriter& json, const JsonValue& given, const AdvanceRequest& request) {
   json.begin_array();
-  std::size_t index = 0;
+  auto read = request.obstacles.begin();
   for (const JsonValue obstacle : given.children()) {
-    const auto left = advanced(request.obstacles[index++], request.moment.at);
+    // One that had left at the start is not among those that were read.
+    if (read == request.obstacles.end() || obstacle.find("id")->string() != read->id) continue;
+    const auto left = advanced(*read++, request.moment.at);
     if (!left) continue;
     json.begin_object();
     for (const JsonValue member : obstacle.children()) {

@@ -55,8 +55,17 @@ TEST(Advance, AHorizonCutsTheActionUnderWay) {
   ASSERT_EQ(next.committed.size(), 1U);
   EXPECT_EQ(next.committed[0].t_end, 1.0);
   EXPECT_EQ(next.committed[0].to.position.x(), 2.5);
-  EXPECT_EQ(next.previous->front().t_end, 1.5);
   EXPECT_TRUE(advanced(robot(), plan(), moment(0.5, 0.0)).committed.empty());
+}
+
+TEST(Advance, ThePreviousActionsBeginWithTheCommittedOnes) {
+  const core::Robot next = advanced(robot(), plan(), moment(0.5, 1.0));
+  ASSERT_EQ(next.previous->size(), 6U);
+  EXPECT_EQ(next.previous->at(0).to.position, next.committed[0].to.position);
+  EXPECT_EQ(next.previous->at(0).t_end, 1.0);
+  EXPECT_EQ(next.previous->at(1).t_start, 1.0);
+  EXPECT_EQ(next.previous->at(1).from.position, next.committed[0].to.position);
+  EXPECT_EQ(next.previous->at(1).t_end, 1.5);
 }
 
 TEST(Advance, AServiceUnderWayKeepsWhatIsLeftOfIt) {
