@@ -113,7 +113,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
     read.executions[plan.robot].actions = std::move(plan.actions);
     read.executions[plan.robot].planned = true;
   }
-  if (root.fault_count() > 0 || stop.met()) return std::nullopt;
+  if (!read.request || root.fault_count() > 0 || stop.met()) return std::nullopt;
   UniqueIds unique_ids;
   auto robots = parse_robots(read.request.find("robots"), read.request.find("robot_defaults"), WorldFrame{},
                              limits, unique_ids);

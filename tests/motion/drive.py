@@ -76,7 +76,8 @@ class Places:
                     self.all.append((x, y))
         # Where every robot stops once: nobody rests for ever in a passage that others need.
         given = [robot[key] for robot in request["robots"] for key in ("start", "goal") if key in robot]
-        self.last = [(pose["x"], pose["y"]) for pose in given]
+        self.last = [(pose["x"], pose["y"]) for pose in given
+                     if walls.clearance(pose["x"], pose["y"], pose["x"], pose["y"], 2 * self.radius) >= self.radius]
 
     def goals(self, taken):
         """Some goals on the way, with services, and a last one that is clear of the places taken."""

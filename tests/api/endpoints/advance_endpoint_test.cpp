@@ -88,6 +88,9 @@ TEST(AdvanceEndpoint, ReportsFaultsOfTheRequestBelowIt) {
             (Faults{{"/request/robots/1/start/x", "wrong_type"}, {"/request/robot", "unknown_key"}}));
   EXPECT_EQ(faults_of_advance(Json::object()),
             (Faults{{"/request", "missing"}, {"/at", "missing"}, {"/plans", "missing"}}));
+  EXPECT_EQ(faults_of_advance(Json::array({1})), (Faults{{"", "wrong_type"}}));
+  body["request"] = 1;
+  EXPECT_EQ(faults_of_advance(body).front().first, "/request");
 }
 
 TEST(AdvanceEndpoint, ARequestThatNeedsTooMuchMemoryIsRefused) {
