@@ -11,6 +11,7 @@
 #include "core/actions.h"
 #include "core/map/obstacle_distance.h"
 #include "core/model/plan.h"
+#include "core/model/plan_options.h"
 #include "core/model/problem.h"
 #include "core/prioritized/plan_state.h"
 #include "core/verify/verify.h"
@@ -21,9 +22,44 @@ namespace fleetplan::support {
 /// Metres: the contact tolerance of the service, and the rounding of times and positions.
 inline constexpr double kSafeTolerance = 2e-9;
 
-/// Expects that planned robots collide with no other robot, planned or not, and not with the map.
+/// The tolerances of the service for robots with actions of the request, and kSafeTolerance for others.
+inline std::vector<core::Tolerance> safe_tolerances(const core::Problem& problem,
+                                                    const std::vector<core::RobotPlan>& plans) {
+  auto tolerances = core::plan_tolerances(problem.grid(), problem.robots(), plans);
+  for (std::size_t i = 0; i < tolerances.size(); ++i) {
+    const core::Robot& robot = problem.robots()[i];
+    if (robot.committed.empty() && !robot.previous) tolerances[i] = core::Tolerance::of_all(kSafeTolerance);
+  }
+  return tolerances;
+}
+
+/// The checker's report with these rules and safe_tolerances.
+inline core::VerifyReport safety_report(const core::Problem& problem,
+                                        const std::vector<core::RobotPlan>& plans,
+                                        core::CheckRules rules = {}) {
+  rules.tolerances = safe_tolerances(problem, plans);
+  rules.exact_commitments = true;
+  return *core::verify({problem.grid(), problem.robots(), problem.obstacles()}, plans, rules,
+                       core::StopCondition());
+}
+
+/// Expects that planned robots collide with no other robot, planned or not, no moving obstacle and not with
+/// the map, begin with their committed actions and visit their goals.
 inline void expect_safe(const core::Problem& problem, const std::vector<core::RobotPlan>& plans) {
-  const core::VerifyReport report = core::verify(problem.grid(), problem.robots(), plans, kSafeTolerance);
+  const core::VerifyReport report = safety_report(problem, plans);
+  EXPECT_TRUE(report.valid()) << text(report);
+}
+
+/// Expects of the result of planning with `options` all that the options ask for: interval margin, added
+/// waits and the overlap of starts. Meetings that the plan lists as unavoidable are exempt.
+inline void expect_safe(const core::Problem& problem, const core::Plan& plan,
+                        const core::PlanOptions& options) {
+  core::CheckRules rules;
+  rules.interval_margin = options.interval_margin;
+  rules.wait_before_move = options.wait_before_move;
+  rules.start_overlap = options.start_overlap;
+  rules.exempt = plan.unavoidable;
+  const core::VerifyReport report = safety_report(problem, plan.plans, rules);
   EXPECT_TRUE(report.valid()) << text(report);
 }
 

@@ -1,5 +1,6 @@
 #include "core/verify/geometry/shifted_motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -33,20 +34,26 @@ std::vector<Corner> clip(const std::vector<Corner>& polygon, double sign, double
   return kept;
 }
 
-/// If the origin is inside the polygon of displacements: a corner, whose times stand for the meeting.
+/// A polygon of less area, as a part of the square of the coordinates, is a line, whose edges have its
+/// distances. The turns of a line to or from the origin are rounding (1e-15) and say nothing.
+constexpr double kLeastArea = 1e-12;
+
+/// Whether the origin is inside the polygon of displacements.
 bool surrounds_origin(const std::vector<Corner>& polygon) {
   bool left = false;
   bool right = false;
   double area = 0.0;
+  double largest = 0.0;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Position& a = polygon[k].apart;
     const Position& b = polygon[(k + 1) % polygon.size()].apart;
     const double turn = a.x() * b.y() - a.y() * b.x();
     area += turn;
+    largest = std::max(largest, a.squaredNorm());
     left = left || turn > 0.0;
     right = right || turn < 0.0;
   }
-  return area != 0.0 && left != right;
+  return std::abs(area) > kLeastArea * largest && left != right;
 }
 
 }  // namespace

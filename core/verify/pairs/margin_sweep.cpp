@@ -21,6 +21,17 @@ Phase phase_of(const Leg& leg, const Departure& departure) {
   return departure.commits(leg.t_end) ? Phase::committed : Phase::staying;
 }
 
+/// A lower bound of the distance of two legs within these times, from their bounding boxes.
+double least_possible(const Leg& a, const TimeSpan& time, const Leg& b, const TimeSpan& its_time) {
+  const Position from = position_at(a, time.begin);
+  const Position to = position_at(a, time.end);
+  const Position its_from = position_at(b, its_time.begin);
+  const Position its_to = position_at(b, its_time.end);
+  const Position above = its_from.cwiseMin(its_to) - from.cwiseMax(to);
+  const Position below = from.cwiseMin(to) - its_from.cwiseMax(its_to);
+  return above.cwiseMax(below).maxCoeff();
+}
+
 /// What remains of a time span without others.
 std::vector<TimeSpan> without(const TimeSpan& span, const std::vector<TimeSpan>& left_out) {
   std::vector<TimeSpan> rest{span};
@@ -105,10 +116,9 @@ class MarginSweep {
                         std::max(fleet_.tolerances[first], fleet_.tolerances[second]);
     const auto record = [&](const TimeSpan& a, const TimeSpan& b) {
       const ShiftedMoment nearest = least_shifted_distance(leg, a, other, b, margin_);
-      if (nearest.distance >= kept) return false;
-      add({first, second, nearest.t_first, nearest.t_second, nearest.distance});
-      return true;
+      if (nearest.distance < kept) add({first, second, nearest.t_first, nearest.t_second, nearest.distance});
     };
+    if (least_possible(leg, time, other, its_time) >= kept) return;
     if (least_shifted_distance(leg, time, other, its_time, margin_).distance >= kept) return;
     const std::vector<TimeSpan> left_out = left_out_(first, second);
     for (const TimeSpan& a : without(time, left_out)) {

@@ -33,6 +33,16 @@ TEST(ShiftedMotion, ComesNearerByTheMargin) {
   EXPECT_NEAR(least(a, across, 8.0), 0.0, 1e-12);
 }
 
+TEST(ShiftedMotion, ToAndFromTheOtherOneIsNotAMeeting) {
+  // All displacements lie on one line with the origin, up to rounding.
+  for (int k = 1; k < 200; ++k) {
+    const Position direction(std::cos(0.01 * k), std::sin(0.01 * k));
+    const Leg a = leg(0, 3, 10.0 * direction, 13.0 * direction);
+    const Leg b = leg(0, 3, 20.0 * direction, (20.0 + 0.1 * k) * direction);
+    EXPECT_GT(least(a, b, 1.0), 6.9) << k;
+  }
+}
+
 TEST(ShiftedMotion, IsInfinitelyFarIfTheTimesAreTooFarApart) {
   const Leg a = leg(0, 1, {0, 0}, {1, 0});
   const Leg b = leg(3, 4, {1, 0}, {0, 0});
