@@ -20,7 +20,7 @@ LifelongJob job(const char* strategy) {
                                {"commit", 0.5},
                                {"halt", 0.0},
                                {"clock", "cpu"},
-                               {"options", {{"start_safe_interval", 0}}}};
+                               {"options", {{"start_safe_interval", 0}, {"replan", "where_needed"}}}};
   return parse_lifelong_job(line.dump());
 }
 
@@ -45,6 +45,14 @@ TEST(Lifelong, ServesMoreWithSnapshotsThanWhenTheWorldStops) {
   EXPECT_GT(snapshots.under_way, snapshots.replans);
   EXPECT_GT(snapshots.tasks, stopped.tasks);
   EXPECT_GT(snapshots.replans, stopped.replans);
+}
+
+TEST(Lifelong, ChangesNoPlanOfARobotUnderWayThatHolds) {
+  const LifelongResult committed = run("committed");
+  const LifelongResult snapshots = run("snapshots");
+  EXPECT_GT(committed.under_way, committed.replans);
+  EXPECT_LE(committed.changed * 20, committed.under_way);
+  EXPECT_GE(committed.tasks + 2, snapshots.tasks);
 }
 
 TEST(Lifelong, TakesJobsOnly) {

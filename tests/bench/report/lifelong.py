@@ -56,7 +56,7 @@ def make_parser():
         help="separated by semicolons: " + "; ".join(STRATEGIES))
     add("--seed", type=int, default=1)
     add("--budget", type=between(0.001, 120.0, float), metavar="SECONDS",
-        help="time budget of a plan; default 0.1, or 1 in the large warehouse")
+        help="time budget of a plan; default 0.1, or 0.3 in the large warehouse")
     add("--commit", type=between(0.001, 120.0, float), metavar="SECONDS",
         help="time for which robots go on while a plan is made; default: the budget")
     add("--options", type=json_object, default={}, metavar="JSON", help="more options of the requests")
@@ -77,7 +77,7 @@ def parse(words):
 def make_job(name, robots, arguments):
     """See tests/bench/lifelong/lifelong_job.h."""
     is_large = robots >= LARGE_FLEET
-    budget = arguments.budget or (1.0 if is_large else 0.1)
+    budget = arguments.budget or (0.3 if is_large else 0.1)
     strategy = STRATEGIES[name]
     return {"name": name, "strategy": strategy["strategy"], "shelves": LARGE if is_large else SMALL, "robots": robots,
             "seconds": arguments.seconds, "seed": arguments.seed, "budget_ms": round(1000 * budget),

@@ -53,7 +53,7 @@ class Lifelong(unittest.TestCase):
         arguments = lifelong.parse(["--options", '{"seed": 5}'])
         few, many = (lifelong.make_job("committed", robots, arguments) for robots in (40, 150))
         self.assertEqual((few["shelves"], few["budget_ms"], few["commit"]), ([3, 8], 100, 0.1))
-        self.assertEqual((many["shelves"], many["budget_ms"], many["commit"]), ([10, 20], 1000, 1.0))
+        self.assertEqual((many["shelves"], many["budget_ms"], many["commit"]), ([10, 20], 300, 0.3))
         self.assertEqual(many["options"], {"replan": "where_needed", "seed": 5})
         self.assertEqual(json.loads(json.dumps(many)), many)
 
