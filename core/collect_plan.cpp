@@ -31,7 +31,8 @@ RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
     return {index, robot.committed_until(), robot.committed, robot.committed_until()};  // parked
   const double cost = trajectory->cost;
   if (trajectory->is_previous) {
-    return {index, cost, previous_actions(robot), std::min(bound, cost), previous_visits(robot)};
+    const std::vector<Action>& actions = previous_actions(robot);
+    return {index, cost, actions, std::min(bound, cost), visits_of(robot, actions)};
   }
   // Rounding may leave a bound slightly above the cost that it bounds.
   std::vector<Action> actions = to_actions(robot, *trajectory);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/bounds/lower_bound.h"
+#include "core/model/served_goals.h"
 #include "core/motion.h"
 #include "core/replan/kept_plans.h"
 #include "core/replan/previous_plan.h"
@@ -39,10 +40,9 @@ Plan plan_without_search(const Problem& problem, const PlanOptions& options, con
       continue;
     }
     RobotPlan kept = previous_plan(index, robot);
-    if (robot.goal) {
-      kept.visits = previous_visits(robot);
-      kept.lower_bound = std::min(kept.cost, lower_bound(robot, motion_of(robot, options)));
-    }
+    kept.visits = visits_of(robot, kept.actions);
+    kept.lower_bound =
+        robot.goal ? std::min(kept.cost, lower_bound(robot, motion_of(robot, options))) : kept.cost;
     plan.objectives.flowtime += kept.cost;
     plan.objectives.makespan = std::max(plan.objectives.makespan, kept.cost);
     plan.lower_bound.flowtime += kept.lower_bound;

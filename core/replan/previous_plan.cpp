@@ -32,16 +32,6 @@ RobotPlan previous_plan(std::size_t index, const Robot& robot) {
   return {index, actions.empty() ? 0.0 : actions.back().t_end, actions, 0.0};
 }
 
-std::vector<Visit> previous_visits(const Robot& robot) {
-  const Itinerary all = as_committed(robot);
-  std::vector<Visit> visits = all.visited;
-  const std::size_t last = robot.goal_count() - 1;
-  // A plan without actions visits all its goals at the start.
-  while (visits.size() < last) visits.push_back({visits.size(), all.t_begin, all.t_begin});
-  visits.push_back({last, all.arrived, kForever});
-  return visits;
-}
-
 Trajectory previous_trajectory(const Robot& robot) {
   Itinerary all = as_committed(robot);
   Trajectory trajectory = std::move(all.committed);

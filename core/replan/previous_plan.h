@@ -20,10 +20,7 @@ const std::vector<Action>& previous_actions(const Robot& robot);
 /// These actions as a plan without visits, with 0 as lower bound.
 RobotPlan previous_plan(std::size_t index, const Robot& robot);
 
-/// The visits of a previous plan that holds (see KeptPlans), one for each goal.
-std::vector<Visit> previous_visits(const Robot& robot);
-
-/// The motion of a previous plan that holds.
+/// The motion of a previous plan that holds (see KeptPlans).
 Trajectory previous_trajectory(const Robot& robot);
 
 }  // namespace fleetplan::core

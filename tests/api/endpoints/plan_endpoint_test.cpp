@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <new>
 #include <numbers>
 #include <stop_token>
 #include <thread>
@@ -171,6 +172,40 @@ TEST(PlanEndpoint, DoesNotPlanWhenTheBudgetIsSpentInTheQueue) {
   EXPECT_EQ(answer["deterministic"], false);
   request["robots"].erase(2);
   EXPECT_EQ(json_of(plan_with(never, request.dump(), late))["status"], "none");
+}
+
+TEST(PlanEndpoint, ReturnsPreviousPlansThatHoldWhateverTheBudget) {
+  Json request = swap_request();
+  request["map"]["origin"] = {{"x", 448123.137}, {"y", 5411999.731}};
+  for (Json& robot : request["robots"]) {
+    for (const char* pose : {"start", "goal"}) {
+      robot[pose]["x"] = robot[pose]["x"].get<double>() + 448123.137;
+      robot[pose]["y"] = robot[pose]["y"].get<double>() + 5411999.731;
+    }
+  }
+  const Json first = planned(request);
+  ASSERT_EQ(first["status"], "solved");
+  for (std::size_t i = 0; i < 2; ++i) request["robots"][i]["previous"] = first["plans"][i]["actions"];
+  for (const int budget : {1, 10, 1000}) {
+    request["options"] = {{"time_budget_ms", budget}};
+    RequestContext late = context();
+    late.received_at -= std::chrono::milliseconds(budget == 1000 ? 0 : budget + 1);
+    const Json answer = json_of(plan_endpoint(request.dump(), late));
+    EXPECT_EQ(answer["status"], "solved");
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(answer["plans"][i]["actions"], first["plans"][i]["actions"]);
+    }
+  }
+}
+
+TEST(PlanEndpoint, ReturnsPreviousPlansThatHoldIfTheMemoryIsSpent) {
+  Json request = swap_request();
+  const Json first = planned(request);
+  for (std::size_t i = 0; i < 2; ++i) request["robots"][i]["previous"] = first["plans"][i]["actions"];
+  const Planner out_of_memory = [](const auto&, const auto&, const auto&, auto*) -> core::Plan {
+    throw std::bad_alloc();
+  };
+  EXPECT_EQ(json_of(plan_with(out_of_memory, request.dump(), context()))["status"], "solved");
 }
 
 TEST(PlanEndpoint, WaitsForItsTurnUntilThePlanningDeadline) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/model/served_goals.h"
 #include "core/planner.h"
 #include "core/replan/plan_without_search.h"
 #include "core/replan/previous_plan.h"
@@ -68,6 +69,14 @@ TEST(KeptPlans, AreThoseOfHigherPriorityWherePlansConflict) {
   robots[0].start.position.x() = 0.5;  // a longer way
   robots[0].previous = straight(robots[0], 0.0);
   EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, {}).kept, ElementsAre(false, true));
+}
+
+TEST(KeptPlans, HoldUnderTheInflationOfTheRequest) {
+  const Problem problem = make_problem(hall(), crossing(1.3));
+  PlanOptions options;
+  EXPECT_THAT(keep_previous_plans(problem, options, {}).kept, ElementsAre(true, true));
+  options.inflation = 0.1;
+  EXPECT_THAT(keep_previous_plans(problem, options, {}).kept, ElementsAre(true, false));
 }
 
 TEST(KeptPlans, LeaveOutPlansThatEndElsewhere) {
@@ -155,7 +164,7 @@ TEST(PreviousPlan, HasTheMotionOfItsActions) {
 TEST(PreviousPlan, VisitsEachGoal) {
   Robot robot = crossing(2.0)[1];
   robot.via = {{robot.start.position, std::nullopt, 1.5, 0.25}};
-  const std::vector<Visit> visits = previous_visits(robot);
+  const std::vector<Visit> visits = visits_of(robot, previous_actions(robot));
   ASSERT_EQ(visits.size(), 2u);
   EXPECT_EQ(visits[0].t_arrive, 0.0);
   EXPECT_EQ(visits[0].t_leave, 1.75);

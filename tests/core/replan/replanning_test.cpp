@@ -163,6 +163,51 @@ TEST(Replanning, PlansAroundALateRobot) {
   }
 }
 
+TEST(Replanning, KeepsSequencesOfGoalsWithServices) {
+  std::vector<Robot> robots{robot_at(0.5, 0.5).to(8.5, 0.5), robot_at(0.5, 2.5).to(8.5, 2.5)};
+  robots[0].via = {{Position(4.5, 0.5), std::nullopt, 2.0, 0.0}, {Position(4.5, 2.5), 0.0, 1.0, 12.0}};
+  robots[1].via = {{Position(4.5, 1.5), std::nullopt, 5.0, 0.0}};
+  robots[1].goal->service = 2.5;
+  const OccupancyGrid grid(10, 4, 1.0);
+  const Problem before = make_problem(grid, robots);
+  const Plan first = core::plan(before, {}, {});
+  ASSERT_TRUE(first.unplanned.empty());
+  const Problem problem = make_problem(grid, with_previous(before, first));
+  for (const auto& stop : {StopCondition(), after_milliseconds(-1)}) {
+    const Plan plan = core::plan(problem, {}, stop);
+    ASSERT_EQ(count_followed(problem, plan), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+      ASSERT_EQ(plan.plans[i].visits.size(), first.plans[i].visits.size());
+      for (std::size_t k = 0; k < plan.plans[i].visits.size(); ++k) {
+        EXPECT_EQ(plan.plans[i].visits[k].t_arrive, first.plans[i].visits[k].t_arrive);
+        EXPECT_EQ(plan.plans[i].visits[k].t_leave, first.plans[i].visits[k].t_leave);
+      }
+    }
+  }
+}
+
+TEST(Replanning, KeepsPlansMadeWithInflationMarginAndAddedWaits) {
+  PlanOptions options;
+  options.inflation = 0.02;
+  options.wait_before_move = 0.5;
+  options.interval_margin = 0.5;
+  const Problem problem = crowd_under_way(5, options);
+  EXPECT_EQ(count_followed(problem, core::plan(problem, options, {})), kRobots);
+}
+
+TEST(Replanning, LeavesOutAPlanThroughAMovingObstacle) {
+  std::vector<Robot> robots{robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(0.5, 3.5).to(8.5, 3.5)};
+  const OccupancyGrid grid(9, 5, 1.0);
+  const Problem before = make_problem(grid, robots);
+  robots = with_previous(before, core::plan(before, {}, {}));
+  MovingObstacle person{"person", 0.3, {{3.0, Position(4.5, 0.5)}, {6.0, Position(4.5, 1.5)}}};
+  auto problem = Problem::create(grid, robots, ProblemConditions{{person}}, {});
+  ASSERT_TRUE(std::holds_alternative<Problem>(problem));
+  const Plan plan = core::plan(std::get<Problem>(problem), {}, {});
+  EXPECT_EQ(plan.plans.size(), 2u);
+  EXPECT_EQ(count_followed(std::get<Problem>(problem), plan), 1u);
+}
+
 TEST(Replanning, MovesARobotThatIsInTheWayOfAnother) {
   // The second robot rests at its goal in the corridor; the first one has to pass.
   std::vector<Robot> robots{robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(4.5, 1.5).to(4.5, 1.5)};
