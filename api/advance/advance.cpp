@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "api/advance/clear_commitments.h"
 #include "api/advance/timeline.h"
 #include "core/model/itinerary.h"
 
@@ -117,6 +118,24 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
   next.committed = actions_until(rest.actions, until);
   next.previous.reset();
   if (execution.planned && progress && !execution.goals) next.previous = split_at(rest.actions, until);
+  return next;
+}
+
+std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
+                                  const std::vector<Execution>& executions, const Moment& moment,
+                                  ParseStop& stop) {
+  std::vector<core::Robot> next;
+  std::vector<Deviation> deviations;
+  next.reserve(robots.size());
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    const Execution& execution = executions[k];
+    next.push_back(advanced(robots[k], execution, moment));
+    const bool is_lost = execution.measured && next.back().committed.empty() && !next.back().previous;
+    deviations.push_back(execution.hold || is_lost ? Deviation::stands
+                         : execution.measured      ? Deviation::moves
+                                                   : Deviation::none);
+  }
+  clear_commitments(next, std::move(deviations), stop);
   return next;
 }
 

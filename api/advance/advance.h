@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "api/json/parse_stop.h"
 #include "core/model/action.h"
 #include "core/model/moving_obstacle.h"
 #include "core/model/robot.h"
@@ -32,6 +33,11 @@ struct Execution {
 /// The robot of the request of that moment: its start, goals, committed and previous actions. It has no
 /// previous actions if it has no plan, is elsewhere than planned, or gets other goals.
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment);
+
+/// All of them. Committed actions end where they touch a robot that is held, late or elsewhere.
+std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
+                                  const std::vector<Execution>& executions, const Moment& moment,
+                                  ParseStop& stop);
 
 /// What is left of an obstacle; nothing if it has left.
 std::optional<core::MovingObstacle> advanced(const core::MovingObstacle& obstacle, double at);

@@ -68,13 +68,10 @@ void write_robot(JsonWriter& json, const JsonValue& given, const core::Robot& ro
   json.end_object();
 }
 
-void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest& request) {
+void write_robots(JsonWriter& json, const JsonValue& given, const std::vector<core::Robot>& robots) {
   json.begin_array();
   std::size_t index = 0;
-  for (const JsonValue robot : given.children()) {
-    write_robot(json, robot, advanced(request.robots[index], request.executions[index], request.moment));
-    ++index;
-  }
+  for (const JsonValue robot : given.children()) write_robot(json, robot, robots[index++]);
   json.end_array();
 }
 
@@ -104,13 +101,13 @@ void write_obstacles(JsonWriter& json, const JsonValue& given, const AdvanceRequ
 
 }  // namespace
 
-std::string write_advanced(const AdvanceRequest& request) {
+std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots) {
   JsonWriter json;
   json.begin_object();
   for (const JsonValue member : request.request.value().children()) {
     json.key(member.key());
     if (member.key() == "robots") {
-      write_robots(json, member, request);
+      write_robots(json, member, robots);
     } else if (member.key() == "obstacles") {
       write_obstacles(json, member, request);
     } else {

@@ -6,8 +6,8 @@
 
 namespace fleetplan::api {
 
-/// The request of the moment: that of the body, with other starts, goals, committed and previous actions, and
-/// obstacles. Everything else is copied.
-std::string write_advanced(const AdvanceRequest& request);
+/// The request of the moment: that of the body with the starts, goals, committed and previous actions of
+/// these robots, and what is left of its obstacles. Everything else is copied.
+std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots);
 
 }  // namespace fleetplan::api

@@ -21,7 +21,9 @@ Reply advance(std::string_view body, const RequestContext& context) {
   const auto read = [&](const JsonReader& root, ParseStop& stop) -> std::optional<std::string> {
     const auto request = parse_advance_request(root, context.limits, stop);
     if (!request) return std::nullopt;
-    return write_advanced(*request);
+    const auto robots = advanced(request->robots, request->executions, request->moment, stop);
+    if (stop.met()) return std::nullopt;
+    return write_advanced(*request, robots);
   };
   auto text = parse_body<std::string>(body, context.limits, context.parse_stop(), kMembers, read);
   if (!text) return problem_reply(text.failure(), context.request_id);

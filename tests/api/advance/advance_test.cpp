@@ -173,6 +173,72 @@ TEST(Advance, ItsResultCanBeAdvancedAgain) {
   }
 }
 
+/// Robots of radius 0.25 that follow each other at 1 m/s along a line, half a metre apart.
+struct Convoy {
+  std::vector<core::Robot> robots;
+  std::vector<Execution> executions;
+
+  explicit Convoy(int count) {
+    for (int k = 0; k < count; ++k) {
+      core::Robot follower;
+      follower.radius = 0.25;
+      follower.linear_speed = follower.angular_speed = 1.0;
+      follower.start = at_x(5.0 - 0.5 * k);
+      follower.goal = goal(9.0 - 0.5 * k);
+      const Action drive{Type::translate, 0.0, 4.0, follower.start, at_x(9.0 - 0.5 * k)};
+      robots.push_back(follower);
+      executions.push_back({{drive}, true});
+    }
+  }
+
+  std::vector<core::Robot> advance(double at) {
+    ParseStop stop;
+    return advanced(robots, executions, moment(at, 1.0), stop);
+  }
+};
+
+TEST(AdvancedFleet, RobotsBehindOneThatIsHeldAreCommittedUntilTheyTouch) {
+  Convoy convoy(4);
+  convoy.executions[1].hold = 30.0;
+  convoy.robots[2].start.position.x() -= 0.25;
+  convoy.executions[2].actions[0].from = convoy.robots[2].start;
+  convoy.executions[2].actions[0].t_end = 4.25;
+  convoy.robots[3].start.position.x() -= 0.25;
+  convoy.executions[3].actions[0].from = convoy.robots[3].start;
+  convoy.executions[3].actions[0].t_end = 4.25;
+  const auto next = convoy.advance(1.0);
+  EXPECT_EQ(next[0].committed.back().t_end, 1.0);
+  EXPECT_EQ(next[1].committed.back().t_end, 30.0);
+  for (const std::size_t behind : {2U, 3U}) {
+    ASSERT_EQ(next[behind].committed.size(), 1U);
+    EXPECT_NEAR(next[behind].committed[0].t_end, 0.25, 1e-6);
+    EXPECT_EQ(next[behind].previous->front().t_end, next[behind].committed[0].t_end);
+  }
+}
+
+TEST(AdvancedFleet, OneThatTouchesAHeldRobotIsNotCommittedToGoOn) {
+  Convoy convoy(2);
+  convoy.executions[0].hold = 30.0;
+  EXPECT_TRUE(convoy.advance(1.0)[1].committed.empty());
+}
+
+TEST(AdvancedFleet, OneThatMovesAwayFromAHeldRobotGoesOn) {
+  Convoy convoy(2);
+  convoy.executions[1].hold = 30.0;
+  EXPECT_EQ(convoy.advance(1.0)[0].committed.back().t_end, 1.0);
+}
+
+TEST(AdvancedFleet, ALateRobotStopsThoseThatWouldDriveIntoIt) {
+  Convoy convoy(2);
+  convoy.executions[0].measured = Pose{{5.9, 1.0}, 0.0};  // planned: 6
+  const auto next = convoy.advance(1.0);
+  // Both drive at the same speed, so the gap that is left stays.
+  EXPECT_EQ(next[0].committed.back().t_end, 1.0);
+  EXPECT_EQ(next[1].committed.back().t_end, 1.0);
+  convoy.executions[0].measured = Pose{{6.2, 1.3}, 0.0};  // beside its path
+  EXPECT_NEAR(convoy.advance(1.0)[1].committed.back().t_end, 0.3, 1e-6);
+}
+
 core::MovingObstacle walker(core::MovingObstacle::After after) {
   return {"walker", 0.3, {{2.0, {1.0, 1.0}}, {4.0, {5.0, 1.0}}, {8.0, {5.0, 3.0}}}, after};
 }

@@ -1,0 +1,141 @@
+#include "api/advance/clear_commitments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "api/advance/timeline.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+using core::Action;
+using core::Position;
+
+/// Disks that overlap by less only touch (metres): far below the contact tolerance, far above rounding.
+constexpr double kTouch = 1e-8;
+
+/// A commitment that is ended by less is not ended (seconds).
+constexpr double kSameEnd = 1e-9;
+
+/// A shorter commitment is none (seconds).
+constexpr double kNothing = 1e-6;
+
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+/// A piece of straight motion or rest.
+struct Piece {
+  double begin;
+  double end;
+  Position from;
+  Position velocity;
+
+  Position at(double t) const { return from + velocity * (t - begin); }
+};
+
+/// When two pieces begin to overlap, in the time of both.
+std::optional<double> first_overlap(const Piece& a, const Piece& b, double distance) {
+  const double begin = std::max(a.begin, b.begin);
+  const double end = std::min(a.end, b.end);
+  if (begin > end) return std::nullopt;
+  const Position apart = a.at(begin) - b.at(begin);
+  const Position velocity = a.velocity - b.velocity;
+  const double closing = apart.dot(velocity);
+  if (closing >= 0.0) return std::nullopt;
+  const double gap = apart.squaredNorm() - distance * distance;
+  if (gap < 0.0) return begin;
+  const double speed = velocity.squaredNorm();
+  const double under_root = closing * closing - speed * gap;
+  if (under_root <= 0.0) return std::nullopt;
+  const double t = begin + gap / (-closing + std::sqrt(under_root));
+  return t < end ? std::optional(t) : std::nullopt;
+}
+
+class Clearing {
+ public:
+  Clearing(std::vector<core::Robot>& robots, std::vector<Deviation> deviations, ParseStop& stop)
+      : robots_(robots), deviations_(std::move(deviations)), is_cut_(robots.size()), stop_(stop) {
+    for (const core::Robot& robot : robots) pieces_.push_back(pieces_of(robot));
+  }
+
+  void run() {
+    for (std::size_t k = 0; k < robots_.size(); ++k) {
+      if (deviations_[k] != Deviation::none) waiting_.push_back(k);
+    }
+    while (!waiting_.empty()) {
+      const std::size_t robot = waiting_.back();
+      waiting_.pop_back();
+      for (std::size_t other = 0; other < robots_.size(); ++other) {
+        if (stop_.met_after(1)) return;
+        if (other != robot) part(robot, other);
+      }
+    }
+  }
+
+ private:
+  static std::vector<Piece> pieces_of(const core::Robot& robot) {
+    std::vector<Piece> pieces;
+    for (const Action& action : robot.committed) {
+      const double duration = action.t_end - action.t_start;
+      const Position path = action.to.position - action.from.position;
+      const Position velocity = duration > 0.0 ? Position(path / duration) : Position(0.0, 0.0);
+      pieces.push_back({action.t_start, action.t_end, action.from.position, velocity});
+    }
+    pieces.push_back({robot.committed_until(), kForever, robot.committed_end().position, {0.0, 0.0}});
+    return pieces;
+  }
+
+  bool stands(std::size_t robot) const { return is_cut_[robot] || deviations_[robot] == Deviation::stands; }
+
+  /// Ends the commitment of the other robot, and of this one if it moves, where they begin to overlap.
+  void part(std::size_t robot, std::size_t other) {
+    if (deviations_[other] == Deviation::stands || pieces_[other].size() == 1) return;
+    const auto t = overlap(robot, other);
+    if (!t) return;
+    cut(other, *t);
+    if (deviations_[robot] != Deviation::stands) cut(robot, *t);
+  }
+
+  /// While the other is committed, and the robot is or stands.
+  std::optional<double> overlap(std::size_t robot, std::size_t other) {
+    const double distance = robots_[robot].radius + robots_[other].radius - kTouch;
+    const std::size_t count = pieces_[robot].size() - (stands(robot) ? 0 : 1);
+    for (std::size_t i = 0; i + 1 < pieces_[other].size(); ++i) {
+      for (std::size_t k = 0; k < count; ++k) {
+        if (stop_.met_after(1)) return std::nullopt;
+        if (const auto t = first_overlap(pieces_[other][i], pieces_[robot][k], distance)) return t;
+      }
+    }
+    return std::nullopt;
+  }
+
+  void cut(std::size_t index, double t) {
+    core::Robot& robot = robots_[index];
+    if (t < kNothing) t = 0.0;
+    if (t >= robot.committed_until() - kSameEnd) return;
+    robot.committed = actions_until(robot.committed, t);
+    if (robot.previous) robot.previous = split_at(*robot.previous, t);
+    pieces_[index] = pieces_of(robot);
+    is_cut_[index] = true;
+    waiting_.push_back(index);
+  }
+
+  std::vector<core::Robot>& robots_;
+  std::vector<Deviation> deviations_;
+  std::vector<bool> is_cut_;
+  ParseStop& stop_;
+  std::vector<std::vector<Piece>> pieces_;
+  std::vector<std::size_t> waiting_;
+};
+
+}  // namespace
+
+void clear_commitments(std::vector<core::Robot>& robots, std::vector<Deviation> deviations, ParseStop& stop) {
+  Clearing(robots, std::move(deviations), stop).run();
+}
+
+}  // namespace fleetplan::api
