@@ -1,25 +1,63 @@
 #include "core/bounds/lower_bound.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "core/geometry/tolerance.h"
+#include "core/model/served_goals.h"
 
 namespace fleetplan::core {
 
 double straight_cost(const Pose& from, const Goal& goal, const Motion& motion) {
-  const Position d = goal.position - from.position;
+  return straight_cost(Leg{from.position, from.theta, goal}, motion);
+}
+
+double straight_cost(const Leg& leg, const Motion& motion) {
+  const auto rotation = [&](const std::optional<double>& from, const std::optional<double>& to) {
+    return from && to ? motion.rotation_time(*from, *to) : 0.0;
+  };
+  const Position d = leg.to.position - leg.from;
   const double distance = d.norm();
-  if (distance <= kSamePosition) return goal.theta ? motion.rotation_time(from.theta, *goal.theta) : 0.0;
+  if (distance <= kSamePosition) return rotation(leg.heading, leg.to.theta);
   const double heading = std::atan2(d.y(), d.x());
-  const double last = goal.theta ? motion.rotation_time(heading, *goal.theta) : 0.0;
-  return motion.rotation_time(from.theta, heading) + motion.translation_time(distance) + last;
+  return rotation(leg.heading, heading) + motion.translation_time(distance) + rotation(heading, leg.to.theta);
+}
+
+double lower_bound(const Leg& leg, const Motion& motion) {
+  const bool stays = (leg.to.position - leg.from).norm() <= kSamePosition;
+  return straight_cost(leg, motion) + (stays ? 0.0 : motion.wait_before_move);
+}
+
+std::vector<Leg> legs_of(const Itinerary& itinerary) {
+  std::vector<Leg> legs;
+  Leg leg{itinerary.pose.position, itinerary.pose.theta, {}};
+  for (const Goal& goal : itinerary.goals) {
+    leg.to = goal;
+    legs.push_back(leg);
+    leg = {goal.position, goal.theta, {}};
+  }
+  // Committed actions that end in contact with the goal's pose end in it.
+  const bool in_pose = itinerary.t_begin > 0.0 && !legs.empty() && is_in_pose(itinerary.pose, legs[0].to);
+  if (in_pose) legs[0].to = {itinerary.pose.position, itinerary.pose.theta};
+  return legs;
+}
+
+double end_after(const Itinerary& itinerary, const std::vector<double>& seconds) {
+  double t = itinerary.t_begin;
+  for (std::size_t k = 0; k < itinerary.goals.size(); ++k) {
+    const Goal& goal = itinerary.goals[k];
+    const double done = k == 0 ? itinerary.service_done : 0.0;
+    t = std::max(t + seconds[k], goal.not_before) + (goal.service - done);
+  }
+  return t;
 }
 
 double lower_bound(const Robot& robot, const Motion& motion) {
-  const Pose from = robot.committed_end();
-  const bool stays = (robot.goal->position - from.position).norm() <= kSamePosition;
-  return robot.committed_until() + straight_cost(from, *robot.goal, motion) +
-         (stays ? 0.0 : motion.wait_before_move);
+  const Itinerary itinerary = itinerary_of(robot);
+  std::vector<double> seconds;
+  for (const Leg& leg : legs_of(itinerary)) seconds.push_back(lower_bound(leg, motion));
+  return end_after(itinerary, seconds);
 }
 
 }  // namespace fleetplan::core

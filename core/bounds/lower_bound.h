@@ -1,8 +1,12 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "core/geometry/position.h"
-#include "core/instance.h"
+#include "core/model/itinerary.h"
 #include "core/model/robot.h"
+#include "core/motion.h"
 
 namespace fleetplan::core {
 
@@ -11,8 +15,26 @@ namespace fleetplan::core {
 /// docs/method.md, Lemma 1, proves it.
 double straight_cost(const Pose& from, const Goal& goal, const Motion& motion);
 
-/// A lower bound of the cost of a robot with a goal, seconds, obstacles ignored: the straight cost and one
-/// wait before a move. Exact where the goal is in sight; elsewhere TautPathBounds is tighter.
+/// The way to a goal from the one before, or from where the robot's plan begins.
+struct Leg {
+  Position from{0.0, 0.0};
+  std::optional<double> heading;  // none: the robot may begin with any
+  Goal to;
+};
+
+/// The legs of a robot, in their order.
+std::vector<Leg> legs_of(const Itinerary& itinerary);
+
+/// The straight cost of a leg, with any initial heading if it has none.
+double straight_cost(const Leg& leg, const Motion& motion);
+/// A lower bound of the duration of a leg, seconds, obstacles ignored: the straight cost and one wait before
+/// a move. Exact where the goal is in sight; elsewhere TautPathSearch is tighter.
+double lower_bound(const Leg& leg, const Motion& motion);
+
+/// When a robot ends its last service if each leg takes so many seconds.
+double end_after(const Itinerary& itinerary, const std::vector<double>& seconds);
+
+/// A lower bound of the cost of a robot with a goal, seconds, obstacles ignored.
 double lower_bound(const Robot& robot, const Motion& motion);
 
 }  // namespace fleetplan::core

@@ -18,62 +18,94 @@ constexpr std::int64_t kMaxWork = 30'000'000;
 /// One robot may use the remaining work divided by this, since the first ones also compute what others share.
 constexpr std::int64_t kWorkDivisor = 64;
 
-bool sees_goal(const Instance& instance, std::size_t robot, double radius) {
-  return instance.sight().may_sweep(instance.itinerary(robot).pose.position,
-                                    instance.robot(robot).goal->position, radius);
+/// Whether the robot's disk is clear of obstacles at both ends of a leg. Elsewhere it always is.
+bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) {
+  const double radius = instance.motion(robot).radius;
+  const std::vector<Goal>& goals = instance.itinerary(robot).goals;
+  const auto fits_at = [&](const Goal& goal) {
+    return instance.radius_at_goal(robot, goal.position) == radius;
+  };
+  const bool fits_at_begin = leg == 0 ? instance.fits_at_start(robot) : fits_at(goals[leg - 1]);
+  return fits_at_begin && fits_at(goals[leg]);
 }
 
-/// Whether the robot's disk is clear of obstacles at both ends. Elsewhere it always is.
-bool fits_at_ends(const Instance& instance, std::size_t robot) {
-  return instance.fits_at_start(robot) &&
-         instance.radius_at_goal(robot, instance.robot(robot).goal->position) ==
-             instance.motion(robot).radius;
+bool is_straight(const Instance& instance, const Leg& leg, double radius) {
+  return instance.sight().may_sweep(leg.from, leg.to.position, radius);
 }
 
 }  // namespace
 
+/// The legs of a robot, and lower bounds of their durations.
+struct TautPathBounds::Way {
+  std::vector<Leg> legs;
+  std::vector<double> seconds;  // by leg
+
+  Way(const Itinerary& itinerary, const Motion& motion) : legs(legs_of(itinerary)) {
+    for (const Leg& leg : legs) seconds.push_back(lower_bound(leg, motion));
+  }
+  /// At most so much does the leg take in the cheapest plan, if there is one of this cost.
+  double most_seconds(const Itinerary& itinerary, std::size_t leg, double cost) const {
+    double others = itinerary.t_begin - itinerary.service_done;
+    for (std::size_t k = 0; k < legs.size(); ++k) {
+      others += itinerary.goals[k].service + (k == leg ? 0.0 : seconds[k]);
+    }
+    return cost - others;
+  }
+};
+
 TautPathBounds::TautPathBounds(const Instance& instance, const std::vector<std::size_t>& robots,
                                const std::vector<double>& costs, const StopCondition& stop)
     : seconds_(instance.size(), 0.0) {
-  RobotsByRadius out_of_sight;  // to share tangents
-  for (const std::size_t robot : robots) {
-    seconds_[robot] = lower_bound(instance.robot(robot), instance.motion(robot));
-    if (!instance.robot(robot).committed.empty() || !instance.robot(robot).via.empty()) continue;
-    const double reduced = instance.motion(robot).radius - 2.0 * TangentGraph::kRadiusReduction;
-    if (reduced <= 0.0 || sees_goal(instance, robot, reduced) || !fits_at_ends(instance, robot)) continue;
-    out_of_sight[instance.motion(robot).radius].push_back(robot);
-  }
-  if (out_of_sight.empty()) return;
-  if (stop.met()) {
-    cut_off_ = true;
-    return;
-  }
   try {
-    improve(instance, out_of_sight, costs, stop);
+    bound(instance, robots, costs, stop);
   } catch (const std::bad_alloc&) {  // not granted to the job: the bounds so far remain
     cut_off_ = true;
   }
 }
 
-void TautPathBounds::improve(const Instance& instance, const RobotsByRadius& out_of_sight,
-                             const std::vector<double>& costs, const StopCondition& stop) {
+void TautPathBounds::bound(const Instance& instance, const std::vector<std::size_t>& robots,
+                           const std::vector<double>& costs, const StopCondition& stop) {
+  LegsByRadius out_of_sight;  // to share tangents
+  std::vector<Way> ways;
+  for (const std::size_t robot : robots) {
+    const Motion& motion = instance.motion(robot);
+    const Way& way = ways.emplace_back(instance.itinerary(robot), motion);
+    seconds_[robot] = end_after(instance.itinerary(robot), way.seconds);
+    const double reduced = motion.radius - 2.0 * TangentGraph::kRadiusReduction;
+    for (std::size_t leg = 0; reduced > 0.0 && leg < way.legs.size(); ++leg) {
+      if (is_straight(instance, way.legs[leg], reduced) || !fits_at_ends(instance, robot, leg)) continue;
+      out_of_sight[motion.radius].push_back({robot, ways.size() - 1, leg});
+    }
+  }
+  if (out_of_sight.empty()) return;
+  cut_off_ = stop.met();
+  if (!cut_off_) improve(instance, out_of_sight, ways, costs, stop);
+}
+
+void TautPathBounds::improve(const Instance& instance, const LegsByRadius& out_of_sight,
+                             std::vector<Way>& ways, const std::vector<double>& costs,
+                             const StopCondition& stop) {
   std::int64_t work = kMaxWork;
   CornerVisibility corners(instance.problem().grid(), out_of_sight.begin()->first,
                            out_of_sight.rbegin()->first);
   for (const auto& [radius, group] : out_of_sight) {
     TautPathSearch search(corners, instance.sight(), radius);
     work -= corners.count();  // for the memory that the search allocates
-    for (const std::size_t robot : group) {
+    for (const LegIndex& index : group) {
       if (stop.met()) {
         cut_off_ = true;
         return;
       }
       if (work <= 0) return;
+      Way& way = ways[index.way];
+      const Itinerary& itinerary = instance.itinerary(index.robot);
+      const double most = way.most_seconds(itinerary, index.leg, costs[index.robot]);
       const std::int64_t before = search.work();
       const TautPathResult result =
-          search.run(instance.robot(robot), instance.motion(robot), costs[robot], work / kWorkDivisor, stop);
+          search.run(way.legs[index.leg], instance.motion(index.robot), most, work / kWorkDivisor, stop);
       work -= search.work() - before;
-      seconds_[robot] = result.seconds;
+      way.seconds[index.leg] = result.seconds;
+      seconds_[index.robot] = end_after(itinerary, way.seconds);
       cut_off_ = cut_off_ || result.cut_off;
     }
   }

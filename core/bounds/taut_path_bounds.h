@@ -10,7 +10,8 @@
 namespace fleetplan::core {
 
 /// Lower bounds of the costs of robots, each alone on the static map, seconds: the straight line with its
-/// rotations where it is free, the cheapest taut path elsewhere (see TautPathSearch).
+/// rotations where it is free, the cheapest taut path elsewhere (see TautPathSearch); from goal to goal, with
+/// the services, after the committed actions.
 class TautPathBounds {
  public:
   /// Of `robots`, all with goals. `costs`, by robot, are those of a known plan; infinite for none. The work
@@ -25,11 +26,19 @@ class TautPathBounds {
   bool cut_off() const { return cut_off_; }
 
  private:
-  using RobotsByRadius = std::map<double, std::vector<std::size_t>>;
+  struct Way;
+  struct LegIndex {
+    std::size_t robot;
+    std::size_t way;
+    std::size_t leg;
+  };
+  using LegsByRadius = std::map<double, std::vector<LegIndex>>;
 
-  /// Replaces the bounds of these robots by those of their taut paths.
-  void improve(const Instance& instance, const RobotsByRadius& out_of_sight, const std::vector<double>& costs,
-               const StopCondition& stop);
+  void bound(const Instance& instance, const std::vector<std::size_t>& robots,
+             const std::vector<double>& costs, const StopCondition& stop);
+  /// Replaces the bounds of these legs by those of their taut paths.
+  void improve(const Instance& instance, const LegsByRadius& out_of_sight, std::vector<Way>& ways,
+               const std::vector<double>& costs, const StopCondition& stop);
 
   std::vector<double> seconds_;  // by robot
   bool cut_off_ = false;

@@ -18,16 +18,16 @@ constexpr int kStopStride = 16;
 
 }  // namespace
 
-TautPathResult TautPathSearch::run(const Robot& robot, const Motion& motion, double known_cost,
+TautPathResult TautPathSearch::run(const Leg& leg, const Motion& motion, double known_cost,
                                    std::int64_t max_work, const StopCondition& stop) {
-  robot_ = &robot;
+  leg_ = &leg;
   motion_ = &motion;
   bend_time_ = motion.translation_time(graph_.radius()) + 1.0 / motion.angular_speed;
   limit_ = known_cost * (1.0 + kRounding) + kRounding;
   const std::int64_t last_work = work() + max_work;
   reset();
-  const double straight = lower_bound(robot, motion);
-  for (const int corner : corners_.visible_from(robot.goal->position)) {
+  const double straight = lower_bound(leg, motion);
+  for (const int corner : corners_.visible_from(leg.to.position)) {
     goal_visible_[corner] = 1;
   }
   expand_start();
@@ -59,15 +59,15 @@ void TautPathSearch::reset() {
 }
 
 void TautPathSearch::expand_start() {
-  const Pose& start = robot_->start;
-  for (const int corner : corners_.visible_from(start.position)) {
+  for (const int corner : corners_.visible_from(leg_->from)) {
     for (const bool left : {false, true}) {
       const Bend bend{corner, left};
-      const auto tangent = graph_.from_point(start.position, bend);
+      const auto tangent = graph_.from_point(leg_->from, bend);
       if (!tangent) continue;
       ++steps_;
-      const double seconds = motion_->rotation_time(start.theta, tangent->heading) +
-                             motion_->translation_time(tangent->length) + 2.0 * motion_->wait_before_move;
+      const double rotation = leg_->heading ? motion_->rotation_time(*leg_->heading, tangent->heading) : 0.0;
+      const double seconds =
+          rotation + motion_->translation_time(tangent->length) + 2.0 * motion_->wait_before_move;
       const Arrival arrival{seconds, tangent->arrive_angle, bend, from_start_.next_index(), -1, false};
       if (push(arrival, *tangent)) from_start_.push_back(*tangent);
     }
@@ -107,7 +107,7 @@ void TautPathSearch::expand_tangents(const Arrival& arrival) {
 
 /// Puts the goal on the open list.
 void TautPathSearch::expand_goal(const Arrival& arrival) {
-  const auto tangent = graph_.to_point(arrival.bend, robot_->goal->position);
+  const auto tangent = graph_.to_point(arrival.bend, leg_->to.position);
   if (!tangent || tangent->leave_angle < arrival.angle - kSameAngle) return;
   ++steps_;
   const double seconds = seconds_after(arrival, *tangent);
@@ -124,13 +124,13 @@ double TautPathSearch::seconds_after(const Arrival& arrival, const Tangent& tang
 /// Whether the goal cannot be reached from `end` within the limit, turns ignored.
 bool TautPathSearch::exceeds_limit(double seconds, const Position& end) const {
   const double left = (limit_ - seconds) * motion_->linear_speed;
-  return left < 0.0 || (robot_->goal->position - end).squaredNorm() > left * left;
+  return left < 0.0 || (leg_->to.position - end).squaredNorm() > left * left;
 }
 
 /// Puts an arrival on the open list and returns true, unless the goal cannot be reached within the limit,
 /// turns included.
 bool TautPathSearch::push(const Arrival& arrival, const Tangent& by) {
-  const double f = arrival.seconds + straight_cost({by.end, by.heading}, *robot_->goal, *motion_);
+  const double f = arrival.seconds + straight_cost({by.end, by.heading}, leg_->to, *motion_);
   if (f > limit_) return false;
   open_.push_back({f, arrivals_.push_back(arrival)});
   std::push_heap(open_.begin(), open_.end(), std::greater<>());

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/bounds/corner_visibility.h"
+#include "core/bounds/lower_bound.h"
 #include "core/bounds/tangent_graph.h"
-#include "core/instance.h"
-#include "core/model/robot.h"
+#include "core/motion.h"
 #include "core/runtime/indexed_vector.h"
 #include "core/runtime/stop_condition.h"
 
@@ -33,10 +33,10 @@ class TautPathSearch {
   TautPathSearch(CornerVisibility& corners, const LineOfSight& sight, double radius)
       : corners_(corners), graph_(corners, sight, radius) {}
 
-  /// `motion` has the radius; the robot has a goal that is not in sight of its start. Paths that cost more
-  /// than `known_cost`, the cost of a plan in seconds (infinite for none), are not explored. After
+  /// `motion` has the radius; the leg ends out of sight of its begin. Paths that cost more
+  /// than `known_cost`, that of a known path in seconds (infinite for none), are not explored. After
   /// `max_work`, or when `stop` is met, returns the bound that is proved by then.
-  TautPathResult run(const Robot& robot, const Motion& motion, double known_cost, std::int64_t max_work,
+  TautPathResult run(const Leg& leg, const Motion& motion, double known_cost, std::int64_t max_work,
                      const StopCondition& stop);
 
   /// The work done so far by this search and by `corners`, in steps of 10 to 20 ns.
@@ -75,7 +75,7 @@ class TautPathSearch {
   std::int64_t steps_ = 0;  // tangents examined
 
   // Of the current search; members to reuse their memory.
-  const Robot* robot_ = nullptr;
+  const Leg* leg_ = nullptr;
   const Motion* motion_ = nullptr;
   double bend_time_ = 0.0;            // seconds for a radian of an arc
   double limit_ = 0.0;                // seconds; paths that cost more are not explored

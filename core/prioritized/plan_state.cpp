@@ -290,7 +290,9 @@ void PlanState::find_leg(std::size_t robot, std::size_t goal, std::int64_t max_e
     last += count;
     next *= 2;
     if (reaches && *reaches) way.kind = Way::Kind::on_lattice;
-    if (reaches && !*reaches) way = way_off_lattice(robot);
+    if (reaches && !*reaches) {
+      way = goals.size() == 1 ? way_off_lattice(robot) : Way{Way::Kind::not_on_lattice, {}, {}};
+    }
     if (reaches || stop.met()) break;
     test_enclosure(robot, kEnclosureSteps * last);
   }

@@ -31,6 +31,7 @@ class Search {
         motion_(space.vertices().motion()),
         timing_(motion_, table, robot),
         vertices_(space.vertices()),
+        last_stage_(static_cast<int>(space.goal_count()) - 1),
         limits_(limits),
         stop_(stop),
         pause_(std::min(limits.max_expansions, first_test(limits))),
@@ -74,9 +75,9 @@ class Search {
   Evaluation evaluate(PlaceId place, int interval, double arrival, double heading) const;
   double to_go(PlaceId place, double heading) const;
 
-  PlaceId place_of(int vertex, std::size_t stage);
+  PlaceId place_of(int vertex, int stage);
   void append_intervals(Place& place);
-  PlaceId goal_of(std::size_t stage) { return place_of(state_.stages[stage].goal.vertex, stage); }
+  PlaceId goal_of(int stage) { return place_of(state_.stages[stage].goal.vertex, stage); }
   LabelId source_of(const Edge& edge, EdgeKind kind) const {
     return kind == EdgeKind::shortcut ? state_.labels[edge.via].parent : edge.via;
   }
@@ -91,6 +92,7 @@ class Search {
   const Motion& motion_;
   const EdgeTiming timing_;
   const Vertices& vertices_;
+  const int last_stage_;
   const SearchLimits& limits_;
   const StopCondition& stop_;
 
@@ -155,10 +157,10 @@ Outcome Search::run(Pass pass) {
 /// Offers the moves to all neighbours, and the service at the goal of the stage.
 void Search::expand(LabelId id) {
   ++expansions_;
-  if (state_.stages.size() > 1 && serve(id)) return;
+  if (last_stage_ > 0 && serve(id)) return;
   const Label& label = state_.labels[id];
   const int before = label.by_translation ? place_at(label.parent).vertex : -1;
-  const std::size_t stage = place_at(id).stage;
+  const int stage = place_at(id).stage;
   if (vertices_.any_angle()) offer_goal(id);
   vertices_.for_each_neighbour(place_at(id).vertex, [&](int neighbour) {
     const PlaceId target = place_of(neighbour, stage);
@@ -174,7 +176,7 @@ bool Search::serve(LabelId id) {
   const Label label = state_.labels[id];
   const Place place = state_.places[label.place];
   const Stage& stage = state_.stages[place.stage];
-  if (place.vertex != stage.goal.vertex || place.stage + 1 == state_.stages.size()) return false;
+  if (place.vertex != stage.goal.vertex || place.stage == last_stage_) return false;
   const ServiceStop stop = service_stop(label, stage, space_);
   const double t_end = std::max(stop.t_end, label.arrival);
   const double safe_until = state_.intervals[label.interval].end;
@@ -193,9 +195,9 @@ bool Search::serve(LabelId id) {
 /// which the robot may stay.
 void Search::offer_goal(LabelId from) {
   const PlaceId place = state_.labels[from].place;
-  const std::size_t stage = state_.places[place].stage;
+  const int stage = state_.places[place].stage;
   if (place == state_.goal || !state_.places[place].estimate.straight) return;
-  if (stage + 1 < state_.stages.size()) {
+  if (stage != last_stage_) {
     const PlaceId goal = goal_of(stage);
     return offer_from(add_edge(from, goal, false), state_.places[goal].first_interval);
   }
@@ -290,18 +292,18 @@ bool Search::begin(Pass pass) {
   const double slack = use_slack_ ? limits_.dominance_slack * vertices_.spacing() : 0.0;
   state_.dominance.reset(motion_, motion_.translation_time(slack));
   state_.stages = stages_of(space_, stop_);
-  state_.goal = goal_of(state_.stages.size() - 1);
+  state_.goal = goal_of(last_stage_);
   const Place& goal = state_.places[state_.goal];
   if (goal.never_safe()) return false;
   const SafeInterval& last = state_.intervals[goal.end_interval - 1];
   set_releases(state_.stages, last.begin);
-  state_.release = state_.stages.front().release;
+  state_.release = state_.stages[0].release;
   return last.end == kForever && can_serve_all();
 }
 
 /// Whether each goal before the last one is free for long enough, at some time.
 bool Search::can_serve_all() {
-  for (std::size_t k = 0; k + 1 < state_.stages.size(); ++k) {
+  for (int k = 0; k < last_stage_; ++k) {
     const Place goal = state_.places[goal_of(k)];
     const double done = k == 0 ? space_.itinerary().service_done : 0.0;
     bool can_serve = false;
@@ -400,7 +402,7 @@ inline double Search::to_go(PlaceId place, double heading) const {
 }
 
 /// The place of a vertex in a stage, with its safe intervals; computed when it is reached for the first time.
-PlaceId Search::place_of(int vertex, std::size_t stage) {
+PlaceId Search::place_of(int vertex, int stage) {
   PlaceId& latest = state_.place_of_vertex[vertex];
   PlaceId known = latest;
   while (known != PlaceId::none && state_.places[known].stage != stage) {
@@ -410,7 +412,7 @@ PlaceId Search::place_of(int vertex, std::size_t stage) {
   Place place{vertex, stage, vertices_.position(vertex), {}, false, state_.intervals.next_index(), 0, latest};
   const Stage& at = state_.stages[stage];
   if (vertex != at.goal.vertex) {
-    place.estimate = space_.cost_to_go(stage).from(vertex, stop_);
+    place.estimate = space_.cost_to_go(static_cast<std::size_t>(stage)).from(vertex, stop_);
     place.estimate.seconds += at.after;
   } else {
     place.estimate = {at.after, at.goal.heading.value_or(0.0), false};

@@ -44,9 +44,10 @@ Trajectory trajectory_of(const SearchState& state, const SearchSpace& space) {
     const Label& from = state.labels[path[i - 1]];
     const Label& to = state.labels[path[i]];
     if (!to.by_translation) {
-      const std::size_t stage = place_of(from).stage;
+      const int stage = place_of(from).stage;
       const ServiceStop stop = service_stop(from, state.stages[stage], space);
-      trajectory.visits.push_back({space.itinerary().first_goal + stage, stop.t_rest, stop.t_end});
+      trajectory.visits.push_back(
+          {space.itinerary().first_goal + static_cast<std::size_t>(stage), stop.t_rest, stop.t_end});
       continue;
     }
     const bool continues = from.by_translation && to.departure == from.arrival &&

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "core/geometry/interval.h"
 #include "core/geometry/position.h"
@@ -21,7 +19,7 @@ enum class LabelId : int { none = -1 };
 /// A vertex that the search has reached in a stage, with its safe intervals (paper, "Computing intervals").
 struct Place {
   int vertex;
-  std::size_t stage;
+  int stage;
   Position position;
   CostToGo::Estimate estimate;  // to the end of the last service
   bool any_heading;             // the goal of the stage, in which the robot may rest with any heading
@@ -59,7 +57,7 @@ struct Edge {
 
 /// The state of one search.
 struct SearchState {
-  std::vector<Stage> stages;
+  IndexedVector<Stage> stages;
   IndexedVector<PlaceId> place_of_vertex;  // the latest; none for vertices that were not reached
   IndexedVector<Place, PlaceId> places;
   IndexedVector<SafeInterval> intervals;  // of all places

@@ -1,5 +1,8 @@
 #include "core/sipp/stage.h"
 
+#include <cstddef>
+#include <vector>
+
 namespace fleetplan::core {
 namespace {
 
@@ -17,30 +20,34 @@ double estimated_leg(SearchSpace& space, std::size_t from, const StopCondition& 
 
 }  // namespace
 
-std::vector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
+IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
   const std::vector<Goal>& goals = space.itinerary().goals;
-  std::vector<Stage> stages(goals.size());
-  for (std::size_t k = goals.size(); k-- > 0;) {
-    stages[k] = {space.vertices().goals()[k], goals[k].service, goals[k].not_before, goals[k].service, 0.0};
-    if (k + 1 < goals.size()) stages[k].after += estimated_leg(space, k, stop) + stages[k + 1].after;
+  IndexedVector<Stage> stages(goals.size());
+  const int last = static_cast<int>(goals.size()) - 1;
+  for (int k = last; k >= 0; --k) {
+    const auto index = static_cast<std::size_t>(k);
+    const Goal& goal = goals[index];
+    stages[k] = {space.vertices().goals()[index], goal.service, goal.not_before, goal.service, 0.0};
+    if (k < last) stages[k].after += estimated_leg(space, index, stop) + stages[k + 1].after;
   }
   return stages;
 }
 
 double estimated_end(SearchSpace& space, const StopCondition& stop) {
-  std::vector<Stage> stages = stages_of(space, stop);
+  IndexedVector<Stage> stages = stages_of(space, stop);
   set_releases(stages, 0.0);
-  const Stage& first = stages.front();
+  const Stage& first = stages[0];
   const int start = space.vertices().start();
   const bool leaves = start != first.goal.vertex;
   const double leg = leaves ? space.cost_to_go(0).from(start, stop).seconds : 0.0;
   return std::max(first.release, space.itinerary().t_begin + leg + first.after);
 }
 
-void set_releases(std::vector<Stage>& stages, double last_free_from) {
+void set_releases(IndexedVector<Stage>& stages, double last_free_from) {
   double release = stages.back().service_end(last_free_from);
-  for (std::size_t k = stages.size(); k-- > 0;) {
-    if (k + 1 < stages.size()) release = std::max(release, stages[k].not_before + stages[k].after);
+  for (int k = static_cast<int>(stages.size()) - 1; k >= 0; --k) {
+    const bool is_last = &stages[k] == &stages.back();
+    if (!is_last) release = std::max(release, stages[k].not_before + stages[k].after);
     stages[k].release = release;
   }
 }

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
 
-#include "core/geometry/segment.h"
+#include "core/runtime/indexed_vector.h"
 #include "core/runtime/stop_condition.h"
 #include "core/sipp/search_space.h"
 
@@ -24,10 +23,10 @@ struct Stage {
 };
 
 /// The stages of a robot with a goal, without the releases.
-std::vector<Stage> stages_of(SearchSpace& space, const StopCondition& stop);
+IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop);
 /// Estimates when a robot ends its last service if it is alone on the static map; seconds.
 double estimated_end(SearchSpace& space, const StopCondition& stop);
 /// `last_free_from`: when the last goal becomes free for good.
-void set_releases(std::vector<Stage>& stages, double last_free_from);
+void set_releases(IndexedVector<Stage>& stages, double last_free_from);
 
 }  // namespace fleetplan::core

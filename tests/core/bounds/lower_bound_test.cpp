@@ -65,6 +65,23 @@ TEST_P(LowerBoundOfRandomProblems, NeverExceedsTheCostOfTheRobotAloneAndIsExactI
   EXPECT_GT(straight, 10);
 }
 
+TEST(LowerBound, AddsLegsServicesAndWaiting) {
+  Robot robot = robot_at(1, 1).to(1, 5);
+  robot.via = {{{5, 1}, {}, 3.0}, {{5, 5}, kPi / 2, 1.0, 20.0}};
+  EXPECT_DOUBLE_EQ(lower_bound(robot, kMotion), 20.0 + 1.0 + kPi + 2.0)
+      << "from (5, 5) on: the service at 20 s, a quarter turn, and 4 m";
+  robot.via[1].not_before = 0.0;
+  EXPECT_DOUBLE_EQ(lower_bound(robot, kMotion), 2.0 + 3.0 + 2.0 + 1.0 + kPi + 2.0)
+      << "the heading at the first goal is free";
+}
+
+TEST(LowerBound, CountsOnlyWhatIsLeftOfAServiceUnderWay) {
+  Robot robot = robot_at(1, 1).to(5, 1);
+  robot.via = {{{1, 1}, {}, 3.0}};
+  robot.committed = {{Action::Type::wait, 0.0, 2.0, robot.start, robot.start, 0}};
+  EXPECT_DOUBLE_EQ(lower_bound(robot, kMotion), 3.0 + 2.0);
+}
+
 INSTANTIATE_TEST_SUITE_P(AnyAngle, LowerBoundOfRandomProblems, testing::Bool());
 
 }  // namespace

@@ -334,12 +334,39 @@ TEST(TautPathBounds, TakeLimitedWorkForManyRobotsOnALargeMapWithManyCorners) {
   CornerVisibility corners(grid, 0.3, 0.4);
   for (const std::size_t robot : {std::size_t{0}, all.back()}) {
     TautPathSearch search(corners, instance.sight(), instance.motion(robot).radius);
-    const double whole =
-        search.run(instance.robot(robot), instance.motion(robot), kForever, 1'000'000'000, StopCondition())
-            .seconds;
+    const double whole = search
+                             .run(legs_of(instance.itinerary(robot))[0], instance.motion(robot), kForever,
+                                  1'000'000'000, StopCondition())
+                             .seconds;
     EXPECT_LT(bounds[robot], whole - 1e-3);
     EXPECT_GE(bounds[robot], lower_bound(instance.robot(robot), instance.motion(robot)));
   }
+}
+
+/// A robot from the left of the wall to its right, and on to the last goal; 1 m/s.
+Robot around_the_wall_and_back() {
+  Robot robot = robot_at(0.5, 0.5).to(0.5, 0.5);
+  robot.via = {{{6.5, 0.5}, {}, 2.0}};
+  return robot;
+}
+
+TEST(TautPathBounds, AddUpTheLegsBetweenGoalsAndTheServices) {
+  const double there = bound_of(make_problem(wall(), {robot_at(0.5, 0.5).to(6.5, 0.5)}));
+  const Problem problem = make_problem(wall(), {around_the_wall_and_back()});
+  const double bound = bound_of(problem);
+  EXPECT_GT(bound, straight_bound_of(problem) + 1.0);
+  EXPECT_GT(bound, there + 2.0 + 6.0);
+  EXPECT_LE(bound, *cost_alone(problem));
+  EXPECT_NEAR(bound_of(problem, {}, *cost_alone(problem)), bound, 1e-9) << "also where a plan is known";
+}
+
+TEST(TautPathBounds, BeginAfterTheCommittedActions) {
+  Robot robot = robot_at(0.5, 0.5).to(6.5, 0.5);
+  const double at_once = bound_of(make_problem(wall(), {robot}));
+  robot.committed = {{Action::Type::wait, 0.0, 3.0, robot.start, robot.start}};
+  const Problem problem = make_problem(wall(), {robot});
+  EXPECT_NEAR(bound_of(problem), 3.0 + at_once, 1e-9);
+  EXPECT_LE(bound_of(problem), *cost_alone(problem));
 }
 
 TEST(TautPathSearch, ReturnsHigherBoundsAfterMoreWork) {
@@ -351,7 +378,7 @@ TEST(TautPathSearch, ReturnsHigherBoundsAfterMoreWork) {
     CornerVisibility corners(problem.grid(), instance.motion(0).radius, instance.motion(0).radius);
     TautPathSearch search(corners, instance.sight(), instance.motion(0).radius);
     const TautPathResult result =
-        search.run(instance.robot(0), instance.motion(0), kForever, work, StopCondition());
+        search.run(legs_of(instance.itinerary(0))[0], instance.motion(0), kForever, work, StopCondition());
     EXPECT_FALSE(result.cut_off);
     EXPECT_GT(result.seconds, before);
     before = result.seconds;
@@ -371,7 +398,7 @@ TEST(TautPathSearch, NeedsLessWorkWhereAPlanIsKnown) {
   const auto work = [&](double at_most) {
     CornerVisibility corners(problem.grid(), radius, radius);
     TautPathSearch search(corners, instance.sight(), radius);
-    search.run(instance.robot(0), instance.motion(0), at_most, 1'000'000, StopCondition());
+    search.run(legs_of(instance.itinerary(0))[0], instance.motion(0), at_most, 1'000'000, StopCondition());
     return search.work();
   };
   EXPECT_LT(work(*cost_alone(problem)), 0.8 * static_cast<double>(work(kForever)));
