@@ -59,7 +59,10 @@ class Clearing {
  public:
   Clearing(std::vector<core::Robot>& robots, std::vector<Deviation> deviations, ParseStop& stop)
       : robots_(robots), deviations_(std::move(deviations)), is_cut_(robots.size()), stop_(stop) {
-    for (const core::Robot& robot : robots) pieces_.push_back(pieces_of(robot));
+    for (const core::Robot& robot : robots) {
+      pieces_.push_back(pieces_of(robot));
+      reach_.push_back(robot.radius + driven(robot));
+    }
   }
 
   void run() {
@@ -89,11 +92,24 @@ class Clearing {
     return pieces;
   }
 
+  /// The length of the committed path.
+  static double driven(const core::Robot& robot) {
+    double length = 0.0;
+    for (const Action& action : robot.committed) length += (action.to.position - action.from.position).norm();
+    return length;
+  }
+
+  bool may_meet(std::size_t robot, std::size_t other) const {
+    const Position apart = robots_[robot].start.position - robots_[other].start.position;
+    return apart.norm() <= reach_[robot] + reach_[other];
+  }
+
   bool stands(std::size_t robot) const { return is_cut_[robot] || deviations_[robot] == Deviation::stands; }
 
   /// Ends the commitment of the other robot, and of this one if it moves, where they begin to overlap.
   void part(std::size_t robot, std::size_t other) {
     if (deviations_[other] == Deviation::stands || pieces_[other].size() == 1) return;
+    if (!may_meet(robot, other)) return;
     const auto t = overlap(robot, other);
     if (!t) return;
     cut(other, *t);
@@ -129,6 +145,7 @@ class Clearing {
   std::vector<bool> is_cut_;
   ParseStop& stop_;
   std::vector<std::vector<Piece>> pieces_;
+  std::vector<double> reach_;  // from the start, the disk included; of the commitment as it was
   std::vector<std::size_t> waiting_;
 };
 

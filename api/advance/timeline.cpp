@@ -22,6 +22,9 @@ constexpr double kDone = 1e-9;
 /// A measured pose that is nearer to the end of a translation has reached it (metres).
 constexpr double kReached = 1e-6;
 
+/// A measured pose that is nearer to the planned line is on it (metres).
+constexpr double kOnLine = 1e-8;
+
 double length(const Action& action) { return (action.to.position - action.from.position).norm(); }
 
 double turn(const Action& action) { return core::rotation_between(action.from.theta, action.to.theta); }
@@ -116,6 +119,9 @@ void turn_back(Actions& driven, Actions& following, double planned_heading, doub
 double heading_along(const core::Position& path, const Action& planned) {
   const core::Position ahead(std::cos(planned.from.theta), std::sin(planned.from.theta));
   const core::Position planned_path = planned.to.position - planned.from.position;
+  const double aside = ahead.x() * path.y() - ahead.y() * path.x();
+  if (std::abs(aside) <= kOnLine && ahead.dot(path) * ahead.dot(planned_path) > 0.0)
+    return planned.from.theta;
   const double sign = ahead.dot(planned_path) < 0.0 ? -1.0 : 1.0;
   return std::atan2(sign * path.y(), sign * path.x());
 }

@@ -6,7 +6,9 @@ have executed by a reading of the contract of its own.
   drive.py --url http://localhost:8080 --robots 12 --seconds 60
 
 Each period, every robot executes its plan; who has served its last goal gets new random ones; and the fleet is planned
-again. With --holds N, robots are held for 30 s at N random moments. With --obstacles N, people walk across the map.
+again. With --holds N, robots are held for 30 s at N random moments. With --late N, robots fall behind by less than
+--margin seconds (options.interval_margin), which their measured poses tell. With --obstacles N, people walk across the
+map.
 Exit status 1 if a request was not answered within its budget, a robot was stranded, disks overlapped, or an answer
 contradicts its request. Random choices depend on --seed only. Python standard library only.
 """
@@ -24,6 +26,7 @@ import time
 import urllib.error
 import urllib.request
 
+from geometry import pose_in
 from replay import Replay
 
 SCENARIOS = pathlib.Path(__file__).resolve().parent.parent / "scenarios"
@@ -101,6 +104,7 @@ class Drive:
         self.last = {robot["id"]: (robot["goal"]["x"], robot["goal"]["y"]) for robot in request["robots"]}
         self.holds = {}  # until when, by robot
         self.hold_times = sorted(self.rng.uniform(0.0, options.seconds) for _ in range(options.holds))
+        self.late_times = sorted(self.rng.uniform(0.0, options.seconds) for _ in range(options.late))
         self.walk_times = sorted(self.rng.uniform(0.0, options.seconds) for _ in range(options.obstacles))
         self.count = collections.Counter()
         self.latency_ms = []
@@ -114,15 +118,17 @@ class Drive:
             period = self.options.period
             actions = {entry["robot"]: entry["actions"]
                        for entry in [*answer["unplanned"], *answer["plans"]] if "actions" in entry}
+            poses = self.new_delays(actions, period)
+            met = len(self.replay.met)
             self.replay.execute(actions, period, self.request.get("obstacles", ()))
-            goals = self.new_goals(answer, period)
+            self.judge_meetings(self.replay.met[met:], answer)
+            goals = self.new_goals(answer, period, {entry["robot"] for entry in poses})
             self.request = self.service.post("/v1/advance", {
                 "request": self.request, "plans": answer["plans"], "at": period, "commit": self.options.commit,
-                "holds": self.new_holds(answer), "goals": goals})
+                "holds": self.new_holds(answer), "goals": goals, "poses": poses})
             self.add_people()
-            before = answer
             answer = self.plan()
-            self.compare(before, answer, {entry["robot"] for entry in goals})
+            self.compare(answer, {entry["robot"] for entry in goals})
         return self
 
     def plan(self):
@@ -173,11 +179,40 @@ class Drive:
         if "visits" in plan and [visit["goal"] for visit in plan["visits"]] != list(range(len(goals))):
             self.problem(f"{robot['id']} has {len(goals)} goals and the visits {plan['visits']}")
 
-    def new_goals(self, answer, period):
+    def judge_meetings(self, met, answer):
+        """A robot meets a person only where the answer says that it cannot be avoided."""
+        told = {(entry.get("robot"), entry.get("obstacle")) for entry in answer.get("unavoidable", ())}
+        for robot, obstacle, t in met:
+            if (robot, obstacle) not in told:
+                self.problem(f"{robot} meets {obstacle} at {t} s, and the answer does not tell")
+
+    def new_delays(self, actions, period):
+        """Some robots end this period in the middle of a translation, later than planned: their poses. Their actions
+        become what they execute."""
+        poses = []
+        while self.late_times and self.late_times[0] <= self.replay.now:
+            self.late_times.pop(0)
+            lag = self.rng.uniform(0.2, 0.9) * self.options.margin
+            driving = [(robot, k) for robot, list_ in actions.items() for k, action in enumerate(list_)
+                       if action["type"] == "translate" and robot not in self.holds
+                       and action["t_start"] < period - lag and action["t_end"] >= period]
+            if not driving:
+                continue
+            robot, k = self.rng.choice(driving)
+            x, y, theta = pose_in(actions[robot][k], period - lag)
+            pose = {"x": x, "y": y, "theta": theta}
+            driven = {**actions[robot][k], "t_end": period - lag, "to": pose}
+            stop = {"type": "wait", "t_start": period - lag, "t_end": period, "from": pose, "to": pose}
+            actions[robot] = [*actions[robot][:k], driven, stop]
+            poses.append({"robot": robot, **pose})
+            self.count["late"] += 1
+        return poses
+
+    def new_goals(self, answer, period, late):
         given = []
         for plan in answer["plans"]:
             robot = plan["robot"]
-            if plan["cost"] > period or robot not in self.last:
+            if plan["cost"] > period or robot not in self.last or robot in late:
                 continue
             if self.replay.visits[robot].goals:
                 self.replay.fault(f"{robot} has not served {list(self.replay.visits[robot].goals)}")
@@ -214,11 +249,10 @@ class Drive:
             self.request.setdefault("obstacles", []).append(
                 {"id": f"person-{self.people}", "radius": 0.25, "motion": motion})
 
-    def compare(self, before, answer, given):
-        """How many of the robots under way that keep their goals got another plan. Among a hold, changes have a cause."""
+    def compare(self, answer, given):
+        """How many of the robots under way that keep their goals got another plan."""
         previous = {robot["id"]: robot["previous"] for robot in self.request["robots"] if robot.get("previous")}
         plans = {plan["robot"]: plan["actions"] for plan in answer["plans"]}
-        del before
         for robot, actions in previous.items():
             if robot in given:
                 continue
@@ -237,13 +271,14 @@ class Drive:
             "latency_ms": {"median": round(latency[len(latency) // 2], 1),
                            "p99": round(latency[int(len(latency) * 0.99)], 1), "most": round(latency[-1], 1)},
             "holds": self.count["holds"],
+            "late": self.count["late"],
             "people": self.people,
             "meetings_with_people": len(meetings),
             "plans_under_way": self.count["under way"],
             "plans_changed": self.count["changed"],
             "least_gap": self.replay.least_gap,
             "unplanned": {key: value for key, value in self.count.items()
-                          if key not in ("plans", "goals", "holds", "under way", "changed")},
+                          if key not in ("plans", "goals", "holds", "late", "under way", "changed")},
             "problems": len(self.problems) + len(self.replay.faults),
             "first_problems": (self.problems + self.replay.faults)[:10],
         }
@@ -254,6 +289,8 @@ def instance(options):
     request = json.loads((SCENARIOS / f"{options.scenario}.json").read_text())
     request["robots"] = request["robots"][:options.robots]
     request["options"] = {"time_budget_ms": options.budget_ms, "start_safe_interval": 0}
+    if options.margin:
+        request["options"]["interval_margin"] = options.margin
     if options.replan != "all":
         request["options"]["replan"] = options.replan
     return request
@@ -272,6 +309,8 @@ def arguments(argv=None):
     parser.add_argument("--budget-ms", type=int, default=1000)
     parser.add_argument("--replan", choices=("all", "where_needed"), default="where_needed")
     parser.add_argument("--holds", type=int, default=0)
+    parser.add_argument("--late", type=int, default=0)
+    parser.add_argument("--margin", type=float, default=0.0)
     parser.add_argument("--obstacles", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", help="a file for the last request, if the drive fails")

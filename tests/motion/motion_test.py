@@ -86,6 +86,10 @@ class Drives(unittest.TestCase):
         self.assertEqual(done["holds"], 3)
         self.assertLess(done["plans_changed"], done["plans_under_way"] / 5)
 
+    def test_late_robots_tell_where_they_are_and_nobody_collides_with_them(self):
+        done = self.drive("--late", "6", "--margin", "0.5")
+        self.assertEqual(done["late"], 6)
+
 
 def action(kind, t0, t1, a, b):
     def pose(values):
@@ -133,15 +137,14 @@ class TheReplay(unittest.TestCase):
         replay.execute({"a": [action("translate", 0, 2, (0.5, 0.5, 0), (2.5, 0.5, 0))]}, 4.0, [person])
         self.assertEqual([met[:2] for met in replay.met], [("a", "p")])
 
-    def test_a_service_counts_while_the_robot_rests_and_only_then(self):
-        visits = Visits([{"x": 1.0, "y": 1.0, "service": 2.0}, {"x": 1.0, "y": 1.0, "theta": 0.5}], 0.0)
-        visits.rests((1.0, 1.0, 0.0), 0.0, 1.0)
-        visits.rest = None
-        visits.rests((1.0, 1.0, 0.0), 5.0, 6.0)
+    def test_a_service_takes_time_at_rest_in_the_pose_of_its_goal(self):
+        visits = Visits([{"x": 1.0, "y": 1.0, "service": 2.0}, {"x": 1.0, "y": 1.0, "theta": 0.5}])
+        visits.rests((1.0, 2.0, 0.0), 0.0, 9.0)
+        visits.rests((1.0, 1.0, 0.0), 9.0, 10.0)
         self.assertEqual(len(visits.goals), 2)
-        visits.rests((1.0, 1.0, 0.0), 6.0, 7.0)
+        visits.rests((1.0, 1.0, 0.0), 15.0, 16.0)  # it goes on
         self.assertEqual(len(visits.goals), 1)
-        visits.rests((1.0, 1.0, 0.5), 8.0, 8.0)
+        visits.rests((1.0, 1.0, 0.5), 18.0, 18.0)
         self.assertEqual(len(visits.goals), 0)
 
     def test_distances_are_those_of_continuous_motion(self):

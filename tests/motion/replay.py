@@ -44,28 +44,24 @@ class Walls:
 class Visits:
     """The goals of a robot and which of them it has served, from its rests."""
 
-    def __init__(self, goals, now):
-        self.goals = collections.deque(dict(goal, since=now) for goal in goals)
-        self.rest = None  # pose and begin
+    def __init__(self, goals):
+        self.goals = collections.deque(dict(goal, done=0.0) for goal in goals)
 
     def rests(self, pose, begin, end):
-        """The robot has been at rest in this pose; adjacent rests in one pose are one."""
-        rest = self.rest
-        if rest is None or begin > rest[2] + SAME_TIME or max(abs(a - b) for a, b in zip(rest[0], pose)) > JUMP:
-            self.rest = [pose, begin, end]
-        self.rest[2] = end
+        """The robot has been at rest in this pose. A service that was broken off goes on: /v1/advance keeps what is
+        left of it."""
         while self.goals:
             goal = self.goals[0]
             if math.hypot(goal["x"] - pose[0], goal["y"] - pose[1]) > JUMP:
                 return
             if "theta" in goal and abs(turned(goal["theta"] - pose[2])) > JUMP:
                 return
-            # Goals count from when they were given, a service from the one before.
-            served = max(self.rest[1], goal["since"]) + goal.get("service", 0.0)
-            if served > end + SAME_TIME:
+            left = goal.get("service", 0.0) - goal["done"]
+            if left > end - begin + SAME_TIME:
+                goal["done"] += end - begin
                 return
+            begin = min(end, begin + left)
             self.goals.popleft()
-            self.rest[1] = served
 
 
 class Replay:
@@ -78,7 +74,7 @@ class Replay:
             traits = {**request.get("robot_defaults", {}), **robot}
             self.robots[robot["id"]] = traits
         self.poses = {r["id"]: self.pose_of(r["start"]) for r in request["robots"]}
-        self.visits = {r["id"]: Visits(r.get("goals", [r["goal"]] if "goal" in r else []), 0.0)
+        self.visits = {r["id"]: Visits(r.get("goals", [r["goal"]] if "goal" in r else []))
                        for r in request["robots"]}
         self.now = 0.0
         self.faults = []
@@ -94,7 +90,7 @@ class Replay:
         self.faults.append(f"t = {self.now:.3f} s: {text}")
 
     def give(self, robot, goals):
-        self.visits[robot] = Visits(goals, self.now)
+        self.visits[robot] = Visits(goals)
 
     def execute(self, actions, seconds, obstacles=()):
         """All robots execute their actions (by id; an absent robot stands) for a time."""
@@ -121,7 +117,6 @@ class Replay:
             if action["type"] == "wait":
                 visits.rests(pose, self.now + t, self.now + until)
             else:
-                visits.rest = None
                 # At rest in the instant between two actions, not in the middle of one.
                 if action["t_end"] <= seconds:
                     visits.rests(end, self.now + until, self.now + until)

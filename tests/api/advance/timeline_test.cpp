@@ -160,6 +160,7 @@ TEST(Timeline, ALateRobotDrivesStraightToTheEndOfItsActionAndTheRestIsLater) {
 TEST(Timeline, ARobotMayStillBeInAnEarlierActionThanPlanned) {
   const Remainder driving = measured({{3.0, 1.0}, 0.0}, 8.0);
   ASSERT_EQ(driving.actions.size(), 4U);
+  EXPECT_EQ(driving.start.theta, 0.0);
   EXPECT_NEAR(driving.actions[3].t_end, 2.0 + 5.0, 1e-12);
   const Remainder turning = measured({{5.0, 1.0}, 0.5 * kQuarter}, 8.0);
   ASSERT_EQ(turning.actions.size(), 3U);
