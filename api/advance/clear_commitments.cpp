@@ -120,11 +120,12 @@ class Clearing {
   std::optional<double> overlap(std::size_t robot, std::size_t other) {
     const double distance = robots_[robot].radius + robots_[other].radius - kTouch;
     const std::size_t count = pieces_[robot].size() - (stands(robot) ? 0 : 1);
-    for (std::size_t i = 0; i + 1 < pieces_[other].size(); ++i) {
-      for (std::size_t k = 0; k < count; ++k) {
-        if (stop_.met_after(1)) return std::nullopt;
-        if (const auto t = first_overlap(pieces_[other][i], pieces_[robot][k], distance)) return t;
-      }
+    const std::vector<Piece>& theirs = pieces_[other];
+    std::size_t i = 0;
+    for (std::size_t k = 0; k < count && i + 1 < theirs.size();) {
+      if (stop_.met_after(1)) return std::nullopt;
+      if (const auto t = first_overlap(theirs[i], pieces_[robot][k], distance)) return t;
+      theirs[i].end < pieces_[robot][k].end ? ++i : ++k;
     }
     return std::nullopt;
   }
