@@ -61,8 +61,13 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   stages.planned = Stages::Clock::now();
   const auto& robots = request.problem.robots();
   const auto check = [&](const core::Plan& checked, const core::StopCondition& patience) {
-    return core::verify(request.problem.grid(), robots, checked.plans,
-                        core::plan_tolerances(request.problem.grid(), robots, checked.plans), patience);
+    const core::OccupancyGrid& grid = request.problem.grid();
+    core::CheckRules rules{core::plan_tolerances(grid, robots, checked.plans)};
+    rules.interval_margin = request.options.interval_margin;
+    rules.start_overlap = request.options.start_overlap;
+    rules.exact_commitments = true;
+    rules.exempt = checked.unavoidable;
+    return core::verify({grid, robots, request.problem.obstacles()}, checked.plans, rules, patience);
   };
   auto report = check(plan, check_stop(stop).despite_memory());
   core::Plan less;
@@ -73,8 +78,9 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   const PlanOutcome outcome =
       outcome_of(answered, std::chrono::duration<double>(stages.planned - stages.started).count());
   if (!report->valid()) return rejected(outcome, *report, request_id);
-  std::string text =
-      write_response({answered, *report, robots, request.frame.origin, request.warnings}, request_id, stages);
+  std::string text = write_response({answered, *report, robots, request.problem.obstacles(), request.received,
+                                     request.frame.origin, request.warnings},
+                                    request_id, stages);
   return {200, kJson, std::move(text), {}, outcome};
 }
 

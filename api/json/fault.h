@@ -18,6 +18,7 @@ inline constexpr const char* kMissing = "missing";
 inline constexpr const char* kUnknownKey = "unknown_key";
 inline constexpr const char* kUnknownValue = "unknown_value";
 inline constexpr const char* kUnknownRobot = "unknown_robot";
+inline constexpr const char* kUnknownObstacle = "unknown_obstacle";
 inline constexpr const char* kDuplicate = "duplicate";
 inline constexpr const char* kOutOfRange = "out_of_range";
 inline constexpr const char* kEmpty = "empty";

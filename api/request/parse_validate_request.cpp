@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "api/request/parse_body.h"
+#include "api/request/parse_meetings.h"
 #include "api/request/parse_plans.h"
 #include "api/request/ranges.h"
 #include "core/verify/tolerances.h"
@@ -31,6 +32,15 @@ std::chrono::nanoseconds check_budget(ReadOptions options, const Limits& limits)
   return effective_budget(options, limits);
 }
 
+/// Inflation and added waits are the planner's business: what it returns is checked with bare radii.
+core::CheckRules rules_of(const core::PlanOptions& options, std::vector<core::Meeting> meetings) {
+  core::CheckRules rules;
+  rules.interval_margin = options.interval_margin;
+  rules.start_overlap = options.start_overlap;
+  rules.exempt = std::move(meetings);
+  return rules;
+}
+
 }  // namespace
 
 Result<ValidateRequest, RequestError> parse_validate_request(std::string_view body, const Limits& limits,
@@ -41,12 +51,19 @@ Result<ValidateRequest, RequestError> parse_validate_request(std::string_view bo
     const double tolerance = root.find("tolerance").number(kTolerance).value_or(kDefaultTolerance);
     const WorldFrame frame = fleet.map ? fleet.map->frame : WorldFrame{};
     auto plans = parse_plans(root.require("plans"), fleet.robots, frame);
+    auto meetings = parse_meetings(root.find("unavoidable"), fleet);
     if (!fleet.map || reading.met()) return std::nullopt;
     std::vector<core::Robot> robots;
     robots.reserve(fleet.robots.size());
     for (ReadRobot& robot : fleet.robots) robots.push_back(std::move(robot.robot));
-    return ValidateRequest{std::move(fleet.map->grid), std::move(robots), std::move(plans), tolerance,
-                           check_budget(fleet.options, limits)};
+    if (fleet.options.invalid_robots == InvalidRobots::report) {
+      mark_invalid_robots(root.find("unplanned"), robots);
+    }
+    core::CheckRules rules = rules_of(fleet.options.plan, std::move(meetings));
+    rules.tolerances.assign(robots.size(), core::Tolerance::of_all(tolerance));
+    return ValidateRequest{std::move(fleet.map->grid), std::move(robots),
+                           std::move(fleet.obstacles), std::move(plans),
+                           std::move(rules),           check_budget(fleet.options, limits)};
   };
   return parse_body<ValidateRequest>(body, limits, stop, kMembers, parse);
 }

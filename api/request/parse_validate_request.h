@@ -9,8 +9,10 @@
 #include "api/request/limits.h"
 #include "api/response/error.h"
 #include "core/map/occupancy_grid.h"
+#include "core/model/moving_obstacle.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
+#include "core/verify/check_rules.h"
 
 namespace fleetplan::api {
 
@@ -19,8 +21,9 @@ namespace fleetplan::api {
 struct ValidateRequest {
   core::OccupancyGrid grid;
   std::vector<core::Robot> robots;
+  std::vector<core::MovingObstacle> obstacles;
   std::vector<core::RobotPlan> plans;
-  double tolerance = 0.0;             // metres, seconds and radians
+  core::CheckRules rules;             // the tolerance is in metres, seconds and radians
   std::chrono::nanoseconds budget{};  // of the check
 };
 

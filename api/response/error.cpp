@@ -2,8 +2,6 @@
 
 #include <array>
 
-#include "api/json/json_writer.h"
-
 namespace fleetplan::api {
 
 namespace {
@@ -68,6 +66,16 @@ std::span<const ErrorRow> error_table() { return kTable; }
 
 const ErrorRow& row_of(ErrorCode code) { return kTable[static_cast<std::size_t>(code)]; }
 
+void write_errors(JsonWriter& json, const std::vector<Fault>& faults) {
+  json.key("errors").begin_array();
+  for (const Fault& fault : faults) {
+    json.begin_object();
+    json.member("pointer", fault.pointer).member("code", fault.code).member("detail", fault.detail);
+    json.end_object();
+  }
+  json.end_array();
+}
+
 Reply problem_reply(const RequestError& error, const std::string& request_id) {
   const ErrorRow& row = row_of(error.code);
   JsonWriter json;
@@ -76,13 +84,8 @@ Reply problem_reply(const RequestError& error, const std::string& request_id) {
   json.member("type", "urn:fleetplan:problem:" + std::string(row.name));
   json.member("title", row.title).member("status", row.status).member("detail", error.detail);
   json.member("code", row.name).member("request_id", request_id);
-  json.key("errors").begin_array();
-  for (const Fault& fault : error.faults) {
-    json.begin_object();
-    json.member("pointer", fault.pointer).member("code", fault.code).member("detail", fault.detail);
-    json.end_object();
-  }
-  json.end_array().member("errors_total", error.faults_total).end_object();
+  write_errors(json, error.faults);
+  json.member("errors_total", error.faults_total).end_object();
   return {row.status, kProblemJson, json.take(), row.name};
 }
 

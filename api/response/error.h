@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "api/json/fault.h"
+#include "api/json/json_writer.h"
 #include "api/response/reply.h"
 
 namespace fleetplan::api {
@@ -60,6 +61,9 @@ struct RequestError {
   std::vector<Fault> faults;  // those that are listed
   std::size_t faults_total = 0;
 };
+
+/// Writes the member `errors`: faults of a request's content.
+void write_errors(JsonWriter& json, const std::vector<Fault>& faults);
 
 /// The error as application/problem+json.
 Reply problem_reply(const RequestError& error, const std::string& request_id);

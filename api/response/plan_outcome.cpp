@@ -1,7 +1,5 @@
 #include "api/response/plan_outcome.h"
 
-#include "core/model/plan.h"
-
 namespace fleetplan::api {
 
 std::string_view name_of(PlanOutcome::Status status) {
@@ -18,14 +16,38 @@ std::string_view name_of(PlanOutcome::Status status) {
   return "refused";
 }
 
+std::string_view name_of(core::Unplanned::Reason reason) {
+  switch (reason) {
+    case core::Unplanned::Reason::start_blocked:
+      return "start_blocked";
+    case core::Unplanned::Reason::goal_blocked:
+      return "goal_blocked";
+    case core::Unplanned::Reason::goal_unreachable:
+      return "goal_unreachable";
+    case core::Unplanned::Reason::blocked_by_robots:
+      return "blocked_by_robots";
+    case core::Unplanned::Reason::committed_in_the_way:
+      return "committed_in_the_way";
+    case core::Unplanned::Reason::invalid:
+      return "invalid";
+    case core::Unplanned::Reason::budget_exhausted:
+      break;
+  }
+  return "budget_exhausted";
+}
+
 PlanOutcome::Status status_of(const core::Plan& plan) {
   if (plan.unplanned.empty()) return PlanOutcome::Status::solved;
   return plan.plans.empty() ? PlanOutcome::Status::none : PlanOutcome::Status::partial;
 }
 
 PlanOutcome outcome_of(const core::Plan& plan, std::optional<double> plan_seconds) {
-  return {status_of(plan),        plan.plans.size(),        plan.unplanned.size(),
-          plan.search.expansions, plan.objectives.flowtime, plan_seconds};
+  PlanOutcome outcome{status_of(plan),        plan.plans.size(),        plan.unplanned.size(),
+                      plan.search.expansions, plan.objectives.flowtime, plan_seconds};
+  for (const core::Unplanned& one : plan.unplanned) {
+    ++outcome.unplanned_by_reason[static_cast<std::size_t>(one.reason)];
+  }
+  return outcome;
 }
 
 }  // namespace fleetplan::api

@@ -1,13 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 
-namespace fleetplan::core {
-struct Plan;
-}
+#include "core/model/plan.h"
 
 namespace fleetplan::api {
 
@@ -22,10 +21,14 @@ struct PlanOutcome {
   double flowtime = 0.0;        // seconds, of the planned robots
   /// Time for planning, without parsing, checking and writing; none when the budget was spent before.
   std::optional<double> plan_seconds = std::nullopt;
+  std::array<std::size_t, core::kUnplannedReasons> unplanned_by_reason = {};  // by Unplanned::Reason
 };
 
 /// As in answers, metrics and the log, e.g. "solved".
 std::string_view name_of(PlanOutcome::Status status);
+
+/// As in answers and metrics, e.g. "goal_blocked".
+std::string_view name_of(core::Unplanned::Reason reason);
 
 /// The status of a plan that the checker accepts.
 PlanOutcome::Status status_of(const core::Plan& plan);

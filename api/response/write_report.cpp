@@ -47,7 +47,8 @@ std::optional<double> reported_clearance(const core::VerifyReport& report) {
   return contact ? 0.0 : *report.min_clearance;
 }
 
-std::string write_report(const core::VerifyReport& report, const std::vector<core::Robot>& robots) {
+std::string write_report(const core::VerifyReport& report, const std::vector<core::Robot>& robots,
+                         const std::vector<core::MovingObstacle>& obstacles) {
   const std::size_t written = std::min(report.violations.size(), kMostWritten);
   JsonWriter json;
   json.begin_object();
@@ -60,6 +61,7 @@ std::string write_report(const core::VerifyReport& report, const std::vector<cor
     json.key("robots").begin_array();
     for (const std::size_t robot : violation.robots) json.value(robots[robot].id);
     json.end_array();
+    if (violation.obstacle) json.member("obstacle", obstacles[*violation.obstacle].id);
     json.member("t", violation.t).member("distance", violation.distance);
     json.member("required", violation.required).member("detail", violation.detail);
     json.end_object();

@@ -4,9 +4,10 @@
 #include <string_view>
 
 #include "api/json/json_writer.h"
+#include "api/response/error.h"
 #include "api/response/plan_outcome.h"
+#include "api/response/write_actions.h"
 #include "api/response/write_report.h"
-#include "core/geometry/angle.h"
 
 namespace fleetplan::api {
 
@@ -14,61 +15,23 @@ namespace {
 
 constexpr std::size_t kBytesAnAction = 320;
 
-std::string_view name_of(core::Action::Type type) {
-  switch (type) {
-    case core::Action::Type::rotate:
-      return "rotate";
-    case core::Action::Type::translate:
-      return "translate";
-    case core::Action::Type::wait:
-      break;
+void write_visits(JsonWriter& json, const std::vector<core::Visit>& visits) {
+  json.key("visits").begin_array();
+  for (const core::Visit& visit : visits) {
+    json.begin_object().member("goal", visit.goal).member("t_arrive", visit.t_arrive);
+    json.member("t_leave", visit.t_leave).end_object();  // null at the last goal
   }
-  return "wait";
-}
-
-std::string_view name_of(core::Unplanned::Reason reason) {
-  switch (reason) {
-    case core::Unplanned::Reason::start_blocked:
-      return "start_blocked";
-    case core::Unplanned::Reason::goal_blocked:
-      return "goal_blocked";
-    case core::Unplanned::Reason::goal_unreachable:
-      return "goal_unreachable";
-    case core::Unplanned::Reason::blocked_by_robots:
-      return "blocked_by_robots";
-    case core::Unplanned::Reason::committed_in_the_way:
-      return "committed_in_the_way";
-    case core::Unplanned::Reason::invalid:
-      return "invalid";
-    case core::Unplanned::Reason::budget_exhausted:
-      break;
-  }
-  return "budget_exhausted";
-}
-
-void write_pose(JsonWriter& json, std::string_view key, const core::Pose& pose,
-                const core::Position& origin) {
-  const core::Position position = pose.position + origin;
-  json.key(key).begin_object();
-  json.member("x", position.x()).member("y", position.y());
-  json.member("theta", core::normalize_angle(pose.theta));
-  json.end_object();
+  json.end_array();
 }
 
 void write_plan(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPlan& verified) {
+  const core::Robot& robot = verified.robots[plan.robot];
+  const ReceivedRobot& received = verified.received[plan.robot];
   json.begin_object();
-  json.member("robot", verified.robots[plan.robot].id).member("cost", plan.cost);
-  json.member("lower_bound", plan.lower_bound);
-  json.key("actions").begin_array();
-  for (const core::Action& action : plan.actions) {
-    json.begin_object();
-    json.member("type", name_of(action.type));
-    json.member("t_start", action.t_start).member("t_end", action.t_end);
-    write_pose(json, "from", action.from, verified.origin);
-    write_pose(json, "to", action.to, verified.origin);
-    json.end_object();
-  }
-  json.end_array().end_object();
+  json.member("robot", robot.id).member("cost", plan.cost).member("lower_bound", plan.lower_bound);
+  write_actions(json, plan.actions, robot, received, verified.origin);
+  if (received.lists_visits) write_visits(json, plan.visits);
+  json.end_object();
 }
 
 void write_unplanned(JsonWriter& json, const core::Unplanned& unplanned, const VerifiedPlan& verified) {
@@ -77,7 +40,24 @@ void write_unplanned(JsonWriter& json, const core::Unplanned& unplanned, const V
   json.member("reason", name_of(unplanned.reason)).member("detail", unplanned.detail);
   json.key("blocked_by").begin_array();
   for (const std::size_t robot : unplanned.blocked_by) json.value(verified.robots[robot].id);
-  json.end_array().member("blocked_by_total", unplanned.blocked_by.total()).end_object();
+  json.end_array().member("blocked_by_total", unplanned.blocked_by.total());
+  const core::Robot& robot = verified.robots[unplanned.robot];
+  const ReceivedRobot& received = verified.received[unplanned.robot];
+  if (!robot.committed.empty()) write_actions(json, robot.committed, robot, received, verified.origin);
+  if (!received.errors.empty()) write_errors(json, received.errors);
+  json.end_object();
+}
+
+void write_meeting(JsonWriter& json, const core::Meeting& meeting, const VerifiedPlan& verified) {
+  const std::string& robot = verified.robots[meeting.robot].id;
+  json.begin_object();
+  if (meeting.other) {
+    json.key("robots").begin_array().value(robot).value(verified.robots[*meeting.other].id).end_array();
+  } else {
+    json.member("robot", robot);
+  }
+  if (meeting.obstacle) json.member("obstacle", verified.obstacles[*meeting.obstacle].id);
+  json.member("t", meeting.t).end_object();
 }
 
 void write_timings(JsonWriter& json, const Stages& stages) {
@@ -119,6 +99,7 @@ std::string write_response(const VerifiedPlan& verified, const std::string& requ
   const core::Plan& plan = verified.plan;
   std::size_t actions = 0;
   for (const core::RobotPlan& one : plan.plans) actions += one.actions.size();
+  for (const core::Unplanned& one : plan.unplanned) actions += verified.robots[one.robot].committed.size();
   JsonWriter json;
   json.reserve((actions + verified.robots.size() + 4) * kBytesAnAction);
   json.begin_object();
@@ -129,6 +110,11 @@ std::string write_response(const VerifiedPlan& verified, const std::string& requ
   json.key("unplanned").begin_array();
   for (const core::Unplanned& one : plan.unplanned) write_unplanned(json, one, verified);
   json.end_array();
+  if (!plan.unavoidable.empty()) {
+    json.key("unavoidable").begin_array();
+    for (const core::Meeting& one : plan.unavoidable) write_meeting(json, one, verified);
+    json.end_array();
+  }
   write_summary(json, verified);
   write_timings(json, stages);
   json.key("warnings").begin_array();

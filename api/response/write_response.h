@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "api/request/received_robot.h"
 #include "core/geometry/position.h"
+#include "core/model/moving_obstacle.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/verify/verify.h"
@@ -27,7 +29,9 @@ struct VerifiedPlan {
   const core::Plan& plan;
   const core::VerifyReport& report;
   const std::vector<core::Robot>& robots;
-  const core::Position& origin;  // of the map in the world
+  const std::vector<core::MovingObstacle>& obstacles;
+  const std::vector<ReceivedRobot>& received;  // of each robot
+  const core::Position& origin;                // of the map in the world
   const std::vector<std::string>& warnings;
 };
 

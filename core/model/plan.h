@@ -42,6 +42,9 @@ struct Unplanned {
   RobotList blocked_by;  // the blocking robots, ascending
 };
 
+/// The number of reasons; Reason::invalid is the last one.
+inline constexpr std::size_t kUnplannedReasons = static_cast<std::size_t>(Unplanned::Reason::invalid) + 1;
+
 /// A collision that no plan avoids: a robot that cannot leave its place in time from where the committed
 /// motion of another robot, or an obstacle, will pass. The check of a plan exempts these pairs.
 struct Meeting {

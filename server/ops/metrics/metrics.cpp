@@ -106,6 +106,9 @@ void Metrics::count_plan(const api::PlanOutcome& outcome) {
   if (outcome.status != Status::refused) {
     planned_robots_.add(outcome.planned);
     unplanned_robots_.add(outcome.unplanned);
+    for (std::size_t reason = 0; reason < unplanned_by_reason_.size(); ++reason) {
+      unplanned_by_reason_[reason].add(outcome.unplanned_by_reason[reason]);
+    }
   }
   expansions_.add(static_cast<std::uint64_t>(outcome.expansions));
   if (outcome.plan_seconds) plan_seconds_.observe(*outcome.plan_seconds);
@@ -165,6 +168,11 @@ std::string Metrics::text(const Gauges& now) const {
   text.metric("fleetplan_robots_total", "counter", "Robots of the plans.");
   text.sample(as_double(planned_robots_.value()), {{"outcome", "planned"}});
   text.sample(as_double(unplanned_robots_.value()), {{"outcome", "unplanned"}});
+  text.metric("fleetplan_unplanned_robots_total", "counter", "Unplanned robots of the plans.");
+  for (std::size_t reason = 0; reason < unplanned_by_reason_.size(); ++reason) {
+    text.sample(as_double(unplanned_by_reason_[reason].value()),
+                {{"reason", api::name_of(static_cast<core::Unplanned::Reason>(reason))}});
+  }
   counter("fleetplan_expansions_total", expansions_, "Search labels expanded.");
   text.metric("fleetplan_log_lines_dropped_total", "counter", "Log lines dropped: stderr was not read.")
       .sample(as_double(now.log_dropped));

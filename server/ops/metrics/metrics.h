@@ -69,6 +69,7 @@ class Metrics {
   Counter cancelled_;
   Counter planned_robots_;
   Counter unplanned_robots_;
+  std::array<Counter, core::kUnplannedReasons> unplanned_by_reason_;
   Counter expansions_;
 };
 

@@ -131,6 +131,9 @@ TEST(Metrics, ExistFromTheStart) {
                              "fleetplan_plan_seconds_count",
                              R"(fleetplan_robots_total{outcome="planned"})",
                              R"(fleetplan_robots_total{outcome="unplanned"})",
+                             R"(fleetplan_unplanned_robots_total{reason="budget_exhausted"})",
+                             R"(fleetplan_unplanned_robots_total{reason="committed_in_the_way"})",
+                             R"(fleetplan_unplanned_robots_total{reason="invalid"})",
                              "fleetplan_expansions_total"}) {
     ASSERT_TRUE(samples.contains(series)) << series;
     EXPECT_EQ(samples.at(series), 0.0) << series;
