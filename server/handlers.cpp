@@ -79,6 +79,9 @@ Handler limits(const Backend& backend) {
     JsonWriter json;
     json.begin_object().member("max_body", limits.max_body).member("max_cells", limits.max_cells);
     json.member("max_robots", limits.max_robots).member("max_depth", limits.max_depth);
+    json.member("max_goals", limits.max_goals).member("max_actions", limits.max_actions);
+    json.member("max_obstacles", limits.max_obstacles);
+    json.member("max_obstacle_entries", limits.max_obstacle_entries);
     json.member("max_plan_memory", limits.max_plan_memory);
     json.member("default_budget_ms", limits.default_budget_ms).member("min_budget_ms", 1);
     json.member("max_budget_ms", limits.max_budget_ms);

@@ -38,10 +38,11 @@ ActionChain::ActionChain(const ActionsOwner& owner)
 std::string ActionChain::name() const { return "Action " + std::to_string(count_) + " (from 0)"; }
 
 core::Action ActionChain::append(core::Action action, const JsonReader& item) {
+  const std::size_t before = item.fault_count();
   check_times(action, item);
   check_begin(action, item);
   check_type(action, item);
-  action = joined(action);
+  if (item.fault_count() == before) action = joined(action);
   check_speed(action, item);
   now_ = action.t_end;
   pose_ = action.to;

@@ -23,7 +23,8 @@ namespace {
 
 constexpr std::size_t kQueuePerWorker = 4;
 constexpr std::uint64_t kLeastPlanMemory = 1 << 20;
-constexpr std::int64_t kMaxMs = 86'400'000;  // a day
+constexpr std::int64_t kMaxMs = 86'400'000;        // a day
+constexpr std::size_t kMostItems = 1'000'000'000;  // of a request
 
 constexpr std::string_view kEnvironmentPrefix = "FLEETPLAN_";
 
@@ -162,6 +163,13 @@ class Flags {
         ->default_str("256MiB");
     add_number<std::int64_t>("max-cells", limits.max_cells, 1, 1'000'000'000, "Most cells of a map");
     add_number<std::size_t>("max-robots", limits.max_robots, 1, 1'000'000, "Most robots of a request");
+    add_number<std::size_t>("max-goals", limits.max_goals, 1, kMostItems, "Most goals in lists of a request");
+    add_number<std::size_t>("max-actions", limits.max_actions, 1, kMostItems,
+                            "Most committed and previous actions of a request");
+    add_number<std::size_t>("max-obstacles", limits.max_obstacles, 1, 1'000'000,
+                            "Most moving obstacles of a request");
+    add_number<std::size_t>("max-obstacle-entries", limits.max_obstacle_entries, 1, kMostItems,
+                            "Most entries of the motion of all obstacles");
     add_number("max-depth", limits.max_depth, 4, 512, "Deepest nesting of the JSON");
   }
 
