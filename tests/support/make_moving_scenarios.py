@@ -16,6 +16,8 @@ import urllib.request
 from make_scenarios import PI, Map, Places, faults, pose, robot, text, warehouse
 
 SERVICE_S = 2.0  # at every goal of the warehouse
+STEP_S = 2.5  # between two plans of the running warehouse
+COMMIT_S = 1.0  # that its robots go on with what they do
 
 
 class Service:
@@ -103,27 +105,26 @@ def goals_of(made):
 
 
 def running_warehouse(service, seconds, seed):
-    """The request of a warehouse that has run for `seconds`, with two goals for every robot at all times."""
+    """The request of a warehouse that has run for `seconds`; robots that have one goal left get a second one."""
     request = warehouse()
     goals = Goals(request, seed)
     for made in request["robots"]:
         made["goals"] = [{**made.pop("goal"), "service": SERVICE_S}]
-        made["goals"].append(goals.draw(request, made))
     request["options"] = {"start_safe_interval": 0.0, "replan": "where_needed"}
-    now = 0.0
-    while True:
-        plans = service.plan(request)
-        visits = [visit["t_leave"] for plan in plans for visit in plan.get("visits", []) if visit["t_leave"] is not None]
-        at = min([*visits, seconds - now])
-        request = service.post("/v1/advance", {"request": request, "plans": plans, "at": at})
-        now += at
-        if now >= seconds:
-            return request
-        for made in request["robots"]:
-            if len(goals_of(made)) < 2:
-                made["goals"] = [*goals_of(made), goals.draw(request, made)]
-                made.pop("goal", None)
-                made.pop("previous", None)
+    give_second_goals(request, goals)
+    for _ in range(round(seconds / STEP_S)):
+        request = service.post("/v1/advance", {"request": request, "plans": service.plan(request), "at": STEP_S,
+                                               "commit": COMMIT_S})
+        give_second_goals(request, goals)
+    return request
+
+
+def give_second_goals(request, goals):
+    for made in request["robots"]:
+        if len(goals_of(made)) < 2:
+            made["goals"] = [*goals_of(made), goals.draw(request, made)]
+            made.pop("goal", None)
+            made.pop("previous", None)
 
 
 def rush_hour(service):

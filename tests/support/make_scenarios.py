@@ -328,6 +328,9 @@ SCENARIOS = [  # in display order
 MOVING = [  # written by make_moving_scenarios.py
     ("crossing-people", "Crossing people",
      "Six robots cross a hall, where five people walk on their own ways and one stays; robots make way."),
+    ("rush-hour", "Rush hour",
+     "Forty robots under way in a warehouse, with two goals each; what they do now is committed, and their plans are "
+     "kept where possible."),
     ("late-pallet", "Late pallet",
      "A pallet robot stands still for 12 s; of the plans of the other robots, only those change that must."),
 ]
