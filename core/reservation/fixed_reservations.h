@@ -44,6 +44,8 @@ class FixedReservations {
   bool empty() const { return empty_; }
   /// False if they could not be indexed. Then nothing may be planned.
   bool known() const { return known_; }
+  /// The number of parts, see Occupant.
+  std::size_t count() const { return owners_.size(); }
   std::size_t obstacle_count() const { return obstacle_radii_.size(); }
   double obstacle_radius(std::size_t obstacle) const { return obstacle_radii_[obstacle]; }
   const Robot& robot(std::size_t index) const { return robots_[index]; }

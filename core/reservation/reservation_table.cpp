@@ -14,6 +14,8 @@ namespace {
 /// Seconds; safe intervals that are shorter are left out. This covers the rounding between neighbouring
 /// segments of one trajectory.
 constexpr double kShortestSafeInterval = 1e-9;
+/// Parts of fixed motion; with more of them, queries may be costly.
+constexpr std::size_t kManyFixed = 10'000;
 
 using Occupant = SegmentIndex::Occupant;
 
@@ -174,6 +176,8 @@ ReservationTable::ReservationTable(double width, double height, double cell_size
 }
 
 ReservationTable::~ReservationTable() = default;
+
+bool ReservationTable::is_costly() const { return fixed_ != nullptr && fixed_->count() > kManyFixed; }
 
 double ReservationTable::departure(std::size_t robot) const {
   return fixed_ != nullptr ? fixed_->robot(robot).t_departure : 0.0;

@@ -40,6 +40,9 @@ class ReservationTable {
   /// Queries leave out the reservations of an ignored robot.
   void ignore(std::size_t robot, bool ignored);
 
+  /// Whether a query may take a millisecond: then a search asks its stop condition more often.
+  bool is_costly() const;
+
   /// When the robot may stand at `position` (paper, "Computing intervals"); ascending, without intervals
   /// shorter than 1e-9 s.
   std::vector<SafeInterval> safe_intervals(std::size_t robot, const Position& position) const;

@@ -96,6 +96,7 @@ class Search {
   const SearchLimits& limits_;
   const StopCondition& stop_;
 
+  const bool is_costly_ = table_.is_costly();
   Pass pass_ = Pass::quick;
   bool use_slack_ = false;
   std::int64_t expansions_ = 0;  // of all passes
@@ -109,7 +110,7 @@ Outcome Search::run(Pass pass) {
   label_start();
   for (int step = 1; state_.goal_label == LabelId::none; ++step) {
     if (state_.open.empty()) return state_.incomplete ? Outcome::incomplete : Outcome::exhausted;
-    if (step % kStopStride == 0 && stop_.met()) return Outcome::stopped;
+    if ((step % kStopStride == 0 || is_costly_) && stop_.met()) return Outcome::stopped;
     if (expansions_ >= pause_) {
       if (expansions_ >= limits_.max_expansions) return Outcome::stopped;
       if (limits_.no_path_test->no_path(expansions_)) return Outcome::exhausted;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/model/trajectory.h"
 #include "core/reservation/reservation_table.h"
 #include "tests/core/support/planning.h"
@@ -146,6 +148,46 @@ TEST(FixedReservations, AreUnknownWhenTheStopConditionIsMetFirst) {
   const ReservationTable table(kSize, kSize, 1.0, {0.5}, nullptr, &fixed, 0.0);
   EXPECT_TRUE(table.safe_intervals(0, {1, 1}).empty()) << "nothing can be planned";
   EXPECT_FALSE(table.earliest_departure(0, {{1, 1}, {2, 2}}, 2.0, 0.0, kForever));
+}
+
+TEST(FixedReservations, ARobotMayStayWhereCommittedMotionPassesWithinTheInflatedDistanceOnly) {
+  Scene scene({committed({2, 5}, {18, 5}, 16), idle({10, 6.1})}, {}, 0.0, 0.2);  // 1.1 m, inflated 1.4 m
+  const auto safe = scene.table.safe_intervals(1, {10, 6.1});
+  ASSERT_EQ(safe.size(), 1u);
+  EXPECT_EQ(safe[0].end, kForever);
+  EXPECT_EQ(scene.table.safe_intervals(1, {11, 6.1}).size(), 2u) << "not elsewhere";
+  EXPECT_GT(*scene.table.earliest_departure(1, {{10, 6.1}, {10, 9}}, 3.0, 7.5, kForever), 8.0);
+  EXPECT_TRUE(scene.table.robots_certainly_hit(1, stand({10, 6.1})).empty());
+}
+
+TEST(FixedReservations, AMeasuredStartMayOverlapARobotThatDrivesAway) {
+  const Scene scene({committed({5.9, 5}, {9, 5}, 4), idle({5, 5})}, {});
+  EXPECT_EQ(scene.table.safe_intervals(1, {5, 5}).size(), 1u);
+  const Scene nearer({committed({5.9, 5}, {2, 5}, 4), idle({5, 5})}, {});
+  EXPECT_LT(nearer.table.safe_intervals(1, {5, 5})[0].end, 1e-6) << "but not one that comes nearer";
+}
+
+TEST(FixedReservations, TheMarginKeepsRobotsApartInTime) {
+  const Scene scene({committed({2, 5}, {18, 5}, 16), idle({10, 9})}, {}, 1.5);  // at x = 10 when t = 8
+  const auto safe = scene.table.safe_intervals(1, {10, 5});
+  ASSERT_EQ(safe.size(), 2u);
+  EXPECT_NEAR(safe[0].end, 7.0 - 1.5, 1e-6);
+  EXPECT_NEAR(safe[1].begin, 9.0 + 1.5, 1e-6);
+  const Segment across{{10, 9}, {10, 1}};
+  EXPECT_NEAR(*scene.table.earliest_departure(1, across, 8.0, 3.0, kForever), 4.0 + std::sqrt(2.0) + 1.5,
+              1e-6);
+}
+
+TEST(FixedReservations, TheMarginIsNotForObstacles) {
+  const Scene scene({idle({10, 9})}, {obstacle({{0, {2, 5}}, {16, {18, 5}}})}, 1.5);
+  EXPECT_NEAR(scene.table.safe_intervals(0, {10, 5})[0].end, 7.0, 1e-5);
+}
+
+TEST(FixedReservations, ACommitmentMayEndWhereAnotherRobotHasJustPassed) {
+  const Scene scene({committed({2, 5}, {18, 5}, 16), committed({10, 15}, {10, 5}, 9.5)}, {}, 1.5);
+  const auto safe = scene.table.safe_intervals(1, {10, 5});  // at x = 10 when t = 8
+  ASSERT_EQ(safe.size(), 2u);
+  EXPECT_NEAR(safe[1].begin, 9.0, 1e-6) << "it stays there without a margin";
 }
 
 }  // namespace
