@@ -4,7 +4,9 @@
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/char_array.cmake)
 
+# By name without the ending: "crossing" comes before "crossing-people".
 file(GLOB files "${FOLDER}/*.json")
+list(TRANSFORM files REPLACE "\\.json$" "")
 list(SORT files)
 
 set(arrays "")
@@ -13,7 +15,7 @@ set(index "{}")
 set(count 0)
 foreach(file IN LISTS files)
   get_filename_component(name "${file}" NAME_WE)
-  file(READ "${file}" bytes HEX)
+  file(READ "${file}.json" bytes HEX)
   if(name STREQUAL "index")
     char_array(kIndex "${bytes}" array)
     set(index "{kIndex, sizeof(kIndex)}")

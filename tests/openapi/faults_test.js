@@ -138,6 +138,42 @@ const CASES = {
     request((r) => (r.robots[1].goal.y = 1)),
     [["/robots/1/goal", "goals_overlap"]],
   ],
+  "goal and goals": [
+    "/v1/plan",
+    request((r) => (r.robots[0].goals = [])),
+    [["/robots/0/goals", "duplicate"]],
+  ],
+  "committed actions with a gap in time": [
+    "/v1/plan",
+    request((r) => (r.robots[0].committed = [WAIT, { ...WAIT, t_start: 2, t_end: 3 }])),
+    [["/robots/0/committed/1/t_start", "discontinuity"]],
+  ],
+  "a committed action that is too fast": [
+    "/v1/plan",
+    request((r) => (r.robots[0].committed = [{ ...WAIT, type: "translate", to: { ...POSE, x: 2.5 } }])),
+    [["/robots/0/committed/0", "speed"]],
+  ],
+  "committed motion into a wall": [
+    "/v1/plan",
+    request((r) => {
+      const from = { x: 0.5, y: 1.5, theta: 0 };
+      r.robots[1].committed = [{ type: "translate", t_start: 0, t_end: 4, from, to: { ...from, x: 4.5 } }];
+    }),
+    [["/robots/1/committed/0", "committed_collision"]],
+  ],
+  "an obstacle whose times do not ascend": [
+    "/v1/plan",
+    request((r) => {
+      const motion = [2, 1].map((t) => ({ t, x: 0.5, y: 0.5 }));
+      r.obstacles = [{ id: "person", radius: 0.3, motion }];
+    }),
+    [["/obstacles/0/motion/1/t", "out_of_range"]],
+  ],
+  "a meeting with an unknown obstacle": [
+    "/v1/validate",
+    request((r) => Object.assign(r, { plans: [], unavoidable: [{ robot: "a", obstacle: "x", t: 0 }] })),
+    [["/unavoidable/0/obstacle", "unknown_obstacle"]],
+  ],
   "a plan for an unknown robot": [
     "/v1/validate",
     request((r) => (r.plans = [{ robot: "z", actions: [] }])),

@@ -19,13 +19,18 @@ const MAX_DEPTH = 32;
 /** Faults that no schema can express, with the places where they may occur. */
 const BEYOND_SCHEMA = {
   duplicate: /^/, // ids, plans for one robot; keys, which a schema never sees
-  unknown_robot: /^\/plans\/\d+\/robot$/,
+  unknown_robot: /^\/(plans\/\d+\/robot|unavoidable\/\d+\/robots?(\/\d)?)$/,
   bad_map_row: /^\/map\/rows\/\d+$/, // rows of different lengths
-  out_of_range: /^\/(map\/(rows|resolution)|robots)$/, // settings of the service; the size of the map
+  out_of_range: /^\/(map\/(rows|resolution)|robots|obstacles\/\d+\/motion\/\d+\/t)$/, // settings; sizes; order
+  unknown_key: /\/(committed|previous|actions)\/\d+\/goal$/, // of an action that is no wait
+  unknown_obstacle: /^\/unavoidable\/\d+\/obstacle$/,
+  discontinuity: /^\/robots\/\d+\/(committed|previous)\/\d+\/\w+$/,
+  speed: /^\/(robots\/\d+\/(committed|previous)|obstacles\/\d+\/motion)\/\d+$/,
+  committed_collision: /^\/robots\/\d+\/committed\/\d+$/,
   start_in_obstacle: /^\/robots\/\d+\/start$/,
-  goal_in_obstacle: /^\/robots\/\d+\/goal$/,
+  goal_in_obstacle: /^\/robots\/\d+\/goal(s\/\d+)?$/,
   starts_overlap: /^\/robots\/\d+\/start$/,
-  goals_overlap: /^\/robots\/\d+\/goal$/,
+  goals_overlap: /^\/robots\/\d+\/goal(s\/\d+)?$/,
 };
 
 const { document, client } = await openSession(["--default-budget-ms", "20", "--max-budget-ms", "1000"]);
@@ -67,7 +72,7 @@ function expectBounded({ plans, lower_bound }) {
 }
 
 /** A plan for a valid request is complete, in order, bounded, and valid according to /v1/validate. */
-async function expectSound({ options, ...fleet }, answer) {
+async function expectSound({ options = {}, ...fleet }, answer) {
   const planned = answer.plans.map(({ robot }) => robot);
   const all = fleet.robots.map(({ id }) => id);
   const unplanned = answer.unplanned.map(({ robot }) => robot);
@@ -77,10 +82,11 @@ async function expectSound({ options, ...fleet }, answer) {
     all.filter((id) => planned.includes(id)),
   );
   expectBounded(answer);
+  const { start_overlap, invalid_robots } = options; // what a request may be wrong about
   const verdict = await client.post("/v1/validate", {
     ...fleet,
     ...answer,
-    options: { time_budget_ms: 1000 },
+    options: { start_overlap, invalid_robots, time_budget_ms: 1000 },
   });
   assert.deepEqual(verdict.json.violations, []);
 }

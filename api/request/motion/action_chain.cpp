@@ -42,8 +42,10 @@ core::Action ActionChain::append(core::Action action, const JsonReader& item) {
   check_times(action, item);
   check_begin(action, item);
   check_type(action, item);
-  if (item.fault_count() == before) action = joined(action);
-  check_speed(action, item);
+  if (item.fault_count() == before) {
+    action = joined(action);
+    check_speed(action, item);
+  }
   now_ = action.t_end;
   pose_ = action.to;
   ++count_;

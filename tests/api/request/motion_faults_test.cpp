@@ -110,15 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"NegativeService", [](Json& r) { robot(r, 0)["goal"]["service"] = -1; },
                          "/robots/0/goal/service", "out_of_range", "seconds"},
                     Case{"UnknownMember", [](Json& r) { robot(r, 0)["goal"]["notBefore"] = 1; },
-                         "/robots/0/goal/notBefore", "unknown_key", "did you mean \"not_before\"?"},
-                    Case{"GoalInAWall",
-                         [](Json& r) {
-                           robot(r, 1)["goals"] = {
-                               {{"x", 7.5}, {"y", 0.5}}, {{"x", 4.5}, {"y", 1.5}}, {{"x", 0.5}, {"y", 1.5}}};
-                           robot(r, 1).erase("goal");
-                         },
-                         "/robots/1/goals/1", "goal_in_obstacle",
-                         "goal 1 (from 0) of robot \"b\" does not fit"}),
+                         "/robots/0/goal/notBefore", "unknown_key", "did you mean \"not_before\"?"}),
     [](const auto& one) { return one.param.name; });
 
 Case of_obstacle(const std::string& name, const std::function<void(Json&)>& modify,
