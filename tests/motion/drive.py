@@ -2,7 +2,7 @@
 """Drives robots for a simulated time by the loop of docs/fleet_loop.md against a real server, and replays what they
 have executed by a reading of the contract of its own.
 
-  drive.py --binary build/release/server/fleetplan --robots 40 --seconds 3600 --holds 60
+  drive.py --binary build/release/server/fleetplan --robots 40 --seconds 3600 --commit 1 --holds 60
   drive.py --url http://localhost:8080 --robots 12 --seconds 60
 
 Each period, every robot executes its plan; who has served its last goal gets new random ones; and the fleet is planned
@@ -106,6 +106,7 @@ class Drive:
         self.hold_times = sorted(self.rng.uniform(0.0, options.seconds) for _ in range(options.holds))
         self.late_times = sorted(self.rng.uniform(0.0, options.seconds) for _ in range(options.late))
         self.walk_times = sorted(self.rng.uniform(0.0, options.seconds) for _ in range(options.obstacles))
+        self.commit = {} if options.commit is None else {"commit": options.commit}
         self.count = collections.Counter()
         self.latency_ms = []
         self.without_plan = {}  # since when, by robot
@@ -124,7 +125,7 @@ class Drive:
             self.judge_meetings(self.replay.met[met:], answer)
             goals = self.new_goals(answer, period, {entry["robot"] for entry in poses})
             self.request = self.service.post("/v1/advance", {
-                "request": self.request, "plans": answer["plans"], "at": period, "commit": self.options.commit,
+                "request": self.request, "plans": answer["plans"], "at": period, **self.commit,
                 "holds": self.new_holds(answer), "goals": goals, "poses": poses})
             self.add_people()
             answer = self.plan()
@@ -305,7 +306,7 @@ def arguments(argv=None):
     parser.add_argument("--robots", type=int, default=40)
     parser.add_argument("--seconds", type=float, default=3600.0)
     parser.add_argument("--period", type=float, default=1.0)
-    parser.add_argument("--commit", type=float, default=1.0)
+    parser.add_argument("--commit", type=float, help="seconds; by default, the move under way")
     parser.add_argument("--budget-ms", type=int, default=1000)
     parser.add_argument("--replan", choices=("all", "where_needed"), default="where_needed")
     parser.add_argument("--holds", type=int, default=0)

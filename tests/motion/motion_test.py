@@ -66,8 +66,8 @@ class Loops(unittest.TestCase):
 
 class Drives(unittest.TestCase):
     def drive(self, *arguments):
-        options = drive.arguments(["--binary", BINARY, "--robots", "12", "--seconds", "60", "--budget-ms", "5000",
-                                   *arguments])
+        options = drive.arguments(["--binary", BINARY, "--robots", "12", "--seconds", "60", "--commit", "1",
+                                   "--budget-ms", "5000", *arguments])
         service = drive.Service(BINARY)
         self.addCleanup(service.stop)
         done = drive.Drive(service, drive.instance(options), options).run().report()
