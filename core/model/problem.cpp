@@ -6,20 +6,26 @@
 #include "core/geometry/tolerance.h"
 #include "core/map/line_of_sight.h"
 #include "core/map/obstacle_distance.h"
+#include "core/model/committed_faults.h"
 
 namespace fleetplan::core {
 namespace {
 
+/// However much a start may overlap a wall, this fraction of the disk keeps clear of it.
+constexpr double kClearOfWalls = 1e-3;
+
 /// Finds the faults of robot after robot. Exact distances are computed only for faults that are listed.
 class FaultSearch {
  public:
-  FaultSearch(const OccupancyGrid& grid, const std::vector<Robot>& robots, bool of_every_robot,
-              const StopCondition& stop)
-      : grid_(grid), robots_(robots), stop_(stop), sight_(grid) {
-    if (of_every_robot) listed_of_robot_.resize(robots.size(), 0);
+  FaultSearch(const OccupancyGrid& grid, const std::vector<Robot>& robots,
+              const ProblemConditions& conditions, const StopCondition& stop)
+      : grid_(grid), robots_(robots), conditions_(conditions), stop_(stop), sight_(grid) {
+    if (conditions.list_faults_of_every_robot) listed_of_robot_.resize(robots.size(), 0);
   }
 
   ProblemFaults run() {
+    const std::vector<ProblemFault> committed = committed_faults(grid_, sight_, robots_, conditions_, stop_);
+    auto next = committed.begin();
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       if (stop_.met()) {
         faults_.finished = false;
@@ -27,16 +33,18 @@ class FaultSearch {
       }
       check_obstacles(i);
       for (std::size_t j = 0; j < i; ++j) check_pair(j, i);
+      for (; next != committed.end() && next->robot == i; ++next) add(*next, [&] { return next->gap; });
     }
     return std::move(faults_);
   }
 
  private:
   template <typename Gap>
-  void add(ProblemFault::Kind kind, std::size_t robot, std::size_t other, const Gap& gap) {
+  void add(ProblemFault fault, const Gap& gap) {
     ++faults_.total;
-    if (!is_listed(robot, is_of_a_pair(kind) ? other : robot)) return;
-    faults_.listed.push_back({kind, robot, other, gap()});
+    if (!is_listed(fault.robot, is_of_a_pair(fault.kind) ? fault.other : fault.robot)) return;
+    fault.gap = gap();
+    faults_.listed.push_back(fault);
   }
 
   static bool is_of_a_pair(ProblemFault::Kind kind) {
@@ -54,16 +62,21 @@ class FaultSearch {
     return true;
   }
 
-  /// The start and the goal of a robot against obstacles and the edge of the map.
+  /// The start and the goals of a robot against obstacles and the edge of the map.
   void check_obstacles(std::size_t index) {
     const Robot& robot = robots_[index];
     if (robot.invalid) return;
-    const auto check = [&](const Position& position, ProblemFault::Kind kind) {
-      if (sight_.disk_fits(position, robot.radius - kContactTolerance + kSearchSlack)) return;
-      add(kind, index, 0, [&] { return obstacle_distance(grid_, position, robot.radius) - robot.radius; });
+    const double radius = robot.radius - kContactTolerance + kSearchSlack;
+    const auto check = [&](const Position& position, double least, const ProblemFault& fault) {
+      if (sight_.disk_fits(position, least)) return;
+      add(fault, [&] { return obstacle_distance(grid_, position, robot.radius) - robot.radius; });
     };
-    check(robot.start.position, ProblemFault::Kind::start_in_obstacle);
-    if (robot.goal) check(robot.goal->position, ProblemFault::Kind::goal_in_obstacle);
+    const double overlap = conditions_.wall_overlap;
+    check(robot.start.position, overlap > 0.0 ? std::max(radius - overlap, kClearOfWalls * radius) : radius,
+          {ProblemFault::Kind::start_in_obstacle, index});
+    for (std::size_t k = 0; k < robot.goal_count(); ++k) {
+      check(robot.goal_at(k).position, radius, {ProblemFault::Kind::goal_in_obstacle, index, 0, 0.0, k, 0.0});
+    }
   }
 
   /// The starts and the goals of two robots against each other.
@@ -71,17 +84,21 @@ class FaultSearch {
     const Robot& a = robots_[other];
     const Robot& b = robots_[index];
     if (a.invalid && b.invalid) return;
-    const double allowed = a.radius + b.radius - kContactTolerance;
-    const auto check = [&](const Position& p, const Position& q, ProblemFault::Kind kind) {
+    const double apart = a.radius + b.radius - kContactTolerance;
+    const auto check = [&](const Position& p, const Position& q, double allowed, ProblemFault::Kind kind) {
       if (allowed <= 0.0 || (p - q).squaredNorm() >= allowed * allowed) return;
-      add(kind, index, other, [&] { return (p - q).norm() - a.radius - b.radius; });
+      add({kind, index, other}, [&] { return (p - q).norm() - a.radius - b.radius; });
     };
-    check(a.start.position, b.start.position, ProblemFault::Kind::starts_overlap);
-    if (a.goal && b.goal) check(a.goal->position, b.goal->position, ProblemFault::Kind::goals_overlap);
+    check(a.start.position, b.start.position, apart - conditions_.pair_overlap,
+          ProblemFault::Kind::starts_overlap);
+    if (a.goal && b.goal) {
+      check(a.goal->position, b.goal->position, apart, ProblemFault::Kind::goals_overlap);
+    }
   }
 
   const OccupancyGrid& grid_;
   const std::vector<Robot>& robots_;
+  const ProblemConditions& conditions_;
   const StopCondition& stop_;
   const LineOfSight sight_;
   std::vector<std::size_t> listed_of_robot_;  // empty: the first faults of all are listed
@@ -96,7 +113,7 @@ Problem::Problem(OccupancyGrid grid, std::vector<Robot> robots, std::vector<Movi
 std::variant<Problem, ProblemFaults> Problem::create(OccupancyGrid grid, std::vector<Robot> robots,
                                                      ProblemConditions conditions,
                                                      const StopCondition& stop) {
-  ProblemFaults faults = FaultSearch(grid, robots, conditions.list_faults_of_every_robot, stop).run();
+  ProblemFaults faults = FaultSearch(grid, robots, conditions, stop).run();
   if (faults.total > 0 || !faults.finished) return faults;
   return Problem(std::move(grid), std::move(robots), std::move(conditions.obstacles));
 }

@@ -1,0 +1,200 @@
+#include "core/model/committed_faults.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/geometry/overlap.h"
+#include "core/geometry/tolerance.h"
+#include "core/map/obstacle_distance.h"
+#include "core/model/itinerary.h"
+#include "core/reservation/motion_tree.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Pairs of robots whose faults are found; where more collide, nobody reads all of them.
+constexpr std::size_t kMostPairs = 10'000;
+/// However much a start may overlap a wall, this fraction of the disk keeps clear of it.
+constexpr double kSmallestDisk = 1e-3;
+/// Halvings of a move to find out where it meets a wall: below a nanometre.
+constexpr int kHalvings = 60;
+/// Places of a move where the overlap with a wall is measured, for the message.
+constexpr int kMeasured = 16;
+
+/// Where a robot certainly is: its committed motion, and a robot that never leaves stays at its end.
+std::vector<MovingDisk> certain_motion(const Robot& robot) {
+  const bool stays = !robot.goal || robot.invalid;
+  const double until = stays ? kForever : robot.committed_until();
+  std::vector<MovingDisk> motion;
+  if (until <= 0.0) return motion;
+  for (TimedSegment segment : timed_segments(itinerary_of(robot).committed)) {
+    if (segment.t_start >= until) break;
+    segment.t_end = std::min(segment.t_end, until);
+    motion.emplace_back(segment);
+  }
+  return motion;
+}
+
+/// The first time and the depth of a collision.
+struct Collision {
+  double t = kForever;
+  double distance = kForever;  // of the centres
+
+  void add(double begin, double least) {
+    t = std::min(t, begin);
+    distance = std::min(distance, least);
+  }
+};
+
+/// For a pair that begins nearer than `reach`: it comes no nearer until it is clear, and then keeps away.
+std::optional<Collision> collision_after_leaving(const std::vector<MovingDisk>& a,
+                                                 const std::vector<MovingDisk>& b, double reach) {
+  const double at_first = (a.front().from - b.front().from).norm() - kContactTolerance;
+  bool clear = false;
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    const double kept = clear ? reach : at_first;
+    if (const auto hit = overlap(a[i], b[j], kept)) return Collision{hit->begin, least_distance(a[i], b[j])};
+    const double end = std::min(a[i].t_end, b[j].t_end);
+    const auto near = overlap(a[i], b[j], reach);
+    clear = clear || !near || near->end < end;  // the distance is convex within a segment
+    (a[i].t_end <= b[j].t_end ? i : j) += 1;
+  }
+  return std::nullopt;
+}
+
+class CommittedFaults {
+ public:
+  CommittedFaults(const OccupancyGrid& grid, const LineOfSight& sight, const std::vector<Robot>& robots,
+                  const ProblemConditions& conditions, const StopCondition& stop)
+      : grid_(grid), sight_(sight), robots_(robots), conditions_(conditions), stop_(stop) {}
+
+  std::vector<ProblemFault> run() {
+    for (std::size_t i = 0; i < robots_.size() && !stop_.met(); ++i) {
+      if (is_committed(i)) check_walls(i);
+    }
+    find_pairs();
+    for (const auto& [pair, collision] : pairs_) add_pair(pair.first, pair.second, collision);
+    std::stable_sort(faults_.begin(), faults_.end(),
+                     [](const ProblemFault& a, const ProblemFault& b) { return a.robot < b.robot; });
+    return std::move(faults_);
+  }
+
+ private:
+  bool is_committed(std::size_t robot) const {
+    return !robots_[robot].committed.empty() && !robots_[robot].invalid;
+  }
+
+  void check_walls(std::size_t index) {
+    const Robot& robot = robots_[index];
+    const double full = robot.radius - kContactTolerance + kSearchSlack;
+    const double least = std::max(full - conditions_.wall_overlap, kSmallestDisk * full);
+    if (!sight_.disk_fits(robot.start.position, least)) return;  // its start is at fault
+    double radius = sight_.fitting_radius(robot.start.position, least, full);
+    for (const Action& action : robot.committed) {
+      if (action.type != Action::Type::translate) continue;
+      if (!sight_.may_sweep(action.from.position, action.to.position, radius)) {
+        return add_wall(index, action, radius);
+      }
+      if (sight_.disk_fits(action.to.position, full)) radius = full;
+    }
+  }
+
+  void add_wall(std::size_t index, const Action& action, double radius) {
+    const Position way = action.to.position - action.from.position;
+    const auto at = [&](double fraction) { return Position(action.from.position + fraction * way); };
+    double free = 0.0;
+    double blocked = 1.0;
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = 0.5 * (free + blocked);
+      (sight_.may_sweep(action.from.position, at(middle), radius) ? free : blocked) = middle;
+    }
+    double gap = 0.0;
+    for (int k = 0; k <= kMeasured; ++k) {
+      const Position place = at(blocked + (1.0 - blocked) * k / kMeasured);
+      gap = std::min(gap, obstacle_distance(grid_, place, robots_[index].radius) - robots_[index].radius);
+    }
+    const double t = action.t_start + blocked * (action.t_end - action.t_start);
+    faults_.push_back({ProblemFault::Kind::committed_collision, index, index, gap, 0, t});
+  }
+
+  void find_pairs() {
+    std::vector<MotionTree::Disk> disks;
+    std::vector<std::uint32_t> owners;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      largest = std::max(largest, robots_[i].radius);
+      motions_.push_back(certain_motion(robots_[i]));
+      for (const MovingDisk& disk : motions_.back()) {
+        disks.push_back({disk, robots_[i].radius});
+        owners.push_back(static_cast<std::uint32_t>(i));
+      }
+    }
+    const MotionTree tree(std::move(disks), {grid_.width(), grid_.height(), largest}, stop_);
+    if (!tree.finished()) return;
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      if (!is_committed(i)) continue;
+      for (const MovingDisk& mine : motions_[i]) {
+        if (stop_.met() || pairs_.size() >= kMostPairs) return;
+        tree.visit(mine, robots_[i].radius, 0.0, [&](std::size_t k) {
+          compare(i, mine, owners[k], tree[k].motion);
+          return true;
+        });
+      }
+    }
+  }
+
+  /// A pair of two robots with commitments is compared once.
+  void compare(std::size_t robot, const MovingDisk& mine, std::size_t other, const MovingDisk& theirs) {
+    if (other == robot || (other > robot && is_committed(other))) return;
+    const double reach = robots_[robot].radius + robots_[other].radius - kContactTolerance;
+    const auto hit = overlap(mine, theirs, reach);
+    if (!hit) return;
+    const double at_start = (robots_[robot].start.position - robots_[other].start.position).norm();
+    if (at_start < reach) return compare_leaving(robot, other, at_start, reach);
+    pairs_[{robot, other}].add(hit->begin, least_distance(mine, theirs));
+  }
+
+  void compare_leaving(std::size_t robot, std::size_t other, double at_start, double reach) {
+    if (at_start < reach - conditions_.pair_overlap) return;  // the starts are at fault
+    if (!leaving_.insert({robot, other}).second) return;
+    if (const auto found = collision_after_leaving(motions_[robot], motions_[other], reach)) {
+      pairs_[{robot, other}] = *found;
+    }
+  }
+
+  void add_pair(std::size_t robot, std::size_t other, const Collision& collision) {
+    const double gap = collision.distance - robots_[robot].radius - robots_[other].radius;
+    faults_.push_back({ProblemFault::Kind::committed_collision, robot, other, gap, 0, collision.t});
+  }
+
+  using Pair = std::pair<std::size_t, std::size_t>;  // a robot with a commitment, and another one
+
+  const OccupancyGrid& grid_;
+  const LineOfSight& sight_;
+  const std::vector<Robot>& robots_;
+  const ProblemConditions& conditions_;
+  const StopCondition& stop_;
+  std::vector<std::vector<MovingDisk>> motions_;  // by robot
+  std::map<Pair, Collision> pairs_;
+  std::set<Pair> leaving_;  // that have been compared
+  std::vector<ProblemFault> faults_;
+};
+
+}  // namespace
+
+std::vector<ProblemFault> committed_faults(const OccupancyGrid& grid, const LineOfSight& sight,
+                                           const std::vector<Robot>& robots,
+                                           const ProblemConditions& conditions, const StopCondition& stop) {
+  const bool any = std::any_of(robots.begin(), robots.end(),
+                               [](const Robot& robot) { return !robot.committed.empty() && !robot.invalid; });
+  if (!any) return {};
+  return CommittedFaults(grid, sight, robots, conditions, stop).run();
+}
+
+}  // namespace fleetplan::core
