@@ -12,6 +12,7 @@
 #include "core/collect_plan.h"
 #include "core/instance.h"
 #include "core/lns/large_neighbourhood_search.h"
+#include "core/meetings.h"
 #include "core/prioritized/plan_around_kept.h"
 #include "core/prioritized/plan_state.h"
 #include "core/prioritized/prioritized_planning.h"
@@ -76,6 +77,30 @@ std::vector<std::size_t> those_that_may_change(const PlanState& state, std::vect
     std::erase_if(movers, [&](std::size_t robot) { return state.trajectory(robot)->is_previous; });
   }
   return movers;
+}
+
+/// The meetings of what is certain. A robot that has no way, or no goal, and stays where something passes is
+/// in its way.
+std::vector<Meeting> find_meetings(const PlanState& state, std::vector<std::optional<Unplanned>>& unplanned) {
+  const Instance& instance = state.instance();
+  std::vector<bool> planned(instance.size(), false);
+  for (std::size_t i = 0; i < instance.size(); ++i) planned[i] = state.trajectory(i).has_value();
+  UnavoidableMeetings found = unavoidable_meetings(instance.problem(), planned);
+  std::vector<std::vector<std::size_t>> others(found.while_staying.size());
+  for (const Meeting& meeting : found.meetings) {
+    if (meeting.other) others[meeting.robot].push_back(*meeting.other);
+  }
+  for (std::size_t i = 0; i < found.while_staying.size(); ++i) {
+    const bool has_no_way = !unplanned[i] || unplanned[i]->reason == Unplanned::Reason::blocked_by_robots;
+    if (planned[i] || !found.while_staying[i] || !has_no_way) continue;
+    std::sort(others[i].begin(), others[i].end());
+    unplanned[i] =
+        Unplanned{i, Unplanned::Reason::committed_in_the_way,
+                  "It cannot leave in time from where the committed motion of another robot, or an "
+                  "obstacle, passes.",
+                  std::move(others[i])};
+  }
+  return std::move(found.meetings);
 }
 
 /// The largest parts of the memory of a plan.
@@ -143,6 +168,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   PrioritizedResult prioritized = first_plan(state, previous, movers, random, stop, progress);
   for (Unplanned& robot : prioritized.unplanned) unplanned[robot.robot] = std::move(robot);
   std::erase_if(movers, [&](std::size_t robot) { return !state.trajectory(robot); });
+  const std::vector<Meeting> meetings = find_meetings(state, unplanned);
   progress.plan_found(objectives_of(state));
 
   const bool anytime = options.mode == PlanOptions::Mode::anytime;
@@ -151,6 +177,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   const std::int64_t expansions = state.expansions();
   const auto current_plan = [&](const LnsResult& lns) {
     Plan plan = collect_plan(state, unplanned, bounds);
+    plan.unavoidable = meetings;
     plan.search = {prioritized.attempts, expansions + lns.expansions, lns.improvements};
     return plan;
   };

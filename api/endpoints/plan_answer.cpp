@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <utility>
+#include <vector>
 
 #include "api/response/error.h"
+#include "core/meetings.h"
 #include "core/verify/tolerances.h"
 #include "core/verify/verify.h"
 
@@ -33,14 +35,15 @@ core::StopCondition check_stop(const core::StopCondition& planning) {
   return core::StopCondition(planning.deadline() + kMostAfterPlanning, planning.stop_token());
 }
 
-/// What is left of a plan when all robots that would move stay at their starts.
-core::Plan without_moves(const core::Plan& plan) {
+/// What is left of a plan when all robots that would move stay at their starts, or at the end of what is
+/// committed.
+core::Plan without_moves(const core::Plan& plan, const core::Problem& problem) {
   core::Plan left;
   left.deterministic = false;
   left.search = plan.search;
   left.unplanned = plan.unplanned;
   for (const core::RobotPlan& robot : plan.plans) {
-    if (robot.actions.empty()) {
+    if (robot.actions.size() == problem.robots()[robot.robot].committed.size()) {
       left.plans.push_back(robot);
     } else {
       left.unplanned.push_back({robot.robot,
@@ -51,6 +54,9 @@ core::Plan without_moves(const core::Plan& plan) {
   }
   std::sort(left.unplanned.begin(), left.unplanned.end(),
             [](const core::Unplanned& a, const core::Unplanned& b) { return a.robot < b.robot; });
+  // A robot that is at its goal, or has none, stays as well.
+  left.unavoidable =
+      core::unavoidable_meetings(problem, std::vector<bool>(problem.robots().size(), false)).meetings;
   return left;
 }
 
@@ -71,7 +77,7 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   };
   auto report = check(plan, check_stop(stop).despite_memory());
   core::Plan less;
-  if (!report) less = without_moves(plan);
+  if (!report) less = without_moves(plan, request.problem);
   const core::Plan& answered = report ? plan : less;
   if (!report) report = check(less, core::StopCondition());
   stages.verified = Stages::Clock::now();

@@ -12,7 +12,9 @@ constexpr std::int64_t kMaxExpansions = 20'000;
 
 std::vector<std::size_t> BlockingRobots::find(std::size_t robot) {
   if (stop_.met()) return {};
-  std::vector<std::size_t> blocking = state_.conflicting_robots(robot, state_.plan_alone(robot, stop_));
+  const Trajectory alone = state_.plan_alone(robot, stop_);
+  std::vector<std::size_t> blocking = state_.conflicting_robots(robot, alone);
+  if (blocking.empty()) return state_.robots_committed_against(robot, alone);
   state_.remove(robot);
   for (std::size_t k = 0; k < blocking.size() && blocking.size() > 1;) {
     if (stop_.met() || expansions_ > kMaxExpansions) break;

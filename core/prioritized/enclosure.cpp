@@ -43,10 +43,12 @@ struct Enclosure::Flood {
 
 Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vector<std::size_t>& staying)
     : instance_(instance), grid_(instance.problem().grid()), robot_(robot), clearance_(required_clearance()) {
-  const Position& start = instance.robot(robot).start.position;
+  const Itinerary& itinerary = instance.itinerary(robot);
+  const Position& start = itinerary.pose.position;
   for (const std::size_t other : staying) {
-    if (other == robot) continue;
-    const Position& center = instance.robot(other).start.position;
+    // Until a robot has arrived where it stays, it closes no way.
+    if (other == robot || instance.itinerary(other).t_begin > itinerary.t_begin) continue;
+    const Position& center = instance.itinerary(other).pose.position;
     // A robot that starts too near to another one may leave, but come no nearer.
     const double reach =
         std::min(instance.motion(robot).radius + instance.motion(other).radius, (start - center).norm());
@@ -61,7 +63,8 @@ Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vec
 double Enclosure::required_clearance() const {
   const Robot& robot = instance_.robot(robot_);
   double clearance = instance_.motion(robot_).radius;
-  for (const Position& position : {robot.start.position, robot.goal->position}) {
+  const Position& start = instance_.itinerary(robot_).pose.position;
+  for (const Position& position : {start, robot.goal->position}) {
     if (instance_.sight().disk_fits(position, clearance)) continue;
     clearance = std::min(clearance, obstacle_distance(grid_, position, clearance));
   }
@@ -116,7 +119,8 @@ Enclosure::Flood Enclosure::flood(std::int64_t max_steps) {
   steps_ = 0;
   Flood flood(grid_);
   const Robot& robot = instance_.robot(robot_);
-  const std::array<Cell, 2> begins{grid_.cell_at(robot.start.position), grid_.cell_at(robot.goal->position)};
+  const Position& start = instance_.itinerary(robot_).pose.position;
+  const std::array<Cell, 2> begins{grid_.cell_at(start), grid_.cell_at(robot.goal->position)};
   for (std::size_t side = 0; side < Flood::kSides.size(); ++side) {
     flood.reached[grid_.index(begins[side])] = Flood::kSides[side];
     flood.cells[side].push_back(begins[side]);

@@ -27,7 +27,7 @@ class Enclosure {
     std::vector<std::size_t> robots;
   };
 
-  /// `robot` has a goal; `staying` are the robots that stay at their starts.
+  /// `robot` has a goal; `staying` are the robots that stay where their plans would begin.
   Enclosure(const Instance& instance, std::size_t robot, const std::vector<std::size_t>& staying);
 
   /// The answer is unknown after `max_steps` steps, about 50 ns each. To find the robots may take a few times

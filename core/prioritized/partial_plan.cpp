@@ -72,7 +72,7 @@ class SafePlanner {
   void sort_by_distance() {
     const auto distance = [&](std::size_t robot) {
       const Robot& r = state_.instance().robot(robot);
-      return (r.goal->position - r.start.position).norm();
+      return (r.goal->position - r.committed_end().position).norm();
     };
     std::stable_sort(staying_.begin(), staying_.end(),
                      [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });

@@ -29,7 +29,13 @@ PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> r
 PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& options,
                             std::vector<std::size_t> robots, Random& random) {
   const auto weighted_distance = [&](std::size_t i) {
-    const double distance = (all[i].goal->position - all[i].start.position).norm();
+    double distance = 0.0;
+    Position from = all[i].committed_end().position;
+    for (const Goal& goal : all[i].via) {
+      distance += (goal.position - from).norm();
+      from = goal.position;
+    }
+    distance += (all[i].goal->position - from).norm();
     return distance / std::pow(all[i].linear_speed, kSpeedWeight);
   };
   switch (options.priority) {

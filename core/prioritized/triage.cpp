@@ -29,9 +29,13 @@ class Triage {
 
   std::vector<std::optional<Unplanned>> run() {
     for (std::size_t i = 0; i < instance_.size(); ++i) {
-      starts_.add(i, instance_.robot(i).start.position);
+      starts_.add(i, place(i));
       if (instance_.robot(i).goal) goals_.add(i, instance_.robot(i).goal->position);
-      if (!instance_.robot(i).goal) stay(i);
+      if (instance_.robot(i).invalid) {
+        give_up(i, Reason::invalid, "The robot's geometry is at fault, so it stays where it is.");
+      } else if (!instance_.robot(i).goal) {
+        stay(i);
+      }
     }
     for_each_robot([&](std::size_t i) { check_start(i); });
     for_each_robot([&](std::size_t i) { check_goal(i); });
@@ -48,6 +52,8 @@ class Triage {
     }
   }
   bool is_kept(std::size_t robot) const { return !kept_.empty() && kept_[robot]; }
+  /// Where the robot is when its plan begins, and where it stays without one.
+  const Position& place(std::size_t robot) const { return instance_.itinerary(robot).pose.position; }
   void stay(std::size_t robot) {
     stays_[robot] = true;
     state_.stay_at_start(robot);
@@ -75,7 +81,7 @@ class Triage {
     }
     if (!instance_.contacts().too_many(i)) return;
     give_up(i, Reason::start_blocked, "The inflated robot overlaps too many others at its start to leave it.",
-            starts_.overlapping(i, instance_.robot(i).start.position));
+            starts_.overlapping(i, place(i)));
   }
 
   void check_goal(std::size_t i) {
@@ -132,7 +138,7 @@ class Triage {
     give_up(i, Reason::goal_blocked, "A robot that stays where it is stands in the way at the goal.",
             std::move(others));
     // Those whose goal it occupies are examined in the order of the list, again and again.
-    for (const std::size_t j : goals_.overlapping(i, instance_.robot(i).start.position)) {
+    for (const std::size_t j : goals_.overlapping(i, place(i))) {
       if (!stays_[j]) (j > i ? current_ : next_).insert(j);
     }
   }

@@ -93,7 +93,7 @@ class PairCheck {
   bool is_allowed(const Overlap& overlap) {
     const auto [first, second] = Pair(overlap.first, overlap.second);
     if (fleet_.invalid[first] && fleet_.invalid[second]) return true;
-    if (any_contains(exemptions_.of_robots(first, second), overlap.t_begin)) return true;
+    if (exemptions_.allow_robots(first, second, overlap.t_begin)) return true;
     const auto until = leaves_overlap(fleet_, overlap, rules_);
     if (!until) return false;
     double& left = left_at_[{first, second}];
@@ -154,7 +154,7 @@ class PairCheck {
     if (!overlaps) return false;
     std::size_t listed = 0;
     for (const Overlap& overlap : *overlaps) {
-      if (any_contains(exemptions_.with_obstacle(overlap.first, overlap.second), overlap.t_begin)) continue;
+      if (exemptions_.allow_obstacle(overlap.first, overlap.second, overlap.t_begin)) continue;
       if (++listed > kMostCollisions) break;
       const double kept = fleet_.radii[overlap.first] + radii_[overlap.second];
       report_.violations.add({Violation::Kind::moving_obstacle,

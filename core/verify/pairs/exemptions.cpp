@@ -1,8 +1,11 @@
 #include "core/verify/pairs/exemptions.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
+#include "core/model/most_meetings.h"
 #include "core/verify/pairs/pair_distance.h"
 #include "core/verify/tolerances.h"
 
@@ -25,10 +28,16 @@ Exemptions::Exemptions(const std::vector<Meeting>& meetings, const ExecutedFleet
                        const std::vector<std::vector<Leg>>& obstacles,
                        const std::vector<double>& obstacle_radii, const StopCondition& stop)
     : robots_(fleet.size()) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  for (const Departure& departure : fleet.departures) {
+    certain_.push_back({departure.leaves == kNever ? kNever : departure.committed_until, kNever});
+  }
+  std::vector<std::size_t> listed(fleet.size(), 0);
   for (const Meeting& meeting : meetings) {
     if (stop.met()) return;
     const auto one = position_of(fleet, meeting.robot);
     if (!one) continue;
+    count(*one, meeting.t, listed);
     if (meeting.obstacle && *meeting.obstacle < obstacles.size()) {
       const double near = fleet.radii[*one] + obstacle_radii[*meeting.obstacle] + kTouching;
       const auto span = time_together(fleet.legs[*one], obstacles[*meeting.obstacle], near, meeting.t);
@@ -40,6 +49,23 @@ Exemptions::Exemptions(const std::vector<Meeting>& meetings, const ExecutedFleet
     const auto span = time_together(fleet.legs[*one], fleet.legs[*other], near, meeting.t);
     if (span) of_robots_[key(*one, *other)].push_back(*span);
   }
+}
+
+void Exemptions::count(std::size_t position, double t, std::vector<std::size_t>& meetings) {
+  if (++meetings[position] < kMostMeetingsOfRobot) return;
+  double& from = certain_[position].exempt_from;
+  from = std::isinf(from) ? t : std::max(from, t);
+}
+
+bool Exemptions::allow_robots(std::size_t one, std::size_t other, double t) const {
+  if (any_contains(of_robots(one, other), t)) return true;
+  return t >= std::min(certain_[one].exempt_from, certain_[other].exempt_from) &&
+         t <= std::min(certain_[one].until, certain_[other].until);
+}
+
+bool Exemptions::allow_obstacle(std::size_t robot, std::size_t obstacle, double t) const {
+  if (any_contains(with_obstacle(robot, obstacle), t)) return true;
+  return t >= certain_[robot].exempt_from && t <= certain_[robot].until;
 }
 
 const std::vector<TimeSpan>& Exemptions::of_robots(std::size_t one, std::size_t other) const {

@@ -13,7 +13,9 @@
 
 namespace fleetplan::core {
 
-/// The times at which pairs may collide, see CheckRules::exempt.
+/// The times at which pairs may collide, see CheckRules::exempt. A robot with kMostMeetingsOfRobot meetings
+/// has no more listed, so from the last one on all is exempt that it certainly does: its committed motion,
+/// and the stay of a robot that never leaves afterwards.
 class Exemptions {
  public:
   /// `obstacles` are the legs of the moving obstacles, `obstacle_radii` theirs. All robots are enlarged by
@@ -26,13 +28,25 @@ class Exemptions {
   const std::vector<TimeSpan>& of_robots(std::size_t one, std::size_t other) const;
   const std::vector<TimeSpan>& with_obstacle(std::size_t robot, std::size_t obstacle) const;
 
+  /// Whether an overlap of this pair that begins at `t` is exempt.
+  bool allow_robots(std::size_t one, std::size_t other, double t) const;
+  bool allow_obstacle(std::size_t robot, std::size_t obstacle, double t) const;
+
  private:
   using Spans = std::unordered_map<std::uint64_t, std::vector<TimeSpan>>;
+
+  /// What the robot certainly does lasts until then, and collisions are exempt from then on.
+  struct Certain {
+    double until = 0.0;
+    double exempt_from = 0.0;
+  };
+  void count(std::size_t position, double t, std::vector<std::size_t>& meetings);
 
   static const std::vector<TimeSpan>& find(const Spans& spans, std::uint64_t pair);
   std::uint64_t key(std::size_t one, std::size_t other) const;
 
   std::size_t robots_;
+  std::vector<Certain> certain_;  // by position
   Spans of_robots_;
   Spans with_obstacles_;
 };
