@@ -49,6 +49,15 @@ StopCondition beyond_budget(const StopCondition& stop) {
   return StopCondition(std::max(stop.deadline(), now) + kMostBeyond, stop.stop_token()).despite_memory();
 }
 
+/// Robots without a plan are in the way of others, so a budget that is spent would cost plans that hold. A
+/// few robots are planned around hundreds of others in less than this.
+StopCondition with_least_time(const StopCondition& stop) {
+  using Clock = StopCondition::Clock;
+  constexpr std::chrono::milliseconds kLeastTime{40};
+  if (stop.cancelled() || stop.deadline() >= Clock::now() + kLeastTime) return stop;
+  return StopCondition(Clock::now() + kLeastTime, stop.stop_token());
+}
+
 /// Whether all robots keep their previous plans, and no search can change that.
 bool is_final(const KeptPlans& previous, const std::vector<std::size_t>& movers, const PlanOptions& options,
               const StopCondition& stop) {
@@ -66,9 +75,14 @@ PrioritizedResult first_plan(PlanState& state, const KeptPlans& previous,
     finish_with_kept_plans(state, movers);
     return {};
   }
-  const PlanningTime time = PlanningTime::until(stop);
-  return follow_kept_plans(state, previous) > 0 ? plan_around_kept(state, movers, random, time, progress)
-                                                : plan_prioritized(state, movers, random, time, progress);
+  if (follow_kept_plans(state, previous) == 0) {
+    return plan_prioritized(state, movers, random, PlanningTime::until(stop), progress);
+  }
+  const bool is_over = stop.met();
+  PrioritizedResult result =
+      plan_around_kept(state, movers, random, PlanningTime::until(with_least_time(stop)), progress);
+  result.cut_off = result.cut_off || (is_over && !result.unplanned.empty());
+  return result;
 }
 
 /// The robots that large neighbourhood search may plan again.

@@ -91,7 +91,8 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
                          context.request_id);
   }
   if (!has_come) return too_busy(context.request_id);
-  if (stop.met()) {
+  // Previous plans that hold are kept whatever the budget.
+  if (stop.met() && !core::have_previous_plans(request->problem.robots())) {
     const core::StopCondition patience(Clock::now() + kMostForPrevious);
     Reply reply =
         answer(core::plan_without_search(request->problem, request->options,

@@ -131,9 +131,16 @@ TEST(Replanning, PlansARobotWithANewGoalAroundTheOthers) {
   }
 }
 
-TEST(Replanning, KeepsOtherPlansIfTheBudgetIsSpent) {
+TEST(Replanning, PlansAFewRobotsEvenIfTheBudgetIsSpent) {
   const Problem problem = crowd_with_new_goal(10);
   const Plan plan = core::plan(problem, {}, after_milliseconds(-1));
+  support::expect_safe(problem, plan);
+  EXPECT_GE(count_followed(problem, plan), kRobots / 2);
+}
+
+TEST(Replanning, KeepsWhatIsCertainIfPlanningIsCancelled) {
+  const Problem problem = crowd_with_new_goal(10);
+  const Plan plan = core::plan(problem, {}, met());
   support::expect_safe(problem, plan);
   EXPECT_EQ(count_followed(problem, plan), plan.plans.size());
   EXPECT_GE(plan.plans.size(), kRobots / 2);
