@@ -19,6 +19,7 @@ std::vector<Endpoints> endpoints(const Problem& problem, const Lattice& lattice,
   for (const Robot& robot : problem.robots()) {
     Endpoints ends;
     ends.radius = robot.radius + inflation;
+    ends.inflation = inflation;
     ends.start = robot.committed_end().position;
     ends.start_rounding = rounding(ends.start);
     if (robot.goal) {

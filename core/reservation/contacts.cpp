@@ -12,6 +12,8 @@ namespace {
 /// A distance is reduced by this fraction before it is kept, so that rounding does not forbid to stay.
 constexpr double kRounding = 1e-14;
 
+bool is_at_start(Endpoint endpoint) { return endpoint == Endpoint::start || endpoint == Endpoint::leaving; }
+
 bool same(const Position& a, const Position& b) {
   return (a - b).squaredNorm() <= kSamePosition * kSamePosition;
 }
@@ -24,6 +26,7 @@ struct Contacts::Point {
   Endpoint endpoint;
   double radius;
   double rounding;
+  double inflation;
 };
 
 Contacts::Contacts(std::vector<Endpoints> robots)
@@ -32,8 +35,9 @@ Contacts::Contacts(std::vector<Endpoints> robots)
   double largest = 0.0;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const Endpoints& robot = robots_[i];
-    points.push_back({robot.start, i, Endpoint::start, robot.radius, robot.start_rounding});
-    if (robot.goal) points.push_back({*robot.goal, i, Endpoint::goal, robot.radius, robot.goal_rounding});
+    points.push_back({robot.start, i, Endpoint::start, robot.radius, robot.start_rounding, robot.inflation});
+    if (robot.goal)
+      points.push_back({*robot.goal, i, Endpoint::goal, robot.radius, robot.goal_rounding, robot.inflation});
     largest = std::max(largest, robot.radius);
   }
   std::sort(points.begin(), points.end(),
@@ -55,11 +59,13 @@ void Contacts::compare(const Point& a, const Point& b) {
   const double kept = distance * (1.0 - kRounding);
   if (kept >= sum - kSearchSlack) return;
   if (a.endpoint == Endpoint::start && b.endpoint == Endpoint::start) {
-    add(a.robot, {b.robot, kept, kForever});
-    add(b.robot, {a.robot, kept, kForever});
+    const double bare = sum - a.inflation - b.inflation;
+    const bool overlapping = distance < bare - kContactTolerance - 4.0 * kSamePosition;
+    add(a.robot, {b.robot, kept, kForever, overlapping});
+    add(b.robot, {a.robot, kept, kForever, overlapping});
   } else if (distance >= sum - kContactTolerance - 4.0 * kSamePosition) {
-    add(a.robot, {b.robot, kForever, kept});
-    add(b.robot, {a.robot, kForever, kept});
+    add(a.robot, {b.robot, kForever, kept, false});
+    add(b.robot, {a.robot, kForever, kept, false});
   }
 }
 
@@ -71,6 +77,7 @@ void Contacts::add(std::size_t robot, const Contact& contact) {
   if (known != all.end()) {
     known->leaving = std::min(known->leaving, contact.leaving);
     known->touching = std::min(known->touching, contact.touching);
+    known->overlapping = known->overlapping || contact.overlapping;
   } else if (all.size() < kMaxContacts) {
     all.push_back(contact);
   } else {
@@ -112,10 +119,18 @@ double Contacts::deficit(std::size_t robot) const {
   return deficit;
 }
 
+bool Contacts::overlaps_at_start(std::size_t robot) const {
+  return too_many_[robot] || std::any_of(contacts_[robot].begin(), contacts_[robot].end(),
+                                         [](const Contact& contact) { return contact.overlapping; });
+}
+
 Endpoint Contacts::endpoint(std::size_t robot, const Segment& path) const {
   if (none(robot)) return Endpoint::none;
   const Endpoints& ends = robots_[robot];
-  if (same(path.from, ends.start)) return Endpoint::start;
+  if (same(path.from, ends.start)) {
+    const bool moves = path.from != path.to;
+    return moves && overlaps_at_start(robot) ? Endpoint::leaving : Endpoint::start;
+  }
   return ends.goal && same(path.to, *ends.goal) ? Endpoint::goal : Endpoint::none;
 }
 
@@ -124,7 +139,8 @@ double Contacts::distance(std::size_t robot, Endpoint at, std::size_t other, End
   if (at == Endpoint::none || other_at == Endpoint::none) return full;
   const Contact* contact = find(robot, other);
   if (contact == nullptr) return full;
-  const bool leaving = at == Endpoint::start && other_at == Endpoint::start;
+  if (at == Endpoint::leaving && other_at == Endpoint::leaving && contact->overlapping) return full;
+  const bool leaving = is_at_start(at) && is_at_start(other_at);
   return std::min(full, leaving ? contact->leaving : contact->touching);
 }
 

@@ -23,10 +23,12 @@ struct Endpoints {
   double radius = 0.0;          // metres, inflation included
   double start_rounding = 0.0;  // metres
   double goal_rounding = 0.0;   // metres
+  double inflation = 0.0;       // metres, a part of the radius
 };
 
 /// Where a robot stands, or moves from or to.
-enum class Endpoint : std::uint8_t { none, goal, start };
+/// `leaving`: moves from the start, and is one of two robots whose bare disks overlap there.
+enum class Endpoint : std::uint8_t { none, goal, start, leaving };
 
 class Contacts {
  public:
@@ -58,9 +60,13 @@ class Contacts {
     std::size_t other = 0;
     double leaving = kForever;   // metres; the distance to keep while both are at their starts
     double touching = kForever;  // metres; likewise where at least one of them is at its goal
+    /// The bare disks overlap at the starts, by more than contact. They leave one after the other: once they
+    /// have been clear of each other, they come no nearer again.
+    bool overlapping = false;
   };
   struct Point;
 
+  bool overlaps_at_start(std::size_t robot) const;
   void compare(const Point& a, const Point& b);
   void add(std::size_t robot, const Contact& contact);
   const Contact* find(std::size_t robot, std::size_t other) const;

@@ -22,13 +22,15 @@ namespace fleetplan::support {
 /// Metres: the contact tolerance of the service, and the rounding of times and positions.
 inline constexpr double kSafeTolerance = 2e-9;
 
-/// The tolerances of the service for robots with actions of the request, and kSafeTolerance for others.
+/// The tolerances of the service for robots with actions of the request or among moving obstacles, which they
+/// may touch, and kSafeTolerance for others.
 inline std::vector<core::Tolerance> safe_tolerances(const core::Problem& problem,
                                                     const std::vector<core::RobotPlan>& plans) {
   auto tolerances = core::plan_tolerances(problem.grid(), problem.robots(), plans);
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
     const core::Robot& robot = problem.robots()[i];
-    if (robot.committed.empty() && !robot.previous) tolerances[i] = core::Tolerance::of_all(kSafeTolerance);
+    if (robot.committed.empty() && !robot.previous && problem.obstacles().empty())
+      tolerances[i] = core::Tolerance::of_all(kSafeTolerance);
   }
   return tolerances;
 }

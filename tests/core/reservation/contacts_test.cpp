@@ -14,9 +14,9 @@ namespace {
 
 using Robots = std::vector<std::size_t>;
 
-Endpoints at(double x, double y) { return {{x, y}, std::nullopt, 0.5, 0.0, 0.0}; }
+Endpoints at(double x, double y) { return {{x, y}, std::nullopt, 0.5, 0.0, 0.0, 0.25}; }
 Endpoints at(double x, double y, double goal_x, double goal_y) {
-  return {{x, y}, Position(goal_x, goal_y), 0.5, 0.0, 0.0};
+  return {{x, y}, Position(goal_x, goal_y), 0.5, 0.0, 0.0, 0.25};
 }
 
 Segment rest(double x, double y) { return {{x, y}, {x, y}}; }
@@ -41,6 +41,15 @@ TEST(Contacts, KeepTheDistanceOfTheStartsWhileBothLeave) {
   EXPECT_EQ(contacts.distance(0, Endpoint::none, 1, Endpoint::start, 1.0), 1.0);
   EXPECT_EQ(contacts.distance(0, Endpoint::goal, 1, Endpoint::start, 1.0), 1.0);
   EXPECT_EQ(contacts.distance(0, Endpoint::start, 2, Endpoint::start, 1.0), 1.0);
+}
+
+TEST(Contacts, OfBareDisksAreLeftOneAfterTheOther) {
+  const Contacts contacts({at(1, 1), at(1.4, 1)});  // nearer than without inflation
+  EXPECT_EQ(contacts.endpoint(0, rest(1, 1)), Endpoint::start);
+  EXPECT_EQ(contacts.endpoint(0, {{1, 1}, {1, 2}}), Endpoint::leaving);
+  EXPECT_NEAR(contacts.distance(0, Endpoint::leaving, 1, Endpoint::start, 1.0), 0.4, 1e-12);
+  EXPECT_NEAR(contacts.distance(0, Endpoint::start, 1, Endpoint::leaving, 1.0), 0.4, 1e-12);
+  EXPECT_EQ(contacts.distance(0, Endpoint::leaving, 1, Endpoint::leaving, 1.0), 1.0);
 }
 
 TEST(Contacts, DoNotDependOnTheRoundingOfSquares) {
