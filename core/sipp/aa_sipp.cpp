@@ -6,7 +6,7 @@
 
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
-#include "core/sipp/label_path.h"
+#include "core/sipp/search.h"
 
 namespace fleetplan::core {
 namespace {
@@ -14,98 +14,10 @@ namespace {
 /// Loop steps between two checks of the stop condition.
 constexpr int kStopStride = 32;
 
-enum class Pass : std::uint8_t { quick, complete };
-
-/// `exhausted`: the open list is empty. `incomplete`: likewise, but the quick pass discarded an arrival that
-/// the complete pass may keep. `stopped`: by the stop condition or the limit of expansions.
-enum class Outcome : std::uint8_t { found, exhausted, incomplete, stopped };
-
-/// The search for one robot: its inputs and its state. Intervals are indices into SearchState::intervals.
-class Search {
- public:
-  Search(const ReservationTable& table, std::size_t robot, SearchSpace& space, const SearchLimits& limits,
-         const StopCondition& stop, SearchState state)
-      : table_(table),
-        robot_(robot),
-        space_(space),
-        motion_(space.vertices().motion()),
-        timing_(motion_, table, robot),
-        vertices_(space.vertices()),
-        last_stage_(static_cast<int>(space.goal_count()) - 1),
-        limits_(limits),
-        stop_(stop),
-        pause_(std::min(limits.max_expansions, first_test(limits))),
-        state_(std::move(state)) {}
-
-  Outcome run(Pass pass);
-  Trajectory trajectory() const { return trajectory_of(state_, space_); }
-  std::int64_t expansions() const { return expansions_; }
-  SearchState take_state() { return std::move(state_); }
-
- private:
-  /// f orders the open list; h is the estimated cost to the goal; `cost` estimates the cost of the whole
-  /// path, without the heuristic weight. Seconds.
-  struct Evaluation {
-    double f;
-    double h;
-    double cost;
-  };
-
-  static std::int64_t first_test(const SearchLimits& limits) {
-    return limits.no_path_test == nullptr ? limits.max_expansions : SearchLimits::kFirstTest;
-  }
-  bool begin(Pass pass);
-  bool can_serve_all();
-  void label_start();
-  bool goal_entry_suffices() const;
-  LabelId settle(const OpenEntry& entry);
-  LabelId add_label(const Label& label);
-  void expand(LabelId id);
-  bool serve(LabelId id);
-  void offer_goal(LabelId from);
-  void offer_from(EdgeId id, int interval);
-  bool offer(EdgeId id, EdgeKind kind, int interval, bool next_interval_follows);
-  void push_timed(OpenEntry entry, double f_lower_bound);
-
-  EdgeId add_edge(LabelId via, PlaceId target, bool with_shortcut);
-  Move move_between(LabelId from, PlaceId target) const;
-  void test_sight(Edge& edge) const;
-  std::optional<double> earliest_departure(const OpenEntry& entry);
-  bool is_dominated(int interval, double arrival, double heading, double f);
-  Evaluation evaluate(PlaceId place, int interval, double arrival, double heading) const;
-  double to_go(PlaceId place, double heading) const;
-
-  PlaceId place_of(int vertex, int stage);
-  void append_intervals(Place& place);
-  PlaceId goal_of(int stage) { return place_of(state_.stages[stage].goal.vertex, stage); }
-  LabelId source_of(const Edge& edge, EdgeKind kind) const {
-    return kind == EdgeKind::shortcut ? state_.labels[edge.via].parent : edge.via;
-  }
-  const Place& place_at(LabelId label) const { return state_.places[state_.labels[label].place]; }
-  bool is_final(PlaceId place, int interval) const {
-    return place == state_.goal && state_.intervals[interval].end == kForever;
-  }
-
-  const ReservationTable& table_;
-  const std::size_t robot_;
-  SearchSpace& space_;
-  const Motion& motion_;
-  const EdgeTiming timing_;
-  const Vertices& vertices_;
-  const int last_stage_;
-  const SearchLimits& limits_;
-  const StopCondition& stop_;
-
-  const bool is_costly_ = table_.is_costly();
-  Pass pass_ = Pass::quick;
-  bool use_slack_ = false;
-  std::int64_t expansions_ = 0;  // of all passes
-  std::int64_t pause_;           // expansions after which the limits are looked at
-  SearchState state_;
-};
+}  // namespace
 
 /// The main loop; see the pseudo-code in the header.
-Outcome Search::run(Pass pass) {
+Search::Outcome Search::run(Pass pass) {
   if (!begin(pass)) return Outcome::exhausted;
   label_start();
   for (int step = 1; state_.goal_label == LabelId::none; ++step) {
@@ -282,41 +194,6 @@ inline Move Search::move_between(LabelId from, PlaceId target) const {
   return timing_.move(source, d.heading, d.length);
 }
 
-/// Prepares a pass. Returns false if the last goal has no safe interval without end, or another one has none
-/// that is long enough.
-bool Search::begin(Pass pass) {
-  pass_ = pass;
-  use_slack_ = pass == Pass::quick && limits_.dominance_slack > 0.0;
-  state_.clear();
-  state_.place_of_vertex.resize(
-      std::max(state_.place_of_vertex.size(), static_cast<std::size_t>(vertices_.count())), PlaceId::none);
-  const double slack = use_slack_ ? limits_.dominance_slack * vertices_.spacing() : 0.0;
-  state_.dominance.reset(motion_, motion_.translation_time(slack));
-  state_.stages = stages_of(space_, stop_);
-  state_.goal = goal_of(last_stage_);
-  const Place& goal = state_.places[state_.goal];
-  if (goal.never_safe()) return false;
-  const SafeInterval& last = state_.intervals[goal.end_interval - 1];
-  set_releases(state_.stages, last.begin);
-  state_.release = state_.stages[0].release;
-  return last.end == kForever && can_serve_all();
-}
-
-/// Whether each goal before the last one is free for long enough, at some time.
-bool Search::can_serve_all() {
-  for (int k = 0; k < last_stage_; ++k) {
-    const Place goal = state_.places[goal_of(k)];
-    const double done = k == 0 ? space_.itinerary().service_done : 0.0;
-    bool can_serve = false;
-    for (int i = goal.first_interval; i < goal.end_interval; ++i) {
-      const SafeInterval& safe = state_.intervals[i];
-      can_serve = can_serve || state_.stages[k].service_end(safe.begin) - done <= safe.end;
-    }
-    if (!can_serve) return false;
-  }
-  return true;
-}
-
 /// Labels and expands the start, unless the robot cannot be there or the goal is out of bound.
 void Search::label_start() {
   const PlaceId start = place_of(vertices_.start(), 0);
@@ -342,14 +219,6 @@ bool Search::goal_entry_suffices() const {
   const double suboptimality =
       limits_.suboptimality + limits_.suboptimality_growth * static_cast<double>(expansions_);
   return state_.best_goal_cost <= (1.0 + suboptimality) * state_.open.min_f();
-}
-
-/// Tests the shortcut against obstacles, once.
-void Search::test_sight(Edge& edge) const {
-  if (edge.shortcut_sight != Edge::Sight::unknown) return;
-  const int from = place_at(source_of(edge, EdgeKind::shortcut)).vertex;
-  const bool free = vertices_.in_sight(from, state_.places[edge.target].vertex);
-  edge.shortcut_sight = free ? Edge::Sight::free : Edge::Sight::blocked;
 }
 
 /// The earliest departure that arrives in the entry's interval before the arrival would be dominated; none if
@@ -402,54 +271,14 @@ inline double Search::to_go(PlaceId place, double heading) const {
   return estimate.seconds + motion_.rotation_time(heading, estimate.heading);
 }
 
-/// The place of a vertex in a stage, with its safe intervals; computed when it is reached for the first time.
-PlaceId Search::place_of(int vertex, int stage) {
-  PlaceId& latest = state_.place_of_vertex[vertex];
-  PlaceId known = latest;
-  while (known != PlaceId::none && state_.places[known].stage != stage) {
-    known = state_.places[known].other_stage;
-  }
-  if (known != PlaceId::none) return known;
-  Place place{vertex, stage, vertices_.position(vertex), {}, false, state_.intervals.next_index(), 0, latest};
-  const Stage& at = state_.stages[stage];
-  if (vertex != at.goal.vertex) {
-    place.estimate = space_.cost_to_go(static_cast<std::size_t>(stage)).from(vertex, stop_);
-    place.estimate.seconds += at.after;
-  } else {
-    place.estimate = {at.after, at.goal.heading.value_or(0.0), false};
-    place.any_heading = !at.goal.heading;
-  }
-  append_intervals(place);
-  latest = state_.places.push_back(place);
-  return latest;
-}
-
-/// Those of the vertex in another stage are the same.
-void Search::append_intervals(Place& place) {
-  if (place.other_stage != PlaceId::none) {
-    const Place& other = state_.places[place.other_stage];
-    for (int k = other.first_interval; k < other.end_interval; ++k) {
-      state_.intervals.push_back(SafeInterval(state_.intervals[k]));
-    }
-  } else {
-    for (const SafeInterval& safe : table_.safe_intervals(robot_, place.position)) {
-      state_.intervals.push_back(safe);
-    }
-  }
-  place.end_interval = state_.intervals.next_index();
-  state_.dominance.set_interval_count(state_.intervals.size());
-}
-
-}  // namespace
-
 SearchResult AaSipp::run(std::size_t robot, SearchSpace& space, const SearchLimits& limits,
                          const StopCondition& stop) {
   Search search(table_, robot, space, limits, stop, std::move(state_));
-  Outcome outcome = search.run(Pass::quick);
-  if (outcome == Outcome::incomplete && limits.thorough) outcome = search.run(Pass::complete);
+  Search::Outcome outcome = search.run(Search::Pass::quick);
+  if (outcome == Search::Outcome::incomplete && limits.thorough) outcome = search.run(Search::Pass::complete);
   SearchResult result;
-  if (outcome == Outcome::found) result.trajectory = search.trajectory();
-  result.complete = outcome != Outcome::stopped;
+  if (outcome == Search::Outcome::found) result.trajectory = search.trajectory();
+  result.complete = outcome != Search::Outcome::stopped;
   result.expansions = search.expansions();
   state_ = search.take_state();
   return result;

@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <cstddef>
+
+#include "core/geometry/interval.h"
+#include "core/sipp/search.h"
+
+namespace fleetplan::core {
+
+/// Prepares a pass. Returns false if the last goal has no safe interval without end, or another one has none
+/// that is long enough.
+bool Search::begin(Pass pass) {
+  pass_ = pass;
+  use_slack_ = pass == Pass::quick && limits_.dominance_slack > 0.0;
+  state_.clear();
+  state_.place_of_vertex.resize(
+      std::max(state_.place_of_vertex.size(), static_cast<std::size_t>(vertices_.count())), PlaceId::none);
+  const double slack = use_slack_ ? limits_.dominance_slack * vertices_.spacing() : 0.0;
+  state_.dominance.reset(motion_, motion_.translation_time(slack));
+  state_.stages = stages_of(space_, stop_);
+  state_.goal = goal_of(last_stage_);
+  const Place& goal = state_.places[state_.goal];
+  if (goal.never_safe()) return false;
+  const SafeInterval& last = state_.intervals[goal.end_interval - 1];
+  set_releases(state_.stages, last.begin);
+  state_.release = state_.stages[0].release;
+  return last.end == kForever && can_serve_all();
+}
+
+/// Whether each goal before the last one is free for long enough, at some time.
+bool Search::can_serve_all() {
+  for (int k = 0; k < last_stage_; ++k) {
+    const Place goal = state_.places[goal_of(k)];
+    const double done = k == 0 ? space_.itinerary().service_done : 0.0;
+    bool can_serve = false;
+    for (int i = goal.first_interval; i < goal.end_interval; ++i) {
+      const SafeInterval& safe = state_.intervals[i];
+      can_serve = can_serve || state_.stages[k].service_end(safe.begin) - done <= safe.end;
+    }
+    if (!can_serve) return false;
+  }
+  return true;
+}
+
+/// Tests the shortcut against obstacles, once.
+void Search::test_sight(Edge& edge) const {
+  if (edge.shortcut_sight != Edge::Sight::unknown) return;
+  const int from = place_at(source_of(edge, EdgeKind::shortcut)).vertex;
+  const bool free = vertices_.in_sight(from, state_.places[edge.target].vertex);
+  edge.shortcut_sight = free ? Edge::Sight::free : Edge::Sight::blocked;
+}
+
+/// The place of a vertex in a stage, with its safe intervals; computed when it is reached for the first time.
+PlaceId Search::place_of(int vertex, int stage) {
+  PlaceId& latest = state_.place_of_vertex[vertex];
+  PlaceId known = latest;
+  while (known != PlaceId::none && state_.places[known].stage != stage) {
+    known = state_.places[known].other_stage;
+  }
+  if (known != PlaceId::none) return known;
+  Place place{vertex, stage, vertices_.position(vertex), {}, false, state_.intervals.next_index(), 0, latest};
+  const Stage& at = state_.stages[stage];
+  if (vertex != at.goal.vertex) {
+    place.estimate = space_.cost_to_go(static_cast<std::size_t>(stage)).from(vertex, stop_);
+    place.estimate.seconds += at.after;
+  } else {
+    place.estimate = {at.after, at.goal.heading.value_or(0.0), false};
+    place.any_heading = !at.goal.heading;
+  }
+  append_intervals(place);
+  latest = state_.places.push_back(place);
+  return latest;
+}
+
+/// Those of the vertex in another stage are the same.
+void Search::append_intervals(Place& place) {
+  if (place.other_stage != PlaceId::none) {
+    const Place& other = state_.places[place.other_stage];
+    for (int k = other.first_interval; k < other.end_interval; ++k) {
+      state_.intervals.push_back(SafeInterval(state_.intervals[k]));
+    }
+  } else {
+    for (const SafeInterval& safe : table_.safe_intervals(robot_, place.position)) {
+      state_.intervals.push_back(safe);
+    }
+  }
+  place.end_interval = state_.intervals.next_index();
+  state_.dominance.set_interval_count(state_.intervals.size());
+}
+
+}  // namespace fleetplan::core
