@@ -76,7 +76,7 @@ struct SearchStatistics {
 struct Plan {
   std::vector<RobotPlan> plans;
   std::vector<Unplanned> unplanned;
-  std::vector<Meeting> unavoidable = {};  // by time, each pair once
+  std::vector<Meeting> unavoidable = {};  // by time; at most kMostMeetingsOfRobot of a robot
   Objectives objectives;
   Objectives lower_bound;
   bool deterministic = true;  // false if the clock or the load influenced the plan
