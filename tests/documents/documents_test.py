@@ -140,13 +140,25 @@ class Examples(DocumentTest):
         self.assertTrue(self.post("/v1/validate", {**request, **answer})["valid"])
 
     def test_the_request_of_the_api_page_returns_the_response_below_it(self):
-        request, shown, verdict, _ = map(json.loads, blocks("docs/api.md", "json"))
+        request, _, shown, verdict, _ = map(json.loads, blocks("docs/api.md", "json"))
         answer = self.post("/v1/plan", request)
         self.assert_shape(shown, answer)
         self.assertEqual(set(shown), set(answer))
         self.assertEqual(shown["status"], answer["status"])
         self.assertAlmostEqual(shown["flowtime"], answer["flowtime"], delta=0.01)
         self.assert_shape(self.post("/v1/validate", {**request, **answer}), verdict)
+
+    def test_the_members_of_fleets_in_motion_are_accepted_and_planned(self):
+        request, motion, *_ = map(json.loads, blocks("docs/api.md", "json"))
+        request = {**request, **motion}
+        answer = self.post("/v1/plan", request)
+        self.assertEqual(answer["status"], "solved")
+        (plan,) = answer["plans"]
+        (committed,) = motion["robots"][0]["committed"]
+        self.assertEqual(plan["actions"][0], committed)
+        self.assertEqual([visit["goal"] for visit in plan["visits"]], [0, 1])
+        self.assertGreaterEqual(plan["visits"][0]["t_leave"], 15.0)
+        self.assertTrue(self.post("/v1/validate", {**request, **answer})["valid"])
 
     def test_the_error_of_the_api_page_is_returned_for_the_fault_that_it_shows(self):
         *_, shown = map(json.loads, blocks("docs/api.md", "json"))
