@@ -17,8 +17,8 @@ struct Itinerary {
   std::vector<Visit> visited;  // goals that the committed actions serve
   std::vector<Goal> goals;     // that follow, the last one included; empty for a parked robot
   std::size_t first_goal = 0;  // the number of goals.front() among all goals of the robot
-  /// If the committed actions end at rest in the first goal's pose: since when it rests there, and how much of
-  /// the service is done. This counts only as long as the robot does not leave. Seconds.
+  /// If the committed actions end at rest in the first goal's pose: since when it rests there, and how much
+  /// of the service is done. This counts only as long as the robot does not leave. Seconds.
   double arrived = 0.0;
   double service_done = 0.0;
 };

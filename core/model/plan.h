@@ -13,14 +13,14 @@
 namespace fleetplan::core {
 
 /// The plan of one robot. The actions are contiguous in time and space, begin at t = 0 in the start pose with
-/// the committed actions, and end at `cost` in the last goal's pose, where the robot stays. A robot that does not need to move has no actions
-/// and cost 0. `lower_bound` bounds the robot's cost alone on the static map from below and never exceeds
-/// `cost`; the checker ignores it.
+/// the committed actions, and end at `cost` in the last goal's pose, where the robot stays. A robot that does
+/// not need to move has no actions and cost 0. `lower_bound` bounds the robot's cost alone on the static map
+/// from below and never exceeds `cost`; the checker ignores it.
 struct RobotPlan {
   std::size_t robot = 0;  // index into the problem's robots
   double cost = 0.0;      // seconds
   std::vector<Action> actions;
-  double lower_bound = 0.0;  // seconds
+  double lower_bound = 0.0;        // seconds
   std::vector<Visit> visits = {};  // one for each goal, in their order; the last one has no end
 };
 

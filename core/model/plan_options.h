@@ -22,9 +22,9 @@ struct PlanOptions {
   double inflation = 0.0;            // metres added to every radius, >= 0
   double wait_before_move = 0.0;     // seconds, >= 0
   bool any_angle = true;
-  int connectivity = 8;                        // 4, 8, 16 or 32
-  /// What becomes of previous plans that hold: the search begins with them, or changes them only where another
-  /// robot could not be planned otherwise.
+  int connectivity = 8;  // 4, 8, 16 or 32
+  /// What becomes of previous plans that hold: the search begins with them, or changes them only where
+  /// another robot could not be planned otherwise.
   Replan replan = Replan::all;
   /// Seconds, >= 0: |p_i(t) - p_j(t + d)| >= r_i + r_j for all |d| <= interval_margin.
   double interval_margin = 0.0;

@@ -26,8 +26,8 @@ struct ServedGoals {
 /// uninterrupted rest in its pose, or in the instant between two actions if it has no service.
 ServedGoals served_goals(const Robot& robot, std::span<const Action> actions);
 
-/// The visits to all goals of a robot that stays where these actions end: the last one has no end. Fewer if the
-/// robot does not serve all of them.
+/// The visits to all goals of a robot that stays where these actions end: the last one has no end. Fewer if
+/// the robot does not serve all of them.
 std::vector<Visit> visits_of(const Robot& robot, std::span<const Action> actions);
 
 }  // namespace fleetplan::core

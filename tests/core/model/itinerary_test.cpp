@@ -93,8 +93,9 @@ TEST(Itinerary, AlwaysKeepsTheLastGoal) {
 }
 
 TEST(Itinerary, ForgetsAServiceThatTheRobotLeaves) {
-  const Robot robot = robot_via({{{3, 1}, {}, 5.0}}, {move(0, 2, {1, 1}, {3, 1}), wait(2, 4, {3, 1}),
-                                                      move(4, 5, {3, 1}, {4, 1}), move(5, 6, {4, 1}, {3, 1})});
+  const Robot robot =
+      robot_via({{{3, 1}, {}, 5.0}}, {move(0, 2, {1, 1}, {3, 1}), wait(2, 4, {3, 1}),
+                                      move(4, 5, {3, 1}, {4, 1}), move(5, 6, {4, 1}, {3, 1})});
   const Itinerary itinerary = itinerary_of(robot);
   EXPECT_EQ(itinerary.service_done, 0.0);
   EXPECT_EQ(itinerary.arrived, 6.0);
