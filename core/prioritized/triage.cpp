@@ -3,6 +3,7 @@
 #include <set>
 #include <utility>
 
+#include "core/model/unplanned_invalid.h"
 #include "core/prioritized/disk_index.h"
 #include "core/prioritized/without_way.h"
 
@@ -32,7 +33,8 @@ class Triage {
       starts_.add(i, place(i));
       if (instance_.robot(i).goal) goals_.add(i, instance_.robot(i).goal->position);
       if (instance_.robot(i).invalid) {
-        give_up(i, Reason::invalid, "The robot's geometry is at fault, so it stays where it is.");
+        unplanned_[i] = unplanned_invalid(i);
+        stay(i);
       } else if (!instance_.robot(i).goal) {
         stay(i);
       }

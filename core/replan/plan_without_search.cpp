@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <new>
 #include <utility>
+#include <vector>
 
 #include "core/bounds/lower_bound.h"
+#include "core/meetings.h"
 #include "core/model/served_goals.h"
+#include "core/model/unplanned_invalid.h"
 #include "core/motion.h"
 #include "core/replan/kept_plans.h"
 #include "core/replan/previous_plan.h"
@@ -33,8 +36,13 @@ Plan plan_without_search(const Problem& problem, const PlanOptions& options, con
                          const StopCondition& stop) {
   const KeptPlans previous = plans_that_are_safe(problem, options, stop);
   Plan plan;
+  std::vector<bool> planned(problem.robots().size(), false);
   for (std::size_t index = 0; index < problem.robots().size(); ++index) {
     const Robot& robot = problem.robots()[index];
+    if (robot.invalid) {
+      plan.unplanned.push_back(unplanned_invalid(index));
+      continue;
+    }
     if (robot.goal && !previous.contains(index)) {
       plan.unplanned.push_back({index, Unplanned::Reason::budget_exhausted, detail, {}});
       continue;
@@ -43,12 +51,14 @@ Plan plan_without_search(const Problem& problem, const PlanOptions& options, con
     kept.visits = visits_of(robot, kept.actions);
     kept.lower_bound =
         robot.goal ? std::min(kept.cost, lower_bound(robot, motion_of(robot, options))) : kept.cost;
+    planned[index] = robot.goal.has_value();
     plan.objectives.flowtime += kept.cost;
     plan.objectives.makespan = std::max(plan.objectives.makespan, kept.cost);
     plan.lower_bound.flowtime += kept.lower_bound;
     plan.lower_bound.makespan = std::max(plan.lower_bound.makespan, kept.lower_bound);
     plan.plans.push_back(std::move(kept));
   }
+  plan.unavoidable = unavoidable_meetings(problem, planned).meetings;
   plan.deterministic = false;
   return plan;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/geometry/same_position.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {
@@ -13,10 +14,6 @@ namespace {
 constexpr double kRounding = 1e-14;
 
 bool is_at_start(Endpoint endpoint) { return endpoint == Endpoint::start || endpoint == Endpoint::leaving; }
-
-bool same(const Position& a, const Position& b) {
-  return (a - b).squaredNorm() <= kSamePosition * kSamePosition;
-}
 
 }  // namespace
 
@@ -127,11 +124,11 @@ bool Contacts::overlaps_at_start(std::size_t robot) const {
 Endpoint Contacts::endpoint(std::size_t robot, const Segment& path) const {
   if (none(robot)) return Endpoint::none;
   const Endpoints& ends = robots_[robot];
-  if (same(path.from, ends.start)) {
+  if (is_same_position(path.from, ends.start)) {
     const bool moves = path.from != path.to;
     return moves && overlaps_at_start(robot) ? Endpoint::leaving : Endpoint::start;
   }
-  return ends.goal && same(path.to, *ends.goal) ? Endpoint::goal : Endpoint::none;
+  return ends.goal && is_same_position(path.to, *ends.goal) ? Endpoint::goal : Endpoint::none;
 }
 
 double Contacts::distance(std::size_t robot, Endpoint at, std::size_t other, Endpoint other_at,

@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "core/geometry/same_position.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {
@@ -14,10 +15,6 @@ namespace {
 constexpr double kInstant = 1e-6;
 /// Seconds; no motion is shorter, so that velocities are finite.
 constexpr double kShortestMotion = 1e-9;
-
-bool same(const Position& a, const Position& b) {
-  return (a - b).squaredNorm() <= kSamePosition * kSamePosition;
-}
 
 }  // namespace
 
@@ -52,7 +49,7 @@ class FixedReservations::Collector {
   void add_robot(const Robot& robot, std::uint32_t index, double inflation, const Contacts* contacts) {
     bool from_start = true;
     for (const TimedSegment& segment : robot.committed) {
-      from_start = from_start && same(segment.path.from, robot.start);
+      from_start = from_start && is_same_position(segment.path.from, robot.start);
       const Endpoint endpoint =
           contacts != nullptr ? contacts->endpoint(index, segment.path) : Endpoint::none;
       add(segment, robot.radius + inflation, {index, false, from_start, endpoint});
@@ -96,7 +93,7 @@ FixedReservations::FixedReservations(double width, double height, double inflati
 }
 
 bool FixedReservations::departs(std::size_t robot, const Position& from) const {
-  return same(robots_[robot].departure, from);
+  return is_same_position(robots_[robot].departure, from);
 }
 
 }  // namespace fleetplan::core

@@ -12,7 +12,7 @@ constexpr double kPiecesAcross = 64.0;
 /// Steps of a loop between two checks of the stop condition.
 constexpr std::size_t kStopStride = 1024;
 /// More than what rounding of positions and times adds to a box, relative to their size.
-constexpr double kRounding = 1e-14;
+constexpr double kBoxRounding = 1e-14;
 
 /// Bit k of the lower 21 bits goes to bit 3 k.
 std::uint64_t spread(std::uint64_t x) {
@@ -93,11 +93,11 @@ MotionBox MotionTree::box(const Piece& piece) const {
   }
   const Position from = motion.at(box.t_begin);
   const Position to = motion.velocity.squaredNorm() > 0.0 ? motion.at(box.t_end) : from;
-  const Position slack = kRounding * from.cwiseAbs().cwiseMax(to.cwiseAbs());
+  const Position slack = kBoxRounding * from.cwiseAbs().cwiseMax(to.cwiseAbs());
   box.low = from.cwiseMin(to).array() - radius - slack.array();
   box.high = from.cwiseMax(to).array() + radius + slack.array();
-  box.t_begin -= kRounding * box.t_begin;
-  box.t_end += kRounding * box.t_end;
+  box.t_begin -= kBoxRounding * box.t_begin;
+  box.t_end += kBoxRounding * box.t_end;
   return box;
 }
 

@@ -198,7 +198,7 @@ void ReservationTable::ignore(std::size_t robot, bool ignored) { index_->ignore(
 std::vector<SafeInterval> ReservationTable::safe_intervals(std::size_t robot,
                                                            const Position& position) const {
   std::vector<UnsafeInterval> unsafe;
-  const MarginAtRest margin(margin_, departs(robot, position) ? departure(robot) : 0.0);
+  const MarginAtRest margin{margin_, departs(robot, position) ? departure(robot) : 0.0};
   const Segment here{position, position};
   const CollisionDistance collision_distance(*index_, robot, here);
   index_->visit(robot, index_->grid().at(position), -1.0, kForever, [&](const Occupant& other) {

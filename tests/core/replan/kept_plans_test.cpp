@@ -151,6 +151,22 @@ TEST(PlanWithoutSearch, PlansParkedRobotsOnlyIfTheCheckIsNotFinished) {
   EXPECT_EQ(plan.plans[0].robot, 2u);
 }
 
+TEST(PlanWithoutSearch, NamesInvalidRobotsAndCollisionsThatNobodyCanAvoid) {
+  Robot parked = robot_at(7.5, 2.5);
+  Robot invalid = robot_at(2.5, 2.5);
+  parked.id = "parked";
+  invalid.id = "invalid";
+  invalid.invalid = true;
+  const MovingObstacle person{"person", 0.3, {{1.0, {7.5, 0.5}}, {5.0, {7.5, 4.5}}}};
+  auto problem = Problem::create(hall(), {parked, invalid}, {{person}}, StopCondition());
+  const Plan plan = plan_without_search(std::get<Problem>(problem), {}, "No time.", {});
+  ASSERT_EQ(plan.unplanned.size(), 1u);
+  EXPECT_EQ(plan.unplanned[0].reason, Unplanned::Reason::invalid);
+  ASSERT_EQ(plan.unavoidable.size(), 1u);
+  EXPECT_EQ(plan.unavoidable[0].robot, 0u);
+  EXPECT_EQ(plan.unavoidable[0].obstacle, 0u);
+}
+
 TEST(PreviousPlan, HasTheMotionOfItsActions) {
   const Robot robot = crossing(2.0)[1];
   const Trajectory trajectory = previous_trajectory(robot);
