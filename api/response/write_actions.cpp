@@ -10,7 +10,7 @@ namespace fleetplan::api {
 
 namespace {
 
-std::string_view name_of(core::Action::Type type) {
+std::string_view type_name(core::Action::Type type) {
   switch (type) {
     case core::Action::Type::rotate:
       return "rotate";
@@ -71,7 +71,7 @@ class ActionWriter {
   void write_members(const core::Action& action, double t_start, double t_end, const core::Pose& from,
                      const core::Pose& to) {
     json_.begin_object();
-    json_.member("type", name_of(action.type));
+    json_.member("type", type_name(action.type));
     json_.member("t_start", t_start).member("t_end", t_end);
     if (action.goal) json_.member("goal", *action.goal);
     write_pose("from", from);

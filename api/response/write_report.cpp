@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostWritten = 20;
 
-std::string_view name_of(core::Violation::Kind kind) {
+std::string_view kind_name(core::Violation::Kind kind) {
   switch (kind) {
     case core::Violation::Kind::robot_collision:
       return "robot_collision";
@@ -57,7 +57,7 @@ std::string write_report(const core::VerifyReport& report, const std::vector<cor
   for (std::size_t index = 0; index < written; ++index) {
     const core::Violation& violation = report.violations[index];
     json.begin_object();
-    json.member("kind", name_of(violation.kind));
+    json.member("kind", kind_name(violation.kind));
     json.key("robots").begin_array();
     for (const std::size_t robot : violation.robots) json.value(robots[robot].id);
     json.end_array();
