@@ -21,13 +21,17 @@ using Clock = RequestContext::Clock;
 
 /// When planning has to end so that there is time left to check the plan and write the answer: a twentieth of
 /// the budget, but at most what a thousand robots need; or a quarter of what reading the request took, which
-/// tells how large it is and how busy the machine.
-Clock::time_point planning_deadline(const RequestContext& context, std::chrono::nanoseconds budget,
+/// tells how large it is and how busy the machine. The check of robots against moving obstacles takes about
+/// as long as reading them.
+Clock::time_point planning_deadline(const RequestContext& context, const PlanRequest& request,
                                     Clock::duration reading) {
   constexpr Clock::duration kMostForTheAnswer = std::chrono::milliseconds(25);
+  const std::chrono::nanoseconds budget = request.budget;
+  const bool has_obstacles = !request.problem.obstacles().empty();
+  const auto for_the_check = has_obstacles ? std::min<Clock::duration>(budget / 2, reading)
+                                           : std::min<Clock::duration>(budget / 4, reading / 4);
   return context.received_at + budget -
-         std::max(std::min<Clock::duration>(budget / 20, kMostForTheAnswer),
-                  std::min<Clock::duration>(budget / 4, reading / 4));
+         std::max(std::min<Clock::duration>(budget / 20, kMostForTheAnswer), for_the_check);
 }
 
 /// What the request asks of the server. A few robots on a small map take milliseconds, as a rule.
@@ -71,8 +75,7 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   if (!request) return problem_reply(request.failure(), context.request_id);
   stages.parsed = Clock::now();
 
-  const core::StopCondition stop(planning_deadline(context, request->budget, stages.parsed - begin),
-                                 context.stop);
+  const core::StopCondition stop(planning_deadline(context, *request, stages.parsed - begin), context.stop);
   const auto answer = [&](const core::Plan& plan) {
     return plan_answer(plan, *request, context.request_id, stages, end_of_planning(stop, *request));
   };
