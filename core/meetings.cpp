@@ -93,12 +93,12 @@ class MeetingSearch {
 
   void search(std::size_t robot) {
     for (const MovingDisk& disk : committed_[robot]) {
-      visit(robot, disk, [&](const Owner& owner, const Overlap& met) {
+      visit(robot, disk, [&](const Owner& owner, const OverlapTime& met) {
         if (owner.is_obstacle) overlaps_[owner].push_back(met);
       });
     }
     if (planned_[robot]) return;
-    visit(robot, MovingDisk(stays_[robot]), [&](const Owner& owner, const Overlap& met) {
+    visit(robot, MovingDisk(stays_[robot]), [&](const Owner& owner, const OverlapTime& met) {
       // Robots that begin too near to each other part.
       if (!owner.is_obstacle && met.begin <= 0.0) return;
       meets_while_staying_ = true;
@@ -119,12 +119,12 @@ class MeetingSearch {
   }
 
   /// An overlap that lasts through several parts of a motion is one meeting.
-  static std::vector<double> begins(std::vector<Overlap> overlaps) {
+  static std::vector<double> begins(std::vector<OverlapTime> overlaps) {
     std::sort(overlaps.begin(), overlaps.end(),
-              [](const Overlap& a, const Overlap& b) { return a.begin < b.begin; });
+              [](const OverlapTime& a, const OverlapTime& b) { return a.begin < b.begin; });
     std::vector<double> begins;
     double end = -1.0;
-    for (const Overlap& next : overlaps) {
+    for (const OverlapTime& next : overlaps) {
       if (begins.empty() || next.begin > end + kApart) begins.push_back(next.begin);
       end = std::max(end, next.end);
     }
@@ -150,9 +150,9 @@ class MeetingSearch {
   std::vector<MotionTree::Disk> disks_;  // until they are in the tree
   std::vector<Owner> owners_;            // of the disks
   MotionTree tree_;
-  std::vector<TimedSegment> stays_;                 // by robot
-  std::vector<std::vector<MovingDisk>> committed_;  // by robot
-  std::map<Owner, std::vector<Overlap>> overlaps_;  // of one robot
+  std::vector<TimedSegment> stays_;                     // by robot
+  std::vector<std::vector<MovingDisk>> committed_;      // by robot
+  std::map<Owner, std::vector<OverlapTime>> overlaps_;  // of one robot
   bool meets_while_staying_ = false;
 };
 

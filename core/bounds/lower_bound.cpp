@@ -10,10 +10,10 @@
 namespace fleetplan::core {
 
 double straight_cost(const Pose& from, const Goal& goal, const Motion& motion) {
-  return straight_cost(Leg{from.position, from.theta, goal}, motion);
+  return straight_cost(GoalLeg{from.position, from.theta, goal}, motion);
 }
 
-double straight_cost(const Leg& leg, const Motion& motion) {
+double straight_cost(const GoalLeg& leg, const Motion& motion) {
   const auto rotation = [&](const std::optional<double>& from, const std::optional<double>& to) {
     return from && to ? motion.rotation_time(*from, *to) : 0.0;
   };
@@ -24,14 +24,14 @@ double straight_cost(const Leg& leg, const Motion& motion) {
   return rotation(leg.heading, heading) + motion.translation_time(distance) + rotation(heading, leg.to.theta);
 }
 
-double lower_bound(const Leg& leg, const Motion& motion) {
+double lower_bound(const GoalLeg& leg, const Motion& motion) {
   const bool stays = (leg.to.position - leg.from).norm() <= kSamePosition;
   return straight_cost(leg, motion) + (stays ? 0.0 : motion.wait_before_move);
 }
 
-std::vector<Leg> legs_of(const Itinerary& itinerary) {
-  std::vector<Leg> legs;
-  Leg leg{itinerary.pose.position, itinerary.pose.theta, {}};
+std::vector<GoalLeg> legs_of(const Itinerary& itinerary) {
+  std::vector<GoalLeg> legs;
+  GoalLeg leg{itinerary.pose.position, itinerary.pose.theta, {}};
   for (const Goal& goal : itinerary.goals) {
     leg.to = goal;
     legs.push_back(leg);
@@ -56,7 +56,7 @@ double end_after(const Itinerary& itinerary, const std::vector<double>& seconds)
 double lower_bound(const Robot& robot, const Motion& motion) {
   const Itinerary itinerary = itinerary_of(robot);
   std::vector<double> seconds;
-  for (const Leg& leg : legs_of(itinerary)) seconds.push_back(lower_bound(leg, motion));
+  for (const GoalLeg& leg : legs_of(itinerary)) seconds.push_back(lower_bound(leg, motion));
   return end_after(itinerary, seconds);
 }
 

@@ -16,20 +16,20 @@ namespace fleetplan::core {
 double straight_cost(const Pose& from, const Goal& goal, const Motion& motion);
 
 /// The way to a goal from the one before, or from where the robot's plan begins.
-struct Leg {
+struct GoalLeg {
   Position from{0.0, 0.0};
   std::optional<double> heading;  // none: the robot may begin with any
   Goal to;
 };
 
 /// The legs of a robot, in their order.
-std::vector<Leg> legs_of(const Itinerary& itinerary);
+std::vector<GoalLeg> legs_of(const Itinerary& itinerary);
 
 /// The straight cost of a leg, with any initial heading if it has none.
-double straight_cost(const Leg& leg, const Motion& motion);
+double straight_cost(const GoalLeg& leg, const Motion& motion);
 /// A lower bound of the duration of a leg, seconds, obstacles ignored: the straight cost and one wait before
 /// a move. Exact where the goal is in sight; elsewhere TautPathSearch is tighter.
-double lower_bound(const Leg& leg, const Motion& motion);
+double lower_bound(const GoalLeg& leg, const Motion& motion);
 
 /// When a robot ends its last service if each leg takes so many seconds.
 double end_after(const Itinerary& itinerary, const std::vector<double>& seconds);

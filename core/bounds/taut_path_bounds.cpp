@@ -29,7 +29,7 @@ bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) 
   return fits_at_begin && fits_at(goals[leg]);
 }
 
-bool is_straight(const Instance& instance, const Leg& leg, double radius) {
+bool is_straight(const Instance& instance, const GoalLeg& leg, double radius) {
   return instance.sight().may_sweep(leg.from, leg.to.position, radius);
 }
 
@@ -37,11 +37,11 @@ bool is_straight(const Instance& instance, const Leg& leg, double radius) {
 
 /// The legs of a robot, and lower bounds of their durations.
 struct TautPathBounds::Way {
-  std::vector<Leg> legs;
+  std::vector<GoalLeg> legs;
   std::vector<double> seconds;  // by leg
 
   Way(const Itinerary& itinerary, const Motion& motion) : legs(legs_of(itinerary)) {
-    for (const Leg& leg : legs) seconds.push_back(lower_bound(leg, motion));
+    for (const GoalLeg& leg : legs) seconds.push_back(lower_bound(leg, motion));
   }
   /// At most so much does the leg take in the cheapest plan, if there is one of this cost.
   double most_seconds(const Itinerary& itinerary, std::size_t leg, double cost) const {

@@ -18,7 +18,7 @@ constexpr int kStopStride = 16;
 
 }  // namespace
 
-TautPathResult TautPathSearch::run(const Leg& leg, const Motion& motion, double known_cost,
+TautPathResult TautPathSearch::run(const GoalLeg& leg, const Motion& motion, double known_cost,
                                    std::int64_t max_work, const StopCondition& stop) {
   leg_ = &leg;
   motion_ = &motion;

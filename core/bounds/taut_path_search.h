@@ -36,7 +36,7 @@ class TautPathSearch {
   /// `motion` has the radius; the leg ends out of sight of its begin. Paths that cost more
   /// than `known_cost`, that of a known path in seconds (infinite for none), are not explored. After
   /// `max_work`, or when `stop` is met, returns the bound that is proved by then.
-  TautPathResult run(const Leg& leg, const Motion& motion, double known_cost, std::int64_t max_work,
+  TautPathResult run(const GoalLeg& leg, const Motion& motion, double known_cost, std::int64_t max_work,
                      const StopCondition& stop);
 
   /// The work done so far by this search and by `corners`, in steps of 10 to 20 ns.
@@ -75,7 +75,7 @@ class TautPathSearch {
   std::int64_t steps_ = 0;  // tangents examined
 
   // Of the current search; members to reuse their memory.
-  const Leg* leg_ = nullptr;
+  const GoalLeg* leg_ = nullptr;
   const Motion* motion_ = nullptr;
   double bend_time_ = 0.0;            // seconds for a radian of an arc
   double limit_ = 0.0;                // seconds; paths that cost more are not explored

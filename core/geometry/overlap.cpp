@@ -24,13 +24,13 @@ struct Relative {
 
 }  // namespace
 
-std::optional<Overlap> overlap(const MovingDisk& a, const MovingDisk& b, double reach) {
+std::optional<OverlapTime> overlap(const MovingDisk& a, const MovingDisk& b, double reach) {
   const Relative relative(a, b);
   if (relative.t_begin > relative.t_end || reach <= 0.0) return std::nullopt;
   const double excess = relative.from.squaredNorm() - reach * reach;
   if (relative.speed_squared <= 0.0 || relative.t_begin == relative.t_end) {
     if (excess >= 0.0) return std::nullopt;
-    return Overlap{relative.t_begin, relative.t_end};
+    return OverlapTime{relative.t_begin, relative.t_end};
   }
   // |from + velocity s|^2 < reach^2, with s from t_begin on.
   const double half = relative.from.dot(relative.velocity);
@@ -42,7 +42,7 @@ std::optional<Overlap> overlap(const MovingDisk& a, const MovingDisk& b, double 
   const double begin = std::max(relative.t_begin, relative.t_begin + first);
   const double end = std::min(relative.t_end, relative.t_begin + last);
   if (begin >= end) return std::nullopt;
-  return Overlap{begin, end};
+  return OverlapTime{begin, end};
 }
 
 double least_distance(const MovingDisk& a, const MovingDisk& b) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -47,6 +48,22 @@ TEST_P(Layer, FollowsItsRules) {
 
 INSTANTIATE_TEST_SUITE_P(Of, Layer, testing::Values("core", "api", "server", "tests"),
                          [](const auto& layer) { return layer.param; });
+
+/// Two types of one name in one namespace are undefined behaviour, which no compiler reports.
+TEST(Headers, DefineTypesOfDifferentNames) {
+  for (const std::string folder : {"core", "api"}) {
+    std::map<std::string, std::string> defined_in;
+    for (const auto& [path, text] : sources_in(folder)) {
+      if (!path.ends_with(".h")) continue;
+      const std::regex definition("(?:^|\\n)(?:struct|class) (\\w+)[^;\\n]*\\{");
+      for (std::sregex_iterator match(text.begin(), text.end(), definition), end; match != end; ++match) {
+        const auto [first, is_new] = defined_in.emplace((*match)[1], path);
+        EXPECT_TRUE(is_new) << (*match)[1] << " is defined in " << first->second << " and in " << path;
+      }
+    }
+    EXPECT_GT(defined_in.size(), 50U) << "nothing was checked in " << folder;
+  }
+}
 
 TEST(SourceRules, AllowCoreOnlyItselfEigenAndTheStandardLibrary) {
   EXPECT_THAT(violations("core/a.cpp", "#include \"core/a.h\"\n#include <Eigen/Core>\n#include <vector>\n"),
