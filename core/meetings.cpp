@@ -63,7 +63,9 @@ class MeetingSearch {
   struct Owner {
     bool is_obstacle;
     std::size_t index;
-    auto operator<=>(const Owner&) const = default;
+    bool operator<(const Owner& other) const {
+      return std::tie(is_obstacle, index) < std::tie(other.is_obstacle, other.index);
+    }
   };
 
   void enter(const MovingDisk& disk, double radius, const Owner& owner) {

@@ -129,9 +129,11 @@ class ReservationTable::Departure {
 class ReservationTable::FixedDistance {
  public:
   FixedDistance(const ReservationTable& table, std::size_t robot, const Segment& path)
-      : fixed_(*table.fixed_), index_(*table.index_), robot_(robot) {
-    departs_ = fixed_.departs(robot, path.from);
-    stays_ = departs_ && path.from == path.to;
+      : fixed_(*table.fixed_),
+        index_(*table.index_),
+        robot_(robot),
+        departs_(fixed_.departs(robot, path.from)),
+        stays_(departs_ && path.from == path.to) {
     if (index_.contacts() != nullptr) endpoint_ = index_.contacts()->endpoint(robot, path);
   }
 
@@ -165,15 +167,14 @@ class ReservationTable::FixedDistance {
 
 ReservationTable::ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
                                    const Contacts* contacts)
-    : index_(std::make_unique<SegmentIndex>(width, height, cell_size, std::move(radii), contacts)) {}
+    : ReservationTable(width, height, cell_size, std::move(radii), contacts, nullptr, 0.0) {}
 
 ReservationTable::ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
                                    const Contacts* contacts, const FixedReservations* fixed,
                                    double interval_margin)
-    : ReservationTable(width, height, cell_size, std::move(radii), contacts) {
-  fixed_ = fixed;
-  margin_ = interval_margin;
-}
+    : index_(std::make_unique<SegmentIndex>(width, height, cell_size, std::move(radii), contacts)),
+      fixed_(fixed),
+      margin_(interval_margin) {}
 
 ReservationTable::~ReservationTable() = default;
 

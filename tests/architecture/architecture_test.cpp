@@ -55,7 +55,7 @@ TEST(Headers, DefineTypesOfDifferentNames) {
     std::map<std::string, std::string> defined_in;
     for (const auto& [path, text] : sources_in(folder)) {
       if (!path.ends_with(".h")) continue;
-      const std::regex definition("(?:^|\\n)(?:struct|class) (\\w+)[^;\\n]*\\{");
+      const std::regex definition("(?:^|\\n)(?:struct|class) (\\w+) [^;\\n]*\\{");
       for (std::sregex_iterator match(text.begin(), text.end(), definition), end; match != end; ++match) {
         const auto [first, is_new] = defined_in.emplace((*match)[1], path);
         EXPECT_TRUE(is_new) << (*match)[1] << " is defined in " << first->second << " and in " << path;

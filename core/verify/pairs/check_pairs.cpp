@@ -54,6 +54,7 @@ class PairCheck {
   }
   static std::vector<double> radii(const std::vector<MovingObstacle>& obstacles) {
     std::vector<double> all;
+    all.reserve(obstacles.size());
     for (const MovingObstacle& obstacle : obstacles) all.push_back(obstacle.radius);
     return all;
   }
