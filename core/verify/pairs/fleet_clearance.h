@@ -8,22 +8,13 @@
 
 #include "core/runtime/stop_condition.h"
 #include "core/verify/execution/execution.h"
+#include "core/verify/pairs/overlap_list.h"
 
 namespace fleetplan::core {
 
-/// Two robots overlap by more than the tolerance, without interruption, from t_begin to t_end.
-struct Overlap {
-  std::size_t first = 0;  // positions in the list of radii, first < second
-  std::size_t second = 0;
-  double t_begin = 0.0;
-  double t_end = 0.0;  // infinity if it never ends
-  double t_deepest = 0.0;
-  double distance = 0.0;  // metres, between the centres at t_deepest
-};
-
 struct FleetClearance {
   std::optional<double> least;    // metres: smallest gap between two disks; none for fewer than two robots
-  std::vector<Overlap> overlaps;  // in no particular order
+  std::vector<Overlap> overlaps;  // of positions in the list of radii, first < second; in no particular order
 };
 
 /// Exact up to rounding: a few ulp of the coordinates. `legs_by_robot` are results of `execute`, `radii` and

@@ -7,6 +7,7 @@
 
 #include "core/verify/execution/time_windows.h"
 #include "core/verify/geometry/shifted_motion.h"
+#include "core/verify/pairs/common_pieces.h"
 #include "core/verify/pairs/moving_boxes.h"
 
 namespace fleetplan::core {
@@ -64,8 +65,8 @@ class MarginSweep {
   std::optional<std::vector<ShiftedOverlap>> run() {
     const std::vector<double> boundaries = time_windows(fleet_.legs);
     std::vector<double> reach = fleet_.radii;
-    for (double& radius : reach) radius += inflation_ + 1e-6;
-    MovingBoxes boxes(fleet_.legs, reach);
+    for (double& radius : reach) radius += inflation_;
+    MovingBoxes boxes(fleet_.legs, std::move(reach));
     // After the last boundary all robots rest, where the plain rule is the same.
     for (std::size_t k = 0; k + 1 < boundaries.size(); ++k) {
       if (stop_.met() || stopped_) return std::nullopt;
@@ -92,12 +93,12 @@ class MarginSweep {
   void compare(std::size_t first, std::size_t second, const TimeSpan& window) {
     poll();
     const std::vector<Leg>& others = fleet_.legs[second];
-    for (auto leg = ending_after(fleet_.legs[first], window.begin);
+    for (auto leg = first_leg_until(fleet_.legs[first], window.begin);
          leg != fleet_.legs[first].end() && leg->t_begin < window.end && !stopped_; ++leg) {
       const TimeSpan time{std::max(leg->t_begin, window.begin), std::min(leg->t_end, window.end)};
       const Phase phase = phase_of(*leg, fleet_.departures[first]);
       if (phase == Phase::staying || time.begin >= time.end) continue;
-      for (auto other = ending_after(others, time.begin - margin_);
+      for (auto other = first_leg_until(others, time.begin - margin_);
            other != others.end() && other->t_begin <= time.end + margin_ && !stopped_; ++other) {
         const Phase its_phase = phase_of(*other, fleet_.departures[second]);
         if (its_phase == Phase::staying || (phase == Phase::committed && its_phase == Phase::committed))
@@ -134,11 +135,6 @@ class MarginSweep {
     } else if (deepest_.size() < most_) {
       deepest_.emplace(pair, overlap);
     }
-  }
-
-  static std::vector<Leg>::const_iterator ending_after(const std::vector<Leg>& legs, double t) {
-    return std::lower_bound(legs.begin(), legs.end(), t,
-                            [](const Leg& leg, double time) { return leg.t_end < time; });
   }
 
   void poll() {

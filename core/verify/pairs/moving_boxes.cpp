@@ -1,8 +1,14 @@
 #include "core/verify/pairs/moving_boxes.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace fleetplan::core {
+namespace {
+
+constexpr double kSlack = 1e-6;  // metres
+
+}  // namespace
 
 void MovingBox::include(const Position& position) {
   left = std::min(left, position.x());
@@ -18,8 +24,8 @@ void MovingBox::enlarge(double distance) {
   top += distance;
 }
 
-MovingBoxes::MovingBoxes(const std::vector<std::vector<Leg>>& legs, const std::vector<double>& reach)
-    : legs_(legs), reach_(reach), current_(legs.size(), 0) {}
+MovingBoxes::MovingBoxes(const std::vector<std::vector<Leg>>& legs, std::vector<double> reach)
+    : legs_(legs), reach_(std::move(reach)), current_(legs.size(), 0) {}
 
 std::vector<MovingBox> MovingBoxes::in(const TimeSpan& window) {
   std::vector<MovingBox> boxes;
@@ -34,7 +40,7 @@ std::vector<MovingBox> MovingBoxes::in(const TimeSpan& window) {
       box.include(position_at(legs[k], window.end));
     }
     if (box.left > box.right) continue;
-    box.enlarge(reach_[body]);
+    box.enlarge(reach_[body] + kSlack);
     boxes.push_back(box);
   }
   std::sort(boxes.begin(), boxes.end(), [](const MovingBox& a, const MovingBox& b) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/verify/execution/execution.h"
@@ -24,12 +25,16 @@ struct MovingBox {
 
 class MovingBoxes {
  public:
-  /// `legs` by body, and how far each of their boxes is enlarged, metres.
-  MovingBoxes(const std::vector<std::vector<Leg>>& legs, const std::vector<double>& reach);
+  /// `legs` by body, and how far each of their boxes is enlarged, metres. A slack that is far more than the
+  /// rounding of boxes, and far less than the radius of a robot, is added.
+  MovingBoxes(const std::vector<std::vector<Leg>>& legs, std::vector<double> reach);
 
   /// The boxes of the bodies that are present within a closed window, by their left edges. The windows of
   /// later calls begin no earlier.
   std::vector<MovingBox> in(const TimeSpan& window);
+
+  /// The legs of a body that do not end before the last window.
+  std::span<const Leg> legs(std::size_t body) const { return std::span(legs_[body]).subspan(current_[body]); }
 
  private:
   const std::vector<std::vector<Leg>>& legs_;
