@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "tests/api/support/fault_case.h"
 #include "tests/api/support/motion_requests.h"
 
 namespace fleetplan::api {
@@ -15,17 +16,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Pair;
 
-struct Case {
-  std::string name;
-  std::function<void(Json&)> modify;
-  std::string pointer;
-  std::string code;
-  std::string detail;  // a part of it
-};
-
-void PrintTo(const Case& invalid, std::ostream* out) { *out << invalid.name; }
-
-Json& robot(Json& request, std::size_t index) { return request["robots"][index]; }
+using Case = FaultCase;
 Json& committed(Json& request, std::size_t index) { return request["robots"][0]["committed"][index]; }
 
 void give_obstacle(Json& request, const std::function<void(Json&)>& modify) {
@@ -35,15 +26,7 @@ void give_obstacle(Json& request, const std::function<void(Json&)>& modify) {
 
 class OneFaultOfMotion : public testing::TestWithParam<Case> {};
 
-TEST_P(OneFaultOfMotion, IsReportedAtItsPlace) {
-  Json request = moving_request();
-  GetParam().modify(request);
-  const auto faults = faults_of(request.dump());
-  EXPECT_THAT(brief(faults), ElementsAre(Pair(GetParam().pointer, GetParam().code))) << request.dump();
-  if (!faults.empty()) {
-    EXPECT_THAT(faults.front().detail, HasSubstr(GetParam().detail));
-  }
-}
+TEST_P(OneFaultOfMotion, IsReportedAtItsPlace) { expect_one_fault(moving_request(), GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(
     OfCommittedActions, OneFaultOfMotion,

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "api/request/parse_request.h"
+#include "tests/api/support/fault_case.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
@@ -16,29 +17,11 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Pair;
 
-struct Case {
-  std::string name;
-  std::function<void(Json&)> modify;
-  std::string pointer;
-  std::string code;
-  std::string detail;  // a part of it
-};
-
-void PrintTo(const Case& invalid, std::ostream* out) { *out << invalid.name; }
-
-Json& robot(Json& request, std::size_t index) { return request["robots"][index]; }
+using Case = FaultCase;
 
 class OneFault : public testing::TestWithParam<Case> {};
 
-TEST_P(OneFault, IsReportedAtItsPlace) {
-  Json request = swap_request();
-  GetParam().modify(request);
-  const auto faults = faults_of(request.dump());
-  EXPECT_THAT(brief(faults), ElementsAre(Pair(GetParam().pointer, GetParam().code))) << request.dump();
-  if (!faults.empty()) {
-    EXPECT_THAT(faults.front().detail, HasSubstr(GetParam().detail));
-  }
-}
+TEST_P(OneFault, IsReportedAtItsPlace) { expect_one_fault(swap_request(), GetParam()); }
 
 Json at(double x, double y) { return {{"x", x}, {"y", y}}; }
 Json only_x(double x) { return {{"x", x}}; }

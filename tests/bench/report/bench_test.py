@@ -1,12 +1,9 @@
-import contextlib
-import io
 import json
-import pathlib
 import sys
-import tempfile
 import unittest
 
 import bench
+from support import ProgramTest
 
 # Stands for fleetplan_bench: echoes its jobs as runs of half a second each, and "bad" ones as invalid.
 PROGRAM = """#!%s
@@ -21,20 +18,11 @@ for line in sys.stdin:
 """ % sys.executable
 
 
-class Bench(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.program = self.folder / "program"
-        self.program.write_text(PROGRAM)
-        self.program.chmod(0o755)
+class Bench(ProgramTest):
+    PROGRAM = PROGRAM
 
     def run_bench(self, *words):
-        """The exit status and the text printed."""
-        with contextlib.redirect_stdout(io.StringIO()) as text, contextlib.redirect_stderr(text):
-            status = bench.main(str(self.program), ["--output", str(self.folder / "out"), *words])
-        return status, text.getvalue()
+        return self.run_main(bench.main, "--output", str(self.folder / "out"), *words)
 
     def write_request(self, name):
         file = self.folder / name

@@ -1,12 +1,11 @@
 import contextlib
 import io
 import json
-import pathlib
 import sys
-import tempfile
 import unittest
 
 import lifelong
+from support import ProgramTest
 
 # Stands for fleetplan_lifelong: reports half of the bound, and an invalid answer if there are 99 robots.
 PROGRAM = """#!%s
@@ -19,20 +18,11 @@ print(f'"{job["name"]}",{job["robots"]},{job["seconds"]},70,0.5,35.25,0.125,60,0
 """ % sys.executable
 
 
-class Lifelong(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.program = self.folder / "program"
-        self.program.write_text(PROGRAM)
-        self.program.chmod(0o755)
+class Lifelong(ProgramTest):
+    PROGRAM = PROGRAM
 
     def run_lifelong(self, *words):
-        """The exit status and the text printed."""
-        with contextlib.redirect_stdout(io.StringIO()) as text, contextlib.redirect_stderr(text):
-            status = lifelong.main(str(self.program), ["--output", str(self.folder), *words])
-        return status, text.getvalue()
+        return self.run_main(lifelong.main, "--output", str(self.folder), *words)
 
     def test_every_strategy_has_a_row_for_every_number_of_robots(self):
         status, text = self.run_lifelong("--robots", "20,150", "--seconds", "300")
