@@ -61,10 +61,9 @@ StopCondition with_least_time(const StopCondition& stop) {
 /// Whether all robots keep their previous plans, and no search can change that.
 bool is_final(const KeptPlans& previous, const std::vector<std::size_t>& movers, const PlanOptions& options,
               const StopCondition& stop) {
-  const bool is_over = stop.cancelled() || StopCondition::Clock::now() >= stop.deadline();
   const bool may_improve =
       options.mode == PlanOptions::Mode::anytime && options.replan == PlanOptions::Replan::all;
-  return !previous.kept.empty() && (is_over || !may_improve) &&
+  return !previous.kept.empty() && (stop.is_over() || !may_improve) &&
          std::all_of(movers.begin(), movers.end(), [&](auto robot) { return previous.contains(robot); });
 }
 
@@ -78,10 +77,10 @@ PrioritizedResult first_plan(PlanState& state, const KeptPlans& previous,
   if (follow_kept_plans(state, previous) == 0) {
     return plan_prioritized(state, movers, random, PlanningTime::until(stop), progress);
   }
-  const bool is_over = stop.met();
+  const bool is_spent = stop.met();
   PrioritizedResult result =
       plan_around_kept(state, movers, random, PlanningTime::until(with_least_time(stop)), progress);
-  result.cut_off = result.cut_off || (is_over && !result.unplanned.empty());
+  result.cut_off = result.cut_off || (is_spent && !result.unplanned.empty());
   return result;
 }
 

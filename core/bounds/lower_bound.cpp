@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/geometry/same_position.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/served_goals.h"
 
@@ -25,7 +26,7 @@ double straight_cost(const GoalLeg& leg, const Motion& motion) {
 }
 
 double lower_bound(const GoalLeg& leg, const Motion& motion) {
-  const bool stays = (leg.to.position - leg.from).norm() <= kSamePosition;
+  const bool stays = is_same_position(leg.from, leg.to.position);
   return straight_cost(leg, motion) + (stays ? 0.0 : motion.wait_before_move);
 }
 

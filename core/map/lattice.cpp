@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry/tolerance.h"
+#include "core/geometry/same_position.h"
 #include "core/map/occupancy_grid.h"
 
 namespace fleetplan::core {
@@ -58,7 +58,7 @@ int Lattice::vertex_at(const Position& position) const {
   const int row = static_cast<int>(std::floor(position.y() / spacing_));
   if (column < 0 || column >= columns_ || row < 0 || row >= rows_) return -1;
   const int candidate = vertex(column, row);
-  return (this->position(candidate) - position).norm() <= kSamePosition ? candidate : -1;
+  return is_same_position(this->position(candidate), position) ? candidate : -1;
 }
 
 std::vector<int> Lattice::vertices_near(const Position& position, double distance) const {

@@ -155,6 +155,16 @@ SafePlan make_safe(PlanState& state, const std::vector<std::size_t>& unsolved,
   return SafePlanner(state, effort, stop, progress).run(unsolved, given_up);
 }
 
+bool return_to(PlanState& state, const KeptPlan& kept, const StopCondition& stop) {
+  const bool is_over = stop.is_over();
+  if (is_over) {
+    state.finish_with(kept.reservations);
+  } else {
+    state.restore(kept.reservations);
+  }
+  return !is_over;
+}
+
 PartialPlan explain(PlanState& state, const SafePlan& plan, const StopCondition& stop) {
   BlockingRobots blocking(state, stop);
   PartialPlan partial;

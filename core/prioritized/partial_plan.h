@@ -35,6 +35,16 @@ SafePlan make_safe(PlanState& state, const std::vector<std::size_t>& unsolved,
                    const std::vector<std::size_t>& given_up, Effort effort, const StopCondition& stop,
                    ProgressReport& progress);
 
+/// A safe plan with its reservations, to return to.
+struct KeptPlan {
+  SafePlan plan;
+  PlanState::Reservations reservations;
+};
+
+/// Puts the plan back into `state`. Returns whether searches may follow: not when the time is over, and then
+/// it takes none.
+bool return_to(PlanState& state, const KeptPlan& kept, const StopCondition& stop);
+
 struct PartialPlan {
   std::vector<Unplanned> unplanned;  // ascending
   bool cut_off = false;              // the stop condition decided something

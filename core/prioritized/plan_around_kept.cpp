@@ -44,11 +44,6 @@ class PlanningAroundKept {
   }
 
  private:
-  struct Best {
-    SafePlan plan;
-    PlanState::Reservations reservations;
-  };
-
   /// The plan that needs no search: those that can do so follow their trajectories, all others stay.
   void keep_without_search() {
     std::vector<bool> stays(state_.instance().size(), false);
@@ -62,7 +57,7 @@ class PlanningAroundKept {
       }
     }
     std::sort(staying.begin(), staying.end());
-    best_ = Best{{}, kept_};
+    best_ = KeptPlan{{}, kept_};
     for (const std::size_t robot : staying) {
       best_.plan.staying.push_back({robot, false});
       best_.reservations.trajectories[robot].reset();
@@ -112,7 +107,7 @@ class PlanningAroundKept {
   void keep_if_better(SafePlan plan) {
     result_.cut_off = result_.cut_off || plan.cut_off;
     if (best_.plan.staying.size() <= plan.staying.size() || !plans_all_certain()) return;
-    best_ = Best{std::move(plan), state_.reservations()};
+    best_ = KeptPlan{std::move(plan), state_.reservations()};
   }
 
   bool plans_all_certain() const {
@@ -138,24 +133,16 @@ class PlanningAroundKept {
 
   /// Returns to the best plan, plans more robots in it while there is time, and tells why the rest stays.
   void explain_best() {
-    if (is_over()) {
-      state_.finish_with(best_.reservations);
-    } else {
-      state_.restore(best_.reservations);
+    if (return_to(state_, best_, time_.all)) {
       std::vector<std::size_t> staying;
       for (const SafePlan::Staying& robot : best_.plan.staying) staying.push_back(robot.robot);
       SafePlan more = make_safe(state_, {}, staying, Effort::full, time_.all, progress_);
       result_.cut_off = result_.cut_off || more.cut_off;
-      best_ = Best{std::move(more), state_.reservations()};
+      best_ = KeptPlan{std::move(more), state_.reservations()};
     }
     PartialPlan partial = explain(state_, best_.plan, time_.all);
     result_.cut_off = result_.cut_off || partial.cut_off;
     result_.unplanned = std::move(partial.unplanned);
-  }
-
-  /// After the deadline no search follows, whatever else the stop condition may be met for.
-  bool is_over() const {
-    return time_.all.cancelled() || StopCondition::Clock::now() >= time_.all.deadline();
   }
 
   /// The robots with a trajectory other than that which they had at first.
@@ -210,7 +197,7 @@ class PlanningAroundKept {
   const PlanState::Reservations kept_;  // at first
   std::vector<std::size_t> others_;     // without a trajectory at first
   std::vector<std::size_t> certain_;    // robots that remain planned in every case
-  Best best_;
+  KeptPlan best_;
   bool in_second_part_ = false;   // of the time
   bool others_may_help_ = false;  // other orders
   PrioritizedResult result_;

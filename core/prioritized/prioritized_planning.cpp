@@ -80,7 +80,7 @@ class PrioritizedPlanning {
                      time_.all);
     }
     if (may_try_again) try_other_orders(ordering.hopeless);
-    return_to_best();
+    return_to(state_, *best_, time_.all);
     PartialPlan partial = explain(state_, best_->plan, time_.all);
     result_.cut_off = result_.cut_off || partial.cut_off;
     result_.unplanned = std::move(partial.unplanned);
@@ -88,21 +88,6 @@ class PrioritizedPlanning {
   }
 
  private:
-  struct Best {
-    SafePlan plan;
-    PlanState::Reservations reservations;
-  };
-
-  /// After the deadline no search follows, whatever else the stop condition may be met for.
-  void return_to_best() {
-    const bool over = time_.all.cancelled() || StopCondition::Clock::now() >= time_.all.deadline();
-    if (over) {
-      state_.finish_with(best_->reservations);
-    } else {
-      state_.restore(best_->reservations);
-    }
-  }
-
   static bool solved(const OrderingResult& ordering) {
     return ordering.unsolved.empty() && ordering.given_up.empty();
   }
@@ -134,7 +119,7 @@ class PrioritizedPlanning {
                       Effort effort, const StopCondition& stop) {
     SafePlan plan = make_safe(state_, unsolved, given_up, effort, stop, progress_);
     if (best_ && best_->plan.staying.size() <= plan.staying.size()) return;
-    best_ = Best{std::move(plan), state_.reservations()};
+    best_ = KeptPlan{std::move(plan), state_.reservations()};
   }
 
   bool has_few_robots() const { return order_.size() <= kFewRobots; }
@@ -174,7 +159,7 @@ class PrioritizedPlanning {
   ProgressReport& progress_;
   const PriorityOrder order_;
   StopCondition stop_;  // of the first attempt
-  std::optional<Best> best_;
+  std::optional<KeptPlan> best_;
   PrioritizedResult result_;
 };
 

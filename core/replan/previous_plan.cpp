@@ -35,7 +35,6 @@ RobotPlan previous_plan(std::size_t index, const Robot& robot) {
 Trajectory previous_trajectory(const Robot& robot) {
   Itinerary all = as_committed(robot);
   Trajectory trajectory = std::move(all.committed);
-  std::erase_if(trajectory.moves, [](const TimedSegment& move) { return move.path.from == move.path.to; });
   const std::size_t first = itinerary_of(robot).first_goal;
   for (const Visit& visit : all.visited) {
     if (visit.goal >= first) trajectory.visits.push_back(visit);

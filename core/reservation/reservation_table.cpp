@@ -166,10 +166,6 @@ class ReservationTable::FixedDistance {
 };
 
 ReservationTable::ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
-                                   const Contacts* contacts)
-    : ReservationTable(width, height, cell_size, std::move(radii), contacts, nullptr, 0.0) {}
-
-ReservationTable::ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
                                    const Contacts* contacts, const FixedReservations* fixed,
                                    double interval_margin)
     : index_(std::make_unique<SegmentIndex>(width, height, cell_size, std::move(radii), contacts)),

@@ -23,13 +23,11 @@ class SegmentIndex;
 class ReservationTable {
  public:
   /// `radii[i]` is the radius of robot i in metres, inflation included; the map is [0, width] x [0, height]
-  /// metres. `contacts` outlives the table; null if no two robots are in contact.
+  /// metres. `contacts` (null: no two robots are in contact) and `fixed`, the obstacles and committed motion
+  /// (null: there are none), outlive the table. The interval margin (PlanOptions) is in seconds.
   ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
-                   const Contacts* contacts = nullptr);
-  /// Likewise with obstacles and committed motion, which outlive the table (null: there are none), and with
-  /// an interval margin (PlanOptions) in seconds.
-  ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
-                   const Contacts* contacts, const FixedReservations* fixed, double interval_margin);
+                   const Contacts* contacts = nullptr, const FixedReservations* fixed = nullptr,
+                   double interval_margin = 0.0);
   ~ReservationTable();
 
   /// Reserves contiguous segments for a robot that has no reservation yet; they follow its commitment.

@@ -46,6 +46,8 @@ class StopCondition {
     return without;
   }
   bool cancelled() const { return stop_.stop_requested(); }
+  /// Whether the time is over: cancelled, or after the deadline, whatever else the condition is met for.
+  bool is_over() const { return cancelled() || Clock::now() >= deadline_; }
   Clock::time_point deadline() const { return deadline_; }
   const std::stop_token& stop_token() const { return stop_; }
 

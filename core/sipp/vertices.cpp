@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/geometry/same_position.h"
 #include "core/geometry/tolerance.h"
 #include "core/instance.h"
 
@@ -47,7 +48,7 @@ int Vertices::add_start(const Instance& instance, std::size_t robot) {
 
 int Vertices::own_vertex_at(const Position& position) const {
   const auto own = std::find_if(own_.begin(), own_.end(), [&](const OwnVertex& vertex) {
-    return (vertex.position - position).norm() <= kSamePosition;
+    return is_same_position(vertex.position, position);
   });
   return own == own_.end() ? -1 : lattice_.vertex_count() + static_cast<int>(own - own_.begin());
 }
@@ -64,7 +65,7 @@ int Vertices::add_goal(const Instance& instance, std::size_t robot, const Positi
 int Vertices::add(OwnVertex own, double reach) {
   for (const int near : lattice_.vertices_near(own.position, reach)) {
     const Position to = lattice_.position(near);
-    if ((to - own.position).norm() <= kSamePosition) continue;
+    if (is_same_position(to, own.position)) continue;
     const bool clear = own.radius == motion_.radius || sight_.disk_fits(to, motion_.radius);
     if (clear && may_move(own, to, motion_.radius)) own.links.push_back(near);
   }
