@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <span>
 
 #include "core/geometry/angle.h"
 #include "core/model/served_goals.h"
@@ -46,8 +45,9 @@ class ActionList {
     const bool serves = goal.service > 0.0 || goal.not_before > 0.0;
     if (goal.theta || serves) wait(t_leave, serves ? std::optional(robot_.via.size()) : std::nullopt);
   }
-  void translate(const TimedSegment& move) {
+  void translate(const TimedSegment& move, bool reverse) {
     append(Action::Type::translate, move.t_end, {move.path.to, pose_.theta}, {});
+    actions_.back().reverse = reverse;
   }
   std::vector<Action> take() { return std::move(actions_); }
 
@@ -76,12 +76,12 @@ class ActionList {
   std::vector<Action> actions_;
 };
 
-/// Those after the committed actions.
-std::span<const TimedSegment> planned_moves(const Robot& robot, const Trajectory& trajectory) {
+/// The index of the first one after the committed actions.
+std::size_t first_planned_move(const Robot& robot, const Trajectory& trajectory) {
   const double t_begin = robot.committed_until();
   const auto first = std::find_if(trajectory.moves.begin(), trajectory.moves.end(),
                                   [&](const TimedSegment& move) { return move.t_start >= t_begin; });
-  return {first, trajectory.moves.end()};
+  return static_cast<std::size_t>(first - trajectory.moves.begin());
 }
 
 }  // namespace
@@ -89,11 +89,14 @@ std::span<const TimedSegment> planned_moves(const Robot& robot, const Trajectory
 std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory) {
   ActionList list(robot);
   auto visit = trajectory.visits.begin();
-  for (const TimedSegment& move : planned_moves(robot, trajectory)) {
+  for (std::size_t k = first_planned_move(robot, trajectory); k < trajectory.moves.size(); ++k) {
+    const TimedSegment& move = trajectory.moves[k];
     for (; visit != trajectory.visits.end() && visit->t_leave <= move.t_start; ++visit) list.visit(*visit);
     const Position direction = move.path.to - move.path.from;
-    list.rotate_and_wait(normalize_angle(std::atan2(direction.y(), direction.x())), move.t_start);
-    list.translate(move);
+    const double heading = normalize_angle(std::atan2(direction.y(), direction.x()));
+    const bool reverse = trajectory.is_reverse(k);
+    list.rotate_and_wait(reverse ? opposite_heading(heading) : heading, move.t_start);
+    list.translate(move, reverse);
   }
   for (; visit != trajectory.visits.end(); ++visit) list.visit(*visit);
   if (robot.goal) list.visit_last(trajectory.cost);

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "core/geometry/tolerance.h"
+#include "core/lattice_spacing.h"
+#include "core/model/motion_of.h"
 
 namespace fleetplan::core {
 namespace {
@@ -18,8 +20,8 @@ std::vector<Endpoints> endpoints(const Problem& problem, const Lattice& lattice,
   std::vector<Endpoints> all;
   for (const Robot& robot : problem.robots()) {
     Endpoints ends;
-    ends.radius = robot.radius + inflation;
-    ends.inflation = inflation;
+    ends.radius = robot.radius + inflation + robot.vicinity;
+    ends.inflation = inflation + robot.vicinity;
     ends.start = robot.committed_end().position;
     ends.start_rounding = rounding(ends.start);
     if (robot.goal) {
@@ -46,7 +48,7 @@ std::shared_ptr<const FixedReservations> fixed(const Problem& problem, double in
   for (const Robot& robot : problem.robots()) {
     const Itinerary itinerary = itinerary_of(robot);
     robots.push_back({robot.radius, robot.start.position, itinerary.pose.position, itinerary.t_begin,
-                      committed_segments(itinerary)});
+                      committed_segments(itinerary), robot.vicinity});
   }
   return std::make_shared<FixedReservations>(problem.grid().width(), problem.grid().height(), inflation,
                                              std::move(robots), problem.obstacles(),
@@ -56,25 +58,26 @@ std::shared_ptr<const FixedReservations> fixed(const Problem& problem, double in
 }  // namespace
 
 Instance::Instance(const Problem& problem, const PlanOptions& options, const StopCondition& stop)
-    : Instance(problem, options, nullptr) {
+    : Instance(problem, options, nullptr, stop) {
   fixed_reservations_ = fixed(problem, options.inflation, contacts_, stop);
 }
 
 Instance::Instance(const Problem& problem, const PlanOptions& options,
-                   std::shared_ptr<const FixedReservations> fixed_reservations)
+                   std::shared_ptr<const FixedReservations> fixed_reservations, const StopCondition& stop)
     : problem_(problem),
       options_(options),
-      lattice_(problem.grid(), options.connectivity),
-      sight_(problem.grid()),
+      lattice_(problem.grid(), options.connectivity, lattice_spacing(problem, options)),
       contacts_(endpoints(problem, lattice_, options.inflation)),
       fixed_reservations_(std::move(fixed_reservations)) {
   for (const Robot& robot : problem.robots()) {
     itineraries_.push_back(itinerary_of(robot));
-    motions_.push_back({robot.radius + options.inflation, robot.linear_speed, robot.angular_speed,
-                        options.wait_before_move});
-    auto& moves = moves_by_radius_[motions_.back().radius];
-    if (!moves) moves = std::make_unique<StaticMoves>(lattice_, sight_, motions_.back().radius);
-    moves_.push_back(moves.get());
+    motions_.push_back(motion_of(robot, options));
+    auto& space = free_space_of_radius_[motions_.back().radius];
+    if (!space) {
+      auto finer = problem.map()->finer_vertices(lattice_, motions_.back().radius, stop);
+      space = std::make_unique<FreeSpace>(lattice_, sight(), motions_.back().radius, std::move(finer));
+    }
+    free_space_.push_back(space.get());
   }
 }
 
@@ -82,17 +85,17 @@ double Instance::radius_at_start(std::size_t index) const {
   const Robot& robot = problem_.robots()[index];
   const double overlap = std::max(0.0, options_.start_overlap - options_.inflation);  // of the bare disk
   const double least = std::max(robot.radius - overlap - kMostOverlap, kSmallestDisk * robot.radius);
-  return sight_.fitting_radius(itineraries_[index].pose.position, least, motions_[index].radius);
+  return sight().fitting_radius(itineraries_[index].pose.position, least, motions_[index].radius);
 }
 
 bool Instance::fits_at_start(std::size_t index) const {
-  return sight_.disk_fits(itineraries_[index].pose.position, motions_[index].radius);
+  return sight().disk_fits(itineraries_[index].pose.position, motions_[index].radius);
 }
 
 bool Instance::fits_at_goal(std::size_t index) const {
   const std::vector<Goal>& goals = itineraries_[index].goals;
   return std::all_of(goals.begin(), goals.end(), [&](const Goal& goal) {
-    return sight_.disk_fits(goal.position, motions_[index].radius - kMostOverlap);
+    return sight().disk_fits(goal.position, motions_[index].radius - kMostOverlap);
   });
 }
 
@@ -102,7 +105,7 @@ double Instance::longest_plan(std::size_t index) const {
 
 double Instance::radius_at_goal(std::size_t index, const Position& goal) const {
   const double radius = motions_[index].radius;
-  return sight_.fitting_radius(goal, radius - kMostOverlap, radius);
+  return sight().fitting_radius(goal, radius - kMostOverlap, radius);
 }
 
 }  // namespace fleetplan::core

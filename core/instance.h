@@ -5,9 +5,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/map/free_space.h"
 #include "core/map/lattice.h"
-#include "core/map/line_of_sight.h"
-#include "core/map/static_moves.h"
 #include "core/model/itinerary.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
@@ -26,7 +25,7 @@ class Instance {
   Instance(const Problem& problem, const PlanOptions& options, const StopCondition& stop = {});
   /// With the fixed reservations of another instance of the same problem and options.
   Instance(const Problem& problem, const PlanOptions& options,
-           std::shared_ptr<const FixedReservations> fixed_reservations);
+           std::shared_ptr<const FixedReservations> fixed_reservations, const StopCondition& stop = {});
 
   std::size_t size() const { return problem_.robots().size(); }
   const Problem& problem() const { return problem_; }
@@ -36,7 +35,7 @@ class Instance {
   /// What is left to plan for the robot after its committed actions.
   const Itinerary& itinerary(std::size_t index) const { return itineraries_[index]; }
   const Lattice& lattice() const { return lattice_; }
-  const LineOfSight& sight() const { return sight_; }
+  const LineOfSight& sight() const { return problem_.map()->sight(); }
   /// The pairs of robots that begin or end too near to each other.
   const Contacts& contacts() const { return contacts_; }
   /// Obstacles and committed motion; never null. Instances for other threads may share them.
@@ -50,20 +49,19 @@ class Instance {
   bool fits_at_start(std::size_t index) const;
   /// Whether the robot's disk fits at all goals that are left, or is in contact with a wall.
   bool fits_at_goal(std::size_t index) const;
-  /// The static moves of robots of this robot's radius.
-  StaticMoves& moves(std::size_t index) const { return *moves_[index]; }
+  /// Shared by all robots for which it is the same.
+  FreeSpace& free_space(std::size_t index) const { return *free_space_[index]; }
 
  private:
   const Problem& problem_;
   PlanOptions options_;
   Lattice lattice_;
-  LineOfSight sight_;
   std::vector<Motion> motions_;
   std::vector<Itinerary> itineraries_;
   Contacts contacts_;
   std::shared_ptr<const FixedReservations> fixed_reservations_;
-  std::unordered_map<double, std::unique_ptr<StaticMoves>> moves_by_radius_;
-  std::vector<StaticMoves*> moves_;  // by robot
+  std::unordered_map<double, std::unique_ptr<FreeSpace>> free_space_of_radius_;
+  std::vector<FreeSpace*> free_space_;  // by robot
 };
 
 }  // namespace fleetplan::core

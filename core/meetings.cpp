@@ -1,9 +1,8 @@
 #include "core/meetings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <map>
 #include <tuple>
 #include <utility>
 
@@ -18,10 +17,34 @@ namespace {
 
 /// Seconds; overlaps with a shorter pause are one.
 constexpr double kApart = 1e-6;
+/// Metres: of a meeting, disks overlap by more. Slightly more than contact, so that rounding makes none of
+/// it.
+constexpr double kOverlap = kContactTolerance + kSamePosition;
+/// Pieces of a motion that are compared with robots by their common box first.
+constexpr std::size_t kGroup = 16;
+/// Time is divided so that each part has as many pieces as all before. The first one has this share.
+constexpr std::size_t kFirstShare = 64;
+
+/// What certainly moves: an obstacle, or a robot that is committed. Its pieces are in the order of time.
+struct Passer {
+  bool is_obstacle = false;
+  std::size_t index = 0;
+  double radius = 0.0;  // metres
+  std::vector<MovingDisk> pieces = {};
+  std::size_t next = 0;  // the first piece that has not been compared
+};
+
+/// A part of what a robot certainly does.
+struct Certain {
+  std::size_t robot = 0;
+  bool is_stay = false;
+  MovingDisk disk;
+};
 
 std::vector<MovingDisk> obstacle_motion(const MovingObstacle& obstacle) {
   std::vector<MovingDisk> motion;
   const auto& entries = obstacle.motion;
+  motion.reserve(entries.size());
   for (std::size_t k = 0; k + 1 < entries.size(); ++k) {
     motion.emplace_back(
         TimedSegment{{entries[k].position, entries[k + 1].position}, entries[k].t, entries[k + 1].t});
@@ -32,26 +55,100 @@ std::vector<MovingDisk> obstacle_motion(const MovingObstacle& obstacle) {
   return motion;
 }
 
+/// A disk that stands and covers the others as long as they last. Ends of motion are exact enough for it.
+MotionTree::Disk cover(const MovingDisk* begin, const MovingDisk* end, double radius) {
+  Position low(kForever, kForever);
+  Position high(-kForever, -kForever);
+  double t_end = begin->t_end;
+  for (const MovingDisk* disk = begin; disk != end; ++disk) {
+    const bool stands = disk->velocity.squaredNorm() == 0.0;
+    const Position to = stands ? disk->from : disk->at(disk->t_end);
+    low = low.cwiseMin(disk->from).cwiseMin(to);
+    high = high.cwiseMax(disk->from).cwiseMax(to);
+    t_end = std::max(t_end, disk->t_end);
+  }
+  const Position centre = 0.5 * (low + high);
+  return {MovingDisk({{centre, centre}, begin->t_start, t_end}),
+          radius + 0.5 * (high - low).norm() + kSamePosition};
+}
+
+/// The overlaps of one robot, until it has as many as are listed.
+class Overlaps {
+ public:
+  bool meets_while_staying = false;
+
+  /// Overlaps that touch are joined where that is quick, to save memory.
+  void add(std::size_t passer, const OverlapTime& met) {
+    if (!all_.empty() && all_.back().passer == passer && all_.back().end + kApart >= met.begin &&
+        met.end + kApart >= all_.back().begin) {
+      all_.back().begin = std::min(all_.back().begin, met.begin);
+      all_.back().end = std::max(all_.back().end, met.end);
+    } else {
+      all_.push_back({passer, met.begin, met.end});
+    }
+  }
+
+  /// The begins of overlaps, by time; one that lasts through several parts of a motion is one.
+  std::vector<std::pair<double, std::size_t>> begins() const {
+    std::vector<Span> spans = all_;
+    std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
+      return std::tie(a.passer, a.begin) < std::tie(b.passer, b.begin);
+    });
+    std::vector<std::pair<double, std::size_t>> begins;
+    double end = 0.0;
+    for (const Span& span : spans) {
+      const bool goes_on =
+          !begins.empty() && begins.back().second == span.passer && span.begin <= end + kApart;
+      if (!goes_on) begins.emplace_back(span.begin, span.passer);
+      end = goes_on ? std::max(end, span.end) : span.end;
+    }
+    std::sort(begins.begin(), begins.end());
+    return begins;
+  }
+
+  /// Whether all that are listed begin before `t`.
+  bool has_all_before(double t) const {
+    if (all_.size() < kMostMeetingsOfRobot) return false;
+    const auto listed = begins();
+    return listed.size() >= kMostMeetingsOfRobot && listed[kMostMeetingsOfRobot - 1].first < t;
+  }
+
+ private:
+  struct Span {
+    std::size_t passer;
+    double begin;
+    double end;
+  };
+  std::vector<Span> all_;
+};
+
+/// Compares what passes with the robots in one part of time after the other. Robots for which all is known
+/// are left out, so crowds take little time.
 class MeetingSearch {
  public:
-  MeetingSearch(const Problem& problem, const std::vector<bool>& planned)
-      : problem_(problem), planned_(planned) {
-    enter_all();
-    const OccupancyGrid& grid = problem.grid();
-    double largest = 0.0;
-    for (const Robot& robot : problem.robots()) largest = std::max(largest, robot.radius);
-    tree_ = MotionTree(std::move(disks_), {grid.width(), grid.height(), largest}, {});
+  MeetingSearch(const Problem& problem, const std::vector<bool>& planned, const StopCondition& stop)
+      : problem_(problem), planned_(planned), stop_(stop), overlaps_(problem.robots().size()) {
+    add_robots();
+    for (std::size_t i = 0; i < problem.obstacles().size(); ++i) {
+      const MovingObstacle& obstacle = problem.obstacles()[i];
+      finished_ = finished_ && !stop.met();
+      if (!finished_) return;
+      passers_.push_back({true, i, obstacle.radius, obstacle_motion(obstacle)});
+    }
   }
 
   UnavoidableMeetings run() {
     UnavoidableMeetings result;
-    result.while_staying.resize(problem_.robots().size(), false);
-    for (std::size_t i = 0; i < problem_.robots().size(); ++i) {
-      overlaps_.clear();
-      meets_while_staying_ = false;
-      search(i);
-      result.while_staying[i] = meets_while_staying_;
-      add_first_of(i, result.meetings);
+    for (const double t : ends_of_parts()) {
+      if (certain_.empty()) break;
+      finished_ = finished_ && compare_until(t);
+      if (!finished_) break;
+      leave_out_those_known(t);
+    }
+    result.finished = finished_;
+    for (std::size_t i = 0; i < overlaps_.size(); ++i) {
+      result.while_staying.push_back(overlaps_[i].meets_while_staying);
+      list(i, result.meetings);
     }
     std::sort(result.meetings.begin(), result.meetings.end(), [](const Meeting& a, const Meeting& b) {
       return std::tie(a.t, a.robot, a.obstacle, a.other) < std::tie(b.t, b.robot, b.obstacle, b.other);
@@ -60,112 +157,119 @@ class MeetingSearch {
   }
 
  private:
-  struct Owner {
-    bool is_obstacle;
-    std::size_t index;
-    bool operator<(const Owner& other) const {
-      return std::tie(is_obstacle, index) < std::tie(other.is_obstacle, other.index);
-    }
-  };
-
-  void enter(const MovingDisk& disk, double radius, const Owner& owner) {
-    disks_.push_back({disk, radius});
-    owners_.push_back(owner);
-  }
-
-  void enter_all() {
-    const auto& obstacles = problem_.obstacles();
-    for (std::size_t i = 0; i < obstacles.size(); ++i) {
-      for (const MovingDisk& disk : obstacle_motion(obstacles[i]))
-        enter(disk, obstacles[i].radius, {true, i});
-    }
+  void add_robots() {
     const auto& robots = problem_.robots();
     for (std::size_t i = 0; i < robots.size(); ++i) {
       const Itinerary itinerary = itinerary_of(robots[i]);
-      stays_.push_back({{itinerary.pose.position, itinerary.pose.position}, itinerary.t_begin, kForever});
-      committed_.emplace_back();
+      const Position& place = itinerary.pose.position;
+      Passer passer{false, i, robots[i].radius};
       for (TimedSegment segment : timed_segments(itinerary.committed)) {
         if (segment.t_start >= itinerary.t_begin) break;
         segment.t_end = std::min(segment.t_end, itinerary.t_begin);
-        committed_.back().emplace_back(segment);
-        enter(committed_.back().back(), robots[i].radius, {false, i});
+        passer.pieces.emplace_back(segment);
+        certain_.push_back({i, false, passer.pieces.back()});
       }
+      if (!planned_[i])
+        certain_.push_back({i, true, MovingDisk({{place, place}, itinerary.t_begin, kForever})});
+      if (!passer.pieces.empty()) passers_.push_back(std::move(passer));
     }
   }
 
-  void search(std::size_t robot) {
-    for (const MovingDisk& disk : committed_[robot]) {
-      visit(robot, disk, [&](const Owner& owner, const OverlapTime& met) {
-        if (owner.is_obstacle) overlaps_[owner].push_back(met);
-      });
-    }
-    if (planned_[robot]) return;
-    visit(robot, MovingDisk(stays_[robot]), [&](const Owner& owner, const OverlapTime& met) {
-      // Robots that begin too near to each other part.
-      if (!owner.is_obstacle && met.begin <= 0.0) return;
-      meets_while_staying_ = true;
-      overlaps_[owner].push_back(met);
-    });
-  }
-
-  template <class Found>
-  void visit(std::size_t robot, const MovingDisk& mine, const Found& found) {
-    const double radius = problem_.robots()[robot].radius;
-    tree_.visit(mine, radius, 0.0, [&](std::size_t k) {
-      const Owner& owner = owners_[k];
-      if (!owner.is_obstacle && owner.index == robot) return true;
-      const auto met = overlap(mine, tree_[k].motion, radius + tree_[k].radius - kContactTolerance);
-      if (met) found(owner, *met);
-      return true;
-    });
-  }
-
-  /// An overlap that lasts through several parts of a motion is one meeting.
-  static std::vector<double> begins(std::vector<OverlapTime> overlaps) {
-    std::sort(overlaps.begin(), overlaps.end(),
-              [](const OverlapTime& a, const OverlapTime& b) { return a.begin < b.begin; });
+  /// Ascending, and at last for ever.
+  std::vector<double> ends_of_parts() const {
     std::vector<double> begins;
-    double end = -1.0;
-    for (const OverlapTime& next : overlaps) {
-      if (begins.empty() || next.begin > end + kApart) begins.push_back(next.begin);
-      end = std::max(end, next.end);
+    for (const Passer& passer : passers_) {
+      for (const MovingDisk& piece : passer.pieces) begins.push_back(piece.t_start);
     }
-    return begins;
+    std::vector<double> ends;
+    for (std::size_t share = kFirstShare; share > 1; share /= 2) {
+      const auto at = begins.begin() + static_cast<std::ptrdiff_t>(begins.size() / share);
+      std::nth_element(begins.begin(), at, begins.end());
+      if (at != begins.end()) ends.push_back(*at);
+    }
+    ends.push_back(kForever);
+    return ends;
   }
 
-  void add_first_of(std::size_t robot, std::vector<Meeting>& meetings) const {
-    std::vector<Meeting> all;
-    for (const auto& [owner, overlaps] : overlaps_) {
-      for (const double t : begins(overlaps)) {
-        Meeting meeting{robot, std::nullopt, std::nullopt, t};
-        (owner.is_obstacle ? meeting.obstacle : meeting.other) = owner.index;
-        all.push_back(meeting);
+  /// Compares the pieces that begin before `t`. Returns false if the stop condition is met.
+  bool compare_until(double t) {
+    std::vector<MotionTree::Disk> disks;
+    for (const Certain& part : certain_) disks.push_back({part.disk, problem_.robots()[part.robot].radius});
+    // Invalid robots may stand beside the map.
+    const MotionTree tree(std::move(disks), {problem_.grid().width(), problem_.grid().height(), kForever},
+                          stop_);
+    if (!tree.finished()) return false;
+    for (std::size_t k = 0; k < passers_.size(); ++k) {
+      const auto& pieces = passers_[k].pieces;
+      std::size_t& next = passers_[k].next;
+      while (next < pieces.size() && pieces[next].t_start < t) {
+        if (stop_.met()) return false;
+        const std::size_t begin = next;
+        const std::size_t most = std::min(begin + kGroup, pieces.size());
+        while (next < most && pieces[next].t_start < t) ++next;
+        const MotionTree::Disk all = cover(&pieces[begin], &pieces[next - 1] + 1, passers_[k].radius);
+        if (tree.visit(all.motion, all.radius, 0.0, [](std::size_t) { return false; })) continue;
+        for (std::size_t i = begin; i < next; ++i) compare(k, pieces[i], tree);
       }
     }
-    std::stable_sort(all.begin(), all.end(), [](const Meeting& a, const Meeting& b) { return a.t < b.t; });
-    if (all.size() > kMostMeetingsOfRobot) all.resize(kMostMeetingsOfRobot);
-    meetings.insert(meetings.end(), all.begin(), all.end());
+    return true;
+  }
+
+  void compare(std::size_t passer, const MovingDisk& piece, const MotionTree& tree) {
+    const auto& [is_obstacle, index, radius, pieces, next] = passers_[passer];
+    tree.visit(piece, radius, 0.0,
+               [&, is_obstacle = is_obstacle, index = index, radius = radius](std::size_t k) {
+                 const Certain& part = certain_[k];
+                 // Committed motions are clear of each other.
+                 if (!is_obstacle && (part.robot == index || !part.is_stay)) return true;
+                 const auto met =
+                     overlap(part.disk, piece, problem_.robots()[part.robot].radius + radius - kOverlap);
+                 if (!met) return true;
+                 // Robots that begin too near to each other part.
+                 if (!is_obstacle && met->begin <= 0.0) return true;
+                 Overlaps& overlaps = overlaps_[part.robot];
+                 overlaps.meets_while_staying = overlaps.meets_while_staying || part.is_stay;
+                 overlaps.add(passer, *met);
+                 return true;
+               });
+  }
+
+  void leave_out_those_known(double t) {
+    std::vector<bool> known(overlaps_.size());
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      known[i] = (planned_[i] || overlaps_[i].meets_while_staying) && overlaps_[i].has_all_before(t);
+    }
+    std::erase_if(certain_, [&](const Certain& part) { return known[part.robot]; });
+  }
+
+  void list(std::size_t robot, std::vector<Meeting>& meetings) const {
+    const auto begins = overlaps_[robot].begins();
+    for (std::size_t k = 0; k < std::min(begins.size(), kMostMeetingsOfRobot); ++k) {
+      Meeting meeting{robot, std::nullopt, std::nullopt, begins[k].first};
+      const Passer& passer = passers_[begins[k].second];
+      (passer.is_obstacle ? meeting.obstacle : meeting.other) = passer.index;
+      meetings.push_back(meeting);
+    }
   }
 
   const Problem& problem_;
   const std::vector<bool>& planned_;
-  std::vector<MotionTree::Disk> disks_;  // until they are in the tree
-  std::vector<Owner> owners_;            // of the disks
-  MotionTree tree_;
-  std::vector<TimedSegment> stays_;                     // by robot
-  std::vector<std::vector<MovingDisk>> committed_;      // by robot
-  std::map<Owner, std::vector<OverlapTime>> overlaps_;  // of one robot
-  bool meets_while_staying_ = false;
+  const StopCondition& stop_;
+  std::vector<Passer> passers_;
+  std::vector<Certain> certain_;    // of robots for which not all is known
+  std::vector<Overlaps> overlaps_;  // by robot
+  bool finished_ = true;
 };
 
 }  // namespace
 
-UnavoidableMeetings unavoidable_meetings(const Problem& problem, const std::vector<bool>& planned) {
+UnavoidableMeetings unavoidable_meetings(const Problem& problem, const std::vector<bool>& planned,
+                                         const StopCondition& stop) {
   const bool any_committed =
       std::any_of(problem.robots().begin(), problem.robots().end(),
                   [](const Robot& robot) { return !robot.committed.empty() && !robot.invalid; });
   if (problem.obstacles().empty() && !any_committed) return {};
-  UnavoidableMeetings result = MeetingSearch(problem, planned).run();
+  UnavoidableMeetings result = MeetingSearch(problem, planned, stop).run();
   if (result.meetings.empty()) result.while_staying.clear();
   return result;
 }

@@ -6,10 +6,12 @@ namespace fleetplan::core {
 
 /// How one robot moves, with the plan's options applied.
 struct Motion {
-  double radius = 0.0;            // metres, inflation included
+  double radius = 0.0;            // metres, to walls, inflation included
   double linear_speed = 0.0;      // metres per second
   double angular_speed = 0.0;     // radians per second
   double wait_before_move = 0.0;  // seconds
+  double pair_radius = 0.0;       // metres, to other robots: vicinity and inflation included
+  bool may_reverse = false;       // translate backwards, too
 
   double translation_time(double distance) const { return distance / linear_speed; }
   /// Seconds to turn from one normalised heading to another, the shorter way.

@@ -40,13 +40,16 @@ std::vector<std::size_t> robots_to_plan(const Instance& instance,
 
 /// The check of previous plans is not part of the budget. It takes about 10 ms for 500 robots; the limit is
 /// for plans in which many robots meet in one small area, and for a busy machine.
-StopCondition beyond_budget(const StopCondition& stop) {
+constexpr std::chrono::milliseconds kMostForPrevious{500};
+/// Without the meetings of what is certain, no plan can be checked.
+constexpr std::chrono::milliseconds kMostForMeetings{150};
+
+StopCondition beyond_budget(const StopCondition& stop, std::chrono::milliseconds most) {
   using Clock = StopCondition::Clock;
-  constexpr std::chrono::milliseconds kMostBeyond{500};
   if (stop.deadline() == Clock::time_point::max() && !stop.cancelled()) return stop;
   const auto now = Clock::now();
-  if (stop.cancelled()) return StopCondition(now + kMostBeyond).despite_memory();
-  return StopCondition(std::max(stop.deadline(), now) + kMostBeyond, stop.stop_token()).despite_memory();
+  if (stop.cancelled()) return StopCondition(now + most).despite_memory();
+  return StopCondition(std::max(stop.deadline(), now) + most, stop.stop_token()).despite_memory();
 }
 
 /// Robots without a plan are in the way of others, so a budget that is spent would cost plans that hold. A
@@ -58,28 +61,42 @@ StopCondition with_least_time(const StopCondition& stop) {
   return StopCondition(Clock::now() + kLeastTime, stop.stop_token());
 }
 
-/// Whether all robots keep their previous plans, and no search can change that.
-bool is_final(const KeptPlans& previous, const std::vector<std::size_t>& movers, const PlanOptions& options,
+/// Whether all robots keep their previous plans, and no search can change that. A robot that has a goal and
+/// yet stays, as no plan is possible, may be in the way of others.
+bool is_final(const KeptPlans& previous, const Problem& problem, const PlanOptions& options,
               const StopCondition& stop) {
   const bool may_improve =
       options.mode == PlanOptions::Mode::anytime && options.replan == PlanOptions::Replan::all;
+  const std::vector<Robot>& robots = problem.robots();
   return !previous.kept.empty() && (stop.is_over() || !may_improve) &&
-         std::all_of(movers.begin(), movers.end(), [&](auto robot) { return previous.contains(robot); });
+         std::all_of(robots.begin(), robots.end(), [&](const Robot& robot) {
+           return !robot.goal || robot.invalid ||
+                  previous.contains(static_cast<std::size_t>(&robot - robots.data()));
+         });
+}
+
+/// The plans that are kept in every case; not known if the check takes too long.
+KeptPlans certain_plans(const KeptPlans& previous, const Instance& instance, const StopCondition& stop) {
+  if (std::count(previous.kept.begin(), previous.kept.end(), true) == 0) return {};
+  KeptPlans certain = keep_if_others_stay(instance.problem(), instance.options(), previous,
+                                          beyond_budget(stop, kMostForPrevious));
+  return certain.cut_off ? KeptPlans{} : certain;
 }
 
 PrioritizedResult first_plan(PlanState& state, const KeptPlans& previous,
                              const std::vector<std::size_t>& movers, Random& random,
                              const StopCondition& stop, ProgressReport& progress) {
-  if (is_final(previous, movers, state.instance().options(), stop)) {
+  if (is_final(previous, state.instance().problem(), state.instance().options(), stop)) {
     finish_with_kept_plans(state, movers);
     return {};
   }
-  if (follow_kept_plans(state, previous) == 0) {
+  const KeptPlans certain = certain_plans(previous, state.instance(), stop);
+  if (follow_kept_plans(state, previous, certain) == 0) {
     return plan_prioritized(state, movers, random, PlanningTime::until(stop), progress);
   }
   const bool is_spent = stop.met();
-  PrioritizedResult result =
-      plan_around_kept(state, movers, random, PlanningTime::until(with_least_time(stop)), progress);
+  PrioritizedResult result = plan_around_kept(state, movers, certain.kept, random,
+                                              PlanningTime::until(with_least_time(stop)), progress);
   result.cut_off = result.cut_off || (is_spent && !result.unplanned.empty());
   return result;
 }
@@ -94,11 +111,12 @@ std::vector<std::size_t> those_that_may_change(const PlanState& state, std::vect
 
 /// The meetings of what is certain. A robot that has no way, or no goal, and stays where something passes is
 /// in its way.
-std::vector<Meeting> find_meetings(const PlanState& state, std::vector<std::optional<Unplanned>>& unplanned) {
+UnavoidableMeetings find_meetings(const PlanState& state, std::vector<std::optional<Unplanned>>& unplanned,
+                                  const StopCondition& stop) {
   const Instance& instance = state.instance();
   std::vector<bool> planned(instance.size(), false);
   for (std::size_t i = 0; i < instance.size(); ++i) planned[i] = state.trajectory(i).has_value();
-  UnavoidableMeetings found = unavoidable_meetings(instance.problem(), planned);
+  UnavoidableMeetings found = unavoidable_meetings(instance.problem(), planned, stop);
   std::vector<std::vector<std::size_t>> others(found.while_staying.size());
   for (const Meeting& meeting : found.meetings) {
     if (meeting.other) others[meeting.robot].push_back(*meeting.other);
@@ -113,7 +131,7 @@ std::vector<Meeting> find_meetings(const PlanState& state, std::vector<std::opti
                   "obstacle, passes.",
                   std::move(others[i])};
   }
-  return std::move(found.meetings);
+  return found;
 }
 
 /// The largest parts of the memory of a plan.
@@ -175,13 +193,13 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   ProgressReport progress(state, observer);
   Random random(options.seed);
 
-  const KeptPlans previous = keep_previous_plans(problem, options, beyond_budget(stop));
+  const KeptPlans previous = keep_previous_plans(problem, options, beyond_budget(stop, kMostForPrevious));
   std::vector<std::optional<Unplanned>> unplanned = triage(state, stop, previous.kept);
   std::vector<std::size_t> movers = robots_to_plan(instance, unplanned);
   PrioritizedResult prioritized = first_plan(state, previous, movers, random, stop, progress);
   for (Unplanned& robot : prioritized.unplanned) unplanned[robot.robot] = std::move(robot);
   std::erase_if(movers, [&](std::size_t robot) { return !state.trajectory(robot); });
-  const std::vector<Meeting> meetings = find_meetings(state, unplanned);
+  const UnavoidableMeetings meetings = find_meetings(state, unplanned, beyond_budget(stop, kMostForMeetings));
   progress.plan_found(objectives_of(state));
 
   const bool anytime = options.mode == PlanOptions::Mode::anytime;
@@ -190,7 +208,8 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   const std::int64_t expansions = state.expansions();
   const auto current_plan = [&](const LnsResult& lns) {
     Plan plan = collect_plan(state, unplanned, bounds);
-    plan.unavoidable = meetings;
+    plan.unavoidable = meetings.meetings;
+    plan.meetings_known = meetings.finished;
     plan.search = {prioritized.attempts, expansions + lns.expansions, lns.improvements};
     return plan;
   };

@@ -9,7 +9,7 @@ cd "$ROOT" || exit
 
 # To build the server. "package:command" also counts as installed if the command comes from elsewhere.
 BUILD_PACKAGES=(g++:g++ cmake:cmake ninja-build:ninja pkgconf:pkg-config esbuild:esbuild
-  libcpp-httplib-dev nlohmann-json3-dev libeigen3-dev libspdlog-dev libcli11-dev)
+  libcpp-httplib-dev nlohmann-json3-dev libeigen3-dev libspdlog-dev libcli11-dev libpng-dev)
 # For the tests, in addition.
 TEST_PACKAGES=(libgtest-dev libgmock-dev clang-format:clang-format clang-tidy:clang-tidy
   python3:python3 nodejs:node npm:npm chromium:chromium curl:curl jq:jq haproxy:haproxy)

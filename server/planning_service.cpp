@@ -8,8 +8,10 @@
 namespace fleetplan::server {
 
 Service planning_service() {
-  Service service{api::plan_endpoint,     api::validate_endpoint, api::advance_endpoint,
-                  api::examples_endpoint, api::openapi_endpoint,  {}};
+  // Listing the examples reads all of their maps, so it is done once.
+  const auto list_examples = [list = api::examples_endpoint()] { return list; };
+  Service service{api::plan_endpoint, api::validate_endpoint, api::advance_endpoint,
+                  list_examples,      api::openapi_endpoint,  {}};
   for (const auto& example : api::examples()) {
     service.examples.push_back({std::string(example.name), std::string(example.body)});
   }

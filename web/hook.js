@@ -38,7 +38,7 @@ export function offerHook(session, stage, fleet) {
     stateOf: (id) => session.stateOf(id),
     screenOf(id) {
       const robot = session.robot(id);
-      return robot && stage.screenOf(session.poseOf(id), robot.radius);
+      return robot && stage.screenOf(session.poseOf(id), session.radiusOf(id));
     },
     pointOf: (point) => stage.screenOf(point, 0),
   });

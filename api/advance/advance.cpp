@@ -125,17 +125,9 @@ std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
                                   ParseStop& stop) {
   std::vector<core::Robot> next;
-  std::vector<Deviation> deviations;
   next.reserve(robots.size());
-  for (std::size_t k = 0; k < robots.size(); ++k) {
-    const Execution& execution = executions[k];
-    next.push_back(advanced(robots[k], execution, moment));
-    const bool is_lost = execution.measured && next.back().committed.empty() && !next.back().previous;
-    deviations.push_back(execution.hold || is_lost ? Deviation::stands
-                         : execution.measured      ? Deviation::moves
-                                                   : Deviation::none);
-  }
-  clear_commitments(next, std::move(deviations), stop);
+  for (std::size_t k = 0; k < robots.size(); ++k) next.push_back(advanced(robots[k], executions[k], moment));
+  clear_commitments(next, moment.inflation, stop);
   return next;
 }
 

@@ -19,6 +19,7 @@ struct Moment {
   std::optional<double> commit;  // the horizon of commitment; none: the action under way
   double pose_tolerance = 0.1;
   double wait_before_move = 0.0;  // of the request's options
+  double inflation = 0.0;         // likewise
 };
 
 /// What a robot does, and what happened to it.
@@ -34,7 +35,8 @@ struct Execution {
 /// previous actions if it has no plan, is elsewhere than planned, or gets other goals.
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment);
 
-/// All of them. Committed actions end where they touch a robot that is held, late or elsewhere.
+/// All of them. Committed actions end where they touch another robot that is committed or stands at the end
+/// of its commitment: see clear_commitments.
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
                                   ParseStop& stop);

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "api/advance/timeline.h"
 
@@ -35,6 +34,14 @@ struct Piece {
   Position velocity;
 
   Position at(double t) const { return from + velocity * (t - begin); }
+  bool moves() const { return velocity.squaredNorm() > 0.0; }
+};
+
+/// Where two robots begin to overlap, and who drives then.
+struct Meeting {
+  double t;
+  bool first_moves;
+  bool second_moves;
 };
 
 /// When two pieces begin to overlap, in the time of both.
@@ -57,21 +64,21 @@ std::optional<double> first_overlap(const Piece& a, const Piece& b, double dista
 
 class Clearing {
  public:
-  Clearing(std::vector<core::Robot>& robots, std::vector<Deviation> deviations, ParseStop& stop)
-      : robots_(robots), deviations_(std::move(deviations)), is_cut_(robots.size()), stop_(stop) {
+  Clearing(std::vector<core::Robot>& robots, double inflation, ParseStop& stop)
+      : robots_(robots), stop_(stop), waits_(robots.size(), true) {
     for (const core::Robot& robot : robots) {
+      waiting_.push_back(pieces_.size());
       pieces_.push_back(pieces_of(robot));
-      reach_.push_back(robot.radius + driven(robot));
+      radii_.push_back(robot.radius + robot.vicinity + inflation);
+      reach_.push_back(radii_.back() + driven(robot));
     }
   }
 
   void run() {
-    for (std::size_t k = 0; k < robots_.size(); ++k) {
-      if (deviations_[k] != Deviation::none) waiting_.push_back(k);
-    }
     while (!waiting_.empty()) {
       const std::size_t robot = waiting_.back();
       waiting_.pop_back();
+      waits_[robot] = false;
       for (std::size_t other = 0; other < robots_.size(); ++other) {
         if (stop_.met_after(1)) return;
         if (other != robot) part(robot, other);
@@ -80,6 +87,7 @@ class Clearing {
   }
 
  private:
+  /// The commitment, and then the stay at its end.
   static std::vector<Piece> pieces_of(const core::Robot& robot) {
     std::vector<Piece> pieces;
     for (const Action& action : robot.committed) {
@@ -100,32 +108,31 @@ class Clearing {
   }
 
   bool may_meet(std::size_t robot, std::size_t other) const {
+    const double reach = reach_[robot] + reach_[other];
     const Position apart = robots_[robot].start.position - robots_[other].start.position;
-    return apart.norm() <= reach_[robot] + reach_[other];
+    return apart.squaredNorm() <= reach * reach;
   }
 
-  bool stands(std::size_t robot) const { return is_cut_[robot] || deviations_[robot] == Deviation::stands; }
-
-  /// Ends the commitment of the other robot, and of this one if it moves, where they begin to overlap.
+  /// Stops both where they begin to overlap while the other one is committed.
   void part(std::size_t robot, std::size_t other) {
-    if (deviations_[other] == Deviation::stands || pieces_[other].size() == 1) return;
-    if (!may_meet(robot, other)) return;
-    const auto t = overlap(robot, other);
-    if (!t) return;
-    cut(other, *t);
-    if (deviations_[robot] != Deviation::stands) cut(robot, *t);
+    if (pieces_[other].size() == 1 || !may_meet(robot, other)) return;
+    const auto meeting = first_meeting(robot, other);
+    if (!meeting) return;
+    if (meeting->first_moves) cut(robot, meeting->t);
+    if (meeting->second_moves) cut(other, meeting->t);
   }
 
-  /// While the other is committed, and the robot is or stands.
-  std::optional<double> overlap(std::size_t robot, std::size_t other) {
-    const double distance = robots_[robot].radius + robots_[other].radius - kTouch;
-    const std::size_t count = pieces_[robot].size() - (stands(robot) ? 0 : 1);
+  std::optional<Meeting> first_meeting(std::size_t robot, std::size_t other) {
+    const double distance = radii_[robot] + radii_[other] - kTouch;
+    const std::vector<Piece>& mine = pieces_[robot];
     const std::vector<Piece>& theirs = pieces_[other];
     std::size_t i = 0;
-    for (std::size_t k = 0; k < count && i + 1 < theirs.size();) {
+    for (std::size_t k = 0; k < mine.size() && i + 1 < theirs.size();) {
       if (stop_.met_after(1)) return std::nullopt;
-      if (const auto t = first_overlap(theirs[i], pieces_[robot][k], distance)) return t;
-      theirs[i].end < pieces_[robot][k].end ? ++i : ++k;
+      if (const auto t = first_overlap(mine[k], theirs[i], distance)) {
+        return Meeting{*t, mine[k].moves(), theirs[i].moves()};
+      }
+      theirs[i].end < mine[k].end ? ++i : ++k;
     }
     return std::nullopt;
   }
@@ -137,23 +144,24 @@ class Clearing {
     robot.committed = actions_until(robot.committed, t);
     if (robot.previous) robot.previous = split_at(*robot.previous, t);
     pieces_[index] = pieces_of(robot);
-    is_cut_[index] = true;
+    if (waits_[index]) return;
+    waits_[index] = true;
     waiting_.push_back(index);
   }
 
   std::vector<core::Robot>& robots_;
-  std::vector<Deviation> deviations_;
-  std::vector<bool> is_cut_;
   ParseStop& stop_;
   std::vector<std::vector<Piece>> pieces_;
+  std::vector<double> radii_;  // as planned
   std::vector<double> reach_;  // from the start, the disk included; of the commitment as it was
+  std::vector<bool> waits_;    // for its comparison with all others
   std::vector<std::size_t> waiting_;
 };
 
 }  // namespace
 
-void clear_commitments(std::vector<core::Robot>& robots, std::vector<Deviation> deviations, ParseStop& stop) {
-  Clearing(robots, std::move(deviations), stop).run();
+void clear_commitments(std::vector<core::Robot>& robots, double inflation, ParseStop& stop) {
+  Clearing(robots, inflation, stop).run();
 }
 
 }  // namespace fleetplan::api

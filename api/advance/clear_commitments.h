@@ -7,16 +7,11 @@
 
 namespace fleetplan::api {
 
-/// How a robot deviates from the plan that the others' commitments rely on.
-enum class Deviation {
-  none,
-  moves,   // later or elsewhere than planned; for as long as it is committed
-  stands,  // at the end of its commitment, until the others' commitments end
-};
-
-/// Ends the committed actions of robots where they touch a robot that deviates or whose own commitment was
-/// ended: nobody drives into a robot that is held. `deviations`: by robot; one that stands keeps its
-/// commitment. Ends early when the stop is met.
-void clear_commitments(std::vector<core::Robot>& robots, std::vector<Deviation> deviations, ParseStop& stop);
+/// Ends committed actions early, so that every robot may stay for ever where its commitment ends: none meets
+/// another one, nor passes where another one has ended. Whatever becomes of the plans behind the commitments,
+/// nobody then drives into a robot that stands. Robots are only stopped while they drive; a wait stays
+/// committed. `inflation`: metres that planning adds to the radii, besides their vicinity. Ends early when
+/// the stop is met.
+void clear_commitments(std::vector<core::Robot>& robots, double inflation, ParseStop& stop);
 
 }  // namespace fleetplan::api

@@ -21,8 +21,8 @@ namespace {
 
 using Robots = std::vector<ReadRobot>;
 
-constexpr std::array<std::string_view, 5> kRequestMembers{"map", "robot_defaults", "robots", "obstacles",
-                                                          "options"};
+constexpr std::array<std::string_view, 6> kRequestMembers{"map",       "robot_defaults", "robots",
+                                                          "obstacles", "options",        "metadata"};
 constexpr std::array<std::string_view, 4> kPoseMembers{"robot", "x", "y", "theta"};
 constexpr std::array<std::string_view, 2> kHoldMembers{"robot", "until"};
 constexpr std::array<std::string_view, 2> kGoalsMembers{"robot", "goals"};
@@ -73,8 +73,8 @@ std::optional<core::Pose> parse_measured(const JsonReader& entry) {
   return core::Pose{{*x, *y}, core::normalize_angle(*theta)};
 }
 
-void parse_events(const JsonReader& root, const Ids& ids, const Limits& limits,
-                  std::vector<Execution>& executions) {
+void parse_events(const JsonReader& root, const Ids& ids, const Limits& limits, AdvanceRequest& request) {
+  std::vector<Execution>& executions = request.executions;
   Quota quota(limits.max_goals, "goals");
   read_entries(root.find("poses"), kPoseMembers, ids, [&](const JsonReader& entry, auto robot) {
     const auto pose = parse_measured(entry);
@@ -86,7 +86,10 @@ void parse_events(const JsonReader& root, const Ids& ids, const Limits& limits,
   });
   read_entries(root.find("goals"), kGoalsMembers, ids, [&](const JsonReader& entry, auto robot) {
     entry.require("goals");
-    if (robot) executions[*robot].goals = parse_goals(entry, WorldFrame{}, quota).goals;
+    ReadGoals goals = parse_goals(entry, WorldFrame{}, quota);
+    if (!robot) return;
+    executions[*robot].goals = std::move(goals.goals);
+    request.goal_metadata[*robot] = std::move(goals.metadata);
   });
 }
 
@@ -105,9 +108,11 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
     read.moment.pose_tolerance = *tolerance;
   }
   read.moment.wait_before_move = fleet.options.plan.wait_before_move;
+  read.moment.inflation = fleet.options.plan.inflation;
   const Ids ids(fleet.robots);
   read.executions.resize(fleet.robots.size());
-  parse_events(root, ids, limits, read.executions);
+  read.goal_metadata.resize(fleet.robots.size());
+  parse_events(root, ids, limits, read);
   // Without the map's frame, so that no number changes.
   for (core::RobotPlan& plan : parse_plans(root.require("plans"), fleet.robots, WorldFrame{})) {
     read.executions[plan.robot].actions = std::move(plan.actions);
@@ -117,7 +122,11 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   UniqueIds unique_ids;
   auto robots = parse_robots(read.request.find("robots"), read.request.find("robot_defaults"), WorldFrame{},
                              limits, unique_ids);
-  for (ReadRobot& robot : robots) read.robots.push_back(std::move(robot.robot));
+  for (ReadRobot& robot : robots) {
+    const std::size_t index = read.robots.size();
+    if (!read.executions[index].goals) read.goal_metadata[index] = std::move(robot.goal_metadata);
+    read.robots.push_back(std::move(robot.robot));
+  }
   read.obstacles = parse_obstacles(read.request.find("obstacles"), WorldFrame{}, limits, unique_ids);
   for (std::size_t k = 0; k < read.robots.size(); ++k) {
     if (!read.executions[k].planned) read.executions[k].actions = read.robots[k].committed;

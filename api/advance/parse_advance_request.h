@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "api/advance/advance.h"
@@ -13,6 +14,8 @@ struct AdvanceRequest {
   Moment moment;
   std::vector<core::Robot> robots;
   std::vector<Execution> executions;  // by robot
+  /// By robot: the metadata of its goals, or of those that replace them, see ReadGoals.
+  std::vector<std::vector<std::string>> goal_metadata;
   std::vector<core::MovingObstacle> obstacles;
   JsonReader request;  // the member of the body
 };

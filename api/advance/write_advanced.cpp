@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "api/json/copy_json.h"
 #include "api/json/json_writer.h"
@@ -20,11 +22,12 @@ void write_pose(JsonWriter& json, std::string_view key, const core::Pose& pose) 
   json.end_object();
 }
 
-void write_goal(JsonWriter& json, const core::Goal& goal) {
+void write_goal(JsonWriter& json, const core::Goal& goal, const std::string& metadata) {
   json.begin_object().member("x", goal.position.x()).member("y", goal.position.y());
   if (goal.theta) json.member("theta", *goal.theta);
   if (goal.service > 0.0) json.member("service", goal.service);
   if (goal.not_before > 0.0) json.member("not_before", goal.not_before);
+  if (!metadata.empty()) json.key("metadata").json(metadata);
   json.end_object();
 }
 
@@ -37,24 +40,46 @@ void write_actions(JsonWriter& json, std::string_view key, const std::vector<cor
     write_pose(json, "from", action.from);
     write_pose(json, "to", action.to);
     if (action.goal) json.member("goal", *action.goal);
+    if (action.reverse) json.member("reverse", true);
     json.end_object();
   }
   json.end_array();
 }
 
+/// The metadata of the goals that are left: the last ones of those that the robot had.
+class GoalMetadata {
+ public:
+  GoalMetadata(const AdvanceRequest& request, std::size_t index, const core::Robot& left)
+      : all_(request.goal_metadata[index]) {
+    const Execution& execution = request.executions[index];
+    const std::size_t had = execution.goals ? execution.goals->size() : request.robots[index].goal_count();
+    visited_ = had - left.goal_count();
+  }
+
+  const std::string& of(std::size_t goal) const {
+    static const std::string none;
+    return visited_ + goal < all_.size() ? all_[visited_ + goal] : none;
+  }
+
+ private:
+  const std::vector<std::string>& all_;
+  std::size_t visited_ = 0;
+};
+
 /// As one goal if the request gave one goal, otherwise as a list.
-void write_goals(JsonWriter& json, const core::Robot& robot, bool as_one) {
+void write_goals(JsonWriter& json, const core::Robot& robot, const GoalMetadata& metadata, bool as_one) {
   if (!robot.goal) return;
   if (as_one && robot.via.empty()) {
     json.key("goal");
-    return write_goal(json, *robot.goal);
+    return write_goal(json, *robot.goal, metadata.of(0));
   }
   json.key("goals").begin_array();
-  for (std::size_t k = 0; k < robot.goal_count(); ++k) write_goal(json, robot.goal_at(k));
+  for (std::size_t k = 0; k < robot.goal_count(); ++k) write_goal(json, robot.goal_at(k), metadata.of(k));
   json.end_array();
 }
 
-void write_robot(JsonWriter& json, const JsonValue& given, const core::Robot& robot) {
+void write_robot(JsonWriter& json, const JsonValue& given, const core::Robot& robot,
+                 const GoalMetadata& metadata) {
   json.begin_object();
   for (const JsonValue member : given.children()) {
     if (std::find(kChanging.begin(), kChanging.end(), member.key()) != kChanging.end()) continue;
@@ -62,16 +87,20 @@ void write_robot(JsonWriter& json, const JsonValue& given, const core::Robot& ro
     copy_json(json, member);
   }
   write_pose(json, "start", robot.start);
-  write_goals(json, robot, given.find("goal").has_value());
+  write_goals(json, robot, metadata, given.find("goal").has_value());
   if (!robot.committed.empty()) write_actions(json, "committed", robot.committed);
   if (robot.previous) write_actions(json, "previous", *robot.previous);
   json.end_object();
 }
 
-void write_robots(JsonWriter& json, const JsonValue& given, const std::vector<core::Robot>& robots) {
+void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest& request,
+                  const std::vector<core::Robot>& robots) {
   json.begin_array();
   std::size_t index = 0;
-  for (const JsonValue robot : given.children()) write_robot(json, robot, robots[index++]);
+  for (const JsonValue robot : given.children()) {
+    write_robot(json, robot, robots[index], GoalMetadata(request, index, robots[index]));
+    ++index;
+  }
   json.end_array();
 }
 
@@ -107,7 +136,7 @@ std::string write_advanced(const AdvanceRequest& request, const std::vector<core
   for (const JsonValue member : request.request.value().children()) {
     json.key(member.key());
     if (member.key() == "robots") {
-      write_robots(json, member, robots);
+      write_robots(json, member, request, robots);
     } else if (member.key() == "obstacles") {
       write_obstacles(json, member, request);
     } else {

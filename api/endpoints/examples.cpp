@@ -8,6 +8,7 @@
 #include "api/json/json_writer.h"
 #include "api/json/read_json.h"
 #include "api/request/limits.h"
+#include "api/request/map/parse_map.h"
 
 namespace fleetplan::api {
 
@@ -65,15 +66,13 @@ Reply examples_endpoint() {
   JsonWriter json;
   json.begin_object().key("examples").begin_array();
   for (const Entry& entry : entries()) {
-    const JsonDocument document = read_embedded(entry.example->body);
+    JsonDocument document = read_embedded(entry.example->body);
     const JsonValue request = document.root();
-    const auto map = request.find("map");
-    const auto rows = map ? map->find("rows") : std::nullopt;
-    const std::size_t columns = size_of(rows) > 0 ? rows->item(0).string().value_or("").size() : 0;
+    const auto map = parse_map(JsonReader(document).find("map"), Limits{}.max_cells);
     json.begin_object();
     json.member("name", entry.example->name).member("title", entry.title);
     json.member("description", entry.description).member("robots", size_of(request.find("robots")));
-    json.member("columns", columns).member("rows", size_of(rows));
+    json.member("columns", map ? map->grid.columns() : 0).member("rows", map ? map->grid.rows() : 0);
     json.end_object();
   }
   json.end_array().end_object();

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "api/response/error.h"
+#include "core/lattice_spacing.h"
 #include "core/meetings.h"
 #include "core/verify/tolerances.h"
 #include "core/verify/verify.h"
@@ -26,6 +28,14 @@ Reply rejected(PlanOutcome outcome, const core::VerifyReport& report, const std:
   return reply;
 }
 
+/// When to give up the check of an answer in which nobody moves, if there is no other. Reading the request
+/// tells how large it is and how busy the machine.
+core::StopCondition last_stop(const Stages& stages) {
+  constexpr Stages::Clock::duration kLeast = std::chrono::milliseconds(200);
+  const auto patience = std::max(kLeast, stages.parsed - stages.received);
+  return core::StopCondition(Stages::Clock::now() + patience).despite_memory();
+}
+
 /// When to give up the check. A plan that was cancelled, as the service drains, may still be checked quickly.
 core::StopCondition check_stop(const core::StopCondition& planning) {
   using Clock = core::StopCondition::Clock;
@@ -35,15 +45,31 @@ core::StopCondition check_stop(const core::StopCondition& planning) {
   return core::StopCondition(planning.deadline() + kMostAfterPlanning, planning.stop_token());
 }
 
+/// The 422 for a request whose moving obstacles take too long to compare with the robots.
+Reply unchecked(PlanOutcome outcome, const std::string& request_id) {
+  Reply reply = problem_reply(ErrorCode::check_unfinished,
+                              "The check of what robots and moving obstacles do was given up after the time "
+                              "budget: send fewer entries of `motion`, or smaller obstacles.",
+                              request_id);
+  outcome.status = PlanOutcome::Status::refused;
+  reply.outcome = outcome;
+  return reply;
+}
+
+bool moves(const core::RobotPlan& plan, const core::Problem& problem) {
+  return plan.actions.size() > problem.robots()[plan.robot].committed.size();
+}
+
 /// What is left of a plan when all robots that would move stay at their starts, or at the end of what is
 /// committed.
-core::Plan without_moves(const core::Plan& plan, const core::Problem& problem) {
+core::Plan without_moves(const core::Plan& plan, const core::Problem& problem,
+                         const core::StopCondition& stop) {
   core::Plan left;
   left.deterministic = false;
   left.search = plan.search;
   left.unplanned = plan.unplanned;
   for (const core::RobotPlan& robot : plan.plans) {
-    if (robot.actions.size() == problem.robots()[robot.robot].committed.size()) {
+    if (!moves(robot, problem)) {
       left.plans.push_back(robot);
     } else {
       left.unplanned.push_back({robot.robot,
@@ -55,9 +81,18 @@ core::Plan without_moves(const core::Plan& plan, const core::Problem& problem) {
   std::sort(left.unplanned.begin(), left.unplanned.end(),
             [](const core::Unplanned& a, const core::Unplanned& b) { return a.robot < b.robot; });
   // A robot that is at its goal, or has none, stays as well.
-  left.unavoidable =
-      core::unavoidable_meetings(problem, std::vector<bool>(problem.robots().size(), false)).meetings;
+  core::UnavoidableMeetings found =
+      core::unavoidable_meetings(problem, std::vector<bool>(problem.robots().size(), false), stop);
+  left.unavoidable = std::move(found.meetings);
+  left.meetings_known = found.finished;
   return left;
+}
+
+/// The spacing of the lattice, if it is not simply the map's resolution.
+std::optional<double> told_spacing(const PlanRequest& request) {
+  const double spacing = core::lattice_spacing(request.problem, request.options);
+  const bool is_plain = !request.options.lattice_spacing && spacing == request.problem.grid().resolution();
+  return is_plain ? std::nullopt : std::optional(spacing);
 }
 
 }  // namespace
@@ -75,18 +110,26 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
     rules.exempt = checked.unavoidable;
     return core::verify({grid, robots, request.problem.obstacles()}, checked.plans, rules, patience);
   };
-  auto report = check(plan, check_stop(stop).despite_memory());
+  const bool any_moves = std::any_of(plan.plans.begin(), plan.plans.end(), [&](const core::RobotPlan& robot) {
+    return moves(robot, request.problem);
+  });
+  std::optional<core::VerifyReport> report;
+  if (any_moves && plan.meetings_known) report = check(plan, check_stop(stop).despite_memory());
   core::Plan less;
-  if (!report) less = without_moves(plan, request.problem);
-  const core::Plan& answered = report ? plan : less;
-  if (!report) report = check(less, core::StopCondition());
+  const bool is_whole = report || !any_moves;
+  const core::StopCondition last = last_stop(stages);
+  if (!is_whole) less = without_moves(plan, request.problem, last);
+  const core::Plan& answered = is_whole ? plan : less;
+  if (!report && answered.meetings_known) report = check(answered, last);
   stages.verified = Stages::Clock::now();
   const PlanOutcome outcome =
       outcome_of(answered, std::chrono::duration<double>(stages.planned - stages.started).count());
+  if (!report) return unchecked(outcome, request_id);
   if (!report->valid()) return rejected(outcome, *report, request_id);
-  std::string text = write_response({answered, *report, robots, request.problem.obstacles(), request.received,
-                                     request.frame.origin, request.warnings},
-                                    request_id, stages);
+  std::string text =
+      write_response({answered, *report, robots, request.problem.obstacles(), request.received,
+                      request.frame.origin, request.warnings, request.metadata, told_spacing(request)},
+                     request_id, stages);
   return {200, kJson, std::move(text), {}, outcome};
 }
 

@@ -21,14 +21,14 @@ using Clock = RequestContext::Clock;
 
 /// When planning has to end so that there is time left to check the plan and write the answer: a twentieth of
 /// the budget, but at most what a thousand robots need; or a quarter of what reading the request took, which
-/// tells how large it is and how busy the machine. The check of robots against moving obstacles takes about
-/// as long as reading them.
+/// tells how large it is and how busy the machine. The meetings of robots and moving obstacles, and
+/// their check, take up to half as long as reading them.
 Clock::time_point planning_deadline(const RequestContext& context, const PlanRequest& request,
                                     Clock::duration reading) {
   constexpr Clock::duration kMostForTheAnswer = std::chrono::milliseconds(25);
   const std::chrono::nanoseconds budget = request.budget;
   const bool has_obstacles = !request.problem.obstacles().empty();
-  const auto for_the_check = has_obstacles ? std::min<Clock::duration>(budget / 2, reading)
+  const auto for_the_check = has_obstacles ? std::min<Clock::duration>(budget / 2, reading / 2)
                                            : std::min<Clock::duration>(budget / 4, reading / 4);
   return context.received_at + budget -
          std::max(std::min<Clock::duration>(budget / 20, kMostForTheAnswer), for_the_check);

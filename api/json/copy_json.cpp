@@ -19,6 +19,8 @@ void copy_json(JsonWriter& json, const JsonValue& value) {  // NOLINT(misc-no-re
     json.value(*text);
   } else if (const auto natural = value.natural()) {
     json.value(*natural);
+  } else if (const auto integer = value.integer()) {
+    json.value(*integer);
   } else if (const auto boolean = value.boolean()) {
     json.value(*boolean);
   } else {

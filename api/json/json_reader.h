@@ -90,6 +90,8 @@ class JsonReader {
   Fault described_fault(const char* code, std::string detail) const {
     return {pointer(), code, std::move(detail)};
   }
+  /// When to end reading the document, which must be there.
+  ParseStop& stop() const { return document_->stop; }
   /// Counts faults of the document that are not described.
   void count_more_faults(std::size_t faults) const { document_->faults.count_more(faults); }
   /// Faults of the document so far.

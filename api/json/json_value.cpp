@@ -68,6 +68,10 @@ std::optional<std::uint64_t> JsonValue::natural() const {
   return std::nullopt;
 }
 
+std::optional<std::int64_t> JsonValue::integer() const {
+  return held().kind == JsonTape::Kind::integer ? std::optional(held().data.integer) : std::nullopt;
+}
+
 std::optional<std::string_view> JsonValue::string() const {
   const bool is_string = held().kind == JsonTape::Kind::text || held().kind == JsonTape::Kind::decoded;
   return is_string ? std::optional(tape_->string(held())) : std::nullopt;

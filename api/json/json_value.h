@@ -82,6 +82,8 @@ class JsonValue {
   std::optional<double> number() const;
   /// A number that is a whole one from 0 to 2^64 - 1 (also when written like 5.0).
   std::optional<std::uint64_t> natural() const;
+  /// A number that is written as a whole one from -2^63 to -1.
+  std::optional<std::int64_t> integer() const;
   std::optional<std::string_view> string() const;
   bool is_array() const { return held().kind == JsonTape::Kind::array; }
   bool is_object() const { return held().kind == JsonTape::Kind::object; }

@@ -36,6 +36,8 @@ class JsonWriter {
     return raw(std::to_string(number));
   }
 
+  /// A value that is JSON text.
+  JsonWriter& json(std::string_view text) { return raw(text); }
   /// A member: its key and its value.
   template <typename Value>
   JsonWriter& member(std::string_view name, const Value& held) {

@@ -34,6 +34,12 @@ Json schema_of(const RealOption& option) {
   return schema;
 }
 
+Json schema_of(const ChosenOption& option) {
+  Json schema = with_range({{"type", Json::array({"number", "null"})}}, option.range);
+  schema["default"] = nullptr;
+  return schema;
+}
+
 Json schema_of(const ServiceOption& option) {
   Json schema = with_range({{"type", "number"}}, option.range);
   schema["examples"] = Json::array({number(option.example)});

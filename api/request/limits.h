@@ -7,8 +7,8 @@ namespace fleetplan::api {
 
 /// What a single request may ask for. The defaults are the service's.
 struct Limits {
-  std::size_t max_body = 32u << 20;    // bytes, after decompression
-  std::int64_t max_cells = 4'000'000;  // of the map
+  std::size_t max_body = 32u << 20;     // bytes, after decompression
+  std::int64_t max_cells = 16'000'000;  // of the map
   std::size_t max_robots = 2000;
   // In total, wherever they are:
   std::size_t max_goals = 20'000;     // in lists `goals`

@@ -1,6 +1,7 @@
 #include "api/request/make_problem.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 #include <variant>
 
@@ -20,7 +21,11 @@ bool is_of_a_pair(const core::ProblemFault& found) {
 class ProblemMaker {
  public:
   ProblemMaker(Fleet& fleet, const JsonReader& root, ParseStop& stop)
-      : fleet_(fleet), root_(root), stop_(stop), reports_(reports()) {
+      : fleet_(fleet),
+        root_(root),
+        stop_(stop),
+        map_(std::make_shared<core::StaticMap>(std::move(fleet.map->grid))),
+        reports_(reports()) {
     // What could not be read may be what would make committed motion valid.
     const bool poses_only = root.fault_count() > 0;
     for (std::size_t index = 0; index < fleet.robots.size(); ++index) {
@@ -33,9 +38,8 @@ class ProblemMaker {
 
   std::optional<MadeProblem> run() {
     while (true) {
-      auto made = reports_ ? core::Problem::create(fleet_.map->grid, robots_, conditions(), stop_.condition())
-                           : core::Problem::create(std::move(fleet_.map->grid), std::move(robots_),
-                                                   conditions(), stop_.condition());
+      auto made = core::Problem::create(map_, reports_ ? robots_ : std::move(robots_), conditions(),
+                                        stop_.condition());
       if (auto* problem = std::get_if<core::Problem>(&made)) {
         return MadeProblem{std::move(*problem), std::move(errors_)};
       }
@@ -104,6 +108,7 @@ class ProblemMaker {
   Fleet& fleet_;
   const JsonReader& root_;
   ParseStop& stop_;
+  std::shared_ptr<const core::StaticMap> map_;
   bool reports_;
   std::vector<core::Robot> robots_;   // that are placed
   std::vector<std::size_t> indices_;  // of each of them in the fleet

@@ -64,7 +64,7 @@ constexpr WordOption one_of_invalid_robots() {
           }};
 }
 
-constexpr std::array<OptionRow, 16> kTable{{
+constexpr std::array<OptionRow, 17> kTable{{
     {"time_budget_ms", "Time budget", "ms", ServiceOption{kBudget, &ReadOptions::budget_ms, 5000.0},
      "Milliseconds for the whole answer, counted from the last byte received. `GET /v1/limits` returns the "
      "default (`default_budget_ms`) and the maximum (`max_budget_ms`); a larger value is clamped, with a "
@@ -108,6 +108,11 @@ constexpr std::array<OptionRow, 16> kTable{{
      "What becomes of robots whose poses or committed actions collide: `refuse` answers 422; `report` lists "
      "them in `unplanned` with the reason `invalid` and their `errors`, as obstacles at their starts, and "
      "plans the others."},
+    {"lattice_spacing", "Lattice spacing", "m", ChosenOption{kLength, &PlanOptions::lattice_spacing},
+     "Metres between the points at which robots may stop besides their starts and goals. By default, the "
+     "resolution of the map; on a map finer than a fifth of the smallest radius, about that radius. "
+     "Clearance "
+     "to obstacles is exact in any case."},
 }};
 
 }  // namespace

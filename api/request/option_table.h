@@ -59,6 +59,12 @@ struct BoundOption {
   OptionField<std::optional<std::int64_t>> field;
 };
 
+/// A real number, or null, the default, if the planner is to choose.
+struct ChosenOption {
+  Range range;
+  OptionField<std::optional<double>> field;
+};
+
 /// One of a few numbers.
 struct CountOption {
   std::span<const int> values;
@@ -84,7 +90,8 @@ struct OptionRow {
   std::string_view name;
   std::string_view title;  // for a form
   std::string_view unit;   // symbol, e.g. "ms"; empty: none
-  std::variant<RealOption, ServiceOption, NaturalOption, BoundOption, CountOption, BooleanOption, WordOption>
+  std::variant<RealOption, ChosenOption, ServiceOption, NaturalOption, BoundOption, CountOption,
+               BooleanOption, WordOption>
       type;
   std::string_view description;  // CommonMark
 };

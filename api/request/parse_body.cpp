@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <string>
 
+#include "api/json/fault_text.h"
+#include "api/request/parse_metadata.h"
+#include "core/map/lattice.h"
+
 namespace fleetplan::api {
 
 namespace {
@@ -28,6 +32,26 @@ void set_default_start_safe_interval(const JsonReader& options, const std::vecto
     return read.committed || read.robot.previous;
   });
   if (in_motion && !is_given) plan.start_safe_interval = 0.0;
+}
+
+/// Reports a lattice of too many vertices, or of none.
+void check_lattice(const JsonReader& options, const core::PlanOptions& plan, const core::OccupancyGrid& grid,
+                   const Limits& limits) {
+  if (!plan.lattice_spacing) return;
+  const JsonReader spacing = options.find("lattice_spacing");
+  const std::int64_t columns = core::Lattice::vertices_along(grid.width(), *plan.lattice_spacing);
+  const std::int64_t rows = core::Lattice::vertices_along(grid.height(), *plan.lattice_spacing);
+  if (columns < 1 || rows < 1) {
+    spacing.fault(fault::kOutOfRange, "A lattice with a spacing of " + number_text(*plan.lattice_spacing) +
+                                          " m has no vertex on this map of " + number_text(grid.width()) +
+                                          " m x " + number_text(grid.height()) +
+                                          " m. Use at most twice its shorter side.");
+  } else if (columns > limits.max_cells / rows) {
+    spacing.fault(fault::kOutOfRange, "A lattice with a spacing of " + number_text(*plan.lattice_spacing) +
+                                          " m has " + std::to_string(columns) + " x " + std::to_string(rows) +
+                                          " vertices on this map; this service accepts at most " +
+                                          std::to_string(limits.max_cells) + ". Use a larger spacing.");
+  }
 }
 
 }  // namespace
@@ -74,10 +98,12 @@ Fleet parse_fleet(const JsonReader& root, const Limits& limits,
   fleet.options = parse_options(root.find("options"));
   set_budget(fleet.options);
   fleet.map = parse_map(root.require("map"), limits.max_cells);
+  if (fleet.map) check_lattice(root.find("options"), fleet.options.plan, fleet.map->grid, limits);
   const WorldFrame frame = fleet.map ? fleet.map->frame : WorldFrame{};
   UniqueIds ids;
   fleet.robots = parse_robots(root.require("robots"), root.find("robot_defaults"), frame, limits, ids);
   fleet.obstacles = parse_obstacles(root.find("obstacles"), frame, limits, ids);
+  fleet.metadata = parse_metadata(root);
   set_default_start_safe_interval(root.find("options"), fleet.robots, fleet.options.plan);
   return fleet;
 }

@@ -5,14 +5,15 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
+#include "api/request/map/parse_map.h"
 #include "api/request/motion/parse_obstacles.h"
-#include "api/request/parse_map.h"
 #include "api/request/parse_options.h"
 #include "api/request/parse_robots.h"
 #include "api/response/error.h"
@@ -26,6 +27,7 @@ struct Fleet {
   std::vector<ReadRobot> robots;
   std::vector<core::MovingObstacle> obstacles;
   ReadOptions options;
+  std::string metadata;  // see parse_metadata
 };
 
 /// Reads them from the root of the document. `set_budget` gets the options, which are read first.

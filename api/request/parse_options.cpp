@@ -41,6 +41,10 @@ class OptionReader {
   void read(const RealOption& option, const JsonReader& member) {
     set(option.field, member.number(option.range));
   }
+  void read(const ChosenOption& option, const JsonReader& member) {
+    if (member.is_null()) return;
+    options_.plan.*option.field = member.number(option.range);
+  }
   void read(const ServiceOption& option, const JsonReader& member) {
     options_.*option.field = member.number(option.range);
   }

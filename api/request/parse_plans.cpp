@@ -18,9 +18,10 @@ namespace fleetplan::api {
 
 namespace {
 
-// `lower_bound` belongs to an answer of /v1/plan and is ignored.
-constexpr std::array<std::string_view, 5> kMembers{"robot", "cost", "lower_bound", "actions", "visits"};
-constexpr std::array<std::string_view, 3> kVisitMembers{"goal", "t_arrive", "t_leave"};
+// `lower_bound` and `metadata` belong to an answer of /v1/plan and are ignored.
+constexpr std::array<std::string_view, 6> kMembers{"robot",   "cost",   "lower_bound",
+                                                   "actions", "visits", "metadata"};
+constexpr std::array<std::string_view, 4> kVisitMembers{"goal", "t_arrive", "t_leave", "metadata"};
 constexpr std::uint64_t kMostGoals = 1'000'000'000;  // of a robot, far beyond any limit of a request
 
 // A plan that begins before 0 is a violation to report, not a fault of the request.

@@ -11,15 +11,20 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kMembers{"map", "robot_defaults", "robots", "obstacles", "options"};
+constexpr std::array<std::string_view, 6> kMembers{"map",       "robot_defaults", "robots",
+                                                   "obstacles", "options",        "metadata"};
 
 /// `errors`: of each robot, or none.
 std::vector<ReceivedRobot> received(std::vector<ReadRobot>& robots, std::vector<std::vector<Fault>> errors) {
   std::vector<ReceivedRobot> received(robots.size());
   for (std::size_t index = 0; index < robots.size(); ++index) {
     ReadRobot& read = robots[index];
-    received[index] = {std::move(read.received_committed), std::move(read.received_previous),
-                       read.lists_visits, errors.empty() ? std::vector<Fault>{} : std::move(errors[index])};
+    received[index] = {std::move(read.received_committed),
+                       std::move(read.received_previous),
+                       read.lists_visits,
+                       errors.empty() ? std::vector<Fault>{} : std::move(errors[index]),
+                       std::move(read.metadata),
+                       std::move(read.goal_metadata)};
   }
   return received;
 }
@@ -39,7 +44,8 @@ Result<PlanRequest, RequestError> parse_request(std::string_view body, const Lim
     if (auto warning = budget_warning(fleet.options, limits)) warnings.push_back(std::move(*warning));
     return PlanRequest{
         std::move(made->problem), fleet.options.plan,  effective_budget(fleet.options, limits),
-        fleet.map->frame,         std::move(warnings), received(fleet.robots, std::move(made->errors))};
+        fleet.map->frame,         std::move(warnings), received(fleet.robots, std::move(made->errors)),
+        std::move(fleet.metadata)};
   };
   return parse_body<PlanRequest>(body, limits, stop, kMembers, parse);
 }

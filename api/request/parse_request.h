@@ -24,6 +24,7 @@ struct PlanRequest {
   WorldFrame frame;
   std::vector<std::string> warnings;
   std::vector<ReceivedRobot> received;  // of each robot
+  std::string metadata;                 // see parse_metadata
 };
 
 /// Reads a body of POST /v1/plan; ends with `parse_unfinished` or `draining` when the stop is met.

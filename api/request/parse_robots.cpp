@@ -9,24 +9,30 @@
 #include "api/request/motion/parse_actions.h"
 #include "api/request/motion/parse_goals.h"
 #include "api/request/motion/quota.h"
+#include "api/request/parse_metadata.h"
 #include "api/request/ranges.h"
 
 namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> kMembers{"id",   "radius", "linear_speed", "angular_speed", "start",
-                                                   "goal", "goals",  "committed",    "previous"};
+constexpr std::array<std::string_view, 12> kMembers{
+    "id",    "radius", "linear_speed", "angular_speed", "vicinity", "may_reverse",
+    "start", "goal",   "goals",        "committed",     "previous", "metadata"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
 
 // The members that `robot_defaults` can give as well.
-constexpr std::array<std::string_view, 3> kTraits{"radius", "linear_speed", "angular_speed"};
-constexpr std::array<Range, 3> kTraitRanges{kLength, kLinearSpeed, kAngularSpeed};
+constexpr std::array<std::string_view, 4> kTraits{"radius", "linear_speed", "angular_speed", "vicinity"};
+constexpr std::array<Range, 4> kTraitRanges{kLength, kLinearSpeed, kAngularSpeed, kLengthOrZero};
+constexpr std::size_t kRequiredTraits = 3;  // the first ones
+constexpr std::array<std::string_view, 5> kDefaults{"radius", "linear_speed", "angular_speed", "vicinity",
+                                                    "may_reverse"};
 
 /// Which traits are given, and the valid ones among them.
 struct Traits {
-  std::array<bool, 3> given{};
-  std::array<std::optional<double>, 3> values;
+  std::array<bool, kTraits.size()> given{};
+  std::array<std::optional<double>, kTraits.size()> values;
+  std::optional<bool> may_reverse;
 };
 
 Traits parse_traits(const JsonReader& json) {
@@ -36,6 +42,7 @@ Traits parse_traits(const JsonReader& json) {
     traits.given[trait] = static_cast<bool>(member);
     traits.values[trait] = member.number(kTraitRanges[trait]);
   }
+  traits.may_reverse = json.find("may_reverse").boolean();
   return traits;
 }
 
@@ -43,11 +50,12 @@ Traits parse_traits(const JsonReader& json) {
 /// already.
 Traits parse_traits(const JsonReader& robot, const Traits& defaults) {
   Traits traits = parse_traits(robot);
+  if (!traits.may_reverse) traits.may_reverse = defaults.may_reverse;
   for (std::size_t trait = 0; trait < kTraits.size(); ++trait) {
     if (traits.given[trait]) continue;
     if (defaults.given[trait]) {
       traits.values[trait] = defaults.values[trait];
-    } else {
+    } else if (trait < kRequiredTraits) {
       robot.require(kTraits[trait], ", here and in robot_defaults; give it in one of them");
     }
   }
@@ -73,7 +81,10 @@ class RobotReader {
     robot.radius = traits.values[0].value_or(1.0);
     robot.linear_speed = traits.values[1].value_or(1.0);
     robot.angular_speed = traits.values[2].value_or(1.0);
-    ActionsOwner owner{std::nullopt, traits.values[1], traits.values[2]};
+    robot.vicinity = traits.values[3].value_or(0.0);
+    robot.may_reverse = traits.may_reverse.value_or(false);
+    read.metadata = parse_metadata(json);
+    ActionsOwner owner{std::nullopt, traits.values[1], traits.values[2], robot.may_reverse};
     read.start = json.require("start", "; give {\"x\", \"y\"} and optionally \"theta\"");
     if (const auto start = parse_pose(read.start.object(kPoseMembers), frame_)) {
       robot.start = {start->position, start->theta.value_or(0.0)};
@@ -90,6 +101,7 @@ class RobotReader {
     ReadGoals goals = parse_goals(json, frame_, goals_);
     read.goals = std::move(goals.places);
     read.lists_visits = goals.lists_visits;
+    read.goal_metadata = std::move(goals.metadata);
     if (goals.goals.empty()) return;
     read.robot.goal = goals.goals.back();
     goals.goals.pop_back();
@@ -125,7 +137,7 @@ class RobotReader {
 std::vector<ReadRobot> parse_robots(const JsonReader& robots, const JsonReader& defaults,
                                     const WorldFrame& frame, const Limits& limits, UniqueIds& ids) {
   if (!robots) return {};
-  const Traits common = parse_traits(defaults.object(kTraits));
+  const Traits common = parse_traits(defaults.object(kDefaults));
   const JsonReader items = robots.array();
   if (!items) return {};
   if (items.size() == 0) items.fault(fault::kEmpty, "robots must contain at least one robot.");

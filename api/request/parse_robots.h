@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "api/json/json_reader.h"
@@ -22,7 +23,9 @@ struct ReadRobot {
   JsonReader committed;
   ReceivedMotion received_committed;
   ReceivedMotion received_previous;
-  bool lists_visits = false;  // see ReadGoals
+  bool lists_visits = false;               // see ReadGoals
+  std::vector<std::string> goal_metadata;  // see ReadGoals
+  std::string metadata;                    // see parse_metadata
 };
 
 /// Reads `robots` and `robot_defaults` (may be absent): at least one, and not more than the limits allow, nor

@@ -16,10 +16,11 @@ namespace fleetplan::api {
 namespace {
 
 // The members of a request to validate, then those that an answer of /v1/plan adds, which are ignored.
-constexpr std::array<std::string_view, 20> kMembers{
-    "map",       "robot_defaults", "robots",        "obstacles", "unavoidable", "options",  "plans",
-    "tolerance", "status",         "request_id",    "unplanned", "flowtime",    "makespan", "lower_bound",
-    "verified",  "min_clearance",  "deterministic", "search",    "timings_ms",  "warnings"};
+constexpr std::array<std::string_view, 22> kMembers{
+    "map",        "robot_defaults", "robots",          "obstacles",     "unavoidable",   "options",
+    "plans",      "tolerance",      "status",          "request_id",    "unplanned",     "flowtime",
+    "makespan",   "lower_bound",    "verified",        "min_clearance", "deterministic", "search",
+    "timings_ms", "warnings",       "lattice_spacing", "metadata"};
 
 constexpr double kDefaultTolerance = core::kMostTolerance;  // metres, seconds, radians
 constexpr double kLargestTolerance = 1e9;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "api/json/fault.h"
@@ -13,6 +14,9 @@ struct ReceivedRobot {
   ReceivedMotion previous;
   bool lists_visits = false;  // its plan tells when each goal is visited
   std::vector<Fault> errors;  // why it is invalid; empty if it is not
+  /// See parse_metadata: of the robot, and of its goals by their number, as in ReadGoals.
+  std::string metadata = {};
+  std::vector<std::string> goal_metadata = {};
 };
 
 }  // namespace fleetplan::api

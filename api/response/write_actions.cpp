@@ -26,7 +26,7 @@ bool same(const core::Pose& a, const core::Pose& b) { return a.position == b.pos
 
 bool same(const core::Action& a, const core::Action& b) {
   return a.type == b.type && a.t_start == b.t_start && a.t_end == b.t_end && same(a.from, b.from) &&
-         same(a.to, b.to);
+         same(a.to, b.to) && a.reverse == b.reverse;
 }
 
 class ActionWriter {
@@ -74,6 +74,7 @@ class ActionWriter {
     json_.member("type", type_name(action.type));
     json_.member("t_start", t_start).member("t_end", t_end);
     if (action.goal) json_.member("goal", *action.goal);
+    if (action.reverse) json_.member("reverse", true);
     write_pose("from", from);
     write_pose("to", to);
     json_.end_object();

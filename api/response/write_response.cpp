@@ -15,11 +15,19 @@ namespace {
 
 constexpr std::size_t kBytesAnAction = 320;
 
-void write_visits(JsonWriter& json, const std::vector<core::Visit>& visits) {
+void write_metadata(JsonWriter& json, const std::string& metadata) {
+  if (!metadata.empty()) json.key("metadata").json(metadata);
+}
+
+/// `metadata`: of the goals by their number, or none.
+void write_visits(JsonWriter& json, const std::vector<core::Visit>& visits,
+                  const std::vector<std::string>& metadata) {
   json.key("visits").begin_array();
   for (const core::Visit& visit : visits) {
     json.begin_object().member("goal", visit.goal).member("t_arrive", visit.t_arrive);
-    json.member("t_leave", visit.t_leave).end_object();  // null at the last goal
+    json.member("t_leave", visit.t_leave);  // null at the last goal
+    if (visit.goal < metadata.size()) write_metadata(json, metadata[visit.goal]);
+    json.end_object();
   }
   json.end_array();
 }
@@ -30,7 +38,8 @@ void write_plan(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPla
   json.begin_object();
   json.member("robot", robot.id).member("cost", plan.cost).member("lower_bound", plan.lower_bound);
   write_actions(json, plan.actions, robot, received, verified.origin);
-  if (received.lists_visits) write_visits(json, plan.visits);
+  if (received.lists_visits) write_visits(json, plan.visits, received.goal_metadata);
+  write_metadata(json, received.metadata);
   json.end_object();
 }
 
@@ -45,6 +54,7 @@ void write_unplanned(JsonWriter& json, const core::Unplanned& unplanned, const V
   const ReceivedRobot& received = verified.received[unplanned.robot];
   if (!robot.committed.empty()) write_actions(json, robot.committed, robot, received, verified.origin);
   if (!received.errors.empty()) write_errors(json, received.errors);
+  write_metadata(json, received.metadata);
   json.end_object();
 }
 
@@ -85,6 +95,7 @@ void write_summary(JsonWriter& json, const VerifiedPlan& verified) {
   json.member("verified", verified.report.valid());
   json.member("min_clearance", reported_clearance(verified.report));
   json.member("deterministic", plan.deterministic);
+  if (verified.lattice_spacing) json.member("lattice_spacing", *verified.lattice_spacing);
   json.key("search").begin_object();
   json.member("attempts", plan.search.attempts).member("expansions", plan.search.expansions);
   json.member("improvements", plan.search.improvements);
@@ -119,7 +130,9 @@ std::string write_response(const VerifiedPlan& verified, const std::string& requ
   write_timings(json, stages);
   json.key("warnings").begin_array();
   for (const std::string& warning : verified.warnings) json.value(std::string_view(warning));
-  json.end_array().end_object();
+  json.end_array();
+  write_metadata(json, verified.metadata);
+  json.end_object();
   return json.take();
 }
 

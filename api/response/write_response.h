@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ struct VerifiedPlan {
   const std::vector<ReceivedRobot>& received;  // of each robot
   const core::Position& origin;                // of the map in the world
   const std::vector<std::string>& warnings;
+  const std::string& metadata;            // of the request, as JSON; empty: none
+  std::optional<double> lattice_spacing;  // metres; none: neither asked for nor chosen
 };
 
 /// The answer of POST /v1/plan. Writing ends with the timings, so that they include it.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/bounds/reverse_bound.h"
 #include "core/geometry/same_position.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/served_goals.h"
@@ -22,6 +23,7 @@ double straight_cost(const GoalLeg& leg, const Motion& motion) {
   const double distance = d.norm();
   if (distance <= kSamePosition) return rotation(leg.heading, leg.to.theta);
   const double heading = std::atan2(d.y(), d.x());
+  if (motion.may_reverse) return reverse_bound(distance, heading, leg.heading, leg.to.theta, motion);
   return rotation(leg.heading, heading) + motion.translation_time(distance) + rotation(heading, leg.to.theta);
 }
 

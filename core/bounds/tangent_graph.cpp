@@ -27,11 +27,12 @@ double away_direction(const Corner& corner) { return std::atan2(corner.away_y, c
 
 }  // namespace
 
-TangentGraph::TangentGraph(CornerVisibility& corners, const LineOfSight& sight, double radius)
+TangentGraph::TangentGraph(CornerVisibility& corners, const LineOfSight& sight, double radius,
+                           bool stops_at_cell_centers)
     : corners_(corners),
       sight_(sight),
       radius_(radius - kRadiusReduction),
-      tight_gaps_(corners.grid(), radius),
+      tight_gaps_(corners.grid(), radius, stops_at_cell_centers),
       links_(2 * static_cast<std::size_t>(corners.count())),
       arcs_(static_cast<std::size_t>(corners.count())) {}
 

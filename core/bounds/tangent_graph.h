@@ -25,7 +25,9 @@ class TangentGraph {
   static constexpr double kRadiusReduction = 1e-7;
 
   /// `radius` > 2 kRadiusReduction is the robot's, metres.
-  TangentGraph(CornerVisibility& corners, const LineOfSight& sight, double radius);
+  /// `stops_at_cell_centers`: as for TightGaps.
+  TangentGraph(CornerVisibility& corners, const LineOfSight& sight, double radius,
+               bool stops_at_cell_centers = true);
 
   /// Metres, reduced.
   double radius() const { return radius_; }

@@ -1,7 +1,9 @@
 #include "core/bounds/taut_path_bounds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <new>
 
 #include "core/bounds/corner_visibility.h"
@@ -29,8 +31,24 @@ bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) 
   return fits_at_begin && fits_at(goals[leg]);
 }
 
+/// A robot that may reverse need not turn as much as a taut path does: only its length and waits, and the
+/// difference of the headings at its ends, bound the cost.
+Motion without_turns_if_reversing(Motion motion) {
+  if (!motion.may_reverse) return motion;
+  motion.angular_speed = std::numeric_limits<double>::infinity();
+  motion.may_reverse = false;
+  return motion;
+}
+
 bool is_straight(const Instance& instance, const GoalLeg& leg, double radius) {
   return instance.sight().may_sweep(leg.from, leg.to.position, radius);
+}
+
+/// Whether all vertices of the lattice are centres of cells.
+bool stops_at_cell_centers(const Instance& instance) {
+  const double cells = instance.lattice().spacing() / instance.problem().grid().resolution();
+  const double odd = 2.0 * std::round(0.5 * (cells - 1.0)) + 1.0;
+  return std::abs(cells - odd) <= 1e-9 * cells;
 }
 
 }  // namespace
@@ -89,7 +107,7 @@ void TautPathBounds::improve(const Instance& instance, const LegsByRadius& out_o
   CornerVisibility corners(instance.problem().grid(), out_of_sight.begin()->first,
                            out_of_sight.rbegin()->first);
   for (const auto& [radius, group] : out_of_sight) {
-    TautPathSearch search(corners, instance.sight(), radius);
+    TautPathSearch search(corners, instance.sight(), radius, stops_at_cell_centers(instance));
     work -= corners.count();  // for the memory that the search allocates
     for (const LegIndex& index : group) {
       if (stop.met()) {
@@ -101,10 +119,15 @@ void TautPathBounds::improve(const Instance& instance, const LegsByRadius& out_o
       const Itinerary& itinerary = instance.itinerary(index.robot);
       const double most = way.most_seconds(itinerary, index.leg, costs[index.robot]);
       const std::int64_t before = search.work();
-      const TautPathResult result =
-          search.run(way.legs[index.leg], instance.motion(index.robot), most, work / kWorkDivisor, stop);
+      const GoalLeg& leg = way.legs[index.leg];
+      const Motion motion = without_turns_if_reversing(instance.motion(index.robot));
+      const TautPathResult result = search.run(leg, motion, most, work / kWorkDivisor, stop);
       work -= search.work() - before;
-      way.seconds[index.leg] = result.seconds;
+      const double turn = instance.motion(index.robot).may_reverse && leg.heading && leg.to.theta
+                              ? instance.motion(index.robot).rotation_time(*leg.heading, *leg.to.theta)
+                              : 0.0;
+      // Never below what holds without obstacles.
+      way.seconds[index.leg] = std::max(way.seconds[index.leg], result.seconds + turn);
       seconds_[index.robot] = end_after(itinerary, way.seconds);
       cut_off_ = cut_off_ || result.cut_off;
     }

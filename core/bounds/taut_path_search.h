@@ -30,8 +30,9 @@ struct TautPathResult {
 class TautPathSearch {
  public:
   /// For robots of one radius.
-  TautPathSearch(CornerVisibility& corners, const LineOfSight& sight, double radius)
-      : corners_(corners), graph_(corners, sight, radius) {}
+  TautPathSearch(CornerVisibility& corners, const LineOfSight& sight, double radius,
+                 bool stops_at_cell_centers = true)
+      : corners_(corners), graph_(corners, sight, radius, stops_at_cell_centers) {}
 
   /// `motion` has the radius; the leg ends out of sight of its begin. Paths that cost more
   /// than `known_cost`, that of a known path in seconds (infinite for none), are not explored. After

@@ -31,8 +31,8 @@ int tight_width(const OccupancyGrid& grid, double radius) {
 
 }  // namespace
 
-TightGaps::TightGaps(const OccupancyGrid& grid, double radius)
-    : grid_(grid), width_(tight_width(grid, radius)) {}
+TightGaps::TightGaps(const OccupancyGrid& grid, double radius, bool stops_at_cell_centers)
+    : grid_(grid), width_(stops_at_cell_centers ? tight_width(grid, radius) : 0) {}
 
 bool TightGaps::crossed_by(const Position& begin, const Position& end, double length) const {
   if (width_ == 0) return false;

@@ -9,8 +9,8 @@ namespace fleetplan::core {
 /// there; a robot that starts, stops and turns on cell centres never does.
 class TightGaps {
  public:
-  /// `radius` of the robot, metres.
-  TightGaps(const OccupancyGrid& grid, double radius);
+  /// `radius` of the robot, metres. If it may stop elsewhere than at centres of cells, no gap is tight.
+  TightGaps(const OccupancyGrid& grid, double radius, bool stops_at_cell_centers);
 
   /// Whether a move of this length from `begin` to `end` (metres) passes through such a gap.
   bool crossed_by(const Position& begin, const Position& end, double length) const;

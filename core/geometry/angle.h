@@ -23,4 +23,9 @@ inline double angle_between(double a, double b) {
   return d <= std::numbers::pi ? d : 2.0 * std::numbers::pi - d;
 }
 
+/// The heading of the other end of a robot with a normalised heading; normalised.
+inline double opposite_heading(double heading) {
+  return heading > 0.0 ? heading - std::numbers::pi : heading + std::numbers::pi;
+}
+
 }  // namespace fleetplan::core

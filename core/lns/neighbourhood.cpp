@@ -96,7 +96,7 @@ std::vector<double> NeighbourhoodSelection::distances_at(double time, std::size_
   std::vector<double> distances;
   for (const std::size_t robot : planned_) {
     const double distance = (position_at(*state_.trajectory(robot), time) - center).norm();
-    distances.push_back(distance - state_.instance().motion(robot).radius);
+    distances.push_back(distance - state_.instance().motion(robot).pair_radius);
   }
   return distances;
 }

@@ -30,9 +30,12 @@ std::vector<Lattice::Step> neighbourhood(int connectivity) {
 }  // namespace
 
 Lattice::Lattice(const OccupancyGrid& grid, int connectivity)
-    : columns_(grid.columns()),
-      rows_(grid.rows()),
-      spacing_(grid.resolution()),
+    : Lattice(grid, connectivity, grid.resolution()) {}
+
+Lattice::Lattice(const OccupancyGrid& grid, int connectivity, double spacing)
+    : columns_(static_cast<int>(vertices_along(grid.width(), spacing))),
+      rows_(static_cast<int>(vertices_along(grid.height(), spacing))),
+      spacing_(spacing),
       steps_(neighbourhood(connectivity)),
       table_columns_(std::min(columns_, kMaxTableSize)),
       table_rows_(std::min(rows_, kMaxTableSize)) {
@@ -42,6 +45,11 @@ Lattice::Lattice(const OccupancyGrid& grid, int connectivity)
       first_quadrant_.push_back(displacement(column, row));
     }
   }
+}
+
+/// The square of the last one may reach beyond the map, but not its centre.
+std::int64_t Lattice::vertices_along(double length, double spacing) {
+  return static_cast<std::int64_t>(std::floor(length / spacing + 0.5));
 }
 
 Displacement Displacement::between(const Position& from, const Position& to) {

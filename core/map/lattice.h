@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <numbers>
 #include <span>
@@ -22,8 +23,9 @@ struct Displacement {
   static Displacement between(const Position& from, const Position& to);
 };
 
-/// The vertices at which robots may stop: the centres of the cells, numbered row by row from the bottom.
-/// Which cells are blocked is not part of the lattice (see LineOfSight).
+/// The vertices at which robots may stop: the centres of squares as large as the spacing, counted from the
+/// lower left of the map and numbered row by row. Those of the map's resolution are the cells. Which of them
+/// are blocked is not part of the lattice (see LineOfSight).
 class Lattice {
  public:
   /// One lattice move.
@@ -35,6 +37,11 @@ class Lattice {
   /// `connectivity` is 4, 8, 16 or 32: the moves of the 2^k neighbourhood (Rivera, Hernandez, Baier, AAAI
   /// 2017).
   Lattice(const OccupancyGrid& grid, int connectivity);
+  /// `spacing` in metres: > 0, and at most twice the width and the height of the map.
+  Lattice(const OccupancyGrid& grid, int connectivity, double spacing);
+
+  /// The vertices along a side of the map of `length` metres.
+  static std::int64_t vertices_along(double length, double spacing);
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }

@@ -19,6 +19,8 @@ struct Action {
   /// Of a wait: the goal of the robot (see Robot::goal_at) that is served during it, or whose `not_before` is
   /// awaited.
   std::optional<std::size_t> goal = {};
+  /// Of a translation: backwards; the heading is opposite to the direction of motion.
+  bool reverse = false;
 };
 
 }  // namespace fleetplan::core

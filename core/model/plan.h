@@ -77,6 +77,7 @@ struct Plan {
   std::vector<RobotPlan> plans;
   std::vector<Unplanned> unplanned;
   std::vector<Meeting> unavoidable = {};  // by time; at most kMostMeetingsOfRobot of a robot
+  bool meetings_known = true;  // false if finding them was given up: then the plan cannot be checked
   Objectives objectives;
   Objectives lower_bound;
   bool deterministic = true;  // false if the clock or the load influenced the plan

@@ -30,6 +30,8 @@ struct PlanOptions {
   double interval_margin = 0.0;
   /// Metres, >= 0: how much starts may overlap each other or a wall, inflation included.
   double start_overlap = 0.0;
+  /// Metres between the vertices of the lattice; nullopt: chosen by the map and the robots.
+  std::optional<double> lattice_spacing = {};
   std::optional<std::int64_t> max_iterations;  // of `anytime`; nullopt: until the stop condition is met
 };
 

@@ -17,9 +17,9 @@ constexpr double kClearOfWalls = 1e-3;
 /// Finds the faults of robot after robot. Exact distances are computed only for faults that are listed.
 class FaultSearch {
  public:
-  FaultSearch(const OccupancyGrid& grid, const std::vector<Robot>& robots,
-              const ProblemConditions& conditions, const StopCondition& stop)
-      : grid_(grid), robots_(robots), conditions_(conditions), stop_(stop), sight_(grid) {
+  FaultSearch(const StaticMap& map, const std::vector<Robot>& robots, const ProblemConditions& conditions,
+              const StopCondition& stop)
+      : grid_(map.grid()), robots_(robots), conditions_(conditions), stop_(stop), sight_(map.sight()) {
     if (conditions.list_faults_of_every_robot) listed_of_robot_.resize(robots.size(), 0);
   }
 
@@ -100,22 +100,33 @@ class FaultSearch {
   const std::vector<Robot>& robots_;
   const ProblemConditions& conditions_;
   const StopCondition& stop_;
-  const LineOfSight sight_;
+  const LineOfSight& sight_;
   std::vector<std::size_t> listed_of_robot_;  // empty: the first faults of all are listed
   ProblemFaults faults_;
 };
 
 }  // namespace
 
-Problem::Problem(OccupancyGrid grid, std::vector<Robot> robots, std::vector<MovingObstacle> obstacles)
-    : grid_(std::move(grid)), robots_(std::move(robots)), obstacles_(std::move(obstacles)) {}
+Problem::Problem(std::shared_ptr<const StaticMap> map, std::vector<Robot> robots,
+                 std::vector<MovingObstacle> obstacles, std::vector<Zone> zones)
+    : map_(std::move(map)),
+      robots_(std::move(robots)),
+      obstacles_(std::move(obstacles)),
+      zones_(std::move(zones)) {}
 
 std::variant<Problem, ProblemFaults> Problem::create(OccupancyGrid grid, std::vector<Robot> robots,
                                                      ProblemConditions conditions,
                                                      const StopCondition& stop) {
-  ProblemFaults faults = FaultSearch(grid, robots, conditions, stop).run();
+  return create(std::make_shared<StaticMap>(std::move(grid)), std::move(robots), std::move(conditions), stop);
+}
+
+std::variant<Problem, ProblemFaults> Problem::create(std::shared_ptr<const StaticMap> map,
+                                                     std::vector<Robot> robots, ProblemConditions conditions,
+                                                     const StopCondition& stop) {
+  ProblemFaults faults = FaultSearch(*map, robots, conditions, stop).run();
   if (faults.total > 0 || !faults.finished) return faults;
-  return Problem(std::move(grid), std::move(robots), std::move(conditions.obstacles));
+  return Problem(std::move(map), std::move(robots), std::move(conditions.obstacles),
+                 std::move(conditions.zones));
 }
 
 }  // namespace fleetplan::core

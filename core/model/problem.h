@@ -1,13 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "core/map/occupancy_grid.h"
+#include "core/map/static_map.h"
 #include "core/model/moving_obstacle.h"
 #include "core/model/robot.h"
+#include "core/model/zone.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
@@ -40,9 +42,10 @@ struct ProblemFaults {
   bool finished = true;  // false when the stop condition was met first; then there may be more
 };
 
-/// How much the starts of a problem may overlap, and what moves besides its robots.
+/// How much the starts of a problem may overlap, what moves besides its robots, and the zones.
 struct ProblemConditions {
-  std::vector<MovingObstacle> obstacles;
+  std::vector<MovingObstacle> obstacles = {};
+  std::vector<Zone> zones = {};
   /// Metres: two bare disks, or a bare disk and a wall, may overlap by so much at the start. 0: contact only.
   double pair_overlap = 0.0;
   double wall_overlap = 0.0;
@@ -64,17 +67,25 @@ class Problem {
   }
   static std::variant<Problem, ProblemFaults> create(OccupancyGrid grid, std::vector<Robot> robots,
                                                      ProblemConditions conditions, const StopCondition& stop);
+  static std::variant<Problem, ProblemFaults> create(std::shared_ptr<const StaticMap> map,
+                                                     std::vector<Robot> robots, ProblemConditions conditions,
+                                                     const StopCondition& stop);
 
-  const OccupancyGrid& grid() const { return grid_; }
+  /// Never null.
+  const std::shared_ptr<const StaticMap>& map() const { return map_; }
+  const OccupancyGrid& grid() const { return map_->grid(); }
   const std::vector<Robot>& robots() const { return robots_; }
   const std::vector<MovingObstacle>& obstacles() const { return obstacles_; }
+  const std::vector<Zone>& zones() const { return zones_; }
 
  private:
-  Problem(OccupancyGrid grid, std::vector<Robot> robots, std::vector<MovingObstacle> obstacles);
+  Problem(std::shared_ptr<const StaticMap> map, std::vector<Robot> robots,
+          std::vector<MovingObstacle> obstacles, std::vector<Zone> zones);
 
-  OccupancyGrid grid_;
+  std::shared_ptr<const StaticMap> map_;
   std::vector<Robot> robots_;
   std::vector<MovingObstacle> obstacles_;
+  std::vector<Zone> zones_;
 };
 
 }  // namespace fleetplan::core

@@ -16,10 +16,12 @@ struct Goal {
   std::optional<double> theta;  // radians, (-pi, pi]
   double service = 0.0;         // seconds, >= 0, at rest in the pose
   double not_before = 0.0;      // seconds, >= 0; the service begins at this time at the earliest
+  /// Metres: the radius of the robot from the end of the service on; nullopt: as before.
+  std::optional<double> radius_after = {};
 };
 
-/// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead,
-/// without inertia (paper, Problem Statement).
+/// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead (or
+/// back, see `may_reverse`), without inertia (paper, Problem Statement).
 ///
 /// It visits the goals of `via` in their order and then `goal`, where it stays. Goals are numbered in this
 /// order from 0. A goal is visited when the robot is at rest in its pose for the whole service, after the
@@ -38,6 +40,8 @@ struct Robot {
   std::optional<std::vector<Action>> previous = {};
   /// Its geometry is at fault: it stands at its start for ever, as an obstacle.
   bool invalid = false;
+  bool may_reverse = false;  // it may translate backwards
+  double vicinity = 0.0;     // metres, >= 0, added to its radius against other robots only
 
   std::size_t goal_count() const { return via.size() + (goal ? 1 : 0); }
   const Goal& goal_at(std::size_t index) const { return index < via.size() ? via[index] : *goal; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/geometry/segment.h"
@@ -14,8 +15,10 @@ struct Trajectory {
   std::vector<TimedSegment> moves;  // in order of time, each from the end of the previous one; lengths > 0
   double cost = 0.0;  // seconds until it rests in the goal pose, the last rotation and service included
   std::vector<Visit> visits = {};  // to goals of Robot::via that are served after the committed actions
+  std::vector<bool> reverse = {};  // by move: backwards; those that are missing are not
   bool is_previous = false;        // the motion of Robot::previous: its actions are those received
 
+  bool is_reverse(std::size_t move) const { return move < reverse.size() && reverse[move]; }
   Position end() const { return moves.empty() ? start : moves.back().path.to; }
 };
 

@@ -9,7 +9,7 @@ namespace fleetplan::core {
 
 DiskIndex::DiskIndex(const Instance& instance) : instance_(instance), size_(0.0) {
   for (std::size_t i = 0; i < instance.size(); ++i) {
-    size_ = std::max(size_, 2.0 * instance.motion(i).radius);
+    size_ = std::max(size_, 2.0 * instance.motion(i).pair_radius);
   }
 }
 
@@ -27,13 +27,13 @@ void DiskIndex::add(std::size_t robot, const Position& center) {
 
 std::vector<std::size_t> DiskIndex::overlapping(std::size_t robot, const Position& center) const {
   std::vector<std::size_t> found;
-  const double radius = instance_.motion(robot).radius;
+  const double radius = instance_.motion(robot).pair_radius;
   for (std::int64_t column = bucket(center.x()) - 1; column <= bucket(center.x()) + 1; ++column) {
     for (std::int64_t row = bucket(center.y()) - 1; row <= bucket(center.y()) + 1; ++row) {
       const auto disks = buckets_.find(key(column, row));
       if (disks == buckets_.end()) continue;
       for (const Disk& disk : disks->second) {
-        const double reach = radius + instance_.motion(disk.robot).radius - kContactTolerance;
+        const double reach = radius + instance_.motion(disk.robot).pair_radius - kContactTolerance;
         const bool overlap = (disk.center - center).squaredNorm() < reach * reach;
         if (overlap && disk.robot != robot) found.push_back(disk.robot);
       }

@@ -10,7 +10,7 @@
 
 namespace fleetplan::core {
 
-/// Disks of robots, inflation included, by place: finds those that overlap another one.
+/// Disks of robots, inflation and vicinity included, by place: finds those that overlap another one.
 class DiskIndex {
  public:
   explicit DiskIndex(const Instance& instance);

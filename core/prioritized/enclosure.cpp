@@ -50,8 +50,8 @@ Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vec
     if (other == robot || instance.itinerary(other).t_begin > itinerary.t_begin) continue;
     const Position& center = instance.itinerary(other).pose.position;
     // A robot that starts too near to another one may leave, but come no nearer.
-    const double reach =
-        std::min(instance.motion(robot).radius + instance.motion(other).radius, (start - center).norm());
+    const double reach = std::min(instance.motion(robot).pair_radius + instance.motion(other).pair_radius,
+                                  (start - center).norm());
     disks_.push_back({other, center, reach - kSlack, false});
     longest_reach_ = std::max(longest_reach_, reach);
   }

@@ -7,6 +7,7 @@
 #include "core/prioritized/ordering_result.h"
 #include "core/prioritized/partial_plan.h"
 #include "core/prioritized/repair.h"
+#include "core/runtime/time_share.h"
 
 namespace fleetplan::core {
 namespace {
@@ -15,20 +16,26 @@ namespace {
 /// this, repairs of the plan are better left to run.
 constexpr std::chrono::milliseconds kLeastFirstPart{250};
 
+/// Of the time, if robots that gave way return where they can at the end.
+constexpr double kShareOfPlanning = 0.95;
+
 bool has_time_for_two_parts(const PlanningTime& time) {
   return time.first_part.deadline() - StopCondition::Clock::now() >= kLeastFirstPart;
 }
 
 class PlanningAroundKept {
  public:
-  PlanningAroundKept(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
-                     const PlanningTime& time, ProgressReport& progress)
+  PlanningAroundKept(PlanState& state, const std::vector<std::size_t>& movers,
+                     const std::vector<bool>& certain, Random& random, const PlanningTime& time,
+                     ProgressReport& progress)
       : state_(state),
         movers_(movers),
+        is_certain_(certain),
         random_(random),
-        time_(time),
+        end_(time.all),
+        time_(returns_robots() ? PlanningTime::until(after_share(time.all, kShareOfPlanning)) : time),
         progress_(progress),
-        stop_(has_time_for_two_parts(time) ? time.first_part : time.keeping),
+        stop_(has_time_for_two_parts(time_) ? time_.first_part : time_.keeping),
         kept_(state.reservations()) {}
 
   PrioritizedResult run() {
@@ -39,14 +46,33 @@ class PlanningAroundKept {
     keep_without_search();
     const bool all_planned = !time_.all.met() && (repaired() || planned_anew());
     if (!all_planned) explain_best();
-    if (state_.instance().options().replan == PlanOptions::Replan::where_needed) return_to_kept();
+    if (returns_robots() && !end_.is_over()) return_to_kept();
     return std::move(result_);
   }
 
  private:
   /// The plan that needs no search: those that can do so follow their trajectories, all others stay.
   void keep_without_search() {
+    const std::vector<bool> stays = robots_that_may_have_to_stay();
+    best_ = KeptPlan{{}, kept_};
+    for (const std::size_t robot : movers_) {
+      if (!stays[robot]) {
+        certain_.push_back(robot);
+        continue;
+      }
+      best_.plan.staying.push_back({robot, false});
+      best_.reservations.trajectories[robot].reset();
+      best_.reservations.at_start_until[robot] = kForever;
+    }
+  }
+
+  std::vector<bool> robots_that_may_have_to_stay() const {
     std::vector<bool> stays(state_.instance().size(), false);
+    if (!is_certain_.empty()) {
+      for (const std::size_t robot : movers_)
+        stays[robot] = !is_certain_[robot] || !kept_.trajectories[robot];
+      return stays;
+    }
     std::vector<std::size_t> staying = others_;
     for (const std::size_t robot : staying) stays[robot] = true;
     for (std::size_t k = 0; k < staying.size(); ++k) {  // staying grows
@@ -56,16 +82,7 @@ class PlanningAroundKept {
         staying.push_back(crossing);
       }
     }
-    std::sort(staying.begin(), staying.end());
-    best_ = KeptPlan{{}, kept_};
-    for (const std::size_t robot : staying) {
-      best_.plan.staying.push_back({robot, false});
-      best_.reservations.trajectories[robot].reset();
-      best_.reservations.at_start_until[robot] = kForever;
-    }
-    for (const std::size_t robot : movers_) {
-      if (!stays[robot]) certain_.push_back(robot);
-    }
+    return stays;
   }
 
   /// Returns whether all robots are planned, by repairs of the plan.
@@ -133,12 +150,17 @@ class PlanningAroundKept {
 
   /// Returns to the best plan, plans more robots in it while there is time, and tells why the rest stays.
   void explain_best() {
-    if (return_to(state_, best_, time_.all)) {
+    if (return_to(state_, best_, end_) && !time_.all.met()) {
       std::vector<std::size_t> staying;
       for (const SafePlan::Staying& robot : best_.plan.staying) staying.push_back(robot.robot);
       SafePlan more = make_safe(state_, {}, staying, Effort::full, time_.all, progress_);
       result_.cut_off = result_.cut_off || more.cut_off;
-      best_ = KeptPlan{std::move(more), state_.reservations()};
+      // The search keeps slightly larger distances than the check that found certain plans to hold.
+      if (plans_all_certain()) {
+        best_ = KeptPlan{std::move(more), state_.reservations()};
+      } else {
+        return_to(state_, best_, end_);
+      }
     }
     PartialPlan partial = explain(state_, best_.plan, time_.all);
     result_.cut_off = result_.cut_off || partial.cut_off;
@@ -155,10 +177,24 @@ class PlanningAroundKept {
     return robots;
   }
 
+  bool returns_robots() const {
+    return state_.instance().options().replan == PlanOptions::Replan::where_needed;
+  }
+
   /// Robots that gave way may have their first trajectories back where these are free again.
   void return_to_kept() {
+    return_together();
+    for (const std::size_t robot : robots_that_gave_way()) {
+      if (end_.met()) return;
+      const Trajectory& first = *kept_.trajectories[robot];
+      if (state_.conflicting_robots(robot, first).empty()) state_.follow(robot, first);
+    }
+  }
+
+  /// As many as possible at a time.
+  void return_together() {
     std::vector<std::size_t> changed = robots_that_gave_way();
-    while (!changed.empty() && !time_.all.met()) {
+    while (!changed.empty() && !end_.met()) {
       const PlanState::Reservations before = state_.reservations();
       const std::size_t count = changed.size();
       const bool all_planned = returned_together(changed);
@@ -181,7 +217,7 @@ class PlanningAroundKept {
       }
     }
     for (const std::size_t robot : left) {
-      SearchResult result = state_.plan(robot, {.thorough = false}, time_.all);
+      SearchResult result = state_.plan(robot, {.thorough = false}, end_);
       if (!result.trajectory) return false;
       state_.follow(robot, std::move(*result.trajectory));
     }
@@ -190,8 +226,10 @@ class PlanningAroundKept {
 
   PlanState& state_;
   const std::vector<std::size_t>& movers_;
+  const std::vector<bool>& is_certain_;  // by robot, or empty
   Random& random_;
-  const PlanningTime& time_;
+  const StopCondition end_;
+  const PlanningTime time_;  // until robots that gave way return
   ProgressReport& progress_;
   StopCondition stop_;                  // of the repairs
   const PlanState::Reservations kept_;  // at first
@@ -205,9 +243,10 @@ class PlanningAroundKept {
 
 }  // namespace
 
-PrioritizedResult plan_around_kept(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
-                                   const PlanningTime& time, ProgressReport& progress) {
-  return PlanningAroundKept(state, movers, random, time, progress).run();
+PrioritizedResult plan_around_kept(PlanState& state, const std::vector<std::size_t>& movers,
+                                   const std::vector<bool>& certain, Random& random, const PlanningTime& time,
+                                   ProgressReport& progress) {
+  return PlanningAroundKept(state, movers, certain, random, time, progress).run();
 }
 
 }  // namespace fleetplan::core

@@ -15,8 +15,11 @@ namespace fleetplan::core {
 /// repair.h), and if that does not plan all, made anew if that plans more.
 ///
 /// Robots that can follow their trajectories while all others of `movers` stay where they are remain planned
-/// in every case, also if `time` is over before planning begins. Leaves the best safe plan in the state.
-PrioritizedResult plan_around_kept(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
-                                   const PlanningTime& time, ProgressReport& progress);
+/// in every case, also if `time` is over before planning begins: those of which `certain` (by robot, may be
+/// empty) says so, or if it says so of none, those that cross no other. Leaves the best safe plan in the
+/// state.
+PrioritizedResult plan_around_kept(PlanState& state, const std::vector<std::size_t>& movers,
+                                   const std::vector<bool>& certain, Random& random, const PlanningTime& time,
+                                   ProgressReport& progress);
 
 }  // namespace fleetplan::core

@@ -31,7 +31,7 @@ constexpr std::int64_t kFirstExpansions = 1024;
 std::vector<double> radii(const Instance& instance) {
   std::vector<double> radii;
   radii.reserve(instance.size());
-  for (std::size_t i = 0; i < instance.size(); ++i) radii.push_back(instance.motion(i).radius);
+  for (std::size_t i = 0; i < instance.size(); ++i) radii.push_back(instance.motion(i).pair_radius);
   return radii;
 }
 

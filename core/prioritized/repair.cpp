@@ -102,11 +102,11 @@ class Repair {
     ++result_.attempts;
     progress_.next_attempt();
     if (++failures_[robot] > kMaxFailuresOfRobot) return {};
-    const double radius = state_.instance().motion(robot).radius;
+    const double radius = state_.instance().motion(robot).pair_radius;
     const auto is_lower = [&](std::size_t other) { return rank_[other] > rank_[robot]; };
     const auto lower = planned_robots(is_lower);
     const auto lower_or_smaller = planned_robots([&](std::size_t other) {
-      return is_lower(other) || state_.instance().motion(other).radius < radius;
+      return is_lower(other) || state_.instance().motion(other).pair_radius < radius;
     });
     const auto all = planned_robots([](std::size_t) { return true; });
     if (!lower.empty()) {

@@ -16,13 +16,13 @@ constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
 
 bool differ_in_size(const Instance& instance, const PriorityOrder& order) {
   return std::any_of(order.begin(), order.end(), [&](std::size_t robot) {
-    return instance.motion(robot).radius != instance.motion(order.front()).radius;
+    return instance.motion(robot).pair_radius != instance.motion(order.front()).pair_radius;
   });
 }
 
 PriorityOrder larger_first(const Instance& instance, PriorityOrder order) {
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return instance.motion(a).radius > instance.motion(b).radius;
+    return instance.motion(a).pair_radius > instance.motion(b).pair_radius;
   });
   return order;
 }

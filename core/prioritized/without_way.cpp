@@ -14,7 +14,7 @@ std::string metres(double value) {
 }
 
 std::string missed_by_lattice(double radius, const Way& way) {
-  std::string text = "The lattice of cell centres has no way from the start to the goal for this robot";
+  std::string text = "The lattice has no way from the start to the goal for this robot";
   if (way.widest) {
     text += ", which needs " + metres(2.0 * radius) + "; the widest way between the obstacles has " +
             metres(*way.widest);

@@ -8,19 +8,15 @@
 
 namespace fleetplan::core {
 
-std::size_t follow_kept_plans(PlanState& state, const KeptPlans& previous) {
+std::size_t follow_kept_plans(PlanState& state, const KeptPlans& previous, const KeptPlans& certain) {
   std::size_t followed = 0;
   for (std::size_t robot = 0; robot < previous.kept.size(); ++robot) {
     if (!previous.kept[robot]) continue;
     Trajectory trajectory = previous_trajectory(state.instance().robot(robot));
-    // The checker has accepted all that are kept together.
-    const auto all_kept = [&](const std::vector<std::size_t>& robots) {
-      return std::all_of(robots.begin(), robots.end(), [&](auto other) { return previous.kept[other]; });
-    };
-    if (!all_kept(state.conflicting_robots(robot, trajectory)) ||
-        !all_kept(state.robots_committed_against(robot, trajectory))) {
-      continue;
-    }
+    // The checker has accepted all that are kept together, and against what all robots are committed to.
+    const auto is_kept = [&](std::size_t other) { return bool(previous.kept[other]); };
+    const std::vector<std::size_t> others = state.conflicting_robots(robot, trajectory);
+    if (!certain.contains(robot) && !std::all_of(others.begin(), others.end(), is_kept)) continue;
     state.follow(robot, std::move(trajectory));
     ++followed;
   }

@@ -18,17 +18,21 @@ namespace {
 class PlansThatHold {
  public:
   PlansThatHold(const Problem& problem, const PlanOptions& options, const StopCondition& stop,
-                LeftOut left_out)
-      : robots_(problem.robots()), problem_(problem), options_(options), stop_(stop), left_out_(left_out) {}
+                LeftOut left_out, std::vector<bool> candidates)
+      : robots_(problem.robots()),
+        problem_(problem),
+        options_(options),
+        stop_(stop),
+        left_out_(left_out),
+        kept_(std::move(candidates)) {}
 
   KeptPlans run() {
-    for (const Robot& robot : robots_) kept_.push_back(robot.goal.has_value() && !robot.invalid);
     while (true) {
       const auto report = check();
       if (!report) return {std::vector<bool>(robots_.size(), false), true};
       const bool left_some_out = leave_out(*report);
       // Without its plan, a robot that need not stay conflicts with no other.
-      const bool is_final = left_out_ == LeftOut::unknown && is_complete(*report);
+      const bool is_final = left_out_ == LeftOut::unknown && is_complete(*report) && !has_margins(*report);
       if (!left_some_out || is_final) return {std::move(kept_), false};
     }
   }
@@ -55,6 +59,12 @@ class PlansThatHold {
     return report.violations.size() == report.violation_count && report.violation_count < kMostCollisions;
   }
 
+  /// Of these, only the deepest of each pair is listed, so a conflict with committed motion may be hidden.
+  static bool has_margins(const VerifyReport& report) {
+    return std::any_of(report.violations.begin(), report.violations.end(),
+                       [](const Violation& found) { return found.kind == Violation::Kind::margin; });
+  }
+
   bool may_move(std::size_t robot) const { return robots_[robot].goal && !robots_[robot].invalid; }
   bool stays(std::size_t robot) const {
     return !may_move(robot) || (left_out_ == LeftOut::stay && !kept_[robot]);
@@ -68,6 +78,9 @@ class PlansThatHold {
     for (const Violation& violation : report.violations) {
       if (violation.robots.size() == 1) continue;
       const Pair pair{violation.robots[0], violation.robots[1]};
+      if (is_unavoidable(violation, pair.first, pair.second) ||
+          is_unavoidable(violation, pair.second, pair.first))
+        continue;
       (stays(pair.first) || stays(pair.second) ? staying : conflicts).push_back(pair);
     }
     for (const Violation& violation : report.violations) leave_out_alone(violation);
@@ -84,8 +97,22 @@ class PlansThatHold {
       return;
     }
     const std::size_t other = violation.robots[1];
-    if (violation.t < robots_[other].committed_until()) kept_[robot] = false;
-    if (violation.t < robots_[robot].committed_until()) kept_[other] = false;
+    if (is_with_commitment(violation, other)) kept_[robot] = false;
+    if (is_with_commitment(violation, robot)) kept_[other] = false;
+  }
+
+  /// Whether the one is in the way of what the other is committed to, with or without its plan. A plan that
+  /// comes nearer still is to blame itself.
+  bool is_unavoidable(const Violation& violation, std::size_t staying, std::size_t committed) const {
+    const double until = robots_[committed].committed_until();
+    return stays(staying) && violation.t_begin && *violation.t_begin >= robots_[staying].committed_until() &&
+           *violation.t_begin < until && violation.t <= until + kMostTolerance;
+  }
+
+  /// A margin is kept from all that a robot without a plan does, except where it stays.
+  bool is_with_commitment(const Violation& violation, std::size_t robot) const {
+    if (violation.kind == Violation::Kind::margin && !kept_[robot]) return true;
+    return violation.t_begin.value_or(violation.t) < robots_[robot].committed_until();
   }
 
   /// Of conflicting plans, keeps those with the higher priorities.
@@ -128,7 +155,14 @@ class PlansThatHold {
 KeptPlans keep_previous_plans(const Problem& problem, const PlanOptions& options, const StopCondition& stop,
                               LeftOut left_out) {
   if (!have_previous_plans(problem.robots())) return {};
-  return PlansThatHold(problem, options, stop, left_out).run();
+  std::vector<bool> all;
+  for (const Robot& robot : problem.robots()) all.push_back(robot.goal.has_value() && !robot.invalid);
+  return PlansThatHold(problem, options, stop, left_out, std::move(all)).run();
+}
+
+KeptPlans keep_if_others_stay(const Problem& problem, const PlanOptions& options, const KeptPlans& previous,
+                              const StopCondition& stop) {
+  return PlansThatHold(problem, options, stop, LeftOut::stay, previous.kept).run();
 }
 
 }  // namespace fleetplan::core

@@ -32,4 +32,8 @@ enum class LeftOut : std::uint8_t {
 KeptPlans keep_previous_plans(const Problem& problem, const PlanOptions& options, const StopCondition& stop,
                               LeftOut left_out = LeftOut::unknown);
 
+/// Of plans that are kept, those that hold also if all other robots stay at their starts or committed ends.
+KeptPlans keep_if_others_stay(const Problem& problem, const PlanOptions& options, const KeptPlans& previous,
+                              const StopCondition& stop);
+
 }  // namespace fleetplan::core

@@ -7,9 +7,9 @@
 
 #include "core/bounds/lower_bound.h"
 #include "core/meetings.h"
+#include "core/model/motion_of.h"
 #include "core/model/served_goals.h"
 #include "core/model/unplanned_invalid.h"
-#include "core/motion.h"
 #include "core/replan/kept_plans.h"
 #include "core/replan/previous_plan.h"
 
@@ -23,11 +23,6 @@ KeptPlans plans_that_are_safe(const Problem& problem, const PlanOptions& options
   } catch (const std::bad_alloc&) {
     return {};
   }
-}
-
-Motion motion_of(const Robot& robot, const PlanOptions& options) {
-  return {robot.radius + options.inflation, robot.linear_speed, robot.angular_speed,
-          options.wait_before_move};
 }
 
 }  // namespace
@@ -58,7 +53,9 @@ Plan plan_without_search(const Problem& problem, const PlanOptions& options, con
     plan.lower_bound.makespan = std::max(plan.lower_bound.makespan, kept.lower_bound);
     plan.plans.push_back(std::move(kept));
   }
-  plan.unavoidable = unavoidable_meetings(problem, planned).meetings;
+  UnavoidableMeetings found = unavoidable_meetings(problem, planned, stop);
+  plan.unavoidable = std::move(found.meetings);
+  plan.meetings_known = found.finished;
   plan.deterministic = false;
   return plan;
 }

@@ -20,10 +20,10 @@ namespace fleetplan::core {
 struct Endpoints {
   Position start{0.0, 0.0};
   std::optional<Position> goal;
-  double radius = 0.0;          // metres, inflation included
+  double radius = 0.0;          // metres, inflation and vicinity included
   double start_rounding = 0.0;  // metres
   double goal_rounding = 0.0;   // metres
-  double inflation = 0.0;       // metres, a part of the radius
+  double inflation = 0.0;       // metres, with the vicinity; a part of the radius
 };
 
 /// Where a robot stands, or moves from or to.

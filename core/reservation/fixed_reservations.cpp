@@ -52,7 +52,7 @@ class FixedReservations::Collector {
       from_start = from_start && is_same_position(segment.path.from, robot.start);
       const Endpoint endpoint =
           contacts != nullptr ? contacts->endpoint(index, segment.path) : Endpoint::none;
-      add(segment, robot.radius + inflation, {index, false, from_start, endpoint});
+      add(segment, robot.radius + inflation + robot.vicinity, {index, false, from_start, endpoint});
     }
   }
 
@@ -69,7 +69,7 @@ FixedReservations::FixedReservations(double width, double height, double inflati
     : robots_(std::move(robots)) {
   double largest = 0.0;
   for (const Robot& robot : robots_) {
-    largest = std::max(largest, robot.radius + inflation);
+    largest = std::max(largest, robot.radius + inflation + robot.vicinity);
     if (!robot.committed.empty()) empty_ = false;
   }
   for (const MovingObstacle& obstacle : obstacles) obstacle_radii_.push_back(obstacle.radius);

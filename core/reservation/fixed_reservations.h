@@ -17,11 +17,12 @@ class FixedReservations {
  public:
   /// A robot's committed motion, and where it begins what is planned for it.
   struct Robot {
-    double radius = 0.0;                  // metres, inflation not included
+    double radius = 0.0;                  // metres, inflation and vicinity not included
     Position start{0.0, 0.0};             // at t = 0
     Position departure{0.0, 0.0};         // at `t_departure`: the end of the committed motion, or the start
     double t_departure = 0.0;             // seconds
     std::vector<TimedSegment> committed;  // contiguous, from t = 0 to `t_departure`
+    double vicinity = 0.0;                // metres
   };
   /// A part of the motion of an obstacle or of a robot.
   struct Occupant {

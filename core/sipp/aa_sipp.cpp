@@ -73,13 +73,17 @@ void Search::expand(LabelId id) {
   if (last_stage_ > 0 && serve(id)) return;
   const Label& label = state_.labels[id];
   const int before = label.by_translation ? place_at(label.parent).vertex : -1;
+  const bool reversed = label.reverse;
   const int stage = place_at(id).stage;
   if (vertices_.any_angle()) offer_goal(id);
   vertices_.for_each_neighbour(place_at(id).vertex, [&](int neighbour) {
     const PlaceId target = place_of(neighbour, stage);
     if (state_.places[target].never_safe()) return;
+    // A shortcut replaces two moves forwards, or two backwards.
     const bool with_shortcut = vertices_.any_angle() && before >= 0 && neighbour != before;
-    offer_from(add_edge(id, target, with_shortcut), state_.places[target].first_interval);
+    const int interval = state_.places[target].first_interval;
+    offer_from(add_edge(id, target, with_shortcut && !reversed, false), interval);
+    if (motion_.may_reverse) offer_from(add_edge(id, target, with_shortcut && reversed, true), interval);
   });
 }
 
@@ -108,14 +112,19 @@ bool Search::serve(LabelId id) {
 /// which the robot may stay.
 void Search::offer_goal(LabelId from) {
   const PlaceId place = state_.labels[from].place;
-  const int stage = state_.places[place].stage;
   if (place == state_.goal || !state_.places[place].estimate.straight) return;
+  offer_goal(from, false);
+  if (motion_.may_reverse) offer_goal(from, true);
+}
+
+void Search::offer_goal(LabelId from, bool reverse) {
+  const int stage = place_at(from).stage;
   if (stage != last_stage_) {
     const PlaceId goal = goal_of(stage);
-    return offer_from(add_edge(from, goal, false), state_.places[goal].first_interval);
+    return offer_from(add_edge(from, goal, false, reverse), state_.places[goal].first_interval);
   }
   const int last = state_.places[state_.goal].end_interval - 1;
-  offer(add_edge(from, state_.goal, false), EdgeKind::local, last, false);
+  offer(add_edge(from, state_.goal, false, reverse), EdgeKind::local, last, false);
 }
 
 /// Offers the move into the first safe interval of the edge's target, from `interval` on, that the shortcut
@@ -168,8 +177,8 @@ void Search::push_timed(OpenEntry entry, double f_lower_bound) {
 LabelId Search::settle(const OpenEntry& entry) {
   const Edge& edge = state_.edges[entry.edge];
   return add_label({entry.arrival, edge.move(entry.kind).heading, entry.departure,
-                    source_of(edge, entry.kind), edge.target, entry.interval,
-                    entry.kind != EdgeKind::service});
+                    source_of(edge, entry.kind), edge.target, entry.interval, entry.kind != EdgeKind::service,
+                    edge.move(entry.kind).reverse});
 }
 
 /// Adds a label. If it is in the last safe interval of the goal, it is the result.
@@ -179,19 +188,19 @@ LabelId Search::add_label(const Label& label) {
   return id;
 }
 
-EdgeId Search::add_edge(LabelId via, PlaceId target, bool with_shortcut) {
-  const Move local = move_between(via, target);
-  const Move shortcut = with_shortcut ? move_between(state_.labels[via].parent, target) : Move{};
+EdgeId Search::add_edge(LabelId via, PlaceId target, bool with_shortcut, bool reverse) {
+  const Move local = move_between(via, target, reverse);
+  const Move shortcut = with_shortcut ? move_between(state_.labels[via].parent, target, reverse) : Move{};
   return state_.edges.push_back(
       {local, shortcut, via, target, with_shortcut ? Edge::Sight::unknown : Edge::Sight::blocked});
 }
 
-inline Move Search::move_between(LabelId from, PlaceId target) const {
+inline Move Search::move_between(LabelId from, PlaceId target, bool reverse) const {
   const Label& label = state_.labels[from];
-  const MoveSource source{label.arrival, label.heading, label.by_translation,
+  const MoveSource source{label.arrival, label.heading, label.by_translation, label.reverse,
                           state_.intervals[label.interval]};
   const Displacement d = vertices_.between(place_at(from).vertex, state_.places[target].vertex);
-  return timing_.move(source, d.heading, d.length);
+  return timing_.move(source, d.heading, d.length, reverse);
 }
 
 /// Labels and expands the start, unless the robot cannot be there or the goal is out of bound.
@@ -209,7 +218,7 @@ void Search::label_start() {
   const double served = space_.itinerary().service_done;
   if (!(evaluate(start, interval, t, heading).cost - served < limits_.bound)) return;
   state_.dominance.add(interval, t, heading);
-  const LabelId label = add_label({t, heading, t, LabelId::none, start, interval, false});
+  const LabelId label = add_label({t, heading, t, LabelId::none, start, interval, false, false});
   if (state_.goal_label == LabelId::none) expand(label);
 }
 
@@ -267,8 +276,7 @@ inline Search::Evaluation Search::evaluate(PlaceId place, int interval, double a
 /// the last goal if that has none; without other robots.
 inline double Search::to_go(PlaceId place, double heading) const {
   const CostToGo::Estimate& estimate = state_.places[place].estimate;
-  if (state_.places[place].any_heading) return estimate.seconds;
-  return estimate.seconds + motion_.rotation_time(heading, estimate.heading);
+  return state_.places[place].any_heading ? estimate.seconds : estimate.with_rotation(heading, motion_);
 }
 
 SearchResult AaSipp::run(std::size_t robot, SearchSpace& space, const SearchLimits& limits,

@@ -28,7 +28,8 @@ class CostToGo::BackwardSearch {
         goal_heading_(vertices.goals()[goal].heading),
         start_(goal == 0 ? vertices.start_pose().position
                          : vertices.position(vertices.goals()[goal - 1].vertex)),
-        nodes_(static_cast<std::size_t>(vertices.count())) {
+        nodes_(static_cast<std::size_t>(vertices.count())),
+        reverse_seconds_(motion_.may_reverse ? static_cast<std::size_t>(vertices.count()) : 0) {
     node(goal_).state = State::closed;
     vertices_.for_each_neighbour(goal_, [&](int vertex) { relax(vertex, goal_); });
   }
@@ -45,7 +46,7 @@ class CostToGo::BackwardSearch {
       if (step % kStopStride == kStopStride - 1 && stop.met()) return via(vertex, goal_);
       expand_best();
     }
-    return {n.seconds, n.heading, false};
+    return {n.seconds, n.heading, false, reverse_seconds(vertex)};
   }
 
   std::optional<bool> reaches(int vertex, std::int64_t max_expansions, const StopCondition& stop) {
@@ -61,7 +62,7 @@ class CostToGo::BackwardSearch {
   }
 
   std::int64_t expansions() const { return expansions_; }
-  std::size_t bytes() const { return nodes_.bytes(); }
+  std::size_t bytes() const { return nodes_.bytes() + reverse_seconds_.bytes(); }
 
  private:
   enum class State : std::uint8_t { unseen, open, closed };
@@ -81,7 +82,14 @@ class CostToGo::BackwardSearch {
   };
 
   Node& node(int vertex) { return nodes_[static_cast<std::size_t>(vertex)]; }
+  double reverse_seconds(int vertex) {
+    return motion_.may_reverse ? reverse_seconds_[static_cast<std::size_t>(vertex)] : kForever;
+  }
+  /// Of a vertex that was reached.
+  double least(const Node& node, int vertex) { return std::min(node.seconds, reverse_seconds(vertex)); }
+  void set(Node& node, int vertex, int next, const Estimate& estimate);
   Estimate via(int vertex, int next);
+  void add_onward(Estimate& estimate, int next);
   bool goal_in_sight(int vertex);
   void relax(int vertex, int next);
   void close(int vertex);
@@ -93,6 +101,7 @@ class CostToGo::BackwardSearch {
   const std::optional<double> goal_heading_;
   const Position start_;  // or the goal before; the search is directed there
   PagedArray<Node> nodes_;
+  PagedArray<double> reverse_seconds_;  // see Estimate; of a robot that may reverse
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
   std::int64_t expansions_ = 0;
 };
@@ -103,6 +112,10 @@ CostToGo::Estimate CostToGo::BackwardSearch::via(int vertex, int next) {
   Estimate estimate;
   estimate.heading = d.heading;
   estimate.seconds = motion_.translation_time(d.length) + motion_.wait_before_move;
+  if (motion_.may_reverse) {
+    add_onward(estimate, next);
+    return estimate;
+  }
   if (next != goal_) {
     const Node& onward = node(next);
     estimate.seconds += onward.seconds + motion_.rotation_time(estimate.heading, onward.heading);
@@ -112,6 +125,36 @@ CostToGo::Estimate CostToGo::BackwardSearch::via(int vertex, int next) {
     estimate.seconds += motion_.rotation_time(estimate.heading, *goal_heading_);
   }
   return estimate;
+}
+
+/// Adds the cost from `next` on to that of the translation there, forwards and backwards.
+void CostToGo::BackwardSearch::add_onward(Estimate& estimate, int next) {
+  const double back = opposite_heading(estimate.heading);
+  const double translation = estimate.seconds;
+  if (next == goal_) {
+    estimate.reverse_seconds = translation;
+    if (!goal_heading_) return;
+    estimate.seconds += motion_.rotation_time(estimate.heading, *goal_heading_);
+    estimate.reverse_seconds += motion_.rotation_time(back, *goal_heading_);
+    return;
+  }
+  const Node& n = node(next);
+  const Estimate onward{n.seconds, n.heading, false, reverse_seconds(next)};
+  estimate.seconds = translation + onward.with_rotation(estimate.heading, motion_);
+  estimate.reverse_seconds = translation + onward.with_rotation(back, motion_);
+  if (motion_.wait_before_move <= 0.0 || angle_between(estimate.heading, n.heading) > kSameHeading) return;
+  // A translation that goes on is one.
+  estimate.seconds = std::min(estimate.seconds, translation + onward.seconds - motion_.wait_before_move);
+  estimate.reverse_seconds =
+      std::min(estimate.reverse_seconds, translation + onward.reverse_seconds - motion_.wait_before_move);
+}
+
+/// Makes the translation to `next` the first one from the vertex.
+void CostToGo::BackwardSearch::set(Node& n, int vertex, int next, const Estimate& estimate) {
+  n.seconds = estimate.seconds;
+  n.heading = estimate.heading;
+  n.next = next;
+  if (motion_.may_reverse) reverse_seconds_[static_cast<std::size_t>(vertex)] = estimate.reverse_seconds;
 }
 
 bool CostToGo::BackwardSearch::goal_in_sight(int vertex) {
@@ -127,13 +170,11 @@ void CostToGo::BackwardSearch::relax(int vertex, int next) {
   Node& n = node(vertex);
   if (n.state == State::closed) return;
   const Estimate estimate = via(vertex, next);
-  if (n.state == State::open && estimate.seconds >= n.seconds) return;
+  if (n.state == State::open && estimate.least() >= least(n, vertex)) return;
   n.state = State::open;
-  n.seconds = estimate.seconds;
-  n.heading = estimate.heading;
-  n.next = next;
+  set(n, vertex, next, estimate);
   const double to_start = motion_.translation_time((vertices_.position(vertex) - start_).norm());
-  open_.push({estimate.seconds + to_start, estimate.seconds, vertex});
+  open_.push({estimate.least() + to_start, estimate.least(), vertex});
 }
 
 void CostToGo::BackwardSearch::close(int vertex) {
@@ -142,14 +183,11 @@ void CostToGo::BackwardSearch::close(int vertex) {
   const bool free = n.next == goal_ ? goal_in_sight(vertex) : vertices_.in_sight(vertex, n.next);
   if (free) return;
   // Lazy Theta* (Nash, Koenig, Tovey, AAAI 2010): only now is it known that the shortcut is blocked.
-  n.seconds = kForever;
+  set(n, vertex, n.next, {kForever, n.heading, false});
   vertices_.for_each_neighbour(vertex, [&](int neighbour) {
     if (neighbour != goal_ && node(neighbour).state != State::closed) return;
     const Estimate estimate = via(vertex, neighbour);
-    if (estimate.seconds >= n.seconds) return;
-    n.seconds = estimate.seconds;
-    n.heading = estimate.heading;
-    n.next = neighbour;
+    if (estimate.least() < least(n, vertex)) set(n, vertex, neighbour, estimate);
   });
 }
 
@@ -158,7 +196,7 @@ void CostToGo::BackwardSearch::expand_best() {
   const Open best = open_.top();
   open_.pop();
   Node& n = node(best.vertex);
-  if (n.state == State::closed || best.seconds > n.seconds) return;
+  if (n.state == State::closed || best.seconds > least(n, best.vertex)) return;
   close(best.vertex);
   const int next = vertices_.any_angle() ? n.next : best.vertex;
   vertices_.for_each_neighbour(best.vertex, [&](int neighbour) { relax(neighbour, next); });

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 
+#include "core/geometry/angle.h"
+#include "core/geometry/segment.h"
+#include "core/motion.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
@@ -15,13 +19,23 @@ class Vertices;
 /// of the goal it is the cost of the straight line. Elsewhere it comes from a backward search from the goal
 /// (Lazy Theta*; Nash, Koenig and Tovey, AAAI 2010; rotations included) that is resumed when it has not
 /// reached the vertex yet. It is the cost of an existing path, so it may exceed the optimum: it guides the
-/// search and is not a lower bound.
+/// search and is not a lower bound. A robot that may reverse has the cost with either first translation.
 class CostToGo {
  public:
   struct Estimate {
     double seconds = 0.0;   // without the rotation to `heading`; kForever if there is no path
-    double heading = 0.0;   // of the first translation
+    double heading = 0.0;   // of the first translation, forwards
     bool straight = false;  // the goal is in sight
+    /// The same if the first translation is backwards, with the opposite heading; kForever for a robot that
+    /// does not reverse.
+    double reverse_seconds = kForever;
+
+    double least() const { return std::min(seconds, reverse_seconds); }
+    double with_rotation(double from_heading, const Motion& motion) const {
+      const double ahead = seconds + motion.rotation_time(from_heading, heading);
+      if (reverse_seconds == kForever) return ahead;
+      return std::min(ahead, reverse_seconds + motion.rotation_time(from_heading, opposite_heading(heading)));
+    }
   };
 
   /// To the goal with this index in Vertices::goals(). `vertices` outlives this object.

@@ -16,16 +16,18 @@ namespace fleetplan::core {
 struct MoveSource {
   double arrival = 0.0;  // seconds
   double heading = 0.0;
-  bool by_translation = false;  // it arrived by a translation along `heading`
+  bool by_translation = false;  // it arrived by a translation along `heading`, or
+  bool reverse = false;         // backwards
   SafeInterval interval;        // during which it may stand there
 };
 
 /// A straight move from a source, into any safe interval of its target.
 struct Move {
-  double heading = 0.0;
+  double heading = 0.0;             // of the robot
   double duration = 0.0;            // seconds, > 0
   double ready = 0.0;               // earliest departure after the rotation and the added wait
   double latest = 0.0;              // latest departure: the end of the source's safe interval
+  bool reverse = false;             // backwards
   bool continues_straight = false;  // without added wait, from `arrival` on; see EdgeTiming
   double arrival = kForever;        // of the robot at the source
 };
@@ -40,15 +42,18 @@ class EdgeTiming {
   EdgeTiming(const Motion& motion, const ReservationTable& table, std::size_t robot)
       : motion_(motion), table_(table), robot_(robot) {}
 
-  /// The move by `distance` metres (> 0) along `heading`.
-  Move move(const MoveSource& from, double heading, double distance) const {
+  /// The move by `distance` metres (> 0) along `direction`, for which a robot that reverses has the opposite
+  /// heading.
+  Move move(const MoveSource& from, double direction, double distance, bool reverse = false) const {
     Move move;
-    move.heading = heading;
+    move.heading = reverse ? opposite_heading(direction) : direction;
+    move.reverse = reverse;
     move.duration = motion_.translation_time(distance);
-    move.ready = from.arrival + motion_.rotation_time(from.heading, heading) + motion_.wait_before_move;
+    move.ready = from.arrival + motion_.rotation_time(from.heading, move.heading) + motion_.wait_before_move;
     move.latest = from.interval.end;
-    move.continues_straight = from.by_translation && motion_.wait_before_move > 0.0 &&
-                              angle_between(from.heading, heading) <= kSameHeading;
+    move.continues_straight = from.by_translation && from.reverse == reverse &&
+                              motion_.wait_before_move > 0.0 &&
+                              angle_between(from.heading, move.heading) <= kSameHeading;
     move.arrival = from.arrival;
     return move;
   }

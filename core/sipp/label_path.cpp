@@ -51,6 +51,7 @@ Trajectory trajectory_of(const SearchState& state, const SearchSpace& space) {
       continue;
     }
     const bool continues = from.by_translation && to.departure == from.arrival &&
+                           from.reverse == to.reverse &&
                            angle_between(from.heading, to.heading) <= kSameHeading;
     if (continues) {
       trajectory.moves.back().path.to = place_of(to).position;
@@ -58,6 +59,10 @@ Trajectory trajectory_of(const SearchState& state, const SearchSpace& space) {
     } else {
       trajectory.moves.push_back(
           {{place_of(from).position, place_of(to).position}, to.departure, to.arrival});
+      if (to.reverse) {
+        trajectory.reverse.resize(trajectory.moves.size(), false);
+        trajectory.reverse.back() = true;
+      }
     }
   }
   const Label& last = state.labels[path.back()];

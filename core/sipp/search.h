@@ -67,12 +67,13 @@ class Search {
   void expand(LabelId id);
   bool serve(LabelId id);
   void offer_goal(LabelId from);
+  void offer_goal(LabelId from, bool reverse);
   void offer_from(EdgeId id, int interval);
   bool offer(EdgeId id, EdgeKind kind, int interval, bool next_interval_follows);
   void push_timed(OpenEntry entry, double f_lower_bound);
 
-  EdgeId add_edge(LabelId via, PlaceId target, bool with_shortcut);
-  Move move_between(LabelId from, PlaceId target) const;
+  EdgeId add_edge(LabelId via, PlaceId target, bool with_shortcut, bool reverse);
+  Move move_between(LabelId from, PlaceId target, bool reverse) const;
   void test_sight(Edge& edge) const;
   std::optional<double> earliest_departure(const OpenEntry& entry);
   bool is_dominated(int interval, double arrival, double heading, double f);

@@ -62,6 +62,7 @@ PlaceId Search::place_of(int vertex, int stage) {
   if (vertex != at.goal.vertex) {
     place.estimate = space_.cost_to_go(static_cast<std::size_t>(stage)).from(vertex, stop_);
     place.estimate.seconds += at.after;
+    place.estimate.reverse_seconds += at.after;
   } else {
     place.estimate = {at.after, at.goal.heading.value_or(0.0), false};
     place.any_heading = !at.goal.heading;

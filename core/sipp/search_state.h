@@ -39,6 +39,7 @@ struct Label {
   PlaceId place;
   int interval;
   bool by_translation;  // from the parent; otherwise the parent's stage ends here
+  bool reverse;         // backwards
 };
 
 /// The two ways to reach a place when a label is expanded: a local move from the label or, any-angle, a

@@ -15,7 +15,7 @@ double estimated_leg(SearchSpace& space, std::size_t from, const StopCondition& 
     return here.heading && next.heading ? motion.rotation_time(*here.heading, *next.heading) : 0.0;
   }
   const CostToGo::Estimate estimate = space.cost_to_go(from + 1).from(here.vertex, stop);
-  return estimate.seconds + (here.heading ? motion.rotation_time(*here.heading, estimate.heading) : 0.0);
+  return here.heading ? estimate.with_rotation(*here.heading, motion) : estimate.least();
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ double estimated_end(SearchSpace& space, const StopCondition& stop) {
   const Stage& first = stages[0];
   const int start = space.vertices().start();
   const bool leaves = start != first.goal.vertex;
-  const double leg = leaves ? space.cost_to_go(0).from(start, stop).seconds : 0.0;
+  const double leg = leaves ? space.cost_to_go(0).from(start, stop).least() : 0.0;
   return std::max(first.release, space.itinerary().t_begin + leg + first.after);
 }
 

@@ -6,6 +6,8 @@
 #include "core/geometry/same_position.h"
 #include "core/geometry/tolerance.h"
 #include "core/instance.h"
+#include "core/map/refinement.h"
+#include "core/sipp/way_to_lattice.h"
 
 namespace fleetplan::core {
 namespace {
@@ -20,8 +22,10 @@ constexpr double kLongestLink = 12.0;
 Vertices::Vertices(const Instance& instance, std::size_t robot)
     : motion_(instance.motion(robot)),
       lattice_(instance.lattice()),
-      sight_(instance.sight()),
-      moves_(instance.moves(robot)),
+      grid_(instance.problem().grid()),
+      space_(instance.free_space(robot)),
+      finer_(space_.finer()),
+      first_own_(lattice_.vertex_count() + finer_.count()),
       any_angle_(instance.options().any_angle),
       start_pose_(instance.itinerary(robot).pose),
       start_(add_start(instance, robot)) {
@@ -38,7 +42,7 @@ int Vertices::add_start(const Instance& instance, std::size_t robot) {
   const Position& position = start_pose_.position;
   const double radius = instance.radius_at_start(robot);
   const double deficit = std::max(motion_.radius - radius, instance.contacts().deficit(robot));
-  const int vertex = lattice_.vertex_at(position);
+  const int vertex = vertex_at(position);
   if (vertex >= 0 && radius == motion_.radius && deficit <= kContactTolerance) return vertex;
   // Two metres for one that is missing: the way need not lead straight away from the others.
   const double reach = std::min(kLinkDistance * lattice_.spacing() + 2.0 * deficit,
@@ -46,34 +50,53 @@ int Vertices::add_start(const Instance& instance, std::size_t robot) {
   return add({position, radius, deficit <= kContactTolerance ? kForever : reach, {}}, reach);
 }
 
+int Vertices::vertex_at(const Position& position) const {
+  const int vertex = lattice_.vertex_at(position);
+  if (vertex >= 0 || finer_.count() == 0) return vertex;
+  const std::vector<int> near = finer_.near(position, kSamePosition);
+  return near.empty() ? -1 : near.front();
+}
+
 int Vertices::own_vertex_at(const Position& position) const {
   const auto own = std::find_if(own_.begin(), own_.end(), [&](const OwnVertex& vertex) {
     return is_same_position(vertex.position, position);
   });
-  return own == own_.end() ? -1 : lattice_.vertex_count() + static_cast<int>(own - own_.begin());
+  return own == own_.end() ? -1 : first_own_ + static_cast<int>(own - own_.begin());
 }
 
 int Vertices::add_goal(const Instance& instance, std::size_t robot, const Position& position) {
   const double radius = instance.radius_at_goal(robot, position);
-  const int vertex = lattice_.vertex_at(position);
+  const int vertex = vertex_at(position);
   if (vertex >= 0 && radius == motion_.radius) return vertex;
   const int own = own_vertex_at(position);
   if (own >= 0) return own;
   return add({position, radius, kForever, {}}, kLinkDistance * lattice_.spacing());
 }
 
-int Vertices::add(OwnVertex own, double reach) {
-  for (const int near : lattice_.vertices_near(own.position, reach)) {
-    const Position to = lattice_.position(near);
+int Vertices::add(const OwnVertex& own, double reach) {
+  const int id = add_linked(own, reach);
+  if (!own_.back().links.empty() || !may_need_refinement(grid_, lattice_, motion_.radius)) return id;
+  const FineLattice nodes(grid_, lattice_, motion_.radius);
+  for (const Position& place : way_to_lattice(own.position, own.radius, nodes, lattice_, space_)) {
+    add_linked({place, motion_.radius, kForever, {}}, reach);
+  }
+  return id;
+}
+
+int Vertices::add_linked(OwnVertex own, double reach) {
+  std::vector<int> all = lattice_.vertices_near(own.position, reach);
+  for (const int near : finer_.near(own.position, reach)) all.push_back(near);
+  for (const int near : all) {
+    const Position to = position(near);
     if (is_same_position(to, own.position)) continue;
-    const bool clear = own.radius == motion_.radius || sight_.disk_fits(to, motion_.radius);
+    const bool clear = own.radius == motion_.radius || space_.disk_fits(to, motion_.radius);
     if (clear && may_move(own, to, motion_.radius)) own.links.push_back(near);
   }
   const int id = count();
   for (std::size_t k = 0; k < own_.size(); ++k) {  // start and goal near each other
     const bool near = (own_[k].position - own.position).norm() <= reach;
     if (!near || !may_move(own, own_[k].position, own_[k].radius)) continue;
-    own.links.push_back(lattice_.vertex_count() + static_cast<int>(k));
+    own.links.push_back(first_own_ + static_cast<int>(k));
     own_[k].links.push_back(id);
   }
   own_.push_back(std::move(own));
@@ -83,7 +106,7 @@ int Vertices::add(OwnVertex own, double reach) {
 /// `radius`: at the other end.
 bool Vertices::may_move(const OwnVertex& own, const Position& to, double radius) const {
   const bool within_reach = (to - own.position).norm() <= own.reach;
-  return sight_.may_sweep(own.position, to, within_reach ? std::min(own.radius, radius) : motion_.radius);
+  return space_.may_sweep(own.position, to, within_reach ? std::min(own.radius, radius) : motion_.radius);
 }
 
 bool Vertices::linked(const OwnVertex& own, int vertex) {
@@ -93,9 +116,9 @@ bool Vertices::linked(const OwnVertex& own, int vertex) {
 bool Vertices::in_sight(int from, int to) const {
   if (is_own(from)) return may_move(own_[own_index(from)], position(to), radius(to));
   if (is_own(to)) return may_move(own_[own_index(to)], position(from), motion_.radius);
-  return sight_.may_sweep(position(from), position(to), motion_.radius);
+  return space_.may_sweep(position(from), position(to), motion_.radius);
 }
 
-std::uint32_t Vertices::free_steps(int vertex) const { return moves_.from(vertex); }
+std::uint32_t Vertices::free_steps(int vertex) const { return space_.steps_from(vertex); }
 
 }  // namespace fleetplan::core

@@ -6,20 +6,22 @@
 #include <vector>
 
 #include "core/geometry/position.h"
+#include "core/map/finer_vertices.h"
 #include "core/map/lattice.h"
 #include "core/motion.h"
 
 namespace fleetplan::core {
 
 class Instance;
-class LineOfSight;
-class StaticMoves;
+class FreeSpace;
+class OccupancyGrid;
 
 /// One robot's view of the static map: the vertices that it may stop at and the straight moves between them.
-/// Vertices are those of the lattice, and its own start and goals where they lie off the lattice; these are
-/// linked to every lattice vertex in sight within two cells. A start or goal that is too near to a wall or to
-/// another robot's start is an own vertex, too. At such a vertex the robot keeps the distance from walls that
-/// it has there, and from a start it is linked to vertices that are far enough away to be clear.
+/// Vertices are those of the lattice, those that refine it for its radius, and its own start and goals where
+/// they lie off the lattice; these are linked to every lattice vertex in sight within two cells. A start or
+/// goal that is too near to a wall or to another robot's start is an own vertex, too. At such a vertex the
+/// robot keeps the distance from walls that it has there, and from a start it is linked to vertices that are
+/// far enough away to be clear.
 class Vertices {
  public:
   Vertices(const Instance& instance, std::size_t robot);
@@ -29,7 +31,7 @@ class Vertices {
   bool any_angle() const { return any_angle_; }
   double spacing() const { return lattice_.spacing(); }
 
-  int count() const { return lattice_.vertex_count() + static_cast<int>(own_.size()); }
+  int count() const { return first_own_ + static_cast<int>(own_.size()); }
   int start() const { return start_; }
   /// The end of the committed actions, or the robot's start without any.
   const Pose& start_pose() const { return start_pose_; }
@@ -45,13 +47,14 @@ class Vertices {
   int goal() const { return goals_.empty() ? -1 : goals_.back().vertex; }
 
   Position position(int vertex) const {
-    return is_own(vertex) ? own_[own_index(vertex)].position : lattice_.position(vertex);
+    if (vertex < lattice_.vertex_count()) return lattice_.position(vertex);
+    return is_own(vertex) ? own_[own_index(vertex)].position : finer_.position(vertex);
   }
 
   /// From one vertex to another.
   Displacement between(int from, int to) const {
-    if (is_own(from) || is_own(to)) return Displacement::between(position(from), position(to));
-    return lattice_.between(from, to);
+    const bool on_lattice = from < lattice_.vertex_count() && to < lattice_.vertex_count();
+    return on_lattice ? lattice_.between(from, to) : Displacement::between(position(from), position(to));
   }
 
   /// Returns whether obstacles leave the straight line between two vertices free for the robot (paper,
@@ -65,13 +68,16 @@ class Vertices {
       for (const int link : own_[own_index(vertex)].links) visit(link);
       return;
     }
-    std::uint32_t mask = free_steps(vertex);
+    std::uint32_t mask = vertex < lattice_.vertex_count() ? free_steps(vertex) : 0;
     for (std::size_t k = 0; mask != 0; ++k, mask >>= 1) {
       if ((mask & 1u) != 0)
         visit(vertex + lattice_.steps()[k].rows * lattice_.columns() + lattice_.steps()[k].columns);
     }
+    if (!finer_.links().empty()) {
+      for (const auto& [from, to] : finer_.links_from(vertex)) visit(to);
+    }
     for (std::size_t k = 0; k < own_.size(); ++k) {
-      if (linked(own_[k], vertex)) visit(lattice_.vertex_count() + static_cast<int>(k));
+      if (linked(own_[k], vertex)) visit(first_own_ + static_cast<int>(k));
     }
   }
 
@@ -85,25 +91,29 @@ class Vertices {
 
   /// Of the robot's disk there.
   double radius(int vertex) const { return is_own(vertex) ? own_[own_index(vertex)].radius : motion_.radius; }
-  bool is_own(int vertex) const { return vertex >= lattice_.vertex_count(); }
-  std::size_t own_index(int vertex) const {
-    return static_cast<std::size_t>(vertex - lattice_.vertex_count());
-  }
+  bool is_own(int vertex) const { return vertex >= first_own_; }
+  std::size_t own_index(int vertex) const { return static_cast<std::size_t>(vertex - first_own_); }
   static bool linked(const OwnVertex& own, int vertex);
   int add_start(const Instance& instance, std::size_t robot);
   int add_goal(const Instance& instance, std::size_t robot, const Position& position);
+  /// The vertex of the refined lattice at this position, or -1.
+  int vertex_at(const Position& position) const;
   /// An own vertex at this position, or -1.
   int own_vertex_at(const Position& position) const;
   /// Adds an own vertex with links to those within `reach` metres.
-  int add(OwnVertex own, double reach);
+  int add_linked(OwnVertex own, double reach);
+  /// Where that has no links, adds vertices that lead to others, too.
+  int add(const OwnVertex& own, double reach);
   bool may_move(const OwnVertex& own, const Position& to, double radius) const;
   /// Bit k is set if step k of the lattice is free of obstacles.
   std::uint32_t free_steps(int vertex) const;
 
   const Motion& motion_;
   const Lattice& lattice_;
-  const LineOfSight& sight_;
-  StaticMoves& moves_;
+  const OccupancyGrid& grid_;
+  FreeSpace& space_;
+  const FinerVertices& finer_;
+  int first_own_;
   bool any_angle_;
   Pose start_pose_;
   std::vector<OwnVertex> own_;

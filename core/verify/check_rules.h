@@ -8,6 +8,7 @@
 #include "core/model/moving_obstacle.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
+#include "core/model/zone.h"
 #include "core/verify/tolerances.h"
 
 namespace fleetplan::core {
@@ -17,6 +18,7 @@ struct CheckedFleet {
   const OccupancyGrid& grid;
   const std::vector<Robot>& robots;
   const std::vector<MovingObstacle>& obstacles;
+  const std::vector<Zone>* zones = nullptr;  // null: none
 };
 
 /// The rules beside those that hold for all plans. The default is the plainest check.

@@ -60,10 +60,12 @@ class FleetCheck {
     if (plan != nullptr) check_plan(robot, *plan, tolerance);
     fleet_.robots.push_back(index);
     fleet_.radii.push_back(robot.radius);
+    fleet_.vicinities.push_back(robot.vicinity);
     fleet_.tolerances.push_back(tolerance.metres);
     fleet_.legs.push_back(execute(robot, plan));
     fleet_.departures.push_back(departure_of(robot, plan));
     fleet_.invalid.push_back(robot.invalid);
+    fleet_.stays.push_back(plan == nullptr || !robot.goal);
     if (robot.invalid) return;  // it may stand in a wall
     const std::vector<Leg>& legs = fleet_.legs.back();
     const std::vector<double> kept =

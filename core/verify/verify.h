@@ -70,6 +70,7 @@ struct Violation {
   double required = 0.0;            // the limit or required value, same unit
   std::string detail;               // a sentence for people, with units; names no robots by index
   std::optional<std::size_t> obstacle = {};  // of moving_obstacle: its index
+  std::optional<double> t_begin = {};        // of robot_collision: when the overlap begins, seconds
 };
 
 /// The outcome of a check.

@@ -39,7 +39,7 @@ const std::vector<Layer>& layers() {
         "system_clock", "random_device", "rand", "srand", "spdlog", "nlohmann", "httplib"}},
       {"api/",
        {"api/", "core/"},
-       {"nlohmann/"},
+       {"nlohmann/", "png.h"},
        false,
        {"getenv", "cout", "cerr", "clog", "printf", "std::exit", "spdlog", "httplib"}},
       {"server/", {"server/", "api/", "core/"}, {}, true, {"rand", "srand"}},

@@ -53,6 +53,12 @@ Measurement read_answer(const std::string& name, std::size_t robots, const json&
   made.expansions = answer.at("search").at("expansions");
   made.improvements = answer.at("search").at("improvements");
   made.deterministic = answer.at("deterministic");
+  const json& timings = answer.at("timings_ms");
+  const auto step = [&](const char* step_name) { return timings.at(step_name).get<double>() / 1000.0; };
+  made.parse_seconds = step("parse");
+  made.plan_seconds = step("plan");
+  made.verify_seconds = step("verify");
+  made.write_seconds = step("serialize");
   if (made.solved) {
     made.flowtime = answer.at("flowtime").get<double>();
     made.makespan = answer.at("makespan").get<double>();

@@ -23,6 +23,11 @@ struct Measurement {
   std::int64_t expansions = 0;
   std::int64_t improvements = 0;
   bool deterministic = false;
+  /// Seconds of the steps of the last run; 0 if it failed.
+  double parse_seconds = 0.0;
+  double plan_seconds = 0.0;
+  double verify_seconds = 0.0;
+  double write_seconds = 0.0;
   std::string fault;  // what is wrong with the answer; empty if nothing is
 };
 

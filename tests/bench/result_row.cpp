@@ -18,7 +18,8 @@ std::string text(const std::optional<double>& value) {
 
 std::string csv_header() {
   return "file,robots,solved,attempts,seconds,flowtime,makespan,cpu_seconds,peak_memory,planned,lower_bound,"
-         "expansions,improvements,deterministic,valid\n";
+         "expansions,improvements,parse_seconds,plan_seconds,verify_seconds,write_seconds,deterministic,"
+         "valid\n";
 }
 
 std::string csv_row(const Measurement& run) {
@@ -26,7 +27,9 @@ std::string csv_row(const Measurement& run) {
   row << run.file << ',' << run.robots << ',' << run.solved << ',' << run.attempts << ',' << text(run.seconds)
       << ',' << text(run.flowtime) << ',' << text(run.makespan) << ',' << text(run.cpu_seconds) << ','
       << run.peak_memory << ',' << run.planned << ',' << text(run.lower_bound) << ',' << run.expansions << ','
-      << run.improvements << ',' << run.deterministic << ',' << run.fault.empty() << '\n';
+      << run.improvements << ',' << text(run.parse_seconds) << ',' << text(run.plan_seconds) << ','
+      << text(run.verify_seconds) << ',' << text(run.write_seconds) << ',' << run.deterministic << ','
+      << run.fault.empty() << '\n';
   return row.str();
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
@@ -174,6 +175,30 @@ TEST(PlannerCommitted, AnInvalidRobotStandsAsAnObstacle) {
   ASSERT_NE(unplanned(plan, 0), nullptr);
   EXPECT_EQ(static_cast<int>(unplanned(plan, 0)->reason), static_cast<int>(Reason::invalid));
   EXPECT_EQ(plan.plans.size(), 1u);
+}
+
+TEST(PlannerCommitted, AnInvalidRobotBesideTheMapMeetsAnObstacleThere) {
+  Robot wrong = robot_at(-0.8, 1.5);
+  wrong.invalid = true;
+  const Problem problem =
+      with_obstacles(OccupancyGrid(9, 3, 1.0), {wrong}, {person({{0.0, {-0.8, -0.5}}, {4.0, {-0.8, 3.5}}})});
+  EXPECT_EQ(checked_plan(problem).unavoidable.size(), 1u);
+}
+
+TEST(PlannerCommitted, ACommitmentThatEndsInTheWayOfAPreviousPlan) {
+  // Robot 0 comes nearest to robot 1 at the end of its commitment, when robot 1 leaves by its previous plan.
+  Robot leaving = robot_at(4.9, 0.5).to(8.5, 0.5);
+  const Pose place = leaving.start;
+  leaving.committed = {{Action::Type::wait, 0.0, 3.0, place, place}};
+  leaving.previous = {leaving.committed[0],
+                      {Action::Type::wait, 3.0, 4.0, place, place},
+                      {Action::Type::translate, 4.0, 7.6, place, {{8.5, 0.5}, place.theta}}};
+  const Problem problem = support::make_problem(OccupancyGrid(9, 3, 1.0),
+                                                {robot_at(0.5, 0.5).to(0.5, 2.5).drives(4.5, 0.5), leaving});
+  for (const int ms : {0, 1000}) {
+    checked_plan(problem, in_motion(),
+                 StopCondition(StopCondition::Clock::now() + std::chrono::milliseconds(ms)));
+  }
 }
 
 TEST(PlannerCommitted, ARobotPassesWhereAnotherOneWillStayBeforeItArrives) {

@@ -7,8 +7,8 @@ have executed by a reading of the contract of its own.
 
 Each period, every robot executes its plan; who has served its last goal gets new random ones; and the fleet is planned
 again. With --holds N, robots are held for 30 s at N random moments. With --late N, robots fall behind by less than
---margin seconds (options.interval_margin), which their measured poses tell. With --obstacles N, people walk across the
-map.
+--margin seconds (options.interval_margin), and leave their paths by up to --noise metres, which their measured poses
+tell. With --obstacles N, people walk across the map. --options has further options of the requests.
 Exit status 1 if a request was not answered within its budget, a robot was stranded, disks overlapped, or an answer
 contradicts its request. Random choices depend on --seed only. Python standard library only.
 """
@@ -68,19 +68,25 @@ class Service:
 class Places:
     """Where robots may go: centres of cells in which the largest of them fits."""
 
-    def __init__(self, request, replay, rng):
+    def __init__(self, request, replay, rng, parked):
         self.rng, self.radius = rng, max(robot["radius"] for robot in replay.robots.values())
         walls = replay.walls
         self.all = []
         for row in range(walls.height):
             for column in range(walls.width):
                 x, y = walls.x + (column + 0.5) * walls.size, walls.y + (row + 0.5) * walls.size
-                if walls.clearance(x, y, x, y, 2 * self.radius) >= self.radius + 0.01:
+                if walls.clearance(x, y, x, y, 2 * self.radius) < self.radius + 0.01:
+                    continue
+                if self.is_clear(x, y, parked):
                     self.all.append((x, y))
         # Where every robot stops once: nobody rests for ever in a passage that others need.
-        given = [robot[key] for robot in request["robots"] for key in ("start", "goal") if key in robot]
+        given = [pose for robot in request["robots"]
+                 for pose in (robot["start"], robot.get("goal"), *robot.get("goals", ())) if pose]
         self.last = [(pose["x"], pose["y"]) for pose in given
                      if walls.clearance(pose["x"], pose["y"], pose["x"], pose["y"], 2 * self.radius) >= self.radius]
+
+    def is_clear(self, x, y, taken):
+        return all(math.hypot(x - tx, y - ty) > 2 * self.radius + 0.02 for tx, ty in taken)
 
     def goals(self, taken):
         """Some goals on the way, with services, and a last one that is clear of the places taken."""
@@ -88,7 +94,7 @@ class Places:
                for x, y in self.rng.sample(self.all, self.rng.choice((0, 0, 1, 2)))]
         for _ in range(1000):
             x, y = self.rng.choice(self.last)
-            if all(math.hypot(x - tx, y - ty) > 2 * self.radius + 0.02 for tx, ty in taken):
+            if self.is_clear(x, y, taken):
                 return [*way, {"x": x, "y": y, "service": 2.0}]
         raise SystemExit("no place is left for a goal")
 
@@ -99,9 +105,11 @@ class Drive:
     def __init__(self, service, request, options):
         self.service, self.request, self.options = service, request, options
         self.rng = random.Random(options.seed)
-        self.replay = Replay(request)
-        self.places = Places(request, self.replay, self.rng)
-        self.last = {robot["id"]: (robot["goal"]["x"], robot["goal"]["y"]) for robot in request["robots"]}
+        self.replay = Replay(request, options.noise)
+        self.last = {robot["id"]: self.last_goal(robot) for robot in request["robots"] if self.last_goal(robot)}
+        self.parked = [(robot["start"]["x"], robot["start"]["y"]) for robot in request["robots"]
+                       if robot["id"] not in self.last]
+        self.places = Places(request, self.replay, self.rng, self.parked)
         self.holds = {}  # until when, by robot
         self.hold_times = sorted(self.rng.uniform(0.0, options.seconds) for _ in range(options.holds))
         self.late_times = sorted(self.rng.uniform(0.0, options.seconds) for _ in range(options.late))
@@ -112,6 +120,12 @@ class Drive:
         self.without_plan = {}  # since when, by robot
         self.problems = []
         self.people = 0
+
+    @staticmethod
+    def last_goal(robot):
+        """Where it ends, if it has goals."""
+        goals = robot.get("goals", [robot["goal"]] if "goal" in robot else [])
+        return (goals[-1]["x"], goals[-1]["y"]) if goals else None
 
     def run(self):
         answer = self.plan()
@@ -196,12 +210,14 @@ class Drive:
             lag = self.rng.uniform(0.2, 0.9) * self.options.margin
             driving = [(robot, k) for robot, list_ in actions.items() for k, action in enumerate(list_)
                        if action["type"] == "translate" and robot not in self.holds
+                       and all(pose["robot"] != robot for pose in poses)
                        and action["t_start"] < period - lag and action["t_end"] >= period]
             if not driving:
                 continue
             robot, k = self.rng.choice(driving)
             x, y, theta = pose_in(actions[robot][k], period - lag)
-            pose = {"x": x, "y": y, "theta": theta}
+            aside = self.rng.uniform(-1.0, 1.0) * self.options.noise
+            pose = {"x": x - aside * math.sin(theta), "y": y + aside * math.cos(theta), "theta": theta}
             driven = {**actions[robot][k], "t_end": period - lag, "to": pose}
             stop = {"type": "wait", "t_start": period - lag, "t_end": period, "from": pose, "to": pose}
             actions[robot] = [*actions[robot][:k], driven, stop]
@@ -218,7 +234,7 @@ class Drive:
             if self.replay.visits[robot].goals:
                 self.replay.fault(f"{robot} has not served {list(self.replay.visits[robot].goals)}")
             self.count["goals"] += 1
-            others = [place for name, place in self.last.items() if name != robot]
+            others = [*self.parked, *(place for name, place in self.last.items() if name != robot)]
             here = self.replay.poses[robot]
             goals = self.places.goals([*others, here[:2]])
             self.last[robot] = goals[-1]["x"], goals[-1]["y"]
@@ -294,6 +310,7 @@ def instance(options):
         request["options"]["interval_margin"] = options.margin
     if options.replan != "all":
         request["options"]["replan"] = options.replan
+    request["options"].update(options.options)
     return request
 
 
@@ -311,8 +328,10 @@ def arguments(argv=None):
     parser.add_argument("--replan", choices=("all", "where_needed"), default="where_needed")
     parser.add_argument("--holds", type=int, default=0)
     parser.add_argument("--late", type=int, default=0)
+    parser.add_argument("--noise", type=float, default=0.0, help="how far late robots are beside their path, metres")
     parser.add_argument("--margin", type=float, default=0.0)
     parser.add_argument("--obstacles", type=int, default=0)
+    parser.add_argument("--options", type=json.loads, default={}, help="further options of the requests, JSON")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", help="a file for the last request, if the drive fails")
     return parser.parse_args(argv)

@@ -87,7 +87,7 @@ class Drives(unittest.TestCase):
         self.assertLess(done["plans_changed"], done["plans_under_way"] / 5)
 
     def test_late_robots_tell_where_they_are_and_nobody_collides_with_them(self):
-        done = self.drive("--late", "6", "--margin", "0.5")
+        done = self.drive("--late", "6", "--margin", "0.5", "--noise", "0.02", "--options", '{"inflation": 0.03}')
         self.assertEqual(done["late"], 6)
 
 

@@ -67,8 +67,9 @@ class Visits:
 class Replay:
     """Collects the executed motion of a fleet, round after round."""
 
-    def __init__(self, request):
-        self.walls = Walls(request["map"])
+    def __init__(self, request, noise=0.0):
+        """`noise`: how far robots leave their path while they drive, metres. Then their headings are not compared."""
+        self.walls, self.noise = Walls(request["map"]), noise
         self.robots = {}
         for robot in request["robots"]:
             traits = {**request.get("robot_defaults", {}), **robot}
@@ -111,7 +112,8 @@ class Replay:
                 self.fault(f"{robot} has no action from {t} s to {action['t_start']} s")
             begin, end = pose_in(action, action["t_start"]), pose_in(action, min(seconds, action["t_end"]))
             until = min(seconds, action["t_end"])
-            if math.hypot(begin[0] - pose[0], begin[1] - pose[1]) > JUMP or abs(turned(begin[2] - pose[2])) > JUMP:
+            turn = abs(turned(begin[2] - pose[2]))
+            if math.hypot(begin[0] - pose[0], begin[1] - pose[1]) > JUMP or (turn > JUMP and not self.noise):
                 self.fault(f"{robot} jumps from {pose} to {begin}")
             self.check_action(robot, traits, action)
             if action["type"] == "wait":
@@ -133,13 +135,13 @@ class Replay:
         a, b, duration = action["from"], action["to"], action["t_end"] - action["t_start"]
         length = math.hypot(b["x"] - a["x"], b["y"] - a["y"])
         turn = abs(turned(b["theta"] - a["theta"]))
-        if length > traits["linear_speed"] * duration + JUMP or turn > traits["angular_speed"] * duration + JUMP:
+        if length > traits["linear_speed"] * duration + JUMP + self.noise or turn > traits["angular_speed"] * duration + JUMP:
             self.fault(f"{robot} is too fast: {action}")
         if action["type"] == "translate":
             if turn > JUMP:
                 self.fault(f"{robot} turns while it drives: {action}")
             aside = abs(math.cos(a["theta"]) * (b["y"] - a["y"]) - math.sin(a["theta"]) * (b["x"] - a["x"]))
-            if aside > JUMP:
+            if aside > JUMP + self.noise:
                 self.fault(f"{robot} drives {aside} m aside: {action}")
         elif length > JUMP or (action["type"] == "wait" and turn > JUMP):
             self.fault(f"{robot} moves in a {action['type']}: {action}")

@@ -108,6 +108,22 @@ const CASES = {
     request((r) => (r.map.rows[0] = "..?.#")),
     [["/map/rows/0", "bad_map_row"]],
   ],
+  "an image that is cut off": [
+    "/v1/plan",
+    request((r) => (r.map = { image: { pgm: "UDUgOSA5IDI1NQo=", resolution: 1 } })), // a header only
+    [["/map/image/pgm", "bad_image"]],
+  ],
+  "a text that is not a MovingAI map": [
+    "/v1/plan",
+    request((r) => (r.map = { movingai: "....#" })),
+    [["/map/movingai", "bad_movingai"]],
+  ],
+  "an occupancy grid with too few cells": [
+    "/v1/plan",
+    request((r) => (r.map = { occupancy_grid: { info: { resolution: 1, width: 5, height: 2 }, data: [0] } })),
+    [["/map/occupancy_grid/data", "wrong_size"]],
+  ],
+  "a map of two kinds": ["/v1/plan", request((r) => (r.map.movingai = "")), [["/map/movingai", "duplicate"]]],
   "two robots with one id": [
     "/v1/plan",
     request((r) => (r.robots[1].id = "a")),

@@ -16,16 +16,33 @@ const RUNS = Number(process.env.FLEETPLAN_RUNS ?? 1200);
 const SEED = Number(process.env.FLEETPLAN_SEED ?? 2019);
 const MAX_DEPTH = 32;
 
+/** Matches pointers that match one of these patterns. */
+function anyOf(...patterns) {
+  return new RegExp(`^(${patterns.join("|")})$`);
+}
+
 /** Faults that no schema can express, with the places where they may occur. */
 const BEYOND_SCHEMA = {
   duplicate: /^/, // ids, plans for one robot; keys, which a schema never sees
   unknown_robot: /^\/(plans\/\d+\/robot|unavoidable\/\d+\/robots?(\/\d)?)$/,
   bad_map_row: /^\/map\/rows\/\d+$/, // rows of different lengths
-  out_of_range: /^\/(map\/(rows|resolution)|robots|obstacles\/\d+\/motion\/\d+\/t)$/, // settings; sizes; order
-  unknown_key: /\/(committed|previous|actions)\/\d+\/goal$/, // of an action that is no wait
+  bad_image: /^\/map\/image\/(pgm|png)$/,
+  bad_movingai: /^\/map\/movingai$/,
+  wrong_size: /^\/map\/occupancy_grid\/data$/, // of another number of cells
+  out_of_range: anyOf(
+    // settings of the server; sizes in metres; order
+    "/map/(rows|movingai|resolution)",
+    "/map/image/(pgm|png|resolution|occupied_thresh|free_thresh)",
+    "/map/occupancy_grid/info/(width|resolution|origin/orientation)",
+    "/options/lattice_spacing",
+    "/robots",
+    "/obstacles/\\d+/motion/\\d+/t",
+  ),
+  // `goal` of an action that is no wait, `reverse` of one that is no translation
+  unknown_key: /\/(committed|previous|actions)\/\d+\/(goal|reverse)$/,
   unknown_obstacle: /^\/unavoidable\/\d+\/obstacle$/,
   discontinuity: /^\/robots\/\d+\/(committed|previous)\/\d+\/\w+$/,
-  speed: /^\/(robots\/\d+\/(committed|previous)|obstacles\/\d+\/motion)\/\d+$/,
+  speed: /^\/(robots\/\d+\/(committed|previous)\/\d+(\/reverse)?|obstacles\/\d+\/motion\/\d+)$/,
   committed_collision: /^\/robots\/\d+\/committed\/\d+$/,
   start_in_obstacle: /^\/robots\/\d+\/start$/,
   goal_in_obstacle: /^\/robots\/\d+\/goal(s\/\d+)?$/,

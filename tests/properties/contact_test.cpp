@@ -277,7 +277,8 @@ double least_distance(const std::vector<Leg>& a, const std::vector<Leg>& b, doub
     }
     return rest;
   };
-  return *fleet_clearance({later(a), later(b)}, {0.0, 0.0}, {0.0, 0.0}, 0, StopCondition())->least;
+  const std::vector<double> point{0.0, 0.0};
+  return *fleet_clearance({later(a), later(b)}, {point, point}, {0.0, 0.0}, 0, StopCondition())->least;
 }
 
 /// When a robot has made its first translation.

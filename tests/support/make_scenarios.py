@@ -8,11 +8,16 @@ starts and goals clear of walls by the radius, no two starts and no two goals ov
 only. Random numbers come only from random.Random(seed).random(): its values are the same in all Python versions.
 """
 
+import base64
 import json
 import math
 import pathlib
 import random
 import sys
+
+from buildings import HOSPITAL, OFFICE, Building
+from floor import Floor
+from places import Places as BuildingPlaces
 
 PI = 3.141592653589793
 
@@ -31,6 +36,15 @@ class Map:
         made = cls(len(rows[0]), len(rows), resolution)
         made.cells = [list(row) for row in rows]
         return made
+
+    @classmethod
+    def from_json(cls, given):
+        """The map of a request: its rows, or its image as floor.py writes it."""
+        if "rows" in given:
+            return cls.from_picture(given["rows"], given["resolution"])
+        image = given["image"]
+        floor = Floor.from_png(base64.b64decode(image["png"]), image["resolution"])
+        return cls.from_picture(floor.map("rows")["rows"], image["resolution"])
 
     def block(self, column, row, columns=1, rows=1):
         """Blocks a rectangle of cells; (column, row) is its lower left cell, row 0 the bottom one."""
@@ -307,6 +321,37 @@ def charging_docks():
     }
 
 
+def fleet_in(building, kinds, seed, boxes=()):
+    """Robots of the kinds in turn, at random places of a building that do not block it for the widest."""
+    widest = max(kind["radius"] for _, _, kind in kinds)
+    places = BuildingPlaces(building.floor, widest, seed, boxes)
+    names = [(f"{name}-{number + 1}", kind) for number in range(max(count for _, count, _ in kinds))
+             for name, count, kind in kinds if number < count]
+    starts, goals = places.draw(len(names)), places.draw(len(names))
+    return [robot(name, pose(*start, round(places.random.random() * 2.0 * PI - PI, 4)), pose(*goal), **kind)
+            for (name, kind), start, goal in zip(names, starts, goals)]
+
+
+def office_floor():
+    building = Building(OFFICE, 1200, 800, 60)
+    courier = {"radius": 0.25, "linear_speed": 1.2, "angular_speed": 2.5}
+    cleaner = {"radius": 0.35, "linear_speed": 0.6, "angular_speed": 1.5}
+    return {"map": building.floor.map("png"),
+            "robots": fleet_in(building, [("courier", 12, courier), ("cleaner", 6, cleaner)], 60),
+            "options": {"time_budget_ms": 10000}}
+
+
+def hospital_wing():
+    building = Building(HOSPITAL, 1200, 560, 28)
+    meals = {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 2.0}
+    samples = {"radius": 0.2, "linear_speed": 1.5, "angular_speed": 3.0}
+    bed = {"radius": 0.45, "linear_speed": 0.6, "angular_speed": 0.8}
+    kinds = [("meals", 5, meals), ("samples", 4, samples), ("bed", 3, bed)]
+    robots = fleet_in(building, kinds, 28, [room.box for room in building.rooms])
+    return {"map": building.floor.map("png"), "robots": robots,
+            "options": {"time_budget_ms": 10000}}
+
+
 SCENARIOS = [  # in display order
     ("corridor-swap", "Corridor swap", corridor_swap,
      "Two robots swap the ends of a corridor with a single passing bay."),
@@ -324,6 +369,11 @@ SCENARIOS = [  # in display order
      "A hundred robots of three types in an empty hall of 64 m by 64 m, starts and goals at random."),
     ("partly-solvable", "Partly solvable", partly_solvable,
      "One robot is too wide for a door and one has its goal behind a parked robot; the others are served."),
+    ("office-floor", "Office floor", office_floor,
+     "Couriers and cleaners on an office floor of 60 m by 40 m as a robot maps it: cells of 5 cm, doors, furniture, "
+     "speckle, unknown cells."),
+    ("hospital-wing", "Hospital wing", hospital_wing,
+     "Carts, couriers and beds in a wing with two corridors; the map is an image of 5 cm cells."),
 ]
 MOVING = [  # written by make_moving_scenarios.py
     ("crossing-people", "Crossing people",
@@ -340,7 +390,7 @@ MOVING = [  # written by make_moving_scenarios.py
 
 def faults(request):
     """The reasons why a request is invalid: poses in obstacles, overlapping starts or goals, equal ids."""
-    grid = Map.from_picture(request["map"]["rows"], request["map"]["resolution"])
+    grid = Map.from_json(request["map"])
     defaults = request.get("robot_defaults", {})
     found = []
     for member in ("start", "goal"):
@@ -361,8 +411,11 @@ def text(request):
     """The request as JSON with one line for each map row and each robot."""
     def lines(items):
         return ",\n".join("      " + json.dumps(item) for item in items)
-    parts = ['  "map": {{\n    "resolution": {},\n    "rows": [\n{}\n    ]\n  }}'.format(
-        json.dumps(request["map"]["resolution"]), lines(request["map"]["rows"]))]
+    if "rows" in request["map"]:
+        parts = ['  "map": {{\n    "resolution": {},\n    "rows": [\n{}\n    ]\n  }}'.format(
+            json.dumps(request["map"]["resolution"]), lines(request["map"]["rows"]))]
+    else:
+        parts = ['  "map": ' + json.dumps(request["map"])]
     if "robot_defaults" in request:
         parts.append('  "robot_defaults": ' + json.dumps(request["robot_defaults"]))
     robots = ",\n".join("    " + json.dumps(made) for made in request["robots"])

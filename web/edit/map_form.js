@@ -1,6 +1,7 @@
 // The forms of the map: its size by each side, the side of a cell, the place of its corner; and a new, empty
 // map.
 
+import { asRows } from "../model/drawn_map.js";
 import { faultOfSize, newMap, resize, setOrigin, setResolution } from "../model/edit_request.js";
 import { byId, element, setText } from "../ui/dom.js";
 import { NumberField } from "../ui/number_field.js";
@@ -74,9 +75,10 @@ export class MapForm {
     byId("no-map").hidden = scene.grid !== null;
     columns.show(scene.grid?.columns);
     rows.show(scene.grid?.rows);
-    resolution.show(request?.map?.resolution, { placeholder: "1" });
-    x.show(request?.map?.origin?.x, { placeholder: "0" });
-    y.show(request?.map?.origin?.y, { placeholder: "0" });
+    const map = asRows(request?.map);
+    resolution.show(map?.resolution, { placeholder: "1" });
+    x.show(map?.origin?.x, { placeholder: "0" });
+    y.show(map?.origin?.y, { placeholder: "0" });
   }
 }
 

@@ -1,7 +1,7 @@
 // The kinds of files opened or dropped together, by their names and first bytes.
 
 import { FileError } from "../model/problem.js";
-import { isPng } from "./map_image.js";
+import { isPng } from "./png.js";
 
 const BY_ENDING = {
   json: "json",

@@ -3,6 +3,7 @@
 import { FileError, ProblemError } from "../model/problem.js";
 import { readLinkState } from "./address.js";
 import { Reader } from "./reader.js";
+import { prepareMap } from "./request_map.js";
 
 export class Opening {
   #session;
@@ -59,6 +60,7 @@ export class Opening {
     this.#reader.dismiss();
     try {
       const opened = await read();
+      await prepareMap(opened?.request?.map);
       if (turn !== this.#turn || opened === null) return false;
       this.#open(opened);
       return true;

@@ -1,6 +1,7 @@
 // From files to what to open: {name, example: null, text, request, answer or null}. Dialogs ask where there
 // is a choice.
 
+import { asRows } from "../model/drawn_map.js";
 import { belongsTo, readDocument } from "../model/plan_file.js";
 import { FileError } from "../model/problem.js";
 import { HEAD_BYTES, imageNamed, sortFiles } from "./file_kinds.js";
@@ -96,8 +97,8 @@ export class Reader {
   /** The map that is open, if it can be the one that the scenario is for. */
   #openMap(name, { map: mapName, width, height }) {
     const { grid } = this.#session.scene;
-    if (grid?.map.rows.length === height && grid.lines.every((line) => line.length === width))
-      return { ...grid.map, resolution: grid.resolution, origin: grid.origin };
+    if (grid?.rows === height && grid.lines.every((line) => line.length === width))
+      return { ...asRows(grid.map), resolution: grid.resolution, origin: grid.origin };
     throw new FileError(
       `${name} is for the map ${mapName} of ${width} x ${height} cells, not the one shown: open both together.`,
     );
@@ -108,10 +109,9 @@ export class Reader {
     const described = about(yaml, () => readRosYaml(text));
     const image = imageNamed(described.image, images, yaml.name);
     const bytes = await bytesOf(image.file);
-    const pixels = await about(image, () => readImage(bytes, described.mode));
+    const pixels = await about(image, () => readImage(bytes));
     const grid = classifyPixels(described, pixels);
-    const warnings = [...described.warnings, ...pixels.warnings];
-    const map = await this.#dialogs.rosMap(yaml.name, grid, warnings);
+    const map = await this.#dialogs.rosMap(yaml.name, grid, described.warnings);
     return map && opened(yaml.name, withoutRobots(map, INDOOR_RADIUS));
   }
 }

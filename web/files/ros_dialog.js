@@ -4,15 +4,8 @@ import { MapPreview } from "../scene/map_raster.js";
 import { element, setText } from "../ui/dom.js";
 import { FormDialog, numberField } from "../ui/form_dialog.js";
 import { metres } from "../ui/format.js";
-import {
-  countCells,
-  mapOfGrid,
-  mergeCells,
-  OCCUPIED,
-  smallestFactor,
-  trimUnknown,
-  UNKNOWN,
-} from "./ros_map.js";
+import { requestMapOf } from "./request_map.js";
+import { countCells, mergeCells, OCCUPIED, smallestFactor, trimUnknown, UNKNOWN } from "./ros_map.js";
 
 const MOST_MERGED = 100; // cells per side that are merged into one
 
@@ -63,7 +56,7 @@ export class RosMapDialog {
   async ask() {
     const sent = this.#dialog.ask();
     this.#refresh();
-    return (await sent) ? mapOfGrid(this.#made, this.#unknownFree.checked) : null;
+    return (await sent) ? requestMapOf(this.#made, this.#unknownFree.checked) : null;
   }
 
   cancel() {

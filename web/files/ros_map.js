@@ -11,8 +11,11 @@ export const FREE = 0;
 export const OCCUPIED = 1;
 export const UNKNOWN = 2;
 
-const OCCUPIED_THRESH = 0.65; // as in the files that map_server writes
-const FREE_THRESH = 0.196;
+export const OCCUPIED_THRESH = 0.65; // as in the files that map_server writes
+export const FREE_THRESH = 0.196;
+const LEAST_OCCUPIED = 65; // percent, as in the service
+const MOST_FREE = 25;
+const NOT_KNOWN = 255; // no cell
 const MODES = ["trinary", "scale", "raw"];
 
 /**
@@ -69,21 +72,50 @@ function thresholdIn(given, key, otherwise, warnings) {
 }
 
 /**
- * The grid of FREE, OCCUPIED and UNKNOWN cells for gray pixels, as in map_server: {width, height, maxval,
- * values, clear}: `clear`, if any, has a 1 for each pixel that is not opaque.
+ * The grid of FREE, OCCUPIED and UNKNOWN cells for pixels from the top: {width, height, channels, largest, values},
+ * with the channels of each pixel (gray; gray and alpha; red, green and blue; these and alpha) from 0 to `largest`.
+ * The same as of the service for such an image.
  */
-export function classifyPixels(described, { width, height, maxval, values, clear = null }) {
-  const { negate, occupiedThresh, freeThresh, mode, resolution, origin } = described;
+export function classifyPixels(described, { width, height, channels, largest, values }) {
+  const { resolution, origin } = described;
   const cells = new Uint8Array(width * height);
+  const cellAt = (at) => cellOf(occupancyOf(described, values.subarray(at, at + channels), largest));
+  const known = new Uint8Array(largest + 1).fill(NOT_KNOWN); // by gray
   for (let index = 0; index < cells.length; index += 1) {
-    const value = values[index];
-    let p = (negate ? value : maxval - value) / maxval;
-    if (mode === "raw") p = Math.round((value / maxval) * 255) / 100; // the gray is the percentage itself
-    if ((mode === "raw" && p > 1) || (mode === "scale" && clear?.[index])) cells[index] = UNKNOWN;
-    else if (p > occupiedThresh) cells[index] = OCCUPIED;
-    else cells[index] = p < freeThresh ? FREE : UNKNOWN;
+    if (channels > 1) {
+      cells[index] = cellAt(index * channels);
+    } else {
+      if (known[values[index]] === NOT_KNOWN) known[values[index]] = cellAt(index);
+      cells[index] = known[values[index]];
+    }
   }
   return { columns: width, rows: height, cells, resolution, origin };
+}
+
+/** The percentage that map_server publishes for a pixel, or null if it is unknown. */
+export function occupancyOf(described, pixel, largest) {
+  const { negate, occupiedThresh, freeThresh, mode } = described;
+  const alpha = pixel.length % 2 === 0 ? pixel[pixel.length - 1] : null;
+  const sum = pixel.length < 3 ? 3 * pixel[0] : pixel[0] + pixel[1] + pixel[2];
+  if (mode === "scale" && alpha !== null && alpha < largest) return null;
+  const mean = mode === "trinary" && alpha !== null ? (sum + alpha) / 4 : sum / 3; // alpha counts as a colour
+  const shade = mean / largest;
+  if (mode === "raw") {
+    const percent = Math.round(shade * 255);
+    return percent <= 100 ? percent : null;
+  }
+  const occupied = negate ? shade : 1 - shade;
+  if (occupied > occupiedThresh) return 100;
+  if (occupied < freeThresh) return 0;
+  if (mode === "trinary" || occupiedThresh <= freeThresh) return null;
+  return ((occupied - freeThresh) / (occupiedThresh - freeThresh)) * 100; // rounded by map_server, see cellOf
+}
+
+/** The cell of a percentage, or of null. map_server rounds: 64.5 to the even 64, which is unknown, 25.5 to 26. */
+export function cellOf(percent) {
+  if (percent === null) return UNKNOWN;
+  if (percent > LEAST_OCCUPIED - 0.5) return OCCUPIED;
+  return percent < MOST_FREE + 0.5 ? FREE : UNKNOWN;
 }
 
 /** How many cells are free, occupied and unknown, in that order. */
@@ -153,14 +185,15 @@ export function smallestFactor({ columns, rows }, most) {
 /** The grid as the map of a request; unknown cells are blocked or, if `unknownFree`, free. */
 export function mapOfGrid({ columns, rows, cells, resolution, origin }, unknownFree) {
   const letters = [];
-  letters[FREE] = ".";
-  letters[OCCUPIED] = "#";
-  letters[UNKNOWN] = unknownFree ? "." : "#";
+  letters[FREE] = ".".charCodeAt(0);
+  letters[OCCUPIED] = "#".charCodeAt(0);
+  letters[UNKNOWN] = letters[unknownFree ? FREE : OCCUPIED];
+  const line = new Uint8Array(columns); // as text that grows by letters takes seconds for large maps
+  const decoder = new TextDecoder();
   const lines = [];
-  for (let row = 0; row < rows; row += 1) {
-    let line = "";
-    for (let at = row * columns; at < (row + 1) * columns; at += 1) line += letters[cells[at]];
-    lines.push(line);
+  for (let first = 0; first < rows * columns; first += columns) {
+    for (let column = 0; column < columns; column += 1) line[column] = letters[cells[first + column]];
+    lines.push(decoder.decode(line));
   }
   return { rows: lines, resolution, origin: { ...origin } };
 }

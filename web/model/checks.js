@@ -48,7 +48,7 @@ function overlap(motions, ids, time) {
     follower.look(time, time);
     return follower;
   });
-  return Math.hypot(other.x - one.x, other.y - one.y) < a.radius + b.radius - CONTACT;
+  return Math.hypot(other.x - one.x, other.y - one.y) < one.radius + other.radius - CONTACT;
 }
 
 /** The plan file that checks the starts of a request: without plans, its robots are there at time 0. */

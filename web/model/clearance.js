@@ -43,7 +43,6 @@ export function clearanceOf(motions, samples = SAMPLES) {
  */
 export class ClearanceSweep {
   #followers;
-  #radii;
   #left;
   #right;
   #bottom;
@@ -53,7 +52,6 @@ export class ClearanceSweep {
 
   constructor(motions) {
     this.#followers = motions.map((motion) => new Follower(motion));
-    this.#radii = motions.map(({ radius }) => radius);
     [this.#left, this.#right, this.#bottom, this.#top] = [0, 0, 0, 0].map(
       () => new Float64Array(motions.length),
     );
@@ -89,8 +87,8 @@ export class ClearanceSweep {
   #place(t0, t1) {
     for (let at = 0; at < this.#followers.length; at += 1) {
       const follower = this.#followers[at];
-      const radius = this.#radii[at];
       follower.look(t0, t1);
+      const { radius } = follower;
       this.#left[at] = Math.min(follower.x, follower.endX) - radius;
       this.#right[at] = Math.max(follower.x, follower.endX) + radius;
       this.#bottom[at] = Math.min(follower.y, follower.endY) - radius;
@@ -105,7 +103,7 @@ export class ClearanceSweep {
     const [wayX, wayY] = [b.endX - a.endX - x, b.endY - a.endY - y];
     const share = closestShare(x, y, wayX, wayY);
     const apart = Math.sqrt((x + wayX * share) ** 2 + (y + wayY * share) ** 2);
-    const gap = apart - this.#radii[first] - this.#radii[second];
+    const gap = apart - a.radius - b.radius;
     if (gap < this.#nearest.gap) this.#nearest = { t: t0 + (t1 - t0) * share, gap, first, second };
   }
 }

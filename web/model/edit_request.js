@@ -3,12 +3,13 @@
 // goes; a faulty map is edited as it is drawn, see readScene. Pure.
 
 import { isFree, tidy } from "./cells.js";
+import { asRows } from "./drawn_map.js";
 import { lastGoalOf, withLastGoal, withoutGoals } from "./goals.js";
 import { readGrid } from "./scene.js";
 
 const FREE = ".";
 const BLOCKED = "#";
-const MOST_CELLS = 4_000_000; // until the limits are known
+const MOST_CELLS = 16_000_000; // until the limits are known
 const SPEEDS = { linear_speed: 1, angular_speed: 3.1416 }; // m/s, rad/s: defaults
 const RADIUS_SHARE = 0.4; // of a cell
 
@@ -94,7 +95,7 @@ export function setResolution(request, resolution) {
 
 /** The request with another x or y of the map's lower left corner, metres; undefined: the default. */
 export function setOrigin(request, axis, value) {
-  const origin = withMember(objectOf(request?.map?.origin), axis, value);
+  const origin = withMember(objectOf(asRows(request?.map)?.origin), axis, value);
   return withMap(request, { origin: Object.keys(origin).length > 0 ? origin : undefined });
 }
 
@@ -119,8 +120,10 @@ export function faultOfSize(columns, rows, limits) {
   return null;
 }
 
+/** The request with a changed map; one that is not rows becomes rows. */
 function withMap(request, changes) {
-  return { ...objectOf(request), map: withMembers(objectOf(request?.map), changes) };
+  const map = asRows(request?.map) ?? objectOf(request?.map);
+  return { ...objectOf(request), map: withMembers(map, changes) };
 }
 
 /** The robots of the request, valid or not. */
@@ -172,7 +175,7 @@ export function removeGoal(request, index) {
 export function addRobot(request, start, goal = undefined) {
   const robots = robotsOf(request);
   const last = objectOf(robots.at(-1));
-  const resolution = request?.map?.resolution ?? 1;
+  const resolution = asRows(request?.map)?.resolution ?? 1;
   const usual = { radius: RADIUS_SHARE * (resolution > 0 ? resolution : 1), ...SPEEDS };
   const robot = { id: freshId(request) };
   for (const name of ["radius", "linear_speed", "angular_speed"]) {

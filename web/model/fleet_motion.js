@@ -48,7 +48,10 @@ export class FleetMotion {
   get byId() {
     const { scene, tracks } = this.#session;
     this.#byId ??= new Map(
-      scene.robots.map((robot) => [robot.id, motionOf(robot, tracks.get(robot.id).actions)]),
+      scene.robots.map((robot) => {
+        const { actions, radii } = tracks.get(robot.id);
+        return [robot.id, motionOf(robot, actions, radii)];
+      }),
     );
     return this.#byId;
   }

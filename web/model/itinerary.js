@@ -1,6 +1,6 @@
 // A robot's actions in words and figures, and the cause of each wait. Pure. Seconds, metres, radians.
 
-import { firstOverlap, motionOf } from "./motion.js";
+import { firstOverlap, motionOf, radiusAt } from "./motion.js";
 import { turnBetween } from "./timeline.js";
 
 const WHOLE_TURN = 2 * Math.PI;
@@ -16,9 +16,10 @@ export function totals(actions) {
   return sum;
 }
 
-/** An action in words: "drive 3.2 m", "turn 90° left", "wait 1.4 s", "wait 2 s at goal 1". */
+/** An action in words: "drive 3.2 m", "reverse 0.8 m", "turn 90° left", "wait 1.4 s", "wait 2 s at goal 1". */
 export function actionInWords(action) {
-  if (action.type === "translate") return `drive ${short(lengthOf(action))} m`;
+  if (action.type === "translate")
+    return `${action.reverse ? "reverse" : "drive"} ${short(lengthOf(action))} m`;
   if (action.type === "wait") {
     const where = Number.isInteger(action.goal) ? ` at goal ${action.goal + 1}` : "";
     return `wait ${short(action.t_end - action.t_start)} s${where}`;
@@ -44,7 +45,7 @@ function short(value) {
  * `fleet` maps ids to motions; `margin` is a distance that counts as a hit, 0 for contact.
  */
 export function causeOfWait(id, actions, index, fleet, margin = 0) {
-  const shifted = motionWithout(actions, index, fleet.get(id).radius);
+  const shifted = motionWithout(actions, index, fleet.get(id));
   const from = actions[index].t_start;
   const until = actions[actions.length - 1].t_end;
   let found = null;
@@ -57,11 +58,13 @@ export function causeOfWait(id, actions, index, fleet, margin = 0) {
 }
 
 /** The motion of the robot from the start of the wait if it does not wait. */
-function motionWithout(actions, index, radius) {
+function motionWithout(actions, index, motion) {
   const { t_start, t_end, to } = actions[index];
+  const radius = radiusAt(motion, t_start);
   const earlier = t_end - t_start;
   const rest = actions
     .slice(index + 1)
     .map((action) => ({ ...action, t_start: action.t_start - earlier, t_end: action.t_end - earlier }));
-  return motionOf({ start: to, radius }, rest);
+  const radii = motion.radii.filter(({ t }) => t > t_start).map((each) => ({ ...each, t: each.t - earlier }));
+  return motionOf({ start: to, radius }, rest, radii);
 }

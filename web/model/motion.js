@@ -4,17 +4,17 @@
 const CONTACT = 5e-7; // metres: disks that overlap by no more are in contact
 
 /**
- * The motion of a robot {start, radius} that executes `actions`: {radius, knots}, the knots one after the
- * other as t, x, y, t, x, y, …
+ * The motion of a robot {start, radius} that executes `actions`: {radius, knots, radii}, the knots one after the
+ * other as t, x, y, t, x, y, …; `radii`, see readTracks, are those that it has later.
  */
-export function motionOf(robot, actions) {
+export function motionOf(robot, actions, radii = []) {
   const knots = [];
   for (const { t_start, t_end, from, to } of actions) {
     addKnot(knots, t_start, from);
     addKnot(knots, t_end, to);
   }
   if (knots.length === 0) knots.push(0, robot.start.x, robot.start.y);
-  return { radius: robot.radius, knots: Float64Array.from(knots) };
+  return { radius: robot.radius, knots: Float64Array.from(knots), radii };
 }
 
 /**
@@ -31,6 +31,11 @@ function addKnot(knots, t, { x, y }) {
   knots.push(t, x, y);
 }
 
+/** The radius at t of something with a `radius` at first and later `radii`, see readTracks. */
+export function radiusAt({ radius, radii }, t) {
+  return radii.length === 0 ? radius : (radii.findLast((each) => each.t <= t)?.radius ?? radius);
+}
+
 /** The last time at which one of the motions changes; 0 where nothing moves. */
 export function lastKnot(motions) {
   return motions.reduce((last, { knots }) => Math.max(last, knots[knots.length - 3]), 0);
@@ -39,10 +44,11 @@ export function lastKnot(motions) {
 /** The times in [0, end] at which one of the motions changes, ascending, each once, with 0 and `end`. */
 export function knotTimes(motions, end) {
   const times = [0, end];
-  for (const { knots } of motions) {
+  for (const { knots, radii } of motions) {
     for (let at = 0; at < knots.length; at += 3) {
       if (knots[at] > 0 && knots[at] < end) times.push(knots[at]);
     }
+    for (const { t } of radii) if (t > 0 && t < end) times.push(t);
   }
   return sortedOnce(times);
 }
@@ -57,22 +63,30 @@ export function sortedOnce(numbers) {
   return sorted.subarray(0, length);
 }
 
-/** Follows a motion through time. `x`, `y` and `endX`, `endY` are its positions at both ends of a span. */
+/**
+ * Follows a motion through time. `x`, `y` and `endX`, `endY` are its positions at both ends of a span, `radius` is that
+ * of all the span.
+ */
 export class Follower {
   x = 0;
   y = 0;
   endX = 0;
   endY = 0;
+  radius;
+  #motion;
   #knots;
   #at = 0; // the index of the knot before the span
 
-  constructor({ knots }) {
-    this.#knots = knots;
+  constructor(motion) {
+    this.#motion = motion;
+    this.#knots = motion.knots;
+    this.radius = motion.radius;
   }
 
   /** Moves to the span from t0 to t1, which must not contain a knot; fast if it is near the previous span. */
   look(t0, t1) {
     this.#seek(t0);
+    this.radius = radiusAt(this.#motion, t0);
     const knots = this.#knots;
     const at = this.#at;
     const x = knots[at + 1];
@@ -88,11 +102,13 @@ export class Follower {
     this.endX = end === 1 ? knots[at + 4] : x + (knots[at + 4] - x) * end;
     this.endY = end === 1 ? knots[at + 5] : y + (knots[at + 5] - y) * end;
   }
-  /** The time of the next knot after t; Infinity if there is none. */
+
+  /** The time of the next knot, or of the next change of the radius, after t; Infinity if there is none. */
   nextKnot(t) {
     this.#seek(t);
     const at = this.#knots[this.#at] > t ? this.#at : this.#at + 3;
-    return this.#knots[at] ?? Infinity;
+    const change = this.#motion.radii.find((each) => each.t > t);
+    return Math.min(this.#knots[at] ?? Infinity, change?.t ?? Infinity);
   }
 
   /** Moves to the last knot at or before t, or to the first one. */
@@ -105,7 +121,6 @@ export class Follower {
 
 /** The first time in [from, until] at which two motions are closer than `margin`, or null. */
 export function firstOverlap(motion, other, from, until, margin = 0) {
-  const reach = motion.radius + other.radius + margin - CONTACT;
   const [a, b] = [new Follower(motion), new Follower(other)];
   let t0 = from;
   do {
@@ -113,6 +128,7 @@ export function firstOverlap(motion, other, from, until, margin = 0) {
     a.look(t0, t1);
     b.look(t0, t1);
     const [x, y] = [b.x - a.x, b.y - a.y];
+    const reach = a.radius + b.radius + margin - CONTACT;
     const share = shareUntil(reach, x, y, b.endX - a.endX - x, b.endY - a.endY - y);
     if (share !== null) return t0 + (t1 - t0) * share;
     t0 = t1;

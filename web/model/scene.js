@@ -1,13 +1,16 @@
 // What to draw of a request and its answer. Faulty requests are drawn as far
 // as possible; the service reports their faults.
 
+import { asRows } from "./drawn_map.js";
 import { goalsOf } from "./goals.js";
+import { radiusAt } from "./motion.js";
 import { readObstacles } from "./moving_obstacles.js";
 import { doingAt, pathOf, poseAt } from "./timeline.js";
+import { readZones } from "./zones.js";
 
 /** @import {Answer, Grid, Robot, Scene, Track} from "./types.js" */
 
-const FREE = new Set([".", "G"]);
+const [GROUND, GRASS] = [...".G"].map((letter) => letter.charCodeAt(0)); // the letters of free cells
 
 /**
  * The map as {map, lines, columns, rows, resolution, origin, blocked, bounds}; blocked[row * columns +
@@ -17,11 +20,12 @@ const FREE = new Set([".", "G"]);
  */
 export function readGrid(map, previous) {
   if (previous !== null && map === previous.map) return previous;
-  const lines = Array.isArray(map?.rows) ? map.rows.filter((row) => typeof row === "string") : [];
+  const drawn = asRows(map);
+  const lines = drawn?.rows.filter((row) => typeof row === "string") ?? [];
   const columns = lines.reduce((most, row) => Math.max(most, row.length), 0);
-  if (columns === 0) return null;
-  const resolution = positive(map.resolution) ? map.resolution : 1;
-  const origin = { x: finiteOr(map.origin?.x, 0), y: finiteOr(map.origin?.y, 0) };
+  if (drawn === null || columns === 0) return null;
+  const resolution = positive(drawn.resolution) ? drawn.resolution : 1;
+  const origin = { x: finiteOr(drawn.origin?.x, 0), y: finiteOr(drawn.origin?.y, 0) };
   const bounds = {
     left: origin.x,
     bottom: origin.y,
@@ -37,8 +41,10 @@ function readCells(lines, columns, previous) {
   const blocked = alike ? previous.blocked.slice() : new Uint8Array(columns * lines.length);
   lines.forEach((line, row) => {
     if (alike && line === previous.lines[row]) return;
+    const first = row * columns;
     for (let column = 0; column < columns; column += 1) {
-      blocked[row * columns + column] = FREE.has(line[column]) ? 0 : 1;
+      const letter = line.charCodeAt(column);
+      blocked[first + column] = letter === GROUND || letter === GRASS ? 0 : 1;
     }
   });
   return blocked;
@@ -63,6 +69,7 @@ function readRobots(request) {
       start: { ...start, theta: start.theta ?? 0 },
       goal,
       via: goals.slice(0, -1),
+      radiiAfter: goalsOf(robot).map((each) => (positive(each?.radius_after) ? each.radius_after : null)),
       committed,
     });
   });
@@ -81,7 +88,7 @@ function readPose(pose) {
 }
 
 /**
- * The scene of a parsed request: {grid, robots, obstacles}; the grid is null when there is no map to draw. `previous`,
+ * The scene of a parsed request: {grid, robots, obstacles, zones}; the grid is null when there is no map to draw. `previous`,
  * the scene of an earlier request, makes it cheap to read an edited one.
  * @param {Scene | null} previous
  * @returns {Scene}
@@ -91,13 +98,14 @@ export function readScene(request, previous = null) {
   const shared = commonPrefixLength(robots.map(({ id }) => id));
   for (const robot of robots) robot.label = robot.id.slice(shared);
   const grid = readGrid(request?.map, previous?.grid ?? null);
-  return { grid, robots, obstacles: readObstacles(request) };
+  return { grid, robots, obstacles: readObstacles(request), zones: readZones(request) };
 }
 
 /**
- * The track of each robot of the scene, by id: {status, actions, path, cost, lowerBound, unplanned}. The
+ * The track of each robot of the scene, by id: {status, actions, radii, path, cost, lowerBound, unplanned}. The
  * status is "ready" before there is an answer, then "planned", "parked" (it has no goal and does not move) or
  * "unplanned" (it executes its committed actions, if any);
+ * `radii` are those that it has later, as [{t, radius}], each from its t on;
  * `lowerBound`, the lower bound of its cost (seconds), is null if the answer lacks it.
  * @param {Scene} scene
  * @param {Answer | null} answer
@@ -112,6 +120,7 @@ export function readTracks(scene, answer) {
     tracks.set(robot.id, {
       status: statusOf(robot, plans, failures),
       actions,
+      radii: radiiOf(robot, plans.get(robot.id)),
       path: pathOf(actions),
       cost: plans.get(robot.id)?.cost ?? null,
       lowerBound: plans.get(robot.id)?.lower_bound ?? null,
@@ -119,6 +128,16 @@ export function readTracks(scene, answer) {
     });
   }
   return tracks;
+}
+
+/** The radii that goals change, from the ends of their services. */
+function radiiOf({ radiiAfter }, plan) {
+  const visits = Array.isArray(plan?.visits) ? plan.visits : [];
+  const changes = visits.map(({ goal, t_leave }) => ({
+    t: t_leave ?? plan.cost,
+    radius: radiiAfter[goal] ?? null,
+  }));
+  return changes.filter(({ t, radius }) => Number.isFinite(t) && radius !== null);
 }
 
 function statusOf(robot, plans, failures) {
@@ -131,6 +150,11 @@ function statusOf(robot, plans, failures) {
 /** The pose of a robot at t on its track. */
 export function robotPoseAt(robot, track, t) {
   return poseAt(track.actions, robot.start, t);
+}
+
+/** The radius of a robot at t on its track. */
+export function robotRadiusAt({ radius }, { radii }, t) {
+  return radiusAt({ radius, radii }, t);
 }
 
 /** The state of a robot at t, one word. */

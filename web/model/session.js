@@ -21,7 +21,7 @@ import { planFile } from "./plan_file.js";
 import { PlanRun } from "./plan_run.js";
 import { Playback, Player } from "./playback.js";
 import { ProblemError } from "./problem.js";
-import { readScene, readTracks, robotPoseAt, robotStateAt } from "./scene.js";
+import { readScene, readTracks, robotPoseAt, robotRadiusAt, robotStateAt } from "./scene.js";
 import { Focus } from "./selection.js";
 import { Signals } from "./signals.js";
 
@@ -331,6 +331,12 @@ export class Session {
   poseOf(id, time = this.player.time) {
     const robot = this.robot(id);
     return robot && robotPoseAt(robot, this.tracks.get(id), time);
+  }
+
+  /** The radius of a robot at a time, metres; null if there is no such robot. */
+  radiusOf(id, time = this.player.time) {
+    const robot = this.robot(id);
+    return robot && robotRadiusAt(robot, /** @type {Track} */ (this.tracks.get(id)), time);
   }
 
   /** The state of a robot at a time, one word; null if there is no such robot. */

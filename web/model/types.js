@@ -12,7 +12,7 @@
  * @typedef {{x: number, y: number, theta?: number}} GivenPose
  */
 
-/** @typedef {GivenPose & {service?: number, not_before?: number}} GivenGoal */
+/** @typedef {GivenPose & {service?: number, not_before?: number, radius_after?: number}} GivenGoal */
 
 /**
  * A disk that nobody controls; it leaves after its motion unless `after` is "stays".
@@ -36,7 +36,11 @@
  * @property {Action[]} [previous]
  */
 
-/** @typedef {{rows: string[], resolution?: number, origin?: Position}} RequestMap */
+/**
+ * A map of a request with rows; one with an image, an occupancy grid or a text of MovingAI instead is read by
+ * files/request_map.js.
+ * @typedef {{rows: string[], resolution?: number, origin?: Position}} RequestMap
+ */
 /** @typedef {{radius?: number, linear_speed?: number, angular_speed?: number}} RobotDefaults */
 
 /**
@@ -46,15 +50,18 @@
  * @property {RequestRobot[]} robots
  * @property {RobotDefaults} [robot_defaults]
  * @property {RequestObstacle[]} [obstacles]
+ * @property {object[]} [zones] see zones.js
  * @property {Record<string, any>} [options]
  */
 
 /**
- * An action; `goal`, of a wait, is the number of the goal that is served, from 0.
+ * An action; `goal`, of a wait, is the number of the goal that is served, from 0; `reverse`, of a translation, is
+ * whether it goes backwards.
  * @typedef {{type: "rotate" | "translate" | "wait", t_start: number, t_end: number, from: Pose, to: Pose,
- * goal?: number}} Action
+ * goal?: number, reverse?: boolean}} Action
  */
-/** @typedef {{robot: string, cost: number, lower_bound?: number, actions: Action[]}} Plan */
+/** @typedef {{goal: number, t_arrive: number, t_leave: number | null}} Visit */
+/** @typedef {{robot: string, cost: number, lower_bound?: number, actions: Action[], visits?: Visit[]}} Plan */
 /** @typedef {{robot: string, reason: string, detail?: string, blocked_by?: string[],
  * blocked_by_total?: number, actions?: Action[]}} Unplanned */
 
@@ -71,6 +78,7 @@
  * @property {number | null} [min_clearance]
  * @property {boolean} [deterministic]
  * @property {{expansions: number}} [search]
+ * @property {number} [lattice_spacing] metres; if it is not the size of a cell
  * @property {Record<string, number>} [timings_ms]
  * @property {(string | {detail?: string})[]} warnings
  * @property {object[]} [unavoidable]
@@ -145,7 +153,8 @@
 
 /**
  * A robot as it is drawn, at `index` of the request's robots. A goal's theta is null for any heading. `via` are
- * the goals before the last one, null where they are faulty; `committed` is the path of its committed actions.
+ * the goals before the last one, null where they are faulty; `radiiAfter` are the radii that goals change, null where
+ * they do not; `committed` is the path of its committed actions.
  * @typedef {object} Robot
  * @property {number} index
  * @property {string} id
@@ -154,26 +163,34 @@
  * @property {Pose} start
  * @property {{x: number, y: number, theta: number | null} | null} goal
  * @property {({x: number, y: number, theta: number | null} | null)[]} via
+ * @property {(number | null)[]} radiiAfter
  * @property {Position[]} committed
  */
 
 /** @typedef {{id: string, radius: number, motion: {t: number, x: number, y: number}[], stays: boolean}}
  * MovingObstacle */
 
-/** @typedef {{grid: Grid | null, robots: Robot[], obstacles: MovingObstacle[]}} Scene */
+/**
+ * A zone as it is drawn; `heading` of one-way zones only.
+ * @typedef {{type: "blocked" | "speed" | "one_way", polygon: Position[], middle: Position,
+ * heading: number | null, label: string}} Zone
+ */
+
+/** @typedef {{grid: Grid | null, robots: Robot[], obstacles: MovingObstacle[], zones: Zone[]}} Scene */
 
 /**
  * What a robot does under an answer; see readTracks.
  * @typedef {object} Track
  * @property {"ready" | "planned" | "parked" | "unplanned"} status
  * @property {Action[]} actions
+ * @property {{t: number, radius: number}[]} radii
  * @property {Position[]} path
  * @property {number | null} cost
  * @property {number | null} lowerBound
  * @property {Unplanned | null} unplanned
  */
 
-/** @typedef {{radius: number, knots: Float64Array}} Motion see motion.js */
+/** @typedef {{radius: number, knots: Float64Array, radii: {t: number, radius: number}[]}} Motion see motion.js */
 
 // The options of a request, see options.js
 

@@ -49,6 +49,7 @@ function showSummary({ answer, check }) {
   );
   box.replaceChildren(badges(answer, check), figures);
   if (answer.timings_ms) box.append(otherTimings(answer.timings_ms));
+  if (answer.lattice_spacing) box.append(fact(`Lattice spacing ${metres(answer.lattice_spacing)}`));
   if (answer.warnings.length > 0) box.append(warningList(answer.warnings));
 }
 
@@ -65,7 +66,11 @@ function effort({ timings_ms: timings, search }) {
 /** The service's time besides planning. */
 function otherTimings(timings) {
   const parts = Object.entries(PARTS).map(([part, words]) => `${words} ${(timings[part] ?? 0).toFixed(2)}`);
-  return element("p", { class: "facts", textContent: `${parts.join(" · ")} ms` });
+  return fact(`${parts.join(" · ")} ms`);
+}
+
+function fact(textContent) {
+  return element("p", { class: "facts", textContent });
 }
 
 function badges(answer, check) {

@@ -2,11 +2,12 @@
 // backdrop once for each camera; a frame is a copy of it, the robots and the overlays.
 
 import { obstacleAt } from "../model/moving_obstacles.js";
-import { robotPoseAt, robotStateAt } from "../model/scene.js";
+import { robotPoseAt, robotRadiusAt, robotStateAt } from "../model/scene.js";
 import { remainingPath } from "../model/timeline.js";
 import { contextOf } from "../ui/dom.js";
 import { MapRaster } from "./map_raster.js";
 import { drawGoal, drawNumber, drawObstacle, drawPath, drawRobot, drawStart } from "./marks.js";
+import { drawZone } from "./zone_marks.js";
 import { robotColour } from "./palette.js";
 import { toScreen } from "./view.js";
 
@@ -107,6 +108,7 @@ export class Painter {
 
   #paintPlan(context, camera, viewport) {
     const screen = (point) => toScreen(camera, viewport, point);
+    for (const zone of this.#scene.zones) drawZone(context, this.#theme, zone, screen, camera.scale);
     const shown = this.#look.paths !== "none";
     for (const { motion } of this.#scene.obstacles) {
       if (shown) drawPath(context, motion.map(screen), this.#theme.ink, CROSSING);
@@ -182,7 +184,7 @@ export class Painter {
     const track = this.#tracks.get(robot.id);
     const pose = robotPoseAt(robot, track, time);
     const centre = screen(pose);
-    const radius = robot.radius * scale;
+    const radius = robotRadiusAt(robot, track, time) * scale;
     const beyond = radius + NAME_ROOM;
     if (centre.x < -beyond || centre.x > viewport.width + beyond) return;
     if (centre.y < -beyond || centre.y > viewport.height + beyond) return;

@@ -19,7 +19,11 @@ export function showBlockers(session, stage) {
       if (robot === null) continue;
       const centre = screen(session.poseOf(id, view.time));
       drawPath(context, [from, centre], theme.danger, { width: 1.5, alpha: 0.9, dashes: [6, 4] });
-      ring(context, centre, robot.radius * scale + 4, theme.danger, { width: 2, alpha: 1, dashes: [6, 3] });
+      ring(context, centre, session.radiusOf(id, view.time) * scale + 4, theme.danger, {
+        width: 2,
+        alpha: 1,
+        dashes: [6, 3],
+      });
     }
   });
 }
@@ -33,7 +37,7 @@ export function showViolations(session, stage, fleet) {
     );
     for (const id of wrong) {
       const robot = session.robot(id);
-      if (robot) markWrong(context, view, session.poseOf(id, view.time), robot.radius);
+      if (robot) markWrong(context, view, session.poseOf(id, view.time), session.radiusOf(id, view.time));
     }
   });
 }
@@ -74,7 +78,7 @@ export class ClosestOverlay {
     if (pair === null) return;
     const disks = pair.ids.map((id) => ({
       ...view.screen(this.#session.poseOf(id, view.time)),
-      radius: this.#session.robot(id).radius * view.scale,
+      radius: this.#session.radiusOf(id, view.time) * view.scale,
     }));
     paintGap(context, view.theme, disks, pair.gap);
   }

@@ -28,12 +28,21 @@ double sideways(const core::Action& action) {
   return std::abs(d.x() * std::sin(action.from.theta) - d.y() * std::cos(action.from.theta));
 }
 
+/// How far a translation leads along its heading, metres.
+double ahead(const core::Action& action) {
+  const core::Position d = action.to.position - action.from.position;
+  return d.x() * std::cos(action.from.theta) + d.y() * std::sin(action.from.theta);
+}
+
 std::string seconds(double t) { return number_text(t) + " s"; }
 
 }  // namespace
 
 ActionChain::ActionChain(const ActionsOwner& owner)
-    : linear_speed_(owner.linear_speed), angular_speed_(owner.angular_speed), pose_(owner.start) {}
+    : linear_speed_(owner.linear_speed),
+      angular_speed_(owner.angular_speed),
+      may_reverse_(owner.may_reverse),
+      pose_(owner.start) {}
 
 std::string ActionChain::name() const { return "Action " + std::to_string(count_) + " (from 0)"; }
 
@@ -45,6 +54,7 @@ core::Action ActionChain::append(core::Action action, const JsonReader& item) {
   if (item.fault_count() == before) {
     action = joined(action);
     check_speed(action, item);
+    if (action.reverse) check_reverse(action, item);
   }
   now_ = action.t_end;
   pose_ = action.to;
@@ -124,6 +134,19 @@ void ActionChain::check_speed(const core::Action& action, const JsonReader& item
     return name() + " moves " + number_text(sideways(action)) +
            " m sideways; a translation must lead along the heading, forwards or backwards.";
   });
+}
+
+void ActionChain::check_reverse(const core::Action& action, const JsonReader& item) const {
+  if (may_reverse_ == false) {
+    item.find("reverse").fault(fault::kSpeed, [&] {
+      return name() + " reverses, but the robot may not; give the robot may_reverse.";
+    });
+  } else if (ahead(action) > kTolerance) {
+    item.find("reverse").fault(fault::kSpeed, [&] {
+      return name() + " leads " + number_text(ahead(action)) +
+             " m ahead; with reverse it must lead backwards.";
+    });
+  }
 }
 
 /// Without the differences within the tolerance.

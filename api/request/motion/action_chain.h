@@ -28,11 +28,13 @@ class ActionChain {
   void check_begin(const core::Action& action, const JsonReader& item) const;
   void check_type(const core::Action& action, const JsonReader& item) const;
   void check_speed(const core::Action& action, const JsonReader& item) const;
+  void check_reverse(const core::Action& action, const JsonReader& item) const;
   core::Action joined(core::Action action) const;
   std::string name() const;
 
   std::optional<double> linear_speed_;
   std::optional<double> angular_speed_;
+  std::optional<bool> may_reverse_;
   std::optional<double> now_ = 0.0;  // seconds; none: unknown, as is the pose
   std::optional<core::Pose> pose_;
   std::size_t count_ = 0;  // of the actions before

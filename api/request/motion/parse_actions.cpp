@@ -13,7 +13,8 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kMembers{"type", "t_start", "t_end", "from", "to", "goal"};
+constexpr std::array<std::string_view, 7> kMembers{"type", "t_start", "t_end",  "from",
+                                                   "to",   "goal",    "reverse"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
 constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};  // as in core::Action::Type
 constexpr std::uint64_t kMostGoals = 1'000'000'000;  // of a robot, far beyond any limit of a request
@@ -51,6 +52,11 @@ core::Action parse_action(const JsonReader& item, const Range& times) {
     goal.fault(fault::kUnknownKey, [] { return "goal is a member of wait actions only; remove it."; });
   } else if (const auto number = goal.natural(kMostGoals)) {
     action.goal = *number;
+  }
+  const JsonReader reverse = json.find("reverse");
+  action.reverse = reverse.boolean().value_or(false);
+  if (action.reverse && type && action.type != core::Action::Type::translate) {
+    reverse.fault(fault::kUnknownKey, [] { return "reverse is for translate actions only; remove it."; });
   }
   return action;
 }

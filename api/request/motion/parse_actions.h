@@ -22,6 +22,7 @@ struct ActionsOwner {
   std::optional<core::Pose> start;      // in the map frame
   std::optional<double> linear_speed;   // metres per second
   std::optional<double> angular_speed;  // radians per second
+  std::optional<bool> may_reverse = {};
 };
 
 /// The actions of a robot from t = 0 in its start. Each begins exactly when and where the one before ends.

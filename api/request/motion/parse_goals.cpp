@@ -1,8 +1,11 @@
 #include "api/request/motion/parse_goals.h"
 
 #include <array>
+#include <string>
 #include <string_view>
+#include <utility>
 
+#include "api/request/parse_metadata.h"
 #include "api/request/ranges.h"
 #include "core/geometry/angle.h"
 
@@ -10,7 +13,7 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kMembers{"x", "y", "theta", "service", "not_before"};
+constexpr std::array<std::string_view, 6> kMembers{"x", "y", "theta", "service", "not_before", "metadata"};
 
 /// Adds the goal if it is valid.
 void add_goal(const JsonReader& member, const WorldFrame& frame, ReadGoals& read) {
@@ -19,10 +22,15 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, ReadGoals& read
   auto goal = parse_pose(json, frame);
   const auto service = json.find("service").number(kDuration);
   const auto not_before = json.find("not_before").number(kDuration);
+  std::string metadata = parse_metadata(json);
   if (!goal || member.fault_count() != before) return;
   goal->service = service.value_or(0.0);
   goal->not_before = not_before.value_or(0.0);
-  if (service || not_before) read.lists_visits = true;
+  if (service || not_before || !metadata.empty()) read.lists_visits = true;
+  if (!metadata.empty()) {
+    read.metadata.resize(read.goals.size());
+    read.metadata.push_back(std::move(metadata));
+  }
   read.goals.push_back(*goal);
   read.places.push_back(member);
 }

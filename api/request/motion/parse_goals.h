@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "api/json/json_reader.h"
@@ -14,8 +15,9 @@ namespace fleetplan::api {
 struct ReadGoals {
   std::vector<core::Goal> goals;
   std::vector<JsonReader> places;  // of each of them
-  /// Given as a list, or with a service: the answer tells when each is visited.
+  /// Given as a list, or with a service or metadata: the answer tells when each is visited.
   bool lists_visits = false;
+  std::vector<std::string> metadata;  // of each, see parse_metadata; shorter if the last ones have none
 };
 
 /// Reads `x`, `y` and `theta` (optional) of a pose whose members are known. Nothing when one has a fault.

@@ -13,12 +13,19 @@ namespace fleetplan::core {
 struct ExecutedFleet {
   std::vector<std::size_t> robots;  // their indices, ascending
   std::vector<double> radii;        // metres, bare
+  std::vector<double> vicinities;   // metres, added against robots
   std::vector<double> tolerances;   // metres
   std::vector<std::vector<Leg>> legs;
   std::vector<Departure> departures;
   std::vector<bool> invalid;  // see Robot::invalid
+  std::vector<bool> stays;    // without a plan or a goal: where the commitment ends, for ever
 
   std::size_t size() const { return robots.size(); }
+  /// The distance that two robots keep while neither begins too near nor is committed, metres. `inflation` is
+  /// added to each.
+  double kept_distance(std::size_t one, std::size_t other, double inflation) const {
+    return radii[one] + radii[other] + 2.0 * inflation + (vicinities[one] + vicinities[other]);
+  }
 };
 
 }  // namespace fleetplan::core

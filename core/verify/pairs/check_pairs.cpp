@@ -60,7 +60,7 @@ class PairCheck {
   }
 
   double contact(std::size_t first, std::size_t second) const {
-    return fleet_.radii[first] + fleet_.radii[second] + 2.0 * rules_.inflation;
+    return fleet_.kept_distance(first, second, rules_.inflation);
   }
 
   /// Ascending, like their positions.
@@ -70,18 +70,15 @@ class PairCheck {
 
   bool compare_robots() {
     std::vector<double> planned = fleet_.radii;
-    const bool near_starts = rules_.inflation > 0.0 || rules_.start_overlap > 0.0;
-    for (double& radius : planned) radius += rules_.inflation;
+    for (std::size_t i = 0; i < fleet_.size(); ++i) planned[i] += rules_.inflation + fleet_.vicinities[i];
+    const bool near_starts = planned != fleet_.radii || rules_.start_overlap > 0.0;
     const std::size_t invalid =
         static_cast<std::size_t>(std::count(fleet_.invalid.begin(), fleet_.invalid.end(), true));
     const std::size_t more = (near_starts ? fleet_.size() : 0) + invalid + rules_.exempt.size();
-    const auto clearance = fleet_clearance(fleet_.legs, planned, fleet_.tolerances,
+    const auto clearance = fleet_clearance(fleet_.legs, {fleet_.radii, planned}, fleet_.tolerances,
                                            kMostCollisions + kNearStartsPerRobot * more, stop_);
     if (!clearance) return false;
-    if (clearance->least) {
-      report_.min_clearance = *clearance->least;
-      if (rules_.inflation > 0.0) *report_.min_clearance += 2.0 * rules_.inflation;
-    }
+    report_.min_clearance = clearance->least;
     std::size_t listed = 0;
     for (const Overlap& overlap : clearance->overlaps) {
       if (stop_.met()) return false;
@@ -111,7 +108,8 @@ class PairCheck {
                             overlap.distance,
                             kept,
                             overlap_text(overlap, kept, "the disks overlap by "),
-                            {}});
+                            {},
+                            overlap.t_begin});
   }
 
   bool compare_margin() {
@@ -150,8 +148,8 @@ class PairCheck {
   }
 
   bool compare_obstacles() {
-    const auto overlaps =
-        overlaps_with_obstacles(fleet_, obstacles_, radii_, kMostCollisions + rules_.exempt.size(), stop_);
+    const auto overlaps = overlaps_with_obstacles(fleet_, obstacles_, radii_, exemptions_,
+                                                  kMostCollisions + rules_.exempt.size(), stop_);
     if (!overlaps) return false;
     std::size_t listed = 0;
     for (const Overlap& overlap : *overlaps) {

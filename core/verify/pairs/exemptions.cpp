@@ -16,6 +16,9 @@ namespace {
 /// tolerance.
 constexpr double kTouching = 2.0 * kMostTolerance;
 
+/// Seconds. The time of a meeting went through decimal text.
+constexpr double kTextRounding = 1e-6;
+
 std::optional<std::size_t> position_of(const ExecutedFleet& fleet, std::size_t robot) {
   const auto found = std::lower_bound(fleet.robots.begin(), fleet.robots.end(), robot);
   if (found == fleet.robots.end() || *found != robot) return std::nullopt;
@@ -29,14 +32,14 @@ Exemptions::Exemptions(const std::vector<Meeting>& meetings, const ExecutedFleet
                        const std::vector<double>& obstacle_radii, const StopCondition& stop)
     : robots_(fleet.size()) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  for (const Departure& departure : fleet.departures) {
-    certain_.push_back({departure.leaves == kNever ? kNever : departure.committed_until, kNever});
+  for (std::size_t i = 0; i < fleet.size(); ++i) {
+    certain_.push_back({fleet.stays[i] ? kNever : fleet.departures[i].committed_until, kNever});
   }
   std::vector<std::size_t> listed(fleet.size(), 0);
   for (const Meeting& meeting : meetings) {
     if (stop.met()) return;
     const auto one = position_of(fleet, meeting.robot);
-    if (!one) continue;
+    if (!one || !is_certain(*one, meeting.t)) continue;
     count(*one, meeting.t, listed);
     if (meeting.obstacle && *meeting.obstacle < obstacles.size()) {
       const double near = fleet.radii[*one] + obstacle_radii[*meeting.obstacle] + kTouching;
@@ -44,11 +47,15 @@ Exemptions::Exemptions(const std::vector<Meeting>& meetings, const ExecutedFleet
       if (span) with_obstacles_[*meeting.obstacle * robots_ + *one].push_back(*span);
     }
     const auto other = meeting.other ? position_of(fleet, *meeting.other) : std::nullopt;
-    if (!other || other == one) continue;
-    const double near = fleet.radii[*one] + fleet.radii[*other] + 2.0 * inflation + kTouching;
+    if (!other || other == one || !is_certain(*other, meeting.t)) continue;
+    const double near = fleet.kept_distance(*one, *other, inflation) + kTouching;
     const auto span = time_together(fleet.legs[*one], fleet.legs[*other], near, meeting.t);
     if (span) of_robots_[key(*one, *other)].push_back(*span);
   }
+}
+
+bool Exemptions::is_certain(std::size_t position, double t) const {
+  return t <= certain_[position].until + kTextRounding;
 }
 
 void Exemptions::count(std::size_t position, double t, std::vector<std::size_t>& meetings) {

@@ -13,13 +13,14 @@
 
 namespace fleetplan::core {
 
-/// The times at which pairs may collide, see CheckRules::exempt. A robot with kMostMeetingsOfRobot meetings
-/// has no more listed, so from the last one on all is exempt that it certainly does: its committed motion,
-/// and the stay of a robot that never leaves afterwards.
+/// The times at which pairs may collide, see CheckRules::exempt. Meetings count only if they begin while both
+/// do what is certain: obstacles move, robots execute their commitments, and robots without a plan or a goal
+/// stay for ever where these end. A robot with kMostMeetingsOfRobot meetings has no more listed, so from the
+/// last one on all is exempt that it certainly does.
 class Exemptions {
  public:
   /// `obstacles` are the legs of the moving obstacles, `obstacle_radii` theirs. All robots are enlarged by
-  /// `inflation` against robots. Incomplete if `stop` is met.
+  /// `inflation`, and their vicinity, against robots. Incomplete if `stop` is met.
   Exemptions(const std::vector<Meeting>& meetings, const ExecutedFleet& fleet, double inflation,
              const std::vector<std::vector<Leg>>& obstacles, const std::vector<double>& obstacle_radii,
              const StopCondition& stop);
@@ -31,6 +32,10 @@ class Exemptions {
   /// Whether an overlap of this pair that begins at `t` is exempt.
   bool allow_robots(std::size_t one, std::size_t other, double t) const;
   bool allow_obstacle(std::size_t robot, std::size_t obstacle, double t) const;
+  /// Whether all overlaps of the robot with obstacles in this time are exempt.
+  bool allow_all_obstacles(std::size_t robot, const TimeSpan& time) const {
+    return certain_[robot].exempt_from <= time.begin && time.end <= certain_[robot].until;
+  }
 
  private:
   using Spans = std::unordered_map<std::uint64_t, std::vector<TimeSpan>>;
@@ -41,6 +46,7 @@ class Exemptions {
     double exempt_from = 0.0;
   };
   void count(std::size_t position, double t, std::vector<std::size_t>& meetings);
+  bool is_certain(std::size_t position, double t) const;
 
   static const std::vector<TimeSpan>& find(const Spans& spans, std::uint64_t pair);
   std::uint64_t key(std::size_t one, std::size_t other) const;

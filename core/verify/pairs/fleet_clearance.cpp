@@ -20,12 +20,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// pairs whose boxes are nearer than the least gap so far, or near enough to overlap.
 class ClearanceSweep {
  public:
-  ClearanceSweep(const std::vector<std::vector<Leg>>& legs_by_robot, const std::vector<double>& radii,
+  ClearanceSweep(const std::vector<std::vector<Leg>>& legs_by_robot, const DiskRadii& radii,
                  const std::vector<double>& tolerances, std::size_t max_overlaps, const StopCondition& stop)
       : legs_(legs_by_robot),
-        radii_(radii),
+        bodies_(radii.body),
+        radii_(radii.kept_apart),
         tolerances_(tolerances),
-        boxes_(legs_by_robot, radii),
+        boxes_(legs_by_robot, radii.kept_apart),
         overlaps_(max_overlaps),
         stop_(stop),
         slack_(rounding_of_boxes()) {}
@@ -55,7 +56,8 @@ class ClearanceSweep {
     return 1e-9 + 1e-12 * largest;
   }
 
-  /// Pairs whose gap exceeds this neither overlap nor make the least gap smaller.
+  /// Pairs whose gap exceeds this neither overlap nor make the least gap of the bodies, which is no smaller
+  /// than theirs, smaller.
   double interesting_gap() const { return std::max(least_, -least_tolerance_) + slack_; }
 
   /// Looks at the stop condition once in many steps.
@@ -92,11 +94,12 @@ class ClearanceSweep {
                             overlaps_.add(first, second, motion, allowed);
                           return !stopped_;
                         });
-    least_ = std::min(least_, std::sqrt(least_squared) - contact);
+    least_ = std::min(least_, std::sqrt(least_squared) - (bodies_[first] + bodies_[second]));
   }
 
   const std::vector<std::vector<Leg>>& legs_;
-  const std::vector<double>& radii_;
+  const std::vector<double>& bodies_;
+  const std::vector<double>& radii_;       // at least those of the bodies
   const std::vector<double>& tolerances_;  // by robot
   MovingBoxes boxes_;
   OverlapList overlaps_;
@@ -111,9 +114,8 @@ class ClearanceSweep {
 }  // namespace
 
 std::optional<FleetClearance> fleet_clearance(const std::vector<std::vector<Leg>>& legs_by_robot,
-                                              const std::vector<double>& radii,
-                                              const std::vector<double>& tolerances, std::size_t max_overlaps,
-                                              const StopCondition& stop) {
+                                              const DiskRadii& radii, const std::vector<double>& tolerances,
+                                              std::size_t max_overlaps, const StopCondition& stop) {
   return ClearanceSweep(legs_by_robot, radii, tolerances, max_overlaps, stop).run();
 }
 

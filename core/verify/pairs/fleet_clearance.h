@@ -13,8 +13,14 @@
 namespace fleetplan::core {
 
 struct FleetClearance {
-  std::optional<double> least;    // metres: smallest gap between two disks; none for fewer than two robots
+  std::optional<double> least;    // metres: smallest gap between two bodies; none for fewer than two robots
   std::vector<Overlap> overlaps;  // of positions in the list of radii, first < second; in no particular order
+};
+
+/// The radii of robots, metres.
+struct DiskRadii {
+  const std::vector<double>& body;
+  const std::vector<double>& kept_apart;  // that must not overlap, each >= that of the body
 };
 
 /// Exact up to rounding: a few ulp of the coordinates. `legs_by_robot` are results of `execute`, `radii` and
@@ -23,8 +29,7 @@ struct FleetClearance {
 /// `least` always includes all pairs and all time, and does not depend on the order of the robots. Returns
 /// none if `stop` is met first.
 std::optional<FleetClearance> fleet_clearance(const std::vector<std::vector<Leg>>& legs_by_robot,
-                                              const std::vector<double>& radii,
-                                              const std::vector<double>& tolerances, std::size_t max_overlaps,
-                                              const StopCondition& stop);
+                                              const DiskRadii& radii, const std::vector<double>& tolerances,
+                                              std::size_t max_overlaps, const StopCondition& stop);
 
 }  // namespace fleetplan::core

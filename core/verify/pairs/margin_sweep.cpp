@@ -65,7 +65,7 @@ class MarginSweep {
   std::optional<std::vector<ShiftedOverlap>> run() {
     const std::vector<double> boundaries = time_windows(fleet_.legs);
     std::vector<double> reach = fleet_.radii;
-    for (double& radius : reach) radius += inflation_;
+    for (std::size_t i = 0; i < reach.size(); ++i) reach[i] += inflation_ + fleet_.vicinities[i];
     MovingBoxes boxes(fleet_.legs, std::move(reach));
     // After the last boundary all robots rest, where the plain rule is the same.
     for (std::size_t k = 0; k + 1 < boundaries.size(); ++k) {
@@ -113,7 +113,7 @@ class MarginSweep {
   void compare(std::size_t first, const Leg& leg, const TimeSpan& time, std::size_t second, const Leg& other,
                const TimeSpan& its_time) {
     poll();
-    const double kept = fleet_.radii[first] + fleet_.radii[second] + 2.0 * inflation_ -
+    const double kept = fleet_.kept_distance(first, second, inflation_) -
                         std::max(fleet_.tolerances[first], fleet_.tolerances[second]);
     const auto record = [&](const TimeSpan& a, const TimeSpan& b) {
       const ShiftedMoment nearest = least_shifted_distance(leg, a, other, b, margin_);

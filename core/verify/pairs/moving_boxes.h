@@ -42,30 +42,4 @@ class MovingBoxes {
   std::vector<std::size_t> current_;  // by body, the first leg that does not end before the window
 };
 
-/// Calls `visit(a, b)` for each box of one list and each of the other that overlap. Both are ordered by their
-/// left edges.
-template <typename Visit>
-void visit_overlapping(const std::vector<MovingBox>& some, const std::vector<MovingBox>& others,
-                       Visit visit) {
-  const auto meet = [](const MovingBox& a, const MovingBox& b) {
-    return a.bottom <= b.top && b.bottom <= a.top;
-  };
-  std::size_t i = 0;
-  std::size_t j = 0;
-  // The box that begins first is compared with those of the other list that begin within it.
-  while (i < some.size() && j < others.size()) {
-    if (some[i].left <= others[j].left) {
-      for (std::size_t k = j; k < others.size() && others[k].left <= some[i].right; ++k) {
-        if (meet(some[i], others[k])) visit(some[i], others[k]);
-      }
-      ++i;
-    } else {
-      for (std::size_t k = i; k < some.size() && some[k].left <= others[j].right; ++k) {
-        if (meet(some[k], others[j])) visit(some[k], others[j]);
-      }
-      ++j;
-    }
-  }
-}
-
 }  // namespace fleetplan::core

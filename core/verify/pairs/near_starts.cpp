@@ -35,18 +35,19 @@ double least_of_commitments(const ExecutedFleet& fleet, const Overlap& overlap, 
 
 std::optional<double> leaves_overlap(const ExecutedFleet& fleet, const Overlap& overlap,
                                      const CheckRules& rules) {
-  if (rules.inflation <= 0.0 && rules.start_overlap <= 0.0) return std::nullopt;
   const Departure& a = fleet.departures[overlap.first];
   const Departure& b = fleet.departures[overlap.second];
   const double bare = fleet.radii[overlap.first] + fleet.radii[overlap.second];
-  const double kept = bare + 2.0 * rules.inflation;
+  const double kept = fleet.kept_distance(overlap.first, overlap.second, rules.inflation);
+  if (kept <= bare && rules.start_overlap <= 0.0) return std::nullopt;
   const double tolerance = std::max(fleet.tolerances[overlap.first], fleet.tolerances[overlap.second]);
   const double moved = std::min(a.first_move_ends, b.first_move_ends);
   const double until = std::max(overlap.t_end, moved);
   if (overlap.distance < bare - tolerance) {
+    const double inflated = bare + 2.0 * rules.inflation;
     const double at_start =
         (fleet.legs[overlap.first].front().from - fleet.legs[overlap.second].front().from).norm();
-    const bool allowed = overlap.t_begin <= 0.0 && kept - at_start <= rules.start_overlap + tolerance;
+    const bool allowed = overlap.t_begin <= 0.0 && inflated - at_start <= rules.start_overlap + tolerance;
     return allowed && overlap.distance >= at_start - tolerance ? std::optional(until) : std::nullopt;
   }
   const double certain = std::max(a.committed_until, b.committed_until);

@@ -17,8 +17,8 @@ namespace fleetplan::core {
 /// - Bare disks that overlap at t = 0 by as much as CheckRules::start_overlap allows keep their first
 /// distance
 ///   until they are clear of each other once.
-/// - Inflated disks whose bare disks are clear keep the least distance that their committed motions have
-/// (that
+/// - Disks that are too near by the inflation or the vicinity only keep the least distance that their
+/// committed motions have (that
 ///   of their starts without any) until they are clear, and until one of them has made its first translation.
 std::optional<double> leaves_overlap(const ExecutedFleet& fleet, const Overlap& overlap,
                                      const CheckRules& rules);

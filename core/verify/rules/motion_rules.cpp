@@ -168,6 +168,17 @@ class MotionCheck {
              action_name(k) + " moves " + metres(sideways) +
                  " sideways, but the robot can only move along its heading");
     }
+    if (action.reverse) check_reverse(k, d.x() * std::cos(theta) + d.y() * std::sin(theta));
+  }
+
+  /// `ahead`: how far the translation leads along the heading.
+  void check_reverse(std::size_t k, double ahead) {
+    const double t = plan_.actions[k].t_start;
+    if (!robot_.may_reverse) {
+      report(Kind::speed, t, -ahead, 0.0, action_name(k) + " reverses, but the robot may not");
+    } else if (ahead > tolerance_.metres) {
+      report(Kind::speed, t, ahead, 0.0, action_name(k) + " reverses, but moves " + metres(ahead) + " ahead");
+    }
   }
 
   void check_cost() {

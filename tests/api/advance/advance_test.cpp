@@ -9,6 +9,7 @@ namespace {
 
 using core::Action;
 using core::Pose;
+using core::Position;
 using Type = core::Action::Type;
 
 Pose at_x(double x) { return {{x, 1.0}, 0.0}; }
@@ -237,6 +238,62 @@ TEST(AdvancedFleet, ALateRobotStopsThoseThatWouldDriveIntoIt) {
   EXPECT_EQ(next[1].committed.back().t_end, 1.0);
   convoy.executions[0].measured = Pose{{6.2, 1.3}, 0.0};  // beside its path
   EXPECT_NEAR(convoy.advance(1.0)[1].committed.back().t_end, 0.3, 1e-6);
+}
+
+/// One drives to x = 3 and then aside to y = 3; the other one passes there later, in one long move.
+struct Crossing {
+  std::vector<core::Robot> robots;
+  std::vector<Execution> executions;
+
+  Crossing() {
+    core::Robot first;
+    first.radius = 0.25;
+    first.linear_speed = first.angular_speed = 1.0;
+    first.start = at_x(1.0);
+    core::Robot second = first;
+    second.start = {{3.0, -5.0}, 1.5};
+    robots = {first, second};
+    const Action ahead{Type::translate, 0.0, 2.0, first.start, at_x(3.0)};
+    const Action aside{Type::translate, 2.0, 4.0, {{3.0, 1.0}, 1.5}, {{3.0, 3.0}, 1.5}};
+    const Action cross{Type::translate, 0.0, 8.0, second.start, {{3.0, 3.0}, 1.5}};
+    executions = {{{ahead, aside}, true}, {{cross}, true}};
+  }
+
+  std::vector<core::Robot> advance(double at, std::optional<double> commit = {}, double inflation = 0.0) {
+    Moment then = moment(at, commit);
+    then.inflation = inflation;
+    ParseStop stop;
+    return advanced(robots, executions, then, stop);
+  }
+};
+
+TEST(AdvancedFleet, NobodyIsCommittedToPassWhereAnotherCommitmentHasEnded) {
+  const auto next = Crossing().advance(1.0);
+  EXPECT_EQ(next[0].committed.back().to.position, Position(3.0, 1.0));
+  // From y = -4 to half a metre before y = 1.
+  EXPECT_NEAR(next[1].committed.back().t_end, 4.5, 1e-6);
+  ASSERT_EQ(next[1].previous->size(), 2U);
+  EXPECT_EQ(next[1].previous->at(1).t_end, 7.0);
+}
+
+TEST(AdvancedFleet, CommitmentsKeepTheDistanceOfThePlan) {
+  EXPECT_NEAR(Crossing().advance(1.0, {}, 0.1)[1].committed.back().t_end, 4.3, 1e-6);
+  Crossing crossing;
+  crossing.robots[0].vicinity = 0.2;
+  EXPECT_NEAR(crossing.advance(1.0, {}, 0.1)[1].committed.back().t_end, 4.1, 1e-6);
+}
+
+TEST(AdvancedFleet, CommitmentsToOneHorizonStayWhole) {
+  const auto next = Crossing().advance(1.0, 1.0);
+  for (const core::Robot& robot : next) EXPECT_EQ(robot.committed_until(), 1.0);
+}
+
+TEST(AdvancedFleet, AWaitStaysCommittedWhereAnotherRobotTouches) {
+  Crossing crossing;
+  crossing.executions[0].hold = 30.0;
+  const auto next = crossing.advance(2.0);
+  EXPECT_EQ(next[0].committed_until(), 30.0);
+  EXPECT_NEAR(next[1].committed_until(), 3.5, 1e-6);
 }
 
 core::MovingObstacle walker(core::MovingObstacle::After after) {

@@ -256,5 +256,18 @@ TEST(ValidateEndpoint, ReturnsAtMostTwentyViolationsAndTheNumberOfAll) {
   EXPECT_FALSE(validated(drive_request()).contains("truncated"));
 }
 
+TEST(ValidateEndpoint, JudgesTheVicinityOfRobots) {
+  Json request = drive_request();
+  request["robots"][1]["start"] = {{"x", 2.0}, {"y", 0.5}};
+  EXPECT_EQ(validated(request)["valid"], true);
+  request["robot_defaults"]["vicinity"] = 0.25;
+  const Json answer = validated(request);
+  EXPECT_EQ(kinds_of(answer), std::vector<std::string>{"robot_collision"});
+  EXPECT_NEAR(answer["violations"][0]["required"].get<double>(), 1.1, 1e-12);
+  EXPECT_NEAR(answer["min_clearance"].get<double>(), 0.4, 1e-9);
+  request["robots"][1]["vicinity"] = 0.1;
+  EXPECT_EQ(validated(request)["valid"], true) << "0.6 m + 0.35 m";
+}
+
 }  // namespace
 }  // namespace fleetplan::api

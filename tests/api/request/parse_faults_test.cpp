@@ -133,6 +133,11 @@ INSTANTIATE_TEST_SUITE_P(
         option("Connectivity", "connectivity", 6, "out_of_range", "4, 8, 16 or 32, not 6"),
         option("ConnectivityIsText", "connectivity", "8", "wrong_type", "4, 8, 16 or 32"),
         option("Iterations", "max_iterations", -5, "out_of_range", "not -5"),
+        option("SpacingIsZero", "lattice_spacing", 0, "out_of_range", "metres"),
+        option("SpacingIsText", "lattice_spacing", "auto", "wrong_type", "must be a number"),
+        option("SpacingIsTooLarge", "lattice_spacing", 1000, "out_of_range",
+               "at most twice its shorter side"),
+        option("SpacingIsTooSmall", "lattice_spacing", 0.0002, "out_of_range", "Use a larger spacing"),
         Case{"NotAnObject", [](Json& r) { r["options"] = nullptr; }, "/options", "wrong_type", "null"}),
     [](const auto& one) { return one.param.name; });
 

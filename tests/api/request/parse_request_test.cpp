@@ -100,7 +100,7 @@ TEST(ParseRequest, ReadsEveryOption) {
   request["options"] = Json::parse(R"({
     "time_budget_ms": 12.5, "mode": "anytime", "objective": "makespan", "seed": 18446744073709551615,
     "priority": "longest_first", "reordering": "none", "start_safe_interval": 0, "inflation": 0.125,
-    "wait_before_move": 2, "any_angle": false, "connectivity": 32, "max_iterations": 0})");
+    "wait_before_move": 2, "any_angle": false, "connectivity": 32, "max_iterations": 0, "lattice_spacing": 0.25})");
   const PlanRequest read = parsed(request);
   EXPECT_EQ(read.budget, std::chrono::microseconds(12500));
   EXPECT_EQ(read.options.mode, core::PlanOptions::Mode::anytime);
@@ -114,6 +114,7 @@ TEST(ParseRequest, ReadsEveryOption) {
   EXPECT_FALSE(read.options.any_angle);
   EXPECT_EQ(read.options.connectivity, 32);
   EXPECT_EQ(read.options.max_iterations, 0);
+  EXPECT_EQ(read.options.lattice_spacing, 0.25);
   EXPECT_THAT(read.warnings, IsEmpty());
 }
 
@@ -121,6 +122,12 @@ TEST(ParseRequest, ReadsNullAsNoBoundOfIterations) {
   Json request = swap_request();
   request["options"] = {{"max_iterations", nullptr}};
   EXPECT_FALSE(parsed(request).options.max_iterations);
+}
+
+TEST(ParseRequest, ReadsNullAsASpacingToBeChosen) {
+  Json request = swap_request();
+  request["options"] = {{"lattice_spacing", nullptr}};
+  EXPECT_FALSE(parsed(request).options.lattice_spacing);
 }
 
 TEST(ParseRequest, ClampsTheBudgetWithAWarning) {

@@ -157,7 +157,7 @@ class Simulation {
   }
 
   /// From `t` on, the robots execute the answer to a request of the time `asked`. Those without a plan
-  /// execute what is committed.
+  /// execute what is committed. Without an answer, those that drive go on as planned.
   void take(const api::Reply& reply, double asked, double t) {
     const json answer = json::parse(reply.body);
     std::map<std::string, const json*> plans;
@@ -166,6 +166,7 @@ class Simulation {
     } else if (result_.fault.empty()) {
       result_.fault = answer.dump().substr(0, 1000);
     }
+    if (reply.status != 200 && goes_on()) return;
     for (Vehicle& vehicle : fleet_.vehicles()) {
       const auto found = plans.find(vehicle.id);
       if (!goes_on() && in_service(vehicle, asked, job_.service)) continue;  // parked until the service ends

@@ -7,6 +7,7 @@ import pathlib
 import re
 
 import paper
+from building_scaling import SIDES
 from jobs import HALLS
 
 QUICK_SEEDS = "1-3"
@@ -74,6 +75,10 @@ def make_parser():
     add("inputs", metavar="FILE", nargs="*", help="request files, or folders of them (at any depth)")
     add("--full", action="store_true", help="the paper's whole protocol: seeds 1-100, 15 to 300 robots in steps of 15")
     add("--scaling", action="store_true", help="tables of time against robots and against the size of the map")
+    add("--buildings", action="store_true", help="only those of generated buildings")
+    add("--sides", type=numbers, default=SIDES, metavar="LIST",
+        help="sides of the buildings in cells; default " + ",".join(map(str, SIDES)))
+    add("--binary", metavar="FILE", help="also measure the buildings with the fleetplan_bench of another commit")
     add("--halls", type=halls, default=HALLS, metavar="HALLS", help="halls of the paper: empty, rects, or empty,rects")
     add("--seeds", type=numbers, metavar="LIST", help=f"seeds of the workloads, such as 1-3,7; default {QUICK_SEEDS}")
     add("--robots", type=robot_counts, metavar="LIST",
@@ -104,7 +109,13 @@ def request_options(arguments):
     return {**arguments.options, "time_budget_ms": math.ceil(1000 * arguments.budget), **mode}
 
 
+def measures_scaling(arguments):
+    return arguments.scaling or arguments.buildings
+
+
 def workload_name(arguments):
+    if arguments.buildings:
+        return "buildings"
     if arguments.scaling:
         return "scaling"
     if arguments.reference:
@@ -116,7 +127,7 @@ def parse(words):
     """The arguments with all defaults filled in; exits with a message on a mistake."""
     parser = make_parser()
     arguments = parser.parse_args(words)
-    own_workloads = not arguments.inputs and not arguments.reference and not arguments.scaling
+    own_workloads = not arguments.inputs and not arguments.reference and not measures_scaling(arguments)
     if arguments.seeds is None:
         arguments.seeds = numbers(FULL_SEEDS if arguments.full else QUICK_SEEDS)
     if arguments.robots is None:
@@ -125,6 +136,10 @@ def parse(words):
         if not own_workloads:
             parser.error("only the paper's workloads have a chart")
         arguments.svg = arguments.svg or str(pathlib.Path(arguments.output, "paper.svg"))
+    if arguments.binary:
+        if not measures_scaling(arguments) or arguments.reference:
+            parser.error("--binary is for --scaling and --buildings, without --reference")
+        arguments.reference = str(pathlib.Path(arguments.output, "binary.csv"))
     if arguments.csv is None:
         arguments.csv = str(pathlib.Path(arguments.output, workload_name(arguments) + ".csv"))
     if arguments.reference and arguments.root is None:

@@ -41,7 +41,8 @@ class Arguments(unittest.TestCase):
         self.assertEqual(request_options(arguments), {"time_budget_ms": 2500, "mode": "anytime", "connectivity": 4})
 
     def test_files_to_write_are_named_after_what_is_measured(self):
-        for words, csv in [([], "to/paper.csv"), (["--scaling"], "to/scaling.csv"), (["a.json"], "to/files.csv"),
+        for words, csv in [([], "to/paper.csv"), (["--scaling"], "to/scaling.csv"), (["--buildings"], "to/buildings.csv"),
+                           (["a.json"], "to/files.csv"),
                            (["--reference", "r.csv", "a.json"], "to/comparison.csv"), (["--csv", "mine.csv"], "mine.csv"),
                            (["--output", "there"], "there/paper.csv")]:
             self.assertEqual(parse(["--output", "to", *words]).csv, csv)
@@ -63,6 +64,13 @@ class Arguments(unittest.TestCase):
     def test_charts_are_only_of_the_papers_workloads(self):
         with contextlib.redirect_stderr(io.StringIO()), self.assertRaises(SystemExit):
             parse(["--chart", "--scaling"])
+
+    def test_another_binary_is_for_buildings_and_makes_the_reference(self):
+        self.assertEqual(parse(["--output", "to", "--buildings", "--binary", "old"]).reference, "to/binary.csv")
+        for words in [["--binary", "old"], ["--scaling", "--binary", "old", "--reference", "r.csv"]]:
+            with contextlib.redirect_stderr(io.StringIO()) as message, self.assertRaises(SystemExit):
+                parse(words)
+            self.assertIn("--binary", message.getvalue())
 
     def test_help_is_not_a_mistake(self):
         with contextlib.redirect_stdout(io.StringIO()) as text, self.assertRaises(SystemExit) as exit_:

@@ -1,4 +1,5 @@
 import json
+import re
 import sys
 import unittest
 
@@ -62,10 +63,20 @@ class Bench(ProgramTest):
         self.assertEqual(status, 0)
         self.assertRegex(text, r"\| a\.json \| +7 \| +1\.50 \| 0\.500 \| +3\.00 x \| +100\.0 \| +120\.0 \| 1\.200 \|")
 
-    def test_scaling_has_three_tables(self):
-        status, text = self.run_bench("--scaling", "--seeds", "1")
+    def test_scaling_has_three_tables_of_halls_and_one_of_buildings(self):
+        status, text = self.run_bench("--scaling", "--seeds", "1", "--sides", "500")
         self.assertEqual(status, 0)
         self.assertEqual(text.count("| empty solved |"), 3)
+        self.assertEqual(text.count("| 500 x 500 |"), 3)
+
+    def test_buildings_are_measured_beside_another_binary(self):
+        other = self.folder / "other"
+        other.write_text(PROGRAM.replace("0.5,120", "4.5,100"))
+        other.chmod(0o755)
+        status, text = self.run_bench("--buildings", "--seeds", "1", "--sides", "500", "--binary", str(other))
+        self.assertEqual(status, 0)
+        self.assertEqual(len(re.findall(r"\| +0\.500 \|.*\| +1 of 1 \| +4\.50 \| +1\.200 \|$", text, re.M)), 3)
+        self.assertTrue((self.folder / "out/binary.csv").exists())
 
     def test_an_invalid_answer_makes_the_exit_status_1(self):
         status, text = self.run_bench(self.write_request("bad.json"))

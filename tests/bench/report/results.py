@@ -31,6 +31,11 @@ class Run(Result):
     improvements: int = 0
     deterministic: bool = False
     valid: bool = True
+    # The steps of a response; None if the file does not have them.
+    parse_seconds: float | None = None
+    plan_seconds: float | None = None
+    verify_seconds: float | None = None
+    write_seconds: float | None = None
 
     @property
     def flowtime_by_bound(self):
@@ -68,6 +73,8 @@ def read_results(lines, kind=Result):
 
 def parse_value(row, field, line):
     if field.name not in row:
+        if field.default is None:
+            return None
         raise ValueError(f"line {line}: there is no column {field.name}")
     try:
         return PARSERS[field.type](row[field.name])

@@ -19,6 +19,7 @@ class Results(unittest.TestCase):
         self.assertIsNone(failed.flowtime)
         self.assertIsNone(failed.flowtime_by_bound)
         self.assertFalse(failed.valid)
+        self.assertIsNone(failed.plan_seconds, "older files do not have it")
 
     def test_columns_may_be_in_any_order_with_others_between(self):
         results = read_results(["robots,note,makespan,flowtime,seconds,attempts,solved,file\r\n",

@@ -6,12 +6,13 @@
 
 #include "core/geometry/disk_motion.h"
 #include "tests/core/geometry/random_motion.h"
+#include "tests/support/sanitized.h"
 
 namespace fleetplan::core {
 namespace {
 
 constexpr std::uint64_t kSeed = 20261121;
-constexpr int kCases = 20000;
+constexpr int kCases = support::kSanitized ? 4000 : 20000;
 /// Metres: the error of the bisection.
 constexpr double kBisectionError = 1e-9;
 

@@ -55,6 +55,17 @@ TEST_P(LatticeSteps, AreDistinctAndSymmetric) {
 
 INSTANTIATE_TEST_SUITE_P(Connectivities, LatticeSteps, testing::Values(4, 8, 16, 32));
 
+TEST(Lattice, HasAnotherSpacingThanTheMap) {
+  const OccupancyGrid grid(10, 7, 0.1);
+  const Lattice lattice(grid, 8, 0.3);
+  EXPECT_EQ(lattice.columns(), 3) << "a fourth centre would be beyond the map";
+  EXPECT_EQ(lattice.rows(), 2);
+  EXPECT_NEAR(lattice.position(5).x(), 0.75, 1e-12);
+  EXPECT_NEAR(lattice.position(5).y(), 0.45, 1e-12);
+  EXPECT_EQ(lattice.vertex_at(grid.center({7, 4})), 5) << "an odd multiple: the centre of a cell";
+  EXPECT_EQ(Lattice(grid, 8, 0.1).vertex_count(), 70);
+}
+
 TEST(Lattice, NumbersCellCentresRowByRow) {
   const Lattice lattice(OccupancyGrid(5, 3, 0.5), 8);
   EXPECT_EQ(lattice.vertex_count(), 15);

@@ -174,13 +174,22 @@ TEST(Triage, FollowsALongChainOfOccupiedGoalsInLittleTime) {
   for (std::size_t k = 0; k + 1 < kRobots; ++k) expect_given_up(result[k], k, Reason::goal_blocked, {k + 1});
 }
 
-TEST(Triage, SaysThatOnlyTheLatticeHasNoWay) {
-  // A gate of 1 m between cells of half a metre: no centre of a cell in it is far enough from its sides.
+/// A gate of 1 m between cells of half a metre: no centre of a cell in it is far enough from its sides.
+OccupancyGrid gate_between_cells() {
   OccupancyGrid grid(21, 10, 0.5);
   for (int row = 0; row < 10; ++row) {
     if (row != 4 && row != 5) grid.block({10, row});
   }
-  Planning p(grid, {robot_at(1.25, 1.25).to(9.25, 4.25).radius(0.3)});
+  return grid;
+}
+
+TEST(Triage, FindsAWayBetweenTheCellsOfTheLattice) {
+  Planning p(gate_between_cells(), {robot_at(1.25, 1.25).to(9.25, 4.25).radius(0.3)});
+  EXPECT_FALSE(triage(p.state, p.never)[0]);
+}
+
+TEST(Triage, SaysThatOnlyTheLatticeHasNoWay) {
+  Planning p(gate_between_cells(), {robot_at(1.25, 1.25).to(9.25, 4.25).radius(0.49)});
   const auto result = triage(p.state, p.never);
   expect_given_up(result[0], 0, Reason::goal_unreachable);
   EXPECT_NE(result[0]->detail.find("lattice"), std::string::npos) << result[0]->detail;

@@ -56,6 +56,20 @@ TEST(Replanning, ReturnsPreviousPlansWhileTheServiceShutsDown) {
   EXPECT_EQ(count_followed(problem, core::plan(problem, {}, met())), kRobots);
 }
 
+TEST(Replanning, DoesNotKeepAPlanThroughARobotThatStaysAsItsGoalIsBlocked) {
+  const OccupancyGrid hall(10, 4, 1.0);
+  std::vector<Robot> robots{robot_at(0.5, 1.5).to(9.5, 1.5), robot_at(4.5, 1.5).to(6.5, 3.5),
+                            robot_at(6.5, 3.5)};
+  robots[0].previous = {{Action::Type::translate, 0.0, 9.0, robots[0].start, {Position(9.5, 1.5), 0.0}}};
+  const Problem problem = make_problem(hall, robots);
+  for (const int budget_ms : {1000, -1}) {
+    const Plan plan = core::plan(problem, {}, after_milliseconds(budget_ms));
+    support::expect_safe(problem, plan);
+    ASSERT_FALSE(plan.unplanned.empty());
+    EXPECT_EQ(plan.unplanned.back().robot, 1u);
+  }
+}
+
 TEST(Replanning, NamesTheVisitsOfPreviousPlans) {
   const Problem problem = crowd_under_way(3);
   const Plan plan = core::plan(problem, {}, {});
@@ -244,6 +258,20 @@ TEST(Replanning, KeepsWhatHoldsWhenAnotherRobotHasNoWay) {
   ASSERT_EQ(plan.plans.size(), 1u);
   EXPECT_EQ(count_followed(problem, plan), 1u);
   EXPECT_EQ(plan.unplanned.at(0).robot, 0u);
+}
+
+TEST(Replanning, ChangesAPlanThroughARobotThatHasNoWay) {
+  const auto map = support::ascii_map({".........",  //
+                                       "#########",  //
+                                       ".........",  //
+                                       "........."});
+  std::vector<Robot> robots{robot_at(0.5, 0.5).to(8.5, 0.5), robot_at(4.5, 0.5).to(4.5, 3.5)};
+  robots[0].previous = core::plan(make_problem(map, {robots[0]}), {}, {}).plans.at(0).actions;
+  const Problem problem = make_problem(map, robots);
+  const Plan plan = core::plan(problem, {}, {});
+  ASSERT_EQ(plan.plans.size(), 1u);
+  EXPECT_EQ(count_followed(problem, plan), 0u) << "it drives around robot 1";
+  support::expect_safe(problem, plan);
 }
 
 }  // namespace

@@ -122,6 +122,7 @@ TEST(Vertices, LinksOwnVerticesBothWaysWithLatticeInSightWithinTwoCells) {
     }
     auto links = neighbours(vertices, start);
     std::erase(links, vertices.goal());
+    std::erase_if(links, [&](int v) { return v >= p.instance.lattice().vertex_count(); });  // finer ones
     std::erase(expected, vertices.goal());
     ASSERT_EQ(links, expected);
   }

@@ -288,5 +288,33 @@ TEST(Speed, AllowsAVeryShortMoveAnyHeading) {
   EXPECT_THAT(scene.violations(), IsEmpty());
 }
 
+Scene backing(bool may_reverse) {
+  Robot robot = robot_at(8, 10);
+  robot.may_reverse = may_reverse;
+  Scene scene;
+  scene.add(robot, [](support::PlanBuilder& plan) { plan.translate_to(4, 10); });
+  scene.action(0).reverse = true;
+  return scene;
+}
+
+TEST(ReverseRules, ARobotThatMayReverseGoesBack) { EXPECT_TRUE(backing(true).violations().empty()); }
+
+TEST(ReverseRules, ARobotThatMayNotReverseIsReported) {
+  const auto violations = backing(false).violations();
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_EQ(violations[0].kind, Kind::speed);
+  EXPECT_NE(violations[0].detail.find("the robot may not"), std::string::npos) << violations[0].detail;
+}
+
+TEST(ReverseRules, AMoveAheadIsNoReverseOne) {
+  Scene scene = backing(true);
+  scene.action(0).from.theta = scene.action(0).to.theta = 3.141592653589793;
+  scene.robots()[0].start.theta = scene.robots()[0].goal->theta.emplace(3.141592653589793);
+  const auto violations = scene.violations();
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_EQ(violations[0].kind, Kind::speed);
+  EXPECT_NEAR(violations[0].distance, 4.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace fleetplan::core

@@ -5,8 +5,11 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
+#include "core/model/most_meetings.h"
 #include "core/verify/execution/executed_fleet.h"
+#include "core/verify/pairs/exemptions.h"
 #include "core/verify/pairs/obstacle_sweep.h"
 #include "tests/core/verify/random_fleet.h"
 #include "tests/core/verify/scene.h"
@@ -80,6 +83,30 @@ TEST(MovingObstacle, MayMeetARobotThatCannotAvoidIt) {
   EXPECT_EQ(scene.violations(rules).size(), 2U);
 }
 
+TEST(MovingObstacle, MayNotMeetARobotThatThePlanMoves) {
+  // However many meetings are claimed.
+  Scene scene;
+  scene.add(robot_at(5, 5), [](PlanBuilder& plan) { plan.wait(1); });
+  scene.obstacle({at(0, 0, 5), at(10, 10, 5), at(20, 0, 5)});
+  CheckRules rules;
+  rules.exempt.assign(kMostMeetingsOfRobot, Meeting{0, {}, 0, 4.0});
+  EXPECT_EQ(scene.violations(rules).size(), 2U);
+}
+
+TEST(MovingObstacle, MayMeetARobotThatHasTooManyMeetingsToListAgain) {
+  Scene scene;
+  scene.stand(robot_at(5, 5));
+  std::vector<MovingObstacle::Entry> motion;
+  for (int k = 0; k < 30; ++k) motion.push_back(at(10 * k, k % 2 == 0 ? 0 : 10, 5));
+  scene.obstacle(motion);
+  CheckRules rules;
+  for (std::size_t k = 0; k < kMostMeetingsOfRobot; ++k) {
+    EXPECT_FALSE(scene.violations(rules).empty());
+    rules.exempt.push_back({0, {}, 0, 10.0 * static_cast<double>(k) + 4.0});
+  }
+  EXPECT_THAT(scene.violations(rules), IsEmpty());
+}
+
 TEST(MovingObstacle, IsCheckedAgainstRobotsWithoutAPlan) {
   Scene scene;
   Robot robot = robot_at(2, 5);
@@ -113,8 +140,12 @@ TEST_P(RandomObstacles, AreMetWhereSamplesMeetThem) {
         std::find_if(fleet.plans.begin(), fleet.plans.end(), [i](const auto& p) { return p.robot == i; });
     executed.robots.push_back(i);
     executed.radii.push_back(fleet.robots[i].radius);
+    executed.vicinities.push_back(0.0);
     executed.tolerances.push_back(0.0);
-    executed.legs.push_back(execute(fleet.robots[i], plan == fleet.plans.end() ? nullptr : &*plan));
+    const RobotPlan* executes = plan == fleet.plans.end() ? nullptr : &*plan;
+    executed.legs.push_back(execute(fleet.robots[i], executes));
+    executed.departures.push_back(departure_of(fleet.robots[i], executes));
+    executed.stays.push_back(executes == nullptr);
   }
   std::vector<std::vector<Leg>> obstacles;
   std::vector<double> radii;
@@ -126,7 +157,8 @@ TEST_P(RandomObstacles, AreMetWhereSamplesMeetThem) {
     obstacles.push_back(legs_of(obstacle));
     radii.push_back(obstacle.radius);
   }
-  const auto overlaps = *overlaps_with_obstacles(executed, obstacles, radii, 10'000, StopCondition());
+  const Exemptions none({}, executed, 0.0, obstacles, radii, StopCondition());
+  const auto overlaps = *overlaps_with_obstacles(executed, obstacles, radii, none, 10'000, StopCondition());
 
   const auto overlap_at = [&](std::size_t robot, std::size_t obstacle, double t) {
     return std::any_of(overlaps.begin(), overlaps.end(), [&](const Overlap& overlap) {

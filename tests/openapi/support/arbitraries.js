@@ -54,6 +54,8 @@ function valuesOfType(document, schema, type, overrides) {
       if (schema.pattern) return fc.stringMatching(new RegExp(schema.pattern));
       return fc.string({ minLength: schema.minLength ?? 0, maxLength: 12, unit: "grapheme" });
     case "array":
+      if (schema.prefixItems)
+        return fc.tuple(...schema.prefixItems.map((item) => valuesOf(document, item, overrides)));
       return fc.array(valuesOf(document, schema.items, overrides), {
         minLength: schema.minItems ?? 0,
         maxLength: LARGEST_LIST,
@@ -75,6 +77,9 @@ export function valuesOf(document, schema, overrides = {}) {
     return overrides[name] ?? valuesOf(document, document.root.components.schemas[name], overrides);
   }
   if (schema.enum !== undefined) return fc.constantFrom(...schema.enum);
+  if (schema.const !== undefined) return fc.constant(schema.const);
+  if (schema.type === undefined && schema.oneOf !== undefined)
+    return fc.oneof(...schema.oneOf.map((one) => valuesOf(document, one, overrides)));
   if (schema.type === undefined) return fc.jsonValue({ maxDepth: 3 });
   const types = [schema.type].flat();
   return fc.oneof(...types.map((type) => valuesOfType(document, schema, type, overrides)));
@@ -152,6 +157,39 @@ function fleets(document, map, free) {
     }));
 }
 
+const GRAYS = { ".": 254, G: 254 };
+
+/** A raw graymap of rows, in base64. */
+function graymap(rows) {
+  const header = Buffer.from(`P5\n${rows[0].length} ${rows.length}\n255\n`);
+  return Buffer.concat([header, Buffer.from([...rows.join("")].map((cell) => GRAYS[cell] ?? 0))]).toString(
+    "base64",
+  );
+}
+
+/** The same map as one of every kind, by the kind's number. */
+function asKind(kind, { rows, resolution, origin }) {
+  const frame = { ...(resolution && { resolution }), ...(origin && { origin }) };
+  const { x, y } = origin ?? { x: 0, y: 0 };
+  const [width, height] = [rows[0].length, rows.length];
+  const percents = [...rows].reverse().flatMap((row) => [...row].map((cell) => (GRAYS[cell] ? 0 : 100)));
+  switch (kind) {
+    case 0:
+      return { movingai: `type octile\nheight ${height}\nwidth ${width}\nmap\n${rows.join("\n")}`, ...frame };
+    case 1:
+      return { image: { pgm: graymap(rows), resolution: resolution ?? 1, origin: [x, y, 0] } };
+    case 2:
+      return {
+        occupancy_grid: {
+          info: { resolution: resolution ?? 1, width, height, origin: { position: { x, y } } },
+          data: percents,
+        },
+      };
+    default:
+      return { rows, ...frame };
+  }
+}
+
 /** Realistic requests to plan, with any options that the schema allows and short budgets. */
 export function plausibleRequests(document) {
   const options = valuesOfComponent(document, "PlanOptions").map((made) => ({
@@ -170,9 +208,14 @@ export function plausibleRequests(document) {
   return maps
     .filter(({ rows }) => freeCells(rows).length > 0)
     .chain((map) =>
-      fc.record({ map: fc.constant(map), fleet: fleets(document, map, freeCells(map.rows)), options }),
+      fc.record({
+        map: fc.constant(map),
+        kind: fc.nat({ max: 5 }),
+        fleet: fleets(document, map, freeCells(map.rows)),
+        options,
+      }),
     )
-    .map(({ map, fleet, options: chosen }) => ({ map, ...fleet, options: chosen }));
+    .map(({ map, kind, fleet, options: chosen }) => ({ map: asKind(kind, map), ...fleet, options: chosen }));
 }
 
 /** Requests to validate: realistic fleets with plans generated from the schema, most for robots of the request. */

@@ -5,7 +5,7 @@ import { clearanceOf, ClearanceSweep } from "../../../web/model/clearance.js";
 
 const near = (actual, expected) =>
   assert.ok(Math.abs(actual - expected) < 1e-12, `${actual} is not ${expected}`);
-const motion = (radius, ...knots) => ({ radius, knots: Float64Array.from(knots.flat()) });
+const motion = (radius, ...knots) => ({ radius, knots: Float64Array.from(knots.flat()), radii: [] });
 
 /** Numbers in [0, 1) that look random and are the same in every run. */
 function* numbers(seed) {

@@ -25,6 +25,8 @@ test("actions are described with the significant digits", () => {
     [drive(0.0123), drive(0.5), drive(3.24), drive(12), drive(132.4)],
     ["drive 0.012 m", "drive 0.5 m", "drive 3.2 m", "drive 12 m", "drive 132 m"],
   );
+  const back = { ...action("translate", 0, 1, pose(0, 0), pose(-0.8, 0)), reverse: true };
+  assert.equal(actionInWords(back), "reverse 0.8 m");
   assert.equal(actionInWords(action("wait", 2, 3.44, pose(0, 0), pose(0, 0))), "wait 1.4 s");
 });
 

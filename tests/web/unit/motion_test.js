@@ -1,7 +1,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { Follower, knotTimes, lastKnot, motionOf } from "../../../web/model/motion.js";
+import {
+  firstOverlap,
+  Follower,
+  knotTimes,
+  lastKnot,
+  motionOf,
+  radiusAt,
+} from "../../../web/model/motion.js";
 
 const ROBOT = { radius: 0.5, start: { x: 7, y: 8 } };
 const action = (t_start, t_end, from, to) => ({
@@ -77,4 +84,17 @@ test("a span that ends where the robot jumps ends before the jump", () => {
   assert.deepEqual([follower.endX, follower.endY], [2, 0]);
   follower.look(2, 3);
   assert.deepEqual([follower.x, follower.y], [5, 5]);
+});
+
+test("a radius that changes counts from its time on", () => {
+  const loaded = motionOf({ radius: 0.5, start: { x: 0, y: 0 } }, [], [{ t: 3, radius: 0.8 }]);
+  assert.deepEqual(
+    [0, 2.9, 3, 9].map((t) => radiusAt(loaded, t)),
+    [0.5, 0.5, 0.8, 0.8],
+  );
+  assert.deepEqual([...knotTimes([loaded], 4)], [0, 3, 4]);
+  const passing = motionOf(ROBOT, [action(0, 10, [-5, 1.2], [5, 1.2])]);
+  assert.equal(firstOverlap({ ...loaded, radii: [] }, passing, 0, 10), null);
+  assert.equal(firstOverlap(loaded, passing, 0, 3), null);
+  assert.ok(Math.abs(firstOverlap(loaded, passing, 0, 10) - (5 - 0.5)) < 1e-4);
 });

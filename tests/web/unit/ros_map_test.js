@@ -34,8 +34,14 @@ const grid = (lines, resolution = 0.05, origin = { x: -10.1, y: -5 }) => ({
   resolution,
   origin,
 });
-const classify = (yaml, values, { maxval = 255, clear = null } = {}) => [
-  ...classifyPixels(readRosYaml(yaml), { width: values.length, height: 1, maxval, values, clear }).cells,
+const classify = (yaml, values, { largest = 255, channels = 1 } = {}) => [
+  ...classifyPixels(readRosYaml(yaml), {
+    width: values.length / channels,
+    height: 1,
+    channels,
+    largest,
+    values: Uint16Array.from(values),
+  }).cells,
 ];
 
 test("a map.yaml is read, with trinary as the default mode", () => {
@@ -104,7 +110,7 @@ test("pixels are free, occupied or unknown as in map_server", () => {
 
 test("a pixel that is exactly at a threshold is unknown", () => {
   const halves = YAML.replace("0.65", "0.75").replace("0.196", "0.25");
-  assert.deepEqual(classify(halves, [0, 1, 2, 3, 4], { maxval: 4 }), [
+  assert.deepEqual(classify(halves, [0, 1, 2, 3, 4], { largest: 4 }), [
     OCCUPIED,
     UNKNOWN,
     UNKNOWN,
@@ -114,19 +120,51 @@ test("a pixel that is exactly at a threshold is unknown", () => {
 });
 
 test("gray levels are relative to the maximum of the image", () => {
-  assert.deepEqual(classify(YAML, [0, 30000, 65535], { maxval: 65535 }), [OCCUPIED, UNKNOWN, FREE]);
+  assert.deepEqual(classify(YAML, [0, 30000, 65535], { largest: 65535 }), [OCCUPIED, UNKNOWN, FREE]);
 });
 
-test("in scale mode, pixels that are not opaque are unknown", () => {
-  const values = [0, 255, 0, 255];
-  const clear = [0, 0, 1, 1];
-  assert.deepEqual(classify(`${YAML}mode: scale`, values, { clear }), [OCCUPIED, FREE, UNKNOWN, UNKNOWN]);
-  assert.deepEqual(classify(YAML, values, { clear }), [OCCUPIED, FREE, OCCUPIED, FREE]);
+test("in scale mode, shades between the thresholds are percentages, and pixels that are not opaque unknown", () => {
+  const scale = `${YAML.replace("0.65", "0.9").replace("0.196", "0.1")}mode: scale`;
+  // Of grays to 100: (100 - gray) / 100, from 0.1 to 0.9 in percent: 38 gives 65, 39 gives 63.75; 70 gives 25, 69 26.25
+  assert.deepEqual(classify(scale, [0, 38, 39, 69, 70, 100], { largest: 100 }), [
+    OCCUPIED,
+    OCCUPIED,
+    UNKNOWN,
+    UNKNOWN,
+    FREE,
+    FREE,
+  ]);
+  const pixels = [0, 255, 255, 255, 0, 254, 255, 0]; // gray and alpha
+  assert.deepEqual(classify(`${YAML}mode: scale`, pixels, { channels: 2 }), [
+    OCCUPIED,
+    FREE,
+    UNKNOWN,
+    UNKNOWN,
+  ]);
 });
 
-test("in raw mode, the gray level is the occupancy in percent, up to 100", () => {
-  const raw = `${YAML}mode: raw`;
-  assert.deepEqual(classify(raw, [0, 19, 20, 65, 66, 100, 101, 255]), [
+test("in trinary mode, alpha counts as a fourth colour", () => {
+  // 1 - (3 * 40 + 255) / 4 / 255 is 0.632; of black 0.75
+  assert.deepEqual(classify(YAML, [0, 255, 40, 255, 255, 255, 0, 0], { channels: 2 }), [
+    OCCUPIED,
+    UNKNOWN,
+    FREE,
+    OCCUPIED,
+  ]);
+  assert.deepEqual(classify(YAML, [40, 40, 40, 255], { channels: 4 }), [UNKNOWN]);
+});
+
+test("the shade of a colour is the mean of its channels", () => {
+  assert.deepEqual(classify(YAML, [0, 0, 255, 0, 30, 255, 200, 210, 255], { channels: 3 }), [
+    OCCUPIED,
+    UNKNOWN,
+    FREE,
+  ]);
+});
+
+test("in raw mode, the gray level is the occupancy in percent, whatever the thresholds", () => {
+  const raw = `${YAML.replace("negate: 0", "negate: 1")}mode: raw`;
+  assert.deepEqual(classify(raw, [0, 25, 26, 64, 65, 100, 101, 255]), [
     FREE,
     FREE,
     UNKNOWN,

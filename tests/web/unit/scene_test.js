@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { readScene, readTracks, robotPoseAt, robotStateAt } from "../../../web/model/scene.js";
+import { readScene, readTracks, robotPoseAt, robotRadiusAt, robotStateAt } from "../../../web/model/scene.js";
 
 const REQUEST = {
   map: { rows: ["#.", ".G", "@T"], resolution: 0.5, origin: { x: 10, y: -2 } },
@@ -33,6 +33,20 @@ test("a robot uses the defaults for members it does not set", () => {
     robots.map(({ goal }) => goal?.theta),
     [null, 0, undefined],
   );
+});
+
+test("a robot has another radius after a goal that changes it", () => {
+  const goals = [
+    { x: 0, y: 0, radius_after: 0.4 },
+    { x: 1, y: 0 },
+    { x: 2, y: 0, radius_after: 0.3 },
+  ];
+  const scene = readScene({ robots: [{ id: "a", radius: 0.2, start: { x: 0, y: 0 }, goals }] });
+  const leaves = [4, 6, null];
+  const visits = leaves.map((t_leave, goal) => ({ goal, t_arrive: 0, t_leave }));
+  const tracks = readTracks(scene, { plans: [{ robot: "a", cost: 9, actions: [], visits }], unplanned: [] });
+  const at = (t) => robotRadiusAt(scene.robots[0], tracks.get("a"), t);
+  assert.deepEqual([at(0), at(3.9), at(4), at(8.9), at(9)], [0.2, 0.2, 0.4, 0.4, 0.3]);
 });
 
 test("labels omit the common prefix of all ids but never split a number", () => {

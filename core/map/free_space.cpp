@@ -1,16 +1,19 @@
-#include "core/map/static_moves.h"
+#include "core/map/free_space.h"
 
 #include <cstddef>
+#include <utility>
 
 namespace fleetplan::core {
 
-StaticMoves::StaticMoves(const Lattice& lattice, const LineOfSight& sight, double radius)
+FreeSpace::FreeSpace(const Lattice& lattice, const LineOfSight& sight, double radius,
+                     std::shared_ptr<const FinerVertices> finer)
     : lattice_(lattice),
       sight_(sight),
       radius_(radius),
+      finer_(finer ? std::move(finer) : std::make_shared<FinerVertices>()),
       masks_(static_cast<std::size_t>(lattice.vertex_count())) {}
 
-std::uint32_t StaticMoves::from(int vertex) {
+std::uint32_t FreeSpace::steps_from(int vertex) {
   Mask& cached = masks_[static_cast<std::size_t>(vertex)];
   if (cached.known) return cached.steps;
   const int column = vertex % lattice_.columns();
@@ -22,7 +25,7 @@ std::uint32_t StaticMoves::from(int vertex) {
     const int c = column + dc;
     const int r = row + dr;
     if (c < 0 || c >= lattice_.columns() || r < 0 || r >= lattice_.rows()) continue;
-    if (sight_.may_sweep(here, lattice_.position(lattice_.vertex(c, r)), radius_)) mask |= 1u << k;
+    if (may_sweep(here, lattice_.position(lattice_.vertex(c, r)), radius_)) mask |= 1u << k;
   }
   cached = {mask, true};
   return mask;

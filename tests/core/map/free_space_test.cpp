@@ -1,4 +1,4 @@
-#include "core/map/static_moves.h"
+#include "core/map/free_space.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace fleetplan::core {
 namespace {
 
-TEST(StaticMoves, AllowStepsThatDiskMaySweep) {
+TEST(FreeSpace, AllowStepsThatDiskMaySweep) {
   const std::uint64_t seed = 5;
   support::Dice dice(seed);
   for (int map = 0; map < 24; ++map) {
@@ -21,11 +21,11 @@ TEST(StaticMoves, AllowStepsThatDiskMaySweep) {
     const LineOfSight sight(grid);
     const Lattice lattice(grid, 4 << (map % 4));
     const double radius = grid.resolution() * dice.between(0.05, 1.5);
-    StaticMoves moves(lattice, sight, radius);
+    FreeSpace space(lattice, sight, radius);
     for (int k = 0; k < 20; ++k) {
       const int v = dice.below(lattice.vertex_count());
-      const std::uint32_t mask = moves.from(v);
-      ASSERT_EQ(moves.from(v), mask) << "the cached answer";
+      const std::uint32_t mask = space.steps_from(v);
+      ASSERT_EQ(space.steps_from(v), mask) << "the cached answer";
       for (std::size_t i = 0; i < lattice.steps().size(); ++i) {
         const auto [columns, rows] = lattice.steps()[i];
         const Position to =
@@ -38,14 +38,14 @@ TEST(StaticMoves, AllowStepsThatDiskMaySweep) {
   }
 }
 
-TEST(StaticMoves, DoNotCutCorners) {
+TEST(FreeSpace, DoNotCutCorners) {
   const OccupancyGrid grid = support::ascii_map({"..",  //
                                                  ".#"});
   const LineOfSight sight(grid);
   const Lattice lattice(grid, 8);
-  StaticMoves moves(lattice, sight, 0.3);
+  FreeSpace space(lattice, sight, 0.3);
   const int bottom_left = lattice.vertex(0, 0);
-  EXPECT_EQ(std::popcount(moves.from(bottom_left)), 1) << "only straight up";
+  EXPECT_EQ(std::popcount(space.steps_from(bottom_left)), 1) << "only straight up";
 }
 
 }  // namespace

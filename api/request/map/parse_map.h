@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "api/json/json_reader.h"
+#include "api/request/map/map_frame.h"
+
+namespace fleetplan::api {
+
+/// Reads the member `map`, which has one of `rows`, `occupancy_grid`, `image` and `movingai`: a map of at
+/// most `max_cells` cells. Nothing when it has a fault or when the reading of the document is stopped.
+std::optional<WorldMap> parse_map(const JsonReader& member, std::int64_t max_cells);
+
+}  // namespace fleetplan::api

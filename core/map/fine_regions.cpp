@@ -1,0 +1,210 @@
+#include "core/map/fine_regions.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fleetplan::core {
+namespace {
+
+/// Nodes; smaller blocks fit walls better, larger ones are fewer.
+constexpr int kLeastSide = 8;
+/// A node has a vertex within so many spacings, along steps between nodes.
+constexpr double kFarthest = 2.5;
+
+}  // namespace
+
+const FineRegions::Step FineRegions::kSteps[8] = {{1, 0, kAxis},       {0, 1, kAxis},     {1, 1, kDiagonal},
+                                                  {-1, 1, kDiagonal},  {-1, 0, kAxis},    {0, -1, kAxis},
+                                                  {-1, -1, kDiagonal}, {1, -1, kDiagonal}};
+
+FineRegions::FineRegions(const FineNodes& nodes, const Lattice& lattice, double radius,
+                         const LineOfSight& sight)
+    : nodes_(nodes),
+      lattice_(lattice),
+      radius_(radius),
+      sight_(sight),
+      side_(std::max(kLeastSide, static_cast<int>(std::ceil(lattice.spacing() / nodes.pitch())) + 1)),
+      limit_(static_cast<int>(
+          std::clamp(kFarthest * lattice.spacing() / nodes.pitch() * kAxis, 4.0 * kAxis, 30000.0))),
+      block_columns_((nodes.columns() + side_ - 1) / side_),
+      block_rows_((nodes.rows() + side_ - 1) / side_),
+      blocks_(static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows_), kClosed),
+      front_(static_cast<std::size_t>(limit_) + 1) {}
+
+Position FineRegions::position(int vertex) const {
+  return vertex < lattice_.vertex_count()
+             ? lattice_.position(vertex)
+             : added_[static_cast<std::size_t>(vertex - lattice_.vertex_count())];
+}
+
+bool FineRegions::find(const StopCondition& stop) {
+  for (int row = 0; row < block_rows_; ++row) {
+    if (stop.met()) return false;
+    for (int column = 0; column < block_columns_; ++column) classify(column, row);
+  }
+  const auto count = static_cast<int>(begin_of_block_.size());
+  for (int block = 0; block < count; ++block) begin_at_vertices(block);
+  for (int block = 0; block < count; ++block) begin_at_open_blocks(block);
+  spread(false);
+  for (int block = 0; block < count; ++block) {
+    if (block % 64 == 0 && stop.met()) return false;
+    const Cell begin = begin_of_block_[static_cast<std::size_t>(block)];
+    for (int k = 0; k < side_ * side_; ++k) {
+      const Cell here{begin.column + k % side_, begin.row + k / side_};
+      if (!inside(here)) continue;
+      const Node* node = find_node(here);
+      if (!node->fits || node->vertex >= 0) continue;
+      added_.push_back(nodes_.position(here.column, here.row));
+      put(here, lattice_.vertex_count() + static_cast<int>(added_.size()) - 1, 0, -1);
+      spread(true);
+    }
+  }
+  return true;
+}
+
+/// Finds out where the disk fits in a block.
+void FineRegions::classify(int block_column, int block_row) {
+  const Cell begin{block_column * side_, block_row * side_};
+  const int columns = std::min(side_, nodes_.columns() - begin.column);
+  const int rows = std::min(side_, nodes_.rows() - begin.row);
+  std::vector<Node> found(static_cast<std::size_t>(side_ * side_));
+  bool open = true;
+  bool closed = true;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      Node& node = found[static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) +
+                         static_cast<std::size_t>(column)];
+      node.ample = nodes_.is_ample(begin.column + column, begin.row + row);
+      node.fits = node.ample || nodes_.fits(begin.column + column, begin.row + row);
+      open = open && node.ample;
+      closed = closed && !node.fits;
+    }
+  }
+  if (closed) return;
+  std::int32_t& block = blocks_[block_of(begin)];
+  block = kOpen;
+  if (open && vertex_in_open_block(begin)) return;
+  block = static_cast<std::int32_t>(begin_of_block_.size());
+  begin_of_block_.push_back(begin);
+  searched_.insert(searched_.end(), found.begin(), found.end());
+}
+
+/// The vertex of the lattice nearest to a node of an open block, if the block has one.
+std::optional<int> FineRegions::vertex_in_open_block(const Cell& node) const {
+  if (!in_open_block(node)) return std::nullopt;
+  const Position here = nodes_.position(node.column, node.row);
+  const auto nearest = [&](double x, int cell, int end, int axis, int vertices) {
+    const int first = cell / side_ * side_;
+    const int last = std::min(first + side_, end) - 1;
+    const double low = axis == 0 ? nodes_.position(first, 0).x() : nodes_.position(0, first).y();
+    const double high = axis == 0 ? nodes_.position(last, 0).x() : nodes_.position(0, last).y();
+    const double rounding = 1e-6 * nodes_.pitch();
+    const int from = std::max(0, static_cast<int>(std::ceil((low - rounding) / lattice_.spacing() - 0.5)));
+    const int to =
+        std::min(vertices - 1, static_cast<int>(std::floor((high + rounding) / lattice_.spacing() - 0.5)));
+    if (from > to) return -1;
+    return std::clamp(static_cast<int>(std::floor(x / lattice_.spacing())), from, to);
+  };
+  const int column = nearest(here.x(), node.column, nodes_.columns(), 0, lattice_.columns());
+  const int row = nearest(here.y(), node.row, nodes_.rows(), 1, lattice_.rows());
+  if (column < 0 || row < 0) return std::nullopt;
+  return lattice_.vertex(column, row);
+}
+
+int FineRegions::length_to(const Cell& node, int vertex) const {
+  const double metres = (nodes_.position(node.column, node.row) - position(vertex)).norm();
+  return static_cast<int>(std::lround(metres / nodes_.pitch() * kAxis));
+}
+
+/// Begins at the vertices of the lattice in a block.
+void FineRegions::begin_at_vertices(int block) {
+  const Cell begin = begin_of_block_[static_cast<std::size_t>(block)];
+  const Position low = nodes_.position(begin.column, begin.row);
+  const double margin = 0.51 * nodes_.pitch();
+  const double spacing = lattice_.spacing();
+  const double size = (side_ - 1) * nodes_.pitch() + margin;
+  const auto first = [&](double x) {
+    return std::max(0, static_cast<int>(std::ceil((x - margin) / spacing - 0.5)));
+  };
+  const auto last = [&](double x, int count) {
+    return std::min(count - 1, static_cast<int>(std::floor((x + size) / spacing - 0.5)));
+  };
+  for (int row = first(low.y()); row <= last(low.y(), lattice_.rows()); ++row) {
+    for (int column = first(low.x()); column <= last(low.x(), lattice_.columns()); ++column) {
+      const int vertex = lattice_.vertex(column, row);
+      const Cell node = nodes_.nearest(lattice_.position(vertex));
+      if (!inside(node) || blocks_[block_of(node)] != block || !find_node(node)->fits) continue;
+      const Position at = nodes_.position(node.column, node.row);
+      if (!sight_.may_sweep(lattice_.position(vertex), at, radius_)) continue;
+      put(node, vertex, length_to(node, vertex), -1);
+    }
+  }
+}
+
+/// Begins at the nodes of a block beside open blocks.
+void FineRegions::begin_at_open_blocks(int block) {
+  const Cell begin = begin_of_block_[static_cast<std::size_t>(block)];
+  for (int k = 0; k < side_ * side_; ++k) {
+    const Cell here{begin.column + k % side_, begin.row + k / side_};
+    const bool inner = k % side_ > 0 && k % side_ < side_ - 1 && k / side_ > 0 && k / side_ < side_ - 1;
+    if (inner || !inside(here) || !find_node(here)->fits) continue;
+    for (int step = 0; step < 8; ++step) {
+      const Cell next{here.column + kSteps[step].columns, here.row + kSteps[step].rows};
+      if (!inside(next)) continue;
+      const auto vertex = vertex_in_open_block(next);
+      if (!vertex || !nodes_.may_sweep(here, next)) continue;
+      put(here, *vertex, kSteps[step].length + length_to(next, *vertex), step);
+    }
+  }
+}
+
+/// Reaches a node, unless it was reached on a way that is as short.
+void FineRegions::put(const Cell& here, int vertex, int length, int step) {
+  Node& node = *find_node(here);
+  if (length > limit_ || (node.vertex >= 0 && node.length <= length)) return;
+  node.vertex = vertex;
+  node.length = static_cast<std::uint16_t>(length);
+  node.step = static_cast<std::int8_t>(step);
+  front_[static_cast<std::size_t>(length)].push_back(here);
+}
+
+bool FineRegions::may_step(const Cell& from, const Node& from_node, const Cell& to,
+                           const Node& to_node) const {
+  return (from_node.ample && to_node.ample) || nodes_.may_sweep(from, to);
+}
+
+void FineRegions::spread(bool only_unreached) {
+  for (int length = 0; length <= limit_; ++length) {
+    auto& front = front_[static_cast<std::size_t>(length)];
+    for (std::size_t k = 0; k < front.size(); ++k) {
+      const Cell here = front[k];
+      const Node node = *find_node(here);
+      if (node.length != length) continue;
+      for (int step = 0; step < 8; ++step) {
+        const Cell next{here.column + kSteps[step].columns, here.row + kSteps[step].rows};
+        if (!inside(next)) continue;
+        const Node* other = find_node(next);
+        const int there = length + kSteps[step].length;
+        if (other == nullptr || !other->fits || (other->vertex >= 0 && other->length <= there)) continue;
+        if (only_unreached && other->vertex >= 0 && other->vertex != node.vertex) continue;
+        if (may_step(here, node, next, *other)) put(next, node.vertex, there, (step + 4) % 8);
+      }
+    }
+    front.clear();
+  }
+}
+
+std::vector<Position> FineRegions::way_from(Cell here) const {
+  std::vector<Position> way{nodes_.position(here.column, here.row)};
+  const Node* node = find_node(here);
+  int vertex = node != nullptr ? node->vertex : vertex_in_open_block(here).value();
+  while (node != nullptr && node->step >= 0) {
+    here = {here.column + kSteps[node->step].columns, here.row + kSteps[node->step].rows};
+    way.push_back(nodes_.position(here.column, here.row));
+    node = find_node(here);
+  }
+  way.push_back(position(vertex));
+  return way;
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/map/fine_nodes.h"
+#include "core/map/lattice.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// The fine nodes where a disk fits, each with the nearest vertex of the lattice along steps between nodes: a
+/// brushfire from all vertices. Nodes farther than a few spacings from any get vertices of their own. Blocks
+/// of nodes that are open everywhere are not searched: all vertices in them are linked.
+class FineRegions {
+ public:
+  /// Lengths are in fifths of the pitch of the nodes; a diagonal step counts 7.
+  static constexpr int kAxis = 5;
+  static constexpr int kDiagonal = 7;
+
+  /// Two nodes side by side in the regions of different vertices.
+  struct Touch {
+    Cell one;
+    Cell other;
+    int one_vertex = -1;
+    int other_vertex = -1;
+    int length = 0;  // from vertex to vertex
+  };
+
+  FineRegions(const FineNodes& nodes, const Lattice& lattice, double radius, const LineOfSight& sight);
+
+  /// False if the stop condition was met first.
+  bool find(const StopCondition& stop);
+
+  /// Additional vertices; their ids follow those of the lattice.
+  const std::vector<Position>& added() const { return added_; }
+  /// Of a vertex of the lattice or an additional one.
+  Position position(int vertex) const;
+
+  /// Calls visit(touch) for all places where regions touch. Whether the step between them is free is not
+  /// tested.
+  template <class Visit>
+  void for_each_touch(Visit&& visit) const;
+
+  /// The nodes from one to its vertex, both included.
+  std::vector<Position> way_from(Cell here) const;
+
+ private:
+  struct Node {
+    std::int32_t vertex = -1;
+    std::uint16_t length = 0;  // to the vertex
+    std::int8_t step = -1;     // towards it
+    bool fits = false;
+    bool ample = false;
+  };
+  struct Step {
+    int columns, rows, length;
+  };
+  static const Step kSteps[8];
+
+  enum : std::int32_t { kClosed = -1, kOpen = -2 };
+
+  void classify(int block_column, int block_row);
+  std::optional<int> vertex_in_open_block(const Cell& node) const;
+  void begin_at_vertices(int block);
+  void begin_at_open_blocks(int block);
+  void put(const Cell& here, int vertex, int length, int step);
+  void spread(bool only_unreached);
+  bool may_step(const Cell& from, const Node& from_node, const Cell& to, const Node& to_node) const;
+  int length_to(const Cell& node, int vertex) const;
+
+  bool inside(const Cell& node) const {
+    return node.column >= 0 && node.row >= 0 && node.column < nodes_.columns() && node.row < nodes_.rows();
+  }
+  std::size_t block_of(const Cell& node) const {
+    return static_cast<std::size_t>(node.row / side_) * static_cast<std::size_t>(block_columns_) +
+           static_cast<std::size_t>(node.column / side_);
+  }
+  /// Null in open and closed blocks.
+  Node* find_node(const Cell& node) { return const_cast<Node*>(std::as_const(*this).find_node(node)); }
+  const Node* find_node(const Cell& node) const {
+    const std::int32_t begin = blocks_[block_of(node)];
+    if (begin < 0) return nullptr;
+    const auto in_block = static_cast<std::size_t>(node.row % side_) * static_cast<std::size_t>(side_) +
+                          static_cast<std::size_t>(node.column % side_);
+    return &searched_[static_cast<std::size_t>(begin) * static_cast<std::size_t>(side_ * side_) + in_block];
+  }
+  bool in_open_block(const Cell& node) const { return blocks_[block_of(node)] == kOpen; }
+
+  const FineNodes& nodes_;
+  const Lattice& lattice_;
+  double radius_;
+  const LineOfSight& sight_;
+  int side_;   // of a block, nodes
+  int limit_;  // length of the longest way to a vertex
+  int block_columns_;
+  int block_rows_;
+  std::vector<std::int32_t> blocks_;  // kClosed, kOpen, or its number in searched_
+  std::vector<Cell> begin_of_block_;  // that is searched: its first node
+  std::vector<Node> searched_;
+  std::vector<std::vector<Cell>> front_;  // by length
+  std::vector<Position> added_;
+};
+
+template <class Visit>
+void FineRegions::for_each_touch(Visit&& visit) const {
+  for (const Cell& begin : begin_of_block_) {
+    for (int row = begin.row; row < std::min(begin.row + side_, nodes_.rows()); ++row) {
+      for (int column = begin.column; column < std::min(begin.column + side_, nodes_.columns()); ++column) {
+        const Cell here{column, row};
+        const Node& node = *find_node(here);
+        if (node.vertex < 0) continue;
+        for (int k = 0; k < 8; ++k) {
+          const Cell next{column + kSteps[k].columns, row + kSteps[k].rows};
+          if (!inside(next)) continue;
+          if (const Node* other = find_node(next)) {
+            if (k >= 4 || other->vertex < 0 || other->vertex == node.vertex) continue;
+            visit(Touch{here, next, node.vertex, other->vertex,
+                        node.length + kSteps[k].length + other->length});
+          } else if (const auto vertex = vertex_in_open_block(next); vertex && *vertex != node.vertex) {
+            const int length = node.length + kSteps[k].length + length_to(next, *vertex);
+            visit(Touch{here, next, node.vertex, *vertex, length});
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace fleetplan::core

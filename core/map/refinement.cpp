@@ -1,0 +1,333 @@
+#include "core/map/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <queue>
+#include <set>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "core/geometry/interval.h"
+#include "core/geometry/tolerance.h"
+#include "core/map/fine_nodes.h"
+#include "core/map/fine_regions.h"
+#include "core/map/free_space.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// A lattice whose spacing is less than this many cells is refined between the cells.
+constexpr double kCoarseCells = 1.5;
+/// A lattice that is finer than this, in cells, misses nothing.
+constexpr double kFinestCells = 0.75;
+/// A gap between cells is passed on a grid line if the disk has so much play there, in cells. Lower bounds
+/// leave out gaps that are tighter; see TightGaps.
+constexpr double kLeastPlay = 0.05;
+/// Vertices whose regions touch are joined if the way between them on the lattice is longer than their bridge
+/// by more than this factor and so many spacings.
+constexpr double kLongWay = 1.5;
+constexpr double kWayRound = 2.0;
+/// The same for the lattice of the cells, whose plans are to change only where it matters.
+constexpr double kWayRoundCells = 8.0;
+/// Spacings: links from additional vertices.
+constexpr double kLinkDistance = 1.5;
+/// Paths bend around corners by turns of this at vertices that are placed for it, radians.
+constexpr double kTurnAtCorner = 0.25 * std::numbers::pi;
+/// Of several vertices at corners that lie in one square of this size, in radii, one suffices.
+constexpr double kCornerSize = 0.35;
+/// Places where regions touch between two checks of the stop condition.
+constexpr int kStopStride = 64;
+
+bool is_coarse(const OccupancyGrid& grid, const Lattice& lattice) {
+  return lattice.spacing() > kCoarseCells * grid.resolution();
+}
+
+/// Whether a disk has no play in a gap of an even number of cells.
+bool may_have_tight_gaps(const OccupancyGrid& grid, double radius) {
+  const double diameter = 2.0 * radius / grid.resolution();
+  const double even = 2.0 * std::ceil(0.5 * diameter - 1e-6);
+  return even - diameter < 2.0 * kLeastPlay;
+}
+
+class Refinement {
+ public:
+  Refinement(const FineNodes& nodes, const FineRegions& regions, const LineOfSight& sight,
+             const Lattice& lattice, double radius, double needed, double way_round)
+      : nodes_(nodes),
+        regions_(regions),
+        sight_(sight),
+        lattice_(lattice),
+        needed_(needed),
+        way_round_(way_round),
+        space_(lattice, sight, radius),
+        added_(regions.added()) {}
+
+  /// Adds vertices around the convex corners of obstacles, where the shortest paths bend.
+  void add_corners(const OccupancyGrid& grid);
+
+  std::optional<FinerVertices> run(const StopCondition& stop) {
+    std::vector<Bridge> bridges = find_bridges();
+    int count = 0;
+    for (const Bridge& bridge : bridges) {
+      if (++count % kStopStride == 0 && stop.met()) return std::nullopt;
+      const double length = bridge.length * nodes_.pitch() / FineRegions::kAxis;
+      const double limit = kLongWay * length + way_round_ * lattice_.spacing();
+      if (!are_joined(bridge.from, bridge.to, limit)) build(bridge);
+    }
+    link_to_lattice();
+    return FinerVertices(lattice_.vertex_count(), std::move(added_), std::move(links_));
+  }
+
+ private:
+  struct Bridge {
+    int length = 0;
+    int from = 0;
+    int to = 0;
+    Cell near_from;  // the nodes between which it leaves the region of `from`
+    Cell near_to;
+  };
+
+  std::vector<Bridge> find_bridges();
+  bool is_one_move(int from, int to);
+  bool are_joined(int from, int to, double limit);
+  void build(const Bridge& bridge);
+  void link(int from, int to);
+  void link_to_lattice();
+  void add_corner(const Position& wanted);
+
+  Position position(int vertex) const {
+    return vertex < lattice_.vertex_count()
+               ? lattice_.position(vertex)
+               : added_[static_cast<std::size_t>(vertex - lattice_.vertex_count())];
+  }
+  template <class Visit>
+  void for_each_neighbour(int vertex, const Visit& visit);
+
+  const FineNodes& nodes_;
+  const FineRegions& regions_;
+  const LineOfSight& sight_;
+  const Lattice& lattice_;
+  double needed_;  // radius on the way over nodes
+  double way_round_;
+  FreeSpace space_;
+  std::vector<Position> added_;
+  std::vector<FinerVertices::Link> links_;
+  std::set<std::pair<int, int>> squares_with_corners_;
+  std::unordered_map<int, std::vector<int>> linked_;
+};
+
+/// The shortest bridge between every two vertices that have one but no move between them, shorter ones first.
+std::vector<Refinement::Bridge> Refinement::find_bridges() {
+  constexpr int kOneMove = -1;
+  std::unordered_map<std::uint64_t, Bridge> shortest;
+  regions_.for_each_touch([&](const FineRegions::Touch& touch) {
+    const bool in_order = touch.one_vertex < touch.other_vertex;
+    const Bridge bridge{touch.length, in_order ? touch.one_vertex : touch.other_vertex,
+                        in_order ? touch.other_vertex : touch.one_vertex, in_order ? touch.one : touch.other,
+                        in_order ? touch.other : touch.one};
+    const auto key = static_cast<std::uint64_t>(bridge.from) << 32 | static_cast<std::uint64_t>(bridge.to);
+    const auto [known, is_new] = shortest.try_emplace(key, bridge);
+    Bridge& best = known->second;
+    if (is_new) {
+      best.length = is_one_move(bridge.from, bridge.to) ? kOneMove : std::numeric_limits<int>::max();
+    }
+    if (bridge.length < best.length && nodes_.may_sweep(bridge.near_from, bridge.near_to)) best = bridge;
+  });
+  std::vector<Bridge> bridges;
+  for (const auto& [key, bridge] : shortest) {
+    if (bridge.length != kOneMove && bridge.length != std::numeric_limits<int>::max())
+      bridges.push_back(bridge);
+  }
+  std::sort(bridges.begin(), bridges.end(), [](const Bridge& a, const Bridge& b) {
+    return std::tie(a.length, a.from, a.to) < std::tie(b.length, b.from, b.to);
+  });
+  return bridges;
+}
+
+bool Refinement::is_one_move(int from, int to) {
+  if (to >= lattice_.vertex_count()) return false;
+  const int columns = to % lattice_.columns() - from % lattice_.columns();
+  const int rows = to / lattice_.columns() - from / lattice_.columns();
+  for (std::size_t k = 0; k < lattice_.steps().size(); ++k) {
+    if (lattice_.steps()[k].columns == columns && lattice_.steps()[k].rows == rows) {
+      return (space_.steps_from(from) >> k & 1u) != 0;
+    }
+  }
+  return false;
+}
+
+template <class Visit>
+void Refinement::for_each_neighbour(int vertex, const Visit& visit) {
+  if (vertex < lattice_.vertex_count()) {
+    std::uint32_t mask = space_.steps_from(vertex);
+    for (std::size_t k = 0; mask != 0; ++k, mask >>= 1) {
+      const Lattice::Step& step = lattice_.steps()[k];
+      if ((mask & 1u) != 0) visit(vertex + step.rows * lattice_.columns() + step.columns);
+    }
+  }
+  const auto links = linked_.find(vertex);
+  if (links == linked_.end()) return;
+  for (const int other : links->second) visit(other);
+}
+
+/// Whether a way of at most `limit` metres leads from one vertex to another.
+bool Refinement::are_joined(int from, int to, double limit) {
+  struct Open {
+    double f;
+    double g;
+    int vertex;
+    bool operator>(const Open& other) const { return std::tie(f, vertex) > std::tie(other.f, other.vertex); }
+  };
+  const Position goal = position(to);
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  std::unordered_map<int, double> best{{from, 0.0}};
+  open.push({(position(from) - goal).norm(), 0.0, from});
+  while (!open.empty()) {
+    const Open at = open.top();
+    open.pop();
+    if (at.vertex == to) return true;
+    if (at.g > best[at.vertex]) continue;
+    const Position here = position(at.vertex);
+    for_each_neighbour(at.vertex, [&](int next) {
+      const double g = at.g + (position(next) - here).norm();
+      const double f = g + (position(next) - goal).norm();
+      if (f > limit) return;
+      const auto [known, is_new] = best.try_emplace(next, g);
+      if (!is_new && known->second <= g) return;
+      known->second = g;
+      open.push({f, g, next});
+    });
+  }
+  return false;
+}
+
+/// Links the vertices: directly, or by the nodes between them that are needed.
+void Refinement::build(const Bridge& bridge) {
+  std::vector<Position> way = regions_.way_from(bridge.near_from);
+  std::reverse(way.begin(), way.end());
+  for (const Position& place : regions_.way_from(bridge.near_to)) way.push_back(place);
+  int last = bridge.from;
+  std::size_t at = 0;
+  while (at + 1 < way.size()) {
+    std::size_t next = way.size() - 1;
+    const double most = next - at > 1 ? 2.0 * lattice_.spacing() : kForever;
+    while (next > at + 1 &&
+           ((way[next] - way[at]).norm() > most || !sight_.may_sweep(way[at], way[next], needed_))) {
+      --next;
+    }
+    int vertex = bridge.to;
+    if (next + 1 < way.size()) {
+      vertex = lattice_.vertex_count() + static_cast<int>(added_.size());
+      added_.push_back(way[next]);
+    }
+    link(last, vertex);
+    last = vertex;
+    at = next;
+  }
+}
+
+void Refinement::link(int from, int to) {
+  links_.emplace_back(from, to);
+  linked_[from].push_back(to);
+  linked_[to].push_back(from);
+}
+
+void Refinement::add_corners(const OccupancyGrid& grid) {
+  const double away = needed_ / std::cos(0.5 * kTurnAtCorner);
+  for (int row = 1; row < grid.rows(); ++row) {
+    for (int column = 1; column < grid.columns(); ++column) {
+      const bool left = grid.blocked({column - 1, row - 1}) != grid.blocked({column - 1, row});
+      const bool right = grid.blocked({column, row - 1}) != grid.blocked({column, row});
+      if (left == right) continue;  // no corner, or two that touch
+      const int behind = left ? column - 1 : column;
+      const int beside = left ? column : column - 1;
+      if (grid.blocked({beside, row})) continue;  // a concave one
+      const double up = grid.blocked({behind, row}) ? -1.0 : 1.0;
+      const double to_right = left ? 1.0 : -1.0;
+      const Position corner = grid.resolution() * Position(column, row);
+      for (const double angle : {0.5 * kTurnAtCorner, 1.5 * kTurnAtCorner}) {
+        add_corner(corner + away * Position(to_right * std::cos(angle), up * std::sin(angle)));
+      }
+    }
+  }
+}
+
+/// Adds the node nearest to the wanted position, if the disk fits there and a vertex of the lattice is in
+/// sight.
+void Refinement::add_corner(const Position& wanted) {
+  const Cell nearest = nodes_.nearest(wanted);
+  std::optional<Position> best;
+  for (int row = nearest.row - 1; row <= nearest.row + 1; ++row) {
+    for (int column = nearest.column - 1; column <= nearest.column + 1; ++column) {
+      if (column < 0 || row < 0 || column >= nodes_.columns() || row >= nodes_.rows()) continue;
+      const Position here = nodes_.position(column, row);
+      if (best && (here - wanted).squaredNorm() >= (*best - wanted).squaredNorm()) continue;
+      if (nodes_.fits(column, row)) best = here;
+    }
+  }
+  if (!best || lattice_.vertex_at(*best) >= 0) return;
+  const std::vector<int> near = lattice_.vertices_near(*best, kLinkDistance * lattice_.spacing());
+  const bool is_linked = std::any_of(near.begin(), near.end(), [&](int vertex) {
+    return sight_.may_sweep(*best, lattice_.position(vertex), needed_);
+  });
+  if (!is_linked) return;
+  const double size = kCornerSize * needed_;
+  const std::pair square{static_cast<int>(best->x() / size), static_cast<int>(best->y() / size)};
+  if (squares_with_corners_.insert(square).second) added_.push_back(*best);
+}
+
+/// Links additional vertices to those of the lattice around them, for shorter ways.
+void Refinement::link_to_lattice() {
+  const auto count = static_cast<int>(added_.size());
+  const FinerVertices all(lattice_.vertex_count(), added_, {});
+  for (int k = 0; k < count; ++k) {
+    const Position& here = added_[static_cast<std::size_t>(k)];
+    for (const int vertex : lattice_.vertices_near(here, kLinkDistance * lattice_.spacing())) {
+      const Position there = lattice_.position(vertex);
+      if ((there - here).norm() <= 2.0 * kSamePosition) continue;
+      if (sight_.may_sweep(here, there, needed_)) links_.emplace_back(vertex, lattice_.vertex_count() + k);
+    }
+    for (const int other : all.near(here, kLinkDistance * lattice_.spacing())) {
+      if (other <= lattice_.vertex_count() + k) continue;
+      if (sight_.may_sweep(here, all.position(other), needed_)) {
+        links_.emplace_back(lattice_.vertex_count() + k, other);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+bool may_need_refinement(const OccupancyGrid& grid, const Lattice& lattice, double radius) {
+  if (lattice.spacing() < kFinestCells * grid.resolution()) return false;
+  return is_coarse(grid, lattice) || radius > 0.5 * grid.resolution() + kContactTolerance;
+}
+
+FineLattice::FineLattice(const OccupancyGrid& grid, const Lattice& lattice, double robot_radius)
+    : radius(robot_radius) {
+  const bool half = !is_coarse(grid, lattice);
+  pitch = half ? 0.5 * grid.resolution() : grid.resolution();
+  first = half ? 0.0 : 0.5 * pitch;
+  if (half && may_have_tight_gaps(grid, radius)) radius += kLeastPlay * grid.resolution();
+}
+
+std::optional<FinerVertices> refine(const OccupancyGrid& grid, const DistanceTransform& distances,
+                                    const LineOfSight& sight, const Lattice& lattice, double radius,
+                                    const StopCondition& stop) {
+  const bool half = !is_coarse(grid, lattice);
+  const double needed = FineLattice(grid, lattice, radius).radius;
+  const FineNodes nodes(grid, distances, sight, needed, half);
+  FineRegions regions(nodes, lattice, needed, sight);
+  if (!regions.find(stop)) return std::nullopt;
+  Refinement refinement(nodes, regions, sight, lattice, radius, needed, half ? kWayRoundCells : kWayRound);
+  if (!half) refinement.add_corners(grid);
+  return refinement.run(stop);
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+#include "core/map/distance_transform.h"
+#include "core/map/finer_vertices.h"
+#include "core/map/lattice.h"
+#include "core/map/line_of_sight.h"
+#include "core/map/occupancy_grid.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Whether a lattice may miss ways of robots of this radius at all. Robots that are no larger than a cell
+/// follow the centres of the cells wherever they fit.
+bool may_need_refinement(const OccupancyGrid& grid, const Lattice& lattice, double radius);
+
+/// The fine lattice, for a disk of this radius: the centres of the cells or, for a lattice of these, also the
+/// middles between them.
+struct FineLattice {
+  double pitch = 0.0;
+  double first = 0.0;   // both coordinates of the first node
+  double radius = 0.0;  // metres; a little more than the robot's where gaps may leave it no play
+
+  FineLattice(const OccupancyGrid& grid, const Lattice& lattice, double robot_radius);
+};
+
+/// The vertices that the lattice lacks for robots of one radius: wherever these may go from one of its
+/// vertices to another over the centres of the cells (on the lattice of the cells themselves: and the middles
+/// between them), they can on the refined lattice, and not only by a long way round. None if the stop
+/// condition was met first.
+std::optional<FinerVertices> refine(const OccupancyGrid& grid, const DistanceTransform& distances,
+                                    const LineOfSight& sight, const Lattice& lattice, double radius,
+                                    const StopCondition& stop);
+
+}  // namespace fleetplan::core

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <tuple>
+
+#include "core/map/distance_transform.h"
+#include "core/map/finer_vertices.h"
+#include "core/map/lattice.h"
+#include "core/map/line_of_sight.h"
+#include "core/map/occupancy_grid.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// A map with what is derived from it alone. It never changes, so requests on the same map and threads may
+/// share it. What only some requests need is computed on first use.
+class StaticMap {
+ public:
+  explicit StaticMap(OccupancyGrid grid);
+
+  const OccupancyGrid& grid() const { return grid_; }
+  const LineOfSight& sight() const { return sight_; }
+
+  /// What refines a lattice for robots of this radius; never null. No vertices if there are none, or if the
+  /// stop condition was met first.
+  std::shared_ptr<const FinerVertices> finer_vertices(const Lattice& lattice, double radius,
+                                                      const StopCondition& stop) const;
+
+ private:
+  using Kind = std::tuple<double, int, double>;  // of lattice and robot: spacing, connectivity, radius
+
+  OccupancyGrid grid_;
+  LineOfSight sight_;
+  // Computed on first use.
+  mutable std::mutex mutex_;
+  mutable std::optional<DistanceTransform> distances_;
+  mutable std::map<Kind, std::shared_ptr<const FinerVertices>> finer_;
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/geometry/position.h"
+
+namespace fleetplan::core {
+
+/// A part of the map with a rule of its own.
+struct Zone {
+  enum class Type {
+    blocked,  // no part of a robot's disk may be inside
+    speed,    // limits of the speeds while the robot's centre is inside
+    one_way,  // translations with the centre inside keep within `half_angle` of `heading`
+  };
+  std::string id;
+  Type type = Type::blocked;
+  /// A simple polygon: at least three corners in order, map frame, metres. Its border belongs to a blocked
+  /// zone, not to the others.
+  std::vector<Position> polygon = {};
+  double linear_speed = 0.0;             // of `speed`: metres per second, > 0
+  double angular_speed = 0.0;            // of `speed`: radians per second, > 0
+  double heading = 0.0;                  // of `one_way`: radians
+  double half_angle = 0.0;               // of `one_way`: radians, > 0
+  std::vector<std::size_t> robots = {};  // that it is for, ascending; empty: all of them
+
+  bool is_for(std::size_t robot) const;
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,159 @@
+// Random fleets in random moments of their plans, with robots that are held, late or have new goals: whatever
+// happens, nobody is committed to drive into another robot, or stands in the way of one.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "api/advance/advance.h"
+#include "core/geometry/tolerance.h"
+#include "core/planner.h"
+#include "core/verify/tolerances.h"
+#include "core/verify/verify.h"
+#include "tests/support/moments.h"
+#include "tests/support/random_problem.h"
+#include "tests/support/summary.h"
+
+namespace fleetplan::api {
+namespace {
+
+using support::Dice;
+
+core::StopCondition a_moment() {
+  return core::StopCondition(core::StopCondition::Clock::now() + std::chrono::milliseconds(200));
+}
+
+/// The fleet from round to round.
+class Fleet {
+ public:
+  explicit Fleet(Dice& dice) : dice_(dice), problem_(random_problem(dice)) {
+    options_ = support::random_options(dice, problem_);
+    options_.start_safe_interval = 0.0;
+    if (dice.chance(0.5)) options_.replan = core::PlanOptions::Replan::where_needed;
+    commits_ = dice.chance(0.5);
+  }
+
+  /// Plans, and returns what everybody executes.
+  std::vector<Execution> plan() {
+    const core::Plan plan = core::plan(problem_, options_, a_moment());
+    EXPECT_TRUE(plan.unavoidable.empty())
+        << "robot " << plan.unavoidable.front().robot << " at " << plan.unavoidable.front().t;
+    expect_safe(plan);
+    std::vector<Execution> executions;
+    for (const core::Robot& robot : problem_.robots()) executions.push_back({robot.committed});
+    for (const core::RobotPlan& robot : plan.plans) executions[robot.robot] = {robot.actions, true};
+    makespan_ = plan.objectives.makespan;
+    return executions;
+  }
+
+  /// Something happens to some robots. Goals are those of others, so that only the way there is new.
+  std::vector<core::Robot> at_a_later_moment(std::vector<Execution> executions) {
+    Moment moment;
+    moment.pose_tolerance = 1e-6;
+    moment.at = dice_.between(0.0, 0.3 * makespan_);
+    if (commits_) moment.commit = dice_.between(0.0, 3.0);
+    moment.wait_before_move = options_.wait_before_move;
+    moment.inflation = options_.inflation;
+    for (std::size_t k = 0; k < executions.size(); ++k) {
+      Execution& execution = executions[k];
+      if (dice_.chance(0.2)) execution.hold = dice_.between(0.1, 20.0);
+      if (dice_.chance(0.2)) fall_behind(execution, moment.at);
+      const auto& goal = problem_.robots()[k].goal;
+      if (goal && dice_.chance(0.2)) execution.goals = {*goal};
+    }
+    ParseStop stop;
+    return advanced(problem_.robots(), executions, moment, stop);
+  }
+
+  /// Returns whether the fleet is one that can be planned for: a late robot may be where another one is.
+  bool go_on(std::vector<core::Robot> robots) {
+    auto created = core::Problem::create(problem_.grid(), std::move(robots));
+    if (const auto* faults = std::get_if<core::ProblemFaults>(&created)) {
+      for (const core::ProblemFault& fault : faults->listed) {
+        EXPECT_NE(fault.kind, core::ProblemFault::Kind::committed_collision)
+            << fault.robot << " and " << fault.other << " at " << fault.t;
+      }
+      return false;
+    }
+    problem_ = std::move(std::get<core::Problem>(created));
+    return true;
+  }
+
+  const core::Problem& problem() const { return problem_; }
+
+ private:
+  static core::Problem random_problem(Dice& dice) {
+    const core::Problem problem = support::random_problem(dice, 12);
+    std::vector<core::Robot> robots = problem.robots();
+    if (dice.chance(0.3)) {
+      for (core::Robot& robot : robots) robot.vicinity = problem.grid().resolution() * dice.between(0.0, 0.5);
+    }
+    return std::get<core::Problem>(core::Problem::create(problem.grid(), std::move(robots)));
+  }
+
+  void expect_safe(const core::Plan& plan) const {
+    core::CheckRules rules;
+    rules.tolerances = core::plan_tolerances(problem_.grid(), problem_.robots(), plan.plans);
+    rules.wait_before_move = options_.wait_before_move;
+    const auto report =
+        core::verify({problem_.grid(), problem_.robots(), {}}, plan.plans, rules, core::StopCondition());
+    EXPECT_TRUE(report->valid()) << support::text(*report);
+  }
+
+  void fall_behind(Execution& execution, double at) {
+    const double then = std::max(0.0, at - dice_.between(0.0, 1.0));
+    for (const core::Action& action : execution.actions) {
+      if (action.t_start <= then && then < action.t_end)
+        execution.measured = support::pose_within(action, then);
+    }
+  }
+
+  Dice& dice_;
+  core::Problem problem_;
+  core::PlanOptions options_;
+  bool commits_ = false;
+  double makespan_ = 0.0;
+};
+
+/// All robots execute what is committed, and stay.
+void expect_that_all_may_stop(const core::Problem& problem) {
+  std::vector<core::Robot> robots = problem.robots();
+  std::vector<core::RobotPlan> stops;
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    robots[k].goal.reset();
+    robots[k].via.clear();
+    robots[k].previous.reset();
+    stops.push_back({k, robots[k].committed_until(), robots[k].committed});
+  }
+  core::CheckRules rules;
+  rules.tolerances.assign(robots.size(), core::Tolerance::of_all(core::kContactTolerance));
+  const auto report = core::verify({problem.grid(), robots, {}}, stops, rules, core::StopCondition());
+  EXPECT_TRUE(report->valid()) << support::text(*report);
+}
+
+void go_through(Fleet& fleet) {
+  for (int round = 0; round < 6; ++round) {
+    SCOPED_TRACE(testing::Message() << "round " << round);
+    if (!fleet.go_on(fleet.at_a_later_moment(fleet.plan()))) return;
+    expect_that_all_may_stop(fleet.problem());
+  }
+}
+
+TEST(RandomFleets, MayStopWhereTheirCommitmentsEndWhateverHappens) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Dice dice(seed);
+    Fleet fleet(dice);
+    go_through(fleet);
+  }
+}
+
+}  // namespace
+}  // namespace fleetplan::api

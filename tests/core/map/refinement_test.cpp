@@ -1,0 +1,163 @@
+// Refined lattices connect what a fine lattice connects.
+
+#include "core/map/refinement.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "core/map/free_space.h"
+#include "core/map/static_map.h"
+#include "tests/support/ascii_map.h"
+#include "tests/support/random_problem.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Sets of things that are connected.
+class Components {
+ public:
+  explicit Components(int count) : parents_(static_cast<std::size_t>(count)) {
+    std::iota(parents_.begin(), parents_.end(), 0);
+  }
+  int of(int thing) {
+    int& parent = parents_[static_cast<std::size_t>(thing)];
+    if (parent != thing) parent = of(parent);
+    return parent;
+  }
+  void join(int a, int b) { parents_[static_cast<std::size_t>(of(a))] = of(b); }
+
+ private:
+  std::vector<int> parents_;
+};
+
+/// By lattice moves, and by the links of the finer vertices.
+Components components(const Lattice& lattice, const LineOfSight& sight, double radius,
+                      const FinerVertices& finer) {
+  FreeSpace space(lattice, sight, radius);
+  Components all(lattice.vertex_count() + finer.count());
+  for (int vertex = 0; vertex < lattice.vertex_count(); ++vertex) {
+    const std::uint32_t mask = space.steps_from(vertex);
+    for (std::size_t k = 0; k < lattice.steps().size(); ++k) {
+      const Lattice::Step& step = lattice.steps()[k];
+      if ((mask >> k & 1u) != 0) all.join(vertex, vertex + step.rows * lattice.columns() + step.columns);
+    }
+  }
+  for (const auto& [from, to] : finer.links()) all.join(from, to);
+  return all;
+}
+
+/// Rooms with doors of random widths in their walls, and speckle.
+OccupancyGrid building(support::Dice& dice) {
+  const int columns = 30 + dice.below(50);
+  const int rows = 30 + dice.below(50);
+  OccupancyGrid grid(columns, rows, 0.05);
+  for (int wall = 0; wall < 6; ++wall) {
+    const bool vertical = dice.below(2) == 0;
+    const int at = dice.below(vertical ? columns : rows);
+    const int length = vertical ? rows : columns;
+    const int door = dice.below(length);
+    const int width = 5 + dice.below(14);
+    for (int k = 0; k < length; ++k) {
+      if (k >= door && k < door + width) continue;
+      grid.block(vertical ? Cell{at, k} : Cell{k, at});
+    }
+  }
+  for (int k = dice.below(12); k > 0; --k) grid.block({dice.below(columns), dice.below(rows)});
+  return grid;
+}
+
+Position position_of(const Lattice& lattice, const FinerVertices& finer, int vertex) {
+  return vertex < lattice.vertex_count() ? lattice.position(vertex) : finer.position(vertex);
+}
+
+TEST(Refinement, ConnectsWhatTheLatticeOfTheCellsConnects) {
+  const std::uint64_t seed = 11;
+  support::Dice dice(seed);
+  int refined = 0;
+  for (int map = 0; map < 60; ++map) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << map);
+    const OccupancyGrid grid = building(dice);
+    const LineOfSight sight(grid);
+    const DistanceTransform distances(grid);
+    const double radius = dice.between(0.1, 0.45);
+    const double spacing = 0.05 * (2 * (1 + dice.below(5)) + 1);
+    const Lattice lattice(grid, 4 << dice.below(4), spacing);
+    const auto finer = refine(grid, distances, sight, lattice, radius, {});
+    ASSERT_TRUE(finer);
+    refined += finer->count() > 0 ? 1 : 0;
+    const Lattice cells(grid, 8);
+    Components fine = components(cells, sight, radius, {});
+    Components coarse = components(lattice, sight, radius, *finer);
+    // Every vertex of the lattice is a cell; the components of both lattices agree on them.
+    std::vector<int> coarse_of(static_cast<std::size_t>(cells.vertex_count()), -1);
+    for (int vertex = 0; vertex < lattice.vertex_count() + finer->count(); ++vertex) {
+      const Position place = position_of(lattice, *finer, vertex);
+      if (!sight.disk_fits(place, radius)) continue;
+      const int cell = cells.vertex_at(place);
+      ASSERT_GE(cell, 0);
+      int& known = coarse_of[static_cast<std::size_t>(fine.of(cell))];
+      if (known < 0) known = coarse.of(vertex);
+      ASSERT_EQ(known, coarse.of(vertex)) << "vertex " << vertex << " at " << place.transpose();
+    }
+    for (int cell = 0; cell < cells.vertex_count(); ++cell) {
+      if (!sight.disk_fits(cells.position(cell), radius)) continue;
+      ASSERT_GE(coarse_of[static_cast<std::size_t>(fine.of(cell))], 0) << "no vertex near cell " << cell;
+    }
+    for (const auto& [from, to] : finer->links()) {
+      ASSERT_TRUE(
+          sight.may_sweep(position_of(lattice, *finer, from), position_of(lattice, *finer, to), radius));
+    }
+  }
+  EXPECT_GT(refined, 10) << "the test does not test what it should";
+}
+
+TEST(Refinement, FindsTheMiddleOfAGapBetweenCells) {
+  const OccupancyGrid grid = support::ascii_map({"....#....",  //
+                                                 "....#....",  //
+                                                 ".........",  //
+                                                 ".........",  //
+                                                 "....#....",  //
+                                                 "....#...."},
+                                                0.5);
+  const StaticMap map(grid);
+  const Lattice lattice(grid, 8);
+  const auto finer = map.finer_vertices(lattice, 0.3, {});
+  ASSERT_GT(finer->count(), 0);
+  Components all = components(lattice, map.sight(), 0.3, *finer);
+  EXPECT_EQ(all.of(lattice.vertex(1, 2)), all.of(lattice.vertex(7, 3)));
+  EXPECT_EQ(map.finer_vertices(lattice, 0.3, {}), finer) << "computed once";
+  EXPECT_EQ(map.finer_vertices(lattice, 0.25, {})->count(), 0) << "follows the centres of the cells";
+}
+
+TEST(Refinement, AddsNothingWhereTheLatticeHasAWayNearby) {
+  const StaticMap map(OccupancyGrid(40, 40, 0.05));
+  const Lattice lattice(map.grid(), 8, 0.25);
+  const auto finer = map.finer_vertices(lattice, 0.3, {});
+  EXPECT_EQ(finer->count(), 0);
+  EXPECT_TRUE(finer->links().empty());
+}
+
+TEST(Refinement, LeavesOutGapsWithoutPlay) {
+  const OccupancyGrid grid = support::ascii_map({"...#...",  //
+                                                 ".......",  //
+                                                 ".......",  //
+                                                 "...#..."});
+  const StaticMap map(grid);
+  const Lattice lattice(grid, 8);
+  EXPECT_TRUE(map.finer_vertices(lattice, 1.0, {})->links().empty());
+}
+
+TEST(Refinement, EndsWhenItIsStopped) {
+  StopCondition::Clock::time_point past{};
+  const StaticMap map(support::ascii_map({"...#...", ".......", ".......", "...#..."}, 0.5));
+  const Lattice lattice(map.grid(), 8);
+  EXPECT_EQ(map.finer_vertices(lattice, 0.3, StopCondition(past))->count(), 0);
+  EXPECT_GT(map.finer_vertices(lattice, 0.3, {})->count(), 0) << "what was not finished is not kept";
+}
+
+}  // namespace
+}  // namespace fleetplan::core

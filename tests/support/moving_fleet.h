@@ -1,0 +1,156 @@
+#pragma once
+
+// Random requests for fleets in motion, and the same fleets at later moments of their plans.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/geometry/position.h"
+#include "core/map/obstacle_distance.h"
+#include "core/model/plan.h"
+#include "core/model/plan_options.h"
+#include "core/model/problem.h"
+#include "tests/support/moments.h"
+#include "tests/support/random_problem.h"
+
+namespace fleetplan::support {
+
+inline core::Position random_place(Dice& dice, const core::OccupancyGrid& grid) {
+  return {dice.between(0.0, grid.width()), dice.between(0.0, grid.height())};
+}
+
+/// Some goals on the way, where the robot has room, some of them served for some time.
+inline void add_goals(Dice& dice, const core::OccupancyGrid& grid, core::Robot& robot) {
+  for (int attempt = dice.below(4); attempt > 0; --attempt) {
+    core::Goal goal{random_place(dice, grid), {}};
+    if (dice.chance(0.3)) goal.position = grid.center(grid.cell_at(goal.position));
+    if (dice.chance(0.1)) goal.position = robot.start.position;
+    if (core::obstacle_distance(grid, goal.position, robot.radius) < robot.radius) continue;
+    if (dice.chance(0.5)) goal.theta = dice.between(-std::numbers::pi, std::numbers::pi);
+    robot.via.push_back(goal);
+    if (dice.chance(0.1)) robot.via.push_back(goal);
+  }
+  const auto add_service = [&](core::Goal& goal) {
+    if (dice.chance(0.5)) goal.service = dice.between(0.0, 5.0);
+    if (dice.chance(0.2)) goal.not_before = dice.between(0.0, 30.0);
+  };
+  for (core::Goal& goal : robot.via) add_service(goal);
+  if (dice.chance(0.5)) add_service(*robot.goal);
+}
+
+/// Disks of the size of a robot that walk from place to place for half a minute.
+inline std::vector<core::MovingObstacle> random_obstacles(Dice& dice, const core::OccupancyGrid& grid) {
+  std::vector<core::MovingObstacle> obstacles;
+  for (int k = dice.below(4); k > 0; --k) {
+    core::MovingObstacle obstacle{
+        "person " + std::to_string(k), grid.resolution() * dice.between(0.1, 0.8), {}, {}};
+    core::Position here = random_place(dice, grid);
+    for (double t = dice.between(0.0, 10.0); t < 40.0;) {
+      obstacle.motion.push_back({t, here});
+      const core::Position next = random_place(dice, grid);
+      t += std::max(1.0, (next - here).norm() / (grid.resolution() * dice.between(0.3, 3.0)));
+      here = next;
+      if (dice.chance(0.2)) break;
+    }
+    obstacle.after =
+        dice.chance(0.2) ? core::MovingObstacle::After::stays : core::MovingObstacle::After::leaves;
+    obstacles.push_back(obstacle);
+  }
+  return obstacles;
+}
+
+/// What a request has, before it is known to be valid.
+struct FleetRequest {
+  core::OccupancyGrid grid;
+  std::vector<core::Robot> robots;
+  std::vector<core::MovingObstacle> obstacles;
+  core::PlanOptions options;
+};
+
+inline std::optional<core::Problem> problem_of(const FleetRequest& request) {
+  core::ProblemConditions conditions;
+  conditions.obstacles = request.obstacles;
+  conditions.pair_overlap = std::max(0.0, request.options.start_overlap - 2.0 * request.options.inflation);
+  conditions.wall_overlap = std::max(0.0, request.options.start_overlap - request.options.inflation);
+  auto created =
+      core::Problem::create(request.grid, request.robots, std::move(conditions), core::StopCondition());
+  auto* valid = std::get_if<core::Problem>(&created);
+  return valid != nullptr ? std::optional<core::Problem>(std::move(*valid)) : std::nullopt;
+}
+
+/// The first robot starts so near to the second one that their bare disks overlap, or in a wall.
+inline void overlap_starts(Dice& dice, FleetRequest& request) {
+  if (request.robots.size() < 2) return;
+  core::Robot& robot = request.robots[0];
+  const core::Robot& other = request.robots[1];
+  const double depth = 0.3 * std::min(robot.radius, other.radius) * dice.between(0.0, 1.0);
+  const double direction = dice.between(-std::numbers::pi, std::numbers::pi);
+  const core::Position start =
+      other.start.position +
+      (robot.radius + other.radius - depth) * core::Position(std::cos(direction), std::sin(direction));
+  if (core::obstacle_distance(request.grid, start, robot.radius) < robot.radius - depth) return;
+  for (std::size_t i = 2; i < request.robots.size(); ++i) {
+    const core::Robot& third = request.robots[i];
+    if ((third.start.position - start).norm() < third.radius + robot.radius) return;
+  }
+  robot.start.position = start;
+  request.options.start_overlap = depth + 2.0 * request.options.inflation;
+}
+
+inline FleetRequest random_request(Dice& dice) {
+  const core::Problem problem = random_problem(dice, 2 + dice.below(8));
+  FleetRequest request{problem.grid(), problem.robots(), {}, random_options(dice, problem)};
+  if (dice.chance(0.4)) request.options.interval_margin = dice.between(0.0, 2.0);
+  if (dice.chance(0.2)) overlap_starts(dice, request);
+  if (dice.chance(0.5)) request.options.replan = core::PlanOptions::Replan::where_needed;
+  if (dice.chance(0.5)) request.obstacles = random_obstacles(dice, request.grid);
+  for (core::Robot& robot : request.robots) {
+    if (robot.goal && dice.chance(0.5)) add_goals(dice, request.grid, robot);
+  }
+  if (dice.chance(0.3)) {
+    for (core::Robot& robot : request.robots)
+      robot.vicinity = request.grid.resolution() * dice.between(0.0, 0.8);
+  }
+  if (dice.chance(0.3)) {
+    for (core::Robot& robot : request.robots) robot.may_reverse = dice.chance(0.7);
+  }
+  return request;
+}
+
+/// The request at a later moment of its plan.
+inline FleetRequest moment_of(Dice& dice, const FleetRequest& request, const core::Plan& plan, double t) {
+  FleetRequest next = request;
+  next.options.start_safe_interval = dice.chance(0.7) ? 0.0 : 3.0;
+  for (const core::RobotPlan& robot : plan.plans) {
+    const double commit = dice.chance(0.2) ? 0.0 : dice.between(0.0, 5.0);
+    next.robots[robot.robot] = robot_at_moment(request.robots[robot.robot], robot, t, commit);
+  }
+  for (const core::Unplanned& robot : plan.unplanned) {
+    next.robots[robot.robot] = robot_at_moment(request.robots[robot.robot], t);
+  }
+  next.obstacles.clear();
+  for (const core::MovingObstacle& obstacle : request.obstacles) {
+    if (auto left = obstacle_at_moment(obstacle, t)) next.obstacles.push_back(std::move(*left));
+  }
+  return next;
+}
+
+/// A robot stops where it is for some time.
+inline void hold_back(Dice& dice, core::Robot& robot) {
+  const double seconds = dice.between(0.5, 20.0);
+  const core::Action wait{core::Action::Type::wait, 0.0, seconds, robot.start, robot.start};
+  if (robot.previous) {
+    robot.previous = later(*robot.previous, seconds);
+    robot.previous->insert(robot.previous->begin(), wait);
+  }
+  robot.committed = {wait};
+}
+
+}  // namespace fleetplan::support

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace fleetplan::support {
+
+/// Whether this is a build with AddressSanitizer, which runs several times slower. Long tests then try a part
+/// of their cases; the release build tries all of them.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
+}  // namespace fleetplan::support

@@ -1,0 +1,126 @@
+// The maps of a request that are not rows of letters, read as the service reads them, to draw and edit them; and an
+// imported map as one of a request.
+
+import { asRows, rememberRows } from "../model/drawn_map.js";
+import { FileError } from "../model/problem.js";
+import { readImage } from "./map_image.js";
+import { readMovingAiMap } from "./movingai.js";
+import {
+  cellOf,
+  classifyPixels,
+  FREE,
+  FREE_THRESH,
+  mapOfGrid,
+  OCCUPIED,
+  OCCUPIED_THRESH,
+  UNKNOWN,
+} from "./ros_map.js";
+import { writePng } from "./write_png.js";
+
+const MOST_AS_ROWS = 250_000; // cells: the image of a larger map is a hundredth of its rows
+const GRAYS = []; // of cells, as map_server writes them
+GRAYS[FREE] = 254;
+GRAYS[OCCUPIED] = 0;
+GRAYS[UNKNOWN] = 205;
+
+/** A grid (see ros_map.js) as the map of a request: an image if it is large. Unknown cells are blocked or free. */
+export async function requestMapOf(grid, unknownFree) {
+  const rows = mapOfGrid(grid, unknownFree);
+  if (grid.cells.length <= MOST_AS_ROWS) return rows;
+  const { columns, resolution, origin } = grid;
+  const png = await writePng(
+    columns,
+    grid.rows,
+    grid.cells.map((cell) => GRAYS[cell]),
+  );
+  const image = {
+    png: base64Of(png),
+    resolution,
+    origin: [origin.x, origin.y, 0],
+    negate: 0,
+    occupied_thresh: OCCUPIED_THRESH,
+    free_thresh: FREE_THRESH,
+    mode: "trinary",
+  };
+  const map = { image, ...(unknownFree ? { unknown: "free" } : {}) };
+  rememberRows(map, rows);
+  return map;
+}
+
+function base64Of(bytes) {
+  let text = "";
+  for (let at = 0; at < bytes.length; at += 8192)
+    text += String.fromCharCode(...bytes.subarray(at, at + 8192));
+  return btoa(text);
+}
+
+/** Reads the map of a request. One that cannot be read is not drawn; the service reports its faults. */
+export async function prepareMap(map) {
+  if (map === null || typeof map !== "object" || asRows(map) !== null) return;
+  const rows = await rowsOf(map).catch((error) => {
+    if (error instanceof FileError) return null;
+    throw error;
+  });
+  if (rows !== null) rememberRows(map, rows);
+}
+
+/** The map as {rows, resolution, origin}; null if it is of no kind that can be read. Rejects with FileError. */
+async function rowsOf(map) {
+  if (typeof map.movingai === "string") return rowsOfMovingAi(map);
+  const grid = isObject(map.image)
+    ? await gridOfImage(map.image)
+    : isObject(map.occupancy_grid)
+      ? gridOfOccupancy(map.occupancy_grid)
+      : null;
+  return grid && mapOfGrid(grid, map.unknown === "free");
+}
+
+function rowsOfMovingAi({ movingai, resolution = 1, origin = { x: 0, y: 0 } }) {
+  return { ...readMovingAiMap(movingai), resolution, origin };
+}
+
+async function gridOfImage(image) {
+  const encoded = image.png ?? image.pgm;
+  const [x = 0, y = 0] = Array.isArray(image.origin) ? image.origin : [];
+  if (typeof encoded !== "string" || !(image.resolution > 0)) return null;
+  const described = {
+    negate: image.negate === true || image.negate === 1,
+    occupiedThresh: image.occupied_thresh ?? OCCUPIED_THRESH,
+    freeThresh: image.free_thresh ?? FREE_THRESH,
+    mode: image.mode ?? "trinary",
+    resolution: image.resolution,
+    origin: { x, y },
+  };
+  return classifyPixels(described, await readImage(bytesOfBase64(encoded)));
+}
+
+function bytesOfBase64(text) {
+  let binary;
+  try {
+    binary = atob(text);
+  } catch {
+    throw new FileError("It is not base64.");
+  }
+  const bytes = new Uint8Array(binary.length); // a loop, as large images take a second otherwise
+  for (let at = 0; at < bytes.length; at += 1) bytes[at] = binary.charCodeAt(at);
+  return bytes;
+}
+
+/** Row by row from the bottom; -1 to 100 a cell. */
+function gridOfOccupancy({ info, data }) {
+  const [columns, rows, resolution] = [info?.width, info?.height, info?.resolution];
+  const isWhole = Number.isInteger(columns) && Number.isInteger(rows) && resolution > 0;
+  if (!isWhole || !Array.isArray(data) || data.length !== columns * rows) return null;
+  const cells = new Uint8Array(columns * rows);
+  for (let row = 0; row < rows; row += 1) {
+    for (let column = 0; column < columns; column += 1) {
+      cells[(rows - 1 - row) * columns + column] = cellOfGiven(data[row * columns + column]);
+    }
+  }
+  const corner = info.origin?.position ?? {};
+  return { columns, rows, cells, resolution, origin: { x: corner.x ?? 0, y: corner.y ?? 0 } };
+}
+
+const cellOfGiven = (percent) => cellOf(percent < 0 ? null : percent);
+
+const isObject = (value) => value !== null && typeof value === "object";

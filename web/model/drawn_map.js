@@ -1,0 +1,18 @@
+// Maps of a request that are not rows of letters (images, occupancy grids, texts of MovingAI) are read once, when
+// they are opened, and remembered as rows. So whatever draws or edits a map sees rows.
+
+/** @import {RequestMap} from "./types.js" */
+
+/** @type {WeakMap<object, RequestMap>} */
+const drawn = new WeakMap();
+
+/** Remembers what a map of another kind looks like: {rows, resolution, origin}. */
+export function rememberRows(map, rows) {
+  drawn.set(map, rows);
+}
+
+/** The map as one with `rows`: itself, what is remembered of it, or null. */
+export function asRows(map) {
+  if (map === null || typeof map !== "object") return null;
+  return Array.isArray(map.rows) ? map : (drawn.get(map) ?? null);
+}
