@@ -61,10 +61,14 @@ const std::vector<FolderRule>& folder_rules() {
       {"core/reservation/", all_robots, {}},
       {"core/bounds/", all_robots, {}},
       {"core/sipp/", all_robots, {}},
+      // Execution works with plans, whoever made them.
+      {"core/execution/",
+       {"core/sipp/", "core/prioritized/", "core/lns/", "core/bounds/", "core/replan/"},
+       {}},
       // The checker is independent: it shares no collision test with the search.
       {"core/verify/",
        {"core/reservation/", "core/sipp/", "core/prioritized/", "core/lns/", "core/bounds/", "core/replan/",
-        "core/geometry/disk_motion.h"},
+        "core/execution/", "core/geometry/disk_motion.h"},
        {}},
   };
   return all;

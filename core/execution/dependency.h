@@ -1,0 +1,40 @@
+#pragma once
+
+// Dependencies between robots that execute a plan at their own pace.
+
+#include <cstddef>
+#include <vector>
+
+namespace fleetplan::core {
+
+/// How far a robot is in its actions: it has executed this one up to the fraction (in [0, 1], of its length,
+/// angle or duration), and all before it.
+struct ActionProgress {
+  std::size_t robot = 0;   // index into the problem's robots
+  std::size_t action = 0;  // index into its actions
+  double fraction = 0.0;
+};
+
+/// The robot of `gate` may reach that progress, but not pass it until the robot of `until` has reached its
+/// own.
+struct Dependency {
+  ActionProgress gate;
+  ActionProgress until;
+  double slack = 0.0;  // seconds: the planned time of `gate` less that of `until`
+};
+
+/// Two robots that the plan leads past each other with less slack than required. There the clock has to be
+/// kept.
+struct TightPair {
+  std::size_t first = 0;
+  std::size_t second = 0;  // > first
+  double t = 0.0;          // seconds; when the slack is least
+  double slack = 0.0;      // seconds; 0 if they are nearer than they should be
+};
+
+struct Dependencies {
+  std::vector<Dependency> list;  // by the planned time of the gates
+  std::vector<TightPair> tight;  // by time
+};
+
+}  // namespace fleetplan::core
