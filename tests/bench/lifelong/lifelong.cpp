@@ -24,16 +24,24 @@ struct TimedReply {
   double seconds = 0.0;
 };
 
-TimedReply answer_to(const json& request, bool cpu_clock) {
-  using Clock = std::chrono::steady_clock;
+/// Seconds of a clock that has any beginning.
+double seconds_of(PlanningClock clock) {
+  switch (clock) {
+    case PlanningClock::wall:
+      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    case PlanningClock::cpu: return thread_cpu_seconds();
+    case PlanningClock::none: break;
+  }
+  return 0.0;
+}
+
+TimedReply answer_to(const json& request, PlanningClock clock) {
   const std::string body = request.dump();
-  const double cpu_began = thread_cpu_seconds();
-  const auto began = Clock::now();
+  const double began = seconds_of(clock);
   api::RequestContext context;
   context.request_id = "bench";
   TimedReply made{api::plan_endpoint(body, context), 0.0};
-  const double wall = std::chrono::duration<double>(Clock::now() - began).count();
-  made.seconds = cpu_clock ? thread_cpu_seconds() - cpu_began : wall;
+  made.seconds = seconds_of(clock) - began;
   return made;
 }
 
@@ -69,7 +77,7 @@ class Simulation {
     for (Vehicle& vehicle : fleet_.vehicles()) vehicle.free_at = Vehicle::kNever;
     json options = job_.planning;
     options["time_budget_ms"] = 60'000;
-    const auto reply = answer_to(with_options(options), job_.cpu_clock);
+    const auto reply = answer_to(with_options(options), job_.clock);
     take(reply.reply, 0.0, 0.0);
     result_ = {};
   }
@@ -79,7 +87,7 @@ class Simulation {
     if (vehicle.goal_served) fleet_.draw_goal(vehicle);
     vehicle.goal_served = true;
     vehicle.task_began = t;
-    const json answer = json::parse(answer_to(lone_request(map_, vehicle, from), false).reply.body);
+    const json answer = json::parse(answer_to(lone_request(map_, vehicle, from), PlanningClock::none).reply.body);
     vehicle.alone = answer.at("plans").at(0).at("cost").get<double>() + job_.service;
   }
 
@@ -123,7 +131,7 @@ class Simulation {
   void replan(const json& planning) {
     json options = planning;
     options["time_budget_ms"] = job_.budget_ms;
-    const auto [reply, seconds] = answer_to(with_options(options), job_.cpu_clock);
+    const auto [reply, seconds] = answer_to(with_options(options), job_.clock);
     ++result_.replans;
     result_.latencies.push_back(seconds);
     result_.late += seconds * 1000.0 > job_.budget_ms ? 1 : 0;

@@ -8,6 +8,10 @@ NLOHMANN_JSON_SERIALIZE_ENUM(Strategy, {{Strategy::stop, "stop"},
                                         {Strategy::snapshots, "snapshots"},
                                         {Strategy::committed, "committed"}})
 
+NLOHMANN_JSON_SERIALIZE_ENUM(PlanningClock, {{PlanningClock::wall, "wall"},
+                                             {PlanningClock::cpu, "cpu"},
+                                             {PlanningClock::none, "none"}})
+
 LifelongJob parse_lifelong_job(const std::string& line) {
   using nlohmann::json;
   try {
@@ -22,7 +26,7 @@ LifelongJob parse_lifelong_job(const std::string& line) {
     job.budget_ms = document.at("budget_ms");
     job.commit = document.at("commit");
     job.halt = document.at("halt");
-    job.cpu_clock = document.at("clock") == "cpu";
+    job.clock = document.at("clock").get<PlanningClock>();
     job.planning = document.at("options");
     return job;
   } catch (const json::exception& error) {

@@ -16,6 +16,13 @@ enum class Strategy {
   committed,  // when a robot is free; the others go on meanwhile, and their plans are known
 };
 
+/// What passes on the simulated clock while a plan is made.
+enum class PlanningClock {
+  wall,  // the time that planning takes
+  cpu,   // its CPU time, as if nothing else ran
+  none,  // nothing, so that the simulation is the same on every machine
+};
+
 /// A running warehouse to simulate.
 struct LifelongJob {
   std::string name;
@@ -28,7 +35,7 @@ struct LifelongJob {
   double commit = 0.1;     // seconds that robots go on while a plan is made; `committed` only
   double halt = 0.0;       // seconds that robots take to stop and restart; `snapshots` only
   double service = 2.0;    // seconds at every goal
-  bool cpu_clock = false;  // planning takes its CPU time on the simulated clock, as if nothing else ran
+  PlanningClock clock = PlanningClock::wall;
   nlohmann::json planning = nlohmann::json::object();  // options of the requests
 };
 

@@ -25,6 +25,7 @@ STRATEGIES = {
     "snapshots, 1 s to stop and restart": {"strategy": "snapshots", "halt": 1.0,
                                            "options": {"start_safe_interval": 0}},
     "committed": {"strategy": "committed", "options": {"replan": "where_needed"}},
+    "committed, improved": {"strategy": "committed", "options": {"mode": "anytime", "max_iterations": 40}},
 }
 NOTES = """\
 "of bound": throughput over that of as many robots that are each alone in the warehouse. "waiting": share of the
@@ -60,8 +61,9 @@ def make_parser():
     add("--commit", type=between(0.001, 120.0, float), metavar="SECONDS",
         help="time for which robots go on while a plan is made; default: the budget")
     add("--options", type=json_object, default={}, metavar="JSON", help="more options of the requests")
-    add("--clock", choices=["wall", "cpu"], default="wall",
-        help="cpu: only the CPU time of planning passes on the simulated clock, as if nothing else ran")
+    add("--clock", choices=["wall", "cpu", "none"], default="wall",
+        help="cpu: only the CPU time of planning passes on the simulated clock, as if nothing else ran; none: planning "
+             "takes no time")
     add("--output", metavar="FOLDER", default=".", help="folder for the CSV file")
     add("--csv", metavar="FILE", help="write the results to this file instead")
     add("--read", metavar="FILE", help="report this CSV file instead of measuring")
