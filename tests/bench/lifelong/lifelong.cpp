@@ -29,8 +29,10 @@ double seconds_of(PlanningClock clock) {
   switch (clock) {
     case PlanningClock::wall:
       return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    case PlanningClock::cpu: return thread_cpu_seconds();
-    case PlanningClock::none: break;
+    case PlanningClock::cpu:
+      return thread_cpu_seconds();
+    case PlanningClock::none:
+      break;
   }
   return 0.0;
 }
@@ -87,7 +89,8 @@ class Simulation {
     if (vehicle.goal_served) fleet_.draw_goal(vehicle);
     vehicle.goal_served = true;
     vehicle.task_began = t;
-    const json answer = json::parse(answer_to(lone_request(map_, vehicle, from), PlanningClock::none).reply.body);
+    const json answer =
+        json::parse(answer_to(lone_request(map_, vehicle, from), PlanningClock::none).reply.body);
     vehicle.alone = answer.at("plans").at(0).at("cost").get<double>() + job_.service;
   }
 

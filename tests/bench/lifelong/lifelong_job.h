@@ -32,9 +32,9 @@ struct LifelongJob {
   double seconds = 3600.0;  // of the simulated clock
   std::uint64_t seed = 1;
   int budget_ms = 100;
-  double commit = 0.1;     // seconds that robots go on while a plan is made; `committed` only
-  double halt = 0.0;       // seconds that robots take to stop and restart; `snapshots` only
-  double service = 2.0;    // seconds at every goal
+  double commit = 0.1;   // seconds that robots go on while a plan is made; `committed` only
+  double halt = 0.0;     // seconds that robots take to stop and restart; `snapshots` only
+  double service = 2.0;  // seconds at every goal
   PlanningClock clock = PlanningClock::wall;
   nlohmann::json planning = nlohmann::json::object();  // options of the requests
 };
