@@ -70,12 +70,13 @@ Instance::Instance(const Problem& problem, const PlanOptions& options,
       contacts_(endpoints(problem, lattice_, options.inflation)),
       fixed_reservations_(std::move(fixed_reservations)) {
   for (const Robot& robot : problem.robots()) {
+    const StaticMap& map = *problem.map_of(itineraries_.size());
     itineraries_.push_back(itinerary_of(robot));
     motions_.push_back(motion_of(robot, options));
-    auto& space = free_space_of_radius_[motions_.back().radius];
+    auto& space = free_spaces_[{motions_.back().radius, &map}];
     if (!space) {
-      auto finer = problem.map()->finer_vertices(lattice_, motions_.back().radius, stop);
-      space = std::make_unique<FreeSpace>(lattice_, sight(), motions_.back().radius, std::move(finer));
+      auto finer = map.finer_vertices(lattice_, motions_.back().radius, stop);
+      space = std::make_unique<FreeSpace>(lattice_, map.sight(), motions_.back().radius, std::move(finer));
     }
     free_space_.push_back(space.get());
   }
@@ -85,17 +86,17 @@ double Instance::radius_at_start(std::size_t index) const {
   const Robot& robot = problem_.robots()[index];
   const double overlap = std::max(0.0, options_.start_overlap - options_.inflation);  // of the bare disk
   const double least = std::max(robot.radius - overlap - kMostOverlap, kSmallestDisk * robot.radius);
-  return sight().fitting_radius(itineraries_[index].pose.position, least, motions_[index].radius);
+  return sight(index).fitting_radius(itineraries_[index].pose.position, least, motions_[index].radius);
 }
 
 bool Instance::fits_at_start(std::size_t index) const {
-  return sight().disk_fits(itineraries_[index].pose.position, motions_[index].radius);
+  return sight(index).disk_fits(itineraries_[index].pose.position, motions_[index].radius);
 }
 
 bool Instance::fits_at_goal(std::size_t index) const {
   const std::vector<Goal>& goals = itineraries_[index].goals;
   return std::all_of(goals.begin(), goals.end(), [&](const Goal& goal) {
-    return sight().disk_fits(goal.position, motions_[index].radius - kMostOverlap);
+    return sight(index).disk_fits(goal.position, motions_[index].radius - kMostOverlap);
   });
 }
 
@@ -105,7 +106,7 @@ double Instance::longest_plan(std::size_t index) const {
 
 double Instance::radius_at_goal(std::size_t index, const Position& goal) const {
   const double radius = motions_[index].radius;
-  return sight().fitting_radius(goal, radius - kMostOverlap, radius);
+  return sight(index).fitting_radius(goal, radius - kMostOverlap, radius);
 }
 
 }  // namespace fleetplan::core

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/map/free_space.h"
@@ -35,7 +36,9 @@ class Instance {
   /// What is left to plan for the robot after its committed actions.
   const Itinerary& itinerary(std::size_t index) const { return itineraries_[index]; }
   const Lattice& lattice() const { return lattice_; }
+  /// Past walls alone, and past the zones that are blocked for a robot, too.
   const LineOfSight& sight() const { return problem_.map()->sight(); }
+  const LineOfSight& sight(std::size_t index) const { return problem_.map_of(index)->sight(); }
   /// The pairs of robots that begin or end too near to each other.
   const Contacts& contacts() const { return contacts_; }
   /// Obstacles and committed motion; never null. Instances for other threads may share them.
@@ -60,7 +63,8 @@ class Instance {
   std::vector<Itinerary> itineraries_;
   Contacts contacts_;
   std::shared_ptr<const FixedReservations> fixed_reservations_;
-  std::unordered_map<double, std::unique_ptr<FreeSpace>> free_space_of_radius_;
+  using SpaceKind = std::pair<double, const StaticMap*>;  // radius and map
+  std::map<SpaceKind, std::unique_ptr<FreeSpace>> free_spaces_;
   std::vector<FreeSpace*> free_space_;  // by robot
 };
 

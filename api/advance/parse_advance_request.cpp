@@ -21,8 +21,8 @@ namespace {
 
 using Robots = std::vector<ReadRobot>;
 
-constexpr std::array<std::string_view, 6> kRequestMembers{"map",       "robot_defaults", "robots",
-                                                          "obstacles", "options",        "metadata"};
+constexpr std::array<std::string_view, 7> kRequestMembers{"map",   "robot_defaults", "robots",  "obstacles",
+                                                          "zones", "options",        "metadata"};
 constexpr std::array<std::string_view, 4> kPoseMembers{"robot", "x", "y", "theta"};
 constexpr std::array<std::string_view, 2> kHoldMembers{"robot", "until"};
 constexpr std::array<std::string_view, 2> kGoalsMembers{"robot", "goals"};

@@ -108,7 +108,8 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
     rules.start_overlap = request.options.start_overlap;
     rules.exact_commitments = true;
     rules.exempt = checked.unavoidable;
-    return core::verify({grid, robots, request.problem.obstacles()}, checked.plans, rules, patience);
+    return core::verify({grid, robots, request.problem.obstacles(), &request.problem.zones()}, checked.plans,
+                        rules, patience);
   };
   const bool any_moves = std::any_of(plan.plans.begin(), plan.plans.end(), [&](const core::RobotPlan& robot) {
     return moves(robot, request.problem);

@@ -43,11 +43,11 @@ Reply check(std::string_view body, const RequestContext& context) {
   if (context.turn != nullptr && !takes_turn(*context.turn, *request, stop)) {
     return stop.cancelled() ? unfinished(*request, stop, context.request_id) : too_busy(context.request_id);
   }
-  const auto report = core::verify({request->grid, request->robots, request->obstacles}, request->plans,
-                                   request->rules, stop);
+  const auto report = core::verify({request->grid, request->robots, request->obstacles, &request->zones},
+                                   request->plans, request->rules, stop);
   if (!report && core::memory_shortages() > 0) return memory_exceeded(context);
   if (!report) return unfinished(*request, stop, context.request_id);
-  return {200, kJson, write_report(*report, request->robots, request->obstacles)};
+  return {200, kJson, write_report(*report, request->robots, request->obstacles, request->zones)};
 }
 
 }  // namespace

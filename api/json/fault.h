@@ -25,6 +25,7 @@ inline constexpr const char* kEmpty = "empty";
 inline constexpr const char* kBadMapRow = "bad_map_row";
 inline constexpr const char* kBadImage = "bad_image";
 inline constexpr const char* kBadMovingAi = "bad_movingai";
+inline constexpr const char* kBadPolygon = "bad_polygon";
 inline constexpr const char* kWrongSize = "wrong_size";
 inline constexpr const char* kStartInObstacle = "start_in_obstacle";
 inline constexpr const char* kGoalInObstacle = "goal_in_obstacle";

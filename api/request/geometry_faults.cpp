@@ -26,10 +26,16 @@ std::string name_of(const std::vector<ReadRobot>& robots, std::size_t index) {
   return id.empty() ? "number " + std::to_string(index) : in_quotes(id);
 }
 
-std::string in_obstacle(const std::string& pose, const std::string& robot, double radius, double gap) {
-  return "The " + pose + " of robot " + robot +
-         " does not fit: its disk overlaps a blocked cell or the edge of the map by " + metres(-gap) +
-         " (radius " + number_text(radius) + " m). Move it or make the robot smaller.";
+/// What the robot overlaps: the zone, if it is one.
+std::string obstacle_name(const core::ProblemFault& found, const std::vector<core::Zone>& zones) {
+  return found.zone ? "the blocked zone " + in_quotes(zones[*found.zone].id)
+                    : "a blocked cell or the edge of the map";
+}
+
+std::string in_obstacle(const std::string& pose, const std::string& robot, double radius, double gap,
+                        const std::string& obstacle) {
+  return "The " + pose + " of robot " + robot + " does not fit: its disk overlaps " + obstacle + " by " +
+         metres(-gap) + " (radius " + number_text(radius) + " m). Move it or make the robot smaller.";
 }
 
 std::string overlap(const char* poses, const std::string& earlier, const std::string& later, double gap) {
@@ -51,11 +57,12 @@ JsonReader action_at(const ReadRobot& read, double t) {
   return place;
 }
 
-std::string collision(const core::ProblemFault& found, const std::string& robot, const std::string& other) {
+std::string collision(const core::ProblemFault& found, const std::string& robot, const std::string& other,
+                      const std::string& obstacle) {
   const std::string at = " at t = " + number_text(found.t) + " s";
   if (found.other == found.robot) {
-    return "The committed motion of robot " + robot + " overlaps a blocked cell or the edge of the map by " +
-           metres(-found.gap) + at + "; correct the actions or the map.";
+    return "The committed motion of robot " + robot + " overlaps " + obstacle + " by " + metres(-found.gap) +
+           at + "; correct the actions or the " + (found.zone ? "zone." : "map.");
   }
   return "The committed motion of robot " + robot + " meets robot " + other + at +
          ": the gap between their disks is " + metres(found.gap) +
@@ -64,18 +71,21 @@ std::string collision(const core::ProblemFault& found, const std::string& robot,
 
 }  // namespace
 
-GeometryFault describe(const core::ProblemFault& found, const std::vector<ReadRobot>& robots,
+GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
                        const std::vector<std::size_t>& indices) {
   using Kind = core::ProblemFault::Kind;
+  const std::vector<ReadRobot>& robots = fleet.robots;
+  const std::string obstacle = obstacle_name(found, fleet.zones);
   const ReadRobot& read = robots[indices[found.robot]];
   const std::string name = name_of(robots, indices[found.robot]);
   const std::string other = name_of(robots, indices[found.other]);
   switch (found.kind) {
     case Kind::start_in_obstacle:
-      return {read.start, fault::kStartInObstacle, in_obstacle("start", name, read.robot.radius, found.gap)};
+      return {read.start, fault::kStartInObstacle,
+              in_obstacle("start", name, read.robot.radius, found.gap, obstacle)};
     case Kind::goal_in_obstacle:
       return {read.goals[found.goal], fault::kGoalInObstacle,
-              in_obstacle(goal_name(read, found.goal), name, read.robot.radius, found.gap)};
+              in_obstacle(goal_name(read, found.goal), name, read.robot.radius, found.gap, obstacle)};
     case Kind::starts_overlap:
       return {read.start, fault::kStartsOverlap, overlap("starts", other, name, found.gap)};
     case Kind::goals_overlap:
@@ -83,7 +93,7 @@ GeometryFault describe(const core::ProblemFault& found, const std::vector<ReadRo
     case Kind::committed_collision:
       break;
   }
-  return {action_at(read, found.t), fault::kCommittedCollision, collision(found, name, other)};
+  return {action_at(read, found.t), fault::kCommittedCollision, collision(found, name, other, obstacle)};
 }
 
 }  // namespace fleetplan::api

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "api/json/json_reader.h"
-#include "api/request/parse_robots.h"
+#include "api/request/parse_body.h"
 #include "core/model/problem.h"
 
 namespace fleetplan::api {
@@ -17,8 +17,8 @@ struct GeometryFault {
   std::string detail;
 };
 
-/// `indices`: of the problem's robots in `robots`.
-GeometryFault describe(const core::ProblemFault& found, const std::vector<ReadRobot>& robots,
+/// `indices`: of the problem's robots in the fleet.
+GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
                        const std::vector<std::size_t>& indices);
 
 }  // namespace fleetplan::api

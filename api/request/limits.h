@@ -15,6 +15,8 @@ struct Limits {
   std::size_t max_actions = 200'000;  // in `committed` and `previous`
   std::size_t max_obstacles = 2000;
   std::size_t max_obstacle_entries = 400'000;
+  std::size_t max_zones = 1000;
+  std::size_t max_zone_corners = 20'000;     // of their polygons
   std::size_t max_plan_memory = 256u << 20;  // bytes, for all that is made of a body
   int max_depth = 32;                        // nesting of the JSON
   std::int64_t default_budget_ms = 5000;     // of a request that names none

@@ -47,7 +47,7 @@ class ProblemMaker {
       if (!faults.finished) stop_.look();
       if (reports_ && faults.finished && mark_invalid(faults)) continue;
       for (const auto& found : faults.listed) {
-        const GeometryFault fault = describe(found, fleet_.robots, indices_);
+        const GeometryFault fault = describe(found, fleet_, indices_);
         fault.place.fault(fault.code, fault.detail);
       }
       root_.count_more_faults(faults.total - faults.listed.size());
@@ -77,14 +77,33 @@ class ProblemMaker {
     conditions.wall_overlap = std::max(0.0, options.start_overlap - options.inflation);
     conditions.list_faults_of_every_robot = reports_;
     conditions.obstacles = reports_ ? fleet_.obstacles : std::move(fleet_.obstacles);
+    conditions.zones = zones();
     return conditions;
+  }
+
+  /// The zones with the robots that are placed. One that is for none of these is for nobody.
+  std::vector<core::Zone> zones() const {
+    std::vector<core::Zone> zones = fleet_.zones;
+    for (core::Zone& zone : zones) {
+      if (zone.robots.empty()) continue;
+      std::vector<std::size_t> placed;
+      for (const std::size_t robot : zone.robots) {
+        const auto index = std::lower_bound(indices_.begin(), indices_.end(), robot);
+        if (index != indices_.end() && *index == robot) {
+          placed.push_back(static_cast<std::size_t>(index - indices_.begin()));
+        }
+      }
+      if (placed.empty()) placed.push_back(fleet_.robots.size());
+      zone.robots = std::move(placed);
+    }
+    return zones;
   }
 
   /// Makes the robots at fault invalid; false if all of them were before.
   bool mark_invalid(const core::ProblemFaults& faults) {
     bool any = false;
     for (const core::ProblemFault& found : faults.listed) {
-      const GeometryFault fault = describe(found, fleet_.robots, indices_);
+      const GeometryFault fault = describe(found, fleet_, indices_);
       if (stop_.look()) return false;
       const Fault error = fault.place.described_fault(fault.code, fault.detail);
       any = make_invalid(found.robot, error) || any;

@@ -17,15 +17,17 @@
 #include "api/request/parse_options.h"
 #include "api/request/parse_robots.h"
 #include "api/response/error.h"
+#include "core/model/zone.h"
 
 namespace fleetplan::api {
 
-/// `map`, `robots` (with `robot_defaults`), `obstacles` and `options` of a request, as far as they could be
-/// read.
+/// `map`, `robots` (with `robot_defaults`), `obstacles`, `zones` and `options` of a request, as far as they
+/// could be read.
 struct Fleet {
   std::optional<WorldMap> map;
   std::vector<ReadRobot> robots;
   std::vector<core::MovingObstacle> obstacles;
+  std::vector<core::Zone> zones;  // robots: indices into `robots`
   ReadOptions options;
   std::string metadata;  // see parse_metadata
 };

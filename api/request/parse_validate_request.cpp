@@ -16,11 +16,11 @@ namespace fleetplan::api {
 namespace {
 
 // The members of a request to validate, then those that an answer of /v1/plan adds, which are ignored.
-constexpr std::array<std::string_view, 22> kMembers{
+constexpr std::array<std::string_view, 23> kMembers{
     "map",        "robot_defaults", "robots",          "obstacles",     "unavoidable",   "options",
     "plans",      "tolerance",      "status",          "request_id",    "unplanned",     "flowtime",
     "makespan",   "lower_bound",    "verified",        "min_clearance", "deterministic", "search",
-    "timings_ms", "warnings",       "lattice_spacing", "metadata"};
+    "timings_ms", "warnings",       "lattice_spacing", "metadata",      "zones"};
 
 constexpr double kDefaultTolerance = core::kMostTolerance;  // metres, seconds, radians
 constexpr double kLargestTolerance = 1e9;
@@ -62,9 +62,13 @@ Result<ValidateRequest, RequestError> parse_validate_request(std::string_view bo
     }
     core::CheckRules rules = rules_of(fleet.options.plan, std::move(meetings));
     rules.tolerances.assign(robots.size(), core::Tolerance::of_all(tolerance));
-    return ValidateRequest{std::move(fleet.map->grid), std::move(robots),
-                           std::move(fleet.obstacles), std::move(plans),
-                           std::move(rules),           check_budget(fleet.options, limits)};
+    return ValidateRequest{std::move(fleet.map->grid),
+                           std::move(robots),
+                           std::move(fleet.obstacles),
+                           std::move(fleet.zones),
+                           std::move(plans),
+                           std::move(rules),
+                           check_budget(fleet.options, limits)};
   };
   return parse_body<ValidateRequest>(body, limits, stop, kMembers, parse);
 }

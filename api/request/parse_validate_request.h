@@ -12,6 +12,7 @@
 #include "core/model/moving_obstacle.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
+#include "core/model/zone.h"
 #include "core/verify/check_rules.h"
 
 namespace fleetplan::api {
@@ -22,6 +23,7 @@ struct ValidateRequest {
   core::OccupancyGrid grid;
   std::vector<core::Robot> robots;
   std::vector<core::MovingObstacle> obstacles;
+  std::vector<core::Zone> zones;
   std::vector<core::RobotPlan> plans;
   core::CheckRules rules;             // the tolerance is in metres, seconds and radians
   std::chrono::nanoseconds budget{};  // of the check

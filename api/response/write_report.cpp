@@ -33,9 +33,11 @@ std::string_view kind_name(core::Violation::Kind kind) {
     case core::Violation::Kind::margin:
       return "margin";
     case core::Violation::Kind::moving_obstacle:
+      return "moving_obstacle";
+    case core::Violation::Kind::zone:
       break;
   }
-  return "moving_obstacle";
+  return "zone";
 }
 
 }  // namespace
@@ -48,7 +50,8 @@ std::optional<double> reported_clearance(const core::VerifyReport& report) {
 }
 
 std::string write_report(const core::VerifyReport& report, const std::vector<core::Robot>& robots,
-                         const std::vector<core::MovingObstacle>& obstacles) {
+                         const std::vector<core::MovingObstacle>& obstacles,
+                         const std::vector<core::Zone>& zones) {
   const std::size_t written = std::min(report.violations.size(), kMostWritten);
   JsonWriter json;
   json.begin_object();
@@ -62,6 +65,7 @@ std::string write_report(const core::VerifyReport& report, const std::vector<cor
     for (const std::size_t robot : violation.robots) json.value(robots[robot].id);
     json.end_array();
     if (violation.obstacle) json.member("obstacle", obstacles[*violation.obstacle].id);
+    if (violation.zone) json.member("zone", zones[*violation.zone].id);
     json.member("t", violation.t).member("distance", violation.distance);
     json.member("required", violation.required).member("detail", violation.detail);
     json.end_object();

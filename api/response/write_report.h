@@ -17,6 +17,7 @@ std::optional<double> reported_clearance(const core::VerifyReport& report);
 /// The answer of POST /v1/validate. It contains at most the first twenty violations and the
 /// number of all, with `"truncated": true` if there are more.
 std::string write_report(const core::VerifyReport& report, const std::vector<core::Robot>& robots,
-                         const std::vector<core::MovingObstacle>& obstacles);
+                         const std::vector<core::MovingObstacle>& obstacles,
+                         const std::vector<core::Zone>& zones);
 
 }  // namespace fleetplan::api

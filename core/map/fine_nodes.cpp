@@ -11,6 +11,8 @@ namespace {
 
 /// Cells; far above the rounding of positions. Closer cases are left to LineOfSight.
 constexpr double kUnclear = 1e-7;
+/// Half the longest step, in pitches; a little more than half the square root of 2.
+constexpr double kHalfDiagonal = 0.7072;
 
 }  // namespace
 
@@ -24,7 +26,7 @@ FineNodes::FineNodes(const OccupancyGrid& grid, const DistanceTransform& distanc
       columns_(half ? 2 * grid.columns() + 1 : grid.columns()),
       rows_(half ? 2 * grid.rows() + 1 : grid.rows()) {
   const double cells = std::max(0.0, radius - kSearchSlack) / grid.resolution();
-  const double ample = cells + 0.7072 * pitch_ / grid.resolution();
+  const double ample = cells + kHalfDiagonal * pitch_ / grid.resolution();
   for (std::size_t kind = 0; kind < limits_.size(); ++kind) {
     limits_[kind] = limits(kind / 2 == 1 ? 0.0 : -0.5, kind % 2 == 1 ? 0.0 : -0.5, cells, ample);
   }
@@ -65,14 +67,15 @@ bool FineNodes::fits(int column, int row) const {
   if (on_edge(column, row)) return false;
   const int squared = distances_.squared(cell_of(column, row));
   const Limits& limits = limits_of(column, row);
-  if (squared >= limits.fits_from) return true;
+  if (squared >= limits.fits_from) return clears_polygons(column, row, radius_);
   if (squared < limits.blocked_below) return false;
   return sight_.disk_fits(position(column, row), radius_);
 }
 
 bool FineNodes::is_ample(int column, int row) const {
   return !on_edge(column, row) &&
-         distances_.squared(cell_of(column, row)) >= limits_of(column, row).ample_from;
+         distances_.squared(cell_of(column, row)) >= limits_of(column, row).ample_from &&
+         clears_polygons(column, row, radius_ + kHalfDiagonal * pitch_);
 }
 
 }  // namespace fleetplan::core

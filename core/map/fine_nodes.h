@@ -50,6 +50,10 @@ class FineNodes {
   const Limits& limits_of(int column, int row) const {
     return limits_[half_ ? static_cast<std::size_t>((column % 2) * 2 + row % 2) : 3];
   }
+  bool clears_polygons(int column, int row, double radius) const {
+    return sight_.polygons().empty() ||
+           sight_.clears_polygons(position(column, row), position(column, row), radius);
+  }
   bool on_edge(int column, int row) const {
     return half_ && (column == 0 || row == 0 || column + 1 == columns_ || row + 1 == rows_);
   }

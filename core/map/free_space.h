@@ -27,6 +27,9 @@ class FreeSpace {
     return sight_.may_sweep(from, to, radius);
   }
 
+  /// Whether there are blocked polygons.
+  bool among_polygons() const { return !sight_.polygons().empty(); }
+
   /// The vertices that refine the lattice; may be none.
   const FinerVertices& finer() const { return *finer_; }
 

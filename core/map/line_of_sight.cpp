@@ -35,15 +35,25 @@ double upper_boundary(const Position& a, const Position& b, double r, double x) 
 LineOfSight::LineOfSight(const OccupancyGrid& grid)
     : columns_(grid.columns()), rows_(grid.rows()), cells_per_metre_(1.0 / grid.resolution()) {
   const auto stride = static_cast<std::size_t>(columns_) + 1;
-  sums_.assign(stride * (static_cast<std::size_t>(rows_) + 1), 0);
+  const auto sums = std::make_shared<std::int32_t[]>(stride * (static_cast<std::size_t>(rows_) + 1));
   for (int row = 0; row < rows_; ++row) {
     std::int32_t in_row = 0;
     for (int column = 0; column < columns_; ++column) {
       in_row += grid.blocked({column, row}) ? 1 : 0;
       const auto above = (static_cast<std::size_t>(row) + 1) * stride + static_cast<std::size_t>(column) + 1;
-      sums_[above] = sums_[above - stride] + in_row;
+      sums[above] = sums[above - stride] + in_row;
     }
   }
+  sums_ = sums;
+}
+
+LineOfSight::LineOfSight(const LineOfSight& walls, BlockedPolygons polygons) : LineOfSight(walls) {
+  polygons_ = std::move(polygons);
+}
+
+bool LineOfSight::clears_polygons(const Position& from, const Position& to, double radius) const {
+  const double reach = radius - kSearchSlack;
+  return polygons_.empty() || reach <= 0.0 || !polygons_.come_near(from, to, reach);
 }
 
 std::int32_t LineOfSight::blocked_in(int column_min, int column_max, int row_min, int row_max) const {
@@ -61,7 +71,7 @@ bool LineOfSight::may_sweep(const Position& from, const Position& to, double rad
   if (capsule.to.x() < capsule.from.x()) std::swap(capsule.from, capsule.to);
   const auto [low, high] = std::minmax(capsule.from.y(), capsule.to.y());
   if (capsule.from.x() < r || capsule.to.x() > columns_ - r || low < r || high > rows_ - r) return false;
-  return free_of_cells(capsule);
+  return free_of_cells(capsule) && clears_polygons(from, to, radius);
 }
 
 double LineOfSight::fitting_radius(const Position& center, double least, double most) const {

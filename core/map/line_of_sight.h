@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 #include "core/geometry/position.h"
+#include "core/map/blocked_polygons.h"
 #include "core/map/occupancy_grid.h"
 
 namespace fleetplan::core {
@@ -16,6 +17,8 @@ namespace fleetplan::core {
 class LineOfSight {
  public:
   explicit LineOfSight(const OccupancyGrid& grid);
+  /// With polygons that are blocked, too. What is derived from the grid is shared.
+  LineOfSight(const LineOfSight& walls, BlockedPolygons polygons);
 
   /// Returns whether a disk may stand at `center`. Contact with an obstacle (to within kSearchSlack) is
   /// allowed.
@@ -27,6 +30,10 @@ class LineOfSight {
 
   /// Returns whether a disk may sweep the segment, ends included. `radius` > 0 in metres.
   bool may_sweep(const Position& from, const Position& to, double radius) const;
+
+  const BlockedPolygons& polygons() const { return polygons_; }
+  /// Returns whether such a sweep is clear of the polygons alone.
+  bool clears_polygons(const Position& from, const Position& to, double radius) const;
 
  private:
   struct Capsule {  // in cells, from.x <= to.x
@@ -43,7 +50,8 @@ class LineOfSight {
   int columns_;
   int rows_;
   double cells_per_metre_;
-  std::vector<std::int32_t> sums_;  // (columns + 1) x (rows + 1)
+  std::shared_ptr<const std::int32_t[]> sums_;  // (columns + 1) x (rows + 1)
+  BlockedPolygons polygons_;
 };
 
 }  // namespace fleetplan::core

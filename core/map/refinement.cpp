@@ -70,6 +70,8 @@ class Refinement {
 
   /// Adds vertices around the convex corners of obstacles, where the shortest paths bend.
   void add_corners(const OccupancyGrid& grid);
+  /// The same around those of polygons.
+  void add_corners(const Polygon& polygon);
 
   std::optional<FinerVertices> run(const StopCondition& stop) {
     std::vector<Bridge> bridges = find_bridges();
@@ -258,6 +260,24 @@ void Refinement::add_corners(const OccupancyGrid& grid) {
   }
 }
 
+void Refinement::add_corners(const Polygon& polygon) {
+  const double away = needed_ / std::cos(0.5 * kTurnAtCorner);
+  const std::vector<Position>& corners = polygon.corners();
+  const double order = polygon.twice_signed_area() > 0.0 ? 1.0 : -1.0;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Position& corner = corners[k];
+    const Position in = corner - corners[(k + corners.size() - 1) % corners.size()];
+    const Position out = corners[(k + 1) % corners.size()] - corner;
+    const double turn = order * std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
+    if (turn <= 0.0) continue;                                                         // a concave one
+    const double first = std::atan2(in.y(), in.x()) - order * 0.5 * std::numbers::pi;  // away from its edge
+    for (double angle = 0.5 * std::min(turn, kTurnAtCorner); angle < turn; angle += kTurnAtCorner) {
+      const double at = first + order * angle;
+      add_corner(corner + away * Position(std::cos(at), std::sin(at)));
+    }
+  }
+}
+
 /// Adds the node nearest to the wanted position, if the disk fits there and a vertex of the lattice is in
 /// sight.
 void Refinement::add_corner(const Position& wanted) {
@@ -304,9 +324,9 @@ void Refinement::link_to_lattice() {
 
 }  // namespace
 
-bool may_need_refinement(const OccupancyGrid& grid, const Lattice& lattice, double radius) {
+bool may_need_refinement(const OccupancyGrid& grid, const Lattice& lattice, double radius, bool polygons) {
   if (lattice.spacing() < kFinestCells * grid.resolution()) return false;
-  return is_coarse(grid, lattice) || radius > 0.5 * grid.resolution() + kContactTolerance;
+  return polygons || is_coarse(grid, lattice) || radius > 0.5 * grid.resolution() + kContactTolerance;
 }
 
 FineLattice::FineLattice(const OccupancyGrid& grid, const Lattice& lattice, double robot_radius)
@@ -327,6 +347,7 @@ std::optional<FinerVertices> refine(const OccupancyGrid& grid, const DistanceTra
   if (!regions.find(stop)) return std::nullopt;
   Refinement refinement(nodes, regions, sight, lattice, radius, needed, half ? kWayRoundCells : kWayRound);
   if (!half) refinement.add_corners(grid);
+  for (const Polygon& polygon : sight.polygons().polygons()) refinement.add_corners(polygon);
   return refinement.run(stop);
 }
 

@@ -12,8 +12,8 @@
 namespace fleetplan::core {
 
 /// Whether a lattice may miss ways of robots of this radius at all. Robots that are no larger than a cell
-/// follow the centres of the cells wherever they fit.
-bool may_need_refinement(const OccupancyGrid& grid, const Lattice& lattice, double radius);
+/// follow the centres of the cells wherever they fit, unless polygons are blocked, too.
+bool may_need_refinement(const OccupancyGrid& grid, const Lattice& lattice, double radius, bool polygons);
 
 /// The fine lattice, for a disk of this radius: the centres of the cells or, for a lattice of these, also the
 /// middles between them.

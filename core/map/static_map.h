@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <tuple>
+#include <vector>
 
 #include "core/map/distance_transform.h"
 #include "core/map/finer_vertices.h"
@@ -20,8 +21,10 @@ namespace fleetplan::core {
 class StaticMap {
  public:
   explicit StaticMap(OccupancyGrid grid);
+  /// Another map (not null) with polygons that are blocked, too.
+  StaticMap(std::shared_ptr<const StaticMap> walls, std::vector<Polygon> polygons);
 
-  const OccupancyGrid& grid() const { return grid_; }
+  const OccupancyGrid& grid() const { return *grid_; }
   const LineOfSight& sight() const { return sight_; }
 
   /// What refines a lattice for robots of this radius; never null. No vertices if there are none, or if the
@@ -32,10 +35,14 @@ class StaticMap {
  private:
   using Kind = std::tuple<double, int, double>;  // of lattice and robot: spacing, connectivity, radius
 
-  OccupancyGrid grid_;
+  const DistanceTransform& distances() const;
+
+  std::shared_ptr<const StaticMap> walls_;  // of a map with polygons
+  std::shared_ptr<const OccupancyGrid> grid_;
   LineOfSight sight_;
   // Computed on first use.
   mutable std::mutex mutex_;
+  mutable std::mutex distances_mutex_;
   mutable std::optional<DistanceTransform> distances_;
   mutable std::map<Kind, std::shared_ptr<const FinerVertices>> finer_;
 };

@@ -70,9 +70,9 @@ std::optional<Collision> collision_after_leaving(const std::vector<MovingDisk>& 
 
 class CommittedFaults {
  public:
-  CommittedFaults(const OccupancyGrid& grid, const LineOfSight& sight, const std::vector<Robot>& robots,
-                  const ProblemConditions& conditions, const StopCondition& stop)
-      : grid_(grid), sight_(sight), robots_(robots), conditions_(conditions), stop_(stop) {}
+  CommittedFaults(const ZoneMaps& maps, const std::vector<Robot>& robots, const ProblemConditions& conditions,
+                  const StopCondition& stop)
+      : maps_(maps), robots_(robots), conditions_(conditions), stop_(stop) {}
 
   std::vector<ProblemFault> run() {
     for (std::size_t i = 0; i < robots_.size() && !stop_.met(); ++i) {
@@ -92,35 +92,45 @@ class CommittedFaults {
 
   void check_walls(std::size_t index) {
     const Robot& robot = robots_[index];
+    const LineOfSight& sight = maps_.of(index)->sight();
     const double full = robot.radius - kContactTolerance + kSearchSlack;
     const double least = std::max(full - conditions_.wall_overlap, kSmallestDisk * full);
-    if (!sight_.disk_fits(robot.start.position, least)) return;  // its start is at fault
-    double radius = sight_.fitting_radius(robot.start.position, least, full);
+    if (!sight.disk_fits(robot.start.position, least)) return;  // its start is at fault
+    double radius = sight.fitting_radius(robot.start.position, least, full);
     for (const Action& action : robot.committed) {
       if (action.type != Action::Type::translate) continue;
-      if (!sight_.may_sweep(action.from.position, action.to.position, radius)) {
+      if (!sight.may_sweep(action.from.position, action.to.position, radius)) {
         return add_wall(index, action, radius);
       }
-      if (sight_.disk_fits(action.to.position, full)) radius = full;
+      if (sight.disk_fits(action.to.position, full)) radius = full;
     }
   }
 
   void add_wall(std::size_t index, const Action& action, double radius) {
+    const LineOfSight& sight = maps_.of(index)->sight();
     const Position way = action.to.position - action.from.position;
     const auto at = [&](double fraction) { return Position(action.from.position + fraction * way); };
     double free = 0.0;
     double blocked = 1.0;
     for (int k = 0; k < kHalvings; ++k) {
       const double middle = 0.5 * (free + blocked);
-      (sight_.may_sweep(action.from.position, at(middle), radius) ? free : blocked) = middle;
+      (sight.may_sweep(action.from.position, at(middle), radius) ? free : blocked) = middle;
     }
+    const double own = robots_[index].radius;
+    const bool meets_wall = !maps_.map()->sight().may_sweep(action.from.position, at(blocked), radius);
+    const auto zone =
+        meets_wall ? std::nullopt : nearest_blocked_zone(conditions_.zones, index, at(blocked), kForever);
     double gap = 0.0;
     for (int k = 0; k <= kMeasured; ++k) {
       const Position place = at(blocked + (1.0 - blocked) * k / kMeasured);
-      gap = std::min(gap, obstacle_distance(grid_, place, robots_[index].radius) - robots_[index].radius);
+      gap = std::min(gap, (zone ? distance_to_zone(conditions_.zones[zone->index], place)
+                                : obstacle_distance(maps_.map()->grid(), place, own)) -
+                              own);
     }
     const double t = action.t_start + blocked * (action.t_end - action.t_start);
-    faults_.push_back({ProblemFault::Kind::committed_collision, index, index, gap, 0, t});
+    ProblemFault fault{ProblemFault::Kind::committed_collision, index, index, gap, 0, t};
+    if (zone) fault.zone = zone->index;
+    faults_.push_back(fault);
   }
 
   void find_pairs() {
@@ -135,7 +145,8 @@ class CommittedFaults {
         owners.push_back(static_cast<std::uint32_t>(i));
       }
     }
-    const MotionTree tree(std::move(disks), {grid_.width(), grid_.height(), largest}, stop_);
+    const OccupancyGrid& grid = maps_.map()->grid();
+    const MotionTree tree(std::move(disks), {grid.width(), grid.height(), largest}, stop_);
     if (!tree.finished()) return;
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       if (!is_committed(i)) continue;
@@ -175,8 +186,7 @@ class CommittedFaults {
 
   using Pair = std::pair<std::size_t, std::size_t>;  // a robot with a commitment, and another one
 
-  const OccupancyGrid& grid_;
-  const LineOfSight& sight_;
+  const ZoneMaps& maps_;
   const std::vector<Robot>& robots_;
   const ProblemConditions& conditions_;
   const StopCondition& stop_;
@@ -188,13 +198,12 @@ class CommittedFaults {
 
 }  // namespace
 
-std::vector<ProblemFault> committed_faults(const OccupancyGrid& grid, const LineOfSight& sight,
-                                           const std::vector<Robot>& robots,
+std::vector<ProblemFault> committed_faults(const ZoneMaps& maps, const std::vector<Robot>& robots,
                                            const ProblemConditions& conditions, const StopCondition& stop) {
   const bool any = std::any_of(robots.begin(), robots.end(),
                                [](const Robot& robot) { return !robot.committed.empty() && !robot.invalid; });
   if (!any) return {};
-  return CommittedFaults(grid, sight, robots, conditions, stop).run();
+  return CommittedFaults(maps, robots, conditions, stop).run();
 }
 
 }  // namespace fleetplan::core

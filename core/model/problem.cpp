@@ -17,14 +17,14 @@ constexpr double kClearOfWalls = 1e-3;
 /// Finds the faults of robot after robot. Exact distances are computed only for faults that are listed.
 class FaultSearch {
  public:
-  FaultSearch(const StaticMap& map, const std::vector<Robot>& robots, const ProblemConditions& conditions,
+  FaultSearch(const ZoneMaps& maps, const std::vector<Robot>& robots, const ProblemConditions& conditions,
               const StopCondition& stop)
-      : grid_(map.grid()), robots_(robots), conditions_(conditions), stop_(stop), sight_(map.sight()) {
+      : maps_(maps), robots_(robots), conditions_(conditions), stop_(stop) {
     if (conditions.list_faults_of_every_robot) listed_of_robot_.resize(robots.size(), 0);
   }
 
   ProblemFaults run() {
-    const std::vector<ProblemFault> committed = committed_faults(grid_, sight_, robots_, conditions_, stop_);
+    const std::vector<ProblemFault> committed = committed_faults(maps_, robots_, conditions_, stop_);
     auto next = committed.begin();
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       if (stop_.met()) {
@@ -67,9 +67,15 @@ class FaultSearch {
     const Robot& robot = robots_[index];
     if (robot.invalid) return;
     const double radius = robot.radius - kContactTolerance + kSearchSlack;
-    const auto check = [&](const Position& position, double least, const ProblemFault& fault) {
-      if (sight_.disk_fits(position, least)) return;
-      add(fault, [&] { return obstacle_distance(grid_, position, robot.radius) - robot.radius; });
+    const auto check = [&](const Position& position, double least, ProblemFault fault) {
+      if (maps_.of(index)->sight().disk_fits(position, least)) return;
+      if (maps_.map()->sight().disk_fits(position, least)) {
+        const auto zone = nearest_blocked_zone(conditions_.zones, index, position, robot.radius);
+        if (zone) fault.zone = zone->index;
+        return add(fault, [&] { return (zone ? zone->distance : robot.radius) - robot.radius; });
+      }
+      add(fault,
+          [&] { return obstacle_distance(maps_.map()->grid(), position, robot.radius) - robot.radius; });
     };
     const double overlap = conditions_.wall_overlap;
     check(robot.start.position, overlap > 0.0 ? std::max(radius - overlap, kClearOfWalls * radius) : radius,
@@ -96,20 +102,19 @@ class FaultSearch {
     }
   }
 
-  const OccupancyGrid& grid_;
+  const ZoneMaps& maps_;
   const std::vector<Robot>& robots_;
   const ProblemConditions& conditions_;
   const StopCondition& stop_;
-  const LineOfSight& sight_;
   std::vector<std::size_t> listed_of_robot_;  // empty: the first faults of all are listed
   ProblemFaults faults_;
 };
 
 }  // namespace
 
-Problem::Problem(std::shared_ptr<const StaticMap> map, std::vector<Robot> robots,
-                 std::vector<MovingObstacle> obstacles, std::vector<Zone> zones)
-    : map_(std::move(map)),
+Problem::Problem(ZoneMaps maps, std::vector<Robot> robots, std::vector<MovingObstacle> obstacles,
+                 std::vector<Zone> zones)
+    : maps_(std::move(maps)),
       robots_(std::move(robots)),
       obstacles_(std::move(obstacles)),
       zones_(std::move(zones)) {}
@@ -123,9 +128,10 @@ std::variant<Problem, ProblemFaults> Problem::create(OccupancyGrid grid, std::ve
 std::variant<Problem, ProblemFaults> Problem::create(std::shared_ptr<const StaticMap> map,
                                                      std::vector<Robot> robots, ProblemConditions conditions,
                                                      const StopCondition& stop) {
-  ProblemFaults faults = FaultSearch(*map, robots, conditions, stop).run();
+  ZoneMaps maps(std::move(map), conditions.zones, robots.size());
+  ProblemFaults faults = FaultSearch(maps, robots, conditions, stop).run();
   if (faults.total > 0 || !faults.finished) return faults;
-  return Problem(std::move(map), std::move(robots), std::move(conditions.obstacles),
+  return Problem(std::move(maps), std::move(robots), std::move(conditions.obstacles),
                  std::move(conditions.zones));
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "core/model/moving_obstacle.h"
 #include "core/model/robot.h"
 #include "core/model/zone.h"
+#include "core/model/zone_maps.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
@@ -17,12 +19,12 @@ namespace fleetplan::core {
 /// A reason why a map and a set of robots are not a valid problem.
 struct ProblemFault {
   enum class Kind {
-    start_in_obstacle,  // the robot's disk at its start overlaps a blocked cell or leaves the map
+    start_in_obstacle,  // the robot's disk at its start overlaps a blocked cell or zone, or leaves the map
     goal_in_obstacle,   // likewise at its goal
     starts_overlap,     // the starts of `robot` and `other` (< robot) overlap
     goals_overlap,      // the last goals of `robot` and `other` (< robot) overlap
     /// The committed motion of `robot`, to its own end, meets that of another robot, a robot that stands at
-    /// its start, a wall or the edge of the map.
+    /// its start, a wall, a blocked zone or the edge of the map.
     committed_collision,
   };
   Kind kind = Kind::start_in_obstacle;
@@ -31,6 +33,7 @@ struct ProblemFault {
   double gap = 0.0;       // metres, negative: the overlap of the disks, or of the disk and the obstacle
   std::size_t goal = 0;   // of goal_in_obstacle: its number
   double t = 0.0;         // of committed_collision: seconds
+  std::optional<std::size_t> zone = {};  // its index, if a zone is the obstacle
 };
 
 /// The faults of a map and a set of robots.
@@ -72,17 +75,19 @@ class Problem {
                                                      const StopCondition& stop);
 
   /// Never null.
-  const std::shared_ptr<const StaticMap>& map() const { return map_; }
-  const OccupancyGrid& grid() const { return map_->grid(); }
+  const std::shared_ptr<const StaticMap>& map() const { return maps_.map(); }
+  /// With the zones that are blocked for the robot; never null.
+  const std::shared_ptr<const StaticMap>& map_of(std::size_t robot) const { return maps_.of(robot); }
+  const OccupancyGrid& grid() const { return map()->grid(); }
   const std::vector<Robot>& robots() const { return robots_; }
   const std::vector<MovingObstacle>& obstacles() const { return obstacles_; }
   const std::vector<Zone>& zones() const { return zones_; }
 
  private:
-  Problem(std::shared_ptr<const StaticMap> map, std::vector<Robot> robots,
-          std::vector<MovingObstacle> obstacles, std::vector<Zone> zones);
+  Problem(ZoneMaps maps, std::vector<Robot> robots, std::vector<MovingObstacle> obstacles,
+          std::vector<Zone> zones);
 
-  std::shared_ptr<const StaticMap> map_;
+  ZoneMaps maps_;
   std::vector<Robot> robots_;
   std::vector<MovingObstacle> obstacles_;
   std::vector<Zone> zones_;

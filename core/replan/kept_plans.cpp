@@ -52,7 +52,7 @@ class PlansThatHold {
     rules.wait_before_move = options_.wait_before_move;
     rules.start_overlap = options_.start_overlap;
     rules.exact_commitments = true;
-    return verify({problem_.grid(), robots_, problem_.obstacles()}, plans, rules, stop_);
+    return verify({problem_.grid(), robots_, problem_.obstacles(), &problem_.zones()}, plans, rules, stop_);
   }
 
   static bool is_complete(const VerifyReport& report) {

@@ -75,7 +75,9 @@ int Vertices::add_goal(const Instance& instance, std::size_t robot, const Positi
 
 int Vertices::add(const OwnVertex& own, double reach) {
   const int id = add_linked(own, reach);
-  if (!own_.back().links.empty() || !may_need_refinement(grid_, lattice_, motion_.radius)) return id;
+  if (!own_.back().links.empty() ||
+      !may_need_refinement(grid_, lattice_, motion_.radius, space_.among_polygons()))
+    return id;
   const FineLattice nodes(grid_, lattice_, motion_.radius);
   for (const Position& place : way_to_lattice(own.position, own.radius, nodes, lattice_, space_)) {
     add_linked({place, motion_.radius, kForever, {}}, reach);

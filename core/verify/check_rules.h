@@ -13,7 +13,7 @@
 
 namespace fleetplan::core {
 
-/// The map, the robots and the moving obstacles of a request. They need not form a valid Problem.
+/// The map, the robots, the moving obstacles and the zones of a request. They need not form a valid Problem.
 struct CheckedFleet {
   const OccupancyGrid& grid;
   const std::vector<Robot>& robots;

@@ -11,6 +11,7 @@
 #include "core/verify/rules/obstacle_rules.h"
 #include "core/verify/rules/visit_rules.h"
 #include "core/verify/rules/wait_rules.h"
+#include "core/verify/rules/zone_rules.h"
 #include "core/verify/violation_list.h"
 
 namespace fleetplan::core {
@@ -68,9 +69,14 @@ class FleetCheck {
     fleet_.stays.push_back(plan == nullptr || !robot.goal);
     if (robot.invalid) return;  // it may stand in a wall
     const std::vector<Leg>& legs = fleet_.legs.back();
-    const std::vector<double> kept =
-        distances_from_walls(field, robot.radius, legs, fleet_.departures.back(), tolerance.metres, rules_);
+    const ZonesOfRobot zones(request_.zones, index);
+    const auto distance_from = [&](const Position& position, double reach) {
+      return zones.distance_to_blocked(position, distance_from_walls(field, position, reach));
+    };
+    const std::vector<double> kept = distances_to_keep(distance_from, robot.radius, legs,
+                                                       fleet_.departures.back(), tolerance.metres, rules_);
     violations_.add(check_obstacles(field, index, kept, legs, tolerance.metres, stop_));
+    if (!zones.empty()) violations_.add(zones.check_blocked(kept, legs, tolerance.metres, stop_));
   }
 
   void check_plan(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance) {

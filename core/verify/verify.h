@@ -50,6 +50,8 @@ inline constexpr std::size_t kMostViolations = 10'000;
 ///   the centres, and the sum of the radii.
 /// - moving_obstacle: a disk overlaps a moving obstacle; one violation for each uninterrupted overlap. The
 ///   distance of the centres, and the sum of the radii.
+/// - zone: the rule of a zone is broken. Blocked: a disk overlaps it; one violation for each uninterrupted
+///   overlap: the distance from the centre to the zone (0: inside), and the radius.
 struct Violation {
   enum class Kind {
     robot_collision,
@@ -62,6 +64,7 @@ struct Violation {
     committed_changed,
     margin,
     moving_obstacle,
+    zone,
   };
   Kind kind;
   std::vector<std::size_t> robots;  // indices, ascending; two for robot_collision and margin, one otherwise
@@ -71,6 +74,7 @@ struct Violation {
   std::string detail;               // a sentence for people, with units; names no robots by index
   std::optional<std::size_t> obstacle = {};  // of moving_obstacle: its index
   std::optional<double> t_begin = {};        // of robot_collision: when the overlap begins, seconds
+  std::optional<std::size_t> zone = {};      // of zone: its index
 };
 
 /// The outcome of a check.

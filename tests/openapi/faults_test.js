@@ -118,6 +118,14 @@ const CASES = {
     request((r) => (r.map = { movingai: "....#" })),
     [["/map/movingai", "bad_movingai"]],
   ],
+  "a zone whose border crosses itself": [
+    "/v1/plan",
+    request((r) => {
+      const polygon = [{ x: 0, y: 3 }, { x: 2, y: 4 }, { x: 2, y: 3 }, { x: 0, y: 4 }];
+      r.zones = [{ id: "z", type: "blocked", polygon }];
+    }),
+    [["/zones/0/polygon", "bad_polygon"]],
+  ],
   "an occupancy grid with too few cells": [
     "/v1/plan",
     request((r) => (r.map = { occupancy_grid: { info: { resolution: 1, width: 5, height: 2 }, data: [0] } })),

@@ -24,10 +24,11 @@ function anyOf(...patterns) {
 /** Faults that no schema can express, with the places where they may occur. */
 const BEYOND_SCHEMA = {
   duplicate: /^/, // ids, plans for one robot; keys, which a schema never sees
-  unknown_robot: /^\/(plans\/\d+\/robot|unavoidable\/\d+\/robots?(\/\d)?)$/,
+  unknown_robot: /^\/(plans\/\d+\/robot|unavoidable\/\d+\/robots?(\/\d)?|zones\/\d+\/robots\/\d+)$/,
   bad_map_row: /^\/map\/rows\/\d+$/, // rows of different lengths
   bad_image: /^\/map\/image\/(pgm|png)$/,
   bad_movingai: /^\/map\/movingai$/,
+  bad_polygon: /^\/zones\/\d+\/polygon(\/\d+)?$/,
   wrong_size: /^\/map\/occupancy_grid\/data$/, // of another number of cells
   out_of_range: anyOf(
     // settings of the server; sizes in metres; order

@@ -41,8 +41,8 @@ inline core::VerifyReport safety_report(const core::Problem& problem,
                                         core::CheckRules rules = {}) {
   rules.tolerances = safe_tolerances(problem, plans);
   rules.exact_commitments = true;
-  return *core::verify({problem.grid(), problem.robots(), problem.obstacles()}, plans, rules,
-                       core::StopCondition());
+  return *core::verify({problem.grid(), problem.robots(), problem.obstacles(), &problem.zones()}, plans,
+                       rules, core::StopCondition());
 }
 
 /// Expects that planned robots collide with no other robot, planned or not, no moving obstacle and not with

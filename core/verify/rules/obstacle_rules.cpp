@@ -32,17 +32,16 @@ Violation overlap_with(const NearestObstacle& obstacle, std::size_t robot, doubl
   return {Violation::Kind::obstacle_collision, {robot}, t, distance, radius, detail};
 }
 
-/// The distance of a position from the nearest obstacle, at most `reach`.
+}  // namespace
+
 double distance_from_walls(const ObstacleField& field, const Position& position, double reach) {
   const auto nearest = field.nearest(position, position, reach);
   return nearest ? nearest->point.distance : reach;
 }
 
-}  // namespace
-
-std::vector<double> distances_from_walls(const ObstacleField& field, double radius,
-                                         const std::vector<Leg>& legs, const Departure& departure,
-                                         double tolerance, const CheckRules& rules) {
+std::vector<double> distances_to_keep(const std::function<double(const Position&, double)>& distance_from,
+                                      double radius, const std::vector<Leg>& legs, const Departure& departure,
+                                      double tolerance, const CheckRules& rules) {
   std::vector<double> kept(legs.size(), radius);
   if (rules.inflation <= 0.0 && rules.start_overlap <= 0.0) return kept;
   const double inflated = radius + rules.inflation;
@@ -53,12 +52,12 @@ std::vector<double> distances_from_walls(const ObstacleField& field, double radi
     const bool begins_to_plan = !planned && !departure.commits(legs[k].t_end);
     planned = planned || begins_to_plan;
     if (k == 0 || begins_to_plan) {
-      const double here = distance_from_walls(field, legs[k].from, full);
+      const double here = distance_from(legs[k].from, full);
       const bool measured = k == 0 && inflated - here <= rules.start_overlap + tolerance;
       if (here < full && (measured || here >= radius - tolerance)) reduced = std::min(here, reduced);
     }
     kept[k] = std::min(full, reduced);
-    if (reduced < full && distance_from_walls(field, legs[k].to, full) >= full - tolerance) reduced = kNone;
+    if (reduced < full && distance_from(legs[k].to, full) >= full - tolerance) reduced = kNone;
   }
   return kept;
 }

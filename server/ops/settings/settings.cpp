@@ -170,6 +170,9 @@ class Flags {
                             "Most moving obstacles of a request");
     add_number<std::size_t>("max-obstacle-entries", limits.max_obstacle_entries, 1, kMostItems,
                             "Most entries of the motion of all obstacles");
+    add_number<std::size_t>("max-zones", limits.max_zones, 1, 1'000'000, "Most zones of a request");
+    add_number<std::size_t>("max-zone-corners", limits.max_zone_corners, 3, kMostItems,
+                            "Most corners of the polygons of all zones");
     add_number("max-depth", limits.max_depth, 4, 512, "Deepest nesting of the JSON");
   }
 

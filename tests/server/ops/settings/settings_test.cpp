@@ -115,6 +115,8 @@ TEST(Settings, RejectBadValuesAndNameTheFlag) {
                                "--max-actions=0",
                                "--max-obstacles=0",
                                "--max-obstacle-entries=0",
+                               "--max-zones=0",
+                               "--max-zone-corners=2",
                                "--default-budget-ms=0",
                                "--max-budget-ms=0",
                                "--idle-timeout-ms=0",

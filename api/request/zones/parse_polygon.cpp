@@ -1,0 +1,148 @@
+#include "api/request/zones/parse_polygon.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "api/request/ranges.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+using Corners = std::vector<core::Position>;
+
+constexpr std::array<std::string_view, 2> kCornerMembers{"x", "y"};
+constexpr std::size_t kFewestCorners = 3;
+/// Of one polygon: in the worst case, every side is compared with every other one.
+constexpr std::size_t kMostCorners = 1000;
+/// What a comparison of two sides costs, in bytes of text.
+constexpr std::size_t kWorkOfAComparison = 8;
+
+double turn(const core::Position& a, const core::Position& b, const core::Position& c) {
+  const core::Position d = b - a;
+  const core::Position e = c - a;
+  return d.x() * e.y() - d.y() * e.x();
+}
+
+/// Whether a point on the line of a segment lies within its box.
+bool lies_between(const core::Position& a, const core::Position& b, const core::Position& point) {
+  return point.x() >= std::min(a.x(), b.x()) && point.x() <= std::max(a.x(), b.x()) &&
+         point.y() >= std::min(a.y(), b.y()) && point.y() <= std::max(a.y(), b.y());
+}
+
+/// Whether two segments have a point in common.
+bool meet(const core::Position& a, const core::Position& b, const core::Position& c,
+          const core::Position& d) {
+  const double abc = turn(a, b, c);
+  const double abd = turn(a, b, d);
+  const double cda = turn(c, d, a);
+  const double cdb = turn(c, d, b);
+  const auto differ = [](double p, double q) { return (p > 0.0 && q < 0.0) || (p < 0.0 && q > 0.0); };
+  if (differ(abc, abd) && differ(cda, cdb)) return true;
+  return (abc == 0.0 && lies_between(a, b, c)) || (abd == 0.0 && lies_between(a, b, d)) ||
+         (cda == 0.0 && lies_between(c, d, a)) || (cdb == 0.0 && lies_between(c, d, b));
+}
+
+/// The sides of a polygon; side k leads from corner k to the next one.
+class Sides {
+ public:
+  explicit Sides(const Corners& corners) : corners_(corners) {}
+
+  /// Two sides that meet elsewhere than at their common corner, the earlier one first; none also if the
+  /// reading is stopped.
+  std::optional<std::pair<std::size_t, std::size_t>> that_meet(ParseStop& stop) const {
+    std::vector<std::size_t> order(corners_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return left(i) < left(j); });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      for (std::size_t j = i + 1; j < order.size() && left(order[j]) <= right(order[i]); ++j) {
+        if (stop.met_after(kWorkOfAComparison)) return std::nullopt;
+        const auto [first, second] = std::minmax(order[i], order[j]);
+        if (are_at_fault(first, second)) return std::pair(first, second);
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  const core::Position& begin(std::size_t side) const { return corners_[side]; }
+  const core::Position& end(std::size_t side) const { return corners_[(side + 1) % corners_.size()]; }
+  double left(std::size_t side) const { return std::min(begin(side).x(), end(side).x()); }
+  double right(std::size_t side) const { return std::max(begin(side).x(), end(side).x()); }
+
+  bool are_at_fault(std::size_t first, std::size_t second) const {
+    if (second == first + 1) return leads_back(first, second);
+    if (first == 0 && second + 1 == corners_.size()) return leads_back(second, first);
+    return meet(begin(first), end(first), begin(second), end(second));
+  }
+
+  /// Whether the side after another one leads back along it.
+  bool leads_back(std::size_t side, std::size_t next) const {
+    return turn(begin(side), end(side), end(next)) == 0.0 &&
+           (end(side) - begin(side)).dot(end(next) - begin(next)) < 0.0;
+  }
+
+  const Corners& corners_;
+};
+
+/// In the map frame. None if one has a fault.
+Corners parse_corners(const JsonReader& list, const WorldFrame& frame) {
+  const std::size_t faults = list.fault_count();
+  Corners corners;
+  corners.reserve(list.size());
+  for (const JsonReader item : list.items()) {
+    const JsonReader json = item.object(kCornerMembers);
+    if (!json) continue;
+    const auto x = json.require("x").number(kCoordinate);
+    const auto y = json.require("y").number(kCoordinate);
+    if (!x || !y) continue;
+    const core::Position corner = frame.to_map({*x, *y});
+    if (!corners.empty() && corners.back() == corner) {
+      item.fault(fault::kBadPolygon, "This corner equals the one before; leave it out.");
+    }
+    corners.push_back(corner);
+  }
+  if (corners.size() > 1 && corners.front() == corners.back()) {
+    list.item(list.size() - 1)
+        .fault(fault::kBadPolygon,
+               "The last corner equals the first one; leave it out, the polygon is closed.");
+  }
+  return list.fault_count() == faults ? corners : Corners{};
+}
+
+}  // namespace
+
+std::vector<core::Position> parse_polygon(const JsonReader& member, const WorldFrame& frame, Quota& corners) {
+  const JsonReader list = member.array();
+  if (!list || !corners.take(list)) return {};
+  if (list.size() < kFewestCorners) {
+    list.fault(fault::kBadPolygon,
+               "polygon must have at least 3 corners, not " + std::to_string(list.size()) + '.');
+    return {};
+  }
+  if (list.size() > kMostCorners) {
+    list.fault(fault::kOutOfRange, "polygon has " + std::to_string(list.size()) + " corners; it may have " +
+                                       std::to_string(kMostCorners) + ". Divide it into several zones.");
+    return {};
+  }
+  const Corners read = parse_corners(list, frame);
+  if (read.empty()) return {};
+  if (const auto met = Sides(read).that_meet(list.stop())) {
+    const std::string first = std::to_string(met->first);
+    const std::string second = std::to_string(met->second);
+    list.fault(fault::kBadPolygon,
+               "The sides that begin at the corners " + first + " and " + second +
+                   " (from 0) cross or touch each other; list the corners in order along the border, and "
+                   "divide an area that touches itself into several zones.");
+    return {};
+  }
+  return read;
+}
+
+}  // namespace fleetplan::api

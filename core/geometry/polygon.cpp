@@ -1,0 +1,87 @@
+#include "core/geometry/polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace fleetplan::core {
+namespace {
+
+double cross_product(const Position& a, const Position& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+double squared_distance(const Position& point, const Position& a, const Position& b) {
+  const Position d = b - a;
+  const double length = d.squaredNorm();
+  const double share = length > 0.0 ? std::clamp((point - a).dot(d) / length, 0.0, 1.0) : 0.0;
+  return (point - a - share * d).squaredNorm();
+}
+
+/// Whether the segments cross each other in their insides. Those that only touch may give either answer.
+bool cross_each_other(const Position& a, const Position& b, const Position& c, const Position& d) {
+  const auto side = [](const Position& p, const Position& q, const Position& r) {
+    return cross_product(q - p, r - p);
+  };
+  return side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
+}
+
+}  // namespace
+
+Polygon::Polygon(std::vector<Position> corners)
+    : corners_(std::move(corners)), low_(corners_.front()), high_(corners_.front()) {
+  for (const Position& corner : corners_) {
+    low_ = low_.cwiseMin(corner);
+    high_ = high_.cwiseMax(corner);
+  }
+}
+
+double Polygon::twice_signed_area() const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < corners_.size(); ++k) {
+    sum += cross_product(corners_[k] - corners_.front(), corner_after(k) - corners_.front());
+  }
+  return sum;
+}
+
+bool Polygon::contains(const Position& point) const {
+  bool inside = false;
+  for (std::size_t k = 0; k < corners_.size(); ++k) {
+    const Position& a = corners_[k];
+    const Position& b = corner_after(k);
+    if ((a.y() > point.y()) == (b.y() > point.y())) continue;
+    const double x = a.x() + (b.x() - a.x()) * (point.y() - a.y()) / (b.y() - a.y());
+    if (point.x() < x) inside = !inside;
+  }
+  return inside;
+}
+
+bool Polygon::comes_near(const Position& from, const Position& to, double distance) const {
+  const Position low = from.cwiseMin(to) - Position(distance, distance);
+  const Position high = from.cwiseMax(to) + Position(distance, distance);
+  const auto is_apart = [&](const Position& least, const Position& most) {
+    return most.x() < low.x() || most.y() < low.y() || least.x() > high.x() || least.y() > high.y();
+  };
+  if (is_apart(low_, high_)) return false;
+  const double squared = distance * distance;
+  for (std::size_t k = 0; k < corners_.size(); ++k) {
+    const Position& a = corners_[k];
+    const Position& b = corner_after(k);
+    if (is_apart(a.cwiseMin(b), a.cwiseMax(b))) continue;
+    if (squared_distance(from, a, b) < squared || squared_distance(to, a, b) < squared ||
+        squared_distance(a, from, to) < squared || squared_distance(b, from, to) < squared ||
+        cross_each_other(from, to, a, b)) {
+      return true;
+    }
+  }
+  return contains(from);
+}
+
+double Polygon::distance_to_border(const Position& point) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < corners_.size(); ++k) {
+    least = std::min(least, squared_distance(point, corners_[k], corner_after(k)));
+  }
+  return std::sqrt(least);
+}
+
+}  // namespace fleetplan::core

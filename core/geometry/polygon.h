@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/geometry/position.h"
+
+namespace fleetplan::core {
+
+/// A simple polygon, its inside included: at least three corners in either order, metres.
+class Polygon {
+ public:
+  explicit Polygon(std::vector<Position> corners);
+
+  const std::vector<Position>& corners() const { return corners_; }
+  const Position& low() const { return low_; }
+  const Position& high() const { return high_; }
+  /// Twice the area; > 0 if the corners are in counter-clockwise order.
+  double twice_signed_area() const;
+
+  /// Whether a point is inside, by the even-odd rule. Either answer is possible on the border.
+  bool contains(const Position& point) const;
+  /// Whether some point of the segment from `from` to `to` (possibly equal) is nearer than `distance` (> 0,
+  /// metres) to the polygon.
+  bool comes_near(const Position& from, const Position& to, double distance) const;
+  /// The distance of a point from the border, metres.
+  double distance_to_border(const Position& point) const;
+
+ private:
+  const Position& corner_after(std::size_t k) const { return corners_[k + 1 < corners_.size() ? k + 1 : 0]; }
+
+  std::vector<Position> corners_;
+  Position low_;  // of the bounding box
+  Position high_;
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/map/static_map.h"
+#include "core/model/zone.h"
+
+namespace fleetplan::core {
+
+/// The static map of each robot: the map of the request, with the zones that are blocked for the robot.
+/// Robots with the same zones share theirs.
+class ZoneMaps {
+ public:
+  /// `map` is not null.
+  ZoneMaps(std::shared_ptr<const StaticMap> map, const std::vector<Zone>& zones, std::size_t robots);
+
+  /// Without zones. Never null.
+  const std::shared_ptr<const StaticMap>& map() const { return maps_.front(); }
+  const std::shared_ptr<const StaticMap>& of(std::size_t robot) const {
+    return map_of_.empty() ? maps_.front() : maps_[map_of_[robot]];
+  }
+
+ private:
+  std::vector<std::shared_ptr<const StaticMap>> maps_;  // the first one has no zones
+  std::vector<std::size_t> map_of_;                     // by robot; empty if no zone is blocked
+};
+
+/// How far a position is from a zone, metres; 0 inside.
+double distance_to_zone(const Zone& zone, const Position& position);
+
+/// The blocked zone for the robot that is nearest to a position, if one is nearer than `reach` metres.
+struct NearestZone {
+  std::size_t index = 0;
+  double distance = 0.0;  // metres
+};
+std::optional<NearestZone> nearest_blocked_zone(const std::vector<Zone>& zones, std::size_t robot,
+                                                const Position& position, double reach);
+
+}  // namespace fleetplan::core

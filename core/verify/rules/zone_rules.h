@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/model/zone.h"
+#include "core/verify/execution/execution.h"
+#include "core/verify/geometry/segment_to_rectangle.h"
+#include "core/verify/verify.h"
+#include "core/verify/violation_list.h"
+
+namespace fleetplan::core {
+
+/// The zones of one robot.
+class ZonesOfRobot {
+ public:
+  /// `zones`: null if there are none; otherwise they outlive this object.
+  ZonesOfRobot(const std::vector<Zone>* zones, std::size_t robot);
+
+  bool empty() const { return zones_.empty(); }
+
+  /// How far a position is from the blocked zones, metres, at most `reach`; 0 inside.
+  double distance_to_blocked(const Position& position, double reach) const;
+
+  /// Reports where the disk overlaps a blocked zone by more than the tolerance (metres): for each zone one
+  /// violation for consecutive legs through which the overlap continues. `radii` are those of the disk in
+  /// each leg. Ends early when `stop` is met.
+  ViolationList check_blocked(const std::vector<double>& radii, const std::vector<Leg>& legs,
+                              double tolerance, const StopCondition& stop) const;
+
+ private:
+  struct ZoneBox {
+    std::size_t index;
+    const Zone* zone;
+    Rectangle box;
+  };
+
+  std::size_t robot_;
+  std::vector<ZoneBox> zones_;
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,160 @@
+// Zones of requests, and their faults.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/api/support/fault_case.h"
+#include "tests/api/support/motion_requests.h"
+
+namespace fleetplan::api {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Pair;
+
+using Case = FaultCase;
+
+Json corner(double x, double y) { return {{"x", x}, {"y", y}}; }
+
+/// A blocked zone in the upper middle of the hall.
+Json zone() {
+  return {{"id", "ward"},
+          {"type", "blocked"},
+          {"polygon", {corner(3, 3), corner(6, 3), corner(6, 3.5), corner(3, 3.5)}}};
+}
+
+Json request_with_zone() {
+  Json request = swap_request();
+  request["zones"] = {zone()};
+  return request;
+}
+
+Json& the_zone(Json& request) { return request["zones"][0]; }
+Json& polygon(Json& request) { return the_zone(request)["polygon"]; }
+
+TEST(Zones, AreReadInTheFrameOfTheMap) {
+  Json request = request_with_zone();
+  request["map"]["origin"] = {{"x", -1.0}, {"y", 0.5}};
+  for (int k : {0, 1}) {
+    for (const char* pose : {"start", "goal"}) {
+      robot(request, k)[pose]["x"] = robot(request, k)[pose]["x"].get<double>() - 1.0;
+      robot(request, k)[pose]["y"] = robot(request, k)[pose]["y"].get<double>() + 0.5;
+    }
+  }
+  the_zone(request)["robots"] = {"b"};
+  const auto read = parse_request(request.dump(), {});
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->problem.zones().size(), 1U);
+  const core::Zone& zone = read->problem.zones()[0];
+  EXPECT_EQ(zone.id, "ward");
+  EXPECT_EQ(zone.polygon.at(0), core::Position(4.0, 2.5));
+  EXPECT_THAT(zone.robots, ElementsAre(1U));
+}
+
+class OneFaultOfZones : public testing::TestWithParam<Case> {};
+
+TEST_P(OneFaultOfZones, IsReportedAtItsPlace) { expect_one_fault(request_with_zone(), GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(
+    OfMembers, OneFaultOfZones,
+    testing::Values(
+        Case{"NotAList", [](Json& r) { r["zones"] = zone(); }, "/zones", "wrong_type", "array"},
+        Case{"NotAnObject", [](Json& r) { r["zones"][0] = "ward"; }, "/zones/0", "wrong_type", "object"},
+        Case{"NoId", [](Json& r) { the_zone(r).erase("id"); }, "/zones/0/id", "missing", "id"},
+        Case{"NoType", [](Json& r) { the_zone(r).erase("type"); }, "/zones/0/type", "missing", "blocked"},
+        Case{"UnknownType", [](Json& r) { the_zone(r)["type"] = "wall"; }, "/zones/0/type", "unknown_value",
+             "\"blocked\""},
+        Case{"UnknownMember", [](Json& r) { the_zone(r)["colour"] = "red"; }, "/zones/0/colour",
+             "unknown_key", "colour"},
+        Case{"NoPolygon", [](Json& r) { the_zone(r).erase("polygon"); }, "/zones/0/polygon", "missing",
+             "list"},
+        Case{"SameId", [](Json& r) { r["zones"].push_back(zone()); }, "/zones/1/id", "duplicate",
+             "Zones 0 and 1 (from 0) both have the id \"ward\""},
+        Case{"NoRobots", [](Json& r) { the_zone(r)["robots"] = Json::array(); }, "/zones/0/robots", "empty",
+             "leave it out"},
+        Case{"UnknownRobot",
+             [](Json& r) {
+               the_zone(r)["robots"] = {"a", "c"};
+             },
+             "/zones/0/robots/1", "unknown_robot", "no robot \"c\""},
+        Case{"RobotTwice",
+             [](Json& r) {
+               the_zone(r)["robots"] = {"b", "b"};
+             },
+             "/zones/0/robots/1", "duplicate", "already in this list"}),
+    [](const auto& one) { return one.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    OfPolygons, OneFaultOfZones,
+    testing::Values(
+        Case{"NoCorners", [](Json& r) { polygon(r) = Json::array(); }, "/zones/0/polygon", "bad_polygon",
+             "at least 3 corners, not 0"},
+        Case{"TwoCorners", [](Json& r) { polygon(r).erase(0), polygon(r).erase(0); }, "/zones/0/polygon",
+             "bad_polygon", "at least 3 corners, not 2"},
+        Case{"NoX", [](Json& r) { polygon(r)[1].erase("x"); }, "/zones/0/polygon/1/x", "missing", "x"},
+        Case{"FarAway", [](Json& r) { polygon(r)[1]["x"] = 1e10; }, "/zones/0/polygon/1/x", "out_of_range",
+             "metres"},
+        Case{"CrossesItself", [](Json& r) { std::swap(polygon(r)[1], polygon(r)[2]); }, "/zones/0/polygon",
+             "bad_polygon", "The sides that begin at the corners 0 and 2 (from 0) cross or touch"},
+        Case{"TouchesItself", [](Json& r) { polygon(r).push_back(corner(4, 3)); }, "/zones/0/polygon",
+             "bad_polygon", "cross or touch"},
+        Case{"LeadsBack", [](Json& r) { polygon(r).insert(polygon(r).begin() + 2, corner(5, 3)); },
+             "/zones/0/polygon", "bad_polygon", "cross or touch"},
+        Case{"IsALine",
+             [](Json& r) {
+               polygon(r) = {corner(3, 3), corner(4, 3), corner(6, 3)};
+             },
+             "/zones/0/polygon", "bad_polygon", "cross or touch"},
+        Case{"RepeatsACorner", [](Json& r) { polygon(r).insert(polygon(r).begin(), corner(3, 3)); },
+             "/zones/0/polygon/1", "bad_polygon", "equals the one before"},
+        Case{"RepeatsTheFirst", [](Json& r) { polygon(r).push_back(corner(3, 3)); }, "/zones/0/polygon/4",
+             "bad_polygon", "closed"},
+        Case{"TooManyCorners",
+             [](Json& r) {
+               polygon(r) = Json::array();
+               for (int k = 0; k < 1001; ++k) polygon(r).push_back(corner(k, k * k));
+             },
+             "/zones/0/polygon", "out_of_range", "1001 corners; it may have 1000"}),
+    [](const auto& one) { return one.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    OfPoses, OneFaultOfZones,
+    testing::Values(Case{"StartInside",
+                         [](Json& r) {
+                           polygon(r) = {corner(0, 1), corner(2, 1), corner(2, 2)};
+                           the_zone(r)["robots"] = {"a"};
+                         },
+                         "/robots/0/start", "start_in_obstacle", "overlaps the blocked zone \"ward\" by"},
+                    Case{"GoalInside",
+                         [](Json& r) {
+                           polygon(r) = {corner(8, 1), corner(9, 1), corner(9, 2)};
+                           the_zone(r)["robots"] = {"a"};
+                         },
+                         "/robots/0/goal", "goal_in_obstacle", "overlaps the blocked zone \"ward\" by"}),
+    [](const auto& one) { return one.param.name; });
+
+TEST(ZoneFaults, NameTheZoneThatCommittedMotionEnters) {
+  Json request = moving_request();
+  request["zones"] = {zone()};
+  polygon(request) = {corner(1.5, 1), corner(2, 1), corner(2, 2)};
+  const auto faults = faults_of(request.dump());
+  EXPECT_THAT(brief(faults), ElementsAre(Pair("/robots/0/committed/0", "committed_collision")));
+  EXPECT_THAT(faults.at(0).detail, HasSubstr("overlaps the blocked zone \"ward\""));
+}
+
+TEST(ZoneFaults, ReportMoreThanTheLimitsAllow) {
+  Json request = request_with_zone();
+  Limits limits;
+  limits.max_zones = 1;
+  limits.max_zone_corners = 4;
+  EXPECT_THAT(brief_faults_of(request, limits), IsEmpty());
+  limits.max_zone_corners = 3;
+  EXPECT_THAT(brief_faults_of(request, limits), ElementsAre(Pair("/zones/0/polygon", "out_of_range")));
+  limits.max_zones = 0;
+  EXPECT_THAT(brief_faults_of(request, limits), ElementsAre(Pair("/zones", "out_of_range")));
+}
+
+}  // namespace
+}  // namespace fleetplan::api

@@ -1,0 +1,75 @@
+// The checker's rules of zones.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "tests/core/verify/scene.h"
+
+namespace fleetplan::core {
+namespace {
+
+using support::PlanBuilder;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+/// The square from (5, 5) to (10, 10).
+Zone square(Zone::Type type) {
+  Zone zone;
+  zone.id = "ward";
+  zone.type = type;
+  zone.polygon = {{5, 5}, {10, 5}, {10, 10}, {5, 10}};
+  return zone;
+}
+
+/// The violations of one robot among these zones.
+std::vector<Violation> violations(const std::vector<Zone>& zones, const Robot& robot,
+                                  const std::function<void(PlanBuilder&)>& drive) {
+  PlanBuilder plan(0, robot);
+  drive(plan);
+  std::vector<Robot> robots{robot};
+  const std::vector<RobotPlan> plans{plan.build()};
+  const auto& last = plans[0].actions.back().to;
+  robots[0].goal = Goal{last.position, last.theta};
+  const OccupancyGrid grid = open_map();
+  const std::vector<MovingObstacle> none;
+  CheckRules rules;
+  rules.tolerances.assign(1, Tolerance::of_all(kTolerance));
+  return verify({grid, robots, none, &zones}, plans, rules, StopCondition())->violations;
+}
+
+TEST(ZoneRules, ADiskMayTouchABlockedZone) {
+  const std::vector<Zone> zones{square(Zone::Type::blocked)};
+  const auto along = [](double y) { return [y](PlanBuilder& plan) { plan.translate_to(15, y); }; };
+  EXPECT_THAT(violations(zones, robot_at(1, 4.5), along(4.5)), IsEmpty());
+  const auto found = violations(zones, robot_at(1, 4.6), along(4.6));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, Kind::zone);
+  EXPECT_EQ(found[0].zone, 0U);
+  EXPECT_THAT(found[0].robots, ElementsAre(0));
+  EXPECT_NEAR(found[0].distance, 0.4, 1e-12);
+  EXPECT_EQ(found[0].required, 0.5);
+  EXPECT_THAT(found[0].detail, testing::HasSubstr("0.1 m into the blocked zone \"ward\""));
+}
+
+TEST(ZoneRules, OneOverlapIsOneViolation) {
+  const std::vector<Zone> zones{square(Zone::Type::blocked)};
+  const auto found = violations(zones, robot_at(1, 7), [](PlanBuilder& plan) {
+    plan.translate_to(7, 7).wait(3).translate_to(8, 7).translate_to(15, 7).wait(1);
+    plan.rotate_to(3.14159265).drive_to(1, 7);
+  });
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_NEAR(found[0].t, 4.0, 1e-9);  // the centre comes to the border
+  EXPECT_EQ(found[0].distance, 0.0);
+}
+
+TEST(ZoneRules, AZoneMayBeForSomeRobotsOnly) {
+  std::vector<Zone> zones{square(Zone::Type::blocked)};
+  zones[0].robots = {1};
+  EXPECT_THAT(violations(zones, robot_at(1, 7), [](PlanBuilder& plan) { plan.translate_to(15, 7); }),
+              IsEmpty());
+}
+
+}  // namespace
+}  // namespace fleetplan::core

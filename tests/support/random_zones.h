@@ -1,0 +1,70 @@
+#pragma once
+
+// Random zones for property tests.
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/model/problem.h"
+#include "tests/support/random_problem.h"
+
+namespace fleetplan::support {
+
+/// A polygon of three to eight corners around a place of the map, convex or star-shaped.
+inline std::vector<core::Position> random_polygon(Dice& dice, const core::OccupancyGrid& grid) {
+  const core::Position centre(dice.between(0.0, grid.width()), dice.between(0.0, grid.height()));
+  const double size = grid.resolution() * dice.between(1.0, 6.0);
+  const int corners = 3 + dice.below(6);
+  const bool is_star = dice.chance(0.3);
+  const double first = dice.between(0.0, 2.0 * std::numbers::pi);
+  std::vector<core::Position> polygon;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = first + 2.0 * std::numbers::pi * k / corners;
+    const double away = size * (is_star ? dice.between(0.3, 1.0) : 1.0);
+    polygon.push_back(centre + away * core::Position(std::cos(angle), std::sin(angle)));
+  }
+  if (dice.chance(0.2)) {  // along the lines of the grid
+    const auto along = [&](double x) { return grid.resolution() * std::round(x / grid.resolution()); };
+    const core::Position low(along(centre.x()), along(centre.y()));
+    const core::Position size_of_box =
+        grid.resolution() * core::Position(1.0 + dice.below(6), 1.0 + dice.below(6));
+    polygon = {low, low + core::Position(size_of_box.x(), 0.0), low + size_of_box,
+               low + core::Position(0.0, size_of_box.y())};
+  }
+  return polygon;
+}
+
+/// One to six zones of random types, some of them for some robots only.
+inline std::vector<core::Zone> random_zones(Dice& dice, const core::Problem& problem,
+                                            const std::vector<core::Zone::Type>& types) {
+  std::vector<core::Zone> zones;
+  for (int k = 1 + dice.below(6); k > 0; --k) {
+    core::Zone zone;
+    zone.id = "zone " + std::to_string(k);
+    zone.type = types[static_cast<std::size_t>(dice.below(static_cast<int>(types.size())))];
+    zone.polygon = random_polygon(dice, problem.grid());
+    for (std::size_t robot = 0; robot < problem.robots().size() && dice.chance(0.5); ++robot) {
+      if (dice.chance(0.5)) zone.robots.push_back(robot);
+    }
+    zones.push_back(zone);
+  }
+  return zones;
+}
+
+/// A valid problem with 1 to `count` robots, and zones of these types.
+inline core::Problem random_problem_with_zones(Dice& dice, int count,
+                                               const std::vector<core::Zone::Type>& types) {
+  while (true) {
+    const core::Problem plain = random_problem(dice, count);
+    core::ProblemConditions conditions;
+    conditions.zones = random_zones(dice, plain, types);
+    auto problem = core::Problem::create(plain.map(), plain.robots(), std::move(conditions), {});
+    if (auto* valid = std::get_if<core::Problem>(&problem)) return std::move(*valid);
+  }
+}
+
+}  // namespace fleetplan::support
