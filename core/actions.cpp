@@ -19,8 +19,9 @@ constexpr double kRounding = 1e-9;
 class ActionList {
  public:
   /// Begins with the committed actions.
-  explicit ActionList(const Robot& robot)
+  ActionList(const Robot& robot, const DriveZones* zones)
       : robot_(robot),
+        zones_(zones),
         pose_(robot.committed_end()),
         now_(robot.committed_until()),
         actions_(robot.committed) {}
@@ -57,7 +58,8 @@ class ActionList {
   void rotate(double theta, double t_end, double rounding) {
     const double rotation = std::abs(rotation_between(pose_.theta, theta));
     if (rotation <= kNegligible) return;
-    double rotated = now_ + rotation / robot_.angular_speed;
+    const double speed = zones_ != nullptr ? zones_->angular_speed_at(pose_.position) : robot_.angular_speed;
+    double rotated = now_ + rotation / speed;
     if (std::abs(t_end - rotated) <= rounding) rotated = t_end;
     append(Action::Type::rotate, rotated, {pose_.position, theta}, {});
   }
@@ -71,6 +73,7 @@ class ActionList {
   }
 
   const Robot& robot_;
+  const DriveZones* zones_;  // null for none
   Pose pose_;
   double now_;
   std::vector<Action> actions_;
@@ -84,18 +87,27 @@ std::size_t first_planned_move(const Robot& robot, const Trajectory& trajectory)
   return static_cast<std::size_t>(first - trajectory.moves.begin());
 }
 
+/// The direction of a move and of those that go on from it.
+double heading_from(const Trajectory& trajectory, std::size_t move) {
+  std::size_t last = move;
+  while (trajectory.continues(last + 1)) ++last;
+  const Position direction = trajectory.moves[last].path.to - trajectory.moves[move].path.from;
+  return normalize_angle(std::atan2(direction.y(), direction.x()));
+}
+
 }  // namespace
 
-std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory) {
-  ActionList list(robot);
+std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory, const DriveZones* zones) {
+  ActionList list(robot, zones);
   auto visit = trajectory.visits.begin();
   for (std::size_t k = first_planned_move(robot, trajectory); k < trajectory.moves.size(); ++k) {
     const TimedSegment& move = trajectory.moves[k];
     for (; visit != trajectory.visits.end() && visit->t_leave <= move.t_start; ++visit) list.visit(*visit);
-    const Position direction = move.path.to - move.path.from;
-    const double heading = normalize_angle(std::atan2(direction.y(), direction.x()));
     const bool reverse = trajectory.is_reverse(k);
-    list.rotate_and_wait(reverse ? opposite_heading(heading) : heading, move.t_start);
+    if (!trajectory.continues(k)) {
+      const double heading = heading_from(trajectory, k);
+      list.rotate_and_wait(reverse ? opposite_heading(heading) : heading, move.t_start);
+    }
     list.translate(move, reverse);
   }
   for (; visit != trajectory.visits.end(); ++visit) list.visit(*visit);

@@ -35,7 +35,7 @@ RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
     return {index, cost, actions, std::min(bound, cost), visits_of(robot, actions)};
   }
   // Rounding may leave a bound slightly above the cost that it bounds.
-  std::vector<Action> actions = to_actions(robot, *trajectory);
+  std::vector<Action> actions = to_actions(robot, *trajectory, state.instance().drive_zones(index));
   std::vector<Visit> visits = visits_of(robot, actions);
   remove_wrong_goals(actions, visits, robot.committed.size());
   return {index, cost, std::move(actions), std::min(bound, cost), std::move(visits)};

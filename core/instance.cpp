@@ -42,6 +42,20 @@ std::vector<TimedSegment> committed_segments(const Itinerary& itinerary) {
   return segments;
 }
 
+/// By robot, null for none; or no list.
+std::vector<std::unique_ptr<const DriveZones>> drive_zones_of(const Problem& problem) {
+  std::vector<std::unique_ptr<const DriveZones>> all;
+  const bool any = std::any_of(problem.zones().begin(), problem.zones().end(),
+                               [](const Zone& zone) { return zone.type != Zone::Type::blocked; });
+  if (!any) return all;
+  for (const Robot& robot : problem.robots()) {
+    auto zones = std::make_unique<const DriveZones>(problem.zones(), all.size(), robot);
+    if (zones->empty()) zones.reset();
+    all.push_back(std::move(zones));
+  }
+  return all;
+}
+
 std::shared_ptr<const FixedReservations> fixed(const Problem& problem, double inflation,
                                                const Contacts& contacts, const StopCondition& stop) {
   std::vector<FixedReservations::Robot> robots;
@@ -67,6 +81,7 @@ Instance::Instance(const Problem& problem, const PlanOptions& options,
     : problem_(problem),
       options_(options),
       lattice_(problem.grid(), options.connectivity, lattice_spacing(problem, options)),
+      drive_zones_(drive_zones_of(problem)),
       contacts_(endpoints(problem, lattice_, options.inflation)),
       fixed_reservations_(std::move(fixed_reservations)) {
   for (const Robot& robot : problem.robots()) {

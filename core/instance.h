@@ -8,6 +8,7 @@
 
 #include "core/map/free_space.h"
 #include "core/map/lattice.h"
+#include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
@@ -33,6 +34,10 @@ class Instance {
   const PlanOptions& options() const { return options_; }
   const Robot& robot(std::size_t index) const { return problem_.robots()[index]; }
   const Motion& motion(std::size_t index) const { return motions_[index]; }
+  /// The zones that limit how the robot drives; null if there are none.
+  const DriveZones* drive_zones(std::size_t index) const {
+    return drive_zones_.empty() ? nullptr : drive_zones_[index].get();
+  }
   /// What is left to plan for the robot after its committed actions.
   const Itinerary& itinerary(std::size_t index) const { return itineraries_[index]; }
   const Lattice& lattice() const { return lattice_; }
@@ -60,6 +65,7 @@ class Instance {
   PlanOptions options_;
   Lattice lattice_;
   std::vector<Motion> motions_;
+  std::vector<std::unique_ptr<const DriveZones>> drive_zones_;  // by robot, null for none; or empty
   std::vector<Itinerary> itineraries_;
   Contacts contacts_;
   std::shared_ptr<const FixedReservations> fixed_reservations_;

@@ -18,6 +18,7 @@
 #include "core/prioritized/prioritized_planning.h"
 #include "core/prioritized/progress_report.h"
 #include "core/prioritized/triage.h"
+#include "core/prioritized/zones_in_the_way.h"
 #include "core/replan/follow_kept.h"
 #include "core/replan/kept_plans.h"
 #include "core/runtime/memory_account.h"
@@ -199,6 +200,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   PrioritizedResult prioritized = first_plan(state, previous, movers, random, stop, progress);
   for (Unplanned& robot : prioritized.unplanned) unplanned[robot.robot] = std::move(robot);
   std::erase_if(movers, [&](std::size_t robot) { return !state.trajectory(robot); });
+  unplanned = with_zones_named(problem, options, std::move(unplanned), stop);
   const UnavoidableMeetings meetings = find_meetings(state, unplanned, beyond_budget(stop, kMostForMeetings));
   progress.plan_found(objectives_of(state));
 

@@ -14,6 +14,7 @@
 #include "api/request/parse_plans.h"
 #include "api/request/ranges.h"
 #include "core/geometry/angle.h"
+#include "core/model/drive_zones.h"
 
 namespace fleetplan::api {
 
@@ -125,6 +126,9 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   for (ReadRobot& robot : robots) {
     const std::size_t index = read.robots.size();
     if (!read.executions[index].goals) read.goal_metadata[index] = std::move(robot.goal_metadata);
+    // A robot that is off its path turns back as slowly as it has to anywhere.
+    const core::DriveZones zones(fleet.zones, index, robot.robot);
+    robot.robot.angular_speed = zones.least_angular_speed();
     read.robots.push_back(std::move(robot.robot));
   }
   read.obstacles = parse_obstacles(read.request.find("obstacles"), WorldFrame{}, limits, unique_ids);

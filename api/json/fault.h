@@ -34,6 +34,7 @@ inline constexpr const char* kGoalsOverlap = "goals_overlap";
 inline constexpr const char* kDiscontinuity = "discontinuity";  // of committed and previous actions
 inline constexpr const char* kSpeed = "speed";                  // faster than possible
 inline constexpr const char* kCommittedCollision = "committed_collision";
+inline constexpr const char* kCommittedInZone = "committed_in_zone";
 inline constexpr const char* kDependency = "dependency";     // of other plans
 inline constexpr const char* kInvalidPlan = "invalid_plan";  // plans that the check rejects
 }  // namespace fault

@@ -47,12 +47,14 @@ std::string goal_name(const ReadRobot& read, std::size_t goal) {
   return read.goals.size() < 2 ? "goal" : "goal " + std::to_string(goal) + " (from 0)";
 }
 
-/// The action that is executed at the time, as it stands in the request; the start of a robot without any.
-JsonReader action_at(const ReadRobot& read, double t) {
+/// The action that is executed at the time, or begins then, as it stands in the request; the start of a robot
+/// without any.
+JsonReader action_at(const ReadRobot& read, double t, bool begins = false) {
   JsonReader place = read.start;
   for (const JsonReader item : read.committed.items()) {
     place = item;
-    if (item.find("t_end").number(kDuration).value_or(0.0) >= t) break;
+    const double t_end = item.find("t_end").number(kDuration).value_or(0.0);
+    if (begins ? t_end > t : t_end >= t) break;
   }
   return place;
 }
@@ -90,6 +92,12 @@ GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
       return {read.start, fault::kStartsOverlap, overlap("starts", other, name, found.gap)};
     case Kind::goals_overlap:
       return {read.goals.back(), fault::kGoalsOverlap, overlap("goals", other, name, found.gap)};
+    case Kind::committed_in_zone:
+      return {action_at(read, found.t, true), fault::kCommittedInZone,
+              "This committed action of robot " + name + " breaks the rule of the zone " +
+                  in_quotes(fleet.zones[*found.zone].id) +
+                  ": it is faster than the zone allows, or against its direction. Correct the action or the "
+                  "zone."};
     case Kind::committed_collision:
       break;
   }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/geometry/tolerance.h"
+
 namespace fleetplan::core {
 namespace {
 
@@ -74,6 +76,47 @@ bool Polygon::comes_near(const Position& from, const Position& to, double distan
     }
   }
   return contains(from);
+}
+
+std::vector<Polygon::Span> Polygon::spans_inside(const Position& from, const Position& to) const {
+  const Position low = from.cwiseMin(to);
+  const Position high = from.cwiseMax(to);
+  if (high_.x() < low.x() || high_.y() < low.y() || low_.x() > high.x() || low_.y() > high.y()) return {};
+  const Position way = to - from;
+  // Where the line of the segment enters and leaves, in turns. A corner on the line counts to its left.
+  std::vector<double> crossings;
+  for (std::size_t k = 0; k < corners_.size(); ++k) {
+    const Position& a = corners_[k];
+    const Position& b = corner_after(k);
+    const double side_a = cross_product(way, a - from);
+    const double side_b = cross_product(way, b - from);
+    if ((side_a >= 0.0) == (side_b >= 0.0)) continue;
+    const Position at = a + side_a / (side_a - side_b) * (b - a);
+    crossings.push_back((at - from).dot(way) / way.squaredNorm());
+  }
+  std::sort(crossings.begin(), crossings.end());
+  std::vector<Span> spans;
+  for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
+    const Span span{std::max(0.0, crossings[k]), std::min(1.0, crossings[k + 1])};
+    if (span.first < span.last && is_deep(from, to, span)) spans.push_back(span);
+  }
+  return spans;
+}
+
+/// Whether a part of a segment is anywhere deeper inside than kSamePosition. It cannot be in between corners
+/// without being so halfway.
+bool Polygon::is_deep(const Position& from, const Position& to, const Span& span) const {
+  const Position way = to - from;
+  std::vector<double> ends{span.first, span.last};
+  for (const Position& corner : corners_) {
+    const double at = (corner - from).dot(way) / way.squaredNorm();
+    if (at > span.first && at < span.last) ends.push_back(at);
+  }
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    if (distance_to_border(from + 0.5 * (ends[k] + ends[k + 1]) * way) > kSamePosition) return true;
+  }
+  return false;
 }
 
 double Polygon::distance_to_border(const Position& point) const {

@@ -23,10 +23,18 @@ class Polygon {
   /// Whether some point of the segment from `from` to `to` (possibly equal) is nearer than `distance` (> 0,
   /// metres) to the polygon.
   bool comes_near(const Position& from, const Position& to, double distance) const;
+  /// The parts of the segment from `from` to `to` (not equal) inside, as fractions of it, ascending. A part
+  /// within kSamePosition of the border is left out.
+  struct Span {
+    double first = 0.0;
+    double last = 1.0;
+  };
+  std::vector<Span> spans_inside(const Position& from, const Position& to) const;
   /// The distance of a point from the border, metres.
   double distance_to_border(const Position& point) const;
 
  private:
+  bool is_deep(const Position& from, const Position& to, const Span& span) const;
   const Position& corner_after(std::size_t k) const { return corners_[k + 1 < corners_.size() ? k + 1 : 0]; }
 
   std::vector<Position> corners_;

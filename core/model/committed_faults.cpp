@@ -10,6 +10,7 @@
 #include "core/geometry/overlap.h"
 #include "core/geometry/tolerance.h"
 #include "core/map/obstacle_distance.h"
+#include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
 #include "core/reservation/motion_tree.h"
 
@@ -76,7 +77,9 @@ class CommittedFaults {
 
   std::vector<ProblemFault> run() {
     for (std::size_t i = 0; i < robots_.size() && !stop_.met(); ++i) {
-      if (is_committed(i)) check_walls(i);
+      if (!is_committed(i)) continue;
+      check_walls(i);
+      if (!conditions_.zones.empty()) check_zones(i);
     }
     find_pairs();
     for (const auto& [pair, collision] : pairs_) add_pair(pair.first, pair.second, collision);
@@ -131,6 +134,20 @@ class CommittedFaults {
     ProblemFault fault{ProblemFault::Kind::committed_collision, index, index, gap, 0, t};
     if (zone) fault.zone = zone->index;
     faults_.push_back(fault);
+  }
+
+  /// Adds the first action that breaks the rule of a zone. Slower than allowed is no fault.
+  void check_zones(std::size_t index) {
+    const DriveZones zones(conditions_.zones, index, robots_[index]);
+    if (zones.empty()) return;
+    for (const Action& action : robots_[index].committed) {
+      const auto zone = zones.broken_by(action);
+      if (!zone) continue;
+      ProblemFault fault{ProblemFault::Kind::committed_in_zone, index, index, 0.0, 0, action.t_start};
+      fault.zone = zone;
+      faults_.push_back(fault);
+      return;
+    }
   }
 
   void find_pairs() {

@@ -26,14 +26,15 @@ struct ProblemFault {
     /// The committed motion of `robot`, to its own end, meets that of another robot, a robot that stands at
     /// its start, a wall, a blocked zone or the edge of the map.
     committed_collision,
+    committed_in_zone,  // the committed motion of `robot` breaks the rule of `zone`, which is not blocked
   };
   Kind kind = Kind::start_in_obstacle;
   std::size_t robot = 0;
   std::size_t other = 0;  // pairs only; for committed_collision with a wall, the robot itself
   double gap = 0.0;       // metres, negative: the overlap of the disks, or of the disk and the obstacle
   std::size_t goal = 0;   // of goal_in_obstacle: its number
-  double t = 0.0;         // of committed_collision: seconds
-  std::optional<std::size_t> zone = {};  // its index, if a zone is the obstacle
+  double t = 0.0;         // of committed_collision and committed_in_zone: seconds
+  std::optional<std::size_t> zone = {};  // its index, if a zone is the obstacle, or the rule is its
 };
 
 /// The faults of a map and a set of robots.

@@ -16,9 +16,12 @@ struct Trajectory {
   double cost = 0.0;  // seconds until it rests in the goal pose, the last rotation and service included
   std::vector<Visit> visits = {};  // to goals of Robot::via that are served after the committed actions
   std::vector<bool> reverse = {};  // by move: backwards; those that are missing are not
-  bool is_previous = false;        // the motion of Robot::previous: its actions are those received
+  /// By move: goes on straight from the one before, at another speed; those that are missing do not.
+  std::vector<bool> goes_on = {};
+  bool is_previous = false;  // the motion of Robot::previous: its actions are those received
 
   bool is_reverse(std::size_t move) const { return move < reverse.size() && reverse[move]; }
+  bool continues(std::size_t move) const { return move < goes_on.size() && goes_on[move]; }
   Position end() const { return moves.empty() ? start : moves.back().path.to; }
 };
 

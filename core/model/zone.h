@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,13 +16,15 @@ struct Zone {
     speed,    // limits of the speeds while the robot's centre is inside
     one_way,  // translations with the centre inside keep within `half_angle` of `heading`
   };
+  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
   std::string id;
   Type type = Type::blocked;
   /// A simple polygon: at least three corners in order, map frame, metres. Its border belongs to a blocked
   /// zone, not to the others.
   std::vector<Position> polygon = {};
-  double linear_speed = 0.0;             // of `speed`: metres per second, > 0
-  double angular_speed = 0.0;            // of `speed`: radians per second, > 0
+  double linear_speed = kNoLimit;        // of `speed`: metres per second, > 0
+  double angular_speed = kNoLimit;       // of `speed`: radians per second, > 0
   double heading = 0.0;                  // of `one_way`: radians
   double half_angle = 0.0;               // of `one_way`: radians, > 0
   std::vector<std::size_t> robots = {};  // that it is for, ascending; empty: all of them

@@ -77,6 +77,7 @@ void Search::expand(LabelId id) {
   const int stage = place_at(id).stage;
   if (vertices_.any_angle()) offer_goal(id);
   vertices_.for_each_neighbour(place_at(id).vertex, [&](int neighbour) {
+    if (zones_ != nullptr && !vertices_.allow(place_at(id).vertex, neighbour)) return;
     const PlaceId target = place_of(neighbour, stage);
     if (state_.places[target].never_safe()) return;
     // A shortcut replaces two moves forwards, or two backwards.
@@ -190,7 +191,12 @@ LabelId Search::add_label(const Label& label) {
 
 EdgeId Search::add_edge(LabelId via, PlaceId target, bool with_shortcut, bool reverse) {
   const Move local = move_between(via, target, reverse);
-  const Move shortcut = with_shortcut ? move_between(state_.labels[via].parent, target, reverse) : Move{};
+  Move shortcut = with_shortcut ? move_between(state_.labels[via].parent, target, reverse) : Move{};
+  // Past a slow zone, the way round may be the faster one.
+  with_shortcut =
+      with_shortcut && !(vertices_.limit_speeds() &&
+                         shortcut.ready + shortcut.duration > local.ready + local.duration + kSameTime);
+  if (!with_shortcut) shortcut = Move{};
   return state_.edges.push_back(
       {local, shortcut, via, target, with_shortcut ? Edge::Sight::unknown : Edge::Sight::blocked});
 }
@@ -200,7 +206,17 @@ inline Move Search::move_between(LabelId from, PlaceId target, bool reverse) con
   const MoveSource source{label.arrival, label.heading, label.by_translation, label.reverse,
                           state_.intervals[label.interval]};
   const Displacement d = vertices_.between(place_at(from).vertex, state_.places[target].vertex);
-  return timing_.move(source, d.heading, d.length, reverse);
+  Move move = timing_.move(source, d.heading, d.length, reverse);
+  if (vertices_.limit_speeds()) limit_speeds(move, label, target);
+  return move;
+}
+
+/// Times the move at the speeds that zones allow.
+void Search::limit_speeds(Move& move, const Label& from, PlaceId target) const {
+  const Position& here = state_.places[from.place].position;
+  move.duration = zones_->translation_time(here, state_.places[target].position);
+  move.ready = from.arrival + angle_between(from.heading, move.heading) / zones_->angular_speed_at(here) +
+               motion_.wait_before_move;
 }
 
 /// Labels and expands the start, unless the robot cannot be there or the goal is out of bound.

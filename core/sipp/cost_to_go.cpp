@@ -31,22 +31,25 @@ class CostToGo::BackwardSearch {
         nodes_(static_cast<std::size_t>(vertices.count())),
         reverse_seconds_(motion_.may_reverse ? static_cast<std::size_t>(vertices.count()) : 0) {
     node(goal_).state = State::closed;
-    vertices_.for_each_neighbour(goal_, [&](int vertex) { relax(vertex, goal_); });
+    relax_neighbours(goal_, goal_);
   }
 
   Estimate from(int vertex, const StopCondition& stop) {
+    Estimate straight;
+    straight.seconds = kForever;
     if (vertices_.any_angle() && goal_in_sight(vertex)) {
-      Estimate estimate = via(vertex, goal_);
-      estimate.straight = true;
-      return estimate;
+      straight = via(vertex, goal_);
+      straight.straight = true;
+      if (!is_slowed(vertex, goal_)) return straight;
     }
     const Node& n = node(vertex);
     for (int step = 0; n.state != State::closed; ++step) {
-      if (open_.empty()) return {kForever, 0.0, false};
+      if (open_.empty()) return straight;
       if (step % kStopStride == kStopStride - 1 && stop.met()) return via(vertex, goal_);
       expand_best();
     }
-    return {n.seconds, n.heading, false, reverse_seconds(vertex)};
+    if (straight.straight && straight.least() <= least(n, vertex)) return straight;
+    return {n.seconds, n.heading, straight.straight, reverse_seconds(vertex)};
   }
 
   std::optional<bool> reaches(int vertex, std::int64_t max_expansions, const StopCondition& stop) {
@@ -91,7 +94,9 @@ class CostToGo::BackwardSearch {
   Estimate via(int vertex, int next);
   void add_onward(Estimate& estimate, int next);
   bool goal_in_sight(int vertex);
+  bool is_slowed(int vertex, int next) const;
   void relax(int vertex, int next);
+  void relax_neighbours(int vertex, int next);
   void close(int vertex);
   void expand_best();
 
@@ -111,7 +116,7 @@ CostToGo::Estimate CostToGo::BackwardSearch::via(int vertex, int next) {
   const Displacement d = vertices_.between(vertex, next);
   Estimate estimate;
   estimate.heading = d.heading;
-  estimate.seconds = motion_.translation_time(d.length) + motion_.wait_before_move;
+  estimate.seconds = vertices_.translation_time(vertex, next, d.length) + motion_.wait_before_move;
   if (motion_.may_reverse) {
     add_onward(estimate, next);
     return estimate;
@@ -186,6 +191,7 @@ void CostToGo::BackwardSearch::close(int vertex) {
   set(n, vertex, n.next, {kForever, n.heading, false});
   vertices_.for_each_neighbour(vertex, [&](int neighbour) {
     if (neighbour != goal_ && node(neighbour).state != State::closed) return;
+    if (!vertices_.allow(vertex, neighbour)) return;
     const Estimate estimate = via(vertex, neighbour);
     if (estimate.least() < least(n, vertex)) set(n, vertex, neighbour, estimate);
   });
@@ -199,7 +205,24 @@ void CostToGo::BackwardSearch::expand_best() {
   if (n.state == State::closed || best.seconds > least(n, best.vertex)) return;
   close(best.vertex);
   const int next = vertices_.any_angle() ? n.next : best.vertex;
-  vertices_.for_each_neighbour(best.vertex, [&](int neighbour) { relax(neighbour, next); });
+  relax_neighbours(best.vertex, next);
+}
+
+/// Whether a speed zone makes the straight move take longer.
+bool CostToGo::BackwardSearch::is_slowed(int vertex, int next) const {
+  if (!vertices_.limit_speeds()) return false;
+  const double length = vertices_.between(vertex, next).length;
+  return vertices_.translation_time(vertex, next, length) > motion_.translation_time(length) + kSameTime;
+}
+
+/// Relaxes the neighbours of a vertex with a first translation straight to `next`. Past slow zones, the one
+/// to the vertex may be faster.
+void CostToGo::BackwardSearch::relax_neighbours(int vertex, int next) {
+  vertices_.for_each_neighbour(vertex, [&](int neighbour) {
+    if (!vertices_.allow(neighbour, vertex)) return;
+    relax(neighbour, next);
+    if (next != vertex && vertices_.limit_speeds()) relax(neighbour, vertex);
+  });
 }
 
 CostToGo::CostToGo(const Vertices& vertices, std::size_t goal)

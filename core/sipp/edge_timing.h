@@ -7,6 +7,7 @@
 #include "core/geometry/angle.h"
 #include "core/geometry/interval.h"
 #include "core/geometry/tolerance.h"
+#include "core/model/drive_zones.h"
 #include "core/motion.h"
 #include "core/reservation/reservation_table.h"
 
@@ -39,8 +40,10 @@ struct Move {
 /// translation, which has one added wait.
 class EdgeTiming {
  public:
-  EdgeTiming(const Motion& motion, const ReservationTable& table, std::size_t robot)
-      : motion_(motion), table_(table), robot_(robot) {}
+  /// `zones` limit the speeds; null if there are none.
+  EdgeTiming(const Motion& motion, const ReservationTable& table, std::size_t robot,
+             const DriveZones* zones = nullptr)
+      : motion_(motion), table_(table), robot_(robot), zones_(zones) {}
 
   /// The move by `distance` metres (> 0) along `direction`, for which a robot that reverses has the opposite
   /// heading.
@@ -74,9 +77,12 @@ class EdgeTiming {
     return move.continues_straight && move.arrival + move.duration >= target.begin && move.arrival <= latest;
   }
 
+  std::optional<double> departure(const Segment& path, double duration, double t_min, double t_max) const;
+
   const Motion& motion_;
   const ReservationTable& table_;
   std::size_t robot_;
+  const DriveZones* zones_;
 };
 
 }  // namespace fleetplan::core

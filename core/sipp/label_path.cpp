@@ -1,6 +1,7 @@
 #include "core/sipp/label_path.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/geometry/angle.h"
@@ -17,6 +18,37 @@ std::vector<LabelId> path_to(LabelId last, const SearchState& state) {
   return path;
 }
 
+void append(Trajectory& trajectory, const TimedSegment& move, bool reverse) {
+  trajectory.moves.push_back(move);
+  if (!reverse) return;
+  trajectory.reverse.resize(trajectory.moves.size(), false);
+  trajectory.reverse.back() = true;
+}
+
+/// Appends the pieces of the move to a label. The first one that continues the last move, at the same speed,
+/// is joined to that.
+void append_pieces(Trajectory& trajectory, const std::vector<DriveZones::Piece>& pieces, const Label& to,
+                   bool continues) {
+  constexpr double kSameSpeed = 1e-9;  // relative; far above rounding
+  for (const DriveZones::Piece& piece : pieces) {
+    const double t_end = &piece == &pieces.back() ? to.arrival : to.departure + piece.end;
+    const bool goes_on = continues || &piece != &pieces.front();
+    if (goes_on && &piece == &pieces.front()) {
+      TimedSegment& last = trajectory.moves.back();
+      const double speed = last.path.length() / last.duration();
+      if (std::abs(speed - piece.linear_speed) <= kSameSpeed * speed) {
+        last.path.to = piece.path.to;
+        last.t_end = t_end;
+        continue;
+      }
+    }
+    append(trajectory, {piece.path, to.departure + piece.begin, t_end}, to.reverse);
+    if (!goes_on) continue;
+    trajectory.goes_on.resize(trajectory.moves.size(), false);
+    trajectory.goes_on.back() = true;
+  }
+}
+
 }  // namespace
 
 ServiceStop service_stop(const Label& label, const Stage& stage, const SearchSpace& space) {
@@ -27,7 +59,7 @@ ServiceStop service_stop(const Label& label, const Stage& stage, const SearchSpa
   } else {
     if (at_start) stop.t_rest = space.itinerary().t_begin;  // also if it has to stay there for longer
     if (stage.goal.heading) {
-      stop.t_rest += space.vertices().motion().rotation_time(label.heading, *stage.goal.heading);
+      stop.t_rest += space.vertices().rotation_time(stage.goal.vertex, label.heading, *stage.goal.heading);
       stop.heading = *stage.goal.heading;
     }
   }
@@ -53,16 +85,14 @@ Trajectory trajectory_of(const SearchState& state, const SearchSpace& space) {
     const bool continues = from.by_translation && to.departure == from.arrival &&
                            from.reverse == to.reverse &&
                            angle_between(from.heading, to.heading) <= kSameHeading;
-    if (continues) {
-      trajectory.moves.back().path.to = place_of(to).position;
+    const Segment way{place_of(from).position, place_of(to).position};
+    if (space.vertices().limit_speeds()) {
+      append_pieces(trajectory, space.vertices().zones()->pieces(way.from, way.to), to, continues);
+    } else if (continues) {
+      trajectory.moves.back().path.to = way.to;
       trajectory.moves.back().t_end = to.arrival;
     } else {
-      trajectory.moves.push_back(
-          {{place_of(from).position, place_of(to).position}, to.departure, to.arrival});
-      if (to.reverse) {
-        trajectory.reverse.resize(trajectory.moves.size(), false);
-        trajectory.reverse.back() = true;
-      }
+      append(trajectory, {way, to.departure, to.arrival}, to.reverse);
     }
   }
   const Label& last = state.labels[path.back()];

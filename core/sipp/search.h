@@ -33,7 +33,8 @@ class Search {
         robot_(robot),
         space_(space),
         motion_(space.vertices().motion()),
-        timing_(motion_, table, robot),
+        zones_(space.vertices().zones()),
+        timing_(motion_, table, robot, zones_),
         vertices_(space.vertices()),
         last_stage_(static_cast<int>(space.goal_count()) - 1),
         limits_(limits),
@@ -74,6 +75,7 @@ class Search {
 
   EdgeId add_edge(LabelId via, PlaceId target, bool with_shortcut, bool reverse);
   Move move_between(LabelId from, PlaceId target, bool reverse) const;
+  void limit_speeds(Move& move, const Label& from, PlaceId target) const;
   void test_sight(Edge& edge) const;
   std::optional<double> earliest_departure(const OpenEntry& entry);
   bool is_dominated(int interval, double arrival, double heading, double f);
@@ -95,6 +97,7 @@ class Search {
   const std::size_t robot_;
   SearchSpace& space_;
   const Motion& motion_;
+  const DriveZones* zones_;  // null for none
   const EdgeTiming timing_;
   const Vertices& vertices_;
   const int last_stage_;

@@ -15,7 +15,7 @@ bool Search::begin(Pass pass) {
   state_.place_of_vertex.resize(
       std::max(state_.place_of_vertex.size(), static_cast<std::size_t>(vertices_.count())), PlaceId::none);
   const double slack = use_slack_ ? limits_.dominance_slack * vertices_.spacing() : 0.0;
-  state_.dominance.reset(motion_, motion_.translation_time(slack));
+  state_.dominance.reset(vertices_.slowest_motion(), motion_.translation_time(slack));
   state_.stages = stages_of(space_, stop_);
   state_.goal = goal_of(last_stage_);
   const Place& goal = state_.places[state_.goal];

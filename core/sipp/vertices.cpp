@@ -21,6 +21,8 @@ constexpr double kLongestLink = 12.0;
 
 Vertices::Vertices(const Instance& instance, std::size_t robot)
     : motion_(instance.motion(robot)),
+      zones_(instance.drive_zones(robot)),
+      slowest_motion_(motion_),
       lattice_(instance.lattice()),
       grid_(instance.problem().grid()),
       space_(instance.free_space(robot)),
@@ -29,6 +31,7 @@ Vertices::Vertices(const Instance& instance, std::size_t robot)
       any_angle_(instance.options().any_angle),
       start_pose_(instance.itinerary(robot).pose),
       start_(add_start(instance, robot)) {
+  if (limit_speeds()) slowest_motion_.angular_speed = zones_->least_angular_speed();
   // Committed actions that end in contact with the goal end there: a service goes on, without a move.
   double same = instance.robot(robot).committed.empty() ? kSamePosition : kContactTolerance;
   for (const Goal& goal : instance.itinerary(robot).goals) {
@@ -115,7 +118,7 @@ bool Vertices::linked(const OwnVertex& own, int vertex) {
   return std::binary_search(own.links.begin(), own.links.end(), vertex);
 }
 
-bool Vertices::in_sight(int from, int to) const {
+bool Vertices::is_free(int from, int to) const {
   if (is_own(from)) return may_move(own_[own_index(from)], position(to), radius(to));
   if (is_own(to)) return may_move(own_[own_index(to)], position(from), motion_.radius);
   return space_.may_sweep(position(from), position(to), motion_.radius);

@@ -8,6 +8,7 @@
 #include "core/geometry/position.h"
 #include "core/map/finer_vertices.h"
 #include "core/map/lattice.h"
+#include "core/model/drive_zones.h"
 #include "core/motion.h"
 
 namespace fleetplan::core {
@@ -27,6 +28,10 @@ class Vertices {
   Vertices(const Instance& instance, std::size_t robot);
 
   const Motion& motion() const { return motion_; }
+  /// The zones that limit how the robot drives; null if there are none.
+  const DriveZones* zones() const { return zones_; }
+  /// The motion with the least angular speed of all zones.
+  const Motion& slowest_motion() const { return slowest_motion_; }
   /// Whether the search may leave the lattice's directions.
   bool any_angle() const { return any_angle_; }
   double spacing() const { return lattice_.spacing(); }
@@ -57,9 +62,25 @@ class Vertices {
     return on_lattice ? lattice_.between(from, to) : Displacement::between(position(from), position(to));
   }
 
-  /// Returns whether obstacles leave the straight line between two vertices free for the robot (paper,
-  /// "Estimating the feasibility of the move w.r.t. static obstacles").
-  bool in_sight(int from, int to) const;
+  /// Seconds of the straight move, which is so long, from one vertex to another.
+  double translation_time(int from, int to, double length) const {
+    return limit_speeds() ? zones_->translation_time(position(from), position(to))
+                          : motion_.translation_time(length);
+  }
+  /// Seconds to turn at a vertex.
+  double rotation_time(int vertex, double from, double to) const {
+    return limit_speeds() ? angle_between(from, to) / zones_->angular_speed_at(position(vertex))
+                          : motion_.rotation_time(from, to);
+  }
+  bool limit_speeds() const { return zones_ != nullptr && zones_->limit_speeds(); }
+  /// Returns whether the one-way zones allow the straight move.
+  bool allow(int from, int to) const {
+    return zones_ == nullptr || zones_->allow(position(from), position(to));
+  }
+
+  /// Returns whether obstacles and one-way zones leave the straight line between two vertices free for the
+  /// robot (paper, "Estimating the feasibility of the move w.r.t. static obstacles").
+  bool in_sight(int from, int to) const { return is_free(from, to) && allow(from, to); }
 
   /// Calls visit(vertex) for every neighbour that one lattice move or link reaches from `vertex`.
   template <class Visit>
@@ -82,6 +103,7 @@ class Vertices {
   }
 
  private:
+  bool is_free(int from, int to) const;
   struct OwnVertex {
     Position position;
     double radius = 0.0;     // metres; less than the robot's if a wall is nearer
@@ -109,6 +131,8 @@ class Vertices {
   std::uint32_t free_steps(int vertex) const;
 
   const Motion& motion_;
+  const DriveZones* zones_;
+  Motion slowest_motion_;
   const Lattice& lattice_;
   const OccupancyGrid& grid_;
   FreeSpace& space_;

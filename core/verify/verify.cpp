@@ -76,7 +76,9 @@ class FleetCheck {
     const std::vector<double> kept = distances_to_keep(distance_from, robot.radius, legs,
                                                        fleet_.departures.back(), tolerance.metres, rules_);
     violations_.add(check_obstacles(field, index, kept, legs, tolerance.metres, stop_));
-    if (!zones.empty()) violations_.add(zones.check_blocked(kept, legs, tolerance.metres, stop_));
+    if (zones.empty()) return;
+    violations_.add(zones.check_blocked(kept, legs, tolerance.metres, stop_));
+    violations_.add(zones.check_driving(plan != nullptr ? plan->actions : robot.committed, tolerance, stop_));
   }
 
   void check_plan(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance) {

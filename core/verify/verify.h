@@ -51,7 +51,9 @@ inline constexpr std::size_t kMostViolations = 10'000;
 /// - moving_obstacle: a disk overlaps a moving obstacle; one violation for each uninterrupted overlap. The
 ///   distance of the centres, and the sum of the radii.
 /// - zone: the rule of a zone is broken. Blocked: a disk overlaps it; one violation for each uninterrupted
-///   overlap: the distance from the centre to the zone (0: inside), and the radius.
+///   overlap: the distance from the centre to the zone (0: inside), and the radius. Speed and one-way: one
+///   violation for each action that has the centre deeper inside than the tolerance: its speed, and the
+///   greatest allowed one; or the angle between its direction and the heading, and the greatest one.
 struct Violation {
   enum class Kind {
     robot_collision,

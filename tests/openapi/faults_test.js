@@ -126,6 +126,16 @@ const CASES = {
     }),
     [["/zones/0/polygon", "bad_polygon"]],
   ],
+  "a committed action that is too fast for a zone": [
+    "/v1/plan",
+    request((r) => {
+      const from = { x: 0.5, y: 1.5, theta: 0 };
+      r.robots[1].committed = [{ type: "translate", t_start: 0, t_end: 2, from, to: { ...from, x: 2.5 } }];
+      const polygon = [{ x: 1, y: 1 }, { x: 2, y: 1 }, { x: 2, y: 2 }, { x: 1, y: 2 }];
+      r.zones = [{ id: "z", type: "speed", linear_speed: 0.5, polygon }];
+    }),
+    [["/robots/1/committed/0", "committed_in_zone"]],
+  ],
   "an occupancy grid with too few cells": [
     "/v1/plan",
     request((r) => (r.map = { occupancy_grid: { info: { resolution: 1, width: 5, height: 2 }, data: [0] } })),

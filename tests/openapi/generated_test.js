@@ -45,6 +45,7 @@ const BEYOND_SCHEMA = {
   discontinuity: /^\/robots\/\d+\/(committed|previous)\/\d+\/\w+$/,
   speed: /^\/(robots\/\d+\/(committed|previous)\/\d+(\/reverse)?|obstacles\/\d+\/motion\/\d+)$/,
   committed_collision: /^\/robots\/\d+\/committed\/\d+$/,
+  committed_in_zone: /^\/robots\/\d+\/committed\/\d+$/,
   start_in_obstacle: /^\/robots\/\d+\/start$/,
   goal_in_obstacle: /^\/robots\/\d+\/goal(s\/\d+)?$/,
   starts_overlap: /^\/robots\/\d+\/start$/,

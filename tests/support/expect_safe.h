@@ -98,7 +98,9 @@ inline std::vector<core::RobotPlan> plans_of(const core::PlanState& state) {
   for (std::size_t i = 0; i < state.instance().size(); ++i) {
     const auto& trajectory = state.trajectory(i);
     if (!trajectory) continue;
-    plans.push_back({i, trajectory->cost, core::to_actions(state.instance().robot(i), *trajectory)});
+    plans.push_back(
+        {i, trajectory->cost,
+         core::to_actions(state.instance().robot(i), *trajectory, state.instance().drive_zones(i))});
   }
   return plans;
 }

@@ -15,7 +15,7 @@ import pathlib
 import random
 import sys
 
-from buildings import HOSPITAL, OFFICE, Building
+from buildings import HOSPITAL, OFFICE, RESOLUTION, Building
 from floor import Floor
 from places import Places as BuildingPlaces
 
@@ -348,8 +348,25 @@ def hospital_wing():
     bed = {"radius": 0.45, "linear_speed": 0.6, "angular_speed": 0.8}
     kinds = [("meals", 5, meals), ("samples", 4, samples), ("bed", 3, bed)]
     robots = fleet_in(building, kinds, 28, [room.box for room in building.rooms])
-    return {"map": building.floor.map("png"), "robots": robots,
+    return {"map": building.floor.map("png"), "robots": robots, "zones": wing_zones(building),
             "options": {"time_budget_ms": 10000}}
+
+
+def wing_zones(building):
+    """Between the crossings, one corridor leads east and the other west; the crossing in the east is slow."""
+    lower, upper = building.corridors
+    west, east = building.crossings
+
+    def zone(name, kind, columns, rows, **rule):
+        left, right, bottom, top = (round(cells * RESOLUTION, 2) for cells in (*columns, *rows))
+        return {"id": name, "type": kind, **rule,
+                "polygon": [{"x": x, "y": y} for x, y in ((left, bottom), (right, bottom), (right, top), (left, top))]}
+    between = (west.column + west.columns, east.column)
+    return [zone("eastbound", "one_way", between, (lower.row, lower.row + lower.rows), heading=0.0, half_angle=1.5708),
+            zone("westbound", "one_way", between, (upper.row, upper.row + upper.rows), heading=3.1416,
+                 half_angle=1.5708),
+            zone("quiet", "speed", (east.column, east.column + east.columns), (lower.row + lower.rows, upper.row),
+                 linear_speed=0.4, angular_speed=0.8)]
 
 
 SCENARIOS = [  # in display order
@@ -373,7 +390,8 @@ SCENARIOS = [  # in display order
      "Couriers and cleaners on an office floor of 60 m by 40 m as a robot maps it: cells of 5 cm, doors, furniture, "
      "speckle, unknown cells."),
     ("hospital-wing", "Hospital wing", hospital_wing,
-     "Carts, couriers and beds in a wing with two corridors; the map is an image of 5 cm cells."),
+     "Carts, couriers and beds in a wing with two one-way corridors and a slow zone; the map is an image of 5 cm "
+     "cells."),
 ]
 MOVING = [  # written by make_moving_scenarios.py
     ("crossing-people", "Crossing people",
@@ -423,6 +441,9 @@ def text(request):
     if "obstacles" in request:
         obstacles = ",\n".join("    " + json.dumps(made) for made in request["obstacles"])
         parts.append(f'  "obstacles": [\n{obstacles}\n  ]')
+    if "zones" in request:
+        zones = ",\n".join("    " + json.dumps(made) for made in request["zones"])
+        parts.append(f'  "zones": [\n{zones}\n  ]')
     if "options" in request:
         parts.append('  "options": ' + json.dumps(request["options"]))
     return "{\n" + ",\n".join(parts) + "\n}\n"

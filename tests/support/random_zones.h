@@ -47,6 +47,16 @@ inline std::vector<core::Zone> random_zones(Dice& dice, const core::Problem& pro
     zone.id = "zone " + std::to_string(k);
     zone.type = types[static_cast<std::size_t>(dice.below(static_cast<int>(types.size())))];
     zone.polygon = random_polygon(dice, problem.grid());
+    if (zone.type == core::Zone::Type::speed) {
+      const core::Robot& robot = problem.robots().front();
+      if (dice.chance(0.8)) zone.linear_speed = robot.linear_speed * dice.between(0.2, 1.2);
+      if (dice.chance(0.5)) zone.angular_speed = robot.angular_speed * dice.between(0.2, 1.2);
+    }
+    if (zone.type == core::Zone::Type::one_way) {
+      zone.heading = dice.between(-std::numbers::pi, std::numbers::pi);
+      if (dice.chance(0.5)) zone.heading = 0.5 * std::numbers::pi * (dice.below(4) - 1);
+      zone.half_angle = dice.chance(0.3) ? 0.5 * std::numbers::pi : dice.between(0.1, 2.5);
+    }
     for (std::size_t robot = 0; robot < problem.robots().size() && dice.chance(0.5); ++robot) {
       if (dice.chance(0.5)) zone.robots.push_back(robot);
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -11,13 +12,18 @@
 #include "api/request/motion/quota.h"
 #include "api/request/ranges.h"
 #include "api/request/zones/parse_polygon.h"
+#include "core/geometry/angle.h"
 
 namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 1> kTypes{"blocked"};  // as in core::Zone::Type
-constexpr std::array<std::string_view, 4> kMembers{"id", "type", "polygon", "robots"};
+using Type = core::Zone::Type;
+
+constexpr std::array<std::string_view, 3> kTypes{"blocked", "speed", "one_way"};  // as in core::Zone::Type
+constexpr std::array<std::string_view, 8> kMembers{"id",           "type",          "polygon", "robots",
+                                                   "linear_speed", "angular_speed", "heading", "half_angle"};
+constexpr Range kHalfAngle{1e-3, std::numbers::pi, "radians"};
 
 /// The ids of the robots and of the zones, with their numbers.
 using Ids = std::unordered_map<std::string, std::size_t>;
@@ -37,7 +43,10 @@ class ZoneReader {
     if (!json) return zone;
     read_id(json.require("id"), zone);
     const JsonReader type = json.require("type", "; give one of " + listed(kTypes));
-    if (const auto word = type.word(kTypes)) zone.type = static_cast<core::Zone::Type>(*word);
+    if (const auto word = type.word(kTypes)) {
+      zone.type = static_cast<Type>(*word);
+      read_rule(json, zone);
+    }
     const JsonReader polygon = json.require("polygon", "; give a list of {\"x\", \"y\"}");
     zone.polygon = parse_polygon(polygon, frame_, corners_);
     read_robots(json.find("robots"), zone);
@@ -55,6 +64,36 @@ class ZoneReader {
       return "Zones " + std::to_string(earlier) + " and " + std::to_string(index) +
              " (from 0) both have the id " + in_quotes(zone.id) + "; ids of zones must be unique.";
     });
+  }
+
+  static void read_rule(const JsonReader& json, core::Zone& zone) {
+    for (const auto& [key, type] : {std::pair{"linear_speed", Type::speed},
+                                    {"angular_speed", Type::speed},
+                                    {"heading", Type::one_way},
+                                    {"half_angle", Type::one_way}}) {
+      const JsonReader member = json.find(key);
+      if (!member || type == zone.type) continue;
+      member.fault(fault::kUnknownKey, std::string(key) + " is for zones of the type " +
+                                           std::string(kTypes[static_cast<std::size_t>(type)]) +
+                                           " only; leave it out, or change the type.");
+    }
+    if (zone.type == Type::speed) read_speeds(json, zone);
+    if (zone.type != Type::one_way) return;
+    zone.heading = core::normalize_angle(
+        json.require("heading", "; give the direction of travel").number(kAnyAngle).value_or(0.0));
+    zone.half_angle = json.require("half_angle", "; give how far from heading a robot may move")
+                          .number(kHalfAngle)
+                          .value_or(0.0);
+  }
+
+  static void read_speeds(const JsonReader& json, core::Zone& zone) {
+    const JsonReader linear = json.find("linear_speed");
+    const JsonReader angular = json.find("angular_speed");
+    if (!linear && !angular) {
+      json.require("linear_speed", "; a zone of the type speed has linear_speed, angular_speed or both");
+    }
+    zone.linear_speed = linear.number(kLinearSpeed).value_or(core::Zone::kNoLimit);
+    zone.angular_speed = angular.number(kAngularSpeed).value_or(core::Zone::kNoLimit);
   }
 
   void read_robots(const JsonReader& member, core::Zone& zone) const {

@@ -77,6 +77,10 @@ bool is_inside(const std::vector<Position>& corners, const Position& point) {
   return winding != 0;
 }
 
+bool is_deep_inside(const std::vector<Position>& corners, const Position& point, double depth) {
+  return is_inside(corners, point) && distance_from_border(corners, point) > depth;
+}
+
 NearestPoint nearest_to_polygon(const Position& from, const Position& to,
                                 const std::vector<Position>& corners) {
   if (is_inside(corners, from)) return {0.0, 0.0};

@@ -11,6 +11,9 @@ namespace fleetplan::core {
 /// rounding of the border.
 bool is_inside(const std::vector<Position>& corners, const Position& point);
 
+/// Whether a point is inside and farther than `depth` metres from the border.
+bool is_deep_inside(const std::vector<Position>& corners, const Position& point, double depth);
+
 /// The distance between a segment (or a point, if `from` == `to`) and a simple polygon with its inside. The
 /// fraction is that of the first point of the segment that is nearest; if the segment enters the polygon, of
 /// the first one inside.

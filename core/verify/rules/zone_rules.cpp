@@ -1,15 +1,20 @@
 #include "core/verify/rules/zone_rules.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
+#include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
 #include "core/verify/geometry/segment_to_polygon.h"
 #include "core/verify/quantity_text.h"
 
 namespace fleetplan::core {
 namespace {
+
+/// Stands for an infinite speed in a violation.
+constexpr double kFastest = 1e30;
 
 Rectangle box_of(const std::vector<Position>& corners) {
   Rectangle box{corners.front(), corners.front()};
@@ -83,6 +88,82 @@ ViolationList ZonesOfRobot::check_blocked(const std::vector<double>& radii, cons
     if (latest) violations.add(std::move(*latest));
   }
   return violations;
+}
+
+ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions, const Tolerance& tolerance,
+                                          const StopCondition& stop) const {
+  ViolationList violations;
+  for (std::size_t k = 0; k < actions.size(); ++k) {
+    for (const ZoneBox& in : zones_) {
+      if (stop.met()) return violations;
+      const Action& action = actions[k];
+      if (in.zone->type == Zone::Type::blocked) continue;
+      if (nearest_to_rectangle(action.from.position, action.to.position, in.box).distance > 0.0) continue;
+      auto found = action.type == Action::Type::translate ? check_translation(in, action, k, tolerance)
+                   : action.type == Action::Type::rotate  ? check_rotation(in, action, k, tolerance)
+                                                          : std::nullopt;
+      if (found) violations.add(std::move(*found));
+    }
+  }
+  return violations;
+}
+
+/// The slowness that is missing is measured over what lies inside of the zone, as that of whole actions is.
+std::optional<Violation> ZonesOfRobot::check_translation(const ZoneBox& in, const Action& action,
+                                                         std::size_t number,
+                                                         const Tolerance& tolerance) const {
+  const Position way = action.to.position - action.from.position;
+  const double length = way.norm();
+  const double duration = std::max(0.0, action.t_end - action.t_start);
+  if (length <= tolerance.metres) return std::nullopt;
+  const auto inside =
+      stretches_inside(action.from.position, action.to.position, in.zone->polygon, tolerance.metres);
+  const std::string name = "actions[" + std::to_string(number) + "]";
+  for (const Stretch& stretch : inside) {
+    const double t = action.t_start + stretch.first * duration;
+    if (in.zone->type == Zone::Type::one_way) {
+      const double off = std::abs(rotation_between(in.zone->heading, std::atan2(way.y(), way.x())));
+      if (off <= in.zone->half_angle + tolerance.radians) return std::nullopt;
+      return broken(in, t, off, in.zone->half_angle,
+                    name + " moves " + radians(off) + " off the heading of the one-way zone \"" +
+                        in.zone->id + "\", which allows " + radians(in.zone->half_angle));
+    }
+    const double share = stretch.last - stretch.first;
+    const double limit = in.zone->linear_speed;
+    const double taken = share * duration;
+    const double least = share * length / limit;
+    if (taken >= least - tolerance.seconds || taken * limit >= share * length - tolerance.metres) continue;
+    const double speed = duration > 0.0 ? length / duration : kFastest;
+    return broken(in, t, std::min(speed, kFastest), limit,
+                  name + " goes at " + quantity_text(std::min(speed, kFastest), "m/s") +
+                      " through the zone \"" + in.zone->id + "\", which allows " +
+                      quantity_text(limit, "m/s"));
+  }
+  return std::nullopt;
+}
+
+std::optional<Violation> ZonesOfRobot::check_rotation(const ZoneBox& in, const Action& action,
+                                                      std::size_t number, const Tolerance& tolerance) const {
+  if (in.zone->type != Zone::Type::speed) return std::nullopt;
+  const Position& centre = action.from.position;
+  if (!is_deep_inside(in.zone->polygon, centre, tolerance.metres)) return std::nullopt;
+  const double turn = std::abs(rotation_between(action.from.theta, action.to.theta));
+  const double duration = std::max(0.0, action.t_end - action.t_start);
+  const double limit = in.zone->angular_speed;
+  if (duration >= turn / limit - tolerance.seconds || duration * limit >= turn - tolerance.radians) {
+    return std::nullopt;
+  }
+  const double speed = std::min(duration > 0.0 ? turn / duration : kFastest, kFastest);
+  return broken(in, action.t_start, speed, limit,
+                "actions[" + std::to_string(number) + "] turns at " + quantity_text(speed, "rad/s") +
+                    " in the zone \"" + in.zone->id + "\", which allows " + quantity_text(limit, "rad/s"));
+}
+
+Violation ZonesOfRobot::broken(const ZoneBox& in, double t, double measured, double required,
+                               std::string detail) const {
+  Violation violation{Violation::Kind::zone, {robot_}, t, measured, required, std::move(detail)};
+  violation.zone = in.index;
+  return violation;
 }
 
 }  // namespace fleetplan::core

@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "core/model/action.h"
 #include "core/model/zone.h"
 #include "core/verify/execution/execution.h"
 #include "core/verify/geometry/segment_to_rectangle.h"
@@ -29,12 +31,23 @@ class ZonesOfRobot {
   ViolationList check_blocked(const std::vector<double>& radii, const std::vector<Leg>& legs,
                               double tolerance, const StopCondition& stop) const;
 
+  /// Reports the actions that are faster than a speed zone allows, and those against a one-way zone. Ends
+  /// early when `stop` is met.
+  ViolationList check_driving(const std::vector<Action>& actions, const Tolerance& tolerance,
+                              const StopCondition& stop) const;
+
  private:
   struct ZoneBox {
     std::size_t index;
     const Zone* zone;
     Rectangle box;
   };
+
+  std::optional<Violation> check_translation(const ZoneBox& in, const Action& action, std::size_t number,
+                                             const Tolerance& tolerance) const;
+  std::optional<Violation> check_rotation(const ZoneBox& in, const Action& action, std::size_t number,
+                                          const Tolerance& tolerance) const;
+  Violation broken(const ZoneBox& in, double t, double measured, double required, std::string detail) const;
 
   std::size_t robot_;
   std::vector<ZoneBox> zones_;

@@ -135,6 +135,50 @@ INSTANTIATE_TEST_SUITE_P(
                          "/robots/0/goal", "goal_in_obstacle", "overlaps the blocked zone \"ward\" by"}),
     [](const auto& one) { return one.param.name; });
 
+void make_speed(Json& request) {
+  the_zone(request)["type"] = "speed";
+  the_zone(request)["linear_speed"] = 0.5;
+}
+
+void make_one_way(Json& request) {
+  the_zone(request)["type"] = "one_way";
+  the_zone(request)["heading"] = 0.0;
+  the_zone(request)["half_angle"] = 1.5;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfRules, OneFaultOfZones,
+    testing::Values(Case{"SpeedOfBlocked", [](Json& r) { the_zone(r)["linear_speed"] = 1; },
+                         "/zones/0/linear_speed", "unknown_key", "is for zones of the type speed only"},
+                    Case{"HeadingOfSpeed", [](Json& r) { make_speed(r), the_zone(r)["heading"] = 1; },
+                         "/zones/0/heading", "unknown_key", "is for zones of the type one_way only"},
+                    Case{"NoSpeed", [](Json& r) { the_zone(r)["type"] = "speed"; }, "/zones/0/linear_speed",
+                         "missing", "linear_speed, angular_speed or both"},
+                    Case{"Standing", [](Json& r) { make_speed(r), the_zone(r)["linear_speed"] = 0; },
+                         "/zones/0/linear_speed", "out_of_range", "metres per second"},
+                    Case{"NoHeading", [](Json& r) { make_one_way(r), the_zone(r).erase("heading"); },
+                         "/zones/0/heading", "missing", "direction of travel"},
+                    Case{"NoHalfAngle", [](Json& r) { make_one_way(r), the_zone(r).erase("half_angle"); },
+                         "/zones/0/half_angle", "missing", "how far from heading"},
+                    Case{"WideHalfAngle", [](Json& r) { make_one_way(r), the_zone(r)["half_angle"] = 4; },
+                         "/zones/0/half_angle", "out_of_range", "radians"}),
+    [](const auto& one) { return one.param.name; });
+
+TEST(ZoneFaults, NameTheZoneWhoseRuleCommittedMotionBreaks) {
+  Json request = moving_request();
+  request["zones"] = {zone()};
+  polygon(request) = {corner(1, 1), corner(2, 1), corner(2, 2), corner(1, 2)};
+  make_speed(request);
+  const auto fast = faults_of(request.dump());
+  EXPECT_THAT(brief(fast), ElementsAre(Pair("/robots/0/committed/0", "committed_in_zone")));
+  EXPECT_THAT(fast.at(0).detail, HasSubstr("the rule of the zone \"ward\""));
+  the_zone(request).erase("linear_speed");
+  make_one_way(request);
+  EXPECT_THAT(brief_faults_of(request), IsEmpty());
+  the_zone(request)["heading"] = 3.0;
+  EXPECT_THAT(brief_faults_of(request), ElementsAre(Pair("/robots/0/committed/0", "committed_in_zone")));
+}
+
 TEST(ZoneFaults, NameTheZoneThatCommittedMotionEnters) {
   Json request = moving_request();
   request["zones"] = {zone()};

@@ -51,6 +51,25 @@ TEST(Polygon, LeavesItsNotchFree) {
   EXPECT_TRUE(polygon.comes_near({5, 5}, {8, 8}, 1.1));
 }
 
+TEST(Polygon, HasSpansThatEndAtItsBorder) {
+  const auto through = Polygon(angle()).spans_inside({0, 3}, {8, 3});
+  ASSERT_EQ(through.size(), 1U);
+  EXPECT_NEAR(through[0].first, 0.25, 1e-12);
+  EXPECT_NEAR(through[0].last, 0.75, 1e-12);
+  EXPECT_EQ(Polygon(angle()).spans_inside({2.5, 7}, {7, 2.5}).size(), 2U);
+  const auto within = Polygon(square()).spans_inside({3, 3}, {3.5, 3});
+  ASSERT_EQ(within.size(), 1U);
+  EXPECT_EQ(within[0].last, 1.0);
+}
+
+TEST(Polygon, HasNoSpansAlongItsBorder) {
+  EXPECT_TRUE(Polygon(square()).spans_inside({0, 2}, {8, 2}).empty());
+  EXPECT_TRUE(Polygon(square()).spans_inside({0, 4}, {8, 4}).empty());
+  EXPECT_TRUE(Polygon(square()).spans_inside({2, 8}, {2, 0}).empty());
+  EXPECT_TRUE(Polygon(square()).spans_inside({0, 6}, {4, 2}).size() == 1U);  // from corner to corner
+  EXPECT_TRUE(Polygon(square()).spans_inside({1, 3}, {3, 1}).empty());       // past a corner
+}
+
 /// Both compute distances in their own way.
 TEST(Polygon, SearchAndCheckAgree) {
   support::Dice dice(7);

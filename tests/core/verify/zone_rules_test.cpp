@@ -64,6 +64,48 @@ TEST(ZoneRules, OneOverlapIsOneViolation) {
   EXPECT_EQ(found[0].distance, 0.0);
 }
 
+TEST(ZoneRules, ActionsInASpeedZoneAreSlow) {
+  std::vector<Zone> zones{square(Zone::Type::speed)};
+  zones[0].linear_speed = 0.5;
+  zones[0].angular_speed = 0.25;
+  const auto drive = [](double speed) {
+    return [speed](PlanBuilder& plan) {
+      plan.translate_to(5, 7).translate_to(10, 7, speed).translate_to(15, 7);
+    };
+  };
+  EXPECT_THAT(violations(zones, robot_at(1, 7), drive(0.5)), IsEmpty());
+  EXPECT_THAT(violations(zones, robot_at(1, 7), drive(0.2)), IsEmpty());
+  const auto found = violations(zones, robot_at(1, 7), drive(0.6));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, Kind::zone);
+  EXPECT_EQ(found[0].zone, 0U);
+  EXPECT_NEAR(found[0].distance, 0.6, 1e-9);
+  EXPECT_EQ(found[0].required, 0.5);
+  EXPECT_NEAR(found[0].t, 4.0, 1e-9);
+  const auto across = violations(zones, robot_at(1, 7), [](PlanBuilder& plan) { plan.translate_to(15, 7); });
+  ASSERT_EQ(across.size(), 1U);
+  EXPECT_NEAR(across[0].t, 4.0, 1e-9);
+  const auto turn = violations(zones, robot_at(7, 7), [](PlanBuilder& plan) { plan.rotate_to(1.0); });
+  ASSERT_EQ(turn.size(), 1U);
+  EXPECT_EQ(turn[0].required, 0.25);
+  EXPECT_THAT(violations(zones, robot_at(5, 7), [](PlanBuilder& plan) { plan.rotate_to(1.0); }), IsEmpty());
+}
+
+TEST(ZoneRules, TranslationsKeepWithinTheAngleOfAOneWayZone) {
+  std::vector<Zone> zones{square(Zone::Type::one_way)};
+  zones[0].heading = 0.0;
+  zones[0].half_angle = 1.0;
+  const auto drive = [](double x, double y) { return [x, y](PlanBuilder& plan) { plan.drive_to(x, y); }; };
+  EXPECT_THAT(violations(zones, robot_at(1, 7), drive(15, 7)), IsEmpty());
+  EXPECT_THAT(violations(zones, robot_at(6, 6), drive(7, 7)), IsEmpty());
+  EXPECT_THAT(violations(zones, robot_at(15, 10), drive(1, 10)), IsEmpty());  // along the border
+  const auto up = violations(zones, robot_at(7, 1), drive(7, 15));
+  ASSERT_EQ(up.size(), 1U);
+  EXPECT_NEAR(up[0].distance, 1.5707963, 1e-6);
+  EXPECT_EQ(up[0].required, 1.0);
+  EXPECT_EQ(violations(zones, robot_at(15, 9.9), drive(1, 9.9)).size(), 1U);
+}
+
 TEST(ZoneRules, AZoneMayBeForSomeRobotsOnly) {
   std::vector<Zone> zones{square(Zone::Type::blocked)};
   zones[0].robots = {1};

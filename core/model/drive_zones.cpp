@@ -1,0 +1,163 @@
+#include "core/model/drive_zones.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/angle.h"
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Metres: shorter pieces are joined with a neighbour, at the lower one of their speeds.
+constexpr double kShortestPiece = 1e-6;
+
+/// A part of a move with one speed; it begins where the one before ends.
+struct Part {
+  double last;  // a fraction of the move
+  double speed;
+};
+
+/// Joins neighbours of one speed, and those that are too short.
+std::vector<Part> joined(const std::vector<Part>& parts, double length) {
+  std::vector<Part> result;
+  double first = 0.0;  // of the last one in the result
+  for (const Part& part : parts) {
+    if (result.empty()) {
+      result.push_back(part);
+      continue;
+    }
+    Part& before = result.back();
+    const bool is_short = std::min(before.last - first, part.last - before.last) * length < kShortestPiece;
+    if (is_short || before.speed == part.speed) {
+      before = {part.last, std::min(before.speed, part.speed)};
+    } else {
+      first = before.last;
+      result.push_back(part);
+    }
+  }
+  return result;
+}
+
+/// The parts of the segment from `from` to `to` with their times.
+std::vector<DriveZones::Piece> timed(const std::vector<Part>& parts, const Position& from,
+                                     const Position& to) {
+  const double length = (to - from).norm();
+  std::vector<DriveZones::Piece> pieces;
+  Position here = from;
+  double first = 0.0;
+  double seconds = 0.0;
+  for (const Part& part : parts) {
+    const Position next = part.last < 1.0 ? Position(from + part.last * (to - from)) : to;
+    const double end = seconds + (part.last - first) * length / part.speed;
+    pieces.push_back({{here, next}, part.speed, seconds, end});
+    here = next;
+    first = part.last;
+    seconds = end;
+  }
+  return pieces;
+}
+
+}  // namespace
+
+DriveZones::DriveZones(const std::vector<Zone>& zones, std::size_t robot, const Robot& limits)
+    : linear_speed_(limits.linear_speed),
+      angular_speed_(limits.angular_speed),
+      least_angular_speed_(limits.angular_speed) {
+  for (std::size_t k = 0; k < zones.size(); ++k) {
+    const Zone& zone = zones[k];
+    if (!zone.is_for(robot)) continue;
+    if (zone.type == Zone::Type::one_way) {
+      one_way_.push_back({k, Polygon(zone.polygon), zone.heading, zone.half_angle});
+    }
+    const bool is_slow = zone.linear_speed < linear_speed_ || zone.angular_speed < angular_speed_;
+    if (zone.type != Zone::Type::speed || !is_slow) continue;
+    speed_.push_back({k, Polygon(zone.polygon), zone.linear_speed, zone.angular_speed});
+    least_angular_speed_ = std::min(least_angular_speed_, zone.angular_speed);
+  }
+}
+
+std::optional<std::size_t> DriveZones::that_forbids(const Position& from, const Position& to) const {
+  if (one_way_.empty()) return std::nullopt;
+  const Position way = to - from;
+  const double direction = std::atan2(way.y(), way.x());
+  for (const OneWayZone& zone : one_way_) {
+    if (angle_between(normalize_angle(direction), zone.heading) <= zone.half_angle + kSameHeading) continue;
+    if (!zone.polygon.spans_inside(from, to).empty()) return zone.index;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> DriveZones::broken_by(const Action& action) const {
+  const Position& from = action.from.position;
+  const Position& to = action.to.position;
+  const double duration = action.t_end - action.t_start;
+  if (action.type == Action::Type::rotate) {
+    const double turn = angle_between(action.from.theta, action.to.theta);
+    for (const SpeedZone& zone : speed_) {
+      const bool is_fast = duration * zone.angular_speed < turn - kContactTolerance;
+      if (is_fast && zone.polygon.contains(from) &&
+          zone.polygon.distance_to_border(from) > kContactTolerance) {
+        return zone.index;
+      }
+    }
+  }
+  if (action.type != Action::Type::translate || from == to) return std::nullopt;
+  const double length = (to - from).norm();
+  for (const SpeedZone& zone : speed_) {
+    for (const Polygon::Span& span : zone.polygon.spans_inside(from, to)) {
+      const double share = span.last - span.first;
+      if (share * duration * zone.linear_speed < share * length - kContactTolerance) return zone.index;
+    }
+  }
+  return length > kContactTolerance ? that_forbids(from, to) : std::nullopt;
+}
+
+std::vector<DriveZones::Piece> DriveZones::pieces(const Position& from, const Position& to) const {
+  struct Slow {
+    Polygon::Span span;
+    double speed;
+  };
+  std::vector<Slow> slow;
+  std::vector<double> ends{1.0};
+  for (const SpeedZone& zone : speed_) {
+    if (zone.linear_speed >= linear_speed_) continue;
+    for (const Polygon::Span& span : zone.polygon.spans_inside(from, to)) {
+      slow.push_back({span, zone.linear_speed});
+      if (span.first > 0.0) ends.push_back(span.first);
+      if (span.last < 1.0) ends.push_back(span.last);
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::vector<Part> parts;
+  double first = 0.0;
+  for (const double last : ends) {
+    const double middle = 0.5 * (first + last);
+    Part part{last, linear_speed_};
+    for (const Slow& zone : slow) {
+      if (zone.span.first <= middle && middle <= zone.span.last)
+        part.speed = std::min(part.speed, zone.speed);
+    }
+    parts.push_back(part);
+    first = last;
+  }
+  return timed(joined(parts, (to - from).norm()), from, to);
+}
+
+double DriveZones::translation_time(const Position& from, const Position& to) const {
+  return pieces(from, to).back().end;
+}
+
+double DriveZones::angular_speed_at(const Position& position) const {
+  double least = angular_speed_;
+  for (const SpeedZone& zone : speed_) {
+    if (zone.angular_speed < least && zone.polygon.contains(position) &&
+        zone.polygon.distance_to_border(position) > kSamePosition) {
+      least = zone.angular_speed;
+    }
+  }
+  return least;
+}
+
+}  // namespace fleetplan::core

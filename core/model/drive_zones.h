@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/polygon.h"
+#include "core/geometry/position.h"
+#include "core/geometry/segment.h"
+#include "core/model/action.h"
+#include "core/model/robot.h"
+#include "core/model/zone.h"
+
+namespace fleetplan::core {
+
+/// How one robot may drive in its zones of the types speed and one_way. The open inside of a zone counts, up
+/// to kSamePosition.
+class DriveZones {
+ public:
+  /// A part of a straight move, with one speed.
+  struct Piece {
+    Segment path;
+    double linear_speed = 0.0;  // metres per second
+    double begin = 0.0;         // seconds from the beginning of the move
+    double end = 0.0;
+  };
+
+  DriveZones(const std::vector<Zone>& zones, std::size_t robot, const Robot& limits);
+
+  bool empty() const { return speed_.empty() && one_way_.empty(); }
+  bool limit_speeds() const { return !speed_.empty(); }
+
+  /// The index of a one-way zone that forbids the straight move; none if it may be made.
+  std::optional<std::size_t> that_forbids(const Position& from, const Position& to) const;
+  bool allow(const Position& from, const Position& to) const { return !that_forbids(from, to); }
+
+  /// The pieces of a straight move of length > 0 at the greatest speeds; at least one. Next to each other
+  /// they differ in speed.
+  std::vector<Piece> pieces(const Position& from, const Position& to) const;
+  /// Seconds of the straight move at the greatest speeds.
+  double translation_time(const Position& from, const Position& to) const;
+
+  /// The index of a zone whose rule an action breaks, by more than contact: a translation against its
+  /// direction, or an action that is faster than it allows.
+  std::optional<std::size_t> broken_by(const Action& action) const;
+
+  /// The greatest angular speed at a position, radians per second.
+  double angular_speed_at(const Position& position) const;
+  /// The least of these anywhere.
+  double least_angular_speed() const { return least_angular_speed_; }
+
+ private:
+  struct SpeedZone {
+    std::size_t index;
+    Polygon polygon;
+    double linear_speed;
+    double angular_speed;
+  };
+  struct OneWayZone {
+    std::size_t index;
+    Polygon polygon;
+    double heading;
+    double half_angle;
+  };
+
+  double linear_speed_;
+  double angular_speed_;
+  double least_angular_speed_;
+  std::vector<SpeedZone> speed_;
+  std::vector<OneWayZone> one_way_;
+};
+
+}  // namespace fleetplan::core
