@@ -97,8 +97,12 @@ void HttpServer::fail(const std::string& why) {
 }
 
 Gauges HttpServer::gauges() const {
-  return {main_.listener.connections(), admin_ ? admin_->listener.connections() : 0,
-          static_cast<std::size_t>(settings_.workers), jobs_.load(), log_.dropped()};
+  return {main_.listener.connections(),
+          admin_ ? admin_->listener.connections() : 0,
+          static_cast<std::size_t>(settings_.workers),
+          jobs_.load(),
+          log_.dropped(),
+          jobs_.maps()};
 }
 
 }  // namespace fleetplan::server

@@ -71,7 +71,7 @@ core::Plan plan_or_none(const Planner& planner, const PlanRequest& request, cons
 Reply planned(const Planner& planner, std::string_view body, const RequestContext& context) {
   Stages stages{context.received_at, {}, {}, {}, {}};
   const auto begin = Clock::now();
-  const auto request = parse_request(body, context.limits, context.parse_stop());
+  const auto request = parse_request(body, context.limits, context.parse_stop(), context.maps);
   if (!request) return problem_reply(request.failure(), context.request_id);
   stages.parsed = Clock::now();
 

@@ -8,6 +8,7 @@
 #include "api/endpoints/turn.h"
 #include "api/json/parse_stop.h"
 #include "api/request/limits.h"
+#include "core/map/map_cache.h"
 #include "core/runtime/executor.h"
 
 namespace fleetplan::api {
@@ -23,6 +24,7 @@ struct RequestContext {
   core::Executor* executor = nullptr;  // of further threads; null: the caller's alone
   PlanEvents* events = nullptr;        // receives the progress of a plan; may be null
   Turn* turn = nullptr;                // to compute; null: at once
+  core::MapCache* maps = nullptr;      // that earlier requests had; null: none
 
   /// When to give up reading the body.
   ParseStop parse_stop() const { return ParseStop(stop, received_at, cpu_clock); }

@@ -20,11 +20,12 @@ bool is_of_a_pair(const core::ProblemFault& found) {
 /// Makes the problem, if need be again and again with more robots that are invalid.
 class ProblemMaker {
  public:
-  ProblemMaker(Fleet& fleet, const JsonReader& root, ParseStop& stop)
+  ProblemMaker(Fleet& fleet, const JsonReader& root, ParseStop& stop, core::MapCache* maps)
       : fleet_(fleet),
         root_(root),
         stop_(stop),
-        map_(std::make_shared<core::StaticMap>(std::move(fleet.map->grid))),
+        map_(maps != nullptr ? maps->map_of(std::move(fleet.map->grid))
+                             : std::make_shared<core::StaticMap>(std::move(fleet.map->grid))),
         reports_(reports()) {
     // What could not be read may be what would make committed motion valid.
     const bool poses_only = root.fault_count() > 0;
@@ -136,8 +137,9 @@ class ProblemMaker {
 
 }  // namespace
 
-std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, ParseStop& stop) {
-  return ProblemMaker(fleet, root, stop).run();
+std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, ParseStop& stop,
+                                        core::MapCache* maps) {
+  return ProblemMaker(fleet, root, stop, maps).run();
 }
 
 }  // namespace fleetplan::api

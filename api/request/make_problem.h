@@ -5,6 +5,7 @@
 
 #include "api/json/fault.h"
 #include "api/request/parse_body.h"
+#include "core/map/map_cache.h"
 #include "core/model/problem.h"
 
 namespace fleetplan::api {
@@ -19,7 +20,9 @@ struct MadeProblem {
 /// other robots hide none of these. Takes the map, the actions, the goals and the obstacles out of the fleet.
 /// Poses in obstacles, overlapping starts or last goals and committed motion that collides are faults; then
 /// there is no problem, nor if the stop is met. If invalid robots are to be reported, there is one: these
-/// robots are in it as invalid ones, which stand at their starts.
-std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, ParseStop& stop);
+/// robots are in it as invalid ones, which stand at their starts. `maps` has those of earlier requests; may
+/// be null.
+std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, ParseStop& stop,
+                                        core::MapCache* maps);
 
 }  // namespace fleetplan::api

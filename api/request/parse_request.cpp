@@ -32,13 +32,13 @@ std::vector<ReceivedRobot> received(std::vector<ReadRobot>& robots, std::vector<
 }  // namespace
 
 Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits,
-                                                const ParseStop& stop) {
+                                                const ParseStop& stop, core::MapCache* maps) {
   const auto parse = [&](const JsonReader& root, ParseStop& reading) -> std::optional<PlanRequest> {
     Fleet fleet = parse_fleet(root, limits, [&](const ReadOptions& options) {
       reading.set_budget(effective_budget(options, limits));
     });
     if (!fleet.map || reading.met()) return std::nullopt;
-    auto made = make_problem(fleet, root, reading);
+    auto made = make_problem(fleet, root, reading, maps);
     if (!made) return std::nullopt;
     std::vector<std::string> warnings = std::move(fleet.options.warnings);
     if (auto warning = budget_warning(fleet.options, limits)) warnings.push_back(std::move(*warning));

@@ -11,6 +11,7 @@
 #include "api/request/received_robot.h"
 #include "api/request/world_frame.h"
 #include "api/response/error.h"
+#include "core/map/map_cache.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
 
@@ -27,8 +28,9 @@ struct PlanRequest {
   std::string metadata;                 // see parse_metadata
 };
 
-/// Reads a body of POST /v1/plan; ends with `parse_unfinished` or `draining` when the stop is met.
+/// Reads a body of POST /v1/plan; ends with `parse_unfinished` or `draining` when the stop is met. `maps` has
+/// those of earlier requests; may be null.
 Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits,
-                                                const ParseStop& stop = {});
+                                                const ParseStop& stop = {}, core::MapCache* maps = nullptr);
 
 }  // namespace fleetplan::api

@@ -181,13 +181,13 @@ CornerVisibility::CornerVisibility(const OccupancyGrid& grid, double least_radiu
 
 void CornerVisibility::find_corners() {
   for (int line = 0; line <= grid_.rows(); ++line) {
+    first_of_line_.push_back(count());
     for (int x = 0; x <= grid_.columns(); ++x) {
-      before_.push_back(count());
       const auto corner = convex_corner(grid_, x, line);
       if (corner) corners_.push_back(*corner);
     }
   }
-  before_.push_back(count());
+  first_of_line_.push_back(count());
 }
 
 void CornerVisibility::find_blocked_runs() {
@@ -229,8 +229,12 @@ std::vector<int> CornerVisibility::visible(double x, double y, const Corner* ben
 }
 
 int CornerVisibility::first_corner(int x, int line) const {
-  const auto columns = static_cast<std::size_t>(grid_.columns()) + 1;
-  return before_[static_cast<std::size_t>(line) * columns + static_cast<std::size_t>(x)];
+  if (line > grid_.rows()) return count();
+  const auto first = corners_.begin() + first_of_line_[line];
+  const auto last = corners_.begin() + first_of_line_[line + 1];
+  const auto found = std::lower_bound(first, last, x,
+                                      [](const Corner& corner, int abscissa) { return corner.x < abscissa; });
+  return static_cast<int>(found - corners_.begin());
 }
 
 }  // namespace fleetplan::core

@@ -63,12 +63,12 @@ class CornerVisibility {
   int first_corner(int x, int line) const;
 
   const OccupancyGrid& grid_;
-  double least_radius_;            // cells
-  double most_radius_;             // cells
-  IndexedVector<Corner> corners_;  // by line, then abscissa
-  std::vector<int> before_;        // corners before each grid point, in the same order; and all at the end
-  IndexedVector<Run> runs_;        // by row; the first and last of a row reach to infinity
-  IndexedVector<int> first_run_;   // by row, and the number of runs at the end
+  double least_radius_;               // cells
+  double most_radius_;                // cells
+  IndexedVector<Corner> corners_;     // by line, then abscissa
+  IndexedVector<int> first_of_line_;  // by line, and the number of corners at the end
+  IndexedVector<Run> runs_;           // by row; the first and last of a row reach to infinity
+  IndexedVector<int> first_run_;      // by row, and the number of runs at the end
   IndexedVector<std::optional<std::vector<int>>> bends_from_;  // by corner
   std::int64_t work_ = 0;
 };

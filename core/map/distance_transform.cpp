@@ -60,25 +60,28 @@ class Envelope {
 }  // namespace
 
 DistanceTransform::DistanceTransform(const OccupancyGrid& grid)
-    : columns_(grid.columns()), rows_(grid.rows()), squared_(static_cast<std::size_t>(grid.cell_count())) {
+    : columns_(grid.columns()),
+      rows_(grid.rows()),
+      stride_((static_cast<std::size_t>(columns_) + kTileColumns - 1) / kTileColumns * kTileColumns),
+      squared_((static_cast<std::size_t>(rows_) + kTileRows - 1) / kTileRows * kTileRows * stride_) {
   scan_columns(grid);
   scan_rows();
+  make_tiles();
 }
 
 /// The distance to the nearest blocked cell of the same column.
 void DistanceTransform::scan_columns(const OccupancyGrid& grid) {
-  const auto columns = static_cast<std::size_t>(columns_);
-  std::uint16_t* cell = squared_.data();
   for (int row = 0; row < rows_; ++row) {
+    std::uint16_t* cell = squared_.data() + static_cast<std::size_t>(row) * stride_;
     for (int column = 0; column < columns_; ++column, ++cell) {
-      const int below = row > 0 ? *(cell - columns) : 0;
+      const int below = row > 0 ? *(cell - stride_) : 0;
       *cell = grid.blocked({column, row}) ? 0 : static_cast<std::uint16_t>(std::min<int>(kMost, below + 1));
     }
   }
   for (int row = rows_ - 1; row >= 0; --row) {
-    cell = squared_.data() + static_cast<std::size_t>(row) * columns;
+    std::uint16_t* cell = squared_.data() + static_cast<std::size_t>(row) * stride_;
     for (int column = 0; column < columns_; ++column, ++cell) {
-      const int above = row + 1 < rows_ ? *(cell + columns) : 0;
+      const int above = row + 1 < rows_ ? *(cell + stride_) : 0;
       *cell = std::min<std::uint16_t>(*cell, static_cast<std::uint16_t>(above + 1));
     }
   }
@@ -87,7 +90,20 @@ void DistanceTransform::scan_columns(const OccupancyGrid& grid) {
 void DistanceTransform::scan_rows() {
   Envelope envelope(columns_);
   for (int row = 0; row < rows_; ++row) {
-    envelope.transform(squared_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_));
+    envelope.transform(squared_.data() + static_cast<std::size_t>(row) * stride_);
+  }
+}
+
+/// From row by row to tiles.
+void DistanceTransform::make_tiles() {
+  std::vector<std::uint16_t> rows(kTileRows * stride_);
+  for (std::size_t begin = 0; begin < squared_.size(); begin += rows.size()) {
+    std::copy_n(squared_.data() + begin, rows.size(), rows.data());
+    for (std::size_t row = 0; row < kTileRows; ++row) {
+      for (std::size_t column = 0; column < stride_; ++column) {
+        squared_[begin + tiled(column, row)] = rows[row * stride_ + column];
+      }
+    }
   }
 }
 

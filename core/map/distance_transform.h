@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,17 +19,31 @@ class DistanceTransform {
 
   /// Of the centres, in cells, at most kMostSquared; 0 for a blocked cell. `cell` is inside the map.
   std::uint16_t squared(Cell cell) const {
-    return squared_[static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(columns_) +
-                    static_cast<std::size_t>(cell.column)];
+    const auto column = static_cast<std::size_t>(cell.column);
+    const auto row = static_cast<std::size_t>(cell.row);
+    return squared_[row / kTileRows * kTileRows * stride_ + tiled(column, row % kTileRows)];
   }
 
+  std::size_t bytes() const { return squared_.capacity() * sizeof(std::uint16_t); }
+
  private:
+  /// A tile is as large as a line of a CPU's cache, so that neighbours of a cell are likely to share its
+  /// line.
+  static constexpr std::size_t kTileColumns = 8;
+  static constexpr std::size_t kTileRows = 4;
+  static std::size_t tiled(std::size_t column, std::size_t row_in_tile) {
+    return column / kTileColumns * kTileColumns * kTileRows + row_in_tile * kTileColumns +
+           column % kTileColumns;
+  }
+
   void scan_columns(const OccupancyGrid& grid);
   void scan_rows();
+  void make_tiles();
 
   int columns_;
   int rows_;
-  std::vector<std::uint16_t> squared_;
+  std::size_t stride_;                  // columns, rounded up to tiles
+  std::vector<std::uint16_t> squared_;  // by rows of tiles, tile, and row in it
 };
 
 }  // namespace fleetplan::core

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "core/geometry/position.h"
 #include "core/map/distance_transform.h"
@@ -15,8 +16,7 @@ namespace fleetplan::core {
 class FineNodes {
  public:
   /// `half`: also the middles between cells. `radius` in metres.
-  FineNodes(const OccupancyGrid& grid, const DistanceTransform& distances, const LineOfSight& sight,
-            double radius, bool half);
+  FineNodes(const OccupancyGrid& grid, const LineOfSight& sight, double radius, bool half);
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }
@@ -32,10 +32,8 @@ class FineNodes {
   bool fits(int column, int row) const;
   /// Whether the disk fits at all places within half the longest step, too. True only where that is obvious.
   bool is_ample(int column, int row) const;
-  /// Whether the disk may sweep the step between two nodes.
-  bool may_sweep(const Cell& from, const Cell& to) const {
-    return sight_.may_sweep(position(from.column, from.row), position(to.column, to.row), radius_);
-  }
+  /// Whether the disk, which fits at two neighbouring nodes, may sweep the step between them.
+  bool may_step(const Cell& from, const Cell& to) const;
 
  private:
   /// Squared distances from the centre of the cell of a node to that of the nearest blocked one.
@@ -45,11 +43,19 @@ class FineNodes {
     int ample_from = 0;
   };
 
+  static constexpr int kSteps = 9;  // to the neighbours and, unused, to the node itself
+
   static Limits limits(double x, double y, double radius, double ample);
-  Cell cell_of(int column, int row) const;
-  const Limits& limits_of(int column, int row) const {
-    return limits_[half_ ? static_cast<std::size_t>((column % 2) * 2 + row % 2) : 3];
+  static std::vector<Cell> cells_between(const Position& from, const Position& to, double radius);
+  static std::size_t step_index(int columns, int rows) {
+    return static_cast<std::size_t>((rows + 1) * 3 + columns + 1);
   }
+  Cell cell_of(int column, int row) const;
+  /// Of nodes on grid lines, and of centres of cells.
+  std::size_t kind_of(int column, int row) const {
+    return half_ ? static_cast<std::size_t>((column % 2) * 2 + row % 2) : 3;
+  }
+  const Limits& limits_of(int column, int row) const { return limits_[kind_of(column, row)]; }
   bool clears_polygons(int column, int row, double radius) const {
     return sight_.polygons().empty() ||
            sight_.clears_polygons(position(column, row), position(column, row), radius);
@@ -58,6 +64,7 @@ class FineNodes {
     return half_ && (column == 0 || row == 0 || column + 1 == columns_ || row + 1 == rows_);
   }
 
+  const OccupancyGrid& grid_;
   const DistanceTransform& distances_;
   const LineOfSight& sight_;
   double radius_;
@@ -65,7 +72,11 @@ class FineNodes {
   double pitch_;
   int columns_;
   int rows_;
-  std::array<Limits, 4> limits_{};  // of nodes on grid lines, and of centres of cells
+  std::array<Limits, 4> limits_{};  // by kind of node
+  /// The cells, from that of the node, that a step may sweep although the disk fits at both ends: by kind of
+  /// node and step. Not known for large disks.
+  std::array<std::array<std::vector<Cell>, kSteps>, 4> between_;
+  bool between_known_;
 };
 
 }  // namespace fleetplan::core

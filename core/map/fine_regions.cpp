@@ -152,7 +152,7 @@ void FineRegions::begin_at_open_blocks(int block) {
       const Cell next{here.column + kSteps[step].columns, here.row + kSteps[step].rows};
       if (!inside(next)) continue;
       const auto vertex = vertex_in_open_block(next);
-      if (!vertex || !nodes_.may_sweep(here, next)) continue;
+      if (!vertex || !nodes_.may_step(here, next)) continue;
       put(here, *vertex, kSteps[step].length + length_to(next, *vertex), step);
     }
   }
@@ -170,7 +170,7 @@ void FineRegions::put(const Cell& here, int vertex, int length, int step) {
 
 bool FineRegions::may_step(const Cell& from, const Node& from_node, const Cell& to,
                            const Node& to_node) const {
-  return (from_node.ample && to_node.ample) || nodes_.may_sweep(from, to);
+  return (from_node.ample && to_node.ample) || nodes_.may_step(from, to);
 }
 
 void FineRegions::spread(bool only_unreached) {

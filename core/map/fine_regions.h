@@ -54,8 +54,8 @@ class FineRegions {
     std::int32_t vertex = -1;
     std::uint16_t length = 0;  // to the vertex
     std::int8_t step = -1;     // towards it
-    bool fits = false;
-    bool ample = false;
+    bool fits : 1 = false;
+    bool ample : 1 = false;
   };
   struct Step {
     int columns, rows, length;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -27,6 +28,10 @@ class FinerVertices {
   std::span<const Link> links_from(int vertex) const;
   /// All links, in both directions.
   std::span<const Link> links() const { return links_; }
+  std::size_t bytes() const {
+    return positions_.capacity() * sizeof(Position) + links_.capacity() * sizeof(Link) +
+           by_x_.capacity() * sizeof(int);
+  }
   /// Finer vertices within `distance` metres of a position, ascending.
   std::vector<int> near(const Position& position, double distance) const;
 

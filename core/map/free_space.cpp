@@ -19,13 +19,16 @@ std::uint32_t FreeSpace::steps_from(int vertex) {
   const int column = vertex % lattice_.columns();
   const int row = vertex / lattice_.columns();
   const Position here = lattice_.position(vertex);
+  const double surely_free = sight_.surely_free(here, radius_);
   std::uint32_t mask = 0;
   for (std::size_t k = 0; k < lattice_.steps().size(); ++k) {
     const auto [dc, dr] = lattice_.steps()[k];
     const int c = column + dc;
     const int r = row + dr;
     if (c < 0 || c >= lattice_.columns() || r < 0 || r >= lattice_.rows()) continue;
-    if (may_sweep(here, lattice_.position(lattice_.vertex(c, r)), radius_)) mask |= 1u << k;
+    const Position there = lattice_.position(lattice_.vertex(c, r));
+    const bool is_free = (there - here).squaredNorm() <= surely_free * surely_free && surely_free > 0.0;
+    if (is_free || may_sweep(here, there, radius_)) mask |= 1u << k;
   }
   cached = {mask, true};
   return mask;

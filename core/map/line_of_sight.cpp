@@ -4,51 +4,97 @@
 #include <cmath>
 #include <utility>
 
+#include "core/geometry/interval.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {
 namespace {
 
-/// Columns; the exact test of a narrower capsule is cheaper than halving it once more.
+constexpr int kBand = 64;  // rows
+/// Cells; far above the rounding of positions. Closer cases are left to the exact test.
+constexpr double kBoundsRounding = 1e-7;
+/// Cells: shorter steps along a move are not worth their cost, and so far the exact test looks then.
+constexpr double kShortestStep = 0.5;
+constexpr double kStepInDoubt = 2.0;
+/// The next point to look at is so much farther than what is known to be clear, of the distance that the last
+/// one was clear. Most often the clear disks of both points meet.
+constexpr double kRelaxation = 0.8;
+/// Cells: smaller disks are tested in rectangles of cells, as they fit where the bounds do not tell.
+constexpr double kSmallDisk = 3.0;
+/// The exact test of a capsule of so few columns is cheaper than halving it once more.
 constexpr int kNarrowColumns = 4;
+/// Words that are looked at for one rectangle.
+constexpr int kMostWords = 64;
+/// Cells: from the centre of a cell to its corners, rounded up, and to its sides.
+constexpr double kToCorner = 0.7072;
+constexpr double kToSide = 0.5;
 
 int floor_int(double x) { return static_cast<int>(std::floor(x)); }
 /// The last cell that an open set with upper end x overlaps.
 int last_cell(double x) { return static_cast<int>(std::ceil(x)) - 1; }
 
-/// The upper boundary at abscissa x of the capsule from a to b (a.x <= b.x) of radius r.
-double upper_boundary(const Position& a, const Position& b, double r, double x) {
-  const Position d = b - a;
-  const double length = d.norm();
-  const Position normal = length > 0.0 ? Position(-d.y() / length, d.x() / length) : Position(0.0, 1.0);
-  const auto arc = [&](const Position& c) {
-    return c.y() + std::sqrt(std::max(0.0, r * r - (x - c.x()) * (x - c.x())));
-  };
-  if (d.x() <= 0.0) return arc(d.y() > 0.0 ? b : a);  // vertical, or a single disk
-  if (x <= a.x() + r * normal.x()) return arc(a);
-  if (x >= b.x() + r * normal.x()) return arc(b);
-  return a.y() + r * normal.y() + (x - a.x() - r * normal.x()) * d.y() / d.x();
-}
+/// The upper boundary of the capsule from a to b (a.x <= b.x) of radius r.
+class UpperBoundary {
+ public:
+  UpperBoundary(const Position& a, const Position& b, double r) : a_(a), b_(b), r_(r) {
+    const Position d = b - a;
+    if (d.x() <= 0.0) {  // vertical, or a single disk
+      if (d.y() > 0.0) a_ = b;
+      b_ = a_;
+      return;
+    }
+    const double length = d.norm();
+    line_begin_ = a + r / length * Position(-d.y(), d.x());
+    line_end_ = line_begin_.x() + d.x();
+    slope_ = d.y() / d.x();
+  }
+
+  double at(double x) const {
+    if (x <= line_begin_.x()) return arc(a_, x);
+    if (x >= line_end_) return arc(b_, x);
+    return line_begin_.y() + (x - line_begin_.x()) * slope_;
+  }
+
+ private:
+  double arc(const Position& center, double x) const {
+    return center.y() + std::sqrt(std::max(0.0, r_ * r_ - (x - center.x()) * (x - center.x())));
+  }
+
+  Position a_;
+  Position b_;
+  double r_;
+  Position line_begin_{kForever, 0.0};
+  double line_end_ = kForever;
+  double slope_ = 0.0;
+};
 
 }  // namespace
 
-LineOfSight::LineOfSight(const OccupancyGrid& grid)
-    : columns_(grid.columns()), rows_(grid.rows()), cells_per_metre_(1.0 / grid.resolution()) {
-  const auto stride = static_cast<std::size_t>(columns_) + 1;
-  const auto sums = std::make_shared<std::int32_t[]>(stride * (static_cast<std::size_t>(rows_) + 1));
-  for (int row = 0; row < rows_; ++row) {
-    std::int32_t in_row = 0;
-    for (int column = 0; column < columns_; ++column) {
-      in_row += grid.blocked({column, row}) ? 1 : 0;
-      const auto above = (static_cast<std::size_t>(row) + 1) * stride + static_cast<std::size_t>(column) + 1;
-      sums[above] = sums[above - stride] + in_row;
+LineOfSight::Cells::Cells(const OccupancyGrid& grid)
+    : distances(grid),
+      blocked(static_cast<std::size_t>((grid.rows() + kBand - 1) / kBand) *
+              static_cast<std::size_t>(grid.columns())) {
+  for (int row = 0; row < grid.rows(); ++row) {
+    std::uint64_t* band =
+        &blocked[static_cast<std::size_t>(row / kBand) * static_cast<std::size_t>(grid.columns())];
+    for (int column = 0; column < grid.columns(); ++column) {
+      band[column] |= std::uint64_t{grid.blocked({column, row})} << static_cast<unsigned>(row % kBand);
     }
   }
-  sums_ = sums;
 }
+
+LineOfSight::LineOfSight(const OccupancyGrid& grid)
+    : columns_(grid.columns()),
+      rows_(grid.rows()),
+      cells_per_metre_(1.0 / grid.resolution()),
+      cells_(std::make_shared<const Cells>(grid)) {}
 
 LineOfSight::LineOfSight(const LineOfSight& walls, BlockedPolygons polygons) : LineOfSight(walls) {
   polygons_ = std::move(polygons);
+}
+
+std::size_t LineOfSight::bytes() const {
+  return cells_->distances.bytes() + cells_->blocked.capacity() * sizeof(std::uint64_t);
 }
 
 bool LineOfSight::clears_polygons(const Position& from, const Position& to, double radius) const {
@@ -56,13 +102,19 @@ bool LineOfSight::clears_polygons(const Position& from, const Position& to, doub
   return polygons_.empty() || reach <= 0.0 || !polygons_.come_near(from, to, reach);
 }
 
-std::int32_t LineOfSight::blocked_in(int column_min, int column_max, int row_min, int row_max) const {
-  const auto stride = static_cast<std::size_t>(columns_) + 1;
-  const auto bottom = static_cast<std::size_t>(row_min) * stride;
-  const auto top = (static_cast<std::size_t>(row_max) + 1) * stride;
-  const auto left = static_cast<std::size_t>(column_min);
-  const auto right = static_cast<std::size_t>(column_max) + 1;
-  return sums_[top + right] - sums_[top + left] - sums_[bottom + right] + sums_[bottom + left];
+bool LineOfSight::is_blocked(int column, int row_min, int row_max) const {
+  const auto first = static_cast<std::size_t>(row_min / kBand);
+  const auto last = static_cast<std::size_t>(row_max / kBand);
+  for (std::size_t band = first; band <= last; ++band) {
+    std::uint64_t rows = ~std::uint64_t{0};
+    if (band == first) rows <<= static_cast<unsigned>(row_min % kBand);
+    if (band == last) rows &= ~std::uint64_t{0} >> static_cast<unsigned>(kBand - 1 - row_max % kBand);
+    if ((cells_->blocked[band * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column)] &
+         rows) != 0) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool LineOfSight::may_sweep(const Position& from, const Position& to, double radius) const {
@@ -71,7 +123,8 @@ bool LineOfSight::may_sweep(const Position& from, const Position& to, double rad
   if (capsule.to.x() < capsule.from.x()) std::swap(capsule.from, capsule.to);
   const auto [low, high] = std::minmax(capsule.from.y(), capsule.to.y());
   if (capsule.from.x() < r || capsule.to.x() > columns_ - r || low < r || high > rows_ - r) return false;
-  return free_of_cells(capsule) && clears_polygons(from, to, radius);
+  const bool is_free = r < kSmallDisk ? rectangles_free(capsule) : free_of_cells(capsule);
+  return is_free && clears_polygons(from, to, radius);
 }
 
 double LineOfSight::fitting_radius(const Position& center, double least, double most) const {
@@ -87,19 +140,81 @@ double LineOfSight::fitting_radius(const Position& center, double least, double 
   return std::max(least, fits - kMargin);
 }
 
+/// The transform has the distance between centres of cells. `point` is on the map.
+LineOfSight::Bounds LineOfSight::distance_from_cells(const Position& point) const {
+  const int column = std::min(columns_ - 1, static_cast<int>(point.x()));
+  const int row = std::min(rows_ - 1, static_cast<int>(point.y()));
+  const int squared = cells_->distances.squared({column, row});
+  if (squared == 0) return {0.0, 0.0};
+  const double off_x = point.x() - column - kToSide;
+  const double off_y = point.y() - row - kToSide;
+  const double off_center = std::sqrt(off_x * off_x + off_y * off_y);
+  const double distance = std::sqrt(static_cast<double>(squared));
+  return {distance - kToCorner - off_center,
+          squared < DistanceTransform::kMostSquared ? distance - kToSide + off_center : kForever};
+}
+
 bool LineOfSight::free_of_cells(const Capsule& capsule) const {
+  const Position displacement = capsule.to - capsule.from;
+  const double length = displacement.norm();
+  const Position step = length > 0.0 ? Position(displacement / length) : displacement;
+  const auto free_between = [&](double begin, double end) {
+    const Position to = end < length ? Position(capsule.from + end * step) : capsule.to;
+    return columns_free({capsule.from + begin * step, to, capsule.radius});
+  };
+  double followed = 0.0;       // so far the move is followed
+  double in_doubt_from = 0.0;  // and so far it is clear
+  double at = 0.0;             // where to look, at least `followed`
+  do {
+    const Bounds distance = distance_from_cells(capsule.from + at * step);
+    if (distance.most < capsule.radius - kBoundsRounding) return false;
+    const double clear = distance.least - capsule.radius - kBoundsRounding;
+    if (clear >= kShortestStep && at - clear <= followed) {
+      if (at - clear > in_doubt_from && in_doubt_from < followed &&
+          !free_between(in_doubt_from, at - clear)) {
+        return false;
+      }
+      in_doubt_from = followed = at + clear;
+      at = std::min(followed + kRelaxation * clear, length);
+    } else {
+      if (at <= followed) followed = at + kStepInDoubt;
+      at = followed;
+    }
+  } while (followed < length);
+  return in_doubt_from >= followed || free_between(in_doubt_from, length);
+}
+
+bool LineOfSight::rectangles_free(const Capsule& capsule) const {
   const auto [low, high] = std::minmax(capsule.from.y(), capsule.to.y());
   const int column_min = std::max(0, floor_int(capsule.from.x() - capsule.radius));
   const int column_max = std::min(columns_ - 1, last_cell(capsule.to.x() + capsule.radius));
   const int row_min = std::max(0, floor_int(low - capsule.radius));
   const int row_max = std::min(rows_ - 1, last_cell(high + capsule.radius));
-  if (blocked_in(column_min, column_max, row_min, row_max) == 0) return true;
+  const int bands = row_max / kBand - row_min / kBand + 1;
+  if ((column_max - column_min + 1) * bands <= kMostWords) {
+    int column = column_min;
+    while (column <= column_max && !is_blocked(column, row_min, row_max)) ++column;
+    if (column > column_max) return true;
+  }
   if (column_max - column_min < kNarrowColumns || capsule.to.x() - capsule.from.x() < kNarrowColumns) {
     return columns_free(capsule);
   }
   const Position middle = 0.5 * (capsule.from + capsule.to);
-  return free_of_cells({capsule.from, middle, capsule.radius}) &&
-         free_of_cells({middle, capsule.to, capsule.radius});
+  return rectangles_free({capsule.from, middle, capsule.radius}) &&
+         rectangles_free({middle, capsule.to, capsule.radius});
+}
+
+double LineOfSight::surely_free(const Position& center, double radius) const {
+  const Position point = center * cells_per_metre_;
+  if (point.x() < 0.0 || point.y() < 0.0 || point.x() > columns_ || point.y() > rows_) return -kForever;
+  const double from_cells = (distance_from_cells(point).least - kBoundsRounding) / cells_per_metre_;
+  return clears_polygons(center, center, from_cells) ? from_cells - radius : -kForever;
+}
+
+double LineOfSight::surely_blocked(const Position& center, double radius) const {
+  const Position point = center * cells_per_metre_;
+  if (point.x() < 0.0 || point.y() < 0.0 || point.x() > columns_ || point.y() > rows_) return -kForever;
+  return radius - kSearchSlack - (distance_from_cells(point).most + kBoundsRounding) / cells_per_metre_;
 }
 
 bool LineOfSight::columns_free(const Capsule& capsule) const {
@@ -110,16 +225,16 @@ bool LineOfSight::columns_free(const Capsule& capsule) const {
   const int column_max = std::min(columns_ - 1, last_cell(right));
   const double highest_at = b.y() >= a.y() ? b.x() : a.x();
   const double lowest_at = b.y() >= a.y() ? a.x() : b.x();
-  const Position mirrored_a(a.x(), -a.y());
-  const Position mirrored_b(b.x(), -b.y());
+  const UpperBoundary above(a, b, r);
+  const UpperBoundary below({a.x(), -a.y()}, {b.x(), -b.y()}, r);
   for (int column = column_min; column <= column_max; ++column) {
     const double x_min = std::max<double>(column, left);
     const double x_max = std::min<double>(column + 1, right);
-    const double top = upper_boundary(a, b, r, std::clamp(highest_at, x_min, x_max));
-    const double bottom = -upper_boundary(mirrored_a, mirrored_b, r, std::clamp(lowest_at, x_min, x_max));
+    const double top = above.at(std::clamp(highest_at, x_min, x_max));
+    const double bottom = -below.at(std::clamp(lowest_at, x_min, x_max));
     const int row_min = std::max(0, floor_int(bottom));
     const int row_max = std::min(rows_ - 1, last_cell(top));
-    if (row_min <= row_max && blocked_in(column, column, row_min, row_max) != 0) return false;
+    if (row_min <= row_max && is_blocked(column, row_min, row_max)) return false;
   }
   return true;
 }

@@ -1,19 +1,26 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "core/geometry/position.h"
 #include "core/map/blocked_polygons.h"
+#include "core/map/distance_transform.h"
 #include "core/map/occupancy_grid.h"
 
 namespace fleetplan::core {
 
 /// Static feasibility of disks of any radius on the grid (paper, "Estimating the feasibility of the move
-/// w.r.t. static obstacles"). Exact, without rasterising per radius: a summed-area table of blocked cells
-/// accepts free rectangles at once. Near obstacles the vertical extent of the swept disk in each grid column
-/// is computed. A capsule is convex, so its upper boundary is concave, and its maximum over a column is where
-/// the capsule is highest, clamped to the column.
+/// w.r.t. static obstacles"). Exact, without rasterising per radius.
+///
+/// The distance transform bounds the distance of every point from the obstacles, to within about a cell. A
+/// move is followed in steps as long as that leaves clear (sphere tracing; Hart, 1996), which decides most
+/// moves. Where the bounds leave the disk's radius in doubt, the vertical extent of the swept disk in each
+/// grid column is computed. For small disks, free rectangles of cells take the place of the bounds. A capsule
+/// is convex, so its upper boundary is concave, and its maximum over a column is where the capsule is
+/// highest, clamped to the column.
 class LineOfSight {
  public:
   explicit LineOfSight(const OccupancyGrid& grid);
@@ -31,9 +38,20 @@ class LineOfSight {
   /// Returns whether a disk may sweep the segment, ends included. `radius` > 0 in metres.
   bool may_sweep(const Position& from, const Position& to, double radius) const;
 
+  /// A disk may move so far from `center` in any direction, metres. A bound that is within about a cell of
+  /// the truth and quickly known; negative if the disk does not fit or may not.
+  double surely_free(const Position& center, double radius) const;
+  /// Likewise, no disk fits anywhere so near to `center`; negative if it fits or may fit.
+  double surely_blocked(const Position& center, double radius) const;
+
   const BlockedPolygons& polygons() const { return polygons_; }
   /// Returns whether such a sweep is clear of the polygons alone.
   bool clears_polygons(const Position& from, const Position& to, double radius) const;
+
+  /// From blocked cells.
+  const DistanceTransform& distances() const { return cells_->distances; }
+  /// Of what is derived from the grid.
+  std::size_t bytes() const;
 
  private:
   struct Capsule {  // in cells, from.x <= to.x
@@ -41,16 +59,29 @@ class LineOfSight {
     Position to;
     double radius;
   };
+  struct Cells {
+    explicit Cells(const OccupancyGrid& grid);
+
+    DistanceTransform distances;
+    std::vector<std::uint64_t> blocked;  // a bit for each of 64 rows; by band of rows, then column
+  };
+  /// The distance of a point from the nearest blocked cell, in cells.
+  struct Bounds {
+    double least;
+    double most;
+  };
 
   bool free_of_cells(const Capsule& capsule) const;
+  bool rectangles_free(const Capsule& capsule) const;
   bool columns_free(const Capsule& capsule) const;
-  /// Blocked cells in the rectangle of cells, bounds inclusive and inside the map.
-  std::int32_t blocked_in(int column_min, int column_max, int row_min, int row_max) const;
+  Bounds distance_from_cells(const Position& point) const;
+  /// Whether a cell of a column is blocked; rows inclusive and inside the map.
+  bool is_blocked(int column, int row_min, int row_max) const;
 
   int columns_;
   int rows_;
   double cells_per_metre_;
-  std::shared_ptr<const std::int32_t[]> sums_;  // (columns + 1) x (rows + 1)
+  std::shared_ptr<const Cells> cells_;
   BlockedPolygons polygons_;
 };
 

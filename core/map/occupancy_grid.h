@@ -41,6 +41,10 @@ class OccupancyGrid {
   /// The cell of a position; on a border, the cell to the right or above. May be outside the map.
   Cell cell_at(const Position& position) const;
 
+  bool operator==(const OccupancyGrid&) const = default;
+  /// Of all that the grid consists of.
+  std::size_t hash() const;
+
   std::size_t index(Cell cell) const {
     return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(cell.column);

@@ -126,25 +126,25 @@ class Refinement {
 
 /// The shortest bridge between every two vertices that have one but no move between them, shorter ones first.
 std::vector<Refinement::Bridge> Refinement::find_bridges() {
-  constexpr int kOneMove = -1;
   std::unordered_map<std::uint64_t, Bridge> shortest;
   regions_.for_each_touch([&](const FineRegions::Touch& touch) {
     const bool in_order = touch.one_vertex < touch.other_vertex;
+    if (is_one_move(in_order ? touch.one_vertex : touch.other_vertex,
+                    in_order ? touch.other_vertex : touch.one_vertex)) {
+      return;
+    }
     const Bridge bridge{touch.length, in_order ? touch.one_vertex : touch.other_vertex,
                         in_order ? touch.other_vertex : touch.one_vertex, in_order ? touch.one : touch.other,
                         in_order ? touch.other : touch.one};
     const auto key = static_cast<std::uint64_t>(bridge.from) << 32 | static_cast<std::uint64_t>(bridge.to);
     const auto [known, is_new] = shortest.try_emplace(key, bridge);
     Bridge& best = known->second;
-    if (is_new) {
-      best.length = is_one_move(bridge.from, bridge.to) ? kOneMove : std::numeric_limits<int>::max();
-    }
-    if (bridge.length < best.length && nodes_.may_sweep(bridge.near_from, bridge.near_to)) best = bridge;
+    if (is_new) best.length = std::numeric_limits<int>::max();
+    if (bridge.length < best.length && nodes_.may_step(bridge.near_from, bridge.near_to)) best = bridge;
   });
   std::vector<Bridge> bridges;
   for (const auto& [key, bridge] : shortest) {
-    if (bridge.length != kOneMove && bridge.length != std::numeric_limits<int>::max())
-      bridges.push_back(bridge);
+    if (bridge.length != std::numeric_limits<int>::max()) bridges.push_back(bridge);
   }
   std::sort(bridges.begin(), bridges.end(), [](const Bridge& a, const Bridge& b) {
     return std::tie(a.length, a.from, a.to) < std::tie(b.length, b.from, b.to);
@@ -337,12 +337,11 @@ FineLattice::FineLattice(const OccupancyGrid& grid, const Lattice& lattice, doub
   if (half && may_have_tight_gaps(grid, radius)) radius += kLeastPlay * grid.resolution();
 }
 
-std::optional<FinerVertices> refine(const OccupancyGrid& grid, const DistanceTransform& distances,
-                                    const LineOfSight& sight, const Lattice& lattice, double radius,
-                                    const StopCondition& stop) {
+std::optional<FinerVertices> refine(const OccupancyGrid& grid, const LineOfSight& sight,
+                                    const Lattice& lattice, double radius, const StopCondition& stop) {
   const bool half = !is_coarse(grid, lattice);
   const double needed = FineLattice(grid, lattice, radius).radius;
-  const FineNodes nodes(grid, distances, sight, needed, half);
+  const FineNodes nodes(grid, sight, needed, half);
   FineRegions regions(nodes, lattice, needed, sight);
   if (!regions.find(stop)) return std::nullopt;
   Refinement refinement(nodes, regions, sight, lattice, radius, needed, half ? kWayRoundCells : kWayRound);

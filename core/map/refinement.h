@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "core/map/distance_transform.h"
 #include "core/map/finer_vertices.h"
 #include "core/map/lattice.h"
 #include "core/map/line_of_sight.h"
@@ -29,8 +28,7 @@ struct FineLattice {
 /// vertices to another over the centres of the cells (on the lattice of the cells themselves: and the middles
 /// between them), they can on the refined lattice, and not only by a long way round. None if the stop
 /// condition was met first.
-std::optional<FinerVertices> refine(const OccupancyGrid& grid, const DistanceTransform& distances,
-                                    const LineOfSight& sight, const Lattice& lattice, double radius,
-                                    const StopCondition& stop);
+std::optional<FinerVertices> refine(const OccupancyGrid& grid, const LineOfSight& sight,
+                                    const Lattice& lattice, double radius, const StopCondition& stop);
 
 }  // namespace fleetplan::core

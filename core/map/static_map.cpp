@@ -7,32 +7,36 @@
 namespace fleetplan::core {
 
 StaticMap::StaticMap(OccupancyGrid grid)
-    : grid_(std::make_shared<OccupancyGrid>(std::move(grid))), sight_(*grid_) {}
+    : grid_(std::make_shared<OccupancyGrid>(std::move(grid))),
+      sight_(*grid_),
+      own_bytes_(sizeof(StaticMap) + static_cast<std::size_t>(grid_->cell_count()) + sight_.bytes()) {}
 
 StaticMap::StaticMap(std::shared_ptr<const StaticMap> walls, std::vector<Polygon> polygons)
     : walls_(std::move(walls)),
       grid_(walls_->grid_),
       sight_(walls_->sight_, BlockedPolygons(std::move(polygons), grid_->width(), grid_->height())) {}
 
-const DistanceTransform& StaticMap::distances() const {
-  if (walls_) return walls_->distances();
-  const std::lock_guard lock(distances_mutex_);
-  if (!distances_) distances_.emplace(*grid_);
-  return *distances_;
+std::shared_ptr<const FinerVertices> StaticMap::known(const Kind& kind) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = finer_.find(kind);
+  return found != finer_.end() ? found->second : nullptr;
 }
 
+/// Computed without the lock, so that no request waits for another one.
 std::shared_ptr<const FinerVertices> StaticMap::finer_vertices(const Lattice& lattice, double radius,
                                                                const StopCondition& stop) const {
   if (!may_need_refinement(*grid_, lattice, radius, !sight_.polygons().empty()))
     return std::make_shared<FinerVertices>();
   const Kind kind{lattice.spacing(), static_cast<int>(lattice.steps().size()), radius};
-  const std::lock_guard lock(mutex_);
-  const auto known = finer_.find(kind);
-  if (known != finer_.end()) return known->second;
+  if (auto before = known(kind)) return before;
   if (stop.met()) return std::make_shared<FinerVertices>();
-  auto found = refine(*grid_, distances(), sight_, lattice, radius, stop);
+  auto found = refine(*grid_, sight_, lattice, radius, stop);
   if (!found) return std::make_shared<FinerVertices>();
-  return finer_[kind] = std::make_shared<FinerVertices>(std::move(*found));
+  auto made = std::make_shared<const FinerVertices>(std::move(*found));
+  const std::lock_guard lock(mutex_);
+  const auto [place, is_new] = finer_.try_emplace(kind, std::move(made));
+  if (is_new) finer_bytes_.fetch_add(place->second->bytes(), std::memory_order_relaxed);
+  return place->second;
 }
 
 }  // namespace fleetplan::core

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <tuple>
 #include <vector>
 
-#include "core/map/distance_transform.h"
 #include "core/map/finer_vertices.h"
 #include "core/map/lattice.h"
 #include "core/map/line_of_sight.h"
@@ -32,19 +32,22 @@ class StaticMap {
   std::shared_ptr<const FinerVertices> finer_vertices(const Lattice& lattice, double radius,
                                                       const StopCondition& stop) const;
 
+  /// Approximate memory in use, without that of another map; grows with what is computed on first use.
+  std::size_t bytes() const { return own_bytes_ + finer_bytes_.load(std::memory_order_relaxed); }
+
  private:
   using Kind = std::tuple<double, int, double>;  // of lattice and robot: spacing, connectivity, radius
 
-  const DistanceTransform& distances() const;
+  std::shared_ptr<const FinerVertices> known(const Kind& kind) const;
 
   std::shared_ptr<const StaticMap> walls_;  // of a map with polygons
   std::shared_ptr<const OccupancyGrid> grid_;
   LineOfSight sight_;
+  std::size_t own_bytes_ = 0;
   // Computed on first use.
   mutable std::mutex mutex_;
-  mutable std::mutex distances_mutex_;
-  mutable std::optional<DistanceTransform> distances_;
   mutable std::map<Kind, std::shared_ptr<const FinerVertices>> finer_;
+  mutable std::atomic<std::size_t> finer_bytes_{0};
 };
 
 }  // namespace fleetplan::core

@@ -145,6 +145,9 @@ void Enclosure::expand(Flood& flood, std::size_t side) {
     int begin_column, begin_row;  // of the border, from the cell
   };
   constexpr std::array<Neighbour, 4> kNeighbours{{{1, 0, 1, 0}, {-1, 0, 0, 0}, {0, 1, 0, 1}, {0, -1, 0, 0}}};
+  const double half = 0.5 * grid_.resolution();
+  const bool is_open =
+      disks_.empty() && instance_.sight().surely_free(grid_.center(cell), clearance_) >= half;
   for (const Neighbour& step : kNeighbours) {
     const Cell next{cell.column + step.columns, cell.row + step.rows};
     if (!grid_.inside(next)) continue;
@@ -152,7 +155,11 @@ void Enclosure::expand(Flood& flood, std::size_t side) {
     if (reached == Flood::kSides[side]) continue;
     const Position begin = grid_.resolution() * Position(cell.column + step.begin_column,  //
                                                          cell.row + step.begin_row);
-    if (!crossable({begin, step.columns != 0}, flood, side)) continue;
+    if (is_open) {
+      ++steps_;
+    } else if (!crossable({begin, step.columns != 0}, flood, side)) {
+      continue;
+    }
     if (reached != Side::none) {
       flood.answer = Answer::open;
       return;
@@ -172,6 +179,10 @@ bool Enclosure::crossable(const Border& border, Flood& flood, std::size_t side) 
                                                       border.vertical ? 1.0 : 0.0);
   const std::vector<Disk*> disks = disks_near(border);
   if (disks.empty() && instance_.sight().disk_fits(middle, clearance_)) return true;
+  if (instance_.sight().surely_blocked(middle, clearance_) >= 0.5 * length) {
+    cells_near(border);
+    return false;
+  }
   covered_.clear();
   cover_by_obstacles(border);
   if (fully_covered(length)) return false;
@@ -196,12 +207,18 @@ std::vector<Enclosure::Disk*> Enclosure::disks_near(const Border& border) {
   return near;
 }
 
-void Enclosure::cover_by_obstacles(const Border& border) {
+/// The lowest and the highest of the cells that may cover a part of the border. Counts as their examination.
+std::pair<Cell, Cell> Enclosure::cells_near(const Border& border) {
   const double far = clearance_ + grid_.resolution();
   const Cell low = grid_.cell_at(border.begin - Position(clearance_, clearance_));
   const Cell high = grid_.cell_at(border.begin + Position(far, far));
   steps_ +=
       static_cast<std::int64_t>(high.column - low.column + 1) * (high.row - low.row + 1) / kCellsPerStep;
+  return {low, high};
+}
+
+void Enclosure::cover_by_obstacles(const Border& border) {
+  const auto [low, high] = cells_near(border);
   for (int row = low.row; row <= high.row; ++row) {
     for (int column = low.column; column <= high.column; ++column) {
       if (!grid_.blocked({column, row})) continue;  // cells outside the map are

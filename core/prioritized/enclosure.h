@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/position.h"
@@ -60,6 +61,7 @@ class Enclosure {
   Flood flood(std::int64_t max_steps);
   void expand(Flood& flood, std::size_t side);
   bool crossable(const Border& border, Flood& flood, std::size_t side);
+  std::pair<Cell, Cell> cells_near(const Border& border);
   void cover_by_obstacles(const Border& border);
   void cover_by(const Border& border, const Position& low, const Position& high, double distance);
   std::vector<Disk*> disks_near(const Border& border);

@@ -67,6 +67,7 @@ JobRunner::JobRunner(const Settings& settings, const RequestLog& log)
     : limits_(settings.limits),
       trusted_proxies_(settings.trusted_proxies),
       log_(log),
+      maps_(settings.map_cache),
       workers_({static_cast<std::size_t>(settings.workers), settings.queue, kBurst * settings.queue}),
       parse_slots_(static_cast<std::size_t>(settings.workers)) {}
 
@@ -108,6 +109,7 @@ api::Reply JobRunner::compute(Exchange& exchange, const Service::Endpoint& endpo
   context.executor = &job;
   context.events = events;
   context.turn = &turn;
+  context.maps = &maps_;
   api::Reply reply = slot.has_slot() ? reply_of(endpoint, exchange, context)
                                      : unparsed(exchange.request_id, stop.stop_requested());
   if (turn.answer_by() != Clock::time_point::max()) exchange.late_s = seconds_since(turn.answer_by());

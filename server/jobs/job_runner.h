@@ -5,6 +5,7 @@
 
 #include "api/endpoints/plan_events.h"
 #include "api/response/reply.h"
+#include "core/map/map_cache.h"
 #include "server/http/exchange.h"
 #include "server/jobs/disposal.h"
 #include "server/jobs/parse_slots.h"
@@ -30,6 +31,7 @@ class JobRunner {
   api::Reply run(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events);
 
   WorkerLoad load() const { return workers_.load(); }
+  core::MapCache::Stats maps() const { return maps_.stats(); }
 
   /// Asks all jobs, now and later, to stop.
   void cancel_all() { cancel_all_.request_stop(); }
@@ -44,6 +46,7 @@ class JobRunner {
   const api::Limits limits_;
   const std::vector<AddressRange> trusted_proxies_;
   const RequestLog& log_;
+  core::MapCache maps_;
   std::stop_source cancel_all_;
   PeerWatch peers_;
   Disposal disposal_;

@@ -26,8 +26,12 @@ test("every service has limits of memory, threads and log", () => {
 });
 
 test("bodies and plans fit into the memory of a replica", () => {
-  const { FLEETPLAN_MAX_BODY: maxBody, FLEETPLAN_MAX_PLAN_MEMORY: maxPlanMemory } = replica.environment;
-  const most = memoryOfReplica({ workers: replica.cpus, maxBody, maxPlanMemory });
+  const {
+    FLEETPLAN_MAX_BODY: maxBody,
+    FLEETPLAN_MAX_PLAN_MEMORY: maxPlanMemory,
+    FLEETPLAN_MAP_CACHE: mapCache,
+  } = replica.environment;
+  const most = memoryOfReplica({ workers: replica.cpus, maxBody, maxPlanMemory, mapCache });
   assert.ok(most <= bytesOf(replica.mem_limit), `${most / MIB} MiB`);
 });
 

@@ -174,6 +174,13 @@ std::string Metrics::text(const Gauges& now) const {
                 {{"reason", api::name_of(static_cast<core::Unplanned::Reason>(reason))}});
   }
   counter("fleetplan_expansions_total", expansions_, "Search labels expanded.");
+  text.metric("fleetplan_map_cache_hits_total", "counter",
+              "Maps of requests that were kept from earlier ones.")
+      .sample(as_double(now.maps.hits));
+  text.metric("fleetplan_map_cache_misses_total", "counter", "Maps of requests that had to be made.")
+      .sample(as_double(now.maps.misses));
+  gauge("fleetplan_map_cache_maps", now.maps.maps, "Maps that are kept or in use.");
+  gauge("fleetplan_map_cache_bytes", now.maps.bytes, "Memory of the maps that are kept or in use.");
   text.metric("fleetplan_log_lines_dropped_total", "counter", "Log lines dropped: stderr was not read.")
       .sample(as_double(now.log_dropped));
   write_process(text, started_at_);

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/map/map_cache.h"
 #include "server/http/exchange.h"
 #include "server/http/route_table.h"
 #include "server/jobs/worker_load.h"
@@ -24,6 +25,7 @@ struct Gauges {
   std::size_t workers = 0;            // jobs that compute at most
   WorkerLoad jobs;
   std::uint64_t log_dropped = 0;  // lines since the start
+  core::MapCache::Stats maps;
 };
 
 /// Counts requests and plans since the start. Thread-safe; counting takes no lock.

@@ -161,6 +161,11 @@ class Flags {
         "Most memory of a plan in bytes, from the parsed body to the answer; accepts KiB, MiB and GiB")
         ->transform(CLI::AsSizeValue(false))
         ->default_str("256MiB");
+    map_cache_ = settings_.map_cache;
+    add("map-cache", map_cache_,
+        "Memory of maps that are kept for later requests, in bytes, 0 for none; accepts KiB, MiB and GiB")
+        ->transform(CLI::AsSizeValue(false))
+        ->default_str("128MiB");
     add_number<std::int64_t>("max-cells", limits.max_cells, 1, 1'000'000'000, "Most cells of a map");
     add_number<std::size_t>("max-robots", limits.max_robots, 1, 1'000'000, "Most robots of a request");
     add_number<std::size_t>("max-goals", limits.max_goals, 1, kMostItems, "Most goals in lists of a request");
@@ -197,6 +202,7 @@ class Flags {
       return bad("--max-body must be 1 byte to 1 TiB");
     if (max_plan_memory_ < kLeastPlanMemory || max_plan_memory_ > (std::uint64_t{1} << 40))
       return bad("--max-plan-memory must be 1 MiB to 1 TiB");
+    if (map_cache_ > (std::uint64_t{1} << 40)) return bad("--map-cache must be at most 1 TiB");
     std::error_code ignored;
     if (!settings_.web_root.empty() && !std::filesystem::is_directory(settings_.web_root, ignored)) {
       return bad("--web-root: '" + settings_.web_root + "' is not a folder");
@@ -209,6 +215,7 @@ class Flags {
     limits.default_budget_ms = std::min(limits.default_budget_ms, limits.max_budget_ms);
     limits.max_body = max_body_;
     limits.max_plan_memory = max_plan_memory_;
+    settings_.map_cache = map_cache_;
     if (queue_->count() == 0) settings_.queue = kQueuePerWorker * static_cast<std::size_t>(settings_.workers);
     settings_.idle_timeout = std::chrono::milliseconds(idle_timeout_ms_);
     settings_.read_timeout = std::chrono::milliseconds(read_timeout_ms_);
@@ -248,6 +255,7 @@ class Flags {
   Settings settings_;
   std::uint64_t max_body_ = 0;
   std::uint64_t max_plan_memory_ = 0;
+  std::uint64_t map_cache_ = 0;
   std::int64_t idle_timeout_ms_ = Settings{}.idle_timeout.count();
   std::int64_t read_timeout_ms_ = Settings{}.read_timeout.count();
   std::int64_t drain_ms_ = Settings{}.drain.count();

@@ -22,6 +22,7 @@ struct Settings {
   std::size_t queue = 4;                         // jobs that may wait; the flag's default: 4 for each worker
   std::size_t connections = 1024;
   api::Limits limits;
+  std::size_t map_cache = 128u << 20;               // bytes, of maps that are kept; 0: none
   std::chrono::milliseconds idle_timeout{1000};     // of a connection between requests
   std::chrono::milliseconds read_timeout{10'000};   // for a request's head; see also read_body
   std::chrono::milliseconds drain{10'000};          // for running jobs after SIGTERM

@@ -49,6 +49,44 @@ TEST(PlanEndpoint, PlansTinyMovesFarFromTheOrigin) {
   EXPECT_EQ(answer["status"], "solved");
 }
 
+/// Two robots of 0.3 m that swap places through a door of 0.7 m, on cells of 5 cm.
+Json door_request() {
+  Json rows = Json::array();
+  for (int row = 0; row < 60; ++row) {
+    std::string cells(120, '.');
+    if (row < 23 || row >= 37) cells[60] = '#';
+    rows.push_back(cells);
+  }
+  Json request = Json::parse(R"({
+    "map": {"resolution": 0.05},
+    "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 2.0},
+    "robots": [{"id": "a", "start": {"x": 1.02, "y": 1.51}, "goal": {"x": 5.01, "y": 1.5}},
+               {"id": "b", "start": {"x": 5.0, "y": 0.53}, "goal": {"x": 1.0, "y": 0.5}}]})");
+  request["map"]["rows"] = rows;
+  return request;
+}
+
+TEST(PlanEndpoint, PlansDoNotDependOnTheMapsThatAreKept) {
+  const auto answer_with = [](core::MapCache* maps, const Json& request) {
+    RequestContext with_maps = context();
+    with_maps.maps = maps;
+    Json answer = json_of(plan_endpoint(request.dump(), with_maps));
+    answer.erase("timings_ms");
+    return answer;
+  };
+  core::MapCache maps(std::size_t{64} << 20);
+  for (const double radius : {0.3, 0.33, 0.3}) {
+    Json request = door_request();
+    request["robots"][0]["radius"] = radius;
+    const Json answer = answer_with(nullptr, request);
+    EXPECT_EQ(answer["status"], "solved") << answer;
+    EXPECT_EQ(answer_with(&maps, request), answer) << "cold, or with another radius before";
+    EXPECT_EQ(answer_with(&maps, request), answer) << "warm";
+  }
+  EXPECT_EQ(maps.stats().misses, 1u);
+  EXPECT_EQ(maps.stats().hits, 5u);
+}
+
 TEST(PlanEndpoint, SwapsTwoRobotsAroundAWall) {
   const Json answer = planned(swap_request());
   EXPECT_EQ(answer["status"], "solved");

@@ -127,6 +127,50 @@ TEST_P(LineOfSightOnRandomMaps, AgreesWithDistanceToBlockedCells) {
   EXPECT_GT(blocked, 1000);
 }
 
+/// Disks that are many cells large, between obstacles of all sizes.
+TEST(LineOfSight, AgreesWithDistanceOnFineMaps) {
+  const std::uint64_t seed = 19;
+  support::Dice dice(seed);
+  int seen = 0;
+  int blocked = 0;
+  for (int map = 0; map < 12; ++map) {
+    OccupancyGrid grid(150 + dice.below(100), 100 + dice.below(60), 0.05);
+    for (int k = 0; k < 14; ++k) {
+      const Cell low{dice.below(grid.columns()), dice.below(grid.rows())};
+      const Cell high{std::min(grid.columns(), low.column + 1 + dice.below(dice.chance(0.5) ? 3 : 40)),
+                      std::min(grid.rows(), low.row + 1 + dice.below(dice.chance(0.5) ? 3 : 40))};
+      for (int row = low.row; row < high.row; ++row) {
+        for (int column = low.column; column < high.column; ++column) grid.block({column, row});
+      }
+    }
+    const LineOfSight sight(grid);
+    const auto place = [&] {
+      return Position(dice.between(0, grid.width()), dice.between(0, grid.height()));
+    };
+    for (int k = 0; k < 250; ++k) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << map << ", capsule " << k);
+      const Position from = place();
+      const Position to =
+          dice.chance(0.2) ? from : Position(from + dice.between(0.01, 1.0) * (place() - from));
+      const double distance = obstacle_distance_of(grid, from, to);
+      // Often nearly in contact.
+      const double radius = dice.chance(0.5) ? distance + dice.between(-0.05, 0.05) : dice.between(0.01, 0.9);
+      if (radius <= 0.0 || std::abs(distance - radius) < 1e-8) continue;
+      const bool sees = sight.may_sweep(from, to, radius);
+      ASSERT_EQ(sees, distance > radius) << "from " << from.transpose() << " to " << to.transpose()
+                                         << ", radius " << radius << ", distance " << distance;
+      ++(sees ? seen : blocked);
+      const double at_start = obstacle_distance_of(grid, from, from);
+      ASSERT_LT(sight.surely_free(from, radius), at_start - radius);
+      ASSERT_LT(sight.surely_blocked(from, radius), radius - at_start);
+      ASSERT_GT(sight.surely_free(from, radius), at_start - radius - 2.0 * grid.resolution());
+      ASSERT_GT(sight.surely_blocked(from, radius), radius - at_start - 2.0 * grid.resolution());
+    }
+  }
+  EXPECT_GT(seen, 500);
+  EXPECT_GT(blocked, 500);
+}
+
 INSTANTIATE_TEST_SUITE_P(Resolutions, LineOfSightOnRandomMaps, testing::Values(0.05, 0.5, 1.0, 2.0));
 
 }  // namespace

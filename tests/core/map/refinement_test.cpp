@@ -82,11 +82,10 @@ TEST(Refinement, ConnectsWhatTheLatticeOfTheCellsConnects) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << map);
     const OccupancyGrid grid = building(dice);
     const LineOfSight sight(grid);
-    const DistanceTransform distances(grid);
     const double radius = dice.between(0.1, 0.45);
     const double spacing = 0.05 * (2 * (1 + dice.below(5)) + 1);
     const Lattice lattice(grid, 4 << dice.below(4), spacing);
-    const auto finer = refine(grid, distances, sight, lattice, radius, {});
+    const auto finer = refine(grid, sight, lattice, radius, {});
     ASSERT_TRUE(finer);
     refined += finer->count() > 0 ? 1 : 0;
     const Lattice cells(grid, 8);

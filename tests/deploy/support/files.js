@@ -53,9 +53,9 @@ export function bytesOf(size) {
 }
 
 /** The most bytes that a replica needs, as docs/operations.md derives them. */
-export function memoryOfReplica({ workers, maxBody, maxPlanMemory }) {
+export function memoryOfReplica({ workers, maxBody, maxPlanMemory, mapCache }) {
   const queue = 4 * workers;
   const bodies = bytesOf(maxBody) * (workers + queue + 1 + queue);
   const plans = bytesOf(maxPlanMemory) * (3 * workers + 1);
-  return bytesOf("30MiB") + bodies + plans;
+  return bytesOf("30MiB") + bodies + plans + bytesOf(mapCache);
 }

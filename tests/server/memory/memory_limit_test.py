@@ -17,12 +17,14 @@ import urllib.error
 import urllib.request
 
 MIB = 1 << 20
-FLAGS = ["--workers", "1", "--queue", "4", "--max-plan-memory", "96MiB", "--max-body", "16MiB"]
+FLAGS = ["--workers", "1", "--queue", "4", "--max-plan-memory", "96MiB", "--map-cache", "32MiB", "--max-body",
+         "16MiB"]
 # Besides what is resident, the address space has the stacks of threads (8 MiB each) and what malloc sets apart for each
 # arena (64 MiB).
 ADDRESS_SPACE = 1024 * MIB
-# The sum of docs/operations.md when one request is served: at rest, its body, as sent and decompressed, and its plan.
-RESIDENT = 30 * MIB + 2 * 16 * MIB + 96 * MIB
+# The sum of docs/operations.md when one request is served: at rest, its body, as sent and decompressed, its plan, and the
+# maps that are kept.
+RESIDENT = 30 * MIB + 2 * 16 * MIB + 96 * MIB + 32 * MIB
 
 
 def plan_request(columns, rows, robots, resolution=1.0, **options):

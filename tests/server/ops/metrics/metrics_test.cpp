@@ -134,6 +134,10 @@ TEST(Metrics, ExistFromTheStart) {
                              R"(fleetplan_unplanned_robots_total{reason="budget_exhausted"})",
                              R"(fleetplan_unplanned_robots_total{reason="committed_in_the_way"})",
                              R"(fleetplan_unplanned_robots_total{reason="invalid"})",
+                             "fleetplan_map_cache_hits_total",
+                             "fleetplan_map_cache_misses_total",
+                             "fleetplan_map_cache_maps",
+                             "fleetplan_map_cache_bytes",
                              "fleetplan_expansions_total"}) {
     ASSERT_TRUE(samples.contains(series)) << series;
     EXPECT_EQ(samples.at(series), 0.0) << series;

@@ -32,6 +32,7 @@ TEST(Settings, HaveTheirDefaults) {
   EXPECT_EQ(settings.connections, 1024u);
   EXPECT_EQ(settings.limits.max_body, 32u << 20);
   EXPECT_EQ(settings.limits.max_plan_memory, 256u << 20);
+  EXPECT_EQ(settings.map_cache, 128u << 20);
   EXPECT_EQ(settings.limits.max_budget_ms, 120'000);
   EXPECT_EQ(settings.drain, std::chrono::seconds(10));
   EXPECT_EQ(settings.log_level, "info");
@@ -49,13 +50,15 @@ TEST(Settings, ProbeHealthByFlagOnly) {
 }
 
 TEST(Settings, ComeFromFlags) {
-  const auto settings = settings_of({"--port", "9000", "--workers=3", "--max-body", "2MiB",
-                                     "--max-plan-memory", "96MiB", "--idle-timeout-ms", "7"});
+  const auto settings =
+      settings_of({"--port", "9000", "--workers=3", "--max-body", "2MiB", "--max-plan-memory", "96MiB",
+                   "--map-cache", "0", "--idle-timeout-ms", "7"});
   EXPECT_EQ(settings.port, 9000);
   EXPECT_EQ(settings.workers, 3);
   EXPECT_EQ(settings.queue, 12u);
   EXPECT_EQ(settings.limits.max_body, 2u << 20);
   EXPECT_EQ(settings.limits.max_plan_memory, 96u << 20);
+  EXPECT_EQ(settings.map_cache, 0u);
   EXPECT_EQ(settings.idle_timeout, std::chrono::milliseconds(7));
 }
 
@@ -106,6 +109,7 @@ TEST(Settings, RejectBadValuesAndNameTheFlag) {
                                "--max-body=0",
                                "--max-plan-memory=1023KiB",
                                "--max-plan-memory=2TiB",
+                               "--map-cache=2TiB",
                                "--max-body=-5",
                                "--max-body=1XB",
                                "--max-cells=0",

@@ -1,0 +1,157 @@
+#include "core/map/map_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <new>
+#include <thread>
+#include <vector>
+
+#include "core/runtime/memory_account.h"
+
+namespace fleetplan::core {
+namespace {
+
+constexpr std::size_t kPlenty = std::size_t{64} << 20;
+
+/// A hall of 200 x 100 cells with a wall, in which a door is as wide as told.
+OccupancyGrid hall(int door, double resolution = 0.05) {
+  OccupancyGrid grid(200, 100, resolution);
+  for (int row = 0; row < grid.rows(); ++row) {
+    if (row < 40 || row >= 40 + door) grid.block({100, row});
+  }
+  return grid;
+}
+
+std::size_t bytes_of(const OccupancyGrid& grid) { return StaticMap(grid).bytes(); }
+
+TEST(MapCache, KeepsMapsForEqualGrids) {
+  MapCache cache(kPlenty);
+  const auto first = cache.map_of(hall(14));
+  EXPECT_EQ(cache.map_of(hall(14)), first);
+  EXPECT_NE(cache.map_of(hall(15)), first) << "one cell differs";
+  EXPECT_NE(cache.map_of(hall(14, 0.1)), first);
+  OccupancyGrid turned(100, 200, 0.05);
+  EXPECT_NE(cache.map_of(turned), first);
+  EXPECT_EQ(first->grid(), hall(14));
+  EXPECT_EQ(cache.stats().hits, 1u);
+  EXPECT_EQ(cache.stats().misses, 4u);
+  EXPECT_EQ(cache.stats().maps, 4u);
+}
+
+TEST(MapCache, DropsTheMapsUsedLeastRecently) {
+  MapCache cache(2 * bytes_of(hall(1)) + bytes_of(hall(1)) / 2);  // two maps
+  for (const int door : {1, 2, 1, 3}) cache.map_of(hall(door));
+  EXPECT_EQ(cache.stats().hits, 1u);
+  EXPECT_EQ(cache.stats().maps, 2u);
+  cache.map_of(hall(1));
+  EXPECT_EQ(cache.stats().hits, 2u) << "1 was used after 2";
+  cache.map_of(hall(2));
+  EXPECT_EQ(cache.stats().misses, 4u);
+}
+
+TEST(MapCache, ItsLimitIsForMapsThatNobodyUses) {
+  MapCache cache(bytes_of(hall(1)) / 2);
+  auto used = cache.map_of(hall(1));
+  EXPECT_EQ(cache.map_of(hall(1)), used);
+  EXPECT_EQ(cache.stats().maps, 1u);
+  EXPECT_EQ(cache.stats().bytes, used->bytes());
+  used.reset();
+  EXPECT_EQ(cache.stats().maps, 0u);
+}
+
+TEST(MapCache, CountsWhatIsDerivedLater) {
+  MapCache cache(kPlenty);
+  const auto map = cache.map_of(hall(14));
+  const std::size_t before = cache.stats().bytes;
+  const Lattice lattice(map->grid(), 8, 0.25);
+  EXPECT_GT(map->finer_vertices(lattice, 0.3, {})->count(), 0);
+  EXPECT_GT(cache.stats().bytes, before);
+  const Lattice again(map->grid(), 8, 0.25);
+  EXPECT_EQ(map->finer_vertices(again, 0.3, {}), map->finer_vertices(lattice, 0.3, {}));
+}
+
+TEST(MapCache, WithoutMemoryKeepsNothing) {
+  MapCache cache(0);
+  const auto first = cache.map_of(hall(14));
+  EXPECT_NE(cache.map_of(hall(14)), first);
+  EXPECT_EQ(cache.stats().misses, 0u);
+  EXPECT_EQ(cache.stats().bytes, 0u);
+}
+
+TEST(MapCache, MapsMayOutliveIt) {
+  std::shared_ptr<const StaticMap> map;
+  {
+    MapCache cache(kPlenty);
+    map = cache.map_of(hall(14));
+  }
+  EXPECT_EQ(map->grid(), hall(14));
+}
+
+TEST(MapCache, CountsAMapOnEveryJobThatUsesIt) {
+  MapCache cache(kPlenty);
+  const std::size_t bytes = cache.map_of(hall(14))->bytes();
+  MemoryAccount job(4 * bytes);
+  {
+    const MemoryScope scope(&job);
+    const auto map = cache.map_of(hall(14));
+    EXPECT_GE(job.used(), static_cast<std::int64_t>(bytes));
+  }
+  MemoryAccount small(bytes - 1);
+  const MemoryScope scope(&small);
+  EXPECT_THROW(cache.map_of(hall(14)), std::bad_alloc);
+  EXPECT_EQ(cache.stats().hits, 2u);
+}
+
+/// Otherwise that job could use as much memory in addition.
+TEST(MapCache, MapsThatItDropsAreNotSubtractedFromAJob) {
+  MapCache cache(bytes_of(hall(14)) * 3 / 2);
+  cache.map_of(hall(14));
+  MemoryAccount job(kPlenty);
+  {
+    const MemoryScope scope(&job);
+    cache.map_of(hall(15));
+  }
+  EXPECT_EQ(cache.stats().maps, 1u);
+  EXPECT_GE(job.used(), 0);
+}
+
+TEST(MapCache, ThreadsShareIt) {
+  constexpr int kMaps = 4;
+  constexpr double kRadius = 0.3;
+  MapCache cache(2 * bytes_of(hall(14)));  // maps come and go
+  std::array<std::vector<FinerVertices::Link>, kMaps> expected;
+  const Lattice lattice(hall(14), 8, 0.25);
+  for (int k = 0; k < kMaps; ++k) {
+    const auto finer = StaticMap(hall(13 + k)).finer_vertices(lattice, kRadius, {});
+    const auto links = finer->links();
+    expected[static_cast<std::size_t>(k)] = {links.begin(), links.end()};
+  }
+  std::array<int, 4> wrong{};
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t thread = 0; thread < wrong.size(); ++thread) {
+      threads.emplace_back([&, thread] {
+        for (std::size_t round = 0; round < 12; ++round) {
+          const std::size_t k = (thread + round * round) % kMaps;
+          const auto map = cache.map_of(hall(13 + static_cast<int>(k)));
+          const auto finer = map->finer_vertices(lattice, kRadius, {});
+          const auto links = finer->links();
+          if (!std::equal(links.begin(), links.end(), expected[k].begin(), expected[k].end()))
+            ++wrong[thread];
+          if (cache.stats().maps > kMaps) ++wrong[thread];
+        }
+      });
+    }
+  }
+  for (const int count : wrong) EXPECT_EQ(count, 0);
+  EXPECT_GT(cache.stats().hits, 0u);
+  EXPECT_LE(cache.stats().bytes, 2 * bytes_of(hall(14)));
+}
+
+}  // namespace
+}  // namespace fleetplan::core
