@@ -55,6 +55,17 @@ Handler advance(const Backend& backend) {
       [&backend](Exchange& exchange) { return backend.run_job(exchange, backend.service.advance, nullptr); };
 }
 
+Handler dependencies(const Backend& backend) {
+  return [&backend](Exchange& exchange) {
+    return backend.run_job(exchange, backend.service.dependencies, nullptr);
+  };
+}
+
+Handler retime(const Backend& backend) {
+  return
+      [&backend](Exchange& exchange) { return backend.run_job(exchange, backend.service.retime, nullptr); };
+}
+
 Handler example_list(const Backend& backend) {
   return [&backend](Exchange& /*exchange*/) { return backend.service.example_list(); };
 }

@@ -17,6 +17,10 @@ Handler validate(const Backend& backend);
 
 Handler advance(const Backend& backend);
 
+Handler dependencies(const Backend& backend);
+
+Handler retime(const Backend& backend);
+
 Handler example_list(const Backend& backend);
 
 /// The named example, or a 404 that lists the names there are.

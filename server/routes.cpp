@@ -9,6 +9,8 @@ RouteTable main_routes(const Backend& backend) {
   routes.post("/v1/plan", plan(backend), {.plans = true});
   routes.post("/v1/validate", validate(backend));
   routes.post("/v1/advance", advance(backend));
+  routes.post("/v1/dependencies", dependencies(backend));
+  routes.post("/v1/retime", retime(backend));
   routes.get("/v1/examples", example_list(backend));
   routes.get("/v1/examples/{name}", example(backend), {.statuses = {404}});
   routes.get("/v1/limits", limits(backend));

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/endpoints/plan_dependencies.h"
 #include "api/response/error.h"
 #include "core/lattice_spacing.h"
 #include "core/meetings.h"
@@ -95,6 +96,21 @@ std::optional<double> told_spacing(const PlanRequest& request) {
   return is_plain ? std::nullopt : std::optional(spacing);
 }
 
+/// Those of the answer, if they are asked for. The budget of the request holds for them.
+std::optional<PlanDependencies> asked_dependencies(const core::Plan& plan, const PlanRequest& request,
+                                                   const Stages& stages,
+                                                   const core::StopCondition& planning) {
+  if (!request.dependencies.wanted) return std::nullopt;
+  const core::StopCondition stop(stages.received + request.budget, planning.stop_token());
+  return plan_dependencies(request.problem.robots(), plan.plans, request.dependencies, core::kMostTolerance,
+                           !request.problem.obstacles().empty(), stop);
+}
+
+std::vector<std::string> joined(std::vector<std::string> warnings, const std::vector<std::string>& more) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
+  return warnings;
+}
+
 }  // namespace
 
 Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std::string& request_id,
@@ -122,15 +138,18 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   if (!is_whole) less = without_moves(plan, request.problem, last);
   const core::Plan& answered = is_whole ? plan : less;
   if (!report && answered.meetings_known) report = check(answered, last);
-  stages.verified = Stages::Clock::now();
   const PlanOutcome outcome =
       outcome_of(answered, std::chrono::duration<double>(stages.planned - stages.started).count());
   if (!report) return unchecked(outcome, request_id);
   if (!report->valid()) return rejected(outcome, *report, request_id);
-  std::string text =
-      write_response({answered, *report, robots, request.problem.obstacles(), request.received,
-                      request.frame.origin, request.warnings, request.metadata, told_spacing(request)},
-                     request_id, stages);
+  const auto dependencies = asked_dependencies(answered, request, stages, stop);
+  const std::vector<std::string> warnings =
+      dependencies ? joined(request.warnings, dependencies->warnings) : request.warnings;
+  stages.verified = Stages::Clock::now();
+  std::string text = write_response(
+      {answered, *report, robots, request.problem.obstacles(), request.received, request.frame.origin,
+       warnings, request.metadata, told_spacing(request), dependencies ? &dependencies->made : nullptr},
+      request_id, stages);
   return {200, kJson, std::move(text), {}, outcome};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <new>
 #include <optional>
 
@@ -19,6 +20,15 @@ namespace {
 
 using Clock = RequestContext::Clock;
 
+/// The part of the budget for the dependencies of the answer: several times what fleets have needed so far,
+/// at most a quarter.
+Clock::duration for_dependencies(const PlanRequest& request) {
+  if (!request.dependencies.wanted) return Clock::duration::zero();
+  constexpr std::chrono::milliseconds kForARobot{4};
+  const auto robots = static_cast<std::int64_t>(request.problem.robots().size());
+  return std::min<Clock::duration>(request.budget / 4, robots * kForARobot);
+}
+
 /// When planning has to end so that there is time left to check the plan and write the answer: a twentieth of
 /// the budget, but at most what a thousand robots need; or a quarter of what reading the request took, which
 /// tells how large it is and how busy the machine. The meetings of robots and moving obstacles, and
@@ -30,7 +40,7 @@ Clock::time_point planning_deadline(const RequestContext& context, const PlanReq
   const bool has_obstacles = !request.problem.obstacles().empty();
   const auto for_the_check = has_obstacles ? std::min<Clock::duration>(budget / 2, reading / 2)
                                            : std::min<Clock::duration>(budget / 4, reading / 4);
-  return context.received_at + budget -
+  return context.received_at + budget - for_dependencies(request) -
          std::max(std::min<Clock::duration>(budget / 20, kMostForTheAnswer), for_the_check);
 }
 

@@ -68,6 +68,16 @@ Json schema_of(const BooleanOption& option) {
   return {{"type", "boolean"}, {"default", kDefaults.plan.*option.field}};
 }
 
+Json schema_of(const AnswerRealOption& option) {
+  Json schema = with_range({{"type", "number"}}, option.range);
+  schema["default"] = number(kDefaults.*option.field);
+  return schema;
+}
+
+Json schema_of(const AnswerBooleanOption& option) {
+  return {{"type", "boolean"}, {"default", kDefaults.*option.field}};
+}
+
 Json schema_of(const WordOption& option) {
   Json names = Json::array();
   Json meanings;

@@ -64,7 +64,7 @@ constexpr WordOption one_of_invalid_robots() {
           }};
 }
 
-constexpr std::array<OptionRow, 17> kTable{{
+constexpr std::array<OptionRow, 20> kTable{{
     {"time_budget_ms", "Time budget", "ms", ServiceOption{kBudget, &ReadOptions::budget_ms, 5000.0},
      "Milliseconds for the whole answer, counted from the last byte received. `GET /v1/limits` returns the "
      "default (`default_budget_ms`) and the maximum (`max_budget_ms`); a larger value is clamped, with a "
@@ -113,6 +113,17 @@ constexpr std::array<OptionRow, 17> kTable{{
      "resolution of the map; on a map finer than a fifth of the smallest radius, about that radius. "
      "Clearance "
      "to obstacles is exact in any case."},
+    {"dependencies", "Dependencies", "", AnswerBooleanOption{&ReadOptions::dependencies},
+     "Adds `dependencies` and `tight` to the answer: what robots must ask of each other so that they can "
+     "execute the plan at their own pace. See docs/execution.md."},
+    {"dependency_slack", "Slack of dependencies", "s",
+     AnswerRealOption{kSlackInTime, &ReadOptions::dependency_slack},
+     "Seconds by which a robot on time reaches what another one must wait for before that one comes there; "
+     "a dependency may have half of it. Smaller than `interval_margin`."},
+    {"execution_margin", "Margin of execution", "m",
+     AnswerRealOption{kLengthOrZero, &ReadOptions::execution_margin},
+     "Metres added to the radius of each robot in dependencies, unless it has its own `execution_margin`: "
+     "how far its real path may be off the planned one. Smaller than `inflation`."},
 }};
 
 }  // namespace

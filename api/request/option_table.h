@@ -25,6 +25,9 @@ enum class InvalidRobots { refuse, report };
 struct ReadOptions {
   core::PlanOptions plan;
   InvalidRobots invalid_robots = InvalidRobots::refuse;
+  bool dependencies = false;          // of the answer
+  double dependency_slack = 0.1;      // seconds, > 0
+  double execution_margin = 0.0;      // metres, >= 0; that of a robot goes first
   std::optional<double> budget_ms;    // as requested, >= 1; none: the service's default
   std::vector<std::string> warnings;  // of options that are accepted, but without the expected effect
 };
@@ -75,6 +78,15 @@ struct BooleanOption {
   OptionField<bool> field;
 };
 
+/// A real number and a boolean for what is made of the plan.
+struct AnswerRealOption {
+  Range range;
+  double ReadOptions::*field;
+};
+struct AnswerBooleanOption {
+  bool ReadOptions::*field;
+};
+
 /// One of a few words, each with what it means, in the order of the enumeration.
 struct WordOption {
   struct Word {
@@ -91,7 +103,7 @@ struct OptionRow {
   std::string_view title;  // for a form
   std::string_view unit;   // symbol, e.g. "ms"; empty: none
   std::variant<RealOption, ChosenOption, ServiceOption, NaturalOption, BoundOption, CountOption,
-               BooleanOption, WordOption>
+               BooleanOption, AnswerRealOption, AnswerBooleanOption, WordOption>
       type;
   std::string_view description;  // CommonMark
 };

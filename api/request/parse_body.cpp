@@ -93,6 +93,14 @@ RequestError unfinished(const ParseStop& stop) {
           0};
 }
 
+RequestedDependencies requested_dependencies(const Fleet& fleet) {
+  RequestedDependencies requested{fleet.options.dependencies, fleet.options.dependency_slack, {}};
+  for (const ReadRobot& read : fleet.robots) {
+    requested.margins.push_back(read.execution_margin.value_or(fleet.options.execution_margin));
+  }
+  return requested;
+}
+
 Fleet parse_fleet(const JsonReader& root, const Limits& limits,
                   const std::function<void(const ReadOptions&)>& set_budget) {
   Fleet fleet;

@@ -16,6 +16,7 @@
 #include "api/request/motion/parse_obstacles.h"
 #include "api/request/parse_options.h"
 #include "api/request/parse_robots.h"
+#include "api/request/requested_dependencies.h"
 #include "api/response/error.h"
 #include "core/model/zone.h"
 
@@ -31,6 +32,9 @@ struct Fleet {
   ReadOptions options;
   std::string metadata;  // see parse_metadata
 };
+
+/// With the margins of the options for robots that have none.
+RequestedDependencies requested_dependencies(const Fleet& fleet);
 
 /// Reads them from the root of the document. `set_budget` gets the options, which are read first.
 Fleet parse_fleet(const JsonReader& root, const Limits& limits,

@@ -57,6 +57,12 @@ class OptionReader {
       options_.plan.*option.field = static_cast<std::int64_t>(*bound);
     }
   }
+  void read(const AnswerRealOption& option, const JsonReader& member) {
+    if (const auto value = member.number(option.range)) options_.*option.field = *value;
+  }
+  void read(const AnswerBooleanOption& option, const JsonReader& member) {
+    if (const auto value = member.boolean()) options_.*option.field = *value;
+  }
   void read(const BooleanOption& option, const JsonReader& member) { set(option.field, member.boolean()); }
   void read(const CountOption& option, const JsonReader& member);
   void read(const WordOption& option, const JsonReader& member);

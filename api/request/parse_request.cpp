@@ -42,10 +42,14 @@ Result<PlanRequest, RequestError> parse_request(std::string_view body, const Lim
     if (!made) return std::nullopt;
     std::vector<std::string> warnings = std::move(fleet.options.warnings);
     if (auto warning = budget_warning(fleet.options, limits)) warnings.push_back(std::move(*warning));
-    return PlanRequest{
-        std::move(made->problem), fleet.options.plan,  effective_budget(fleet.options, limits),
-        fleet.map->frame,         std::move(warnings), received(fleet.robots, std::move(made->errors)),
-        std::move(fleet.metadata)};
+    return PlanRequest{std::move(made->problem),
+                       fleet.options.plan,
+                       effective_budget(fleet.options, limits),
+                       fleet.map->frame,
+                       std::move(warnings),
+                       received(fleet.robots, std::move(made->errors)),
+                       std::move(fleet.metadata),
+                       requested_dependencies(fleet)};
   };
   return parse_body<PlanRequest>(body, limits, stop, kMembers, parse);
 }

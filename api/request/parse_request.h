@@ -9,6 +9,7 @@
 #include "api/json/result.h"
 #include "api/request/limits.h"
 #include "api/request/received_robot.h"
+#include "api/request/requested_dependencies.h"
 #include "api/request/world_frame.h"
 #include "api/response/error.h"
 #include "core/map/map_cache.h"
@@ -26,6 +27,7 @@ struct PlanRequest {
   std::vector<std::string> warnings;
   std::vector<ReceivedRobot> received;  // of each robot
   std::string metadata;                 // see parse_metadata
+  RequestedDependencies dependencies;
 };
 
 /// Reads a body of POST /v1/plan; ends with `parse_unfinished` or `draining` when the stop is met. `maps` has

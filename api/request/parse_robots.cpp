@@ -16,17 +16,19 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 12> kMembers{
-    "id",    "radius", "linear_speed", "angular_speed", "vicinity", "may_reverse",
+constexpr std::array<std::string_view, 13> kMembers{
+    "id",    "radius", "linear_speed", "angular_speed", "vicinity", "execution_margin", "may_reverse",
     "start", "goal",   "goals",        "committed",     "previous", "metadata"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
 
 // The members that `robot_defaults` can give as well.
-constexpr std::array<std::string_view, 4> kTraits{"radius", "linear_speed", "angular_speed", "vicinity"};
-constexpr std::array<Range, 4> kTraitRanges{kLength, kLinearSpeed, kAngularSpeed, kLengthOrZero};
+constexpr std::array<std::string_view, 5> kTraits{"radius", "linear_speed", "angular_speed", "vicinity",
+                                                  "execution_margin"};
+constexpr std::array<Range, 5> kTraitRanges{kLength, kLinearSpeed, kAngularSpeed, kLengthOrZero,
+                                            kLengthOrZero};
 constexpr std::size_t kRequiredTraits = 3;  // the first ones
-constexpr std::array<std::string_view, 5> kDefaults{"radius", "linear_speed", "angular_speed", "vicinity",
-                                                    "may_reverse"};
+constexpr std::array<std::string_view, 6> kDefaults{"radius",   "linear_speed",     "angular_speed",
+                                                    "vicinity", "execution_margin", "may_reverse"};
 
 /// Which traits are given, and the valid ones among them.
 struct Traits {
@@ -82,6 +84,7 @@ class RobotReader {
     robot.linear_speed = traits.values[1].value_or(1.0);
     robot.angular_speed = traits.values[2].value_or(1.0);
     robot.vicinity = traits.values[3].value_or(0.0);
+    read.execution_margin = traits.values[4];
     robot.may_reverse = traits.may_reverse.value_or(false);
     read.metadata = parse_metadata(json);
     ActionsOwner owner{std::nullopt, traits.values[1], traits.values[2], robot.may_reverse};

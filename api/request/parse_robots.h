@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct ReadRobot {
   bool lists_visits = false;               // see ReadGoals
   std::vector<std::string> goal_metadata;  // see ReadGoals
   std::string metadata;                    // see parse_metadata
+  std::optional<double> execution_margin;  // metres
 };
 
 /// Reads `robots` and `robot_defaults` (may be absent): at least one, and not more than the limits allow, nor

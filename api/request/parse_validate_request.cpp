@@ -16,11 +16,11 @@ namespace fleetplan::api {
 namespace {
 
 // The members of a request to validate, then those that an answer of /v1/plan adds, which are ignored.
-constexpr std::array<std::string_view, 23> kMembers{
-    "map",        "robot_defaults", "robots",          "obstacles",     "unavoidable",   "options",
-    "plans",      "tolerance",      "status",          "request_id",    "unplanned",     "flowtime",
-    "makespan",   "lower_bound",    "verified",        "min_clearance", "deterministic", "search",
-    "timings_ms", "warnings",       "lattice_spacing", "metadata",      "zones"};
+constexpr std::array<std::string_view, 25> kMembers{
+    "map",       "robot_defaults", "robots",        "obstacles", "unavoidable", "options",  "plans",
+    "tolerance", "status",         "request_id",    "unplanned", "flowtime",    "makespan", "lower_bound",
+    "verified",  "min_clearance",  "deterministic", "search",    "timings_ms",  "warnings", "lattice_spacing",
+    "metadata",  "zones",          "dependencies",  "tight"};
 
 constexpr double kDefaultTolerance = core::kMostTolerance;  // metres, seconds, radians
 constexpr double kLargestTolerance = 1e9;
@@ -54,6 +54,7 @@ Result<ValidateRequest, RequestError> parse_validate_request(std::string_view bo
     auto plans = parse_plans(root.require("plans"), fleet.robots, frame);
     auto meetings = parse_meetings(root.find("unavoidable"), fleet);
     if (!fleet.map || reading.met()) return std::nullopt;
+    RequestedDependencies dependencies = requested_dependencies(fleet);
     std::vector<core::Robot> robots;
     robots.reserve(fleet.robots.size());
     for (ReadRobot& robot : fleet.robots) robots.push_back(std::move(robot.robot));
@@ -62,13 +63,10 @@ Result<ValidateRequest, RequestError> parse_validate_request(std::string_view bo
     }
     core::CheckRules rules = rules_of(fleet.options.plan, std::move(meetings));
     rules.tolerances.assign(robots.size(), core::Tolerance::of_all(tolerance));
-    return ValidateRequest{std::move(fleet.map->grid),
-                           std::move(robots),
-                           std::move(fleet.obstacles),
-                           std::move(fleet.zones),
-                           std::move(plans),
-                           std::move(rules),
-                           check_budget(fleet.options, limits)};
+    return ValidateRequest{std::move(fleet.map->grid), std::move(robots),
+                           std::move(fleet.obstacles), std::move(fleet.zones),
+                           std::move(plans),           std::move(dependencies),
+                           std::move(rules),           check_budget(fleet.options, limits)};
   };
   return parse_body<ValidateRequest>(body, limits, stop, kMembers, parse);
 }

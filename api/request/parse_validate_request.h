@@ -7,6 +7,7 @@
 #include "api/json/parse_stop.h"
 #include "api/json/result.h"
 #include "api/request/limits.h"
+#include "api/request/requested_dependencies.h"
 #include "api/response/error.h"
 #include "core/map/occupancy_grid.h"
 #include "core/model/moving_obstacle.h"
@@ -25,6 +26,7 @@ struct ValidateRequest {
   std::vector<core::MovingObstacle> obstacles;
   std::vector<core::Zone> zones;
   std::vector<core::RobotPlan> plans;
+  RequestedDependencies dependencies;
   core::CheckRules rules;             // the tolerance is in metres, seconds and radians
   std::chrono::nanoseconds budget{};  // of the check
 };

@@ -7,6 +7,7 @@
 #include "api/response/error.h"
 #include "api/response/plan_outcome.h"
 #include "api/response/write_actions.h"
+#include "api/response/write_dependencies.h"
 #include "api/response/write_report.h"
 
 namespace fleetplan::api {
@@ -125,6 +126,10 @@ std::string write_response(const VerifiedPlan& verified, const std::string& requ
     json.key("unavoidable").begin_array();
     for (const core::Meeting& one : plan.unavoidable) write_meeting(json, one, verified);
     json.end_array();
+  }
+  if (verified.dependencies != nullptr) {
+    const auto& made = *verified.dependencies;
+    write_dependencies(json, made ? &*made : nullptr, verified.robots);
   }
   write_summary(json, verified);
   write_timings(json, stages);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "api/request/received_robot.h"
+#include "core/execution/dependency.h"
 #include "core/geometry/position.h"
 #include "core/model/moving_obstacle.h"
 #include "core/model/plan.h"
@@ -36,6 +37,8 @@ struct VerifiedPlan {
   const std::vector<std::string>& warnings;
   const std::string& metadata;            // of the request, as JSON; empty: none
   std::optional<double> lattice_spacing;  // metres; none: neither asked for nor chosen
+  /// Null: not asked for. Nothing in it: not made in time.
+  const std::optional<core::Dependencies>* dependencies = nullptr;
 };
 
 /// The answer of POST /v1/plan. Writing ends with the timings, so that they include it.

@@ -42,7 +42,7 @@ for (const name of scenarios) {
   });
 }
 
-for (const path of ["/v1/plan", "/v1/validate", "/v1/advance"]) {
+for (const path of ["/v1/plan", "/v1/validate", "/v1/advance", "/v1/dependencies", "/v1/retime"]) {
   test(`the document's examples for ${path} get the documented answers`, async () => {
     const { requestBody, responses } = paths[path].post;
     const requests = requestBody.content["application/json"].examples;

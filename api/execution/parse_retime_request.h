@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "api/json/json_reader.h"
+#include "api/json/parse_stop.h"
+#include "api/request/limits.h"
+#include "core/execution/dependency.h"
+#include "core/execution/retime.h"
+#include "core/model/plan.h"
+#include "core/model/robot.h"
+
+namespace fleetplan::api {
+
+/// A readable body of POST /v1/retime, in the client's world.
+struct RetimeRequest {
+  std::vector<core::Robot> robots;
+  std::vector<core::RobotPlan> plans;
+  std::vector<core::Dependency> dependencies;
+  std::vector<core::ObservedState> states;  // at most one for each robot
+  core::RetimeRules rules;
+};
+
+/// Reads the root of the document. Nothing if it has faults, or if its stop is met.
+std::optional<RetimeRequest> parse_retime_request(const JsonReader& root, const Limits& limits,
+                                                  ParseStop& stop);
+
+}  // namespace fleetplan::api

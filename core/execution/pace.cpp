@@ -1,0 +1,117 @@
+#include "core/execution/pace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/model/served_goals.h"
+
+namespace fleetplan::core {
+
+namespace {
+
+/// The radii of a robot while it executes its actions.
+class Radii {
+ public:
+  Radii(const Robot& robot, Actions actions) : robot_(robot), radius_(robot.radius) {
+    bool changes = false;
+    for (std::size_t k = 0; k < robot.goal_count(); ++k) {
+      changes = changes || robot.goal_at(k).radius_after.has_value();
+    }
+    if (changes) visits_ = visits_of(robot, actions);
+  }
+
+  /// The largest one during an action, its end included; those of later actions are asked later.
+  double during(const Action& action, bool is_last) {
+    while (next_ < visits_.size() && visits_[next_].t_leave <= action.t_start) radius_ = after(next_++);
+    double largest = radius_;
+    for (std::size_t k = next_; k < visits_.size(); ++k) {
+      const bool ends = is_last || visits_[k].t_leave <= action.t_end || action.goal == visits_[k].goal;
+      if (!ends) break;
+      largest = std::max(largest, after(k));
+    }
+    return largest;
+  }
+
+  /// After the last action.
+  double at_rest() {
+    while (next_ < visits_.size()) radius_ = after(next_++);
+    return radius_;
+  }
+
+ private:
+  double after(std::size_t visit) const {
+    return robot_.goal_at(visits_[visit].goal).radius_after.value_or(radius_);
+  }
+
+  const Robot& robot_;
+  double radius_;
+  std::vector<Visit> visits_;
+  std::size_t next_ = 0;
+};
+
+TimedSegment standing(const Position& position, double t_start, double t_end) {
+  return {{position, position}, t_start, t_end};
+}
+
+}  // namespace
+
+double Pace::progress_at(double t) const {
+  const auto under_way =
+      std::upper_bound(actions_.begin(), actions_.end(), t,
+                       [](double time, const Action& action) { return time < action.t_end; });
+  const auto index = static_cast<double>(under_way - actions_.begin());
+  if (under_way == actions_.end()) return index;
+  const double done = (t - under_way->t_start) / (under_way->t_end - under_way->t_start);
+  return index + std::clamp(done, 0.0, 1.0);
+}
+
+double Pace::time_at(double progress) const {
+  if (actions_.empty()) return 0.0;
+  const ActionProgress at = until(0, progress);
+  return planned_time(actions_, at.action, at.fraction);
+}
+
+ActionProgress Pace::gate(std::size_t robot, double progress) const {
+  const double most = static_cast<double>(actions_.size()) - 1.0;
+  const double action = std::clamp(std::floor(progress), 0.0, most);
+  return {robot, static_cast<std::size_t>(action), std::clamp(progress - action, 0.0, 1.0)};
+}
+
+ActionProgress Pace::until(std::size_t robot, double progress) const {
+  const double most = static_cast<double>(actions_.size()) - 1.0;
+  const double action = std::clamp(std::ceil(progress) - 1.0, 0.0, most);
+  return {robot, static_cast<std::size_t>(action), std::clamp(progress - action, 0.0, 1.0)};
+}
+
+std::vector<PlannedStretch> stretches_of(const Robot& robot, Actions actions, double margin) {
+  std::vector<PlannedStretch> stretches;
+  Radii radii(robot, actions);
+  Position place = robot.start.position;
+  double now = 0.0;
+  double before = robot.radius + margin;
+  for (std::size_t k = 0; k < actions.size(); ++k) {
+    const Action& action = actions[k];
+    const double radius = radii.during(action, k + 1 == actions.size()) + margin;
+    const auto index = static_cast<double>(k);
+    const bool moves = action.type == Action::Type::translate;
+    if (moves) {
+      stretches.push_back({{{place, action.to.position}, now, action.t_end}, index, 1.0, radius, true});
+      place = action.to.position;
+    } else if (!stretches.empty() && stretches.back().radius == radius &&
+               stretches.back().planned.path.from == stretches.back().planned.path.to) {
+      stretches.back().planned.t_end = action.t_end;
+      stretches.back().length += 1.0;
+    } else {
+      stretches.push_back({standing(place, now, action.t_end), index, 1.0, radius, radius > before});
+    }
+    before = radius;
+    now = action.t_end;
+  }
+  const double radius = radii.at_rest() + margin;
+  stretches.push_back(
+      {standing(place, now, kForever), static_cast<double>(actions.size()), 0.0, radius, false});
+  return stretches;
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,237 @@
+#include "core/execution/retime.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include "core/execution/pace.h"
+
+namespace fleetplan::core {
+
+namespace {
+
+/// Seconds: rounding of times that were added up.
+constexpr double kOnTime = 1e-6;
+constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
+
+/// A gate of a robot, or a progress that others wait for.
+struct Mark {
+  double progress = 0.0;
+  std::size_t dependency = 0;
+};
+
+bool earlier(const Mark& a, const Mark& b) {
+  return std::tie(a.progress, a.dependency) < std::tie(b.progress, b.dependency);
+}
+
+/// A robot on its way. Progress is whole: the number of actions, and the fraction of the one under way.
+struct Traveller {
+  Actions actions;
+  std::vector<Mark> gates;    // ascending
+  std::vector<Mark> awaited;  // ascending
+  std::size_t next_gate = 0;
+  std::size_t next_awaited = 0;
+  double at = 0.0;
+  double heading_for = 0.0;
+  double now = 0.0;
+  double speed_factor = 1.0;
+  double held_until = 0.0;
+  std::size_t because_of = kNobody;
+  std::size_t waits_for = kNobody;
+
+  double end() const { return static_cast<double>(actions.size()); }
+  const Action& action() const { return actions[static_cast<std::size_t>(at)]; }
+};
+
+double whole(const ActionProgress& progress) {
+  return static_cast<double>(progress.action) + progress.fraction;
+}
+
+class Forward {
+ public:
+  Forward(const std::vector<Robot>& robots, const std::vector<Actions>& actions,
+          const std::vector<Dependency>& dependencies, const std::vector<ObservedState>& states,
+          const RetimeRules& rules)
+      : robots_(robots), dependencies_(dependencies), rules_(rules), travellers_(robots.size()) {
+    for (std::size_t k = 0; k < robots.size(); ++k) {
+      Traveller& one = travellers_[k];
+      one.actions = actions[k];
+      one.now = rules.now;
+      one.at = Pace(actions[k]).progress_at(rules.now);
+    }
+    for (const ObservedState& state : states) observe(state);
+    for (std::size_t k = 0; k < dependencies.size(); ++k) {
+      travellers_[dependencies[k].gate.robot].gates.push_back({whole(dependencies[k].gate), k});
+      travellers_[dependencies[k].until.robot].awaited.push_back({whole(dependencies[k].until), k});
+    }
+    for (Traveller& one : travellers_) {
+      std::sort(one.gates.begin(), one.gates.end(), earlier);
+      std::sort(one.awaited.begin(), one.awaited.end(), earlier);
+    }
+    met_.resize(dependencies.size());
+    waiting_.resize(dependencies.size(), kNobody);
+  }
+
+  std::optional<std::vector<RetimedRobot>> run(const StopCondition& stop) {
+    begin();
+    while (!arrivals_.empty()) {
+      if (stop.met()) return std::nullopt;
+      const auto [t, robot] = arrivals_.top();
+      arrivals_.pop();
+      arrive(robot, t);
+    }
+    for (std::size_t k = 0; k < travellers_.size(); ++k) finish(k);
+    return std::move(retimed_);
+  }
+
+ private:
+  using Arrival = std::pair<double, std::size_t>;
+
+  void observe(const ObservedState& state) {
+    Traveller& one = travellers_[state.robot];
+    one.at = static_cast<double>(state.action) + state.fraction;
+    one.speed_factor = state.speed_factor;
+    one.held_until = rules_.now + state.held;
+    const double planned = Pace(one.actions).time_at(one.at);
+    if (planned < rules_.now - kOnTime) one.because_of = state.robot;
+  }
+
+  void begin() {
+    for (Traveller& one : travellers_) {
+      const auto first = std::min(static_cast<std::size_t>(one.at), one.actions.size());
+      retimed_.push_back({first, std::vector<double>(one.actions.size() - first, rules_.now), rules_.now});
+      // A gate that it has passed already does not call it back.
+      while (one.next_gate < one.gates.size() && one.gates[one.next_gate].progress < one.at) ++one.next_gate;
+    }
+    for (std::size_t k = 0; k < travellers_.size(); ++k) tell(k, rules_.now);
+    for (std::size_t k = 0; k < travellers_.size(); ++k) go_on(k, rules_.now);
+  }
+
+  /// Goes on to the next action, gate or place that somebody waits for, unless it has to wait itself.
+  void go_on(std::size_t robot, double t) {
+    Traveller& one = travellers_[robot];
+    one.heading_for = one.at;
+    if (one.at >= one.end()) return;
+    for (; one.next_gate < one.gates.size() && one.gates[one.next_gate].progress <= one.at; ++one.next_gate) {
+      const std::size_t dependency = one.gates[one.next_gate].dependency;
+      if (met_[dependency]) continue;
+      waiting_[dependency] = robot;
+      return;
+    }
+    one.now = t;
+    double next = static_cast<double>(static_cast<std::size_t>(one.at)) + 1.0;
+    if (one.next_gate < one.gates.size()) next = std::min(next, one.gates[one.next_gate].progress);
+    if (one.next_awaited < one.awaited.size()) next = std::min(next, one.awaited[one.next_awaited].progress);
+    one.heading_for = next;
+    arrivals_.emplace(t_reached(robot, next), robot);
+  }
+
+  /// When a robot gets from where it is to a progress in the same action.
+  double t_reached(std::size_t robot, double progress) const {
+    const Traveller& one = travellers_[robot];
+    const Action& action = one.action();
+    const Pace pace(one.actions);
+    const double planned = pace.time_at(progress);
+    const double from = action.t_start + (one.at - std::floor(one.at)) * (action.t_end - action.t_start);
+    if (action.type != Action::Type::wait) {
+      return std::max(one.now, one.held_until) + (planned - from) / one.speed_factor;
+    }
+    // Of a wait, only what must be waited counts: it lies at its end.
+    const auto [least, earliest_end] = required_wait(robot);
+    const double left = std::min(action.t_end - from, least);
+    const double end = std::max({one.now + left, earliest_end, action.goal ? 0.0 : action.t_end});
+    return progress >= std::floor(one.at) + 1.0 ? end : std::max(one.now, std::min(end, planned));
+  }
+
+  /// How long the wait under way has to be, and when it ends at the earliest.
+  std::pair<double, double> required_wait(std::size_t robot) const {
+    const Traveller& one = travellers_[robot];
+    const Action& action = one.action();
+    const double planned = action.t_end - action.t_start;
+    const Robot& waiter = robots_[robot];
+    if (action.goal && *action.goal < waiter.goal_count()) {
+      const Goal& goal = waiter.goal_at(*action.goal);
+      return {std::min(planned, goal.service), std::min(action.t_end, goal.not_before + goal.service)};
+    }
+    const auto next = static_cast<std::size_t>(one.at) + 1;
+    const bool before_move = next < one.actions.size() && one.actions[next].type == Action::Type::translate;
+    return {before_move ? std::min(planned, rules_.wait_before_move) : 0.0, 0.0};
+  }
+
+  void arrive(std::size_t robot, double t) {
+    Traveller& one = travellers_[robot];
+    const auto action = static_cast<std::size_t>(one.at);
+    one.at = one.heading_for;
+    one.now = t;
+    if (one.at >= static_cast<double>(action) + 1.0) {
+      RetimedRobot& retimed = retimed_[robot];
+      retimed.ends[action - retimed.first] = t;
+      note_lateness(robot, t - one.actions[action].t_end);
+    }
+    tell(robot, t);
+    go_on(robot, t);
+  }
+
+  void note_lateness(std::size_t robot, double late) {
+    Traveller& one = travellers_[robot];
+    if (late <= kOnTime) {
+      one.because_of = kNobody;
+      one.waits_for = kNobody;
+    } else if (one.because_of == kNobody) {
+      one.because_of = robot;
+    }
+  }
+
+  /// Lets those go on that waited for this.
+  void tell(std::size_t robot, double t) {
+    Traveller& one = travellers_[robot];
+    for (; one.next_awaited < one.awaited.size() && one.awaited[one.next_awaited].progress <= one.at;
+         ++one.next_awaited) {
+      const std::size_t dependency = one.awaited[one.next_awaited].dependency;
+      met_[dependency] = true;
+      const std::size_t other = waiting_[dependency];
+      if (other == kNobody) continue;
+      Traveller& waiter = travellers_[other];
+      if (t > waiter.now + kOnTime) {
+        waiter.waits_for = robot;
+        waiter.because_of = one.because_of == kNobody ? robot : one.because_of;
+      }
+      go_on(other, t);
+    }
+  }
+
+  void finish(std::size_t robot) {
+    const Traveller& one = travellers_[robot];
+    RetimedRobot& retimed = retimed_[robot];
+    if (retimed.ends.empty()) return;
+    retimed.delay = retimed.ends.back() - one.actions.back().t_end;
+    if (retimed.delay <= kOnTime) return;
+    if (one.waits_for != kNobody) retimed.waits_for = one.waits_for;
+    retimed.because_of = one.because_of == kNobody ? robot : one.because_of;
+  }
+
+  const std::vector<Robot>& robots_;
+  const std::vector<Dependency>& dependencies_;
+  const RetimeRules& rules_;
+  std::vector<Traveller> travellers_;
+  std::vector<char> met_;             // by dependency
+  std::vector<std::size_t> waiting_;  // by dependency
+  std::vector<RetimedRobot> retimed_;
+  std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> arrivals_;
+};
+
+}  // namespace
+
+std::optional<std::vector<RetimedRobot>> retime(const std::vector<Robot>& robots,
+                                                const std::vector<Actions>& actions,
+                                                const std::vector<Dependency>& dependencies,
+                                                const std::vector<ObservedState>& states,
+                                                const RetimeRules& rules, const StopCondition& stop) {
+  return Forward(robots, actions, dependencies, states, rules).run(stop);
+}
+
+}  // namespace fleetplan::core

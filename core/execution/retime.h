@@ -1,0 +1,53 @@
+#pragma once
+
+// When robots will arrive that execute a plan with dependencies, and of whom a late one is late.
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/execution/dependency.h"
+#include "core/execution/executed_actions.h"
+#include "core/model/robot.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Where a robot is, and how it goes on.
+struct ObservedState {
+  std::size_t robot = 0;
+  std::size_t action = 0;     // under way
+  double fraction = 0.0;      // of it
+  double speed_factor = 1.0;  // > 0: of its planned speeds, from now on
+  double held = 0.0;          // seconds, >= 0: so long it does not move
+};
+
+struct RetimeRules {
+  double now = 0.0;               // seconds from the start of the plan
+  double wait_before_move = 0.0;  // seconds: a robot stands so long before a translation, if it is planned to
+};
+
+/// The new times of a robot's actions.
+struct RetimedRobot {
+  std::size_t first = 0;     // the action under way; the number of all if it has arrived
+  std::vector<double> ends;  // seconds, of the actions from `first` on
+  double begin = 0.0;        // seconds, of what is left of the action under way: now
+  double delay = 0.0;        // seconds: by how much it arrives later than planned, or earlier if negative
+  /// Of a robot that arrives late: the one it waited for last, and the one whose delay is at the root of
+  /// that; itself if it is late by its own doing.
+  std::optional<std::size_t> waits_for = {};
+  std::optional<std::size_t> because_of = {};
+};
+
+/// Robots without a state are as planned. Everybody goes on: moves take their planned time divided by the
+/// speed factor, services last as long as planned and begin no earlier than they may, other waits end when
+/// planned, or at once if that has passed. Without delays these are the planned times. `dependencies`: each
+/// `until` is planned before its `gate`. `actions`: contiguous in time, ascending. Nothing if the stop
+/// condition is met.
+std::optional<std::vector<RetimedRobot>> retime(const std::vector<Robot>& robots,
+                                                const std::vector<Actions>& actions,
+                                                const std::vector<Dependency>& dependencies,
+                                                const std::vector<ObservedState>& states,
+                                                const RetimeRules& rules, const StopCondition& stop);
+
+}  // namespace fleetplan::core

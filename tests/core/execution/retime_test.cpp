@@ -1,0 +1,105 @@
+#include "core/execution/retime.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/execution/make_dependencies.h"
+#include "tests/support/plan_builder.h"
+
+namespace fleetplan::core {
+namespace {
+
+using support::PlanBuilder;
+
+/// `a` crosses the lane of `b`, which waits for a while before it moves.
+class Retime : public testing::Test {
+ protected:
+  Retime() {
+    for (const char* id : {"a", "b"}) robots_.push_back({id, 0.5, 1.0, 2.0, {}, Goal{}});
+    robots_[0].start = {{-5, 0}, 0.0};
+    robots_[1].start = {{0, -5}, 1.5707963267948966};
+    plan(4.0);
+  }
+
+  void plan(double wait) {
+    plans_ = {PlanBuilder(0, robots_[0]).translate_to(5, 0).build(),
+              PlanBuilder(1, robots_[1]).wait(wait).translate_to(0, 5).build()};
+    dependencies_ = make_dependencies(robots_, plans_, {{0.0, 0.0}, 0.1, 0.0}, StopCondition())->list;
+  }
+
+  std::vector<RetimedRobot> times(const std::vector<ObservedState>& states, const RetimeRules& rules) {
+    return *retime(robots_, executed_actions(robots_, plans_), dependencies_, states, rules, StopCondition());
+  }
+
+  std::vector<Robot> robots_;
+  std::vector<RobotPlan> plans_;
+  std::vector<Dependency> dependencies_;
+};
+
+TEST_F(Retime, WithoutDelaysGivesThePlannedTimes) {
+  for (const double now : {0.0, 2.0, 4.0, 9.0, 20.0}) {
+    const auto found = times({}, {now, 0.0});
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_NEAR(found[k].delay, 0.0, 1e-9);
+      EXPECT_FALSE(found[k].because_of);
+      EXPECT_EQ(found[k].first + found[k].ends.size(), plans_[k].actions.size());
+      for (std::size_t n = 0; n < found[k].ends.size(); ++n) {
+        EXPECT_NEAR(found[k].ends[n], plans_[k].actions[found[k].first + n].t_end, 1e-9);
+      }
+    }
+  }
+}
+
+TEST_F(Retime, AHeldRobotDelaysThoseThatWaitForIt) {
+  // a is held for 7 s: it passes the crossing, 6 m from its start, at 13 s. b is there at 8 s.
+  const auto found = times({{0, 0, 0.0, 1.0, 7.0}}, {});
+  EXPECT_NEAR(found[0].delay, 7.0, 1e-9);
+  EXPECT_EQ(found[0].because_of, 0U);
+  EXPECT_FALSE(found[0].waits_for);
+  EXPECT_NEAR(found[1].delay, 5.0, 1e-6);
+  EXPECT_EQ(found[1].because_of, 0U);
+  EXPECT_EQ(found[1].waits_for, 0U);
+}
+
+TEST_F(Retime, ADelayWithinTheSlackDelaysNobodyElse) {
+  const auto found = times({{0, 0, 0.0, 1.0, 1.9}}, {});
+  EXPECT_NEAR(found[0].delay, 1.9, 1e-9);
+  EXPECT_NEAR(found[1].delay, 0.0, 1e-9);
+  EXPECT_FALSE(found[1].because_of);
+}
+
+TEST_F(Retime, AWaitThatOnlyGaveWayAbsorbsDelays) {
+  const auto found = times({{1, 0, 0.0, 1.0, 3.0}}, {2.0, 0.0});
+  EXPECT_NEAR(found[1].delay, 1.0, 1e-9);  // held until 5 s, planned to leave at 4 s
+}
+
+TEST_F(Retime, AWaitBeforeAMoveDoesNot) {
+  const auto found = times({{1, 0, 0.0, 1.0, 0.0}}, {3.0, 2.0});
+  EXPECT_NEAR(found[1].delay, 1.0, 1e-9);  // it has stood for 0 of 4 s, of which it needs 2
+}
+
+TEST_F(Retime, ASlowRobotTakesLongerFromNowOn) {
+  const auto found = times({{0, 0, 0.5, 0.5, 0.0}}, {5.0, 0.0});
+  EXPECT_NEAR(found[0].delay, 5.0, 1e-9);
+  EXPECT_EQ(found[0].because_of, 0U);
+}
+
+TEST_F(Retime, AServiceLastsAndBeginsNoEarlierThanItMay) {
+  robots_[1].via = {Goal{{0, -5}, {}}};
+  robots_[1].via[0].service = 1.0;
+  robots_[1].via[0].not_before = 3.0;
+  plan(4.0);
+  plans_[1].actions[0].goal = 0;
+  EXPECT_NEAR(times({{1, 0, 0.0, 1.0, 0.0}}, {2.0, 0.0})[1].delay, 0.0, 1e-9);
+  EXPECT_NEAR(times({{1, 0, 0.0, 1.0, 0.0}}, {3.5, 0.0})[1].delay, 0.5, 1e-9);
+}
+
+TEST_F(Retime, ARobotThatHasPassedItsGateGoesOn) {
+  const auto found = times({{0, 0, 0.1, 1.0, 0.0}, {1, 1, 0.5, 1.0, 0.0}}, {9.0, 0.0});
+  EXPECT_NEAR(found[1].delay, 0.0, 1e-9);
+  EXPECT_NEAR(found[0].delay, 8.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace fleetplan::core
