@@ -30,18 +30,30 @@ api::Reply problem_reply(ErrorCode code, const std::string& detail, const Exchan
   return api::problem_reply(code, detail, exchange.request_id);
 }
 
+/// The endpoint's answer as JSON, or as a stream of events if the client prefers that. `last`: the name of
+/// the event with the answer.
+api::Reply answer_or_events(const Backend& backend, Exchange& exchange, const Service::Endpoint& endpoint,
+                            const char* last) {
+  if (plan_form(exchange.head.field("accept")) == PlanForm::json) {
+    return backend.run_job(exchange, endpoint, nullptr);
+  }
+  EventStream events(exchange, last);
+  api::Reply reply = backend.run_job(exchange, endpoint, &events);
+  if (events.begun()) events.end(reply);
+  return reply;
+}
+
 }  // namespace
 
 Handler plan(const Backend& backend) {
   return [&backend](Exchange& exchange) {
-    const Service::Endpoint& endpoint = backend.service.plan;
-    if (plan_form(exchange.head.field("accept")) == PlanForm::json) {
-      return backend.run_job(exchange, endpoint, nullptr);
-    }
-    EventStream events(exchange);
-    api::Reply reply = backend.run_job(exchange, endpoint, &events);
-    if (events.begun()) events.end(reply);
-    return reply;
+    return answer_or_events(backend, exchange, backend.service.plan, "plan");
+  };
+}
+
+Handler simulate(const Backend& backend) {
+  return [&backend](Exchange& exchange) {
+    return answer_or_events(backend, exchange, backend.service.simulate, "simulation");
   };
 }
 

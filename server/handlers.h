@@ -13,6 +13,9 @@ namespace fleetplan::server {
 /// A plan as JSON, or as a stream of events if the client prefers that.
 Handler plan(const Backend& backend);
 
+/// The figures of a simulation, likewise.
+Handler simulate(const Backend& backend);
+
 Handler validate(const Backend& backend);
 
 Handler advance(const Backend& backend);

@@ -6,8 +6,9 @@ namespace fleetplan::server {
 
 RouteTable main_routes(const Backend& backend) {
   RouteTable routes;
-  routes.post("/v1/plan", plan(backend), {.plans = true});
+  routes.post("/v1/plan", plan(backend), {.plans = true, .events = true});
   routes.post("/v1/validate", validate(backend));
+  routes.post("/v1/simulate", simulate(backend), {.events = true});
   routes.post("/v1/advance", advance(backend));
   routes.post("/v1/dependencies", dependencies(backend));
   routes.post("/v1/retime", retime(backend));

@@ -20,6 +20,7 @@ struct Service {
 
   Endpoint plan;                             // run by a planning worker
   Endpoint validate;                         // run by a planning worker
+  Endpoint simulate;                         // run by a planning worker, with progress
   Endpoint advance;                          // takes milliseconds, without a turn
   Endpoint dependencies;                     // run by a planning worker
   Endpoint retime;                           // takes milliseconds, without a turn

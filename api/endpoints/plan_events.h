@@ -1,20 +1,23 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
+#include "core/execution/simulation/simulation.h"
 #include "core/runtime/progress.h"
 
 namespace fleetplan::api {
 
-/// The progress of a request's plan.
+/// The progress of a request's plan, or of a simulation.
 struct PlanProgress {
   std::size_t robots = 0;  // of the request
   core::Progress planner = {};
+  std::optional<core::SimulationProgress> simulation = {};  // instead of the planner's
 };
 
-/// Receives the events while a plan is made (`text/event-stream`). Called by the planning thread, which
-/// waits meanwhile: an implementation must not wait for a client.
+/// Receives the events while a plan is made or simulated (`text/event-stream`). Called by the planning
+/// thread, which waits meanwhile: an implementation must not wait for a client.
 class PlanEvents {
  public:
   PlanEvents() = default;

@@ -9,7 +9,7 @@ namespace fleetplan::api {
 
 /// What a request needs of the server, known once it is parsed.
 struct TurnNeed {
-  enum class Kind { plan, check };
+  enum class Kind { plan, check, simulation };
 
   Kind kind = Kind::plan;
   core::StopCondition stop = core::StopCondition();  // of the computation

@@ -62,7 +62,7 @@ constexpr std::array<Example, 22> kExamples{{
      "rush-hour, warehouse."},
     {ErrorCode::method_not_allowed, "'/v1/plan' allows POST, not 'GET'."},
     {ErrorCode::not_acceptable,
-     "Plans are application/json or text/event-stream, which Accept: 'text/html' excludes: add "
+     "Answers are application/json or text/event-stream, which Accept: 'text/html' excludes: add "
      "application/json or leave the header out."},
     {ErrorCode::request_timeout, "The request's head did not arrive within 10000 ms."},
     {ErrorCode::body_too_large, "The body has 40000000 bytes; the limit is 33554432."},

@@ -16,9 +16,9 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 13> kMembers{
-    "id",    "radius", "linear_speed", "angular_speed", "vicinity", "execution_margin", "may_reverse",
-    "start", "goal",   "goals",        "committed",     "previous", "metadata"};
+constexpr std::array<std::string_view, 14> kMembers{
+    "id",          "radius", "linear_speed", "angular_speed", "vicinity",  "execution_margin", "may_reverse",
+    "body_radius", "start",  "goal",         "goals",         "committed", "previous",         "metadata"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
 
 // The members that `robot_defaults` can give as well.
@@ -27,14 +27,15 @@ constexpr std::array<std::string_view, 5> kTraits{"radius", "linear_speed", "ang
 constexpr std::array<Range, 5> kTraitRanges{kLength, kLinearSpeed, kAngularSpeed, kLengthOrZero,
                                             kLengthOrZero};
 constexpr std::size_t kRequiredTraits = 3;  // the first ones
-constexpr std::array<std::string_view, 6> kDefaults{"radius",   "linear_speed",     "angular_speed",
-                                                    "vicinity", "execution_margin", "may_reverse"};
+constexpr std::array<std::string_view, 7> kDefaults{
+    "radius", "linear_speed", "angular_speed", "vicinity", "execution_margin", "may_reverse", "body_radius"};
 
 /// Which traits are given, and the valid ones among them.
 struct Traits {
   std::array<bool, kTraits.size()> given{};
   std::array<std::optional<double>, kTraits.size()> values;
   std::optional<bool> may_reverse;
+  std::optional<double> body_radius;
 };
 
 Traits parse_traits(const JsonReader& json) {
@@ -45,6 +46,7 @@ Traits parse_traits(const JsonReader& json) {
     traits.values[trait] = member.number(kTraitRanges[trait]);
   }
   traits.may_reverse = json.find("may_reverse").boolean();
+  traits.body_radius = json.find("body_radius").number(kLength);
   return traits;
 }
 
@@ -53,6 +55,7 @@ Traits parse_traits(const JsonReader& json) {
 Traits parse_traits(const JsonReader& robot, const Traits& defaults) {
   Traits traits = parse_traits(robot);
   if (!traits.may_reverse) traits.may_reverse = defaults.may_reverse;
+  if (!traits.body_radius) traits.body_radius = defaults.body_radius;
   for (std::size_t trait = 0; trait < kTraits.size(); ++trait) {
     if (traits.given[trait]) continue;
     if (defaults.given[trait]) {
@@ -86,6 +89,7 @@ class RobotReader {
     robot.vicinity = traits.values[3].value_or(0.0);
     read.execution_margin = traits.values[4];
     robot.may_reverse = traits.may_reverse.value_or(false);
+    read.body_radius = traits.body_radius;
     read.metadata = parse_metadata(json);
     ActionsOwner owner{std::nullopt, traits.values[1], traits.values[2], robot.may_reverse};
     read.start = json.require("start", "; give {\"x\", \"y\"} and optionally \"theta\"");

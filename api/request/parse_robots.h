@@ -28,6 +28,7 @@ struct ReadRobot {
   std::vector<std::string> goal_metadata;  // see ReadGoals
   std::string metadata;                    // see parse_metadata
   std::optional<double> execution_margin;  // metres
+  std::optional<double> body_radius = {};  // metres: of the robot itself, if it is planned with another one
 };
 
 /// Reads `robots` and `robot_defaults` (may be absent): at least one, and not more than the limits allow, nor

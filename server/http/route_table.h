@@ -20,7 +20,8 @@ using Handler = std::function<api::Reply(Exchange&)>;
 /// What distinguishes a route besides its method, path and handler.
 struct RouteTraits {
   bool without_token = false;      // served to clients that do not send the token
-  bool plans = false;              // returns plans: as JSON or as a stream of events
+  bool plans = false;              // returns plans
+  bool events = false;             // answers as JSON or as a stream of events
   std::vector<int> statuses = {};  // of its answers, beyond those that all routes have
 };
 

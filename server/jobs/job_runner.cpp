@@ -29,6 +29,18 @@ api::Reply unparsed(const std::string& request_id, bool cancelled) {
                             request_id);
 }
 
+Schedule::Kind kind_of(api::TurnNeed::Kind kind) {
+  switch (kind) {
+    case api::TurnNeed::Kind::plan:
+      return Schedule::Kind::plan;
+    case api::TurnNeed::Kind::simulation:
+      return Schedule::Kind::simulation;
+    case api::TurnNeed::Kind::check:
+      break;
+  }
+  return Schedule::Kind::check;
+}
+
 /// A job's turn, noted in its exchange. The body is parsed until the turn is requested.
 class ExchangeTurn final : public api::Turn {
  public:
@@ -40,8 +52,7 @@ class ExchangeTurn final : public api::Turn {
     answer_by_ = need.answer_by;
     stop_ = need.stop;
     since_ = Clock::now();
-    const auto kind = need.kind == api::TurnNeed::Kind::plan ? Schedule::Kind::plan : Schedule::Kind::check;
-    return job_.request_turn({kind, need.stop.deadline(), need.work, need.is_short});
+    return job_.request_turn({kind_of(need.kind), need.stop.deadline(), need.work, need.is_short});
   }
 
   bool await() override {

@@ -40,7 +40,7 @@ class Schedule {
     std::size_t burst = 0;
   };
 
-  enum class Kind { plan, check };
+  enum class Kind { plan, check, simulation };
 
   /// What a job asks for when it asks for its turn.
   struct Need {
@@ -100,7 +100,7 @@ class Schedule {
     std::size_t turns = 0;
     Time last_turn = Time::min();
   };
-  /// Running means of jobs until their first plan, or the end of a check.
+  /// Running means of jobs until their first plan, the end of a check, or the first runs of a simulation.
   struct Pace {
     double seconds = 0.0;
     double deviation = 0.0;  // of the seconds, from what was expected
@@ -125,7 +125,7 @@ class Schedule {
   std::map<std::string, Client> clients_;  // that have a job
   std::size_t turns_ = 0;                  // without the lane's
   bool lane_taken_ = false;
-  std::array<Pace, 2> paces_;  // by kind
+  std::array<Pace, 3> paces_;  // by kind
 };
 
 }  // namespace fleetplan::server

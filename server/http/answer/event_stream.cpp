@@ -18,7 +18,8 @@ std::string hexadecimal(std::size_t number) {
 
 }  // namespace
 
-EventStream::EventStream(Exchange& exchange) : exchange_(exchange), chunked_(!exchange.head.http_1_0) {}
+EventStream::EventStream(Exchange& exchange, const char* last)
+    : exchange_(exchange), chunked_(!exchange.head.http_1_0), last_(last) {}
 
 EventStream::~EventStream() { stop_writing(); }
 
@@ -45,7 +46,7 @@ void EventStream::incumbent(std::string answer) {
 void EventStream::end(const api::Reply& reply) {
   stop_writing();
   if (!failed_ && !exchange_.abandoned) {
-    const std::string last = event(reply.status == 200 ? "plan" : "problem", reply.body);
+    const std::string last = event(reply.status == 200 ? last_ : "problem", reply.body);
     const std::string text = chunked_ ? last + "0\r\n\r\n" : last;
     failed_ = !exchange_.send(text);
     sent_ += text.size();

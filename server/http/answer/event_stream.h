@@ -25,8 +25,8 @@ class EventStream final : public api::PlanEvents {
   /// From one progress event to the next, whatever the planner does.
   static constexpr std::chrono::milliseconds kPeriod{150};
 
-  /// The exchange has to outlive it.
-  explicit EventStream(Exchange& exchange);
+  /// The exchange has to outlive it, and `last`, the name of the event that ends it with the answer.
+  explicit EventStream(Exchange& exchange, const char* last = "plan");
   ~EventStream() override;
 
   void begin(const api::PlanProgress& progress) override;
@@ -36,7 +36,7 @@ class EventStream final : public api::PlanEvents {
   /// False: nothing has been written.
   bool begun() const { return begun_; }
 
-  /// The last event of one that has begun: the plan, or a problem. What the client does not accept at once
+  /// The last event of one that has begun: the answer, or a problem. What the client does not accept at once
   /// goes to Exchange::unsent. If the client is gone, the connection is closed.
   void end(const api::Reply& reply);
 
@@ -49,6 +49,7 @@ class EventStream final : public api::PlanEvents {
 
   Exchange& exchange_;
   const bool chunked_;
+  const std::string_view last_;
   bool begun_ = false;
   std::thread writer_;
   bool failed_ = false;     // the client accepts no more; of the thread that writes

@@ -70,7 +70,7 @@ void LibraryServer::complete(httplib::Response& response) const {
   exchange.status = response.status;
   if (context_.draining) exchange.close = true;
   for (const char* name : {"Keep-Alive", "Accept-Ranges", "Connection"}) response.headers.erase(name);
-  response.set_header("Vary", exchange.route->traits.plans ? "Accept, Accept-Encoding" : "Accept-Encoding");
+  response.set_header("Vary", exchange.route->traits.events ? "Accept, Accept-Encoding" : "Accept-Encoding");
   if (response.status == 304) response.headers.erase("Content-Length");
   for (const auto& [name, value] : common_fields(exchange)) response.set_header(name, value);
 }

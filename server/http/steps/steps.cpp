@@ -112,9 +112,9 @@ Steps::Answer Steps::content(const Exchange& exchange) const {
         {{"Accept-Encoding", "gzip"}});
   }
   const std::string accept = head.field("accept");
-  if (exchange.route->traits.plans && !plan_form(accept)) {
+  if (exchange.route->traits.events && !plan_form(accept)) {
     return refusal(exchange, ErrorCode::not_acceptable,
-                   std::string("Plans are application/json or text/event-stream, which Accept: ") +
+                   std::string("Answers are application/json or text/event-stream, which Accept: ") +
                        in_quotes(accept) + " excludes: add application/json or leave the header out.");
   }
   const std::uint64_t limit = settings_.limits.max_body;

@@ -26,7 +26,7 @@ std::set<int> usual_statuses(const Route& route) {
   std::set<int> usual{200, 204, 405, 421, 500};
   if (!route.traits.without_token) usual.insert(401);
   if (route.takes_body()) usual.insert({400, 403, 408, 413, 415, 422, 499, 503});
-  if (route.traits.plans) usual.insert(406);
+  if (route.traits.events) usual.insert(406);
   usual.insert(route.traits.statuses.begin(), route.traits.statuses.end());
   return usual;
 }

@@ -45,7 +45,13 @@ Service StubService::service() {
   };
   const auto list = [] { return api::Reply{200, api::kJson, R"({"examples":["tiny"]})"}; };
   const auto openapi = [] { return api::Reply{200, api::kJson, R"({"openapi":"3.1.0"})"}; };
-  return {endpoint, endpoint, endpoint, list, openapi, {{"tiny", R"({"robots":[]})"}, {"narrow-door", "{}"}}};
+  return {endpoint,
+          endpoint,
+          endpoint,
+          endpoint,
+          list,
+          openapi,
+          {{"tiny", R"({"robots":[]})"}, {"narrow-door", "{}"}}};
 }
 
 api::Reply StubService::answer(std::string_view body, const api::RequestContext& context) {

@@ -29,6 +29,7 @@ class EventfulService {
     service.plan = [this](std::string_view body, const api::RequestContext& context) {
       return answer(body, context);
     };
+    service.simulate = service.plan;
     return service;
   }
 
@@ -97,6 +98,17 @@ TEST_F(EventStreams, EndWithThePlan) {
   EXPECT_EQ(events.front().name, "progress");
   EXPECT_EQ(events.front().data["robots"], 7);
   EXPECT_EQ(events.back().name, "plan");
+  EXPECT_EQ(events.back().data, nlohmann::json::parse(R"({"size":5})"));
+}
+
+TEST_F(EventStreams, OfSimulationsEndWithTheirFigures) {
+  const auto result = client.Post("/v1/simulate", kEvents, "12345", kJsonType);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->status, 200);
+  const auto events = events_of(result->body);
+  ASSERT_GE(events.size(), 2U);
+  EXPECT_EQ(events.front().name, "progress");
+  EXPECT_EQ(events.back().name, "simulation");
   EXPECT_EQ(events.back().data, nlohmann::json::parse(R"({"size":5})"));
 }
 

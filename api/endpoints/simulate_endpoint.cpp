@@ -1,0 +1,127 @@
+#include "api/endpoints/simulate_endpoint.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "api/endpoints/within_memory.h"
+#include "api/json/fault_text.h"
+#include "api/request/parse_simulate_request.h"
+#include "api/response/error.h"
+#include "api/response/write_simulation.h"
+#include "core/runtime/memory_account.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+using Clock = RequestContext::Clock;
+
+/// When no further run is made: a part of the budget is for the answer.
+core::StopCondition end_of_runs(const RequestContext& context, const SimulateRequest& request) {
+  constexpr std::chrono::milliseconds kAnswerTime{50};
+  const auto answer = std::min<std::chrono::nanoseconds>(request.budget / 10, kAnswerTime);
+  return core::StopCondition(context.received_at + request.budget - answer, context.stop);
+}
+
+Reply unfinished_runs(const SimulateRequest& request, const core::StopCondition& stop,
+                      const RequestContext& context) {
+  if (stop.cancelled()) {
+    return problem_reply(ErrorCode::draining, "The service is shutting down: try another replica.",
+                         context.request_id);
+  }
+  if (core::memory_shortages() > 0) return memory_exceeded(context);
+  const auto ms = std::chrono::duration<double, std::milli>(request.budget).count();
+  return problem_reply(ErrorCode::check_unfinished,
+                       "Not a single run was finished within " + number_text(ms) +
+                           " ms: increase options.time_budget_ms, up to max_budget_ms of /v1/limits, or "
+                           "send fewer robots or a shorter part of the plans.",
+                       context.request_id);
+}
+
+bool takes_turn(Turn& turn, const SimulateRequest& request, const core::StopCondition& stop) {
+  std::size_t work = request.robots.size();
+  for (const core::RobotPlan& plan : request.plans) work += plan.actions.size();
+  const TurnNeed need{TurnNeed::Kind::simulation, stop, stop.deadline(), static_cast<double>(work), false};
+  return turn.request(need);
+}
+
+/// The dependencies, whose robots become positions in the list of plans.
+std::vector<core::Dependency> by_plan(const SimulateRequest& request) {
+  std::vector<std::size_t> plan_of(request.robots.size(), 0);
+  for (std::size_t k = 0; k < request.plans.size(); ++k) plan_of[request.plans[k].robot] = k;
+  std::vector<core::Dependency> dependencies = request.dependencies;
+  for (core::Dependency& dependency : dependencies) {
+    dependency.gate.robot = plan_of[dependency.gate.robot];
+    dependency.until.robot = plan_of[dependency.until.robot];
+  }
+  return dependencies;
+}
+
+core::SimulatedFleet fleet_of(const SimulateRequest& request) {
+  core::PlannedExecution execution{request.plans, {}};
+  // By a clock, added waits absorb delays; without one, they have to last.
+  const bool keeps_added_waits = request.policy == core::ExecutionPolicy::dependencies;
+  const double added_wait = keeps_added_waits ? request.wait_before_move : 0.0;
+  for (const core::RobotPlan& plan : request.plans) {
+    execution.purposes.push_back(core::wait_purposes(request.robots[plan.robot], plan.actions, added_wait));
+  }
+  execution.policy = request.policy;
+  execution.max_delay = request.max_delay;
+  execution.dependencies = by_plan(request);
+  return {request.grid, request.robots, request.body_radii, std::move(execution)};
+}
+
+/// The runs in the caller's thread and, if they are idle, in others. From the second round on, it lets others
+/// have their first plans before.
+core::SimulationReport run_all(const core::SimulatedFleet& fleet, const SimulateRequest& request,
+                               const core::StopCondition& stop, const RequestContext& context) {
+  core::CallerThread callers_thread;
+  core::Executor& executor = context.executor != nullptr ? *context.executor : callers_thread;
+  return core::simulate(fleet, request.settings, stop, executor,
+                        [&](const core::SimulationProgress& progress) {
+                          if (context.events != nullptr) {
+                            context.events->progress({request.robots.size(), {}, progress});
+                          }
+                          return progress.done == 0 || executor.may_improve(stop);
+                        });
+}
+
+Reply simulated(std::string_view body, const RequestContext& context) {
+  auto request = parse_simulate_request(body, context.limits, context.parse_stop());
+  if (!request) return problem_reply(request.failure(), context.request_id);
+  const core::StopCondition stop = end_of_runs(context, *request);
+  if (context.turn != nullptr && !takes_turn(*context.turn, *request, stop)) {
+    return too_busy(context.request_id);
+  }
+  if (context.events != nullptr) {
+    context.events->begin({request->robots.size(), {}, core::SimulationProgress{0, request->settings.runs}});
+  }
+  if (context.turn != nullptr && !context.turn->await()) {
+    return stop.cancelled() ? unfinished_runs(*request, stop, context) : too_busy(context.request_id);
+  }
+  const core::SimulatedFleet fleet = fleet_of(*request);
+  const core::SimulationReport report = run_all(fleet, *request, stop, context);
+  if (report.totals.done == 0) return unfinished_runs(*request, stop, context);
+  if (report.totals.done < report.totals.runs) {
+    request->warnings.push_back("Only the first " + std::to_string(report.totals.done) + " of " +
+                                std::to_string(report.totals.runs) +
+                                " runs were finished within the time budget.");
+  }
+  std::optional<core::Simulator::Trace> trace;
+  if (request->trace) {
+    trace = core::Simulator(fleet, request->settings).trace(*request->trace, core::StopCondition());
+  }
+  return {200, kJson, write_simulation(report, *request, trace, context.request_id)};
+}
+
+}  // namespace
+
+Reply simulate_endpoint(std::string_view body, const RequestContext& context) {
+  return within_memory(context, [&] { return simulated(body, context); });
+}
+
+}  // namespace fleetplan::api

@@ -1,0 +1,156 @@
+#include "api/request/parse_simulate_request.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "api/json/fault_text.h"
+#include "api/request/motion/action_chain.h"
+#include "api/request/motion/parse_actions.h"
+#include "api/request/motion/parse_dependencies.h"
+#include "api/request/parse_body.h"
+#include "api/request/parse_disturbance.h"
+#include "api/request/parse_meetings.h"
+#include "api/request/parse_plans.h"
+#include "api/request/ranges.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+// The members of a request to simulate, then those that an answer of /v1/plan adds, which are ignored.
+constexpr std::array<std::string_view, 30> kMembers{
+    "map",         "robot_defaults", "robots",     "obstacles",       "zones",
+    "options",     "plans",          "policy",     "max_delay",       "disturbance",
+    "runs",        "seed",           "trace",      "dependencies",    "tight",
+    "unavoidable", "status",         "request_id", "unplanned",       "flowtime",
+    "makespan",    "lower_bound",    "verified",   "min_clearance",   "deterministic",
+    "search",      "timings_ms",     "warnings",   "lattice_spacing", "metadata"};
+
+// In the order of core::ExecutionPolicy.
+constexpr std::array<std::string_view, 4> kPolicies{"open_loop", "absorb_waits", "dependencies",
+                                                    "clock_stop"};
+constexpr std::size_t kDefaultRuns = 100;
+constexpr std::uint64_t kMostSeed = std::numeric_limits<std::uint64_t>::max();  // as of the options
+
+/// Reports actions that do not go on from one another, and removes what is within the tolerance of that.
+void join_actions(const JsonReader& member, const std::vector<core::Robot>& robots,
+                  std::vector<core::RobotPlan>& plans) {
+  auto plan = plans.begin();
+  for (const JsonReader item : member.array().items()) {
+    ActionChain chain({robots[plan->robot].start, std::nullopt, std::nullopt});
+    auto action = plan->actions.begin();
+    for (const JsonReader part : item.find("actions").array().items()) {
+      *action = chain.append(*action, part);
+      ++action;
+    }
+    plan->cost = plan->actions.empty() ? 0.0 : plan->actions.back().t_end;
+    ++plan;
+  }
+}
+
+void parse_policy(const JsonReader& root, SimulateRequest& request) {
+  const JsonReader policy =
+      root.require("policy", "; give \"open_loop\", \"absorb_waits\", \"dependencies\" or \"clock_stop\"");
+  if (const auto word = policy.word(kPolicies)) request.policy = static_cast<core::ExecutionPolicy>(*word);
+  const JsonReader max_delay = root.find("max_delay");
+  request.max_delay = max_delay.number(kDuration).value_or(0.0);
+  const bool has_clock = request.policy == core::ExecutionPolicy::clock_stop;
+  if (has_clock) root.require("max_delay", "; the policy \"clock_stop\" needs it: seconds");
+  if (max_delay && !has_clock) {
+    request.warnings.emplace_back("max_delay has no effect: it belongs to the policy \"clock_stop\".");
+  }
+}
+
+/// A robot without a plan executes what is committed.
+void add_commitments(SimulateRequest& request) {
+  std::vector<bool> has_plan(request.robots.size(), false);
+  for (const core::RobotPlan& plan : request.plans) has_plan[plan.robot] = true;
+  for (std::size_t robot = 0; robot < request.robots.size(); ++robot) {
+    const core::Robot& owner = request.robots[robot];
+    if (has_plan[robot] || owner.invalid || owner.committed.empty()) continue;
+    request.plans.push_back({robot, owner.committed_until(), owner.committed});
+  }
+}
+
+void parse_all_dependencies(const JsonReader& root, SimulateRequest& request) {
+  const JsonReader member = root.find("dependencies");
+  const bool is_given = member && !member.is_null();
+  if (request.policy == core::ExecutionPolicy::dependencies && !is_given) {
+    root.require("dependencies", "; POST /v1/dependencies makes them for a plan");
+    if (member) member.must_be(fault::kWrongType, "an array; POST /v1/dependencies makes one for a plan");
+  }
+  if (is_given) request.dependencies = parse_dependencies(member, request.robots, request.plans);
+}
+
+/// `runs`, `seed` and `trace`. Fewer runs if their figures would take more than a quarter of the memory.
+void parse_runs(const JsonReader& root, const Limits& limits, SimulateRequest& request) {
+  constexpr Range kRuns{1.0, static_cast<double>(kMostRuns), "runs"};
+  const JsonReader member = root.find("runs");
+  std::size_t runs = kDefaultRuns;
+  if (member.number(kRuns)) runs = member.natural(kMostRuns).value_or(runs);
+  request.settings.seed = root.find("seed").natural(kMostSeed).value_or(0);
+  const JsonReader trace = root.find("trace");
+  if (const auto run = trace.natural(kMostRuns)) {
+    if (*run >= runs) {
+      trace.fault(fault::kOutOfRange, "There is no run " + std::to_string(*run) + " of " +
+                                          std::to_string(runs) + "; runs are counted from 0.");
+    }
+    request.trace = *run;
+  }
+  const std::size_t figures = (request.plans.size() + 2) * sizeof(double);
+  const std::size_t most = std::max<std::size_t>(1, limits.max_plan_memory / 4 / figures);
+  if (runs > most) {
+    request.warnings.push_back("runs was reduced from " + std::to_string(runs) + " to " +
+                               std::to_string(most) + ": more figures of " +
+                               std::to_string(request.plans.size()) +
+                               " plans do not fit in max_plan_memory of /v1/limits.");
+  }
+  request.settings.runs = std::min(runs, most);
+}
+
+void take_fleet(Fleet& fleet, const Limits& limits, SimulateRequest& request) {
+  request.wait_before_move = fleet.options.plan.wait_before_move;
+  request.budget = effective_budget(fleet.options, limits);
+  if (auto warning = budget_warning(fleet.options, limits)) request.warnings.push_back(std::move(*warning));
+  if (!fleet.obstacles.empty()) {
+    request.warnings.emplace_back(
+        "Moving obstacles are not simulated: figures are of robots and walls only.");
+  }
+  for (ReadRobot& read : fleet.robots) {
+    request.body_radii.push_back(read.body_radius.value_or(read.robot.radius));
+    request.robots.push_back(std::move(read.robot));
+  }
+}
+
+}  // namespace
+
+Result<SimulateRequest, RequestError> parse_simulate_request(std::string_view body, const Limits& limits,
+                                                             const ParseStop& stop) {
+  const auto parse = [&](const JsonReader& root, ParseStop& reading) -> std::optional<SimulateRequest> {
+    Fleet fleet = parse_fleet(root, limits, [&](const ReadOptions& options) {
+      reading.set_budget(effective_budget(options, limits));
+    });
+    const WorldFrame frame = fleet.map ? fleet.map->frame : WorldFrame{};
+    const JsonReader list = root.require("plans");
+    auto plans = parse_plans(list, fleet.robots, frame);
+    if (!fleet.map || reading.met()) return std::nullopt;
+    SimulateRequest request{std::move(fleet.map->grid), frame, {}, std::move(plans), {}};
+    parse_policy(root, request);
+    parse_runs(root, limits, request);
+    request.settings.disturbance = parse_disturbance(root.find("disturbance"));
+    take_fleet(fleet, limits, request);
+    if (fleet.options.invalid_robots == InvalidRobots::report) {
+      mark_invalid_robots(root.find("unplanned"), request.robots);
+    }
+    if (root.fault_count() == 0) join_actions(list, request.robots, request.plans);
+    add_commitments(request);
+    parse_all_dependencies(root, request);
+    return reading.met() ? std::nullopt : std::optional(std::move(request));
+  };
+  return parse_body<SimulateRequest>(body, limits, stop, kMembers, parse);
+}
+
+}  // namespace fleetplan::api

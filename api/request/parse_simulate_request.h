@@ -1,0 +1,47 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/json/parse_stop.h"
+#include "api/json/result.h"
+#include "api/request/limits.h"
+#include "api/request/world_frame.h"
+#include "api/response/error.h"
+#include "core/execution/simulation/simulation.h"
+#include "core/map/occupancy_grid.h"
+#include "core/model/plan.h"
+#include "core/model/robot.h"
+
+namespace fleetplan::api {
+
+/// The most runs of one study.
+inline constexpr std::size_t kMostRuns = 100'000;
+
+/// A readable body of POST /v1/simulate. The actions of every plan are contiguous from the start of its robot
+/// on; whether plans collide is not judged. Robots without a plan have their committed actions as one.
+struct SimulateRequest {
+  core::OccupancyGrid grid;
+  WorldFrame frame;
+  std::vector<core::Robot> robots;
+  std::vector<core::RobotPlan> plans;
+  std::vector<double> body_radii;  // metres, by robot
+  core::ExecutionPolicy policy = core::ExecutionPolicy::open_loop;
+  double max_delay = 0.0;                           // seconds, of clock_stop
+  double wait_before_move = 0.0;                    // seconds, see PlanOptions
+  std::vector<core::Dependency> dependencies = {};  // by robot
+  core::SimulationSettings settings = {};
+  std::optional<std::size_t> trace = {};  // the run that is returned
+  std::chrono::nanoseconds budget{};
+  std::vector<std::string> warnings = {};
+};
+
+/// Reads a body of POST /v1/simulate; ends with `parse_unfinished` or `draining` when the stop is met.
+Result<SimulateRequest, RequestError> parse_simulate_request(std::string_view body, const Limits& limits,
+                                                             const ParseStop& stop = {});
+
+}  // namespace fleetplan::api

@@ -1,0 +1,109 @@
+#include "core/execution/simulation/disturbance.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/runtime/random.h"
+
+namespace fleetplan::core {
+namespace {
+
+constexpr std::size_t kDrawsBetweenPolls = 1024;
+constexpr double kSecondsPerHour = 3600.0;
+
+/// The seed of one run: a bijection of the 64 bits that leaves no two seeds or runs similar (Steele, Lea and
+/// Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+std::uint64_t mixed(std::uint64_t bits) {
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebULL;
+  return bits ^ (bits >> 31);
+}
+
+class Draw {
+ public:
+  Draw(const Disturbance& disturbance, std::uint64_t seed, std::uint64_t run, const StopCondition& stop)
+      : disturbance_(disturbance), random_(mixed(mixed(seed) + run)), stop_(stop) {}
+
+  DisturbedActions actions(const std::vector<Action>& planned) {
+    DisturbedActions drawn;
+    drawn.actions.reserve(planned.size());
+    for (const Action& action : planned) {
+      DisturbedActions::Of& of = drawn.actions.emplace_back();
+      of.start_delay = uniform(disturbance_.start_delay);
+      of.halts.begin = drawn.all_halts.size();
+      of.offsets.begin = drawn.all_offsets.size();
+      if (action.type != Action::Type::wait) {
+        const bool turns = action.type == Action::Type::rotate;
+        of.moving = (action.t_end - action.t_start) / uniform(turns ? disturbance_.turn : disturbance_.speed);
+        add_halts(of.moving, drawn.all_halts);
+        if (!turns) add_offsets((action.to.position - action.from.position).norm(), drawn.all_offsets);
+      }
+      of.halts.end = drawn.all_halts.size();
+      of.offsets.end = drawn.all_offsets.size();
+      if (stopped_) break;
+    }
+    return drawn;
+  }
+
+  bool stopped() const { return stopped_; }
+
+ private:
+  /// Looks at the stop condition once in many draws.
+  double unit() {
+    if (++draws_ % kDrawsBetweenPolls == 0) stopped_ = stopped_ || stop_.met();
+    return random_.unit();
+  }
+
+  double uniform(const UniformRange& range) {
+    return range.min < range.max ? range.min + unit() * (range.max - range.min) : range.min;
+  }
+
+  double exponential(double mean) { return -mean * std::log1p(-unit()); }
+
+  /// By the method of Box and Muller.
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log1p(-unit()));
+    return radius * std::cos(2.0 * std::numbers::pi * unit());
+  }
+
+  void add_halts(double moving, std::vector<DisturbedActions::Halt>& halts) {
+    const Disturbance::Stops& stops = disturbance_.stops;
+    if (stops.rate_per_hour <= 0.0 || stops.mean_s <= 0.0) return;
+    const double mean_gap = kSecondsPerHour / stops.rate_per_hour;
+    for (double at = exponential(mean_gap); at < moving && !stopped_; at += exponential(mean_gap)) {
+      halts.push_back({at, exponential(stops.mean_s)});
+    }
+  }
+
+  void add_offsets(double length, std::vector<double>& offsets) {
+    if (!disturbance_.leaves_paths()) return;
+    const double knots = std::round(length / disturbance_.cross_track.correlation_length);
+    for (double knot = 0.0; knot < knots && !stopped_; knot += 1.0) {
+      offsets.push_back(disturbance_.cross_track.sigma * normal());
+    }
+  }
+
+  const Disturbance& disturbance_;
+  Random random_;
+  const StopCondition& stop_;
+  std::size_t draws_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+std::optional<std::vector<DisturbedActions>> draw_disturbances(const std::vector<RobotPlan>& plans,
+                                                               const Disturbance& disturbance,
+                                                               std::uint64_t seed, std::uint64_t run,
+                                                               const StopCondition& stop) {
+  Draw draw(disturbance, seed, run, stop);
+  std::vector<DisturbedActions> drawn;
+  drawn.reserve(plans.size());
+  for (const RobotPlan& plan : plans) {
+    drawn.push_back(draw.actions(plan.actions));
+    if (draw.stopped()) return std::nullopt;
+  }
+  return drawn;
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,87 @@
+#pragma once
+
+// What delays robots, and how far they drive beside their paths. Drawn for one execution of a fleet at a
+// time.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/model/action.h"
+#include "core/model/plan.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// A uniform distribution; min <= max.
+struct UniformRange {
+  double min = 0.0;
+  double max = 0.0;
+};
+
+/// What disturbs the execution of a plan. The default disturbs nothing.
+struct Disturbance {
+  /// Stops as a Poisson process in the time that a robot moves, of exponential durations.
+  struct Stops {
+    double rate_per_hour = 0.0;
+    double mean_s = 0.0;
+  };
+  /// Offsets to the left of a translation, metres: normal values about one correlation length apart, linear
+  /// between them, and 0 at both ends of the translation.
+  struct CrossTrack {
+    double sigma = 0.0;
+    double correlation_length = 1.0;  // metres, > 0
+  };
+
+  UniformRange speed{1.0, 1.0};  // factor on the planned speed of each translation, > 0
+  UniformRange turn{1.0, 1.0};   // the same for rotations
+  Stops stops = {};
+  UniformRange start_delay{0.0, 0.0};  // seconds before each action, >= 0
+  CrossTrack cross_track = {};
+
+  bool leaves_paths() const { return cross_track.sigma > 0.0; }
+};
+
+/// The disturbances of the actions of one robot in one execution.
+struct DisturbedActions {
+  /// A robot stands still when it has moved for `after` seconds in an action.
+  struct Halt {
+    double after = 0.0;
+    double seconds = 0.0;
+  };
+  struct Range {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+  };
+  struct Of {
+    double start_delay = 0.0;  // seconds
+    double moving = 0.0;       // seconds that a rotation or translation takes without halts
+    Range halts = {};
+    Range offsets = {};
+  };
+
+  std::vector<Of> actions;
+  std::vector<Halt> all_halts;
+  std::vector<double> all_offsets;  // metres to the left, evenly spaced between the ends of the translation
+
+  std::span<const Halt> halts(std::size_t action) const {
+    const Range range = actions[action].halts;
+    return std::span(all_halts).subspan(range.begin, range.end - range.begin);
+  }
+  std::span<const double> offsets(std::size_t action) const {
+    const Range range = actions[action].offsets;
+    return std::span(all_offsets).subspan(range.begin, range.end - range.begin);
+  }
+};
+
+/// The disturbances of every plan in run number `run`, in the order of `plans`. They depend on the plans, the
+/// disturbance, the seed and the number only: each policy meets the same ones. Returns none if `stop` is met
+/// first.
+std::optional<std::vector<DisturbedActions>> draw_disturbances(const std::vector<RobotPlan>& plans,
+                                                               const Disturbance& disturbance,
+                                                               std::uint64_t seed, std::uint64_t run,
+                                                               const StopCondition& stop);
+
+}  // namespace fleetplan::core

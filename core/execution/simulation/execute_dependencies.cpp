@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "core/execution/simulation/execution_policy.h"
+#include "core/execution/simulation/progress_builder.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// A place in a plan: the end of an action is the beginning of the next one.
+struct Place {
+  std::size_t action = 0;
+  double fraction = 0.0;
+
+  friend bool operator<(const Place& a, const Place& b) {
+    return std::tie(a.action, a.fraction) < std::tie(b.action, b.fraction);
+  }
+};
+
+/// A robot may pass `place` once another one has reached its own.
+struct Gate {
+  Place place;
+  std::size_t other = 0;
+  Place until;
+};
+
+/// The place as a gate: before an action rather than after another.
+Place as_gate(const ActionProgress& progress) {
+  if (progress.fraction < 1.0) return {progress.action, progress.fraction};
+  return {progress.action + 1, 0.0};
+}
+
+/// The place as one that is reached: after an action rather than before another.
+Place as_reached(const ActionProgress& progress) {
+  if (progress.fraction > 0.0 || progress.action == 0) return {progress.action, progress.fraction};
+  return {progress.action - 1, 1.0};
+}
+
+/// When the robot reaches the place; none if it has not come so far.
+std::optional<double> time_reached(const ExecutedProgress& progress, const Place& place) {
+  if (place.action == 0 && place.fraction <= 0.0) return 0.0;
+  const auto found = std::lower_bound(progress.knots.begin(), progress.knots.end(), place,
+                                      [](const ExecutionKnot& knot, const Place& sought) {
+                                        return Place{knot.action, knot.fraction} < sought;
+                                      });
+  if (found == progress.knots.end()) return std::nullopt;
+  if (found->action != place.action || found == progress.knots.begin()) return found->t;
+  const ExecutionKnot& before = *(found - 1);
+  if (before.action != place.action) return found->t;
+  const double part = (place.fraction - before.fraction) / (found->fraction - before.fraction);
+  return before.t + part * (found->t - before.t);
+}
+
+/// Lets every robot go on as far as it is known to be allowed, until nobody can.
+class DependentExecution {
+ public:
+  DependentExecution(const PlannedExecution& planned, const std::vector<DisturbedActions>& disturbed,
+                     const StopCondition& stop)
+      : planned_(planned), disturbed_(disturbed), stop_(stop), robots_(planned.plans.size()) {
+    for (const Dependency& dependency : planned.dependencies) {
+      const Place place = as_gate(dependency.gate);
+      robots_[dependency.gate.robot].gates.push_back(
+          {place, dependency.until.robot, as_reached(dependency.until)});
+    }
+    for (Robot& robot : robots_) {
+      std::stable_sort(robot.gates.begin(), robot.gates.end(),
+                       [](const Gate& a, const Gate& b) { return a.place < b.place; });
+    }
+  }
+
+  std::optional<std::vector<ExecutedProgress>> run() {
+    std::vector<std::size_t> ready(robots_.size());
+    for (std::size_t k = 0; k < ready.size(); ++k) ready[k] = k;
+    while (!ready.empty()) {
+      if (stop_.met()) return std::nullopt;
+      const std::size_t robot = ready.back();
+      ready.pop_back();
+      if (!advance(robot)) robots_[robots_[robot].blocked_by].waiting.push_back(robot);
+      // Those that still wait for this robot after another look wait again.
+      const std::vector<std::size_t> waiting = std::exchange(robots_[robot].waiting, {});
+      for (const std::size_t other : waiting) {
+        const Robot& waits = robots_[other];
+        const bool may_go =
+            time_reached(robots_[robot].builder.progress(), waits.gates[waits.gate].until).has_value();
+        (may_go ? ready : robots_[robot].waiting).push_back(other);
+      }
+    }
+    std::vector<ExecutedProgress> executed;
+    executed.reserve(robots_.size());
+    for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
+      ExecutedProgress& progress = robots_[robot].builder.progress();
+      progress.arrived = robots_[robot].action == planned_.plans[robot].actions.size();
+      executed.push_back(std::move(progress));
+    }
+    return executed;
+  }
+
+ private:
+  struct Robot {
+    std::vector<Gate> gates = {};
+    std::size_t gate = 0;    // the next one
+    std::size_t action = 0;  // the present or next one
+    bool begun = false;      // the action
+    std::vector<Phase> phases = {};
+    std::size_t phase = 0;
+    ProgressBuilder builder = {};
+    std::size_t blocked_by = 0;
+    std::vector<std::size_t> waiting = {};  // for this robot
+  };
+
+  /// Goes on until the end of the plan, or until a gate of which it is not known when it opens: then false.
+  bool advance(std::size_t index) {
+    Robot& robot = robots_[index];
+    const std::size_t actions = planned_.plans[index].actions.size();
+    while (robot.action < actions) {
+      if (!robot.begun) {
+        robot.builder.begin_action(robot.action);
+        robot.begun = true;
+      }
+      if (robot.phases.empty()) {
+        if (!pass_gates(robot, 0.0)) return false;
+        prepare(index, robot);
+      }
+      for (; robot.phase < robot.phases.size(); ++robot.phase) {
+        if (!advance_phase(robot)) return false;
+      }
+      robot.phases.clear();
+      robot.begun = false;
+      ++robot.action;
+    }
+    return true;
+  }
+
+  /// The phases of an action, now that it may begin.
+  void prepare(std::size_t index, Robot& robot) {
+    const DisturbedActions& disturbed = disturbed_[index];
+    robot.builder.stand_for(disturbed.actions[robot.action].start_delay);
+    robot.phase = 0;
+    if (planned_.plans[index].actions[robot.action].type != Action::Type::wait) {
+      robot.phases = moving_phases(disturbed, robot.action);
+      return;
+    }
+    const WaitPurpose& purpose = planned_.purposes[index][robot.action];
+    robot.builder.stand_until(purpose.not_before);
+    robot.phases = {{purpose.least, 1.0}};
+  }
+
+  /// False: stopped at a gate; what remains of the phase is kept.
+  bool advance_phase(Robot& robot) {
+    Phase& phase = robot.phases[robot.phase];
+    while (robot.gate < robot.gates.size()) {
+      const Place& place = robot.gates[robot.gate].place;
+      if (place.action != robot.action || place.fraction >= phase.to_fraction) break;
+      const double from = robot.builder.fraction();
+      if (place.fraction > from) {
+        const double part = (place.fraction - from) / (phase.to_fraction - from);
+        robot.builder.go_on(part * phase.seconds, place.fraction);
+        phase.seconds *= 1.0 - part;
+      }
+      if (!pass_gates(robot, place.fraction)) return false;
+    }
+    robot.builder.go_on(phase.seconds, phase.to_fraction);
+    return true;
+  }
+
+  /// Waits at the gates up to a fraction of the present action; false: one of them is not known to open.
+  bool pass_gates(Robot& robot, double fraction) {
+    const Place here{robot.action, fraction};
+    for (; robot.gate < robot.gates.size() && !(here < robot.gates[robot.gate].place); ++robot.gate) {
+      const Gate& gate = robot.gates[robot.gate];
+      const auto opens = time_reached(robots_[gate.other].builder.progress(), gate.until);
+      if (!opens) {
+        robot.blocked_by = gate.other;
+        return false;
+      }
+      robot.builder.stand_until(*opens);
+    }
+    return true;
+  }
+
+  const PlannedExecution& planned_;
+  const std::vector<DisturbedActions>& disturbed_;
+  const StopCondition& stop_;
+  std::vector<Robot> robots_;
+};
+
+}  // namespace
+
+std::optional<std::vector<ExecutedProgress>> execute_dependencies(
+    const PlannedExecution& planned, const std::vector<DisturbedActions>& disturbed,
+    const StopCondition& stop) {
+  return DependentExecution(planned, disturbed, stop).run();
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,229 @@
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/execution/simulation/execution_policy.h"
+#include "core/execution/simulation/progress_builder.h"
+
+namespace fleetplan::core {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Seconds, and a share of the latest planned time: a robot that is late by all but this is as late as is
+/// allowed, and planned times that differ by less are the same. Far above the rounding of sums of durations,
+/// far below what a robot could notice.
+constexpr double kSameMoment = 1e-9;
+constexpr double kSameShare = 1e-14;
+constexpr std::size_t kEventsBetweenPolls = 64;
+
+/// A part of a robot's plan: from `from` to `to` in planned time.
+struct ClockPhase {
+  enum class Kind {
+    moves,   // takes `seconds` at the robot's own pace, of which the clock may allow less
+    stands,  // takes `seconds` by real time, whatever the clock does
+    awaits,  // ends when the clock shows the planned time `to`
+  };
+  Kind kind = Kind::moves;
+  std::size_t action = 0;
+  double to_fraction = 0.0;
+  double from = 0.0;
+  double to = 0.0;
+  double seconds = 0.0;
+
+  /// Planned seconds in a second.
+  double pace() const {
+    if (kind != Kind::moves) return 0.0;
+    return seconds > to - from ? (to - from) / seconds : 1.0;
+  }
+};
+
+/// The phases of a robot's whole plan.
+std::vector<ClockPhase> clock_phases(const std::vector<Action>& actions,
+                                     const std::vector<WaitPurpose>& purposes,
+                                     const DisturbedActions& disturbed) {
+  using Kind = ClockPhase::Kind;
+  std::vector<ClockPhase> phases;
+  for (std::size_t k = 0; k < actions.size(); ++k) {
+    const Action& action = actions[k];
+    const double begin = action.t_start;
+    phases.push_back({Kind::awaits, k, 0.0, begin, begin, 0.0});
+    phases.push_back({Kind::stands, k, 0.0, begin, begin, disturbed.actions[k].start_delay});
+    if (action.type == Action::Type::wait) {
+      const double least = purposes[k].least;
+      phases.push_back({Kind::awaits, k, 0.0, begin, action.t_end - least, 0.0});
+      phases.push_back({Kind::moves, k, 1.0, action.t_end - least, action.t_end, least});
+      continue;
+    }
+    double fraction = 0.0;
+    for (const Phase& phase : moving_phases(disturbed, k)) {
+      const double planned = action.t_end - begin;
+      const Kind kind = phase.to_fraction > fraction ? Kind::moves : Kind::stands;
+      phases.push_back({kind, k, phase.to_fraction, begin + fraction * planned,
+                        phase.to_fraction < 1.0 ? begin + phase.to_fraction * planned : action.t_end,
+                        phase.seconds});
+      fraction = phase.to_fraction;
+    }
+  }
+  return phases;
+}
+
+/// Steps from event to event; between them, every robot has a constant pace.
+class ClockedExecution {
+ public:
+  ClockedExecution(const PlannedExecution& planned, const std::vector<DisturbedActions>& disturbed,
+                   const StopCondition& stop)
+      : max_delay_(planned.max_delay), stop_(stop), robots_(planned.plans.size()) {
+    for (std::size_t k = 0; k < robots_.size(); ++k) {
+      const std::vector<Action>& actions = planned.plans[k].actions;
+      robots_[k].phases = clock_phases(actions, planned.purposes[k], disturbed[k]);
+      if (!actions.empty()) {
+        same_moment_ = std::max(same_moment_, kSameMoment + kSameShare * actions.back().t_end);
+      }
+    }
+  }
+
+  std::optional<std::vector<ExecutedProgress>> run() {
+    for (std::size_t event = 0;; ++event) {
+      if (event % kEventsBetweenPolls == 0 && stop_.met()) return std::nullopt;
+      finish_phases();
+      if (std::all_of(robots_.begin(), robots_.end(), [](const Robot& robot) { return robot.done(); })) break;
+      step();
+    }
+    std::vector<ExecutedProgress> executed;
+    executed.reserve(robots_.size());
+    for (Robot& robot : robots_) executed.push_back(std::move(robot.progress));
+    return executed;
+  }
+
+ private:
+  struct Robot {
+    std::vector<ClockPhase> phases = {};
+    std::size_t phase = 0;
+    double at = 0.0;     // progress in planned time
+    double stood = 0.0;  // seconds of a phase that stands
+    double pace = 0.0;   // since the last knot
+    bool begun = false;  // the phase
+    ExecutedProgress progress = {};
+
+    bool done() const { return phase == phases.size(); }
+    const ClockPhase& now() const { return phases[phase]; }
+  };
+
+  double delay(const Robot& robot) const { return clock_ - robot.at; }
+
+  /// Whether the robot holds the clock back: it is as late as allowed and has not the pace of the plan.
+  bool holds(const Robot& robot) const {
+    return !robot.done() && robot.now().kind != ClockPhase::Kind::awaits && robot.now().pace() < 1.0 &&
+           delay(robot) >= max_delay_ - same_moment_;
+  }
+
+  bool is_over(const Robot& robot) const {
+    const ClockPhase& phase = robot.now();
+    switch (phase.kind) {
+      case ClockPhase::Kind::moves:
+        return robot.at >= phase.to - same_moment_ * std::min(1.0, phase.pace());
+      case ClockPhase::Kind::stands:
+        return robot.stood >= phase.seconds;
+      case ClockPhase::Kind::awaits:
+        break;
+    }
+    return clock_ >= phase.to - same_moment_;
+  }
+
+  void finish_phases() {
+    for (Robot& robot : robots_) {
+      while (!robot.done()) {
+        const ClockPhase& phase = robot.now();
+        if (!robot.begun) begin(robot, phase);
+        if (!is_over(robot)) break;
+        robot.at = phase.to;
+        add_knot(robot, {now_, phase.action, phase.to_fraction});
+        robot.begun = false;
+        robot.stood = 0.0;
+        ++robot.phase;
+      }
+    }
+  }
+
+  void begin(Robot& robot, const ClockPhase& phase) {
+    robot.begun = true;
+    const bool first = robot.progress.knots.empty() || robot.progress.knots.back().action != phase.action;
+    if (first) robot.progress.knots.push_back({now_, phase.action, 0.0});
+  }
+
+  static void add_knot(Robot& robot, const ExecutionKnot& knot) {
+    const ExecutionKnot& last = robot.progress.knots.back();
+    if (last.t != knot.t || last.fraction != knot.fraction) robot.progress.knots.push_back(knot);
+  }
+
+  /// The pace of a robot while the clock goes at `clock_pace`.
+  double pace(const Robot& robot, double clock_pace) const {
+    if (robot.done() || robot.now().kind == ClockPhase::Kind::awaits) return 0.0;
+    return holds(robot) ? std::min(robot.now().pace(), clock_pace) : robot.now().pace() * clock_pace;
+  }
+
+  void step() {
+    double clock_pace = 1.0;
+    for (const Robot& robot : robots_) {
+      if (holds(robot)) clock_pace = std::min(clock_pace, robot.now().pace());
+    }
+    double seconds = kInfinity;
+    for (const Robot& robot : robots_) seconds = std::min(seconds, until_event(robot, clock_pace));
+    for (Robot& robot : robots_) {
+      if (robot.done()) continue;
+      const double pace_now = pace(robot, clock_pace);
+      if (pace_now != robot.pace) bend(robot);
+      robot.pace = pace_now;
+      robot.at += pace_now * seconds;
+      robot.stood += seconds;
+    }
+    clock_ += clock_pace * seconds;
+    now_ += seconds;
+  }
+
+  /// Seconds until the robot's phase ends, or until it begins to hold the clock back; infinity if neither
+  /// happens at these paces.
+  double until_event(const Robot& robot, double clock_pace) const {
+    if (robot.done()) return kInfinity;
+    const ClockPhase& phase = robot.now();
+    if (phase.kind == ClockPhase::Kind::awaits) {
+      return clock_pace > 0.0 ? (phase.to - clock_) / clock_pace : kInfinity;
+    }
+    const double robot_pace = pace(robot, clock_pace);
+    double seconds = kInfinity;
+    if (phase.kind == ClockPhase::Kind::stands) seconds = phase.seconds - robot.stood;
+    if (robot_pace > 0.0) seconds = (phase.to - robot.at) / robot_pace;
+    if (!holds(robot) && clock_pace > robot_pace) {
+      seconds = std::min(seconds, (max_delay_ - delay(robot)) / (clock_pace - robot_pace));
+    }
+    return std::max(0.0, seconds);
+  }
+
+  /// A knot where the pace of a robot changes within a phase.
+  void bend(Robot& robot) const {
+    const ClockPhase& phase = robot.now();
+    if (phase.kind != ClockPhase::Kind::moves || phase.to <= phase.from) return;
+    const double begin = robot.phase > 0 && robot.phases[robot.phase - 1].action == phase.action
+                             ? robot.phases[robot.phase - 1].to_fraction
+                             : 0.0;
+    const double part = std::clamp((robot.at - phase.from) / (phase.to - phase.from), 0.0, 1.0);
+    add_knot(robot, {now_, phase.action, begin + part * (phase.to_fraction - begin)});
+  }
+
+  const double max_delay_;
+  const StopCondition& stop_;
+  double same_moment_ = kSameMoment;
+  double now_ = 0.0;    // seconds
+  double clock_ = 0.0;  // planned time
+  std::vector<Robot> robots_;
+};
+
+}  // namespace
+
+std::optional<std::vector<ExecutedProgress>> execute_with_clock(
+    const PlannedExecution& planned, const std::vector<DisturbedActions>& disturbed,
+    const StopCondition& stop) {
+  return ClockedExecution(planned, disturbed, stop).run();
+}
+
+}  // namespace fleetplan::core

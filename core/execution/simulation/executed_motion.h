@@ -1,0 +1,40 @@
+#pragma once
+
+// What a robot did in one execution of its plan.
+
+#include <cstddef>
+#include <vector>
+
+#include "core/execution/simulation/disturbance.h"
+#include "core/model/action.h"
+#include "core/model/robot.h"
+#include "core/verify/execution/execution.h"
+
+namespace fleetplan::core {
+
+/// A robot has executed `action` up to `fraction` at time `t`.
+struct ExecutionKnot {
+  double t = 0.0;  // seconds
+  std::size_t action = 0;
+  double fraction = 0.0;
+};
+
+/// The progress of a robot: linear in time from knot to knot within an action. Every action that has begun
+/// has a knot with fraction 0.
+struct ExecutedProgress {
+  std::vector<ExecutionKnot> knots;
+  bool arrived = true;  // false: it stands at the last knot for ever
+
+  double end() const { return knots.empty() ? 0.0 : knots.back().t; }
+};
+
+/// Where the robot is from t = 0 on, as legs like those of `execute`; stand-stills in one place are one leg.
+std::vector<Leg> executed_legs(const Robot& robot, const std::vector<Action>& planned,
+                               const DisturbedActions& disturbed, const ExecutedProgress& progress);
+
+/// The same as actions, contiguous in time and space: planned actions at their executed times, cut where the
+/// robot halts, or where the offset from its path changes. Headings are those of the plan.
+std::vector<Action> disturbed_actions(const std::vector<Action>& planned, const DisturbedActions& disturbed,
+                                      const ExecutedProgress& progress);
+
+}  // namespace fleetplan::core

@@ -1,0 +1,51 @@
+#include "core/execution/simulation/execution_policy.h"
+
+#include <utility>
+
+#include "core/execution/simulation/progress_builder.h"
+
+namespace fleetplan::core {
+
+ExecutedProgress execute_alone(const PlannedExecution& planned, std::size_t plan,
+                               const DisturbedActions& disturbed) {
+  const std::vector<Action>& actions = planned.plans[plan].actions;
+  ProgressBuilder builder;
+  for (std::size_t k = 0; k < actions.size(); ++k) {
+    const Action& action = actions[k];
+    builder.begin_action(k);
+    builder.stand_for(disturbed.actions[k].start_delay);
+    if (action.type != Action::Type::wait) {
+      for (const Phase& phase : moving_phases(disturbed, k)) builder.go_on(phase.seconds, phase.to_fraction);
+    } else if (planned.policy == ExecutionPolicy::open_loop) {
+      builder.go_on(action.t_end - action.t_start, 1.0);
+    } else {
+      const double least = planned.purposes[plan][k].least;
+      builder.stand_until(action.t_end - least);
+      builder.go_on(least, 1.0);
+    }
+  }
+  return std::move(builder.progress());
+}
+
+std::optional<std::vector<ExecutedProgress>> execute_plans(const PlannedExecution& planned,
+                                                           const std::vector<DisturbedActions>& disturbed,
+                                                           const StopCondition& stop) {
+  switch (planned.policy) {
+    case ExecutionPolicy::dependencies:
+      return execute_dependencies(planned, disturbed, stop);
+    case ExecutionPolicy::clock_stop:
+      return execute_with_clock(planned, disturbed, stop);
+    case ExecutionPolicy::open_loop:
+    case ExecutionPolicy::absorb_waits:
+      break;
+  }
+  std::vector<ExecutedProgress> executed;
+  executed.reserve(disturbed.size());
+  for (std::size_t plan = 0; plan < disturbed.size(); ++plan) {
+    if (stop.met()) return std::nullopt;
+    executed.push_back(execute_alone(planned, plan, disturbed[plan]));
+  }
+  return executed;
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,116 @@
+#pragma once
+
+// A Monte-Carlo study: a plan is executed many times with other disturbances, in continuous time and without
+// time steps, and each execution is checked by the formulas of the checker.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/execution/simulation/collisions.h"
+#include "core/execution/simulation/disturbance.h"
+#include "core/execution/simulation/execution_policy.h"
+#include "core/map/occupancy_grid.h"
+#include "core/model/plan.h"
+#include "core/model/robot.h"
+#include "core/runtime/executor.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// What is executed. A robot without a plan executes its committed actions and stays at their end.
+struct SimulatedFleet {
+  const OccupancyGrid& grid;
+  const std::vector<Robot>& robots;
+  std::vector<double> body_radii;  // metres, by robot
+  PlannedExecution execution;
+};
+
+struct SimulationSettings {
+  Disturbance disturbance;
+  std::size_t runs = 1;
+  std::uint64_t seed = 0;
+};
+
+/// Executes and checks one run after the other, in any order and by any thread.
+class Simulator {
+ public:
+  /// What became of one run.
+  struct Run {
+    std::vector<double>
+        ends;  // seconds, by plan: when its robot arrived; of one that has not, its last moment
+    std::vector<std::size_t> stuck;  // plans whose robots wait for ever, ascending
+    ExecutionCollisions collisions;
+  };
+  /// One run in detail.
+  struct Trace {
+    std::vector<std::vector<Action>> actions;  // by plan
+  };
+
+  /// The fleet has to outlive it.
+  Simulator(const SimulatedFleet& fleet, const SimulationSettings& settings);
+
+  /// None if `stop` is met first.
+  std::optional<Run> run(std::uint64_t number, const StopCondition& stop) const;
+  std::optional<Trace> trace(std::uint64_t number, const StopCondition& stop) const;
+
+ private:
+  struct Executed {
+    std::vector<DisturbedActions> disturbed;  // by plan
+    std::vector<ExecutedProgress> progress;
+  };
+  std::optional<Executed> execute(std::uint64_t number, const StopCondition& stop) const;
+
+  const SimulatedFleet& fleet_;
+  const SimulationSettings settings_;
+  ObstacleField field_;
+  std::vector<std::vector<Leg>> resting_;  // by robot: of those without a plan; empty for others
+  std::vector<std::size_t> near_walls_;    // robots that may meet a wall
+};
+
+/// Progress of a study.
+struct SimulationProgress {
+  std::size_t done = 0;  // runs
+  std::size_t runs = 0;  // asked for
+  std::size_t collided = 0;
+  std::size_t deadlocked = 0;
+};
+
+/// The figures of a study. All of them depend on the fleet, the settings and the number of runs only.
+struct SimulationReport {
+  struct Numbered {
+    std::size_t run = 0;
+    ExecutedCollision collision;
+  };
+  struct Deadlock {
+    std::size_t run = 0;
+    std::vector<std::size_t> plans;  // whose robots wait for ever
+  };
+  struct Pair {
+    std::size_t first = 0;  // robots
+    std::size_t second = 0;
+    std::size_t runs = 0;  // in which they collide
+  };
+  static constexpr std::size_t kMostListed = 20;
+
+  SimulationProgress totals;
+  std::vector<double> flowtimes;  // seconds, of the runs in which everybody arrives
+  std::vector<double> makespans;  // of the same runs
+  std::vector<std::vector<double>>
+      delays;  // by plan: seconds behind its cost, of the runs in which it arrives
+  std::vector<Numbered> first_collisions;  // of the first runs that have one
+  std::vector<Deadlock> deadlocks;         // of the first runs that have one
+  std::vector<Pair> pairs;                 // those that collide in most runs; then by robots
+};
+
+/// Executes runs 0, 1, ... until all of them are done, `stop` is met, or `go_on` returns false, which is
+/// asked from time to time: the report has all runs before the first one that is not done. The executor's
+/// threads help; the figures do not depend on their number.
+SimulationReport simulate(const SimulatedFleet& fleet, const SimulationSettings& settings,
+                          const StopCondition& stop, Executor& executor,
+                          const std::function<bool(const SimulationProgress&)>& go_on = {});
+
+}  // namespace fleetplan::core

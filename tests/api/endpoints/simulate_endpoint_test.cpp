@@ -1,0 +1,298 @@
+#include "api/endpoints/simulate_endpoint.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "api/endpoints/plan_endpoint.h"
+#include "tests/api/support/requests.h"
+#include "tests/api/support/test_turn.h"
+#include "tests/support/threaded_executor.h"
+
+namespace fleetplan::api {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// The swap with its plan, to be executed by a policy.
+Json simulate_request(const char* policy = "open_loop") {
+  Json request = swap_request();
+  const Json answer = json_of(plan_endpoint(request.dump(), {}));
+  request["plans"] = answer["plans"];
+  request["disturbance"] = Json::parse(R"({"speed": {"min": 0.5, "max": 1}, "turn": {"min": 0.6, "max": 1},
+    "stops": {"rate_per_hour": 360, "mean_s": 2}, "start_delay": {"min": 0, "max": 0.2}})");
+  request["policy"] = policy;
+  request["runs"] = 40;
+  return request;
+}
+
+Reply reply_to(const Json& request, const RequestContext& context = {}) {
+  return simulate_endpoint(request.dump(), context);
+}
+
+Json simulated(const Json& request, const RequestContext& context = {}) {
+  const Reply reply = reply_to(request, context);
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  return json_of(reply);
+}
+
+Faults faults_of_simulation(const Json& request) {
+  const Reply reply = reply_to(request);
+  EXPECT_EQ(reply.status, 422) << reply.body;
+  Faults faults;
+  const Json body = json_of(reply);
+  for (const auto& fault : body["errors"]) faults.emplace_back(fault["pointer"], fault["code"]);
+  return faults;
+}
+
+TEST(SimulateEndpoint, HasThePlannedFiguresWithoutDisturbance) {
+  for (const char* policy : {"open_loop", "absorb_waits", "clock_stop"}) {
+    Json request = simulate_request(policy);
+    request.erase("disturbance");
+    if (std::string(policy) == "clock_stop") request["max_delay"] = 1;
+    const Json answer = simulated(request);
+    EXPECT_EQ(answer["runs"], 40);
+    EXPECT_EQ(answer["collision_share"], 0.0);
+    EXPECT_EQ(answer["deadlock_share"], 0.0);
+    EXPECT_NEAR(answer["flowtime"]["p50"].get<double>(), answer["planned"]["flowtime"].get<double>(), 1e-6);
+    EXPECT_NEAR(answer["makespan"]["max"].get<double>(), answer["planned"]["makespan"].get<double>(), 1e-6);
+    EXPECT_NEAR(answer["robots"][1]["delay"]["max"].get<double>(), 0.0, 1e-6);
+    EXPECT_EQ(answer["warnings"], Json::array());
+  }
+}
+
+TEST(SimulateEndpoint, HasOrderedQuantilesAndTheCollisions) {
+  const Json answer = simulated(simulate_request());
+  for (const Json& values : {answer["flowtime"], answer["makespan"], answer["robots"][0]["delay"]}) {
+    EXPECT_LE(values["min"], values["p10"]);
+    EXPECT_LE(values["p10"], values["p50"]);
+    EXPECT_LE(values["p50"], values["p90"]);
+    EXPECT_LE(values["p90"], values["p99"]);
+    EXPECT_LE(values["p99"], values["max"]);
+  }
+  EXPECT_GT(answer["flowtime"]["min"], answer["planned"]["flowtime"]);
+  EXPECT_GT(answer["collision_share"], 0.0);
+  const Json& first = answer["first_collisions"][0];
+  EXPECT_EQ(first["with"], "robot");
+  EXPECT_EQ(first["robots"], (Json{"a", "b"}));
+  EXPECT_GT(first["depth"], 0.0);
+  EXPECT_LE(first["depth"], 0.6);
+  EXPECT_EQ(answer["pairs"][0]["robots"], (Json{"a", "b"}));
+  EXPECT_EQ(answer["pairs"][0]["share"], answer["collision_share"]);
+}
+
+TEST(SimulateEndpoint, GivesTheSameAnswerWithAnyNumberOfThreads) {
+  const Json request = simulate_request("absorb_waits");
+  support::ThreadedExecutor executor(3);
+  RequestContext context;
+  context.executor = &executor;
+  EXPECT_EQ(simulated(request), simulated(request, context));
+  Json other = request;
+  other["seed"] = 1;
+  EXPECT_NE(simulated(request)["flowtime"], simulated(other)["flowtime"]);
+}
+
+TEST(SimulateEndpoint, TakesTheAnswerOfAPlanAndItsDependencies) {
+  Json request = simulate_request("dependencies");
+  const Json answer = json_of(plan_endpoint(swap_request().dump(), {}));
+  request.update(answer);
+  request["dependencies"] = Json::array();
+  EXPECT_EQ(simulated(request)["deadlock_share"], 0.0);
+}
+
+TEST(SimulateEndpoint, HasNoCollisionsByTheClockWithinTheIntervalMargin) {
+  Json planned = swap_request();
+  planned["options"] = {{"interval_margin", 0.8}};
+  Json request = simulate_request("clock_stop");
+  request["options"] = planned["options"];
+  request["plans"] = json_of(plan_endpoint(planned.dump(), {}))["plans"];
+  request["max_delay"] = 0.8;
+  request["runs"] = 300;
+  EXPECT_EQ(simulated(request)["collision_share"], 0.0);
+  request["max_delay"] = 20;
+  EXPECT_GT(simulated(request)["collision_share"], 0.0);
+}
+
+TEST(SimulateEndpoint, LetsAddedWaitsAbsorbDelaysByAClockOnly) {
+  Json planned = swap_request();
+  planned["options"] = {{"wait_before_move", 4.0}};
+  Json request = simulate_request("absorb_waits");
+  request["options"] = planned["options"];
+  request["plans"] = json_of(plan_endpoint(planned.dump(), {}))["plans"];
+  request["disturbance"] = Json::parse(R"({"start_delay": {"min": 1, "max": 1}})");
+  request["runs"] = 1;
+  const double absorbed = simulated(request)["flowtime"]["max"];
+  request["policy"] = "open_loop";
+  const double kept = simulated(request)["flowtime"]["max"];
+  EXPECT_GT(kept, absorbed + 1.0);
+  request["policy"] = "dependencies";
+  request["dependencies"] = Json::array();
+  const double waited = simulated(request)["flowtime"]["max"];
+  request["options"]["wait_before_move"] = 0;
+  const double skipped = simulated(request)["flowtime"]["max"];
+  EXPECT_GT(waited, skipped + 4.0);
+}
+
+TEST(SimulateEndpoint, CollidesWithTheRadiusOfTheBody) {
+  Json request = simulate_request();
+  request.erase("disturbance");
+  request["robots"][0]["body_radius"] = 0.5;
+  const Json wide = simulated(request);
+  EXPECT_EQ(wide["collision_share"], 1.0);
+  request["robots"][0].erase("body_radius");
+  request["robot_defaults"]["body_radius"] = 0.1;
+  EXPECT_EQ(simulated(request)["collision_share"], 0.0);
+}
+
+TEST(SimulateEndpoint, ReturnsTheTraceOfARunInTheWorld) {
+  Json request = simulate_request();
+  request["trace"] = 3;
+  const Json trace = simulated(request)["trace"];
+  EXPECT_EQ(trace["run"], 3);
+  ASSERT_EQ(trace["plans"].size(), 2U);
+  const Json& actions = trace["plans"][0]["actions"];
+  EXPECT_EQ(actions.front()["from"]["x"], 0.5);
+  EXPECT_EQ(actions.front()["t_start"], 0.0);
+  EXPECT_EQ(actions.back()["t_end"], trace["plans"][0]["cost"]);
+  EXPECT_NEAR(actions.back()["to"]["x"].get<double>(), 8.5, 1e-9);
+}
+
+TEST(SimulateEndpoint, ReportsFaultsWithPointers) {
+  struct Case {
+    const char* name;
+    std::function<void(Json&)> modify;
+    const char* pointer;
+    const char* code;
+  };
+  const std::vector<Case> cases{
+      {"no policy", [](Json& r) { r.erase("policy"); }, "/policy", "missing"},
+      {"policy", [](Json& r) { r["policy"] = "hope"; }, "/policy", "unknown_value"},
+      {"no plans", [](Json& r) { r.erase("plans"); }, "/plans", "missing"},
+      {"runs", [](Json& r) { r["runs"] = 0; }, "/runs", "out_of_range"},
+      {"most runs", [](Json& r) { r["runs"] = 100'001; }, "/runs", "out_of_range"},
+      {"trace", [](Json& r) { r["trace"] = 40; }, "/trace", "out_of_range"},
+      {"seed", [](Json& r) { r["seed"] = -1; }, "/seed", "out_of_range"},
+      {"no delay", [](Json& r) { r["policy"] = "clock_stop"; }, "/max_delay", "missing"},
+      {"no dependencies", [](Json& r) { r["policy"] = "dependencies"; }, "/dependencies", "missing"},
+      {"null", [](Json& r) { r["policy"] = "dependencies", r["dependencies"] = nullptr; }, "/dependencies",
+       "wrong_type"},
+      {"range", [](Json& r) { r["disturbance"]["speed"]["max"] = 0.4; }, "/disturbance/speed/max",
+       "out_of_range"},
+      {"half a range", [](Json& r) { r["disturbance"]["turn"].erase("min"); }, "/disturbance/turn/min",
+       "missing"},
+      {"factor", [](Json& r) { r["disturbance"]["speed"]["min"] = 0; }, "/disturbance/speed/min",
+       "out_of_range"},
+      {"sigma",
+       [](Json& r) {
+         r["disturbance"]["cross_track"] = {{"sigma", -1}, {"correlation_length", 1}};
+       },
+       "/disturbance/cross_track/sigma", "out_of_range"},
+      {"unknown", [](Json& r) { r["disturbance"]["wind"] = 1; }, "/disturbance/wind", "unknown_key"},
+      {"body", [](Json& r) { r["robots"][1]["body_radius"] = 0; }, "/robots/1/body_radius", "out_of_range"},
+      {"gap", [](Json& r) { r["plans"][0]["actions"][0]["t_start"] = 0.5; }, "/plans/0/actions/0/t_start",
+       "discontinuity"},
+      {"jump", [](Json& r) { r["plans"][1]["actions"][0]["from"]["x"] = 3; }, "/plans/1/actions/0/from",
+       "discontinuity"},
+  };
+  const Json valid = simulate_request();
+  for (const Case& invalid : cases) {
+    SCOPED_TRACE(invalid.name);
+    Json request = valid;
+    invalid.modify(request);
+    EXPECT_THAT(faults_of_simulation(request), ElementsAre(testing::Pair(invalid.pointer, invalid.code)));
+  }
+}
+
+TEST(SimulateEndpoint, ReturnsTheRunsOfItsBudget) {
+  Json request = simulate_request();
+  request["runs"] = 100'000;
+  request["options"] = {{"time_budget_ms", 100}};
+  const Json answer = simulated(request);
+  EXPECT_GE(answer["runs"], 1);
+  EXPECT_LT(answer["runs"], 100'000);
+  ASSERT_EQ(answer["warnings"].size(), 1U);
+  EXPECT_THAT(answer["warnings"][0].get<std::string>(), HasSubstr("runs were finished"));
+}
+
+TEST(SimulateEndpoint, ReportsThatNoRunWasFinished) {
+  const Json request = simulate_request();
+  RequestContext context;
+  context.received_at -= std::chrono::hours(1);
+  const Reply late = reply_to(request, context);
+  EXPECT_EQ(late.status, 422);
+  EXPECT_EQ(late.problem, "parse_unfinished");
+  TestTurn turn;
+  RequestContext queued;
+  queued.turn = &turn;
+  queued.received_at -= std::chrono::milliseconds(4960);
+  const Reply unfinished = reply_to(request, queued);
+  EXPECT_EQ(unfinished.status, 422);
+  EXPECT_EQ(unfinished.problem, "check_unfinished");
+}
+
+TEST(SimulateEndpoint, TakesItsTurn) {
+  TestTurn turn;
+  RequestContext context;
+  context.turn = &turn;
+  EXPECT_EQ(simulated(simulate_request(), context)["runs"], 40);
+  EXPECT_EQ(turn.requests, 1);
+  EXPECT_EQ(turn.need.kind, TurnNeed::Kind::simulation);
+  turn.refuses = true;
+  EXPECT_EQ(reply_to(simulate_request(), context).problem, "overloaded");
+  std::stop_source stop;
+  stop.request_stop();
+  TestTurn late;
+  late.comes = false;
+  context.turn = &late;
+  EXPECT_EQ(reply_to(simulate_request(), context).problem, "overloaded");
+}
+
+TEST(SimulateEndpoint, RunsWithinTheMemoryOfItsFigures) {
+  Json request = simulate_request();
+  request["runs"] = 1000;
+  RequestContext context;
+  context.limits.max_plan_memory = 64 * 1024;
+  const Json answer = simulated(request, context);
+  EXPECT_EQ(answer["runs"], 64 * 1024 / 4 / (4 * 8));
+  EXPECT_THAT(answer["warnings"][0].get<std::string>(), HasSubstr("max_plan_memory"));
+}
+
+class Events final : public PlanEvents {
+ public:
+  void begin(const PlanProgress& progress) override { begun.push_back(progress); }
+  void progress(const PlanProgress& progress) override { received.push_back(progress); }
+  void incumbent(std::string) override { ADD_FAILURE() << "a simulation has no incumbents"; }
+
+  std::vector<PlanProgress> begun;
+  std::vector<PlanProgress> received;
+};
+
+TEST(SimulateEndpoint, ReportsProgress) {
+  Events events;
+  RequestContext context;
+  context.events = &events;
+  Json request = simulate_request();
+  request["runs"] = 200;
+  simulated(request, context);
+  ASSERT_EQ(events.begun.size(), 1U);
+  ASSERT_GE(events.received.size(), 3U);
+  std::size_t done = 0;
+  for (const PlanProgress& progress : events.received) {
+    ASSERT_TRUE(progress.simulation);
+    EXPECT_EQ(progress.simulation->runs, 200U);
+    EXPECT_GE(progress.simulation->done, done);
+    done = progress.simulation->done;
+  }
+  EXPECT_GT(done, 0U);
+  EXPECT_EQ(write_progress({2, {}, core::SimulationProgress{10, 20, 3, 1}}, 1.5),
+            R"({"elapsed_ms":1.5,"runs":20,"done":10,"collided":3,"deadlocked":1})");
+}
+
+}  // namespace
+}  // namespace fleetplan::api
