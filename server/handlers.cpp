@@ -57,25 +57,8 @@ Handler simulate(const Backend& backend) {
   };
 }
 
-Handler validate(const Backend& backend) {
-  return
-      [&backend](Exchange& exchange) { return backend.run_job(exchange, backend.service.validate, nullptr); };
-}
-
-Handler advance(const Backend& backend) {
-  return
-      [&backend](Exchange& exchange) { return backend.run_job(exchange, backend.service.advance, nullptr); };
-}
-
-Handler dependencies(const Backend& backend) {
-  return [&backend](Exchange& exchange) {
-    return backend.run_job(exchange, backend.service.dependencies, nullptr);
-  };
-}
-
-Handler retime(const Backend& backend) {
-  return
-      [&backend](Exchange& exchange) { return backend.run_job(exchange, backend.service.retime, nullptr); };
+Handler compute(const Backend& backend, const Service::Endpoint& endpoint) {
+  return [&backend, &endpoint](Exchange& exchange) { return backend.run_job(exchange, endpoint, nullptr); };
 }
 
 Handler example_list(const Backend& backend) {

@@ -16,13 +16,8 @@ Handler plan(const Backend& backend);
 /// The figures of a simulation, likewise.
 Handler simulate(const Backend& backend);
 
-Handler validate(const Backend& backend);
-
-Handler advance(const Backend& backend);
-
-Handler dependencies(const Backend& backend);
-
-Handler retime(const Backend& backend);
+/// What an endpoint of the backend's service computes, without progress.
+Handler compute(const Backend& backend, const Service::Endpoint& endpoint);
 
 Handler example_list(const Backend& backend);
 

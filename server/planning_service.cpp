@@ -6,6 +6,7 @@
 #include "api/endpoints/retime_endpoint.h"
 #include "api/endpoints/simulate_endpoint.h"
 #include "api/endpoints/validate_endpoint.h"
+#include "api/endpoints/vda5050_endpoint.h"
 #include "server/service.h"
 
 namespace fleetplan::server {
@@ -13,9 +14,16 @@ namespace fleetplan::server {
 Service planning_service() {
   // Listing the examples reads all of their maps, so it is done once.
   const auto list_examples = [list = api::examples_endpoint()] { return list; };
-  Service service{api::plan_endpoint,    api::validate_endpoint,     api::simulate_endpoint,
-                  api::advance_endpoint, api::dependencies_endpoint, api::retime_endpoint,
-                  list_examples,         api::openapi_endpoint,      {}};
+  Service service{.plan = api::plan_endpoint,
+                  .validate = api::validate_endpoint,
+                  .simulate = api::simulate_endpoint,
+                  .advance = api::advance_endpoint,
+                  .dependencies = api::dependencies_endpoint,
+                  .retime = api::retime_endpoint,
+                  .vda5050 = api::vda5050_endpoint,
+                  .example_list = list_examples,
+                  .openapi = api::openapi_endpoint,
+                  .examples = {}};
   for (const auto& example : api::examples()) {
     service.examples.push_back({std::string(example.name), std::string(example.body)});
   }

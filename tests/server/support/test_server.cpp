@@ -45,13 +45,16 @@ Service StubService::service() {
   };
   const auto list = [] { return api::Reply{200, api::kJson, R"({"examples":["tiny"]})"}; };
   const auto openapi = [] { return api::Reply{200, api::kJson, R"({"openapi":"3.1.0"})"}; };
-  return {endpoint,
-          endpoint,
-          endpoint,
-          endpoint,
-          list,
-          openapi,
-          {{"tiny", R"({"robots":[]})"}, {"narrow-door", "{}"}}};
+  return {.plan = endpoint,
+          .validate = endpoint,
+          .simulate = endpoint,
+          .advance = endpoint,
+          .dependencies = endpoint,
+          .retime = endpoint,
+          .vda5050 = endpoint,
+          .example_list = list,
+          .openapi = openapi,
+          .examples = {{"tiny", R"({"robots":[]})"}, {"narrow-door", "{}"}}};
 }
 
 api::Reply StubService::answer(std::string_view body, const api::RequestContext& context) {

@@ -1,0 +1,185 @@
+#include "api/vda5050/parse_vda5050_request.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include "api/json/fault_text.h"
+#include "api/request/motion/parse_dependencies.h"
+#include "api/request/parse_options.h"
+#include "api/request/parse_plans.h"
+#include "api/request/parse_robots.h"
+#include "api/request/ranges.h"
+#include "api/vda5050/release.h"
+#include "core/execution/executed_actions.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+constexpr std::array<std::string_view, 2> kVersions{"2.1.0", "3.0.0"};  // in the order of VdaVersion
+constexpr std::array<std::string_view, 6> kProgressMembers{
+    "robot", "order_id", "order_update_id", "last_released_sequence_id", "action", "progress"};
+constexpr Range kShareDone{0.0, 1.0, ""};
+constexpr std::uint64_t kMostUpdates = 4'294'967'294;  // ids are unsigned numbers of 32 bits
+constexpr std::uint64_t kMostActionIndex = 1'000'000'000;
+
+bool is_timestamp(std::string_view text) {
+  constexpr std::string_view kShape = "0000-00-00T00:00:00";
+  if (text.size() <= kShape.size() || text.back() != 'Z') return false;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t k = 0; k < kShape.size(); ++k) {
+    if (kShape[k] == '0' ? !is_digit(text[k]) : text[k] != kShape[k]) return false;
+  }
+  const std::string_view fraction = text.substr(kShape.size(), text.size() - kShape.size() - 1);
+  if (fraction.empty()) return true;
+  return fraction.size() > 1 && fraction.front() == '.' &&
+         std::all_of(fraction.begin() + 1, fraction.end(), is_digit);
+}
+
+OrderHeader read_header(const JsonReader& root) {
+  OrderHeader header;
+  if (const auto version = root.require("version").word(kVersions)) {
+    header.version = static_cast<VdaVersion>(*version);
+  }
+  header.manufacturer = root.require("manufacturer").name().value_or("");
+  header.map_id = root.find("map_id").name().value_or("map");
+  const JsonReader timestamp = root.require("timestamp");
+  header.timestamp = timestamp.name().value_or("");
+  if (timestamp && timestamp.string() && !is_timestamp(header.timestamp)) {
+    timestamp.must_be(fault::kOutOfRange, "a time in UTC like 2026-01-31T12:00:00.000Z");
+  }
+  return header;
+}
+
+using RobotNumbers = std::unordered_map<std::string_view, std::size_t>;
+
+/// The robot of that name; a name that no robot has is a fault.
+std::optional<std::size_t> find_robot(const RobotNumbers& numbers, const JsonReader& member,
+                                      std::string_view id) {
+  const auto found = numbers.find(id);
+  if (found != numbers.end()) return found->second;
+  member.fault(fault::kUnknownRobot, [&] { return "There is no robot " + in_quotes(id) + " in robots."; });
+  return std::nullopt;
+}
+
+std::vector<std::string> read_serial_numbers(const JsonReader& member, const RobotNumbers& numbers,
+                                             const std::vector<core::Robot>& robots) {
+  std::vector<std::string> serials;
+  std::vector<std::string_view> known;
+  for (const core::Robot& robot : robots) {
+    serials.push_back(robot.id);
+    known.push_back(robot.id);
+  }
+  const JsonReader json = member.object(known);
+  if (!json) return serials;
+  for (const auto& [id, robot] : numbers) {
+    if (const auto serial = json.find(id).name()) serials[robot] = *serial;
+  }
+  return serials;
+}
+
+class ProgressReader {
+ public:
+  ProgressReader(const RobotNumbers& numbers, const std::vector<core::Actions>& actions,
+                 const std::vector<Route>& routes)
+      : numbers_(numbers), actions_(actions), routes_(routes), seen_(actions.size(), false) {}
+
+  std::vector<OrderProgress> read(const JsonReader& member) {
+    std::vector<OrderProgress> progress(actions_.size());
+    for (const JsonReader item : member.array().items()) {
+      const JsonReader json = item.object(kProgressMembers);
+      const auto id = json.require("robot").name();
+      if (!id) continue;
+      const auto robot = find_robot(numbers_, json.find("robot"), *id);
+      if (!robot) continue;
+      if (seen_[*robot])
+        json.find("robot").fault(fault::kDuplicate,
+                                 "The progress of this robot is given twice; give it once.");
+      seen_[*robot] = true;
+      progress[*robot] = read_one(json, *robot);
+    }
+    return progress;
+  }
+
+ private:
+  OrderProgress read_one(const JsonReader& json, std::size_t robot) const {
+    OrderProgress progress;
+    progress.at = read_point(json, robot);
+    const JsonReader order_id = json.find("order_id");
+    if (!order_id || order_id.is_null()) return progress;
+    progress.order_id = order_id.name();
+    progress.update_id = json.require("order_update_id").natural(kMostUpdates).value_or(0);
+    const JsonReader last = json.require("last_released_sequence_id");
+    progress.last_released = last.natural(kMostUpdates).value_or(0);
+    const std::size_t nodes = routes_[robot].nodes.size();
+    if (progress.last_released % 2 != 0 || progress.last_released >= 2 * nodes) {
+      last.fault(fault::kOutOfRange, [&] {
+        return "The robot's order has " + std::to_string(nodes) +
+               " nodes, with the sequence ids 0, 2, 4 and so on. Is the progress of an order of other plans?";
+      });
+    }
+    return progress;
+  }
+
+  RoutePoint read_point(const JsonReader& json, std::size_t robot) const {
+    const JsonReader action = json.require("action");
+    const auto index = action.natural(kMostActionIndex);
+    const auto fraction = json.require("progress").number(kShareDone);
+    if (!index || !fraction) return {};
+    const std::size_t count = actions_[robot].size();
+    // A robot that has no actions, or has executed all, may be at their end.
+    if (*index < count || (*index == count && *fraction == 0.0)) {
+      return route_point({robot, *index, *fraction});
+    }
+    action.fault(fault::kOutOfRange,
+                 [&] { return "The robot has " + std::to_string(count) + " actions, numbered from 0."; });
+    return {};
+  }
+
+  const RobotNumbers& numbers_;
+  const std::vector<core::Actions>& actions_;
+  const std::vector<Route>& routes_;
+  std::vector<bool> seen_;
+};
+
+std::vector<Route> routes_of(const VdaRequest& request, const std::vector<core::Actions>& actions,
+                             double wait_before_move) {
+  const auto points = points_of(request.dependencies, request.robots.size());
+  std::vector<Route> routes;
+  routes.reserve(request.robots.size());
+  for (std::size_t k = 0; k < request.robots.size(); ++k) {
+    routes.push_back(route_of(request.robots[k], actions[k], points[k], wait_before_move));
+  }
+  return routes;
+}
+
+}  // namespace
+
+std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Limits& limits,
+                                                ParseStop& stop) {
+  VdaRequest request;
+  request.header = read_header(root);
+  const double wait_before_move = parse_options(root.find("options")).plan.wait_before_move;
+  UniqueIds ids;
+  // Without the map's frame: orders are in the client's world.
+  std::vector<ReadRobot> robots =
+      parse_robots(root.require("robots"), root.find("robot_defaults"), WorldFrame{}, limits, ids);
+  request.plans = parse_plans(root.require("plans"), robots, WorldFrame{});
+  if (root.fault_count() > 0 || stop.met()) return std::nullopt;
+  for (ReadRobot& robot : robots) request.robots.push_back(std::move(robot.robot));
+  request.dependencies = parse_dependencies(
+      root.require("dependencies",
+                   "; make them with POST /v1/dependencies, or with options.dependencies of POST /v1/plan"),
+      request.robots, request.plans);
+  RobotNumbers numbers;
+  for (std::size_t k = 0; k < request.robots.size(); ++k) numbers.emplace(request.robots[k].id, k);
+  request.serial_numbers = read_serial_numbers(root.find("serial_numbers"), numbers, request.robots);
+  const auto actions = core::executed_actions(request.robots, request.plans);
+  request.routes = routes_of(request, actions, wait_before_move);
+  request.progress = ProgressReader(numbers, actions, request.routes).read(root.find("progress"));
+  if (root.fault_count() > 0 || stop.met()) return std::nullopt;
+  return request;
+}
+
+}  // namespace fleetplan::api

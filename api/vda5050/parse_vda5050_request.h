@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/json/json_reader.h"
+#include "api/json/parse_stop.h"
+#include "api/request/limits.h"
+#include "api/vda5050/order.h"
+#include "core/execution/dependency.h"
+#include "core/model/plan.h"
+#include "core/model/robot.h"
+
+namespace fleetplan::api {
+
+/// How far a robot is, and the order that it has.
+struct OrderProgress {
+  RoutePoint at;
+  std::optional<std::string> order_id;  // none: it has no order yet
+  std::uint64_t update_id = 0;          // of the last message
+  std::uint64_t last_released = 0;      // the sequence id of the last node of the base
+};
+
+/// A readable body of POST /v1/export/vda5050, in the client's world.
+struct VdaRequest {
+  OrderHeader header;
+  std::vector<core::Robot> robots;
+  std::vector<core::RobotPlan> plans;
+  std::vector<core::Dependency> dependencies;
+  std::vector<Route> routes;                // by robot
+  std::vector<OrderProgress> progress;      // by robot
+  std::vector<std::string> serial_numbers;  // by robot
+};
+
+inline constexpr std::array<std::string_view, 13> kVdaMembers{
+    "version",  "map",          "map_id",         "robots",    "robot_defaults", "plans",   "dependencies",
+    "progress", "manufacturer", "serial_numbers", "timestamp", "options",        "metadata"};
+
+/// Reads the root of the document. Nothing if it has faults, or if its stop is met.
+std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Limits& limits,
+                                                ParseStop& stop);
+
+}  // namespace fleetplan::api

@@ -1,0 +1,133 @@
+#include "api/vda5050/route.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/angle.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+using core::Action;
+
+bool moves(const Action& action) {
+  return action.type == Action::Type::translate && action.from.position != action.to.position;
+}
+
+class RouteMaker {
+ public:
+  RouteMaker(const core::Robot& robot, core::Actions actions, const std::vector<RoutePoint>& cuts,
+             double wait_before_move)
+      : robot_(robot),
+        actions_(actions),
+        wait_before_move_(wait_before_move),
+        cut_(cuts.begin()),
+        cuts_end_(cuts.end()) {}
+
+  Route run() {
+    if (actions_.empty()) return {};
+    heading_ = actions_.front().from.theta;
+    route_.nodes.push_back({actions_.front().from.position, heading_, {}, {}});
+    rotation_speed_ = robot_.angular_speed;
+    for (std::size_t k = 0; k < actions_.size(); ++k) {
+      if (moves(actions_[k])) {
+        translate(k);
+      } else {
+        stand(k);
+      }
+    }
+    if (!is_first() || turned_) assume_heading();
+    return std::move(route_);
+  }
+
+ private:
+  RouteNode& last() { return route_.nodes.back(); }
+  bool is_first() const { return route_.nodes.size() == 1; }
+
+  void stand(std::size_t k) {
+    const Action& action = actions_[k];
+    if (action.type == Action::Type::rotate) {
+      const double angle = std::abs(core::normalize_angle(action.to.theta - heading_));
+      const double duration = action.t_end - action.t_start;
+      if (duration > 0.0) rotation_speed_ = std::min(robot_.angular_speed, angle / duration);
+      heading_ = action.to.theta;
+      turned_ = true;
+    } else if (action.goal) {
+      serve(*action.goal, action.t_end - action.t_start);
+    } else if (wait_before_move_ > 0.0 && k + 1 < actions_.size() && moves(actions_[k + 1])) {
+      assume_heading();
+      last().stops.push_back({{}, std::min(wait_before_move_, action.t_end - action.t_start), 0.0});
+    }
+  }
+
+  void serve(std::size_t number, double duration) {
+    assume_heading();
+    const core::Goal& goal = robot_.goal_at(number);
+    std::vector<Stop>& stops = last().stops;
+    if (stops.empty() || stops.back().goal != number) stops.push_back({number, 0.0, goal.not_before});
+    stops.back().duration = std::min(goal.service, stops.back().duration + duration);
+  }
+
+  /// Sees to it that the last node has the heading of now.
+  void assume_heading() {
+    const bool is_fixed = is_first() || !last().stops.empty();
+    if (is_fixed && turned_) {
+      const core::Position position = last().position;
+      const RoutePoint at = last().at;
+      route_.edges.push_back({0.0, 0.0, rotation_speed_, false});
+      route_.nodes.push_back({position, {}, at, {}});
+    }
+    last().theta = heading_;
+    turned_ = false;
+  }
+
+  void translate(std::size_t k) {
+    const Action& action = actions_[k];
+    if (turned_ && !is_first() && last().stops.empty()) assume_heading();
+    for (; cut_ != cuts_end_ && *cut_ <= RoutePoint{k, 0.0}; ++cut_) continue;
+    double done = 0.0;
+    for (; cut_ != cuts_end_ && cut_->action == k; ++cut_) {
+      add_leg(action, done, cut_->fraction, *cut_);
+      done = cut_->fraction;
+    }
+    add_leg(action, done, 1.0, {k + 1, 0.0});
+    turned_ = false;
+    heading_ = action.to.theta;
+    rotation_speed_ = robot_.angular_speed;
+  }
+
+  void add_leg(const Action& action, double from, double to, const RoutePoint& end) {
+    const core::Position way = action.to.position - action.from.position;
+    const double duration = action.t_end - action.t_start;
+    const double speed = duration > 0.0 ? way.norm() / duration : robot_.linear_speed;
+    route_.edges.push_back({(to - from) * way.norm(), speed, rotation_speed_, action.reverse});
+    const core::Position position =
+        to == 1.0 ? action.to.position : core::Position(action.from.position + to * way);
+    route_.nodes.push_back({position, {}, end, {}});
+  }
+
+  const core::Robot& robot_;
+  core::Actions actions_;
+  double wait_before_move_;
+  std::vector<RoutePoint>::const_iterator cut_;
+  std::vector<RoutePoint>::const_iterator cuts_end_;
+  Route route_;
+  double heading_ = 0.0;
+  bool turned_ = false;  // since the last node's heading was fixed
+  double rotation_speed_ = 0.0;
+};
+
+}  // namespace
+
+RoutePoint route_point(const core::ActionProgress& progress) {
+  if (progress.fraction >= 1.0) return {progress.action + 1, 0.0};
+  return {progress.action, progress.fraction};
+}
+
+Route route_of(const core::Robot& robot, core::Actions actions, const std::vector<RoutePoint>& cuts,
+               double wait_before_move) {
+  return RouteMaker(robot, actions, cuts, wait_before_move).run();
+}
+
+}  // namespace fleetplan::api

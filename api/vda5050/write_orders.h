@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "api/vda5050/parse_vda5050_request.h"
+
+namespace fleetplan::api {
+
+/// The answer of POST /v1/export/vda5050: an order for each robot with actions that has none, and an update
+/// for each one of whose order more nodes can be released. With each, what its nodes mean for the plan.
+std::string write_orders(const VdaRequest& request);
+
+}  // namespace fleetplan::api

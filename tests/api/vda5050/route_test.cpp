@@ -1,0 +1,130 @@
+#include "api/vda5050/route.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "api/vda5050/release.h"
+#include "tests/support/plan_builder.h"
+
+namespace fleetplan::api {
+namespace {
+
+using testing::DoubleNear;
+using testing::ElementsAre;
+
+constexpr double kRight = std::numbers::pi / 2.0;
+
+core::Robot make_robot() { return {"a", 0.3, 1.0, 2.0, {{0.5, 0.5}, 0.0}, core::Goal{{4.5, 2.5}, {}}}; }
+
+support::PlanBuilder plan(const core::Robot& robot) { return {0, robot}; }
+
+Route route(const core::Robot& robot, const core::RobotPlan& plan, const std::vector<RoutePoint>& cuts = {},
+            double wait_before_move = 0.0) {
+  return route_of(robot, plan.actions, cuts, wait_before_move);
+}
+
+/// Nodes as "x,y heading action+fraction stops".
+std::vector<std::string> brief(const Route& route) {
+  const auto text = [](double number) { return testing::PrintToString(number); };
+  std::vector<std::string> lines;
+  for (const RouteNode& node : route.nodes) {
+    lines.push_back(text(node.position.x()) + "," + text(node.position.y()) + " " +
+                    (node.theta ? text(*node.theta) : "-") + " " + std::to_string(node.at.action) + "+" +
+                    text(node.at.fraction) + " " + std::to_string(node.stops.size()));
+  }
+  return lines;
+}
+
+TEST(Route, HasANodeWhereverTheRobotStops) {
+  const core::Robot robot = make_robot();
+  const auto straight = plan(robot).translate_to(4.5, 0.5).wait(3.0).translate_to(6.5, 0.5).build();
+  const Route way = route(robot, straight);
+  EXPECT_THAT(brief(way), ElementsAre("0.5,0.5 0 0+0 0", "4.5,0.5 - 1+0 0", "6.5,0.5 0 3+0 0"));
+  ASSERT_EQ(way.edges.size(), 2U);
+  EXPECT_EQ(way.edges[0].length, 4.0);
+  EXPECT_EQ(way.edges[0].speed, 1.0);
+}
+
+TEST(Route, TellsTheHeadingWhereTheRobotTurns) {
+  const core::Robot robot = make_robot();
+  const auto corner = plan(robot).translate_to(4.5, 0.5).rotate_to(kRight).translate_to(4.5, 2.5).build();
+  const Route way = route(robot, corner);
+  ASSERT_EQ(way.nodes.size(), 3U);
+  EXPECT_EQ(way.nodes[1].theta, kRight);
+  EXPECT_EQ(way.nodes[2].theta, kRight);
+  EXPECT_DOUBLE_EQ(way.edges[1].rotation_speed, robot.angular_speed);
+}
+
+TEST(Route, BeginsWithTheHeadingThatTheRobotHas) {
+  const core::Robot robot = make_robot();
+  const Route turned = route(robot, plan(robot).rotate_to(kRight).translate_to(0.5, 2.5).build());
+  ASSERT_EQ(turned.nodes.size(), 2U);  // the edge tells the heading to drive in
+  EXPECT_EQ(turned.nodes[0].theta, 0.0);
+
+  const Route only_turns = route(robot, plan(robot).rotate_to(kRight).build());
+  ASSERT_EQ(only_turns.nodes.size(), 2U);
+  EXPECT_EQ(only_turns.nodes[1].theta, kRight);
+  EXPECT_EQ(only_turns.edges[0].length, 0.0);
+}
+
+TEST(Route, IsCutWhereOthersDependOnIt) {
+  const core::Robot robot = make_robot();
+  const auto corner = plan(robot).translate_to(4.5, 0.5).rotate_to(kRight).translate_to(4.5, 2.5).build();
+  const Route way =
+      route(robot, corner, {{0, 0.0}, {0, 0.25}, {0, 0.75}, {1, 0.5}, {2, 0.0}, {2, 0.5}, {3, 0.0}});
+  EXPECT_THAT(brief(way), ElementsAre("0.5,0.5 0 0+0 0", "1.5,0.5 - 0+0.25 0", "3.5,0.5 - 0+0.75 0",
+                                      testing::StartsWith("4.5,0.5 1.57"), "4.5,1.5 - 2+0.5 0",
+                                      testing::StartsWith("4.5,2.5 1.57")));
+  ASSERT_EQ(way.edges.size(), 5U);
+  EXPECT_THAT(way.edges[1].length, DoubleNear(2.0, 1e-12));
+}
+
+TEST(Route, HasServicesAndAddedWaitsButNoWaitsThatGiveWay) {
+  core::Robot robot = make_robot();
+  robot.via = {core::Goal{{4.5, 0.5}, 0.0, 2.0, 30.0}};
+  auto visit =
+      plan(robot).translate_to(4.5, 0.5).wait(5.0).rotate_to(kRight).wait(4.0).translate_to(4.5, 2.5).build();
+  visit.actions[1].goal = 0;
+  const Route way = route(robot, visit, {}, 1.5);
+  ASSERT_EQ(way.nodes.size(), 4U);
+  ASSERT_EQ(way.nodes[1].stops.size(), 1U);
+  EXPECT_EQ(way.nodes[1].theta, 0.0);
+  EXPECT_EQ(way.nodes[1].stops[0].goal, 0U);
+  EXPECT_EQ(way.nodes[1].stops[0].duration, 2.0);
+  EXPECT_EQ(way.nodes[1].stops[0].not_before, 30.0);
+  // In another heading, so at a node of its own.
+  EXPECT_EQ(way.nodes[2].position, way.nodes[1].position);
+  EXPECT_EQ(way.nodes[2].theta, kRight);
+  ASSERT_EQ(way.nodes[2].stops.size(), 1U);
+  EXPECT_FALSE(way.nodes[2].stops[0].goal);
+  EXPECT_EQ(way.nodes[2].stops[0].duration, 1.5);
+  EXPECT_EQ(way.nodes[2].at, way.nodes[1].at);
+}
+
+TEST(Route, IsEmptyWithoutActions) { EXPECT_TRUE(route(make_robot(), {}).nodes.empty()); }
+
+TEST(Release, EndsAtTheFirstGateWhoseConditionIsNotMet) {
+  const core::Robot robot = make_robot();
+  const auto way = plan(robot).translate_to(4.5, 0.5).wait(1.0).translate_to(6.5, 0.5).build();
+  const std::vector<core::Dependency> dependencies{
+      {{0, 0, 0.5}, {1, 0, 0.25}, 1.0}, {{0, 1, 0.5}, {1, 0, 0.5}, 1.0}, {{0, 2, 0.5}, {1, 0, 1.0}, 1.0}};
+  const auto points = points_of(dependencies, 2);
+  EXPECT_THAT(points[1], ElementsAre(RoutePoint{0, 0.25}, RoutePoint{0, 0.5}, RoutePoint{1, 0.0}));
+  const std::vector<Route> routes{route(robot, way, points[0]), {}};
+  const auto released = [&](RoutePoint other) {
+    return released_nodes(routes, dependencies, {RoutePoint{}, other}).front();
+  };
+  ASSERT_EQ(routes[0].nodes.size(), 5U);
+  EXPECT_EQ(released({0, 0.0}), 2U);   // up to the gate in the first translation
+  EXPECT_EQ(released({0, 0.25}), 3U);  // to the end of it: the next gate is in the wait there
+  EXPECT_EQ(released({0, 0.5}), 4U);
+  EXPECT_EQ(released({0, 0.9}), 4U);
+  EXPECT_EQ(released({1, 0.0}), 5U);
+}
+
+}  // namespace
+}  // namespace fleetplan::api
