@@ -112,7 +112,7 @@ Fleet parse_fleet(const JsonReader& root, const Limits& limits,
   UniqueIds ids;
   fleet.robots = parse_robots(root.require("robots"), root.find("robot_defaults"), frame, limits, ids);
   fleet.obstacles = parse_obstacles(root.find("obstacles"), frame, limits, ids);
-  fleet.zones = parse_zones(root.find("zones"), frame, limits, fleet.robots);
+  fleet.zones = parse_zones(root.find("zones"), fleet.map ? &*fleet.map : nullptr, limits, fleet.robots);
   fleet.metadata = parse_metadata(root);
   set_default_start_safe_interval(root.find("options"), fleet.robots, fleet.options.plan);
   return fleet;

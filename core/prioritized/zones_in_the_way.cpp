@@ -37,9 +37,11 @@ class ZonesInTheWay {
     if (is_closed_by_latest(robot)) return latest_;
     ZoneIndices closing = all;
     for (const std::size_t zone : all) {
+      const std::string& id = problem_.zones()[zone].id;
+      if (zone > 0 && problem_.zones()[zone - 1].id == id) continue;  // parts of a mask belong together
       if (++tests_of_robot_ > kMostTestsOfRobot || is_over()) break;
       ZoneIndices others = closing;
-      std::erase(others, zone);
+      std::erase_if(others, [&](std::size_t other) { return problem_.zones()[other].id == id; });
       if (!has_way(robot, others)) closing = std::move(others);
     }
     if (is_over()) return {};
@@ -103,7 +105,9 @@ bool may_be_because_of_zones(const Unplanned& robot) {
 }
 
 /// Such as: Without the zones "a" and "b", it would have a way.
-std::string sentence(const ZoneIndices& closing, const std::vector<Zone>& zones) {
+std::string sentence(ZoneIndices closing, const std::vector<Zone>& zones) {
+  const auto same = [&](std::size_t a, std::size_t b) { return zones[a].id == zones[b].id; };
+  closing.erase(std::unique(closing.begin(), closing.end(), same), closing.end());
   std::string names;
   const std::size_t named = std::min(closing.size(), kMostNamed);
   for (std::size_t k = 0; k < named; ++k) {

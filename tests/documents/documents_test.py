@@ -140,7 +140,7 @@ class Examples(DocumentTest):
         self.assertTrue(self.post("/v1/validate", {**request, **answer})["valid"])
 
     def test_the_request_of_the_api_page_returns_the_response_below_it(self):
-        request, _, shown, verdict, _ = map(json.loads, blocks("docs/api.md", "json"))
+        request, _, _, shown, verdict, _ = map(json.loads, blocks("docs/api.md", "json"))
         answer = self.post("/v1/plan", request)
         self.assert_shape(shown, answer)
         self.assertEqual(set(shown), set(answer))
@@ -158,6 +158,14 @@ class Examples(DocumentTest):
         self.assertEqual(plan["actions"][0], committed)
         self.assertEqual([visit["goal"] for visit in plan["visits"]], [0, 1])
         self.assertGreaterEqual(plan["visits"][0]["t_leave"], 15.0)
+        self.assertTrue(self.post("/v1/validate", {**request, **answer})["valid"])
+
+    def test_the_zones_of_the_api_page_make_the_way_longer(self):
+        request, _, zones, shown, *_ = map(json.loads, blocks("docs/api.md", "json"))
+        request = {**request, **zones}
+        answer = self.post("/v1/plan", request)
+        self.assertEqual(answer["status"], "solved")
+        self.assertGreater(answer["flowtime"], shown["flowtime"] + 1.0)
         self.assertTrue(self.post("/v1/validate", {**request, **answer})["valid"])
 
     def test_the_error_of_the_api_page_is_returned_for_the_fault_that_it_shows(self):

@@ -73,7 +73,7 @@ class Client(unittest.TestCase):
         self.client = {"__name__": "client"}
         exec(compile(client_source().replace(SERVICE, self.service.url), "docs/execution.md", "exec"), self.client)
         self.request = json.loads((PROJECT / "tests/scenarios/warehouse.json").read_text())
-        self.request["options"] = {"dependencies": True, "interval_margin": 0.5}
+        self.request["options"] = {"dependencies": True, "interval_margin": 0.5, "time_budget_ms": 60000}
 
     def plan(self):
         answer = self.service.post("/v1/plan", self.request)
@@ -106,8 +106,8 @@ class Client(unittest.TestCase):
 
     def test_new_times_without_delays_are_those_of_the_plan(self):
         answer = self.plan()
-        body = {key: self.request[key] for key in ("robots", "robot_defaults")}
-        body.update({key: answer[key] for key in ("plans", "dependencies")}, at=5.0, states=[])
+        body = {"robots": self.request["robots"], "plans": answer["plans"], "dependencies": answer["dependencies"],
+                "at": 5.0, "states": []}
         times = self.service.post("/v1/retime", body)
         self.assertEqual(times["late"], [])
         for plan, robot in zip(answer["plans"], times["robots"]):
@@ -117,9 +117,8 @@ class Client(unittest.TestCase):
     def test_a_robot_that_is_held_is_the_reason_why_others_are_late(self):
         answer = self.plan()
         held = answer["dependencies"][0]["until"]
-        body = {key: self.request[key] for key in ("robots", "robot_defaults")}
-        body.update({key: answer[key] for key in ("plans", "dependencies")}, at=0.0,
-                    states=[{"robot": held["robot"], "action": 0, "progress": 0.0, "held_s": 60.0}])
+        body = {"robots": self.request["robots"], "plans": answer["plans"], "dependencies": answer["dependencies"],
+                "at": 0.0, "states": [{"robot": held["robot"], "action": 0, "progress": 0.0, "held_s": 60.0}]}
         times = self.service.post("/v1/retime", body)
         self.assertGreater(len(times["late"]), 1)
         self.assertEqual({late["because_of"] for late in times["late"]}, {held["robot"]})

@@ -42,7 +42,8 @@ for (const name of scenarios) {
   });
 }
 
-for (const path of ["/v1/plan", "/v1/validate", "/v1/advance", "/v1/dependencies", "/v1/retime"]) {
+const POSTED = ["plan", "validate", "simulate", "advance", "dependencies", "retime", "export/vda5050"];
+for (const path of POSTED.map((name) => `/v1/${name}`)) {
   test(`the document's examples for ${path} get the documented answers`, async () => {
     const { requestBody, responses } = paths[path].post;
     const requests = requestBody.content["application/json"].examples;

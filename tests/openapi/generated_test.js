@@ -26,14 +26,15 @@ const BEYOND_SCHEMA = {
   duplicate: /^/, // ids, plans for one robot; keys, which a schema never sees
   unknown_robot: /^\/(plans\/\d+\/robot|unavoidable\/\d+\/robots?(\/\d)?|zones\/\d+\/robots\/\d+)$/,
   bad_map_row: /^\/map\/rows\/\d+$/, // rows of different lengths
-  bad_image: /^\/map\/image\/(pgm|png)$/,
+  bad_image: /^(\/map\/image|\/zones\/\d+\/mask)\/(pgm|png)$/,
   bad_movingai: /^\/map\/movingai$/,
   bad_polygon: /^\/zones\/\d+\/polygon(\/\d+)?$/,
-  wrong_size: /^\/map\/occupancy_grid\/data$/, // of another number of cells
+  wrong_size: /^(\/map\/occupancy_grid\/data|\/zones\/\d+\/mask)$/, // of another number of cells
   out_of_range: anyOf(
     // settings of the server; sizes in metres; order
     "/map/(rows|movingai|resolution)",
     "/map/image/(pgm|png|resolution|occupied_thresh|free_thresh)",
+    "/zones/\\d+/mask/(pgm|png|occupied_thresh|free_thresh)",
     "/map/occupancy_grid/info/(width|resolution|origin/orientation)",
     "/options/lattice_spacing",
     "/robots",

@@ -16,15 +16,17 @@ class Quota {
 
   /// Whether all items of the array are within the limit. Only the first array beyond it is a fault; then
   /// nothing more is.
-  bool take(const JsonReader& array) {
+  bool take(const JsonReader& array) { return take(array.size(), array); }
+  /// The same for so many items that come from the value `place`.
+  bool take(std::size_t count, const JsonReader& place) {
     if (exceeded_) return false;
-    exceeded_ = array.size() > left_;
+    exceeded_ = count > left_;
     if (exceeded_) {
-      array.fault(fault::kOutOfRange, "The request has more than " + std::to_string(most_) + " " +
+      place.fault(fault::kOutOfRange, "The request has more than " + std::to_string(most_) + " " +
                                           std::string(what_) + ", the maximum of this service; send fewer.");
       return false;
     }
-    left_ -= array.size();
+    left_ -= count;
     return true;
   }
 

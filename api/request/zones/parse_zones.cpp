@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <map>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -11,6 +13,7 @@
 #include "api/json/fault_text.h"
 #include "api/request/motion/quota.h"
 #include "api/request/ranges.h"
+#include "api/request/zones/parse_mask.h"
 #include "api/request/zones/parse_polygon.h"
 #include "core/geometry/angle.h"
 
@@ -21,8 +24,8 @@ namespace {
 using Type = core::Zone::Type;
 
 constexpr std::array<std::string_view, 3> kTypes{"blocked", "speed", "one_way"};  // as in core::Zone::Type
-constexpr std::array<std::string_view, 8> kMembers{"id",           "type",          "polygon", "robots",
-                                                   "linear_speed", "angular_speed", "heading", "half_angle"};
+constexpr std::array<std::string_view, 9> kMembers{
+    "id", "type", "polygon", "mask", "robots", "linear_speed", "angular_speed", "heading", "half_angle"};
 constexpr Range kHalfAngle{1e-3, std::numbers::pi, "radians"};
 
 /// The ids of the robots and of the zones, with their numbers.
@@ -30,27 +33,29 @@ using Ids = std::unordered_map<std::string, std::size_t>;
 
 class ZoneReader {
  public:
-  ZoneReader(const WorldFrame& frame, const Limits& limits, const std::vector<ReadRobot>& robots)
-      : frame_(frame), corners_(limits.max_zone_corners, "corners of zones") {
+  ZoneReader(const WorldMap* map, const Limits& limits, const std::vector<ReadRobot>& robots)
+      : map_(map), all_(robots), corners_(limits.max_zone_corners, "corners of zones") {
     for (std::size_t index = 0; index < robots.size(); ++index) {
       robots_.emplace(robots[index].robot.id, index);
     }
   }
 
-  core::Zone read(const JsonReader& item) {
+  /// The zone, or the parts of its mask.
+  std::vector<core::Zone> read(const JsonReader& item) {
     core::Zone zone;
     const JsonReader json = item.object(kMembers);
-    if (!json) return zone;
+    if (!json) return {};
     read_id(json.require("id"), zone);
     const JsonReader type = json.require("type", "; give one of " + listed(kTypes));
     if (const auto word = type.word(kTypes)) {
       zone.type = static_cast<Type>(*word);
       read_rule(json, zone);
     }
-    const JsonReader polygon = json.require("polygon", "; give a list of {\"x\", \"y\"}");
-    zone.polygon = parse_polygon(polygon, frame_, corners_);
     read_robots(json.find("robots"), zone);
-    return zone;
+    if (const JsonReader mask = json.find("mask")) return read_mask(json, mask, zone);
+    const JsonReader polygon = json.require("polygon", "; give a list of {\"x\", \"y\"}, or a mask");
+    zone.polygon = parse_polygon(polygon, map_ != nullptr ? map_->frame : WorldFrame{}, corners_);
+    return {zone};
   }
 
  private:
@@ -66,6 +71,41 @@ class ZoneReader {
     });
   }
 
+  std::vector<core::Zone> read_mask(const JsonReader& json, const JsonReader& mask, const core::Zone& zone) {
+    if (const JsonReader polygon = json.find("polygon")) {
+      polygon.fault(fault::kDuplicate, "The zone has both a polygon and a mask; give one of them.");
+    }
+    if (zone.type == Type::one_way) {
+      mask.fault(fault::kUnknownKey,
+                 "mask is for zones of the types blocked and speed only; give a polygon.");
+    }
+    if (map_ == nullptr || json.fault_count() > 0) return {};
+    std::vector<core::Zone> zones;
+    for (const MaskPart& part : parse_mask(mask, map_->grid, zone.type == Type::speed, corners_)) {
+      core::Zone cells = zone;
+      cells.polygon = part.polygon;
+      if (zone.type == Type::blocked) {
+        zones.push_back(std::move(cells));
+      } else {
+        add_slow_cells(part.percent / 100.0, cells, zones);
+      }
+    }
+    return zones;
+  }
+
+  /// Adds a zone for the robots of each speed.
+  void add_slow_cells(double share, const core::Zone& cells, std::vector<core::Zone>& zones) const {
+    std::map<double, std::vector<std::size_t>> by_speed;
+    for (std::size_t robot = 0; robot < all_.size(); ++robot) {
+      if (cells.is_for(robot)) by_speed[all_[robot].robot.linear_speed].push_back(robot);
+    }
+    for (auto& [speed, robots] : by_speed) {
+      core::Zone& zone = zones.emplace_back(cells);
+      zone.linear_speed = share * speed;
+      if (by_speed.size() > 1) zone.robots = std::move(robots);
+    }
+  }
+
   static void read_rule(const JsonReader& json, core::Zone& zone) {
     for (const auto& [key, type] : {std::pair{"linear_speed", Type::speed},
                                     {"angular_speed", Type::speed},
@@ -77,13 +117,24 @@ class ZoneReader {
                                            std::string(kTypes[static_cast<std::size_t>(type)]) +
                                            " only; leave it out, or change the type.");
     }
-    if (zone.type == Type::speed) read_speeds(json, zone);
+    if (zone.type == Type::speed && !json.find("mask")) read_speeds(json, zone);
+    if (zone.type == Type::speed && json.find("mask")) refuse_speeds(json);
     if (zone.type != Type::one_way) return;
     zone.heading = core::normalize_angle(
         json.require("heading", "; give the direction of travel").number(kAnyAngle).value_or(0.0));
     zone.half_angle = json.require("half_angle", "; give how far from heading a robot may move")
                           .number(kHalfAngle)
                           .value_or(0.0);
+  }
+
+  static void refuse_speeds(const JsonReader& json) {
+    for (const char* key : {"linear_speed", "angular_speed"}) {
+      if (const JsonReader member = json.find(key)) {
+        member.fault(
+            fault::kUnknownKey,
+            std::string(key) + " is for zones with a polygon; the mask has the speeds. Leave it out.");
+      }
+    }
   }
 
   static void read_speeds(const JsonReader& json, core::Zone& zone) {
@@ -122,7 +173,8 @@ class ZoneReader {
     }
   }
 
-  const WorldFrame& frame_;
+  const WorldMap* map_;
+  const std::vector<ReadRobot>& all_;
   Quota corners_;
   Ids robots_;
   Ids zones_;
@@ -131,19 +183,20 @@ class ZoneReader {
 
 }  // namespace
 
-std::vector<core::Zone> parse_zones(const JsonReader& member, const WorldFrame& frame, const Limits& limits,
+std::vector<core::Zone> parse_zones(const JsonReader& member, const WorldMap* map, const Limits& limits,
                                     const std::vector<ReadRobot>& robots) {
   const JsonReader items = member.array();
   if (!items) return {};
   Quota quota(limits.max_zones, "zones");
   if (!quota.take(items)) return {};
-  ZoneReader reader(frame, limits, robots);
+  ZoneReader reader(map, limits, robots);
   std::vector<core::Zone> zones;
   zones.reserve(items.size());
   for (const JsonReader item : items.items()) {
     const std::size_t faults = item.fault_count();
-    core::Zone zone = reader.read(item);
-    if (item.fault_count() == faults) zones.push_back(std::move(zone));
+    std::vector<core::Zone> read = reader.read(item);
+    if (item.fault_count() != faults) continue;
+    zones.insert(zones.end(), std::make_move_iterator(read.begin()), std::make_move_iterator(read.end()));
   }
   return zones;
 }

@@ -4,15 +4,16 @@
 
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
+#include "api/request/map/map_frame.h"
 #include "api/request/parse_robots.h"
-#include "api/request/world_frame.h"
 #include "core/model/zone.h"
 
 namespace fleetplan::api {
 
-/// Reads `zones` (may be absent), in the map frame; those with a fault are left out. Robots are indices into
-/// `robots`.
-std::vector<core::Zone> parse_zones(const JsonReader& member, const WorldFrame& frame, const Limits& limits,
+/// Reads `zones` (may be absent), in the frame of the map; those with a fault are left out. Robots are
+/// indices into `robots`. A mask becomes several zones of one id, which follow each other. Without a map
+/// (null), masks are not read.
+std::vector<core::Zone> parse_zones(const JsonReader& member, const WorldMap* map, const Limits& limits,
                                     const std::vector<ReadRobot>& robots);
 
 }  // namespace fleetplan::api

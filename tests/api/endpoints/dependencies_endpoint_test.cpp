@@ -160,8 +160,9 @@ TEST(NewTimes, ReportFaultsOfStatesAndPlans) {
   request["dependencies"] = Json::array();
   const Reply reply = retime_endpoint(request.dump(), context());
   EXPECT_EQ(reply.status, 422);
+  const Json problem = json_of(reply);
   Faults faults;
-  for (const Json& fault : json_of(reply)["errors"]) faults.emplace_back(fault["pointer"], fault["code"]);
+  for (const Json& fault : problem["errors"]) faults.emplace_back(fault["pointer"], fault["code"]);
   EXPECT_EQ(faults, (Faults{{"/plans/1/actions/1/t_start", "discontinuity"},
                             {"/states/0/action", "out_of_range"},
                             {"/states/1/progress", "out_of_range"},

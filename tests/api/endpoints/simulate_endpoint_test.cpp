@@ -20,9 +20,20 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// The swap with its plan, to be executed by a policy.
+/// Two robots whose ways cross: "b" passes 2 s before "a".
+Json crossing_request() {
+  return Json::parse(R"({
+    "map": {"rows": [".........", ".........", ".........", "........."]},
+    "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 2.0},
+    "robots": [
+      {"id": "a", "start": {"x": 0.5, "y": 1.5, "theta": 0.0}, "goal": {"x": 8.5, "y": 3.5}},
+      {"id": "b", "start": {"x": 4.5, "y": 3.5, "theta": -1.5}, "goal": {"x": 4.5, "y": 0.5, "theta": 0.25}}
+    ]})");
+}
+
+/// The crossing with its plan, to be executed by a policy.
 Json simulate_request(const char* policy = "open_loop") {
-  Json request = swap_request();
+  Json request = crossing_request();
   const Json answer = json_of(plan_endpoint(request.dump(), {}));
   request["plans"] = answer["plans"];
   request["disturbance"] = Json::parse(R"({"speed": {"min": 0.5, "max": 1}, "turn": {"min": 0.6, "max": 1},
@@ -100,14 +111,14 @@ TEST(SimulateEndpoint, GivesTheSameAnswerWithAnyNumberOfThreads) {
 
 TEST(SimulateEndpoint, TakesTheAnswerOfAPlanAndItsDependencies) {
   Json request = simulate_request("dependencies");
-  const Json answer = json_of(plan_endpoint(swap_request().dump(), {}));
+  const Json answer = json_of(plan_endpoint(crossing_request().dump(), {}));
   request.update(answer);
   request["dependencies"] = Json::array();
   EXPECT_EQ(simulated(request)["deadlock_share"], 0.0);
 }
 
 TEST(SimulateEndpoint, HasNoCollisionsByTheClockWithinTheIntervalMargin) {
-  Json planned = swap_request();
+  Json planned = crossing_request();
   planned["options"] = {{"interval_margin", 0.8}};
   Json request = simulate_request("clock_stop");
   request["options"] = planned["options"];
@@ -120,7 +131,7 @@ TEST(SimulateEndpoint, HasNoCollisionsByTheClockWithinTheIntervalMargin) {
 }
 
 TEST(SimulateEndpoint, LetsAddedWaitsAbsorbDelaysByAClockOnly) {
-  Json planned = swap_request();
+  Json planned = crossing_request();
   planned["options"] = {{"wait_before_move", 4.0}};
   Json request = simulate_request("absorb_waits");
   request["options"] = planned["options"];
@@ -142,10 +153,10 @@ TEST(SimulateEndpoint, LetsAddedWaitsAbsorbDelaysByAClockOnly) {
 TEST(SimulateEndpoint, CollidesWithTheRadiusOfTheBody) {
   Json request = simulate_request();
   request.erase("disturbance");
-  request["robots"][0]["body_radius"] = 0.5;
+  request["robots"][1]["body_radius"] = 0.6;  // it reaches the edge of the map
   const Json wide = simulated(request);
   EXPECT_EQ(wide["collision_share"], 1.0);
-  request["robots"][0].erase("body_radius");
+  request["robots"][1].erase("body_radius");
   request["robot_defaults"]["body_radius"] = 0.1;
   EXPECT_EQ(simulated(request)["collision_share"], 0.0);
 }
@@ -195,9 +206,9 @@ TEST(SimulateEndpoint, ReportsFaultsWithPointers) {
        "/disturbance/cross_track/sigma", "out_of_range"},
       {"unknown", [](Json& r) { r["disturbance"]["wind"] = 1; }, "/disturbance/wind", "unknown_key"},
       {"body", [](Json& r) { r["robots"][1]["body_radius"] = 0; }, "/robots/1/body_radius", "out_of_range"},
-      {"gap", [](Json& r) { r["plans"][0]["actions"][0]["t_start"] = 0.5; }, "/plans/0/actions/0/t_start",
+      {"gap", [](Json& r) { r["plans"][0]["actions"][0]["t_start"] = 0.05; }, "/plans/0/actions/0/t_start",
        "discontinuity"},
-      {"jump", [](Json& r) { r["plans"][1]["actions"][0]["from"]["x"] = 3; }, "/plans/1/actions/0/from",
+      {"jump", [](Json& r) { r["plans"][1]["actions"][1]["from"]["x"] = 3; }, "/plans/1/actions/1/from",
        "discontinuity"},
   };
   const Json valid = simulate_request();
@@ -226,7 +237,7 @@ TEST(SimulateEndpoint, ReportsThatNoRunWasFinished) {
   context.received_at -= std::chrono::hours(1);
   const Reply late = reply_to(request, context);
   EXPECT_EQ(late.status, 422);
-  EXPECT_EQ(late.problem, "parse_unfinished");
+  EXPECT_EQ(late.problem, "check_unfinished");
   TestTurn turn;
   RequestContext queued;
   queued.turn = &turn;

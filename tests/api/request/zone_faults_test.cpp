@@ -5,6 +5,7 @@
 
 #include "tests/api/support/fault_case.h"
 #include "tests/api/support/motion_requests.h"
+#include "tests/support/base64.h"
 
 namespace fleetplan::api {
 namespace {
@@ -146,6 +147,21 @@ void make_one_way(Json& request) {
   the_zone(request)["half_angle"] = 1.5;
 }
 
+/// Of the size of the hall: white, with two black cells and one of 50.
+std::string pgm() {
+  return "P2\n9 4\n255\n"
+         "255 255 0 255 255 255 50 255 255\n"
+         "255 255 0 255 255 255 255 255 255\n"
+         "255 255 255 255 255 255 255 255 255\n"
+         "255 255 255 255 255 255 255 255 255\n";
+}
+
+/// A mask instead of the polygon.
+void make_mask(Json& request) {
+  the_zone(request).erase("polygon");
+  the_zone(request)["mask"] = {{"pgm", support::base64(pgm())}};
+}
+
 INSTANTIATE_TEST_SUITE_P(
     OfRules, OneFaultOfZones,
     testing::Values(Case{"SpeedOfBlocked", [](Json& r) { the_zone(r)["linear_speed"] = 1; },
@@ -163,6 +179,56 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"WideHalfAngle", [](Json& r) { make_one_way(r), the_zone(r)["half_angle"] = 4; },
                          "/zones/0/half_angle", "out_of_range", "radians"}),
     [](const auto& one) { return one.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    OfMasks, OneFaultOfZones,
+    testing::Values(Case{"AndPolygon",
+                         [](Json& r) {
+                           the_zone(r)["mask"] = {{"pgm", support::base64(pgm())}};
+                         },
+                         "/zones/0/polygon", "duplicate", "both a polygon and a mask"},
+                    Case{"OfOneWay", [](Json& r) { make_one_way(r), make_mask(r); }, "/zones/0/mask",
+                         "unknown_key", "blocked and speed only"},
+                    Case{"OfAnotherSize",
+                         [](Json& r) {
+                           make_mask(r);
+                           the_zone(r)["mask"]["pgm"] = support::base64("P2\n2 1\n255\n0 255\n");
+                         },
+                         "/zones/0/mask", "wrong_size", "2 x 1 pixels, but the map has 9 x 4 cells"},
+                    Case{"NotAnImage", [](Json& r) { make_mask(r), the_zone(r)["mask"]["pgm"] = "UDU="; },
+                         "/zones/0/mask/pgm", "bad_image", ""},
+                    Case{"WithASpeed", [](Json& r) { make_speed(r), make_mask(r); }, "/zones/0/linear_speed",
+                         "unknown_key", "the mask has the speeds"}),
+    [](const auto& one) { return one.param.name; });
+
+TEST(Zones, AreTheOccupiedCellsOfAMask) {
+  Json request = request_with_zone();
+  make_mask(request);
+  const auto read = parse_request(request.dump(), {});
+  ASSERT_TRUE(read);
+  const auto& zones = read->problem.zones();
+  ASSERT_EQ(zones.size(), 2U);  // two cells below each other are one part
+  EXPECT_EQ(zones[0].id, zones[1].id);
+  const auto& cells = zones[0].polygon.at(0).x() < 4.0 ? zones[0].polygon : zones[1].polygon;
+  EXPECT_LT((cells.at(0) - core::Position(2.0, 2.0)).norm(), 1e-5);
+  EXPECT_LT((cells.at(2) - core::Position(3.0, 4.0)).norm(), 1e-5);
+}
+
+TEST(Zones, LimitEachRobotToThePercentageOfASpeedMask) {
+  Json request = request_with_zone();
+  make_mask(request);
+  the_zone(request)["type"] = "speed";
+  the_zone(request)["mask"]["mode"] = "raw";
+  robot(request, 1)["linear_speed"] = 2.0;
+  const auto read = parse_request(request.dump(), {});
+  ASSERT_TRUE(read);
+  const auto& zones = read->problem.zones();
+  ASSERT_EQ(zones.size(), 2U);  // black is 0 %, and white unknown
+  EXPECT_NEAR(zones[0].linear_speed, 0.5, 1e-12);
+  EXPECT_THAT(zones[0].robots, ElementsAre(0U));
+  EXPECT_NEAR(zones[1].linear_speed, 1.0, 1e-12);
+  EXPECT_THAT(zones[1].robots, ElementsAre(1U));
+}
 
 TEST(ZoneFaults, NameTheZoneWhoseRuleCommittedMotionBreaks) {
   Json request = moving_request();

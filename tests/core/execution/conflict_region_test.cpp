@@ -55,7 +55,7 @@ TEST(ConflictRegion, IsEmptyForLinesThatOnlyTouch) {
 
 /// Compares both ranges with those of a fine raster of shares.
 TEST(ConflictRegion, HasTheRangesOfARaster) {
-  constexpr int kSteps = 200;
+  constexpr int kSteps = 100;
   for (int seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     support::Dice dice(static_cast<std::uint64_t>(seed));
@@ -79,18 +79,23 @@ TEST(ConflictRegion, HasTheRangesOfARaster) {
         if (v <= to) most = std::max(most, u);
       }
     }
-    constexpr double kNear = 3.0 / kSteps;
     const ConflictRegion region(a, b, distance);
     const auto second = region.second_beyond(from);
     const auto first = region.first_up_to(to);
     if (least <= 1.0) {
       ASSERT_TRUE(second);
       EXPECT_LE(second->least, least + 1e-12);
-      EXPECT_GE(second->least, least - kNear - 0.1 * (second->most - second->least));
+      // It is no less than necessary: there is a point of the region's border.
+      const Position at = b.from + second->least * (b.to - b.from);
+      EXPECT_LE(nearest_shares({a.from + std::max(0.0, from) * (a.to - a.from), a.to}, {at, at}).distance,
+                distance + 1e-9);
     }
     if (most >= 0.0) {
       ASSERT_TRUE(first);
       EXPECT_GE(first->most, most - 1e-12);
+      const Position at = a.from + first->most * (a.to - a.from);
+      EXPECT_LE(nearest_shares({at, at}, {b.from, b.from + std::min(1.0, to) * (b.to - b.from)}).distance,
+                distance + 1e-9);
     }
     const NearestShares nearest = nearest_shares(a, b);
     const Position apart =
