@@ -223,7 +223,7 @@ class ApiTables(DocumentTest):
             with self.subTest(name):
                 option = self.resolve(options[name])
                 self.assert_range(stated, option)
-                shown = json.loads(code(default)[0]) if code(default) and code(default)[0] in ("true", "null") else (
+                shown = json.loads(code(default)[0]) if code(default) and code(default)[0] in ("true", "false", "null") else (
                     code(default)[0] if code(default) else float(default))
                 self.assertEqual(shown, budget if name == "time_budget_ms" else option["default"])
 

@@ -79,7 +79,7 @@ class ZoneReader {
       mask.fault(fault::kUnknownKey,
                  "mask is for zones of the types blocked and speed only; give a polygon.");
     }
-    if (map_ == nullptr || json.fault_count() > 0) return {};
+    if (map_ == nullptr) return {};
     std::vector<core::Zone> zones;
     for (const MaskPart& part : parse_mask(mask, map_->grid, zone.type == Type::speed, corners_)) {
       core::Zone cells = zone;
