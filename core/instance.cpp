@@ -6,6 +6,7 @@
 #include "core/geometry/tolerance.h"
 #include "core/lattice_spacing.h"
 #include "core/model/motion_of.h"
+#include "core/model/radius_steps.h"
 
 namespace fleetplan::core {
 namespace {
@@ -15,31 +16,33 @@ constexpr double kMostOverlap = kContactTolerance + 2.0 * kSamePosition;
 /// However much a start may overlap a wall, this fraction of the disk keeps clear of it.
 constexpr double kSmallestDisk = 1e-3;
 
+/// Bare: with which the plan of the robot begins.
+double radius_at_begin(const Robot& robot) {
+  return changes_radius(robot) ? radii_of(robot)[itinerary_of(robot).first_goal] : robot.radius;
+}
+
 std::vector<Endpoints> endpoints(const Problem& problem, const Lattice& lattice, double inflation) {
   const auto rounding = [&](const Position& p) { return (lattice.snapped(p) - p).norm(); };
   std::vector<Endpoints> all;
   for (const Robot& robot : problem.robots()) {
+    const double radius = radius_at_begin(robot);
+    const double largest = largest_radius(robot);
     Endpoints ends;
-    ends.radius = robot.radius + inflation + robot.vicinity;
+    ends.radius = radius + inflation + robot.vicinity;
     ends.inflation = inflation + robot.vicinity;
     ends.start = robot.committed_end().position;
     ends.start_rounding = rounding(ends.start);
+    ends.narrower_at_start = largest - radius;
     if (robot.goal) {
+      const double last = last_radius(robot);
       ends.goal = robot.goal->position;
       ends.goal_rounding = rounding(*ends.goal);
+      ends.growth = last - radius;
+      ends.narrower_at_goal = largest - last;
     }
     all.push_back(ends);
   }
   return all;
-}
-
-/// The segments from t = 0 to the end of the commitment, waits included.
-std::vector<TimedSegment> committed_segments(const Itinerary& itinerary) {
-  if (itinerary.t_begin <= 0.0) return {};
-  std::vector<TimedSegment> segments = timed_segments(itinerary.committed);
-  std::erase_if(segments, [&](const TimedSegment& segment) { return segment.t_start >= itinerary.t_begin; });
-  if (!segments.empty()) segments.back().t_end = std::min(segments.back().t_end, itinerary.t_begin);
-  return segments;
 }
 
 /// By robot, null for none; or no list.
@@ -61,8 +64,10 @@ std::shared_ptr<const FixedReservations> fixed(const Problem& problem, double in
   std::vector<FixedReservations::Robot> robots;
   for (const Robot& robot : problem.robots()) {
     const Itinerary itinerary = itinerary_of(robot);
-    robots.push_back({robot.radius, robot.start.position, itinerary.pose.position, itinerary.t_begin,
-                      committed_segments(itinerary), robot.vicinity});
+    const double largest = largest_radius(robot);
+    robots.push_back({largest, robot.start.position, itinerary.pose.position, itinerary.t_begin,
+                      committed_segments(robot, itinerary), robot.vicinity, largest - radius_at_begin(robot),
+                      largest - robot.radius});
   }
   return std::make_shared<FixedReservations>(problem.grid().width(), problem.grid().height(), inflation,
                                              std::move(robots), problem.obstacles(),
@@ -84,43 +89,80 @@ Instance::Instance(const Problem& problem, const PlanOptions& options,
       drive_zones_(drive_zones_of(problem)),
       contacts_(endpoints(problem, lattice_, options.inflation)),
       fixed_reservations_(std::move(fixed_reservations)) {
-  for (const Robot& robot : problem.robots()) {
-    const StaticMap& map = *problem.map_of(itineraries_.size());
-    itineraries_.push_back(itinerary_of(robot));
-    motions_.push_back(motion_of(robot, options));
-    auto& space = free_spaces_[{motions_.back().radius, &map}];
-    if (!space) {
-      auto finer = map.finer_vertices(lattice_, motions_.back().radius, stop);
-      space = std::make_unique<FreeSpace>(lattice_, map.sight(), motions_.back().radius, std::move(finer));
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Robot& robot = problem.robots()[i];
+    const Itinerary& itinerary = itineraries_.emplace_back(itinerary_of(robot));
+    disks_.emplace_back();
+    if (!core::changes_radius(robot)) {
+      add_disk(i, robot.radius, robot.radius, stop);
+      continue;
     }
-    free_space_.push_back(space.get());
+    const std::vector<double> radii = radii_of(robot);
+    const auto first = radii.begin() + static_cast<std::ptrdiff_t>(itinerary.first_goal);
+    const bool is_one = std::all_of(first, radii.end(), [&](double radius) { return radius == *first; });
+    for (auto radius = first; radius != (is_one ? first + 1 : radii.end()); ++radius) {
+      add_disk(i, *radius, largest_radius(robot), stop);
+    }
   }
 }
 
+void Instance::add_disk(std::size_t index, double radius, double largest, const StopCondition& stop) {
+  const Motion motion = motion_of(robot(index), options_, radius);
+  const StaticMap& map = *problem_.map_of(index);
+  auto& space = free_spaces_[{motion.radius, &map}];
+  if (!space) {
+    auto finer = map.finer_vertices(lattice_, motion.radius, stop);
+    space = std::make_unique<FreeSpace>(lattice_, map.sight(), motion.radius, std::move(finer));
+  }
+  disks_[index].push_back({motion, largest - radius, space.get()});
+}
+
+double Instance::largest_pair_radius(std::size_t index) const {
+  return motion_of(robot(index), options_, largest_radius(robot(index))).pair_radius;
+}
+
+const Motion& Instance::slimmest_motion(std::size_t index) const {
+  const std::vector<Disk>& all = disks_[index];
+  return std::min_element(all.begin(), all.end(),
+                          [](const Disk& a, const Disk& b) { return a.motion.radius < b.motion.radius; })
+      ->motion;
+}
+
+std::vector<TimedSegment> Instance::segments(std::size_t index, const Trajectory& trajectory) const {
+  std::vector<TimedSegment> segments = timed_segments(trajectory);
+  if (!core::changes_radius(robot(index))) return segments;
+  std::vector<Visit> visits = itineraries_[index].visited;
+  visits.insert(visits.end(), trajectory.visits.begin(), trajectory.visits.end());
+  if (robot(index).goal) visits.push_back({robot(index).via.size(), 0.0, trajectory.last_served});
+  return with_radii(std::move(segments), robot(index), radius_steps(robot(index), visits));
+}
+
 double Instance::radius_at_start(std::size_t index) const {
-  const Robot& robot = problem_.robots()[index];
+  const double radius = radius_at_begin(problem_.robots()[index]);
   const double overlap = std::max(0.0, options_.start_overlap - options_.inflation);  // of the bare disk
-  const double least = std::max(robot.radius - overlap - kMostOverlap, kSmallestDisk * robot.radius);
-  return sight(index).fitting_radius(itineraries_[index].pose.position, least, motions_[index].radius);
+  const double least = std::max(radius - overlap - kMostOverlap, kSmallestDisk * radius);
+  return sight(index).fitting_radius(itineraries_[index].pose.position, least, motion(index).radius);
 }
 
 bool Instance::fits_at_start(std::size_t index) const {
-  return sight(index).disk_fits(itineraries_[index].pose.position, motions_[index].radius);
+  return sight(index).disk_fits(itineraries_[index].pose.position, motion(index).radius);
 }
 
 bool Instance::fits_at_goal(std::size_t index) const {
   const std::vector<Goal>& goals = itineraries_[index].goals;
-  return std::all_of(goals.begin(), goals.end(), [&](const Goal& goal) {
-    return sight(index).disk_fits(goal.position, motions_[index].radius - kMostOverlap);
-  });
+  for (std::size_t k = 0; k < goals.size(); ++k) {
+    const double largest = std::max(motion(index, k).radius, motion(index, k + 1).radius);
+    if (!sight(index).disk_fits(goals[k].position, largest - kMostOverlap)) return false;
+  }
+  return true;
 }
 
 double Instance::longest_plan(std::size_t index) const {
-  return std::min(kLongestPlan, kLongestTravel / motions_[index].linear_speed);
+  return std::min(kLongestPlan, kLongestTravel / motion(index).linear_speed);
 }
 
-double Instance::radius_at_goal(std::size_t index, const Position& goal) const {
-  const double radius = motions_[index].radius;
+double Instance::radius_at_goal(std::size_t index, const Position& goal, std::size_t stage) const {
+  const double radius = motion(index, stage).radius;
   return sight(index).fitting_radius(goal, radius - kMostOverlap, radius);
 }
 

@@ -10,6 +10,7 @@
 #include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
 #include "core/model/most_meetings.h"
+#include "core/model/radius_steps.h"
 #include "core/reservation/motion_tree.h"
 
 namespace fleetplan::core {
@@ -29,9 +30,10 @@ constexpr std::size_t kFirstShare = 64;
 struct Passer {
   bool is_obstacle = false;
   std::size_t index = 0;
-  double radius = 0.0;  // metres
+  double radius = 0.0;  // metres, the largest
   std::vector<MovingDisk> pieces = {};
-  std::size_t next = 0;  // the first piece that has not been compared
+  std::vector<double> narrower = {};  // of each piece of a robot whose radius changes, see TimedSegment
+  std::size_t next = 0;               // the first piece that has not been compared
 };
 
 /// A part of what a robot certainly does.
@@ -39,6 +41,7 @@ struct Certain {
   std::size_t robot = 0;
   bool is_stay = false;
   MovingDisk disk;
+  double radius = 0.0;  // metres
 };
 
 std::vector<MovingDisk> obstacle_motion(const MovingObstacle& obstacle) {
@@ -162,15 +165,16 @@ class MeetingSearch {
     for (std::size_t i = 0; i < robots.size(); ++i) {
       const Itinerary itinerary = itinerary_of(robots[i]);
       const Position& place = itinerary.pose.position;
-      Passer passer{false, i, robots[i].radius};
-      for (TimedSegment segment : timed_segments(itinerary.committed)) {
-        if (segment.t_start >= itinerary.t_begin) break;
-        segment.t_end = std::min(segment.t_end, itinerary.t_begin);
+      Passer passer{false, i, largest_radius(robots[i])};
+      const bool changes = changes_radius(robots[i]);
+      for (const TimedSegment& segment : committed_segments(robots[i], itinerary)) {
         passer.pieces.emplace_back(segment);
-        certain_.push_back({i, false, passer.pieces.back()});
+        if (changes) passer.narrower.push_back(segment.narrower);
+        certain_.push_back({i, false, passer.pieces.back(), passer.radius - segment.narrower});
       }
+      const double at_end = changes ? radii_of(robots[i])[itinerary.first_goal] : robots[i].radius;
       if (!planned_[i])
-        certain_.push_back({i, true, MovingDisk({{place, place}, itinerary.t_begin, kForever})});
+        certain_.push_back({i, true, MovingDisk({{place, place}, itinerary.t_begin, kForever}), at_end});
       if (!passer.pieces.empty()) passers_.push_back(std::move(passer));
     }
   }
@@ -194,7 +198,7 @@ class MeetingSearch {
   /// Compares the pieces that begin before `t`. Returns false if the stop condition is met.
   bool compare_until(double t) {
     std::vector<MotionTree::Disk> disks;
-    for (const Certain& part : certain_) disks.push_back({part.disk, problem_.robots()[part.robot].radius});
+    for (const Certain& part : certain_) disks.push_back({part.disk, part.radius});
     // Invalid robots may stand beside the map.
     const MotionTree tree(std::move(disks), {problem_.grid().width(), problem_.grid().height(), kForever},
                           stop_);
@@ -209,29 +213,28 @@ class MeetingSearch {
         while (next < most && pieces[next].t_start < t) ++next;
         const MotionTree::Disk all = cover(&pieces[begin], &pieces[next - 1] + 1, passers_[k].radius);
         if (tree.visit(all.motion, all.radius, 0.0, [](std::size_t) { return false; })) continue;
-        for (std::size_t i = begin; i < next; ++i) compare(k, pieces[i], tree);
+        for (std::size_t i = begin; i < next; ++i) compare(k, i, tree);
       }
     }
     return true;
   }
 
-  void compare(std::size_t passer, const MovingDisk& piece, const MotionTree& tree) {
-    const auto& [is_obstacle, index, radius, pieces, next] = passers_[passer];
-    tree.visit(piece, radius, 0.0,
-               [&, is_obstacle = is_obstacle, index = index, radius = radius](std::size_t k) {
-                 const Certain& part = certain_[k];
-                 // Committed motions are clear of each other.
-                 if (!is_obstacle && (part.robot == index || !part.is_stay)) return true;
-                 const auto met =
-                     overlap(part.disk, piece, problem_.robots()[part.robot].radius + radius - kOverlap);
-                 if (!met) return true;
-                 // Robots that begin too near to each other part.
-                 if (!is_obstacle && met->begin <= 0.0) return true;
-                 Overlaps& overlaps = overlaps_[part.robot];
-                 overlaps.meets_while_staying = overlaps.meets_while_staying || part.is_stay;
-                 overlaps.add(passer, *met);
-                 return true;
-               });
+  void compare(std::size_t index, std::size_t piece, const MotionTree& tree) {
+    const Passer& passer = passers_[index];
+    const double radius = passer.radius - (passer.narrower.empty() ? 0.0 : passer.narrower[piece]);
+    tree.visit(passer.pieces[piece], radius, 0.0, [&](std::size_t k) {
+      const Certain& part = certain_[k];
+      // Committed motions are clear of each other.
+      if (!passer.is_obstacle && (part.robot == passer.index || !part.is_stay)) return true;
+      const auto met = overlap(part.disk, passer.pieces[piece], part.radius + radius - kOverlap);
+      if (!met) return true;
+      // Robots that begin too near to each other part.
+      if (!passer.is_obstacle && met->begin <= 0.0) return true;
+      Overlaps& overlaps = overlaps_[part.robot];
+      overlaps.meets_while_staying = overlaps.meets_while_staying || part.is_stay;
+      overlaps.add(index, *met);
+      return true;
+    });
   }
 
   void leave_out_those_known(double t) {

@@ -8,6 +8,8 @@
 #include "api/advance/clear_commitments.h"
 #include "api/advance/timeline.h"
 #include "core/model/itinerary.h"
+#include "core/model/radius_steps.h"
+#include "core/model/served_goals.h"
 
 namespace fleetplan::api {
 
@@ -23,10 +25,20 @@ constexpr double kSameService = 1e-9;
 struct GoalsLeft {
   std::vector<core::Goal> goals;
   std::size_t visited = 0;
+  double radius = 0.0;  // metres, of the robot
 };
 
+/// Whether the last goal has been served by the rest at the end of a plan.
+bool has_served_last(const core::Robot& robot, const Actions& actions, double progress) {
+  const std::vector<core::Visit> visits = core::visits_of(robot, actions);
+  if (visits.size() < robot.goal_count()) return false;
+  const double end = std::max(visits.back().t_arrive, robot.goal->not_before) + robot.goal->service;
+  return std::max(end, robot.committed_until()) <= progress + kSameService;
+}
+
 /// `progress`: the planned time of what the robot has executed of its actions. It stands after the last one.
-GoalsLeft goals_left(const core::Robot& robot, const Actions& actions, double progress, double at) {
+GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, double progress, double at) {
+  const Actions& actions = execution.actions;
   core::Robot past = robot;
   past.committed = actions_until(actions, progress);
   if (past.committed_until() < progress) {
@@ -41,7 +53,12 @@ GoalsLeft goals_left(const core::Robot& robot, const Actions& actions, double pr
     goal.not_before = std::max(0.0, goal.not_before - at);
     left.goals.push_back(goal);
   }
+  left.radius = core::changes_radius(robot) ? core::radii_of(robot)[left.visited] : robot.radius;
   if (left.goals.empty()) return left;
+  core::Goal& last = left.goals.back();
+  if (last.radius_after && execution.planned && has_served_last(robot, actions, progress)) {
+    left.radius = *std::exchange(last.radius_after, std::nullopt);
+  }
   core::Goal& next = left.goals.front();
   next.service = std::max(0.0, next.service - itinerary.service_done);
   if (next.service <= kSameService) next.service = 0.0;
@@ -102,10 +119,11 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
                    : execution.measured
                        ? remainder_of_measured(robot, actions, *execution.measured, *progress, moment.at)
                        : remainder(robot, actions, moment.at);
-  GoalsLeft left = goals_left(robot, actions, progress ? progress->t : moment.at, moment.at);
+  GoalsLeft left = goals_left(robot, execution, progress ? progress->t : moment.at, moment.at);
 
   core::Robot next = robot;
   next.start = rest.start;
+  next.radius = left.radius;
   renumber(rest.actions, execution.goals ? robot.goal_count() : left.visited);
   set_goals(next, execution.goals ? *execution.goals : std::move(left.goals));
   if (!execution.goals) align_service(next, rest);

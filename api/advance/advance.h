@@ -31,8 +31,9 @@ struct Execution {
   std::optional<std::vector<core::Goal>> goals = {};
 };
 
-/// The robot of the request of that moment: its start, goals, committed and previous actions. It has no
-/// previous actions if it has no plan, is elsewhere than planned, or gets other goals.
+/// The robot of the request of that moment: its start, goals, radius, committed and previous actions. Its
+/// radius is the one after the goals that it has left behind, and after a last goal that it has served. It
+/// has no previous actions if it has no plan, is elsewhere than planned, or gets other goals.
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment);
 
 /// All of them. Committed actions end where they touch another robot that is committed or stands at the end

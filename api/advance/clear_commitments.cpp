@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "api/advance/timeline.h"
+#include "core/model/itinerary.h"
+#include "core/model/radius_steps.h"
 
 namespace fleetplan::api {
 
@@ -24,6 +26,9 @@ constexpr double kSameEnd = 1e-9;
 /// A shorter commitment is none (seconds).
 constexpr double kNothing = 1e-6;
 
+/// A commitment that ends by so much before a service does not contain it (seconds).
+constexpr double kBeforeService = 1e-3;
+
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 /// A piece of straight motion or rest.
@@ -32,12 +37,14 @@ struct Piece {
   double end;
   Position from;
   Position velocity;
+  double radius = 0.0;  // as planned
+  bool grows = false;   // it is smaller before
 
   Position at(double t) const { return from + velocity * (t - begin); }
   bool moves() const { return velocity.squaredNorm() > 0.0; }
 };
 
-/// Where two robots begin to overlap, and who drives then.
+/// Where two robots begin to overlap, and who drives then, or becomes larger.
 struct Meeting {
   double t;
   bool first_moves;
@@ -62,15 +69,24 @@ std::optional<double> first_overlap(const Piece& a, const Piece& b, double dista
   return t < end ? std::optional(t) : std::nullopt;
 }
 
+/// When a disk that becomes larger at the end of a service overlaps another one: it is not to end.
+std::optional<Meeting> overlap_by_growth(const Piece& a, const Piece& b, double distance) {
+  const double begin = std::max(a.begin, b.begin);
+  const bool a_grows = a.grows && begin == a.begin;
+  const bool b_grows = b.grows && begin == b.begin;
+  if (!a_grows && !b_grows) return std::nullopt;
+  if (begin > std::min(a.end, b.end) || (a.at(begin) - b.at(begin)).norm() >= distance) return std::nullopt;
+  return Meeting{std::max(0.0, begin - kBeforeService), a_grows, b_grows};
+}
+
 class Clearing {
  public:
   Clearing(std::vector<core::Robot>& robots, double inflation, ParseStop& stop)
-      : robots_(robots), stop_(stop), waits_(robots.size(), true) {
+      : robots_(robots), inflation_(inflation), stop_(stop), waits_(robots.size(), true) {
     for (const core::Robot& robot : robots) {
       waiting_.push_back(pieces_.size());
-      pieces_.push_back(pieces_of(robot));
-      radii_.push_back(robot.radius + robot.vicinity + inflation);
-      reach_.push_back(radii_.back() + driven(robot));
+      pieces_.push_back(pieces_of(robot, inflation));
+      reach_.push_back(core::largest_radius(robot) + robot.vicinity + inflation + driven(robot));
     }
   }
 
@@ -88,15 +104,35 @@ class Clearing {
 
  private:
   /// The commitment, and then the stay at its end.
-  static std::vector<Piece> pieces_of(const core::Robot& robot) {
+  static std::vector<Piece> pieces_of(const core::Robot& robot, double inflation) {
+    std::vector<core::RadiusStep> steps;
+    if (core::changes_radius(robot)) {
+      steps = core::radius_steps(robot, core::itinerary_of(robot).visited);
+    }
+    const double more = robot.vicinity + inflation;
     std::vector<Piece> pieces;
+    double radius = robot.radius + more;
+    auto step = steps.begin();
+    const auto add = [&](Piece piece) {
+      for (; step != steps.end() && step->t < piece.end; ++step) {
+        if (step->t > piece.begin) {
+          pieces.push_back({piece.begin, step->t, piece.from, piece.velocity, radius, piece.grows});
+          piece.from = piece.at(step->t);
+          piece.begin = step->t;
+        }
+        piece.grows = step->radius + more > radius;
+        radius = step->radius + more;
+      }
+      piece.radius = radius;
+      pieces.push_back(piece);
+    };
     for (const Action& action : robot.committed) {
       const double duration = action.t_end - action.t_start;
       const Position path = action.to.position - action.from.position;
       const Position velocity = duration > 0.0 ? Position(path / duration) : Position(0.0, 0.0);
-      pieces.push_back({action.t_start, action.t_end, action.from.position, velocity});
+      add({action.t_start, action.t_end, action.from.position, velocity});
     }
-    pieces.push_back({robot.committed_until(), kForever, robot.committed_end().position, {0.0, 0.0}});
+    add({robot.committed_until(), kForever, robot.committed_end().position, {0.0, 0.0}});
     return pieces;
   }
 
@@ -123,12 +159,13 @@ class Clearing {
   }
 
   std::optional<Meeting> first_meeting(std::size_t robot, std::size_t other) {
-    const double distance = radii_[robot] + radii_[other] - kTouch;
     const std::vector<Piece>& mine = pieces_[robot];
     const std::vector<Piece>& theirs = pieces_[other];
     std::size_t i = 0;
     for (std::size_t k = 0; k < mine.size() && i + 1 < theirs.size();) {
       if (stop_.met_after(1)) return std::nullopt;
+      const double distance = mine[k].radius + theirs[i].radius - kTouch;
+      if (const auto grown = overlap_by_growth(mine[k], theirs[i], distance)) return grown;
       if (const auto t = first_overlap(mine[k], theirs[i], distance)) {
         return Meeting{*t, mine[k].moves(), theirs[i].moves()};
       }
@@ -143,16 +180,16 @@ class Clearing {
     if (t >= robot.committed_until() - kSameEnd) return;
     robot.committed = actions_until(robot.committed, t);
     if (robot.previous) robot.previous = split_at(*robot.previous, t);
-    pieces_[index] = pieces_of(robot);
+    pieces_[index] = pieces_of(robot, inflation_);
     if (waits_[index]) return;
     waits_[index] = true;
     waiting_.push_back(index);
   }
 
   std::vector<core::Robot>& robots_;
+  const double inflation_;
   ParseStop& stop_;
   std::vector<std::vector<Piece>> pieces_;
-  std::vector<double> radii_;  // as planned
   std::vector<double> reach_;  // from the start, the disk included; of the commitment as it was
   std::vector<bool> waits_;    // for its comparison with all others
   std::vector<std::size_t> waiting_;

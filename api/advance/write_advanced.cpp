@@ -27,6 +27,7 @@ void write_goal(JsonWriter& json, const core::Goal& goal, const std::string& met
   if (goal.theta) json.member("theta", *goal.theta);
   if (goal.service > 0.0) json.member("service", goal.service);
   if (goal.not_before > 0.0) json.member("not_before", goal.not_before);
+  if (goal.radius_after) json.member("radius_after", *goal.radius_after);
   if (!metadata.empty()) json.key("metadata").json(metadata);
   json.end_object();
 }
@@ -78,14 +79,18 @@ void write_goals(JsonWriter& json, const core::Robot& robot, const GoalMetadata&
   json.end_array();
 }
 
-void write_robot(JsonWriter& json, const JsonValue& given, const core::Robot& robot,
+/// `radius`: that the robot had.
+void write_robot(JsonWriter& json, const JsonValue& given, double radius, const core::Robot& robot,
                  const GoalMetadata& metadata) {
+  const bool has_other_radius = robot.radius != radius;
   json.begin_object();
   for (const JsonValue member : given.children()) {
     if (std::find(kChanging.begin(), kChanging.end(), member.key()) != kChanging.end()) continue;
+    if (has_other_radius && member.key() == "radius") continue;
     json.key(member.key());
     copy_json(json, member);
   }
+  if (has_other_radius) json.member("radius", robot.radius);
   write_pose(json, "start", robot.start);
   write_goals(json, robot, metadata, given.find("goal").has_value());
   if (!robot.committed.empty()) write_actions(json, "committed", robot.committed);
@@ -98,7 +103,8 @@ void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest
   json.begin_array();
   std::size_t index = 0;
   for (const JsonValue robot : given.children()) {
-    write_robot(json, robot, robots[index], GoalMetadata(request, index, robots[index]));
+    write_robot(json, robot, request.robots[index].radius, robots[index],
+                GoalMetadata(request, index, robots[index]));
     ++index;
   }
   json.end_array();

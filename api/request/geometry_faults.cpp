@@ -87,7 +87,7 @@ GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
               in_obstacle("start", name, read.robot.radius, found.gap, obstacle)};
     case Kind::goal_in_obstacle:
       return {read.goals[found.goal], fault::kGoalInObstacle,
-              in_obstacle(goal_name(read, found.goal), name, read.robot.radius, found.gap, obstacle)};
+              in_obstacle(goal_name(read, found.goal), name, found.radius, found.gap, obstacle)};
     case Kind::starts_overlap:
       return {read.start, fault::kStartsOverlap, overlap("starts", other, name, found.gap)};
     case Kind::goals_overlap:

@@ -22,10 +22,10 @@ constexpr std::int64_t kWorkDivisor = 64;
 
 /// Whether the robot's disk is clear of obstacles at both ends of a leg. Elsewhere it always is.
 bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) {
-  const double radius = instance.motion(robot).radius;
+  const double radius = instance.motion(robot, leg).radius;
   const std::vector<Goal>& goals = instance.itinerary(robot).goals;
   const auto fits_at = [&](const Goal& goal) {
-    return instance.radius_at_goal(robot, goal.position) == radius;
+    return instance.radius_at_goal(robot, goal.position, leg) == radius;
   };
   const bool fits_at_begin = leg == 0 ? instance.fits_at_start(robot) : fits_at(goals[leg - 1]);
   return fits_at_begin && fits_at(goals[leg]);
@@ -89,10 +89,12 @@ void TautPathBounds::bound(const Instance& instance, const std::vector<std::size
     const Motion& motion = instance.motion(robot);
     const Way& way = ways.emplace_back(instance.itinerary(robot), motion);
     seconds_[robot] = end_after(instance.itinerary(robot), way.seconds);
-    const double reduced = motion.radius - 2.0 * TangentGraph::kRadiusReduction;
-    for (std::size_t leg = 0; reduced > 0.0 && leg < way.legs.size(); ++leg) {
+    for (std::size_t leg = 0; leg < way.legs.size(); ++leg) {
+      const double radius = instance.motion(robot, leg).radius;
+      const double reduced = radius - 2.0 * TangentGraph::kRadiusReduction;
+      if (reduced <= 0.0) continue;
       if (is_straight(instance, way.legs[leg], reduced) || !fits_at_ends(instance, robot, leg)) continue;
-      out_of_sight[motion.radius].push_back({robot, ways.size() - 1, leg});
+      out_of_sight[radius].push_back({robot, ways.size() - 1, leg});
     }
   }
   if (out_of_sight.empty()) return;
@@ -120,7 +122,7 @@ void TautPathBounds::improve(const Instance& instance, const LegsByRadius& out_o
       const double most = way.most_seconds(itinerary, index.leg, costs[index.robot]);
       const std::int64_t before = search.work();
       const GoalLeg& leg = way.legs[index.leg];
-      const Motion motion = without_turns_if_reversing(instance.motion(index.robot));
+      const Motion motion = without_turns_if_reversing(instance.motion(index.robot, index.leg));
       const TautPathResult result = search.run(leg, motion, most, work / kWorkDivisor, stop);
       work -= search.work() - before;
       const double turn = instance.motion(index.robot).may_reverse && leg.heading && leg.to.theta

@@ -22,6 +22,8 @@ struct TimedSegment {
   Segment path;
   double t_start = 0.0;
   double t_end = 0.0;
+  /// Metres: by how much the disk is smaller than the robot ever is, see Goal::radius_after.
+  double narrower = 0.0;
 
   double duration() const { return t_end - t_start; }
   Position velocity() const {

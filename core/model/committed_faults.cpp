@@ -12,6 +12,7 @@
 #include "core/map/obstacle_distance.h"
 #include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
+#include "core/model/radius_steps.h"
 #include "core/reservation/motion_tree.h"
 
 namespace fleetplan::core {
@@ -26,16 +27,20 @@ constexpr int kHalvings = 60;
 /// Places of a move where the overlap with a wall is measured, for the message.
 constexpr int kMeasured = 16;
 
+using Disk = MotionTree::Disk;
+
 /// Where a robot certainly is: its committed motion, and a robot that never leaves stays at its end.
-std::vector<MovingDisk> certain_motion(const Robot& robot) {
-  const bool stays = !robot.goal || robot.invalid;
-  const double until = stays ? kForever : robot.committed_until();
-  std::vector<MovingDisk> motion;
-  if (until <= 0.0) return motion;
-  for (TimedSegment segment : timed_segments(itinerary_of(robot).committed)) {
-    if (segment.t_start >= until) break;
-    segment.t_end = std::min(segment.t_end, until);
-    motion.emplace_back(segment);
+std::vector<Disk> certain_motion(const Robot& robot) {
+  std::vector<Disk> motion;
+  if (!robot.goal || robot.invalid) {
+    for (const TimedSegment& segment : timed_segments(itinerary_of(robot).committed)) {
+      motion.push_back({MovingDisk(segment), robot.radius});
+    }
+  } else if (robot.committed_until() > 0.0) {
+    const double largest = largest_radius(robot);
+    for (const TimedSegment& segment : committed_segments(robot, itinerary_of(robot))) {
+      motion.push_back({MovingDisk(segment), largest - segment.narrower});
+    }
   }
   return motion;
 }
@@ -43,28 +48,37 @@ std::vector<MovingDisk> certain_motion(const Robot& robot) {
 /// The first time and the depth of a collision.
 struct Collision {
   double t = kForever;
-  double distance = kForever;  // of the centres
+  double gap = kForever;  // metres, negative
 
   void add(double begin, double least) {
     t = std::min(t, begin);
-    distance = std::min(distance, least);
+    gap = std::min(gap, least);
   }
 };
 
-/// For a pair that begins nearer than `reach`: it comes no nearer until it is clear, and then keeps away.
-std::optional<Collision> collision_after_leaving(const std::vector<MovingDisk>& a,
-                                                 const std::vector<MovingDisk>& b, double reach) {
-  const double at_first = (a.front().from - b.front().from).norm() - kContactTolerance;
+/// The distance that two disks keep, in contact at the nearest.
+double reach_of(const Disk& a, const Disk& b) { return a.radius + b.radius - kContactTolerance; }
+
+/// For a pair that begins nearer than it should be: it comes no nearer until it is clear, and then keeps
+/// away.
+std::optional<Collision> collision_after_leaving(const std::vector<Disk>& a, const std::vector<Disk>& b) {
+  const double at_first = (a.front().motion.from - b.front().motion.from).norm() - kContactTolerance;
+  const double reach_at_first = reach_of(a.front(), b.front());
   bool clear = false;
   std::size_t i = 0;
   std::size_t j = 0;
   while (i < a.size() && j < b.size()) {
+    const MovingDisk& mine = a[i].motion;
+    const MovingDisk& theirs = b[j].motion;
+    const double reach = reach_of(a[i], b[j]);
+    clear = clear || reach > reach_at_first;  // one of them has grown
     const double kept = clear ? reach : at_first;
-    if (const auto hit = overlap(a[i], b[j], kept)) return Collision{hit->begin, least_distance(a[i], b[j])};
-    const double end = std::min(a[i].t_end, b[j].t_end);
-    const auto near = overlap(a[i], b[j], reach);
+    if (const auto hit = overlap(mine, theirs, kept))
+      return Collision{hit->begin, least_distance(mine, theirs) - a[i].radius - b[j].radius};
+    const double end = std::min(mine.t_end, theirs.t_end);
+    const auto near = overlap(mine, theirs, reach);
     clear = clear || !near || near->end < end;  // the distance is convex within a segment
-    (a[i].t_end <= b[j].t_end ? i : j) += 1;
+    (mine.t_end <= theirs.t_end ? i : j) += 1;
   }
   return std::nullopt;
 }
@@ -96,20 +110,29 @@ class CommittedFaults {
   void check_walls(std::size_t index) {
     const Robot& robot = robots_[index];
     const LineOfSight& sight = maps_.of(index)->sight();
-    const double full = robot.radius - kContactTolerance + kSearchSlack;
+    double full = robot.radius - kContactTolerance + kSearchSlack;
     const double least = std::max(full - conditions_.wall_overlap, kSmallestDisk * full);
     if (!sight.disk_fits(robot.start.position, least)) return;  // its start is at fault
     double radius = sight.fitting_radius(robot.start.position, least, full);
+    const std::vector<RadiusStep> steps = radius_steps(robot, itinerary_of(robot).visited);
+    auto step = steps.begin();
+    double own = robot.radius;
     for (const Action& action : robot.committed) {
       if (action.type != Action::Type::translate) continue;
+      for (; step != steps.end() && step->t <= action.t_start; ++step) {
+        own = step->radius;
+        full = own - kContactTolerance + kSearchSlack;
+        radius = full;  // the goal where it changes fits
+      }
       if (!sight.may_sweep(action.from.position, action.to.position, radius)) {
-        return add_wall(index, action, radius);
+        return add_wall(index, action, own, radius);
       }
       if (sight.disk_fits(action.to.position, full)) radius = full;
     }
   }
 
-  void add_wall(std::size_t index, const Action& action, double radius) {
+  /// `own`: the robot's radius; `radius`: what it has to keep.
+  void add_wall(std::size_t index, const Action& action, double own, double radius) {
     const LineOfSight& sight = maps_.of(index)->sight();
     const Position way = action.to.position - action.from.position;
     const auto at = [&](double fraction) { return Position(action.from.position + fraction * way); };
@@ -119,7 +142,6 @@ class CommittedFaults {
       const double middle = 0.5 * (free + blocked);
       (sight.may_sweep(action.from.position, at(middle), radius) ? free : blocked) = middle;
     }
-    const double own = robots_[index].radius;
     const bool meets_wall = !maps_.map()->sight().may_sweep(action.from.position, at(blocked), radius);
     const auto zone =
         meets_wall ? std::nullopt : nearest_blocked_zone(conditions_.zones, index, at(blocked), kForever);
@@ -151,14 +173,14 @@ class CommittedFaults {
   }
 
   void find_pairs() {
-    std::vector<MotionTree::Disk> disks;
+    std::vector<Disk> disks;
     std::vector<std::uint32_t> owners;
     double largest = 0.0;
     for (std::size_t i = 0; i < robots_.size(); ++i) {
-      largest = std::max(largest, robots_[i].radius);
+      largest = std::max(largest, largest_radius(robots_[i]));
       motions_.push_back(certain_motion(robots_[i]));
-      for (const MovingDisk& disk : motions_.back()) {
-        disks.push_back({disk, robots_[i].radius});
+      for (const Disk& disk : motions_.back()) {
+        disks.push_back(disk);
         owners.push_back(static_cast<std::uint32_t>(i));
       }
     }
@@ -167,10 +189,10 @@ class CommittedFaults {
     if (!tree.finished()) return;
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       if (!is_committed(i)) continue;
-      for (const MovingDisk& mine : motions_[i]) {
+      for (const Disk& mine : motions_[i]) {
         if (stop_.met() || pairs_.size() >= kMostPairs) return;
-        tree.visit(mine, robots_[i].radius, 0.0, [&](std::size_t k) {
-          compare(i, mine, owners[k], tree[k].motion);
+        tree.visit(mine.motion, mine.radius, 0.0, [&](std::size_t k) {
+          compare(i, mine, owners[k], tree[k]);
           return true;
         });
       }
@@ -178,27 +200,27 @@ class CommittedFaults {
   }
 
   /// A pair of two robots with commitments is compared once.
-  void compare(std::size_t robot, const MovingDisk& mine, std::size_t other, const MovingDisk& theirs) {
+  void compare(std::size_t robot, const Disk& mine, std::size_t other, const Disk& theirs) {
     if (other == robot || (other > robot && is_committed(other))) return;
-    const double reach = robots_[robot].radius + robots_[other].radius - kContactTolerance;
-    const auto hit = overlap(mine, theirs, reach);
+    const auto hit = overlap(mine.motion, theirs.motion, reach_of(mine, theirs));
     if (!hit) return;
     const double at_start = (robots_[robot].start.position - robots_[other].start.position).norm();
-    if (at_start < reach) return compare_leaving(robot, other, at_start, reach);
-    pairs_[{robot, other}].add(hit->begin, least_distance(mine, theirs));
+    const double kept = robots_[robot].radius + robots_[other].radius - kContactTolerance;
+    if (at_start < kept) return compare_leaving(robot, other, at_start, kept);
+    const double gap = least_distance(mine.motion, theirs.motion) - mine.radius - theirs.radius;
+    pairs_[{robot, other}].add(hit->begin, gap);
   }
 
   void compare_leaving(std::size_t robot, std::size_t other, double at_start, double reach) {
     if (at_start < reach - conditions_.pair_overlap) return;  // the starts are at fault
     if (!leaving_.insert({robot, other}).second) return;
-    if (const auto found = collision_after_leaving(motions_[robot], motions_[other], reach)) {
+    if (const auto found = collision_after_leaving(motions_[robot], motions_[other])) {
       pairs_[{robot, other}] = *found;
     }
   }
 
   void add_pair(std::size_t robot, std::size_t other, const Collision& collision) {
-    const double gap = collision.distance - robots_[robot].radius - robots_[other].radius;
-    faults_.push_back({ProblemFault::Kind::committed_collision, robot, other, gap, 0, collision.t});
+    faults_.push_back({ProblemFault::Kind::committed_collision, robot, other, collision.gap, 0, collision.t});
   }
 
   using Pair = std::pair<std::size_t, std::size_t>;  // a robot with a commitment, and another one
@@ -207,7 +229,7 @@ class CommittedFaults {
   const std::vector<Robot>& robots_;
   const ProblemConditions& conditions_;
   const StopCondition& stop_;
-  std::vector<std::vector<MovingDisk>> motions_;  // by robot
+  std::vector<std::vector<Disk>> motions_;  // by robot
   std::map<Pair, Collision> pairs_;
   std::set<Pair> leaving_;  // that have been compared
   std::vector<ProblemFault> faults_;

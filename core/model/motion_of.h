@@ -6,14 +6,17 @@
 
 namespace fleetplan::core {
 
-/// How the robot moves under these options.
-inline Motion motion_of(const Robot& robot, const PlanOptions& options) {
-  return {robot.radius + options.inflation,
+/// How the robot moves under these options while it has this radius (metres).
+inline Motion motion_of(const Robot& robot, const PlanOptions& options, double radius) {
+  return {radius + options.inflation,
           robot.linear_speed,
           robot.angular_speed,
           options.wait_before_move,
-          robot.radius + options.inflation + robot.vicinity,
+          radius + options.inflation + robot.vicinity,
           robot.may_reverse};
+}
+inline Motion motion_of(const Robot& robot, const PlanOptions& options) {
+  return motion_of(robot, options, robot.radius);
 }
 
 }  // namespace fleetplan::core

@@ -7,6 +7,7 @@
 #include "core/map/line_of_sight.h"
 #include "core/map/obstacle_distance.h"
 #include "core/model/committed_faults.h"
+#include "core/model/radius_steps.h"
 
 namespace fleetplan::core {
 namespace {
@@ -20,6 +21,7 @@ class FaultSearch {
   FaultSearch(const ZoneMaps& maps, const std::vector<Robot>& robots, const ProblemConditions& conditions,
               const StopCondition& stop)
       : maps_(maps), robots_(robots), conditions_(conditions), stop_(stop) {
+    for (const Robot& robot : robots) last_radii_.push_back(last_radius(robot));
     if (conditions.list_faults_of_every_robot) listed_of_robot_.resize(robots.size(), 0);
   }
 
@@ -66,22 +68,28 @@ class FaultSearch {
   void check_obstacles(std::size_t index) {
     const Robot& robot = robots_[index];
     if (robot.invalid) return;
-    const double radius = robot.radius - kContactTolerance + kSearchSlack;
+    const auto clear = [](double radius) { return radius - kContactTolerance + kSearchSlack; };
     const auto check = [&](const Position& position, double least, ProblemFault fault) {
       if (maps_.of(index)->sight().disk_fits(position, least)) return;
+      const double own = fault.radius;
       if (maps_.map()->sight().disk_fits(position, least)) {
-        const auto zone = nearest_blocked_zone(conditions_.zones, index, position, robot.radius);
+        const auto zone = nearest_blocked_zone(conditions_.zones, index, position, own);
         if (zone) fault.zone = zone->index;
-        return add(fault, [&] { return (zone ? zone->distance : robot.radius) - robot.radius; });
+        return add(fault, [&] { return (zone ? zone->distance : own) - own; });
       }
-      add(fault,
-          [&] { return obstacle_distance(maps_.map()->grid(), position, robot.radius) - robot.radius; });
+      add(fault, [&] { return obstacle_distance(maps_.map()->grid(), position, own) - own; });
     };
     const double overlap = conditions_.wall_overlap;
+    const double radius = clear(robot.radius);
     check(robot.start.position, overlap > 0.0 ? std::max(radius - overlap, kClearOfWalls * radius) : radius,
-          {ProblemFault::Kind::start_in_obstacle, index});
+          {ProblemFault::Kind::start_in_obstacle, index, 0, 0.0, 0, 0.0, robot.radius});
+    double arrives = robot.radius;
     for (std::size_t k = 0; k < robot.goal_count(); ++k) {
-      check(robot.goal_at(k).position, radius, {ProblemFault::Kind::goal_in_obstacle, index, 0, 0.0, k, 0.0});
+      const double leaves = robot.goal_at(k).radius_after.value_or(arrives);
+      const double larger = std::max(arrives, leaves);
+      check(robot.goal_at(k).position, clear(larger),
+            {ProblemFault::Kind::goal_in_obstacle, index, 0, 0.0, k, 0.0, larger});
+      arrives = leaves;
     }
   }
 
@@ -90,15 +98,17 @@ class FaultSearch {
     const Robot& a = robots_[other];
     const Robot& b = robots_[index];
     if (a.invalid && b.invalid) return;
-    const double apart = a.radius + b.radius - kContactTolerance;
-    const auto check = [&](const Position& p, const Position& q, double allowed, ProblemFault::Kind kind) {
+    const auto check = [&](const Position& p, const Position& q, double sum, double overlap,
+                           ProblemFault::Kind kind) {
+      const double allowed = sum - kContactTolerance - overlap;
       if (allowed <= 0.0 || (p - q).squaredNorm() >= allowed * allowed) return;
-      add({kind, index, other}, [&] { return (p - q).norm() - a.radius - b.radius; });
+      add({kind, index, other}, [&] { return (p - q).norm() - sum; });
     };
-    check(a.start.position, b.start.position, apart - conditions_.pair_overlap,
+    check(a.start.position, b.start.position, a.radius + b.radius, conditions_.pair_overlap,
           ProblemFault::Kind::starts_overlap);
     if (a.goal && b.goal) {
-      check(a.goal->position, b.goal->position, apart, ProblemFault::Kind::goals_overlap);
+      check(a.goal->position, b.goal->position, last_radii_[other] + last_radii_[index], 0.0,
+            ProblemFault::Kind::goals_overlap);
     }
   }
 
@@ -106,6 +116,7 @@ class FaultSearch {
   const std::vector<Robot>& robots_;
   const ProblemConditions& conditions_;
   const StopCondition& stop_;
+  std::vector<double> last_radii_;            // by robot, metres, at rest at its last goal
   std::vector<std::size_t> listed_of_robot_;  // empty: the first faults of all are listed
   ProblemFaults faults_;
 };

@@ -34,6 +34,7 @@ struct ProblemFault {
   double gap = 0.0;       // metres, negative: the overlap of the disks, or of the disk and the obstacle
   std::size_t goal = 0;   // of goal_in_obstacle: its number
   double t = 0.0;         // of committed_collision and committed_in_zone: seconds
+  double radius = 0.0;    // metres, of the disk that does not fit at a start or goal
   std::optional<std::size_t> zone = {};  // its index, if a zone is the obstacle, or the rule is its
 };
 

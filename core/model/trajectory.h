@@ -16,6 +16,8 @@ struct Trajectory {
   double cost = 0.0;  // seconds until it rests in the goal pose, the last rotation and service included
   std::vector<Visit> visits = {};  // to goals of Robot::via that are served after the committed actions
   std::vector<bool> reverse = {};  // by move: backwards; those that are missing are not
+  /// Seconds: the end of the service at the last goal, if the robot has another radius from then on.
+  double last_served = kForever;
   /// By move: goes on straight from the one before, at another speed; those that are missing do not.
   std::vector<bool> goes_on = {};
   bool is_previous = false;  // the motion of Robot::previous: its actions are those received

@@ -7,10 +7,15 @@
 
 namespace fleetplan::core {
 
-DiskIndex::DiskIndex(const Instance& instance) : instance_(instance), size_(0.0) {
+DiskIndex::DiskIndex(const Instance& instance, At at) : instance_(instance), at_(at), size_(0.0) {
   for (std::size_t i = 0; i < instance.size(); ++i) {
-    size_ = std::max(size_, 2.0 * instance.motion(i).pair_radius);
+    size_ = std::max(size_, 2.0 * instance.largest_pair_radius(i));
   }
+}
+
+double DiskIndex::radius(std::size_t robot, At at) const {
+  const std::size_t stage = at == At::start ? 0 : instance_.itinerary(robot).goals.size();
+  return instance_.motion(robot, stage).pair_radius;
 }
 
 std::int64_t DiskIndex::bucket(double coordinate) const {
@@ -25,15 +30,15 @@ void DiskIndex::add(std::size_t robot, const Position& center) {
   buckets_[key(bucket(center.x()), bucket(center.y()))].push_back({robot, center});
 }
 
-std::vector<std::size_t> DiskIndex::overlapping(std::size_t robot, const Position& center) const {
+std::vector<std::size_t> DiskIndex::overlapping(std::size_t robot, At at, const Position& center) const {
   std::vector<std::size_t> found;
-  const double radius = instance_.motion(robot).pair_radius;
+  const double mine = radius(robot, at);
   for (std::int64_t column = bucket(center.x()) - 1; column <= bucket(center.x()) + 1; ++column) {
     for (std::int64_t row = bucket(center.y()) - 1; row <= bucket(center.y()) + 1; ++row) {
       const auto disks = buckets_.find(key(column, row));
       if (disks == buckets_.end()) continue;
       for (const Disk& disk : disks->second) {
-        const double reach = radius + instance_.motion(disk.robot).pair_radius - kContactTolerance;
+        const double reach = mine + radius(disk.robot, at_) - kContactTolerance;
         const bool overlap = (disk.center - center).squaredNorm() < reach * reach;
         if (overlap && disk.robot != robot) found.push_back(disk.robot);
       }

@@ -50,8 +50,9 @@ Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vec
     if (other == robot || instance.itinerary(other).t_begin > itinerary.t_begin) continue;
     const Position& center = instance.itinerary(other).pose.position;
     // A robot that starts too near to another one may leave, but come no nearer.
-    const double reach = std::min(instance.motion(robot).pair_radius + instance.motion(other).pair_radius,
-                                  (start - center).norm());
+    const double reach =
+        std::min(instance.slimmest_motion(robot).pair_radius + instance.motion(other).pair_radius,
+                 (start - center).norm());
     disks_.push_back({other, center, reach - kSlack, false});
     longest_reach_ = std::max(longest_reach_, reach);
   }
@@ -59,10 +60,11 @@ Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vec
             [](const Disk& a, const Disk& b) { return a.center.x() < b.center.x(); });
 }
 
-/// The radius, or less if the robot is nearer to an obstacle at its start or goal.
+/// The smallest radius that it has on its way, or less if the robot is nearer to an obstacle at its start or
+/// goal.
 double Enclosure::required_clearance() const {
   const Robot& robot = instance_.robot(robot_);
-  double clearance = instance_.motion(robot_).radius;
+  double clearance = instance_.slimmest_motion(robot_).radius;
   const Position& start = instance_.itinerary(robot_).pose.position;
   for (const Position& position : {start, robot.goal->position}) {
     if (instance_.sight().disk_fits(position, clearance)) continue;

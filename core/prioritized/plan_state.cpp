@@ -31,7 +31,7 @@ constexpr std::int64_t kFirstExpansions = 1024;
 std::vector<double> radii(const Instance& instance) {
   std::vector<double> radii;
   radii.reserve(instance.size());
-  for (std::size_t i = 0; i < instance.size(); ++i) radii.push_back(instance.motion(i).pair_radius);
+  for (std::size_t i = 0; i < instance.size(); ++i) radii.push_back(instance.largest_pair_radius(i));
   return radii;
 }
 
@@ -72,7 +72,7 @@ Trajectory PlanState::staying(std::size_t robot) const { return instance_.itiner
 
 std::vector<TimedSegment> PlanState::after_commitment(std::size_t robot, const Trajectory& trajectory) const {
   const double t_begin = instance_.itinerary(robot).t_begin;
-  std::vector<TimedSegment> segments = timed_segments(trajectory);
+  std::vector<TimedSegment> segments = instance_.segments(robot, trajectory);
   return t_begin > 0.0 ? from_time(t_begin, std::move(segments)) : segments;
 }
 
@@ -113,7 +113,9 @@ void PlanState::reserve_start(std::size_t robot, double seconds) {
   const Position& place = itinerary.pose.position;
   remove(robot);
   if (seconds > 0.0) {
-    table_.commit(robot, {{{place, place}, itinerary.t_begin, itinerary.t_begin + seconds}});
+    table_.commit(
+        robot,
+        {{{place, place}, itinerary.t_begin, itinerary.t_begin + seconds, instance_.narrower(robot, 0)}});
   }
   reservations_.at_start_until[robot] = seconds;
   if (seconds == kForever) ++staying_count_;
@@ -228,7 +230,9 @@ SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, co
 
 /// Whether the robot may rest at its goal from some time on: if not, a search need not be prepared.
 bool PlanState::goal_stays_free(std::size_t robot) const {
-  const auto safe = table_.safe_intervals(robot, instance_.robot(robot).goal->position);
+  const std::size_t at_rest = instance_.itinerary(robot).goals.size();
+  const auto safe =
+      table_.safe_intervals(robot, instance_.robot(robot).goal->position, instance_.narrower(robot, at_rest));
   return !safe.empty() && safe.back().end == kForever;
 }
 
@@ -277,9 +281,8 @@ void PlanState::find_leg(std::size_t robot, std::size_t goal, std::int64_t max_e
                          const StopCondition& stop) {
   Way& way = ways_[robot];
   SearchSpace& space = search_space(robot);
-  const auto& goals = space.vertices().goals();
-  const int from = goal == 0 ? space.vertices().start() : goals[goal - 1].vertex;
-  if (from == goals[goal].vertex) {
+  const int from = space.begin_of(goal);
+  if (from == space.goal(goal).vertex) {
     way.kind = Way::Kind::on_lattice;
     return;
   }
@@ -291,7 +294,7 @@ void PlanState::find_leg(std::size_t robot, std::size_t goal, std::int64_t max_e
     next *= 2;
     if (reaches && *reaches) way.kind = Way::Kind::on_lattice;
     if (reaches && !*reaches) {
-      way = goals.size() == 1 ? way_off_lattice(robot) : Way{Way::Kind::not_on_lattice, {}, {}};
+      way = space.goal_count() == 1 ? way_off_lattice(robot) : Way{Way::Kind::not_on_lattice, {}, {}};
     }
     if (reaches || stop.met()) break;
     test_enclosure(robot, kEnclosureSteps * last);

@@ -25,8 +25,8 @@ class Triage {
         kept_(kept),
         unplanned_(instance_.size()),
         stays_(instance_.size(), false),
-        starts_(instance_),
-        goals_(instance_) {}
+        starts_(instance_, DiskIndex::At::start),
+        goals_(instance_, DiskIndex::At::goal) {}
 
   std::vector<std::optional<Unplanned>> run() {
     for (std::size_t i = 0; i < instance_.size(); ++i) {
@@ -65,11 +65,12 @@ class Triage {
     unplanned_[robot] = Unplanned{robot, reason, detail, std::move(blocked_by)};
     stay(robot);
   }
-  /// The robots whose disks in the index overlap this disk of robot i and meet the condition, ascending.
+  /// The robots whose disks in the index overlap robot i at its goal and meet the condition, ascending.
   template <class Condition>
-  std::vector<std::size_t> overlapping(const DiskIndex& index, std::size_t i, const Position& position,
-                                       Condition&& condition) const {
-    std::vector<std::size_t> found = index.overlapping(i, position);
+  std::vector<std::size_t> overlapping_at_goal(const DiskIndex& index, std::size_t i,
+                                               Condition&& condition) const {
+    std::vector<std::size_t> found =
+        index.overlapping(i, DiskIndex::At::goal, instance_.robot(i).goal->position);
     std::erase_if(found, [&](std::size_t j) { return !condition(j); });
     return found;
   }
@@ -83,18 +84,17 @@ class Triage {
     }
     if (!instance_.contacts().too_many(i)) return;
     give_up(i, Reason::start_blocked, "The inflated robot overlaps too many others at its start to leave it.",
-            starts_.overlapping(i, place(i)));
+            starts_.overlapping(i, DiskIndex::At::start, place(i)));
   }
 
   void check_goal(std::size_t i) {
-    const Position& goal = instance_.robot(i).goal->position;
     if (!instance_.fits_at_goal(i)) {
       return give_up(i, Reason::goal_blocked,
                      "The inflated robot does not fit between the obstacles at its goal.");
     }
     // Of two robots whose inflated goals overlap, the one with a plan is planned, or the first in the list.
     auto others =
-        overlapping(goals_, i, goal, [&](std::size_t j) { return (j < i || is_kept(j)) && !stays_[j]; });
+        overlapping_at_goal(goals_, i, [&](std::size_t j) { return (j < i || is_kept(j)) && !stays_[j]; });
     if (others.empty()) return;
     give_up(i, Reason::goal_blocked, "The inflated robot overlaps another one's goal at its goal.",
             std::move(others));
@@ -134,13 +134,12 @@ class Triage {
 
   void check_goal_occupied(std::size_t i) {
     if (stays_[i] || is_kept(i)) return;
-    auto others =
-        overlapping(starts_, i, instance_.robot(i).goal->position, [&](std::size_t j) { return stays_[j]; });
+    auto others = overlapping_at_goal(starts_, i, [&](std::size_t j) { return stays_[j]; });
     if (others.empty()) return;
     give_up(i, Reason::goal_blocked, "A robot that stays where it is stands in the way at the goal.",
             std::move(others));
     // Those whose goal it occupies are examined in the order of the list, again and again.
-    for (const std::size_t j : goals_.overlapping(i, place(i))) {
+    for (const std::size_t j : goals_.overlapping(i, DiskIndex::At::start, place(i))) {
       if (!stays_[j]) (j > i ? current_ : next_).insert(j);
     }
   }

@@ -5,6 +5,8 @@
 
 #include "core/geometry/segment.h"
 #include "core/model/itinerary.h"
+#include "core/model/radius_steps.h"
+#include "core/model/served_goals.h"
 
 namespace fleetplan::core {
 namespace {
@@ -14,6 +16,14 @@ Itinerary as_committed(const Robot& robot) {
   Robot follower = robot;
   follower.committed = previous_actions(robot);
   return itinerary_of(follower);
+}
+
+/// When the service at the last goal ends; none that is committed ends before the commitment does.
+double last_service_end(const Robot& robot) {
+  const std::vector<Visit> visits = visits_of(robot, previous_actions(robot));
+  if (visits.size() < robot.goal_count()) return kForever;
+  const double end = std::max(visits.back().t_arrive, robot.goal->not_before) + robot.goal->service;
+  return std::max(end, robot.committed_until());
 }
 
 }  // namespace
@@ -39,6 +49,7 @@ Trajectory previous_trajectory(const Robot& robot) {
   for (const Visit& visit : all.visited) {
     if (visit.goal >= first) trajectory.visits.push_back(visit);
   }
+  if (robot.goal && changes_radius(robot)) trajectory.last_served = last_service_end(robot);
   trajectory.is_previous = true;
   return trajectory;
 }

@@ -34,8 +34,9 @@ Contacts::Contacts(std::vector<Endpoints> robots)
     const Endpoints& robot = robots_[i];
     points.push_back({robot.start, i, Endpoint::start, robot.radius, robot.start_rounding, robot.inflation});
     if (robot.goal)
-      points.push_back({*robot.goal, i, Endpoint::goal, robot.radius, robot.goal_rounding, robot.inflation});
-    largest = std::max(largest, robot.radius);
+      points.push_back({*robot.goal, i, Endpoint::goal, robot.radius + robot.growth, robot.goal_rounding,
+                        robot.inflation});
+    largest = std::max({largest, robot.radius, robot.radius + robot.growth});
   }
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return a.position.x() < b.position.x(); });
@@ -121,14 +122,16 @@ bool Contacts::overlaps_at_start(std::size_t robot) const {
                                          [](const Contact& contact) { return contact.overlapping; });
 }
 
-Endpoint Contacts::endpoint(std::size_t robot, const Segment& path) const {
+Endpoint Contacts::endpoint(std::size_t robot, const Segment& path, double narrower) const {
   if (none(robot)) return Endpoint::none;
   const Endpoints& ends = robots_[robot];
-  if (is_same_position(path.from, ends.start)) {
+  if (narrower == ends.narrower_at_start && is_same_position(path.from, ends.start)) {
     const bool moves = path.from != path.to;
     return moves && overlaps_at_start(robot) ? Endpoint::leaving : Endpoint::start;
   }
-  return ends.goal && is_same_position(path.to, *ends.goal) ? Endpoint::goal : Endpoint::none;
+  const bool at_goal =
+      ends.goal && narrower == ends.narrower_at_goal && is_same_position(path.to, *ends.goal);
+  return at_goal ? Endpoint::goal : Endpoint::none;
 }
 
 double Contacts::distance(std::size_t robot, Endpoint at, std::size_t other, Endpoint other_at,

@@ -20,10 +20,14 @@ namespace fleetplan::core {
 struct Endpoints {
   Position start{0.0, 0.0};
   std::optional<Position> goal;
-  double radius = 0.0;          // metres, inflation and vicinity included
+  double radius = 0.0;          // metres at the start, inflation and vicinity included
   double start_rounding = 0.0;  // metres
   double goal_rounding = 0.0;   // metres
   double inflation = 0.0;       // metres, with the vicinity; a part of the radius
+  /// Metres: by how much the radius is larger at the goal, and TimedSegment::narrower at both.
+  double growth = 0.0;
+  double narrower_at_start = 0.0;
+  double narrower_at_goal = 0.0;
 };
 
 /// Where a robot stands, or moves from or to.
@@ -49,8 +53,8 @@ class Contacts {
   double deficit(std::size_t robot) const;
 
   /// Whether the robot stands at its start or goal, or moves from its start or to its goal. `none` for a
-  /// robot without contacts.
-  Endpoint endpoint(std::size_t robot, const Segment& path) const;
+  /// robot without contacts, or if it has another radius there (`narrower`: see TimedSegment).
+  Endpoint endpoint(std::size_t robot, const Segment& path, double narrower = 0.0) const;
 
   /// The distance that two robots keep at these endpoints, metres; `full` where they are not in contact.
   double distance(std::size_t robot, Endpoint at, std::size_t other, Endpoint other_at, double full) const;

@@ -49,10 +49,12 @@ class FixedReservations::Collector {
   void add_robot(const Robot& robot, std::uint32_t index, double inflation, const Contacts* contacts) {
     bool from_start = true;
     for (const TimedSegment& segment : robot.committed) {
-      from_start = from_start && is_same_position(segment.path.from, robot.start);
+      from_start = from_start && segment.narrower == robot.narrower_at_start &&
+                   is_same_position(segment.path.from, robot.start);
       const Endpoint endpoint =
-          contacts != nullptr ? contacts->endpoint(index, segment.path) : Endpoint::none;
-      add(segment, robot.radius + inflation + robot.vicinity, {index, false, from_start, endpoint});
+          contacts != nullptr ? contacts->endpoint(index, segment.path, segment.narrower) : Endpoint::none;
+      add(segment, robot.radius + inflation + robot.vicinity - segment.narrower,
+          {index, false, from_start, endpoint, segment.narrower});
     }
   }
 

@@ -17,12 +17,14 @@ class FixedReservations {
  public:
   /// A robot's committed motion, and where it begins what is planned for it.
   struct Robot {
-    double radius = 0.0;                  // metres, inflation and vicinity not included
+    double radius = 0.0;                  // metres, the largest; inflation and vicinity not included
     Position start{0.0, 0.0};             // at t = 0
     Position departure{0.0, 0.0};         // at `t_departure`: the end of the committed motion, or the start
     double t_departure = 0.0;             // seconds
     std::vector<TimedSegment> committed;  // contiguous, from t = 0 to `t_departure`
     double vicinity = 0.0;                // metres
+    double narrower = 0.0;                // at `t_departure`, see TimedSegment
+    double narrower_at_start = 0.0;       // at t = 0
   };
   /// A part of the motion of an obstacle or of a robot.
   struct Occupant {
@@ -32,6 +34,7 @@ class FixedReservations {
     bool is_obstacle = false;
     bool from_start = false;             // of a robot: it stands at its start, or moves away from there
     Endpoint endpoint = Endpoint::none;  // of a robot, see Contacts
+    double narrower = 0.0;               // of a robot, see TimedSegment
   };
 
   FixedReservations() = default;
@@ -71,14 +74,15 @@ class FixedReservations {
     bool is_obstacle = false;
     bool from_start = false;
     Endpoint endpoint = Endpoint::none;
+    double narrower = 0.0;
   };
 
   class Collector;
 
   Occupant occupant(std::size_t index) const {
     const Owner& owner = owners_[index];
-    return {tree_[index].motion, owner.index,      owner.index,
-            owner.is_obstacle,   owner.from_start, owner.endpoint};
+    return {tree_[index].motion, owner.index,    owner.index,   owner.is_obstacle,
+            owner.from_start,    owner.endpoint, owner.narrower};
   }
 
   std::vector<Robot> robots_;

@@ -22,9 +22,9 @@ using Occupant = SegmentIndex::Occupant;
 /// The distance of the centres below which a robot on a straight path, or standing, collides with others.
 class CollisionDistance {
  public:
-  CollisionDistance(const SegmentIndex& index, std::size_t robot, const Segment& path)
-      : robot_(robot), radius_(index.radius(robot)), contacts_(index.contacts()) {
-    if (contacts_ != nullptr) endpoint_ = contacts_->endpoint(robot, path);
+  CollisionDistance(const SegmentIndex& index, std::size_t robot, const Segment& path, double narrower)
+      : robot_(robot), radius_(index.radius(robot) - narrower), contacts_(index.contacts()) {
+    if (contacts_ != nullptr) endpoint_ = contacts_->endpoint(robot, path, narrower);
   }
 
   double operator()(const Occupant& other) const {
@@ -128,13 +128,14 @@ class ReservationTable::Departure {
 /// The same for obstacles and committed motion.
 class ReservationTable::FixedDistance {
  public:
-  FixedDistance(const ReservationTable& table, std::size_t robot, const Segment& path)
+  FixedDistance(const ReservationTable& table, std::size_t robot, const Segment& path, double narrower)
       : fixed_(*table.fixed_),
         index_(*table.index_),
         robot_(robot),
+        narrower_(narrower),
         departs_(fixed_.departs(robot, path.from)),
-        stays_(departs_ && path.from == path.to) {
-    if (index_.contacts() != nullptr) endpoint_ = index_.contacts()->endpoint(robot, path);
+        stays_(departs_ && path.from == path.to && narrower == fixed_.robot(robot).narrower) {
+    if (index_.contacts() != nullptr) endpoint_ = index_.contacts()->endpoint(robot, path, narrower);
   }
 
   /// Inflation is for pairs of robots that may choose: a robot that still stands where its commitment ends
@@ -143,16 +144,19 @@ class ReservationTable::FixedDistance {
     const FixedReservations::Robot& mine = fixed_.robot(robot_);
     if (other.is_obstacle) {
       const double slack = departs_ ? kContactTolerance : kSearchSlack;
-      return mine.radius + fixed_.obstacle_radius(other.obstacle) - slack;
+      return mine.radius - narrower_ + fixed_.obstacle_radius(other.obstacle) - slack;
     }
-    double distance = index_.radius(robot_) + index_.radius(other.robot) - kSearchSlack;
+    double distance =
+        index_.radius(robot_) - narrower_ + (index_.radius(other.robot) - other.narrower) - kSearchSlack;
     if (endpoint_ != Endpoint::none) {
       distance = index_.contacts()->distance(robot_, endpoint_, other.robot, other.endpoint, distance);
     }
     if (!stays_) return distance;
     const FixedReservations::Robot& theirs = fixed_.robot(other.robot);
-    distance = std::min(distance, mine.radius + theirs.radius - kContactTolerance);
-    if (!other.from_start || mine.start != mine.departure) return distance;
+    distance =
+        std::min(distance, mine.radius - narrower_ + (theirs.radius - other.narrower) - kContactTolerance);
+    const bool is_at_start = mine.start == mine.departure && narrower_ == mine.narrower_at_start;
+    if (!other.from_start || !is_at_start) return distance;
     return std::min(distance, (mine.start - theirs.start).norm() - 2.0 * kSamePosition);
   }
 
@@ -160,6 +164,7 @@ class ReservationTable::FixedDistance {
   const FixedReservations& fixed_;
   const SegmentIndex& index_;
   std::size_t robot_;
+  double narrower_;
   bool departs_;
   bool stays_;
   Endpoint endpoint_ = Endpoint::none;
@@ -192,12 +197,12 @@ void ReservationTable::remove(std::size_t robot) { index_->remove(robot); }
 
 void ReservationTable::ignore(std::size_t robot, bool ignored) { index_->ignore(robot, ignored); }
 
-std::vector<SafeInterval> ReservationTable::safe_intervals(std::size_t robot,
-                                                           const Position& position) const {
+std::vector<SafeInterval> ReservationTable::safe_intervals(std::size_t robot, const Position& position,
+                                                           double narrower) const {
   std::vector<UnsafeInterval> unsafe;
   const MarginAtRest margin{margin_, departs(robot, position) ? departure(robot) : 0.0};
   const Segment here{position, position};
-  const CollisionDistance collision_distance(*index_, robot, here);
+  const CollisionDistance collision_distance(*index_, robot, here, narrower);
   index_->visit(robot, index_->grid().at(position), -1.0, kForever, [&](const Occupant& other) {
     const UnsafeInterval hit = unsafe_interval(position, other.disk, collision_distance(other));
     if (!hit.empty()) unsafe.push_back(margin.widened(hit));
@@ -205,7 +210,7 @@ std::vector<SafeInterval> ReservationTable::safe_intervals(std::size_t robot,
   });
   if (fixed_ != nullptr) {
     if (!fixed_->known()) return {};
-    const FixedDistance fixed_distance(*this, robot, here);
+    const FixedDistance fixed_distance(*this, robot, here, narrower);
     const MovingDisk mine({here, 0.0, kForever});
     fixed_->visit(robot, mine, index_->radius(robot), 0.0, [&](const FixedReservations::Occupant& other) {
       const UnsafeInterval hit = unsafe_interval(position, other.disk, fixed_distance(other));
@@ -225,10 +230,10 @@ std::vector<SafeInterval> ReservationTable::safe_intervals(std::size_t robot,
 }
 
 std::optional<double> ReservationTable::earliest_departure(std::size_t robot, const Segment& path,
-                                                           double duration, double t_min,
-                                                           double t_max) const {
+                                                           double duration, double t_min, double t_max,
+                                                           double narrower) const {
   const SegmentIndex& index = *index_;
-  const CollisionDistance collision_distance(index, robot, path);
+  const CollisionDistance collision_distance(index, robot, path, narrower);
   Departure departure(path, duration, t_min, t_max);
   const MovingDisk& mine = departure.move();
   const auto visit = [&](const Occupant& other) {
@@ -244,15 +249,16 @@ std::optional<double> ReservationTable::earliest_departure(std::size_t robot, co
       return true;
     });
     if (departure.is_never()) return std::nullopt;
-    if (fixed_ != nullptr && !delay_past_fixed(robot, path, departure)) return std::nullopt;
+    if (fixed_ != nullptr && !delay_past_fixed(robot, path, narrower, departure)) return std::nullopt;
   }
   return mine.t_start;
 }
 
 /// Returns false if the move is never possible.
-bool ReservationTable::delay_past_fixed(std::size_t robot, const Segment& path, Departure& departure) const {
+bool ReservationTable::delay_past_fixed(std::size_t robot, const Segment& path, double narrower,
+                                        Departure& departure) const {
   if (!fixed_->known()) return false;
-  const FixedDistance fixed_distance(*this, robot, path);
+  const FixedDistance fixed_distance(*this, robot, path, narrower);
   const auto visit = [&](const FixedReservations::Occupant& other) {
     return departure.delay_past(other.disk, fixed_distance(other), other.is_obstacle ? 0.0 : margin_);
   };
@@ -267,7 +273,7 @@ std::vector<std::size_t> ReservationTable::robots_hit(std::size_t robot,
   std::vector<std::size_t> hit;
   for (const TimedSegment& segment : segments) {
     const MovingDisk mine(segment);
-    const CollisionDistance collision_distance(*index_, robot, segment.path);
+    const CollisionDistance collision_distance(*index_, robot, segment.path, segment.narrower);
     const bool moving = mine.velocity.squaredNorm() > 0.0;
     const double duration = moving ? segment.duration() : 0.0;
     const double margin = margin_of(robot, segment);
@@ -292,7 +298,7 @@ std::vector<std::size_t> ReservationTable::robots_certainly_hit(
   for (const TimedSegment& segment : segments) {
     const MovingDisk mine(segment);
     const double margin = margin_of(robot, segment);
-    const FixedDistance fixed_distance(*this, robot, segment.path);
+    const FixedDistance fixed_distance(*this, robot, segment.path, segment.narrower);
     fixed_->visit(robot, mine, index_->radius(robot), margin, [&](const FixedReservations::Occupant& other) {
       if (!other.is_obstacle && meet(mine, other.disk, fixed_distance(other), margin))
         hit.push_back(other.robot);
@@ -314,7 +320,7 @@ std::vector<std::size_t> ReservationTable::obstacles_hit(std::size_t robot,
   if (fixed_ == nullptr) return hit;
   for (const TimedSegment& segment : segments) {
     const MovingDisk mine(segment);
-    const FixedDistance fixed_distance(*this, robot, segment.path);
+    const FixedDistance fixed_distance(*this, robot, segment.path, segment.narrower);
     fixed_->visit(robot, mine, index_->radius(robot), 0.0, [&](const FixedReservations::Occupant& other) {
       if (other.is_obstacle && collide(mine, other.disk, fixed_distance(other)))
         hit.push_back(other.obstacle);

@@ -22,9 +22,9 @@ class SegmentIndex;
 /// of its commitment on.
 class ReservationTable {
  public:
-  /// `radii[i]` is the radius of robot i in metres, inflation included; the map is [0, width] x [0, height]
-  /// metres. `contacts` (null: no two robots are in contact) and `fixed`, the obstacles and committed motion
-  /// (null: there are none), outlive the table. The interval margin (PlanOptions) is in seconds.
+  /// `radii[i]` is the largest radius of robot i in metres, inflation included; the map is [0, width] x [0,
+  /// height] metres. `contacts` (null: no two robots are in contact) and `fixed`, the obstacles and committed
+  /// motion (null: there are none), outlive the table. The interval margin (PlanOptions) is in seconds.
   ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
                    const Contacts* contacts = nullptr, const FixedReservations* fixed = nullptr,
                    double interval_margin = 0.0);
@@ -42,14 +42,15 @@ class ReservationTable {
   bool is_costly() const;
 
   /// When the robot may stand at `position` (paper, "Computing intervals"); ascending, without intervals
-  /// shorter than 1e-9 s.
-  std::vector<SafeInterval> safe_intervals(std::size_t robot, const Position& position) const;
+  /// shorter than 1e-9 s. `narrower`: by how much its disk is smaller then, see TimedSegment.
+  std::vector<SafeInterval> safe_intervals(std::size_t robot, const Position& position,
+                                           double narrower = 0.0) const;
 
   /// The earliest departure in [t_min, t_max] at which the robot can make the straight move of `duration`
   /// seconds (> 0) without a collision on the way; none if there is none. The caller ensures that the robot
   /// is in safe intervals before and after the move.
   std::optional<double> earliest_departure(std::size_t robot, const Segment& path, double duration,
-                                           double t_min, double t_max) const;
+                                           double t_min, double t_max, double narrower = 0.0) const;
 
   /// The robots whose reservations come nearer to these segments of `robot` than they are kept apart,
   /// ascending. Committed motion is left out. The segments follow the robot's commitment.
@@ -64,7 +65,7 @@ class ReservationTable {
   class Departure;
   class FixedDistance;
 
-  bool delay_past_fixed(std::size_t robot, const Segment& path, Departure& departure) const;
+  bool delay_past_fixed(std::size_t robot, const Segment& path, double narrower, Departure& departure) const;
   double margin_of(std::size_t robot, const TimedSegment& segment) const;
   bool departs(std::size_t robot, const Position& from) const;
   double departure(std::size_t robot) const;

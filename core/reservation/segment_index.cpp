@@ -48,8 +48,9 @@ SegmentIndex::SegmentIndex(double width, double height, double cell_size, std::v
 }
 
 SegmentIndex::DiskId SegmentIndex::store(std::size_t robot, const TimedSegment& segment) {
-  const Endpoint endpoint = contacts_ != nullptr ? contacts_->endpoint(robot, segment.path) : Endpoint::none;
-  const Occupant occupant{MovingDisk(segment), radii_[robot], robot, endpoint};
+  const Endpoint endpoint =
+      contacts_ != nullptr ? contacts_->endpoint(robot, segment.path, segment.narrower) : Endpoint::none;
+  const Occupant occupant{MovingDisk(segment), radii_[robot] - segment.narrower, robot, endpoint};
   if (vacant_.empty()) return occupants_.push_back(occupant);
   const DiskId id = vacant_.back();
   vacant_.pop_back();

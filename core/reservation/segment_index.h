@@ -32,6 +32,7 @@ class SegmentIndex {
   SegmentIndex(double width, double height, double cell_size, std::vector<double> radii,
                const Contacts* contacts);
 
+  /// The largest that the robot ever has.
   double radius(std::size_t robot) const { return radii_[robot]; }
   const BucketGrid& grid() const { return grid_; }
   /// Null if no two robots are in contact.

@@ -13,6 +13,10 @@ namespace {
 
 /// Loop steps between two checks of the stop condition.
 constexpr int kStopStride = 32;
+/// Seconds: more than the rounding of times.
+constexpr double kRoundingOfTimes = 1e-9;
+/// Seconds; far more than the tolerances of times and headings with which a rest counts as a service.
+constexpr double kClearlyBefore = 1e-3;
 
 }  // namespace
 
@@ -75,13 +79,14 @@ void Search::expand(LabelId id) {
   const int before = label.by_translation ? place_at(label.parent).vertex : -1;
   const bool reversed = label.reverse;
   const int stage = place_at(id).stage;
-  if (vertices_.any_angle()) offer_goal(id);
-  vertices_.for_each_neighbour(place_at(id).vertex, [&](int neighbour) {
-    if (zones_ != nullptr && !vertices_.allow(place_at(id).vertex, neighbour)) return;
+  const Vertices& view = vertices(stage);
+  if (view.any_angle()) offer_goal(id);
+  view.for_each_neighbour(place_at(id).vertex, [&](int neighbour) {
+    if (zones_ != nullptr && !view.allow(place_at(id).vertex, neighbour)) return;
     const PlaceId target = place_of(neighbour, stage);
     if (state_.places[target].never_safe()) return;
     // A shortcut replaces two moves forwards, or two backwards.
-    const bool with_shortcut = vertices_.any_angle() && before >= 0 && neighbour != before;
+    const bool with_shortcut = view.any_angle() && before >= 0 && neighbour != before;
     const int interval = state_.places[target].first_interval;
     offer_from(add_edge(id, target, with_shortcut && !reversed, false), interval);
     if (motion_.may_reverse) offer_from(add_edge(id, target, with_shortcut && reversed, true), interval);
@@ -99,6 +104,10 @@ bool Search::serve(LabelId id) {
   const double t_end = std::max(stop.t_end, label.arrival);
   const double safe_until = state_.intervals[label.interval].end;
   if (t_end > safe_until) return false;
+  if (changes_radius_) {
+    const bool is_offered = serve_with_other_intervals(id, stop);
+    return is_offered && (safe_until == kForever || place.is_window);
+  }
   const PlaceId next = place_of(place.vertex, place.stage + 1);
   const int interval = state_.places[next].first_interval + label.interval - place.first_interval;
   Move at_rest;
@@ -107,6 +116,32 @@ bool Search::serve(LabelId id) {
   push_timed({t_end, stop.t_rest, edge, interval, ArrivalId::none, EdgeKind::service, false},
              evaluate(next, interval, t_end, stop.heading).f);
   return safe_until == kForever || (t_end == label.arrival && stop.heading == label.heading);
+}
+
+/// The same for a robot whose radius changes: the next stage may have other intervals there. One of them has
+/// to contain the end of the service. Returns whether one does.
+bool Search::serve_with_other_intervals(LabelId id, const ServiceStop& stop) {
+  const Label label = state_.labels[id];
+  const int stage = place_at(id).stage + 1;
+  const Stage& next_stage = state_.stages[stage];
+  const int vertex = next_stage.is_rest
+                         ? next_stage.goal.vertex
+                         : next_stage.vertices->goals()[static_cast<std::size_t>(stage - 1)].vertex;
+  const PlaceId next = place_of(vertex, stage);
+  const double t_end = std::max(stop.t_end, label.arrival);
+  Move at_rest;
+  at_rest.heading = stop.heading;
+  const EdgeId edge = state_.edges.push_back({at_rest, {}, id, next, Edge::Sight::blocked});
+  bool is_offered = false;
+  for (int k = state_.places[next].first_interval; k < state_.places[next].end_interval; ++k) {
+    const SafeInterval safe = state_.intervals[k];
+    const bool contains = safe.begin <= stop.t_end + kRoundingOfTimes && t_end <= safe.end;
+    if (!contains || (next_stage.is_rest && safe.end != kForever)) continue;
+    push_timed({std::max(t_end, safe.begin), stop.t_rest, edge, k, ArrivalId::none, EdgeKind::service, false},
+               evaluate(next, k, t_end, stop.heading).f);
+    is_offered = true;
+  }
+  return is_offered;
 }
 
 /// If the goal of the stage is in sight, offers the straight move there; to the last goal in the interval in
@@ -202,6 +237,7 @@ EdgeId Search::add_edge(LabelId via, PlaceId target, bool with_shortcut, bool re
 }
 
 inline Move Search::move_between(LabelId from, PlaceId target, bool reverse) const {
+  if (changes_radius_) return move_with_radius(from, target, reverse);
   const Label& label = state_.labels[from];
   const MoveSource source{label.arrival, label.heading, label.by_translation, label.reverse,
                           state_.intervals[label.interval]};
@@ -217,6 +253,32 @@ void Search::limit_speeds(Move& move, const Label& from, PlaceId target) const {
   move.duration = zones_->translation_time(here, state_.places[target].position);
   move.ready = from.arrival + angle_between(from.heading, move.heading) / zones_->angular_speed_at(here) +
                motion_.wait_before_move;
+}
+
+/// The same for a robot whose radius changes.
+Move Search::move_with_radius(LabelId from, PlaceId target, bool reverse) const {
+  const Label& label = state_.labels[from];
+  MoveSource source{label.arrival, label.heading, label.by_translation, label.reverse,
+                    state_.intervals[label.interval]};
+  source.interval.end = latest_departure(from);
+  const Place& place = place_at(from);
+  const Displacement d = vertices(place.stage).between(place.vertex, state_.places[target].vertex);
+  Move move = timing_.move(source, d.heading, d.length, reverse);
+  if (vertices_.limit_speeds()) limit_speeds(move, label, target);
+  return move;
+}
+
+/// Of a robot whose radius changes. A rest in the pose of a goal serves it as soon as it is long enough,
+/// whatever the search has in mind: the robot leaves before, or after the service.
+double Search::latest_departure(LabelId from) const {
+  const Label& label = state_.labels[from];
+  const Place& place = place_at(from);
+  const double safe_until = state_.intervals[label.interval].end;
+  if (place.stage + 1 >= static_cast<int>(space_.goal_count())) return safe_until;
+  const Stage& stage = state_.stages[place.stage];
+  const Position goal = stage.vertices->position(stage.goal.vertex);
+  if ((place.position - goal).norm() > kContactTolerance) return safe_until;
+  return std::min(safe_until, service_stop(label, stage, space_).t_end - kClearlyBefore);
 }
 
 /// Labels and expands the start, unless the robot cannot be there or the goal is out of bound.
@@ -259,7 +321,7 @@ std::optional<double> Search::earliest_departure(const OpenEntry& entry) {
   }
   if (entry.kind == EdgeKind::shortcut && edge.shortcut_sight == Edge::Sight::blocked) return std::nullopt;
   const Segment path{place_at(source_of(edge, entry.kind)).position, state_.places[edge.target].position};
-  return timing_.earliest(move, path, target);
+  return timing_.earliest(move, path, target, state_.stages[state_.places[edge.target].stage].narrower);
 }
 
 /// Returns whether the arrival is dominated. Sets `incomplete` if the complete pass may keep it.

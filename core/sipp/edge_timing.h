@@ -69,15 +69,17 @@ class EdgeTiming {
     return begin <= latest ? begin : kForever;
   }
 
-  /// The earliest departure along `path`, if there is one.
-  std::optional<double> earliest(const Move& move, const Segment& path, const SafeInterval& target) const;
+  /// The earliest departure along `path`, if there is one. `narrower`: see TimedSegment.
+  std::optional<double> earliest(const Move& move, const Segment& path, const SafeInterval& target,
+                                 double narrower = 0.0) const;
 
  private:
   static bool may_continue(const Move& move, const SafeInterval& target, double latest) {
     return move.continues_straight && move.arrival + move.duration >= target.begin && move.arrival <= latest;
   }
 
-  std::optional<double> departure(const Segment& path, double duration, double t_min, double t_max) const;
+  std::optional<double> departure(const Segment& path, double duration, double t_min, double t_max,
+                                  double narrower) const;
 
   const Motion& motion_;
   const ReservationTable& table_;

@@ -59,7 +59,7 @@ ServiceStop service_stop(const Label& label, const Stage& stage, const SearchSpa
   } else {
     if (at_start) stop.t_rest = space.itinerary().t_begin;  // also if it has to stay there for longer
     if (stage.goal.heading) {
-      stop.t_rest += space.vertices().rotation_time(stage.goal.vertex, label.heading, *stage.goal.heading);
+      stop.t_rest += stage.vertices->rotation_time(stage.goal.vertex, label.heading, *stage.goal.heading);
       stop.heading = *stage.goal.heading;
     }
   }
@@ -78,6 +78,10 @@ Trajectory trajectory_of(const SearchState& state, const SearchSpace& space) {
     if (!to.by_translation) {
       const int stage = place_of(from).stage;
       const ServiceStop stop = service_stop(from, state.stages[stage], space);
+      if (place_of(to).stage == static_cast<int>(space.goal_count())) {
+        trajectory.last_served = std::max(stop.t_end, space.itinerary().t_begin);
+        continue;
+      }
       trajectory.visits.push_back(
           {space.itinerary().first_goal + static_cast<std::size_t>(stage), stop.t_rest, stop.t_end});
       continue;
@@ -96,7 +100,9 @@ Trajectory trajectory_of(const SearchState& state, const SearchSpace& space) {
     }
   }
   const Label& last = state.labels[path.back()];
-  trajectory.cost = std::max(service_stop(last, state.stages.back(), space).t_end, last.arrival);
+  trajectory.cost = state.stages.back().is_rest
+                        ? trajectory.last_served
+                        : std::max(service_stop(last, state.stages.back(), space).t_end, last.arrival);
   return trajectory;
 }
 

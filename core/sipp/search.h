@@ -36,7 +36,8 @@ class Search {
         zones_(space.vertices().zones()),
         timing_(motion_, table, robot, zones_),
         vertices_(space.vertices()),
-        last_stage_(static_cast<int>(space.goal_count()) - 1),
+        changes_radius_(space.changes_radius()),
+        last_stage_(static_cast<int>(space.goal_count()) - (space.rests_with_other_radius() ? 0 : 1)),
         limits_(limits),
         stop_(stop),
         pause_(std::min(limits.max_expansions, first_test(limits))),
@@ -67,6 +68,7 @@ class Search {
   LabelId add_label(const Label& label);
   void expand(LabelId id);
   bool serve(LabelId id);
+  bool serve_with_other_intervals(LabelId id, const ServiceStop& stop);
   void offer_goal(LabelId from);
   void offer_goal(LabelId from, bool reverse);
   void offer_from(EdgeId id, int interval);
@@ -84,6 +86,12 @@ class Search {
 
   PlaceId place_of(int vertex, int stage);
   void append_intervals(Place& place);
+  void append_windows(const Place& place);
+  const Vertices& vertices(int stage) const {
+    return changes_radius_ ? *state_.stages[stage].vertices : vertices_;
+  }
+  double latest_departure(LabelId from) const;
+  Move move_with_radius(LabelId from, PlaceId target, bool reverse) const;
   PlaceId goal_of(int stage) { return place_of(state_.stages[stage].goal.vertex, stage); }
   LabelId source_of(const Edge& edge, EdgeKind kind) const {
     return kind == EdgeKind::shortcut ? state_.labels[edge.via].parent : edge.via;
@@ -99,7 +107,8 @@ class Search {
   const Motion& motion_;
   const DriveZones* zones_;  // null for none
   const EdgeTiming timing_;
-  const Vertices& vertices_;
+  const Vertices& vertices_;  // of the first stage
+  const bool changes_radius_;
   const int last_stage_;
   const SearchLimits& limits_;
   const StopCondition& stop_;

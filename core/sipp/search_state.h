@@ -20,12 +20,14 @@ enum class LabelId : int { none = -1 };
 struct Place {
   int vertex;
   int stage;
+  int number;  // of the vertex among those of all radii
   Position position;
   CostToGo::Estimate estimate;  // to the end of the last service
   bool any_heading;             // the goal of the stage, in which the robot may rest with any heading
   int first_interval;           // of SearchState::intervals
   int end_interval;             // one past the last one
   PlaceId other_stage;          // of the same vertex; none for the one that was reached first
+  bool is_window = false;       // the intervals are the arrivals for a service after which the radius changes
 
   bool never_safe() const { return first_interval == end_interval; }
 };
@@ -75,7 +77,7 @@ struct SearchState {
 
   /// Prepares for another search; keeps the memory.
   void clear() {
-    for (const Place& place : places) place_of_vertex[place.vertex] = PlaceId::none;
+    for (const Place& place : places) place_of_vertex[place.number] = PlaceId::none;
     places.clear();
     intervals.clear();
     labels.clear();

@@ -9,8 +9,8 @@ namespace {
 /// Estimates the way from one goal to the next one, seconds. A heading that is free is the best one.
 double estimated_leg(SearchSpace& space, std::size_t from, const StopCondition& stop) {
   const Motion& motion = space.vertices().motion();
-  const Vertices::GoalPose& here = space.vertices().goals()[from];
-  const Vertices::GoalPose& next = space.vertices().goals()[from + 1];
+  const Vertices::GoalPose& here = space.vertices(from + 1).goals()[from];
+  const Vertices::GoalPose& next = space.goal(from + 1);
   if (here.vertex == next.vertex) {
     return here.heading && next.heading ? motion.rotation_time(*here.heading, *next.heading) : 0.0;
   }
@@ -27,9 +27,21 @@ IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
   for (int k = last; k >= 0; --k) {
     const auto index = static_cast<std::size_t>(k);
     const Goal& goal = goals[index];
-    stages[k] = {space.vertices().goals()[index], goal.service, goal.not_before, goal.service, 0.0};
+    stages[k] = {space.goal(index), goal.service, goal.not_before, goal.service, 0.0};
+    stages[k].vertices = &space.vertices(index);
+    stages[k].first_vertex = space.first_vertex(index);
+    stages[k].narrower = space.narrower(index);
+    stages[k].radius_changes = space.changes_radius() && space.radius(index) != space.radius(index + 1);
     if (k < last) stages[k].after += estimated_leg(space, index, stop) + stages[k + 1].after;
   }
+  if (!space.rests_with_other_radius()) return stages;
+  Stage rest;
+  rest.vertices = &space.vertices(goals.size());
+  rest.goal = rest.vertices->goals().back();
+  rest.first_vertex = space.first_vertex(goals.size());
+  rest.narrower = space.narrower(goals.size());
+  rest.is_rest = true;
+  stages.push_back(rest);
   return stages;
 }
 

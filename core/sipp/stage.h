@@ -8,7 +8,8 @@
 
 namespace fleetplan::core {
 
-/// A part of the way of a robot: from the goal before, or from where its plan begins, to the next goal.
+/// A part of the way of a robot: from the goal before, or from where its plan begins, to the next goal. A
+/// robot that has another radius after its last service has one more stage, in which it rests.
 struct Stage {
   Vertices::GoalPose goal;
   double service = 0.0;     // seconds
@@ -18,6 +19,14 @@ struct Stage {
   double after = 0.0;
   /// Estimate: no path ends earlier, because of this `not_before` and the later ones.
   double release = 0.0;
+
+  const Vertices* vertices = nullptr;
+  int first_vertex = 0;  // see SearchSpace
+  /// Of a robot whose radius changes: by how much its disk is smaller than at most, metres; whether it
+  /// changes at the end of this stage; and whether this is the rest after the last service.
+  double narrower = 0.0;
+  bool radius_changes = false;
+  bool is_rest = false;
 
   double service_end(double t_rest) const { return std::max(t_rest, not_before) + service; }
 };

@@ -19,24 +19,30 @@ constexpr double kLongestLink = 12.0;
 
 }  // namespace
 
-Vertices::Vertices(const Instance& instance, std::size_t robot)
-    : motion_(instance.motion(robot)),
+Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stage)
+    : stage_(stage),
+      motion_(instance.motion(robot, stage)),
       zones_(instance.drive_zones(robot)),
       slowest_motion_(motion_),
       lattice_(instance.lattice()),
       grid_(instance.problem().grid()),
-      space_(instance.free_space(robot)),
+      space_(instance.free_space(robot, stage)),
       finer_(space_.finer()),
       first_own_(lattice_.vertex_count() + finer_.count()),
       any_angle_(instance.options().any_angle),
       start_pose_(instance.itinerary(robot).pose),
-      start_(add_start(instance, robot)) {
+      start_(instance.motion(robot).radius == motion_.radius ? add_start(instance, robot) : -1) {
   if (limit_speeds()) slowest_motion_.angular_speed = zones_->least_angular_speed();
   // Committed actions that end in contact with the goal end there: a service goes on, without a move.
   double same = instance.robot(robot).committed.empty() ? kSamePosition : kContactTolerance;
-  for (const Goal& goal : instance.itinerary(robot).goals) {
-    const bool at_start = (goal.position - start_pose_.position).norm() <= same;
-    goals_.push_back({at_start ? start_ : add_goal(instance, robot, goal.position), goal.theta});
+  const std::vector<Goal>& goals = instance.itinerary(robot).goals;
+  for (std::size_t k = 0; k < goals.size(); ++k) {
+    const Goal& goal = goals[k];
+    const bool is_here = instance.motion(robot, k).radius == motion_.radius ||
+                         instance.motion(robot, k + 1).radius == motion_.radius;
+    const bool at_start = start_ >= 0 && (goal.position - start_pose_.position).norm() <= same;
+    const int vertex = at_start ? start_ : is_here ? add_goal(instance, robot, goal.position) : -1;
+    goals_.push_back({vertex, goal.theta});
     same = kSamePosition;
   }
 }
@@ -68,7 +74,7 @@ int Vertices::own_vertex_at(const Position& position) const {
 }
 
 int Vertices::add_goal(const Instance& instance, std::size_t robot, const Position& position) {
-  const double radius = instance.radius_at_goal(robot, position);
+  const double radius = instance.radius_at_goal(robot, position, stage_);
   const int vertex = vertex_at(position);
   if (vertex >= 0 && radius == motion_.radius) return vertex;
   const int own = own_vertex_at(position);

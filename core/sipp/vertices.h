@@ -23,9 +23,13 @@ class OccupancyGrid;
 /// goal that is too near to a wall or to another robot's start is an own vertex, too. At such a vertex the
 /// robot keeps the distance from walls that it has there, and from a start it is linked to vertices that are
 /// far enough away to be clear.
+///
+/// A robot whose radius changes has one view for each of its radii.
 class Vertices {
  public:
-  Vertices(const Instance& instance, std::size_t robot);
+  /// With the radius that the robot has in a stage: on the way to one of the goals that are left, or at rest
+  /// at the last one. See Instance::motion.
+  Vertices(const Instance& instance, std::size_t robot, std::size_t stage = 0);
 
   const Motion& motion() const { return motion_; }
   /// The zones that limit how the robot drives; null if there are none.
@@ -37,6 +41,7 @@ class Vertices {
   double spacing() const { return lattice_.spacing(); }
 
   int count() const { return first_own_ + static_cast<int>(own_.size()); }
+  /// -1 if the robot has another radius there.
   int start() const { return start_; }
   /// The end of the committed actions, or the robot's start without any.
   const Pose& start_pose() const { return start_pose_; }
@@ -46,7 +51,8 @@ class Vertices {
     std::optional<double> heading;
     bool operator==(const GoalPose&) const = default;
   };
-  /// Of the goals that are left to visit, in their order. None for a parked robot.
+  /// Of the goals that are left to visit, in their order. None for a parked robot. Those at which the robot
+  /// neither arrives nor leaves with this radius have no vertex.
   const std::vector<GoalPose>& goals() const { return goals_; }
   /// The vertex of the last one, -1 for a parked robot.
   int goal() const { return goals_.empty() ? -1 : goals_.back().vertex; }
@@ -130,6 +136,7 @@ class Vertices {
   /// Bit k is set if step k of the lattice is free of obstacles.
   std::uint32_t free_steps(int vertex) const;
 
+  const std::size_t stage_;
   const Motion& motion_;
   const DriveZones* zones_;
   Motion slowest_motion_;

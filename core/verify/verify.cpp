@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/verify/execution/bodies.h"
 #include "core/verify/execution/executed_fleet.h"
 #include "core/verify/pairs/check_pairs.h"
 #include "core/verify/rules/commitment_rules.h"
@@ -59,26 +60,37 @@ class FleetCheck {
     }
     const Tolerance& tolerance = rules_.tolerances[index];
     if (plan != nullptr) check_plan(robot, *plan, tolerance);
-    fleet_.robots.push_back(index);
-    fleet_.radii.push_back(robot.radius);
-    fleet_.vicinities.push_back(robot.vicinity);
-    fleet_.tolerances.push_back(tolerance.metres);
-    fleet_.legs.push_back(execute(robot, plan));
-    fleet_.departures.push_back(departure_of(robot, plan));
-    fleet_.invalid.push_back(robot.invalid);
-    fleet_.stays.push_back(plan == nullptr || !robot.goal);
+    const Departure departure = departure_of(robot, plan);
+    std::vector<Leg> legs;
+    std::vector<double> radii;  // by leg
+    for (Body& body : bodies_of(robot, plan, execute(robot, plan), tolerance)) {
+      legs.insert(legs.end(), body.legs.begin(), body.legs.end());
+      radii.resize(legs.size(), body.radius);
+      add_to_fleet(index, plan, std::move(body), departure);
+    }
     if (robot.invalid) return;  // it may stand in a wall
-    const std::vector<Leg>& legs = fleet_.legs.back();
     const ZonesOfRobot zones(request_.zones, index);
     const auto distance_from = [&](const Position& position, double reach) {
       return zones.distance_to_blocked(position, distance_from_walls(field, position, reach));
     };
-    const std::vector<double> kept = distances_to_keep(distance_from, robot.radius, legs,
-                                                       fleet_.departures.back(), tolerance.metres, rules_);
+    const std::vector<double> kept =
+        distances_to_keep(distance_from, radii, legs, departure, tolerance.metres, rules_);
     violations_.add(check_obstacles(field, index, kept, legs, tolerance.metres, stop_));
     if (zones.empty()) return;
     violations_.add(zones.check_blocked(kept, legs, tolerance.metres, stop_));
     violations_.add(zones.check_driving(plan != nullptr ? plan->actions : robot.committed, tolerance, stop_));
+  }
+
+  void add_to_fleet(std::size_t index, const RobotPlan* plan, Body body, const Departure& departure) {
+    const Robot& robot = request_.robots[index];
+    fleet_.robots.push_back(index);
+    fleet_.radii.push_back(body.radius);
+    fleet_.vicinities.push_back(robot.vicinity);
+    fleet_.tolerances.push_back(rules_.tolerances[index].metres);
+    fleet_.legs.push_back(std::move(body.legs));
+    fleet_.departures.push_back(departure);
+    fleet_.invalid.push_back(robot.invalid);
+    fleet_.stays.push_back(plan == nullptr || !robot.goal);
   }
 
   void check_plan(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance) {
@@ -96,7 +108,7 @@ class FleetCheck {
   const CheckRules& rules_;
   const StopCondition& stop_;
   std::vector<const RobotPlan*> plan_of_;
-  ExecutedFleet fleet_;  // the robots whose numbers are usable
+  ExecutedFleet fleet_;  // of the robots whose numbers are usable
   ViolationList violations_;
 };
 

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "core/geometry/angle.h"
+#include "core/model/itinerary.h"
 #include "core/model/plan.h"
 #include "core/model/problem.h"
+#include "core/model/radius_steps.h"
 
 namespace fleetplan::support {
 
@@ -79,6 +81,14 @@ inline void leave_visited_goals(core::Robot& robot, const core::RobotPlan& plan,
       break;
     }
   }
+  for (std::size_t k = 0; k < first; ++k) robot.radius = goals[k].radius_after.value_or(robot.radius);
+  if (!plan.visits.empty() && first + 1 == goals.size()) {
+    core::Goal& last = goals.back();
+    const double begin = std::max(plan.visits.back().t_arrive, last.not_before);
+    if (last.radius_after && last.service == 0.0 && begin <= t && plan.visits.back().t_arrive <= t) {
+      robot.radius = *std::exchange(last.radius_after, std::nullopt);
+    }
+  }
   for (core::Goal& goal : goals) goal.not_before = std::max(0.0, goal.not_before - t);
   robot.goal = goals.back();
   robot.via.assign(goals.begin() + static_cast<std::ptrdiff_t>(first), goals.end() - 1);
@@ -109,10 +119,22 @@ inline core::Robot robot_at_moment(core::Robot robot, const core::RobotPlan& pla
   return robot;
 }
 
+/// A robot leaves goals behind that its commitment has served by `t`, with the radius after them.
+inline void leave_goals_served(core::Robot& robot, double t) {
+  core::Robot past = robot;
+  past.committed = actions_before(robot.committed, t);
+  const std::size_t served = core::itinerary_of(past).first_goal;
+  robot.radius = core::radii_of(robot)[served];
+  robot.via.erase(robot.via.begin(), robot.via.begin() + static_cast<std::ptrdiff_t>(served));
+}
+
 /// A robot without a plan executes its commitment.
 inline core::Robot robot_at_moment(core::Robot robot, double t) {
-  const std::vector<core::Action> rest = actions_after(robot.committed, t);
-  robot.start = rest.empty() ? robot.committed_end() : rest.front().from;
+  const std::vector<core::Action> given = robot.committed;
+  const std::vector<core::Action> rest = actions_after(given, t);
+  const core::Pose end = robot.committed_end();
+  if (core::changes_radius(robot)) leave_goals_served(robot, t);
+  robot.start = rest.empty() ? end : rest.front().from;
   robot.committed = rest;
   robot.previous.reset();
   if (!robot.goal) return robot;

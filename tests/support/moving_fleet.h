@@ -17,6 +17,7 @@
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
+#include "core/model/radius_steps.h"
 #include "tests/support/moments.h"
 #include "tests/support/random_problem.h"
 
@@ -122,6 +123,34 @@ inline FleetRequest random_request(Dice& dice) {
     for (core::Robot& robot : request.robots) robot.may_reverse = dice.chance(0.7);
   }
   return request;
+}
+
+/// Whether no other robot rests at its last goal within this disk.
+inline bool may_rest(const std::vector<core::Robot>& robots, const core::Robot& robot, double radius) {
+  for (const core::Robot& other : robots) {
+    if (&other == &robot || !other.goal) continue;
+    const double apart = (other.goal->position - robot.goal->position).norm();
+    if (apart < radius + core::last_radius(other)) return false;
+  }
+  return true;
+}
+
+/// At some goals robots grow or shrink, where there is room for them there and at the next goal.
+inline void add_loads(Dice& dice, FleetRequest& request) {
+  for (core::Robot& robot : request.robots) {
+    if (!robot.goal || dice.chance(0.2)) continue;
+    const std::size_t last = robot.via.size();
+    for (std::size_t k = 0; k <= last; ++k) {
+      const double radius = request.grid.resolution() * dice.between(0.15, 0.75);
+      const auto fits = [&](std::size_t goal) {
+        return core::obstacle_distance(request.grid, robot.goal_at(goal).position, radius) >= radius;
+      };
+      core::Goal& goal = k < last ? robot.via[k] : *robot.goal;
+      bool has_room = may_rest(request.robots, robot, radius);
+      for (std::size_t next = k; next <= last; ++next) has_room = has_room && fits(next);
+      if (has_room && dice.chance(0.6)) goal.radius_after = radius;
+    }
+  }
 }
 
 /// The request at a later moment of its plan.

@@ -2,7 +2,7 @@
 // words. No DOM; the service is passed in.
 
 import { robotsOf } from "./edit_request.js";
-import { lastGoalOf, lastGoalPlace } from "./goals.js";
+import { goalsOf, lastGoalOf, lastGoalPlace } from "./goals.js";
 import { Follower } from "./motion.js";
 import { ProblemError } from "./problem.js";
 
@@ -57,8 +57,8 @@ export function standingAtStarts(request) {
 }
 
 /**
- * The plan file that checks the last goals: the robots with goals stand there, and nothing moves; null if there
- * are none.
+ * The plan file that checks the last goals: the robots with goals stand there with their last radii, and nothing
+ * moves; null if there are none.
  */
 export function standingAtGoals(request) {
   const { obstacles: _, ...still } = standingAtStarts(request);
@@ -68,8 +68,9 @@ export function standingAtGoals(request) {
 }
 
 function standingAtGoal({ goals: _, committed: __, previous: ___, ...robot }, index, all) {
-  const { service: ____, not_before: _____, ...goal } = lastGoalOf(all[index]);
-  return { ...robot, start: goal, goal };
+  const { service: ____, not_before: _____, radius_after: ______, ...goal } = lastGoalOf(all[index]);
+  const radius = goalsOf(all[index]).findLast((each) => each?.radius_after !== undefined)?.radius_after;
+  return { ...robot, ...(radius === undefined ? {} : { radius }), start: goal, goal };
 }
 
 /** The errors, [{pointer, detail}], for the violations of robots standing at their "start" or "goal". */

@@ -13,7 +13,8 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kMembers{"x", "y", "theta", "service", "not_before", "metadata"};
+constexpr std::array<std::string_view, 7> kMembers{
+    "x", "y", "theta", "service", "not_before", "radius_after", "metadata"};
 
 /// Adds the goal if it is valid.
 void add_goal(const JsonReader& member, const WorldFrame& frame, ReadGoals& read) {
@@ -22,11 +23,13 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, ReadGoals& read
   auto goal = parse_pose(json, frame);
   const auto service = json.find("service").number(kDuration);
   const auto not_before = json.find("not_before").number(kDuration);
+  const auto radius_after = json.find("radius_after").number(kLength);
   std::string metadata = parse_metadata(json);
   if (!goal || member.fault_count() != before) return;
   goal->service = service.value_or(0.0);
   goal->not_before = not_before.value_or(0.0);
-  if (service || not_before || !metadata.empty()) read.lists_visits = true;
+  goal->radius_after = radius_after;
+  if (service || not_before || radius_after || !metadata.empty()) read.lists_visits = true;
   if (!metadata.empty()) {
     read.metadata.resize(read.goals.size());
     read.metadata.push_back(std::move(metadata));

@@ -15,7 +15,7 @@ namespace fleetplan::api {
 struct ReadGoals {
   std::vector<core::Goal> goals;
   std::vector<JsonReader> places;  // of each of them
-  /// Given as a list, or with a service or metadata: the answer tells when each is visited.
+  /// Given as a list, or with a service, a radius or metadata: the answer tells when each is visited.
   bool lists_visits = false;
   std::vector<std::string> metadata;  // of each, see parse_metadata; shorter if the last ones have none
 };

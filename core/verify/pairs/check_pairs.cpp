@@ -78,7 +78,8 @@ class PairCheck {
     const auto clearance = fleet_clearance(fleet_.legs, {fleet_.radii, planned}, fleet_.tolerances,
                                            kMostCollisions + kNearStartsPerRobot * more, stop_);
     if (!clearance) return false;
-    report_.min_clearance = clearance->least;
+    const bool is_pair = !fleet_.robots.empty() && fleet_.robots.front() != fleet_.robots.back();
+    if (is_pair) report_.min_clearance = clearance->least;
     std::size_t listed = 0;
     for (const Overlap& overlap : clearance->overlaps) {
       if (stop_.met()) return false;

@@ -19,10 +19,20 @@ constexpr double kTouching = 2.0 * kMostTolerance;
 /// Seconds. The time of a meeting went through decimal text.
 constexpr double kTextRounding = 1e-6;
 
-std::optional<std::size_t> position_of(const ExecutedFleet& fleet, std::size_t robot) {
+/// The position of the robot at `t`.
+std::optional<std::size_t> position_of(const ExecutedFleet& fleet, std::size_t robot, double t) {
   const auto found = std::lower_bound(fleet.robots.begin(), fleet.robots.end(), robot);
   if (found == fleet.robots.end() || *found != robot) return std::nullopt;
-  return static_cast<std::size_t>(found - fleet.robots.begin());
+  auto position = static_cast<std::size_t>(found - fleet.robots.begin());
+  while (fleet.end_of(position) < t && position + 1 < fleet.size() && fleet.robots[position + 1] == robot)
+    ++position;
+  return position;
+}
+
+/// Whether an overlap until `t` goes on at the next position of the same robot.
+bool goes_on(const ExecutedFleet& fleet, std::size_t position, double t) {
+  return t >= fleet.end_of(position) && position + 1 < fleet.size() &&
+         fleet.same_robot(position, position + 1);
 }
 
 }  // namespace
@@ -30,7 +40,11 @@ std::optional<std::size_t> position_of(const ExecutedFleet& fleet, std::size_t r
 Exemptions::Exemptions(const std::vector<Meeting>& meetings, const ExecutedFleet& fleet, double inflation,
                        const std::vector<std::vector<Leg>>& obstacles,
                        const std::vector<double>& obstacle_radii, const StopCondition& stop)
-    : robots_(fleet.size()) {
+    : fleet_(fleet),
+      inflation_(inflation),
+      obstacles_(obstacles),
+      obstacle_radii_(obstacle_radii),
+      robots_(fleet.size()) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < fleet.size(); ++i) {
     certain_.push_back({fleet.stays[i] ? kNever : fleet.departures[i].committed_until, kNever});
@@ -38,19 +52,41 @@ Exemptions::Exemptions(const std::vector<Meeting>& meetings, const ExecutedFleet
   std::vector<std::size_t> listed(fleet.size(), 0);
   for (const Meeting& meeting : meetings) {
     if (stop.met()) return;
-    const auto one = position_of(fleet, meeting.robot);
+    const auto one = position_of(fleet, meeting.robot, meeting.t);
     if (!one || !is_certain(*one, meeting.t)) continue;
     count(*one, meeting.t, listed);
     if (meeting.obstacle && *meeting.obstacle < obstacles.size()) {
-      const double near = fleet.radii[*one] + obstacle_radii[*meeting.obstacle] + kTouching;
-      const auto span = time_together(fleet.legs[*one], obstacles[*meeting.obstacle], near, meeting.t);
-      if (span) with_obstacles_[*meeting.obstacle * robots_ + *one].push_back(*span);
+      add_obstacle(*one, *meeting.obstacle, meeting.t);
     }
-    const auto other = meeting.other ? position_of(fleet, *meeting.other) : std::nullopt;
-    if (!other || other == one || !is_certain(*other, meeting.t)) continue;
-    const double near = fleet.kept_distance(*one, *other, inflation) + kTouching;
-    const auto span = time_together(fleet.legs[*one], fleet.legs[*other], near, meeting.t);
-    if (span) of_robots_[key(*one, *other)].push_back(*span);
+    const auto other = meeting.other ? position_of(fleet, *meeting.other, meeting.t) : std::nullopt;
+    if (!other || fleet.same_robot(*one, *other) || !is_certain(*other, meeting.t)) continue;
+    add_robots(*one, *other, meeting.t);
+  }
+}
+
+void Exemptions::add_obstacle(std::size_t position, std::size_t obstacle, double t) {
+  for (;; ++position) {
+    const double near = fleet_.radii[position] + obstacle_radii_[obstacle] + kTouching;
+    const auto span = time_together(fleet_.legs[position], obstacles_[obstacle], near, t);
+    if (!span) return;
+    with_obstacles_[obstacle * robots_ + position].push_back(*span);
+    if (!goes_on(fleet_, position, span->end)) return;
+    t = span->end;
+  }
+}
+
+void Exemptions::add_robots(std::size_t one, std::size_t other, double t) {
+  while (true) {
+    const double near = fleet_.kept_distance(one, other, inflation_) + kTouching;
+    const auto span = time_together(fleet_.legs[one], fleet_.legs[other], near, t);
+    if (!span) return;
+    of_robots_[key(one, other)].push_back(*span);
+    t = span->end;
+    const bool one_goes_on = goes_on(fleet_, one, t);
+    const bool other_goes_on = goes_on(fleet_, other, t);
+    if (!one_goes_on && !other_goes_on) return;
+    one += one_goes_on ? 1 : 0;
+    other += other_goes_on ? 1 : 0;
   }
 }
 
@@ -59,9 +95,14 @@ bool Exemptions::is_certain(std::size_t position, double t) const {
 }
 
 void Exemptions::count(std::size_t position, double t, std::vector<std::size_t>& meetings) {
-  if (++meetings[position] < kMostMeetingsOfRobot) return;
-  double& from = certain_[position].exempt_from;
+  std::size_t first = position;
+  while (first > 0 && fleet_.same_robot(first - 1, position)) --first;
+  if (++meetings[first] < kMostMeetingsOfRobot) return;
+  double& from = certain_[first].exempt_from;
   from = std::isinf(from) ? t : std::max(from, t);
+  for (std::size_t next = first + 1; next < fleet_.size() && fleet_.same_robot(first, next); ++next) {
+    certain_[next].exempt_from = from;
+  }
 }
 
 bool Exemptions::allow_robots(std::size_t one, std::size_t other, double t) const {

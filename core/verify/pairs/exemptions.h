@@ -47,10 +47,16 @@ class Exemptions {
   };
   void count(std::size_t position, double t, std::vector<std::size_t>& meetings);
   bool is_certain(std::size_t position, double t) const;
+  void add_obstacle(std::size_t position, std::size_t obstacle, double t);
+  void add_robots(std::size_t one, std::size_t other, double t);
 
   static const std::vector<TimeSpan>& find(const Spans& spans, std::uint64_t pair);
   std::uint64_t key(std::size_t one, std::size_t other) const;
 
+  const ExecutedFleet& fleet_;
+  const double inflation_;
+  const std::vector<std::vector<Leg>>& obstacles_;
+  const std::vector<double>& obstacle_radii_;
   std::size_t robots_;
   std::vector<Certain> certain_;  // by position
   Spans of_robots_;

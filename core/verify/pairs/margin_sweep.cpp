@@ -63,7 +63,9 @@ class MarginSweep {
         stop_(stop) {}
 
   std::optional<std::vector<ShiftedOverlap>> run() {
-    const std::vector<double> boundaries = time_windows(fleet_.legs);
+    std::vector<double> boundaries = time_windows(fleet_.legs);
+    // The last change of a radius may be the last event: it counts for the margin before it, too.
+    if (changes_radius()) boundaries.push_back(boundaries.back() + margin_);
     std::vector<double> reach = fleet_.radii;
     for (std::size_t i = 0; i < reach.size(); ++i) reach[i] += inflation_ + fleet_.vicinities[i];
     MovingBoxes boxes(fleet_.legs, std::move(reach));
@@ -80,9 +82,14 @@ class MarginSweep {
   }
 
  private:
+  bool changes_radius() const {
+    return std::adjacent_find(fleet_.robots.begin(), fleet_.robots.end()) != fleet_.robots.end();
+  }
+
   void sweep(const std::vector<MovingBox>& boxes, const TimeSpan& window) {
     for (std::size_t i = 0; i < boxes.size() && !stopped_; ++i) {
       for (std::size_t j = i + 1; j < boxes.size() && boxes[j].left <= boxes[i].right && !stopped_; ++j) {
+        if (fleet_.same_robot(boxes[i].body, boxes[j].body)) continue;
         if (boxes[i].bottom > boxes[j].top || boxes[j].bottom > boxes[i].top) continue;
         compare(std::min(boxes[i].body, boxes[j].body), std::max(boxes[i].body, boxes[j].body), window);
       }

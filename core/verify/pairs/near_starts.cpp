@@ -16,6 +16,7 @@ std::vector<Leg> committed_legs(const std::vector<Leg>& legs, double until) {
     if (leg.t_begin >= until && !kept.empty()) break;
     kept.push_back(leg);
   }
+  if (kept.back().t_end < until) return kept;  // then it has another radius
   Leg& last = kept.back();
   const Position end = position_at(last, until);
   last = {last.t_begin, until, last.from, end};
@@ -40,6 +41,9 @@ std::optional<double> leaves_overlap(const ExecutedFleet& fleet, const Overlap& 
   const double bare = fleet.radii[overlap.first] + fleet.radii[overlap.second];
   const double kept = fleet.kept_distance(overlap.first, overlap.second, rules.inflation);
   if (kept <= bare && rules.start_overlap <= 0.0) return std::nullopt;
+  // One that has got another radius since its plan began has no right to be so near.
+  if (fleet.begin_of(overlap.first) > a.committed_until || fleet.begin_of(overlap.second) > b.committed_until)
+    return std::nullopt;
   const double tolerance = std::max(fleet.tolerances[overlap.first], fleet.tolerances[overlap.second]);
   const double moved = std::min(a.first_move_ends, b.first_move_ends);
   const double until = std::max(overlap.t_end, moved);

@@ -40,14 +40,15 @@ double distance_from_walls(const ObstacleField& field, const Position& position,
 }
 
 std::vector<double> distances_to_keep(const std::function<double(const Position&, double)>& distance_from,
-                                      double radius, const std::vector<Leg>& legs, const Departure& departure,
-                                      double tolerance, const CheckRules& rules) {
-  std::vector<double> kept(legs.size(), radius);
+                                      const std::vector<double>& radii, const std::vector<Leg>& legs,
+                                      const Departure& departure, double tolerance, const CheckRules& rules) {
+  std::vector<double> kept = radii;
   if (rules.inflation <= 0.0 && rules.start_overlap <= 0.0) return kept;
-  const double inflated = radius + rules.inflation;
   double reduced = kNone;  // what it keeps until it has been clear
   bool planned = false;
   for (std::size_t k = 0; k < legs.size(); ++k) {
+    const double radius = radii[k];
+    const double inflated = radius + rules.inflation;
     const double full = departure.commits(legs[k].t_end) ? radius : inflated;
     const bool begins_to_plan = !planned && !departure.commits(legs[k].t_end);
     planned = planned || begins_to_plan;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <vector>
 
 namespace fleetplan::api {
 namespace {
@@ -172,6 +173,38 @@ TEST(Advance, ItsResultCanBeAdvancedAgain) {
     EXPECT_NEAR(twice.goal_at(0).service, direct.goal_at(0).service, 1e-9) << first;
     EXPECT_EQ(twice.previous->size(), direct.previous->size()) << first;
   }
+}
+
+/// The same robot picks a load up at x = 3, and puts it down at x = 6.
+core::Robot carrier() {
+  core::Robot carrier = robot();
+  carrier.radius = 0.3;
+  carrier.via[0].radius_after = 0.5;
+  carrier.goal->radius_after = 0.4;
+  return carrier;
+}
+
+TEST(Advance, ARobotHasTheRadiusOfItsLoad) {
+  const core::Robot driving = advanced(carrier(), plan(), moment(6.9));
+  EXPECT_EQ(driving.radius, 0.3);
+  EXPECT_EQ(driving.via[0].radius_after, 0.5);
+  const core::Robot loaded = advanced(carrier(), plan(), moment(7.1));
+  EXPECT_EQ(loaded.radius, 0.5);
+  EXPECT_EQ(loaded.goal->radius_after, 0.4);
+}
+
+TEST(Advance, ARobotThatHasServedItsLastGoalKeepsItsLastRadius) {
+  EXPECT_EQ(advanced(carrier(), plan(), moment(11.5)).radius, 0.5);
+  const core::Robot served = advanced(carrier(), plan(), moment(12.5));
+  EXPECT_EQ(served.radius, 0.4);
+  EXPECT_EQ(served.goal->radius_after, std::nullopt);
+}
+
+TEST(Advance, NewGoalsDoNotTakeALoadAway) {
+  Execution execution = plan();
+  execution.goals = std::vector{goal(9.0)};
+  EXPECT_EQ(advanced(carrier(), execution, moment(7.5)).radius, 0.5);
+  EXPECT_EQ(advanced(carrier(), execution, moment(12.5)).radius, 0.4);
 }
 
 /// Robots of radius 0.25 that follow each other at 1 m/s along a line, half a metre apart.

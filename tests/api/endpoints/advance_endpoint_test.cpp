@@ -46,6 +46,21 @@ TEST(AdvanceEndpoint, CopiesWhatTheMomentDoesNotChange) {
   EXPECT_EQ(next["robots"][1]["goal"], request["robots"][1]["goal"]);
 }
 
+TEST(AdvanceEndpoint, WritesTheRadiusThatALoadGivesARobot) {
+  Json request = swap_request();
+  const Json goal = request["robots"][0]["goal"];
+  Json load = request["robots"][0]["start"];
+  load["radius_after"] = 0.35;
+  request["robots"][0].erase("goal");
+  request["robots"][0]["goals"] = {load, goal};
+  request["robots"][0]["goals"][1]["radius_after"] = 0.25;
+  const Json next = advanced_json(advance_request(request, 0.5))["robots"];
+  EXPECT_EQ(next[0]["radius"], 0.35);
+  EXPECT_EQ(next[0]["goals"].size(), 1U);
+  EXPECT_EQ(next[0]["goals"][0]["radius_after"], 0.25);
+  EXPECT_EQ(next[1].contains("radius"), request["robots"][1].contains("radius"));
+}
+
 TEST(AdvanceEndpoint, KeepsTheNumbersOfThePlan) {
   Json request = swap_request();
   request["map"]["origin"] = {{"x", 0.1}, {"y", 0.2}};

@@ -62,6 +62,16 @@ test("checked robots stand at their starts, or at their goals if they have any",
   assert.equal(standingAtGoals({ ...THREE_ROBOTS, robots: [b] }), null);
 });
 
+test("robots stand at their last goals with their last radii", () => {
+  const place = { x: 2.5, y: 0.5 };
+  const goals = [{ x: 1.5, y: 0.5, radius_after: 0.4 }, { ...place, service: 2 }];
+  const robot = { id: "a", radius: 0.3, start: { x: 0.5, y: 0.5 } };
+  const standing = (list) => standingAtGoals({ robots: [{ ...robot, goals: list }] }).robots[0];
+  assert.deepEqual(standing(goals), { ...robot, radius: 0.4, start: place, goal: place });
+  const last = { ...place, radius_after: 0.2 };
+  assert.deepEqual(standing([goals[0], last]), { ...robot, radius: 0.2, start: place, goal: place });
+});
+
 test("a robot in a wall is reported at its start or goal", () => {
   const violation = { kind: "obstacle_collision", robots: ["c"], distance: 0.1, required: 0.3 };
   const [error] = placementErrors(THREE_ROBOTS, [violation], "start");

@@ -1,0 +1,92 @@
+#include "core/model/radius_steps.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "core/model/trajectory.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Seconds; far above the rounding of times, far below what any robot does.
+constexpr double kRounding = 1e-6;
+
+}  // namespace
+
+std::vector<double> radii_of(const Robot& robot) {
+  std::vector<double> radii{robot.radius};
+  radii.reserve(robot.goal_count() + 1);
+  for (std::size_t k = 0; k < robot.goal_count(); ++k) {
+    radii.push_back(robot.goal_at(k).radius_after.value_or(radii.back()));
+  }
+  return radii;
+}
+
+bool changes_radius(const Robot& robot) {
+  const auto changes = [&](const Goal& goal) {
+    return goal.radius_after && *goal.radius_after != robot.radius;
+  };
+  return (robot.goal && changes(*robot.goal)) || std::any_of(robot.via.begin(), robot.via.end(), changes);
+}
+
+double largest_radius(const Robot& robot) {
+  double largest = robot.radius;
+  for (std::size_t k = 0; k < robot.goal_count(); ++k) {
+    largest = std::max(largest, robot.goal_at(k).radius_after.value_or(largest));
+  }
+  return largest;
+}
+
+double last_radius(const Robot& robot) {
+  for (std::size_t k = robot.goal_count(); k > 0; --k) {
+    if (const auto& radius = robot.goal_at(k - 1).radius_after) return *radius;
+  }
+  return robot.radius;
+}
+
+std::vector<RadiusStep> radius_steps(const Robot& robot, std::span<const Visit> visits) {
+  std::vector<RadiusStep> steps;
+  if (!changes_radius(robot)) return steps;
+  for (const Visit& visit : visits) {
+    const auto& radius = robot.goal_at(visit.goal).radius_after;
+    if (radius && visit.t_leave < kForever) steps.push_back({visit.t_leave, *radius});
+  }
+  return steps;
+}
+
+std::vector<TimedSegment> with_radii(std::vector<TimedSegment> segments, const Robot& robot,
+                                     const std::vector<RadiusStep>& steps) {
+  if (!changes_radius(robot)) return segments;
+  const double largest = largest_radius(robot);
+  double radius = robot.radius;
+  auto step = steps.begin();
+  std::vector<TimedSegment> sized;
+  sized.reserve(segments.size() + steps.size());
+  for (TimedSegment& segment : segments) {
+    for (; step != steps.end() && step->t < segment.t_end - kRounding; ++step) {
+      if (step->t > segment.t_start + kRounding) {
+        TimedSegment before = segment;
+        before.t_end = step->t;
+        before.path.to = before.path.from;
+        before.narrower = largest - radius;
+        sized.push_back(before);
+        segment.t_start = step->t;
+      }
+      radius = step->radius;
+    }
+    segment.narrower = largest - radius;
+    sized.push_back(segment);
+  }
+  return sized;
+}
+
+std::vector<TimedSegment> committed_segments(const Robot& robot, const Itinerary& itinerary) {
+  if (itinerary.t_begin <= 0.0) return {};
+  std::vector<TimedSegment> segments = timed_segments(itinerary.committed);
+  std::erase_if(segments, [&](const TimedSegment& segment) { return segment.t_start >= itinerary.t_begin; });
+  if (!segments.empty()) segments.back().t_end = std::min(segments.back().t_end, itinerary.t_begin);
+  return with_radii(std::move(segments), robot, radius_steps(robot, itinerary.visited));
+}
+
+}  // namespace fleetplan::core
