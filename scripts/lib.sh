@@ -12,7 +12,8 @@ BUILD_PACKAGES=(g++:g++ cmake:cmake ninja-build:ninja pkgconf:pkg-config esbuild
   libcpp-httplib-dev nlohmann-json3-dev libeigen3-dev libspdlog-dev libcli11-dev libpng-dev)
 # For the tests, in addition.
 TEST_PACKAGES=(libgtest-dev libgmock-dev clang-format:clang-format clang-tidy:clang-tidy
-  python3:python3 nodejs:node npm:npm chromium:chromium curl:curl jq:jq haproxy:haproxy)
+  python3:python3 nodejs:node npm:npm chromium:chromium curl:curl jq:jq haproxy:haproxy
+  mosquitto:mosquitto)
 # For the fuzz targets, in addition.
 FUZZ_PACKAGES=(clang:clang++ libclang-rt-dev)
 

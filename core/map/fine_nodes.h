@@ -48,7 +48,7 @@ class FineNodes {
   static Limits limits(double x, double y, double radius, double ample);
   static std::vector<Cell> cells_between(const Position& from, const Position& to, double radius);
   static std::size_t step_index(int columns, int rows) {
-    return static_cast<std::size_t>((rows + 1) * 3 + columns + 1);
+    return 3 * static_cast<std::size_t>(rows + 1) + static_cast<std::size_t>(columns + 1);
   }
   Cell cell_of(int column, int row) const;
   /// Of nodes on grid lines, and of centres of cells.

@@ -89,9 +89,12 @@ LineOfSight::LineOfSight(const OccupancyGrid& grid)
       cells_per_metre_(1.0 / grid.resolution()),
       cells_(std::make_shared<const Cells>(grid)) {}
 
-LineOfSight::LineOfSight(const LineOfSight& walls, BlockedPolygons polygons) : LineOfSight(walls) {
-  polygons_ = std::move(polygons);
-}
+LineOfSight::LineOfSight(const LineOfSight& walls, BlockedPolygons polygons)
+    : columns_(walls.columns_),
+      rows_(walls.rows_),
+      cells_per_metre_(walls.cells_per_metre_),
+      cells_(walls.cells_),
+      polygons_(std::move(polygons)) {}
 
 std::size_t LineOfSight::bytes() const {
   return cells_->distances.bytes() + cells_->blocked.capacity() * sizeof(std::uint64_t);

@@ -7,6 +7,22 @@ const HEADER = ["headerId", "timestamp", "version", "manufacturer", "serialNumbe
 /** The members of the request that the export needs. */
 const EXPORTED = ["map", "robots", "robot_defaults", "options"];
 
+/**
+ * The answer of the service to a body. Requests have no effects, so one that fails with its connection is repeated
+ * once: the service may just have closed a connection that was idle.
+ */
+export async function post(service, path, body) {
+  const request = {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(body),
+  };
+  const url = new URL(path, service);
+  const response = await fetch(url, request).catch(() => fetch(url, request));
+  if (!response.ok) throw new Error(`${response.status} ${await response.text()}`);
+  return response.json();
+}
+
 export class Bridge {
   /**
    * - service: address of Fleetplan, such as http://localhost:8080
@@ -86,13 +102,7 @@ export class Bridge {
       last_released_sequence_id: vehicle.released,
       ...vehicle.nodes.get(vehicle.reached),
     }));
-    const response = await fetch(new URL("/v1/export/vda5050", this.service), {
-      method: "POST",
-      headers: { "Content-Type": "application/json" },
-      body: JSON.stringify({ ...this.body, progress }),
-    });
-    if (!response.ok) throw new Error(`${response.status} ${await response.text()}`);
-    return response.json();
+    return post(this.service, "/v1/export/vda5050", { ...this.body, progress });
   }
 
   async publish({ robot, order, last_released_sequence_id: released, nodes }) {

@@ -7,7 +7,7 @@ import { readFileSync } from "node:fs";
 import { parseArgs } from "node:util";
 import vda from "vda-5050-lib";
 
-import { Bridge } from "./bridge.js";
+import { Bridge, post } from "./bridge.js";
 
 const { values, positionals } = parseArgs({
   allowPositionals: true,
@@ -26,13 +26,7 @@ if (positionals.length !== 1) {
 
 const request = JSON.parse(readFileSync(positionals[0], "utf8"));
 request.options = { interval_margin: 0.5, ...request.options, dependencies: true };
-const response = await fetch(new URL("/v1/plan", values.service), {
-  method: "POST",
-  headers: { "Content-Type": "application/json" },
-  body: JSON.stringify(request),
-});
-const answer = await response.json();
-if (!response.ok) throw new Error(JSON.stringify(answer));
+const answer = await post(values.service, "/v1/plan", request);
 if (answer.unplanned.length > 0) console.warn(`without a plan: ${answer.unplanned.map(({ robot }) => robot).join(", ")}`);
 if (answer.tight.length > 0) console.warn(`${answer.tight.length} pairs have to keep the clock: plan with more margin`);
 
