@@ -96,8 +96,8 @@ INSTANTIATE_TEST_SUITE_P(
                          "/robots/0/goal/radius_after", "out_of_range", "metres"},
                     Case{"RadiusOfAnotherType", [](Json& r) { robot(r, 0)["goal"]["radius_after"] = "big"; },
                          "/robots/0/goal/radius_after", "wrong_type", "number"},
-                    Case{"LoadThatDoesNotFit", [](Json& r) { robot(r, 0)["goal"]["radius_after"] = 50.0; },
-                         "/robots/0/goal", "goal_in_obstacle", "(radius 50 m)"},
+                    Case{"LoadThatDoesNotFit", [](Json& r) { robot(r, 0)["goal"]["radius_after"] = 2.0; },
+                         "/robots/0/goal", "goal_in_obstacle", "(radius 2 m)"},
                     Case{"UnknownMember", [](Json& r) { robot(r, 0)["goal"]["notBefore"] = 1; },
                          "/robots/0/goal/notBefore", "unknown_key", "did you mean \"not_before\"?"}),
     [](const auto& one) { return one.param.name; });
