@@ -27,8 +27,39 @@ function request(change) {
   return good;
 }
 
+/** A request with a plan: robot "a" stays where it is for a second. */
+function execution(change) {
+  const good = request((r) => {
+    r.robots = [r.robots[0]];
+    r.robots[0].goal = { x: 0.5, y: 0.5 };
+    r.plans = [{ robot: "a", actions: [WAIT] }];
+    change(r);
+  });
+  return good;
+}
+
 /** By name: path, request, and the expected pairs of pointer and code. */
 const CASES = {
+  "dependencies of a plan that begins late": [
+    "/v1/dependencies",
+    execution((r) => (r.plans[0].actions[0] = { ...WAIT, t_start: 0.5 })),
+    [["/plans/0/actions/0", "invalid_plan"]],
+  ],
+  "a dependency of other plans": [
+    "/v1/export/vda5050",
+    {
+      version: "2.1.0",
+      manufacturer: "acme",
+      timestamp: "2026-01-31T12:00:00Z",
+      ...execution((r) => {
+        r.robots.push({ id: "b", start: { x: 3.5, y: 1.5 } });
+        r.dependencies = [
+          { gate: { robot: "a", action: 0, progress: 1 }, until: { robot: "b", action: 0, progress: 0 } },
+        ];
+      }),
+    },
+    [["/dependencies/0/until/action", "dependency"]],
+  ],
   "a document that is not an object": ["/v1/plan", [], [["", "wrong_type"]]],
   "an empty object": [
     "/v1/plan",
