@@ -34,7 +34,7 @@ void BlockedPolygons::for_each_square(const Polygon& polygon, const Visit& visit
   const Squares box = squares(polygon.low(), polygon.high());
   for (int row = box.first_row; row <= box.last_row; ++row) {
     for (int column = box.first_column; column <= box.last_column; ++column) {
-      visit(static_cast<std::size_t>(row * kSide + column));
+      visit(static_cast<std::size_t>(row) * kSide + static_cast<std::size_t>(column));
     }
   }
 }
@@ -58,7 +58,7 @@ bool BlockedPolygons::come_near(const Position& from, const Position& to, double
   }
   for (int row = box.first_row; row <= box.last_row; ++row) {
     for (int column = box.first_column; column <= box.last_column; ++column) {
-      const auto square = static_cast<std::size_t>(row * kSide + column);
+      const auto square = static_cast<std::size_t>(row) * kSide + static_cast<std::size_t>(column);
       for (std::uint32_t k = begin_[square]; k < begin_[square + 1]; ++k) {
         if (polygons_[near_[k]].comes_near(from, to, distance)) return true;
       }

@@ -51,16 +51,16 @@ class DriveZones {
 
  private:
   struct SpeedZone {
-    std::size_t index;
+    std::size_t index = 0;
     Polygon polygon;
-    double linear_speed;
-    double angular_speed;
+    double linear_speed = 0.0;
+    double angular_speed = 0.0;
   };
   struct OneWayZone {
-    std::size_t index;
+    std::size_t index = 0;
     Polygon polygon;
-    double heading;
-    double half_angle;
+    double heading = 0.0;
+    double half_angle = 0.0;
   };
 
   double linear_speed_;

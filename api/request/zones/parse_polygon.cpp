@@ -131,7 +131,7 @@ std::vector<core::Position> parse_polygon(const JsonReader& member, const WorldF
                                        std::to_string(kMostCorners) + ". Divide it into several zones.");
     return {};
   }
-  const Corners read = parse_corners(list, frame);
+  Corners read = parse_corners(list, frame);
   if (read.empty()) return {};
   if (const auto met = Sides(read).that_meet(list.stop())) {
     const std::string first = std::to_string(met->first);
