@@ -13,8 +13,9 @@ namespace {
 constexpr std::size_t kRunsOfATask = 4;
 /// Tasks of one round, between which progress is reported: enough for many workers.
 constexpr std::size_t kTasksOfARound = 16;
-/// Disks may overlap by the default tolerance of POST /v1/validate.
-constexpr double kTolerance = kMostTolerance;
+/// Metres by which disks may overlap: the default tolerance of POST /v1/validate, which dependencies use up,
+/// and as much for rounding.
+constexpr double kTolerance = 2.0 * kMostTolerance;
 
 /// Adds up the runs, in their order.
 class Study {

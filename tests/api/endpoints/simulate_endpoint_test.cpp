@@ -109,12 +109,17 @@ TEST(SimulateEndpoint, GivesTheSameAnswerWithAnyNumberOfThreads) {
   EXPECT_NE(simulated(request)["flowtime"], simulated(other)["flowtime"]);
 }
 
-TEST(SimulateEndpoint, TakesTheAnswerOfAPlanAndItsDependencies) {
+TEST(SimulateEndpoint, HasNoCollisionsWhenRobotsObeyTheDependenciesOfThePlan) {
   Json request = simulate_request("dependencies");
-  const Json answer = json_of(plan_endpoint(crossing_request().dump(), {}));
-  request.update(answer);
+  request["options"] = {{"interval_margin", 0.5}, {"dependencies", true}};
+  Json planned = crossing_request();
+  planned["options"] = request["options"];
+  request.update(json_of(plan_endpoint(planned.dump(), {})));
+  const Json figures = simulated(request);
+  EXPECT_EQ(figures["deadlock_share"], 0.0);
+  EXPECT_EQ(figures["collision_share"], 0.0);
   request["dependencies"] = Json::array();
-  EXPECT_EQ(simulated(request)["deadlock_share"], 0.0);
+  EXPECT_GT(simulated(request)["collision_share"], 0.0);
 }
 
 TEST(SimulateEndpoint, HasNoCollisionsByTheClockWithinTheIntervalMargin) {

@@ -20,11 +20,12 @@ class StubService:
         self.requests.append((path, body))
         if path == "/v1/plan":
             plans = [{"robot": robot["id"], "actions": [drive(0.0, 30.0, 0.0, 3.0)]} for robot in body["robots"]]
-            return {"status": "solved" if self.solved else "partial", "plans": plans, "lower_bound": {"flowtime": 30.0}}
+            return {"status": "solved" if self.solved else "partial", "plans": plans, "dependencies": [],
+                    "lower_bound": {"flowtime": 30.0}}
         late = body["disturbance"]["start_delay"]["max"] / 2
         moved = [{**drive(late, 30.0 + late, 0.0, 3.0)}]
         wait = [{**drive(0.0, late, 0.0, 0.0), "type": "wait"}]
-        return {"collision_share": 0.25, "flowtime": {"mean": 45.0}, "trace": {"plans": [{"actions": wait + moved}]}}
+        return {"collision_share": 0.25, "deadlock_share": 0.0, "flowtime": {"mean": 45.0}, "trace": {"plans": [{"actions": wait + moved}]}}
 
 
 class LabTest(unittest.TestCase):
@@ -73,12 +74,23 @@ class LabTest(unittest.TestCase):
         self.assertEqual(lab.measure_cell(StubService(solved=False), arguments, 1.0, 0.25, 5.0),
                          {"solved": 0, "safe": None, "cost": None})
 
+    def test_plans_with_a_margin_are_executed_with_their_dependencies(self):
+        arguments = lab.make_parser().parse_args(["--instances", "1"])
+        service = StubService()
+        self.assertEqual(lab.measure_cell(service, arguments, 1.0, 0.15, 0.0, 0.05)["solved"], 1)
+        planned, simulated = ([body for path, body in service.requests if path == name][-1]
+                              for name in ("/v1/plan", "/v1/simulate"))
+        self.assertEqual((planned["options"]["inflation"], planned["options"]["execution_margin"]), (0.05, 0.05))
+        self.assertTrue(planned["options"]["dependencies"])
+        self.assertEqual((simulated["policy"], simulated["dependencies"]), ("dependencies", []))
+
     def test_the_report_has_a_row_for_each_cell(self):
         cells = {(0.15, 0.0): {"solved": 10, "safe": 0.02, "cost": 1.15},
                  (0.35, 5.0): {"solved": 0, "safe": None, "cost": None}}
-        text = lab.report(cells, 1.47, 0.3069)
+        text = lab.report(cells, {0.05: {"solved": 9, "safe": 1.0, "cost": 1.2}}, 1.47, 0.3069)
         self.assertIn("up to 1.47 s late", text)
-        self.assertIn("| 15         |       0 |      10 |  2 % |", text)
+        self.assertRegex(text, r"\| 15 +\| +0 \| +10 \| +2 % \|")
+        self.assertRegex(text, r"\| 15 \+ 5, dependencies +\| +0 \| +9 \| +100 % \| +- \| +1\.20 \|")
         self.assertIn("about 2", text)
 
 

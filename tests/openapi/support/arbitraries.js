@@ -225,7 +225,7 @@ export function plausiblePlans(document) {
     const plan = valuesOfComponent(document, "GivenPlan");
     const named = fc.record({ plan, robot }).map(({ plan: made, robot: id }) => ({ ...made, robot: id }));
     const rest = valuesOfComponent(document, "ValidateRequest").map(
-      ({ map, robots, robot_defaults, obstacles, options, plans, unavoidable, ...further }) => further,
+      ({ map, robots, robot_defaults, obstacles, zones, options, plans, unavoidable, ...further }) => further,
     );
     return fc
       .record({

@@ -64,7 +64,10 @@ test("checked robots stand at their starts, or at their goals if they have any",
 
 test("robots stand at their last goals with their last radii", () => {
   const place = { x: 2.5, y: 0.5 };
-  const goals = [{ x: 1.5, y: 0.5, radius_after: 0.4 }, { ...place, service: 2 }];
+  const goals = [
+    { x: 1.5, y: 0.5, radius_after: 0.4 },
+    { ...place, service: 2 },
+  ];
   const robot = { id: "a", radius: 0.3, start: { x: 0.5, y: 0.5 } };
   const standing = (list) => standingAtGoals({ robots: [{ ...robot, goals: list }] }).robots[0];
   assert.deepEqual(standing(goals), { ...robot, radius: 0.4, start: place, goal: place });
