@@ -22,7 +22,7 @@ std::string pointer_to(std::size_t robot, double t, const std::vector<core::Robo
   const auto plan = std::find_if(plans.begin(), plans.end(),
                                  [robot](const core::RobotPlan& one) { return one.robot == robot; });
   if (plan == plans.end()) return "/robots/" + std::to_string(robot);
-  const std::string pointer = "/plans/" + std::to_string(plan - plans.begin());
+  std::string pointer = "/plans/" + std::to_string(plan - plans.begin());
   const auto action = std::find_if(plan->actions.begin(), plan->actions.end(), [t](const core::Action& one) {
     return one.t_start <= t && t <= one.t_end;
   });

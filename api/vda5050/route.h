@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "core/execution/executed_actions.h"
@@ -18,7 +19,10 @@ struct RoutePoint {
   double fraction = 0.0;
 
   bool operator==(const RoutePoint&) const = default;
-  auto operator<=>(const RoutePoint&) const = default;
+  bool operator<(const RoutePoint& other) const {
+    return std::tie(action, fraction) < std::tie(other.action, other.fraction);
+  }
+  bool operator<=(const RoutePoint& other) const { return !(other < *this); }
 };
 
 RoutePoint route_point(const core::ActionProgress& progress);

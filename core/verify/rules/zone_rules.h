@@ -38,8 +38,8 @@ class ZonesOfRobot {
 
  private:
   struct ZoneBox {
-    std::size_t index;
-    const Zone* zone;
+    std::size_t index = 0;
+    const Zone* zone = nullptr;
     Rectangle box;
   };
 
