@@ -13,6 +13,7 @@
 #include "core/verify/verify.h"
 #include "tests/support/moving_fleet.h"
 #include "tests/support/own_pace.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/summary.h"
 
 namespace fleetplan::core {
@@ -21,7 +22,7 @@ namespace {
 using support::Dice;
 using Pair = std::pair<std::size_t, std::size_t>;
 
-constexpr int kPlans = 2000;
+constexpr int kPlans = support::kSanitized ? 200 : 2000;
 constexpr int kExecutions = 4;  // of each plan
 /// Metres: the tolerance of the plan's check, and rounding.
 constexpr double kTolerance = 1.1e-6;

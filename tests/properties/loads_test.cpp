@@ -11,6 +11,7 @@
 #include "core/planner.h"
 #include "tests/support/expect_replanned.h"
 #include "tests/support/moving_fleet.h"
+#include "tests/support/sanitized.h"
 
 namespace fleetplan::core {
 namespace {
@@ -54,7 +55,7 @@ TEST_P(Loads, AreCarriedWithoutCollisions) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Loads, testing::Range(0, 200));
+INSTANTIATE_TEST_SUITE_P(Seeds, Loads, testing::Range(0, support::kSanitized ? 60 : 200));
 
 }  // namespace
 }  // namespace fleetplan::core
