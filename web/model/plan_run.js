@@ -1,14 +1,20 @@
 // A run of planning and its progress. Pure.
 
+/** What the plan of a request minimises: "flowtime" or "makespan". */
+export function objectiveOf(request) {
+  return request?.options?.objective === "makespan" ? "makespan" : "flowtime";
+}
+
 export class PlanRun {
   #control = new AbortController();
   progress = null; // the latest one
-  costs = []; // of each new best plan: [{elapsed_ms, flowtime, makespan}]
+  costs = []; // of each better plan: [{elapsed_ms, flowtime, makespan}]
   incumbent = null; // the text of the best answer so far
 
-  /** `budget`: the time budget, seconds, or null if unknown. */
-  constructor(budget) {
+  /** `budget`: the time budget, seconds, or null if unknown; `objective`: see objectiveOf. */
+  constructor(budget, objective) {
     this.budget = budget;
+    this.objective = objective;
   }
 
   /** Aborts the request. */
@@ -19,8 +25,8 @@ export class PlanRun {
   record(progress) {
     this.progress = progress;
     const { elapsed_ms, best } = progress;
-    if (best !== null && best.flowtime !== this.costs.at(-1)?.flowtime)
-      this.costs.push({ elapsed_ms, ...best });
+    const least = this.costs.at(-1)?.[this.objective] ?? Infinity;
+    if (best !== null && best[this.objective] < least) this.costs.push({ elapsed_ms, ...best });
   }
 
   stop() {

@@ -18,7 +18,7 @@
 
 import { History } from "./history.js";
 import { planFile } from "./plan_file.js";
-import { PlanRun } from "./plan_run.js";
+import { objectiveOf, PlanRun } from "./plan_run.js";
 import { Playback, Player } from "./playback.js";
 import { ProblemError } from "./problem.js";
 import { readScene, readTracks, robotPoseAt, robotRadiusAt, robotStateAt } from "./scene.js";
@@ -217,7 +217,7 @@ export class Session {
   /** Plans the request; resolves at the end to whether there is an answer. `budget`: see PlanRun. */
   async plan(budget = null) {
     if (this.planning || this.request === null) return false;
-    const run = new PlanRun(budget);
+    const run = new PlanRun(budget, objectiveOf(this.request));
     this.planning = run;
     this.setProblem(null);
     this.#setAnswer(null);

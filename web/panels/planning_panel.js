@@ -1,6 +1,6 @@
 // Planning: the buttons that start and cancel it, and its progress: time, robots planned, the falling cost.
 
-import { byId, setText, svgElement } from "../ui/dom.js";
+import { byId, element, setText, svgElement } from "../ui/dom.js";
 import { count, seconds } from "../ui/format.js";
 import { revealProblem } from "./problem_card.js";
 import { summarize } from "./summary.js";
@@ -9,6 +9,7 @@ const CLOCK_MS = 100;
 const WIDTH = 320;
 const HEIGHT = 44;
 const EDGE = 3;
+const OTHER = { flowtime: "makespan", makespan: "flowtime" };
 
 export class PlanButton {
   #session;
@@ -56,11 +57,13 @@ export function budgetOf(request, limits) {
   return Math.min(asked, limits.max_budget_ms ?? asked) / 1000;
 }
 
-/** The progress of planning, in words. */
-export function describeProgress({ attempt, planned, robots, best }) {
+/** The progress of planning, in words; the cost that the plan minimises comes first. */
+export function describeProgress({ attempt, planned, robots, best }, objective) {
   const done = `${planned.toLocaleString("en")} of ${count(robots, "robot")} planned`;
   const again = attempt > 1 ? `, attempt ${attempt.toLocaleString("en")}` : "";
-  return `${done}${again}${best === null ? "" : `, flowtime ${seconds(best.flowtime)}`}`;
+  if (best === null) return `${done}${again}`;
+  const costs = [objective, OTHER[objective]].map((name) => `${name} ${seconds(best[name])}`);
+  return `${done}${again}, ${costs.join(", ")}`;
 }
 
 export class PlanningStatus {
@@ -101,9 +104,9 @@ export class PlanningStatus {
   }
 
   #show() {
-    const { progress, costs } = this.#session.planning;
-    setText(this.#soFar, describeProgress(progress));
-    drawCosts(this.#curve, costs, progress.elapsed_ms);
+    const { progress, costs, objective } = this.#session.planning;
+    setText(this.#soFar, describeProgress(progress, objective));
+    drawCosts(this.#curve, costs, objective, progress.elapsed_ms);
   }
 
   #end() {
@@ -113,28 +116,28 @@ export class PlanningStatus {
   }
 }
 
-/** Draws the costs, [{elapsed_ms, flowtime}], up to now; hidden until there are two. */
-export function drawCosts(box, costs, now_ms) {
+/** Draws how the objective fell, of costs [{elapsed_ms, flowtime, makespan}], up to now; hidden until it did. */
+function drawCosts(box, costs, objective, now_ms) {
   box.hidden = costs.length < 2;
   if (box.hidden) return;
-  const first = costs[0];
-  const last = costs[costs.length - 1];
-  const span = Math.max(1, now_ms - first.elapsed_ms);
-  const fall = Math.max(1e-9, first.flowtime - last.flowtime);
-  const x = (elapsed) => EDGE + ((elapsed - first.elapsed_ms) / span) * (WIDTH - 2 * EDGE);
-  const y = (cost) => EDGE + ((first.flowtime - cost) / fall) * (HEIGHT - 2 * EDGE);
-  let path = `M${x(first.elapsed_ms)} ${y(first.flowtime)}`;
-  for (const { elapsed_ms, flowtime } of costs.slice(1)) path += `H${x(elapsed_ms)}V${y(flowtime)}`;
-  path += `H${x(now_ms)}`;
+  const points = costs.map((cost) => ({ t: cost.elapsed_ms, value: cost[objective] }));
   const svg = svgElement("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none" });
-  svg.append(svgElement("path", { d: path }));
-  const share = ((fall / first.flowtime) * 100).toFixed(1);
-  const words = `Flowtime fell from ${seconds(first.flowtime)} to ${seconds(last.flowtime)} (−${share} %)`;
+  svg.append(svgElement("path", { d: stepsOf(points, now_ms) }));
+  const [first, last] = [points[0].value, points[points.length - 1].value];
+  const share = (((first - last) / first) * 100).toFixed(1);
+  const name = objective === "makespan" ? "Makespan" : "Flowtime";
+  const words = `${name} fell from ${seconds(first)} to ${seconds(last)} (−${share} %)`;
   svg.setAttribute("role", "img");
   svg.setAttribute("aria-label", words);
-  const caption = document.createElement("p");
-  caption.className = "facts";
-  caption.textContent = words;
-  caption.setAttribute("aria-hidden", "true");
+  const caption = element("p", { class: "facts", textContent: words, "aria-hidden": "true" });
   box.replaceChildren(svg, caption);
+}
+
+/** The path of a curve that falls in steps from the first of the points {t, value} to the last. */
+function stepsOf(points, now) {
+  const [first, last] = [points[0], points[points.length - 1]];
+  const x = (t) => EDGE + ((t - first.t) / Math.max(1, now - first.t)) * (WIDTH - 2 * EDGE);
+  const y = (value) => EDGE + ((first.value - value) / (first.value - last.value)) * (HEIGHT - 2 * EDGE);
+  const steps = points.slice(1).map(({ t, value }) => `H${x(t)}V${y(value)}`);
+  return `M${x(first.t)} ${y(first.value)}${steps.join("")}H${x(now)}`;
 }

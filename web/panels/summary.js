@@ -22,7 +22,8 @@ export function summarize(answer) {
   const outcome = OUTCOMES[answer.status]?.text ?? answer.status;
   const planned = `${count(answer.plans.length, "robot")} planned`;
   const failed = answer.unplanned.length > 0 ? `, ${answer.unplanned.length} without a plan` : "";
-  return `${outcome}: ${planned}${failed}, flowtime ${seconds(answer.flowtime)}.`;
+  const costs = `flowtime ${seconds(answer.flowtime)}, makespan ${seconds(answer.makespan)}`;
+  return `${outcome}: ${planned}${failed}, ${costs}.`;
 }
 
 /** Shows the figures of the session's answer; a plan from a file may lack some of them. */

@@ -352,7 +352,9 @@ test("planning reports progress, and cancelling keeps the best plan", async () =
       /^Planning 0\.[3-9] of 60\.0 s$/.test(document.getElementById("elapsed").textContent),
     );
     await page.waitForFunction(() =>
-      /^2 of 2 robots planned, flowtime [\d.]+ s$/.test(document.getElementById("so-far").textContent),
+      /^2 of 2 robots planned, flowtime [\d.]+ s, makespan [\d.]+ s$/.test(
+        document.getElementById("so-far").textContent,
+      ),
     );
     assert.ok((await page.evaluate(() => document.getElementById("budget").position)) > 0);
     await page.click("#cancel");

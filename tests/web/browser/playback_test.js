@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { choose, pressPlan, seek } from "../support/browser.js";
-import { coloursAt, hasTime, hook, pagesFor, paste, themeColour } from "../support/on_page.js";
+import { coloursAt, hasTime, pagesFor, paste, themeColour } from "../support/on_page.js";
 
 const onPage = pagesFor();
 
@@ -112,41 +112,5 @@ test("the view menu closes with Escape and returns the focus", async () => {
     await page.keyboard.press("Escape");
     assert.equal(await page.evaluate(() => document.getElementById("view-menu").open), false);
     assert.equal(await page.evaluate(() => document.activeElement.closest("#view-menu") !== null), true);
-  });
-});
-
-test("the falling cost is drawn while planning", async () => {
-  await onPage(async (page) => {
-    const costs = [90, 80, 72.5];
-    const events = costs.map((flowtime, at) => {
-      const best = { flowtime, makespan: flowtime };
-      const progress = { elapsed_ms: 100 * at, attempt: at + 1, planned: 2, robots: 2, best };
-      return `event: progress\ndata: ${JSON.stringify(progress)}\n\n`;
-    });
-    await page.evaluate((chunks) => {
-      const whole = window.fetch;
-      window.fetch = async (address, init) => {
-        if (address !== "v1/plan") return whole(address, init);
-        const body = new ReadableStream({
-          start(controller) {
-            for (const chunk of chunks) controller.enqueue(new TextEncoder().encode(chunk));
-          },
-        });
-        return new Response(body, { headers: { "Content-Type": "text/event-stream" } });
-      };
-    }, events);
-    await page.click("#plan");
-    await page.waitForSelector("#cost-curve svg");
-    assert.match(
-      await page.getAttribute("#cost-curve svg", "aria-label"),
-      /from 90\.00 s to 72\.50 s \(−19\.4 %\)/,
-    );
-    assert.equal(await page.innerText("#so-far"), "2 of 2 robots planned, attempt 3, flowtime 72.50 s");
-    const path = await page.getAttribute("#cost-curve path", "d");
-    const heights = [...path.matchAll(/V([\d.]+)/g)].map(([, y]) => Number(y));
-    assert.equal(heights.length, 2);
-    assert.ok(heights[0] < heights[1], "lower cost is further down");
-    await page.click("#cancel");
-    assert.equal(await hook(page, "answer"), null);
   });
 });

@@ -43,6 +43,30 @@ export async function paste(page, request) {
   await page.click("#paste-form button");
 }
 
+/**
+ * Answers requests for plans with a stream of these events, [[name, data]], an object or a text each, which does not
+ * end; or ends, as a lost connection does, if it is `cut`.
+ */
+export function streamPlan(page, events, { cut = false } = {}) {
+  const chunks = events.map(([name, data]) => `event: ${name}\ndata: ${JSON.stringify(data)}\n\n`);
+  return page.evaluate(
+    ({ chunks, cut }) => {
+      const whole = window.fetch;
+      window.fetch = async (address, init) => {
+        if (address !== "v1/plan") return whole(address, init);
+        const body = new ReadableStream({
+          start(controller) {
+            for (const chunk of chunks) controller.enqueue(new TextEncoder().encode(chunk));
+            if (cut) controller.close();
+          },
+        });
+        return new Response(body, { headers: { "Content-Type": "text/event-stream" } });
+      };
+    },
+    { chunks, cut },
+  );
+}
+
 export const hook = (page, name) => page.evaluate((member) => window.fleetplan[member], name);
 
 /** Waits until the page shows this time, seconds. */

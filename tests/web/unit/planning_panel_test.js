@@ -18,10 +18,14 @@ test("an unknown budget is null", () => {
   assert.equal(budgetOf({ options: { time_budget_ms: 2000 } }, {}), 2);
 });
 
-test("progress is described in words, with the flowtime once there is a plan", () => {
-  assert.equal(describeProgress({ planned: 1, robots: 1, best: null }), "1 of 1 robot planned");
+test("progress is described in words, with both costs once there is a plan, its objective first", () => {
+  assert.equal(describeProgress({ planned: 1, robots: 1, best: null }, "flowtime"), "1 of 1 robot planned");
   assert.equal(
-    describeProgress({ planned: 1200, robots: 2000, best: { flowtime: 12.345, makespan: 3 } }),
-    "1,200 of 2,000 robots planned, flowtime 12.35 s",
+    describeProgress({ planned: 1200, robots: 2000, best: { flowtime: 12.345, makespan: 3 } }, "flowtime"),
+    "1,200 of 2,000 robots planned, flowtime 12.35 s, makespan 3.00 s",
+  );
+  assert.equal(
+    describeProgress({ planned: 2, robots: 2, best: { flowtime: 12, makespan: 3 } }, "makespan"),
+    "2 of 2 robots planned, makespan 3.00 s, flowtime 12.00 s",
   );
 });

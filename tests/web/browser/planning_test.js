@@ -1,0 +1,72 @@
+// Progress of planning in headless Chromium: what is shown until there is an answer.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { choose, pressPlan } from "../support/browser.js";
+import { hook, pagesFor, paste, streamPlan } from "../support/on_page.js";
+
+const onPage = pagesFor();
+
+const progressOf = (costs) =>
+  costs.map(([flowtime, makespan], at) => {
+    const best = { flowtime, makespan };
+    return ["progress", { elapsed_ms: 100 * at, attempt: at + 1, planned: 2, robots: 2, best }];
+  });
+
+/** The heights at which the drawn curve goes on, from its beginning. */
+async function heightsOf(page) {
+  const path = await page.getAttribute("#cost-curve path", "d");
+  return [...path.matchAll(/(?:M\S+ |V)(\S+?)(?=H|$)/g)].map(([, y]) => Number(y));
+}
+
+test("the falling cost is drawn while planning", async () => {
+  await onPage(async (page) => {
+    const costs = [90, 80, 72.5].map((flowtime) => [flowtime, 40]);
+    await streamPlan(page, progressOf(costs));
+    await page.click("#plan");
+    await page.waitForFunction(() => /72\.50/.test(document.getElementById("so-far").textContent));
+    assert.match(
+      await page.getAttribute("#cost-curve svg", "aria-label"),
+      /^Flowtime fell from 90\.00 s to 72\.50 s \(−19\.4 %\)$/,
+    );
+    assert.equal(
+      await page.innerText("#so-far"),
+      "2 of 2 robots planned, attempt 3, flowtime 72.50 s, makespan 40.00 s",
+    );
+    const heights = await heightsOf(page);
+    assert.equal(heights.length, 3);
+    assert.ok(heights[0] < heights[1] && heights[1] < heights[2], "lower cost is further down");
+    await page.click("#cancel");
+    assert.equal(await hook(page, "answer"), null);
+  });
+});
+
+test("a falling makespan is drawn as such while the flowtime rises", async () => {
+  await onPage(async (page) => {
+    const request = await choose(page, "crossing");
+    await paste(page, { ...request, options: { ...request.options, objective: "makespan" } });
+    await page.waitForFunction(() => window.fleetplan.request.options.objective === "makespan");
+    const costs = [
+      [11_881, 300],
+      [12_215, 270],
+    ];
+    await streamPlan(page, progressOf(costs));
+    await page.click("#plan");
+    await page.waitForSelector("#cost-curve svg");
+    assert.equal(
+      await page.innerText("#cost-curve .facts"),
+      "Makespan fell from 300.00 s to 270.00 s (−10.0 %)",
+    );
+    assert.match(await page.innerText("#so-far"), /, makespan 270\.00 s, flowtime 12,215\.0 s$/);
+    for (const height of await heightsOf(page)) assert.ok(height >= 0 && height <= 44, `${height} is drawn`);
+  });
+});
+
+test("the outcome is announced with both costs", async () => {
+  await onPage(async (page) => {
+    const { flowtime, makespan } = await pressPlan(page);
+    const announced = await page.innerText("#announcer");
+    for (const cost of [flowtime, makespan]) assert.ok(announced.includes(cost.toFixed(2)), announced);
+  });
+});
