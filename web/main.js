@@ -8,17 +8,20 @@ import { Setup } from "./files/setup.js";
 import { offerHook } from "./hook.js";
 import { watchEdits } from "./model/checks.js";
 import { clearanceJob, FleetMotion } from "./model/fleet_motion.js";
+import { RobotFilter } from "./model/robot_filter.js";
 import { Session } from "./model/session.js";
 import { watchCheck } from "./panels/check_card.js";
 import { Inspector } from "./panels/inspector.js";
 import { OptionsPanel } from "./panels/options_panel.js";
 import { PlanButton, PlanningStatus } from "./panels/planning_panel.js";
 import { revealProblem, watchProblem } from "./panels/problem_card.js";
+import { RobotFinder } from "./panels/robot_finder.js";
 import { RobotList } from "./panels/robot_list.js";
 import { watchReadout, watchViewMenu } from "./panels/scene_bar.js";
 import { watchSummary, watchUnplanned } from "./panels/summary.js";
 import { TimelineDock } from "./panels/timeline_dock.js";
 import { Transport } from "./panels/transport.js";
+import { Follow } from "./scene/follow.js";
 import { ClosestOverlay, showBlockers, showViolations } from "./scene/overlays.js";
 import { RobotColours } from "./scene/palette.js";
 import { Stage } from "./scene/stage.js";
@@ -43,7 +46,10 @@ const edit = new EditPanel(session, stage, tabs, opening);
 watchEdits(session, service.validate);
 new PlanningStatus(session);
 const options = new OptionsPanel(session, tabs, service.fetchOpenApi);
-new RobotList(session, colours);
+const filter = new RobotFilter(session);
+new RobotList(session, colours, filter);
+const finder = new RobotFinder(session, stage, tabs, filter);
+const follow = new Follow(session, stage);
 new TimelineDock(session, colours, fleet, transport, (over) => closest.peek(over));
 new Inspector(session, stage, colours, fleet, tabs);
 watchSummary(session);
@@ -68,6 +74,8 @@ watchShortcuts({
   "]": () => transport.changeSpeed(1),
   c: () => closest.toggle(),
   f: () => stage.fit(),
+  F: () => follow.toggle(),
+  "/": () => finder.focus(),
   "+": () => stage.zoomIn(),
   "=": () => stage.zoomIn(),
   "-": () => stage.zoomOut(),

@@ -8,14 +8,16 @@ const EVERY_MS = 150; // between updates while playing
 export class RobotList {
   #session;
   #colours;
+  #filter;
   #list = byId("robots");
   #rows = new Map(); // id -> {button, state}
   #updated = -Infinity;
 
-  /** `colours`: see RobotColours. */
-  constructor(session, colours) {
+  /** `colours`: see RobotColours; `filter`: see RobotFilter. */
+  constructor(session, colours, filter) {
     this.#session = session;
     this.#colours = colours;
+    this.#filter = filter;
     const idOf = (event) => event.target.closest("button")?.dataset.robot ?? null;
     this.#list.addEventListener("click", (event) => {
       const id = idOf(event);
@@ -25,7 +27,7 @@ export class RobotList {
     this.#list.addEventListener("pointerleave", () => session.hover(null));
     this.#list.addEventListener("focusin", (event) => session.hover(idOf(event)));
     this.#list.addEventListener("focusout", () => session.hover(null));
-    session.on("answer", () => this.#show());
+    filter.onChange(() => this.#show());
     colours.onChange(() => this.#show());
     session.on("marks", () => {
       this.#update();
@@ -39,9 +41,7 @@ export class RobotList {
 
   #show() {
     this.#rows.clear();
-    const { robots } = this.#session.scene;
-    setText(byId("robots-title"), robots.length > 0 ? count(robots.length, "robot") : "Robots");
-    const items = robots.map((robot) => {
+    const items = this.#filter.robots.map((robot) => {
       const row = this.#row(robot, this.#session.tracks.get(robot.id));
       this.#rows.set(robot.id, row);
       return element("li", {}, row.button);

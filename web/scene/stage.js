@@ -2,6 +2,7 @@
 // frame, and a tool, which may handle presses and keys before the camera.
 
 import { robotPoseAt } from "../model/scene.js";
+import { Signals } from "../model/signals.js";
 import { byId } from "../ui/dom.js";
 import { Painter } from "./draw.js";
 import { watchGestures } from "./gestures.js";
@@ -11,6 +12,7 @@ const MARGIN = 24; // pixels around a fitted map
 const HEADROOM = 64; // pixels above it, where the view's buttons are
 const KEY_PAN = 60; // pixels
 const KEY_ZOOM = 1.4;
+const LEGIBLE = 10; // pixels: the least radius of a robot in the middle
 const REACH = 6; // pixels: the least radius for picking a robot
 const NOWHERE = { left: 0, bottom: 0, right: 1, top: 1 };
 
@@ -33,6 +35,7 @@ export class Stage {
   #tool = {};
   #pressed = {}; // the tool that handles the press
   #scheduled = false;
+  #signals = new Signals();
 
   /** `colours`: see RobotColours. */
   constructor(session, colours) {
@@ -41,7 +44,7 @@ export class Stage {
     new ResizeObserver(() => this.#resize()).observe(this.#canvas);
     colours.onChange(() => this.#show());
     session.on("answer", () => this.#show());
-    session.on("request", ({ opened }) => (opened || this.#fitted) && this.fit());
+    session.on("request", ({ opened }) => (opened || this.#fitted) && this.#fit());
     session.on("time marks", () => this.redraw());
     watchGestures(this.#canvas, this.#gestures());
     this.#canvas.addEventListener("keydown", (event) => this.#onKey(event));
@@ -83,7 +86,13 @@ export class Stage {
     return this.#canvas;
   }
 
+  /** Shows the whole map. */
   fit() {
+    this.#fit();
+    this.#signals.emit("pan");
+  }
+
+  #fit() {
     this.#fitted = true;
     if (this.#viewport.width > 0) this.#camera = fit(this.#bounds(), this.#viewport, this.#insets());
     this.redraw();
@@ -103,6 +112,18 @@ export class Stage {
     const { width, height } = this.#viewport;
     if (x > 40 && x < width - 40 && y > HEADROOM && y < height - 40) return;
     this.#move({ ...this.#camera, x: point.x, y: point.y });
+  }
+
+  /** Puts a world point into the middle, large enough to see a disk of the radius there (metres). */
+  centre({ x, y }, radius) {
+    const { max } = this.#scaleLimits();
+    const scale = Math.max(this.#camera.scale, Math.min(max, LEGIBLE / radius));
+    this.#move({ x, y, scale });
+  }
+
+  /** Calls `listener` when the camera is moved by hand. */
+  onPan(listener) {
+    this.#signals.on("pan", listener);
   }
 
   /** The world point in the middle of the view. */
@@ -177,7 +198,7 @@ export class Stage {
   #gestures() {
     const world = (pixel) => toWorld(this.#camera, this.#viewport, pixel);
     return {
-      pan: (dx, dy) => this.#move(panBy(this.#camera, dx, dy)),
+      pan: (dx, dy) => this.#pan(dx, dy),
       zoom: (pixel, factor) => this.#zoom(pixel, factor),
       hover: (pixel) => this.#hover(pixel && world(pixel)),
       click: (pixel) => this.#session.toggle(this.robotAt(world(pixel))),
@@ -205,7 +226,7 @@ export class Stage {
     const box = this.#canvas.getBoundingClientRect();
     const before = toWorld(this.#camera, this.#viewport, this.#middle());
     this.#viewport = { width: box.width, height: box.height };
-    if (this.#fitted) this.fit();
+    if (this.#fitted) this.#fit();
     else this.#move({ ...this.#camera, ...before });
     this.paint();
   }
@@ -229,10 +250,18 @@ export class Stage {
     this.redraw();
   }
 
+  #pan(dx, dy) {
+    this.#move(panBy(this.#camera, dx, dy));
+    this.#signals.emit("pan");
+  }
+
   #zoom(pixel, factor) {
+    this.#move(zoomAt(this.#camera, this.#viewport, pixel, factor, this.#scaleLimits()));
+  }
+
+  #scaleLimits() {
     const cell = this.#session.scene.grid?.resolution ?? 1;
-    const limits = scaleLimits(this.#bounds(), this.#viewport, this.#insets(), cell);
-    this.#move(zoomAt(this.#camera, this.#viewport, pixel, factor, limits));
+    return scaleLimits(this.#bounds(), this.#viewport, this.#insets(), cell);
   }
 
   #onKey(event) {
@@ -244,6 +273,6 @@ export class Stage {
     const step = steps[event.key];
     if (!step || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
-    this.#move(panBy(this.#camera, step[0] * KEY_PAN, step[1] * KEY_PAN));
+    this.#pan(step[0] * KEY_PAN, step[1] * KEY_PAN);
   }
 }
