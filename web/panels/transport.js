@@ -5,6 +5,7 @@ import { byId, setText } from "../ui/dom.js";
 
 const KEY_STEP = 0.25; // seconds
 const LONG_KEY_STEP = 2; // seconds
+const PER_SECOND = 1e6; // browsers keep 15 digits of a value: of the latest times, these decimals
 
 export class Transport {
   #session;
@@ -87,7 +88,7 @@ export class Transport {
     }
     this.#play.classList.toggle("playing", playing);
     this.#play.setAttribute("aria-label", playing ? "Pause" : "Play");
-    this.#scrubber.max = String(duration || 1);
+    this.#scrubber.max = String(scrubberEnd(duration) || 1);
     this.#scrubber.value = String(time);
     this.#scrubber.style.setProperty("--share", `${idle ? 0 : (time / duration) * 100}%`);
     this.#scrubber.setAttribute("aria-valuetext", `${time.toFixed(2)} of ${duration.toFixed(2)} seconds`);
@@ -117,4 +118,9 @@ export class Transport {
     event.preventDefault();
     this.#session.seek(targets[event.key]);
   }
+}
+
+/** The end of the scrubber: not before the duration (seconds), however the browser rounds a value. */
+export function scrubberEnd(duration) {
+  return Math.ceil(duration * PER_SECOND) / PER_SECOND;
 }

@@ -114,3 +114,26 @@ test("the view menu closes with Escape and returns the focus", async () => {
     assert.equal(await page.evaluate(() => document.activeElement.closest("#view-menu") !== null), true);
   });
 });
+
+test("the scrubber is valid at the end of plans of any duration", async () => {
+  await onPage(async (page) => {
+    for (const t_end of [
+      29.63154999175816, 10.56071246609105, 0.7082952024278107, 44.13056343826284, 99999999.7,
+    ]) {
+      const [from, to] = [0.5, 4.5].map((x) => ({ x, y: 0.5, theta: 0 }));
+      const actions = [{ type: "translate", t_start: 0, t_end, from, to }];
+      const [robot] = TURNING.robots;
+      await paste(page, { ...TURNING, robots: [robot], plans: [{ robot: robot.id, actions }] });
+      await page.waitForFunction((duration) => window.fleetplan.duration === duration, t_end);
+      await page.focus("#scrubber");
+      await page.keyboard.press("End");
+      await hasTime(page, t_end);
+      const { valid, value } = await page.evaluate(() => {
+        const scrubber = document.getElementById("scrubber");
+        return { valid: scrubber.checkValidity(), value: Number(scrubber.value) };
+      });
+      assert.equal(valid, true, String(t_end));
+      assert.ok(Math.abs(value - t_end) < 1e-6, `${value}`);
+    }
+  });
+});
