@@ -1,5 +1,5 @@
 // Scripting surface, read-only, for tests and scripts: `window.fleetplan` has `time`, `duration`
-// (seconds), `playing`, `request`, `answer` and `check` (parsed JSON or null), `selected` (id or null),
+// (seconds), `playing`, `request`, `answer` and `check` (parsed JSON or null), `selected` (id or null), `chosen` (ids),
 // `closest` ({ids, gap} of the two robots that are closest now, metres) and `least` ({t, gap, ids} when two
 // are closest in all of the plan), `poseOf(id)` (the pose drawn now, metres and radians), `stateOf(id)` and
 // `screenOf(id)` ({x, y, radius} of its disk on the canvas, CSS pixels); `pointOf({x, y})` is where a world
@@ -27,6 +27,9 @@ export function offerHook(session, stage, fleet) {
     },
     get selected() {
       return session.selected;
+    },
+    get chosen() {
+      return session.chosen;
     },
     get closest() {
       return fleet.nearestAt(session.player.time);

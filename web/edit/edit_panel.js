@@ -3,6 +3,7 @@
 import { RobotChoice } from "../model/selection.js";
 import { byId, element, icon, setText } from "../ui/dom.js";
 import { BoxTool, DrawTool } from "./draw_tools.js";
+import { GroupForm } from "./group_form.js";
 import { MapForm, watchNewMapForm } from "./map_form.js";
 import { RobotActions } from "./robot_actions.js";
 import { RobotForm, watchDefaultsForm, watchRobotPicker } from "./robot_form.js";
@@ -25,6 +26,7 @@ export class EditPanel {
     watchHistoryButtons(session);
     watchRobotPicker(session, this.choice);
     new RobotForm(session, this.choice, actions);
+    new GroupForm(session);
     watchDefaultsForm(session);
     new MapForm(session);
     watchNewMapForm(session, async (request) => {

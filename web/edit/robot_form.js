@@ -81,7 +81,7 @@ export class RobotForm {
 
   #refresh() {
     const { index } = this.#choice;
-    this.#form.hidden = index === null;
+    this.#form.hidden = index === null || this.#session.chosen.length > 1; // see GroupForm
     byId("no-robot").hidden = index !== null;
     if (index === null) return;
     const robot = robotsOf(this.#session.request)[index] ?? {};

@@ -35,6 +35,7 @@ export class SelectTool {
   }
 
   press(world, event) {
+    if (event.ctrlKey || event.metaKey) return false; // a click adds the robot to the chosen ones
     const part = this.#partAt(world, event);
     if (part === null) return false;
     const { robot, turns, place } = part;

@@ -68,6 +68,14 @@ export class RobotFilter {
     return this.#robots[(from + direction + count) % count].id;
   }
 
+  /** The ids from one robot to another in the list, both included, in this direction. */
+  range(from, to) {
+    const ids = this.#robots.map(({ id }) => id);
+    const [first, last] = [ids.indexOf(from), ids.indexOf(to)];
+    if (first < 0 || last < 0) return [to];
+    return first <= last ? ids.slice(first, last + 1) : ids.slice(last, first + 1).reverse();
+  }
+
   #apply() {
     this.#set(this.#passing());
   }

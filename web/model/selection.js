@@ -18,11 +18,15 @@ export class Focus {
     this.highlighted = new Set(ids.slice(1));
   }
 
+  /** The selected robot and the other highlighted ones. */
+  get chosen() {
+    return this.selected === null ? [] : [this.selected, ...this.highlighted];
+  }
+
   /** Drops the robots that are not in `known`. */
   keep(known) {
     if (!known.has(this.hovered)) this.hovered = null;
-    if (!known.has(this.selected)) this.selected = null;
-    this.highlighted = new Set();
+    this.highlight(this.chosen.filter((id) => known.has(id)));
   }
 }
 

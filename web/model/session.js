@@ -322,6 +322,17 @@ export class Session {
     this.#signals.emit("marks");
   }
 
+  /** The ids of the selected robot and of the others that are highlighted. */
+  get chosen() {
+    return this.#focus.chosen;
+  }
+
+  /** Adds a robot to the chosen ones, or takes it out. */
+  toggleChosen(id) {
+    const others = this.chosen.filter((each) => each !== id);
+    this.highlight(others.length < this.chosen.length ? others : [...others, id]);
+  }
+
   /** The robot of an id in the scene, or null. */
   robot(id) {
     return this.#robots.get(id) ?? null;

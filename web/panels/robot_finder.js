@@ -28,6 +28,7 @@ export class RobotFinder {
       filter.set({ doing: this.#doing.value });
     });
     this.#delay.addEventListener("input", () => filter.set({ delay: Number(this.#delay.value) }));
+    byId("choose-listed").addEventListener("click", () => this.chooseListed());
     filter.onChange(() => this.#show());
     session.on("time playback", () => this.#refresh());
   }
@@ -37,6 +38,12 @@ export class RobotFinder {
     this.#tabs.choose("tab-plan");
     this.#field.focus();
     this.#field.select();
+  }
+
+  /** Chooses all robots of the list. */
+  chooseListed() {
+    this.#session.highlight(this.#filter.robots.map(({ id }) => id));
+    this.#session.announce(`${count(this.#session.chosen.length, "robot")} chosen.`);
   }
 
   #refresh() {

@@ -21,7 +21,13 @@ export class RobotList {
     const idOf = (event) => event.target.closest("button")?.dataset.robot ?? null;
     this.#list.addEventListener("click", (event) => {
       const id = idOf(event);
-      if (id !== null) session.toggle(id);
+      if (id !== null) this.#choose(id, event);
+    });
+    this.#list.addEventListener("keydown", (event) => {
+      const id = idOf(event);
+      if (event.key !== "Enter" || !(event.ctrlKey || event.metaKey) || id === null) return;
+      event.preventDefault(); // browsers do not click with Ctrl
+      session.toggleChosen(id);
     });
     this.#list.addEventListener("pointerover", (event) => session.hover(idOf(event)));
     this.#list.addEventListener("pointerleave", () => session.hover(null));
@@ -37,6 +43,13 @@ export class RobotList {
     session.on("time", () => {
       if (!session.player.playing || performance.now() - this.#updated >= EVERY_MS) this.#update();
     });
+  }
+
+  #choose(id, { ctrlKey, metaKey, shiftKey }) {
+    const { selected } = this.#session;
+    if (ctrlKey || metaKey) this.#session.toggleChosen(id);
+    else if (shiftKey && selected !== null) this.#session.highlight(this.#filter.range(selected, id));
+    else this.#session.toggle(id);
   }
 
   #show() {

@@ -33,6 +33,7 @@ export class Stage {
   #look = { colours: "robot", paths: "whole" };
   #overlays = [];
   #tool = {};
+  #baseTool = {};
   #pressed = {}; // the tool that handles the press
   #scheduled = false;
   #signals = new Signals();
@@ -57,6 +58,12 @@ export class Stage {
   addOverlay(paint) {
     this.#overlays.push(paint);
     this.redraw();
+  }
+
+  /** Sets the tool for presses that the current one leaves. */
+  setBaseTool(tool) {
+    this.#baseTool = tool;
+    this.addOverlay((context, view) => tool.paint(context, view));
   }
 
   /** Sets the current tool; null: none. */
@@ -201,10 +208,12 @@ export class Stage {
       pan: (dx, dy) => this.#pan(dx, dy),
       zoom: (pixel, factor) => this.#zoom(pixel, factor),
       hover: (pixel) => this.#hover(pixel && world(pixel)),
-      click: (pixel) => this.#session.toggle(this.robotAt(world(pixel))),
+      click: (pixel, event) => this.#click(this.robotAt(world(pixel)), event),
       press: (pixel, event) => {
-        this.#pressed = this.#tool;
-        const taken = this.#tool.press?.(world(pixel), event) ?? false;
+        const tools = [this.#tool, this.#baseTool];
+        const taker = tools.find((tool) => tool.press?.(world(pixel), event) ?? false);
+        this.#pressed = taker ?? {};
+        const taken = taker !== undefined;
         if (taken) this.#session.hover(null); // a drag does not highlight the robots below it
         return taken;
       },
@@ -212,6 +221,11 @@ export class Stage {
       release: (pixel, event) => this.#pressed.release?.(world(pixel), event),
       abort: () => this.#pressed.abort?.(),
     };
+  }
+
+  #click(id, { ctrlKey, metaKey }) {
+    if (!ctrlKey && !metaKey) this.#session.toggle(id);
+    else if (id !== null) this.#session.toggleChosen(id);
   }
 
   #hover(world) {

@@ -10,7 +10,7 @@ export function watchShortcuts(actions) {
   addEventListener("keydown", (event) => {
     if (event.defaultPrevented || event.altKey) return;
     const action = actions[nameOf(event)];
-    if (!action || wantsKey(event.target, event.key)) return;
+    if (!action || wantsKey(event)) return;
     event.preventDefault();
     action();
   });
@@ -22,11 +22,11 @@ function nameOf({ key, ctrlKey, metaKey, shiftKey }) {
   return `Control+${shiftKey ? "Shift+" : ""}${key.length === 1 ? key.toLowerCase() : key}`;
 }
 
-function wantsKey(target, key) {
+function wantsKey({ target, key, ctrlKey, metaKey }) {
   if (target.closest("dialog")) return true;
   if (key === "Escape") return false;
   if (target.matches("textarea, input:not([type=range], [type=checkbox], [type=radio])")) return true;
-  if (target.matches("select")) return key === " " || key.length === 1;
+  if (target.matches("select")) return key === " " || (key.length === 1 && !ctrlKey && !metaKey);
   return key === " " && target.matches("button, summary, a, [type=checkbox], [type=radio]");
 }
 
