@@ -1,6 +1,6 @@
 # Bundles the page: cmake -DESBUILD=... -DSOURCE=web -DOUTPUT=folder -P bundle_page.cmake
 #
-# OUTPUT gets index.html and the files it names, each with a hash of its content in its name: one script, one style
+# OUTPUT gets index.html and the files it names, each with a hash of its content in its name: its scripts, one style
 # sheet, pictures, and a script for each worker. A worker is recognised by the expression
 # new URL("path.js", import.meta.url) in a script.
 
@@ -66,7 +66,7 @@ foreach(link ${links})
   string(REGEX REPLACE "[ \t]*${link}\n" "" index "${index}")
 endforeach()
 
-# Then what else it names: the script and pictures.
+# Then what else it names: scripts and pictures.
 string(REGEX MATCHALL " (src|href)=\"[^\":#]+\"" references "${index}")
 list(REMOVE_DUPLICATES references)
 foreach(reference ${references})

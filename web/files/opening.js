@@ -1,6 +1,6 @@
 // Opening what to plan: an example, files, a text, a link. The last choice wins.
 
-import { FileError, ProblemError } from "../model/problem.js";
+import { ConnectionLost, FileError, ProblemError } from "../model/problem.js";
 import { readLinkState } from "./address.js";
 import { Reader } from "./reader.js";
 import { prepareMap } from "./request_map.js";
@@ -66,7 +66,8 @@ export class Opening {
       return true;
     } catch (error) {
       if (turn !== this.#turn) return false;
-      this.#session.fail(asProblem(error));
+      const again = error instanceof ConnectionLost ? () => this.#choose(read) : null;
+      this.#session.fail(asProblem(error), again);
       this.#show("problem");
       return false;
     }

@@ -37,20 +37,18 @@ export class Setup {
 
   /** Lists the examples and opens what the address identifies. `address`: see Address. */
   async begin(service, address) {
-    service.fetchLimits().then(
-      (limits) => this.#session.setLimits(limits),
-      () => {}, // the page works without limits
-    );
-    try {
-      this.#examples = await service.listExamples();
-    } catch (error) {
-      this.#session.fail(error);
-    }
-    this.#showExamples();
+    const examples = service.listExamples().then((listed) => this.#showExamples(listed));
+    const limits = service.fetchLimits().then((known) => this.#session.setLimits(known));
+    const loaded = Promise.allSettled([examples, limits]);
+    await examples.catch(() => this.#showExamples([]));
     await address.begin(this.#examples);
+    for (const each of await loaded) {
+      if (each.status === "rejected") this.#session.fail(each.reason, () => this.begin(service, address));
+    }
   }
 
-  #showExamples() {
+  #showExamples(examples) {
+    this.#examples = examples;
     this.#select.replaceChildren(
       ...this.#examples.map(({ name, title }) =>
         element("option", { value: name, textContent: title || name }),

@@ -3,10 +3,15 @@
 
 import { ClearanceSweep } from "./clearance.js";
 import { motionOf } from "./motion.js";
+import { ProblemError } from "./problem.js";
 import { Signals } from "./signals.js";
 
 /** @import {Motion} from "./types.js" */
 
+const NOT_COMPUTED = {
+  title: "The gaps over time are not known",
+  detail: "The part of the page that computes them did not load, or failed.",
+};
 const WORKER = new URL("./clearance_worker.js", import.meta.url);
 
 export class FleetMotion {
@@ -22,7 +27,7 @@ export class FleetMotion {
   /** The smallest gap over time, see clearanceOf; null without an answer and until it is computed. */
   curve = /** @type {any} */ (null);
 
-  /** `compute(motions, done)` passes the curve to `done` later, unless it is called again before. */
+  /** `compute(motions)` resolves to the curve, unless it is called again before. */
   constructor(session, compute) {
     this.#session = session;
     session.on("answer", () => {
@@ -30,13 +35,20 @@ export class FleetMotion {
       this.#byId = this.#sweep = this.curve = null;
       this.#nearest = { time: null, pair: null };
       this.#signals.emit("curve");
-      if (answer === null) return;
-      compute([...this.byId.values()], (curve) => {
-        if (answer !== session.answer) return;
-        this.curve = curve;
-        this.#signals.emit("curve");
-      });
+      if (answer !== null) this.#compute(compute);
     });
+  }
+
+  async #compute(compute) {
+    const { answer } = this.#session;
+    try {
+      const curve = await compute([...this.byId.values()]);
+      if (answer !== this.#session.answer) return;
+      this.curve = curve;
+      this.#signals.emit("curve");
+    } catch (error) {
+      if (answer === this.#session.answer) this.#session.fail(error, () => this.#compute(compute));
+    }
   }
 
   /** `listener` is called when the curve changes. */
@@ -81,20 +93,26 @@ export class FleetMotion {
 }
 
 /**
- * A function (motions, done) that computes clearanceOf the motions in a worker and passes it to `done`,
- * unless it is called again before.
+ * A function that resolves to clearanceOf the motions that it is given, computed in a worker, unless it is called again
+ * before; it rejects with ProblemError if the worker fails.
  */
 export function clearanceJob() {
   let worker = null;
   let busy = false;
-  return (motions, done) => {
-    if (busy) worker.terminate();
-    if (busy || worker === null) worker = new Worker(WORKER, { type: "module" });
-    busy = true;
-    worker.onmessage = ({ data }) => {
-      busy = false;
-      done(data);
-    };
-    worker.postMessage(motions);
-  };
+  return (motions) =>
+    new Promise((resolve, reject) => {
+      if (busy) worker.terminate();
+      if (busy || worker === null) worker = new Worker(WORKER, { type: "module" });
+      busy = true;
+      worker.onmessage = ({ data }) => {
+        busy = false;
+        resolve(data);
+      };
+      worker.onerror = () => {
+        busy = false;
+        worker = null;
+        reject(new ProblemError(NOT_COMPUTED));
+      };
+      worker.postMessage(motions);
+    });
 }

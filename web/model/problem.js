@@ -9,6 +9,17 @@ export class ProblemError extends Error {
   }
 }
 
+/** A failure of the connection: nothing is known of what the service did. */
+export class ConnectionLost extends ProblemError {
+  constructor() {
+    super({
+      title: "No answer from the service",
+      detail: "The connection failed or was closed. Is the service running and reachable?",
+    });
+    this.name = "ConnectionLost";
+  }
+}
+
 /**
  * The message states what is wrong, where in the file, and a remedy; the reader adds the name of the file.
  */

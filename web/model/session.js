@@ -269,10 +269,21 @@ export class Session {
 
   // Problems and announcements
 
-  /** Shows the problem of a ProblemError; rethrows other errors, which are bugs. */
-  fail(error) {
+  /**
+   * Shows the problem of a ProblemError; rethrows other errors, which are bugs. `again()` tries again what failed, if
+   * there is something to try.
+   */
+  fail(error, again = /** @type {any} */ (null)) {
     if (!(error instanceof ProblemError)) throw error;
-    this.setProblem(error.problem);
+    if (again === null) {
+      this.setProblem(error.problem);
+      return;
+    }
+    const retry = () => {
+      this.setProblem(null);
+      again();
+    };
+    this.setProblem({ ...error.problem, again: retry });
   }
 
   setProblem(problem) {

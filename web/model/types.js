@@ -111,6 +111,7 @@
  * @property {Fault[]} [errors]
  * @property {number} [retry_after] seconds
  * @property {string} [request_id]
+ * @property {() => void} [again] tries again what failed
  */
 
 /**

@@ -90,9 +90,16 @@ function showProblem(problem, request, show) {
     box.append(element("p", { textContent: `Try again in ${count(problem.retry_after, "second")}.` }));
   }
   if (problem.errors?.length > 0) box.append(errorList(problem, request, show));
+  if (problem.again) box.append(againButton(problem.again));
   if (problem.request_id) {
     box.append(element("p", { class: "request-id", textContent: `Request ${problem.request_id}` }));
   }
+}
+
+function againButton(again) {
+  const button = element("button", { type: "button", class: "again", textContent: "Try again" });
+  button.addEventListener("click", again);
+  return button;
 }
 
 function errorList({ errors, errors_total = errors.length }, request, show) {

@@ -1,7 +1,8 @@
 // The service's HTTP interface. Addresses are relative to the page, so that it works below any path.
 
-import { ProblemError } from "../model/problem.js";
+import { ConnectionLost, ProblemError } from "../model/problem.js";
 
+const PAUSES_MS = [200, 800]; // before the second and the third attempt
 const END_OF_EVENT = /\r?\n\r?\n/;
 
 /** The examples: [{name, title, description, robots, columns, rows}]. */
@@ -65,7 +66,16 @@ async function lastEvent(response, listener) {
   return answer;
 }
 
+/** The text at an address, asked for again a few times while the connection fails. */
 async function ask(address) {
+  for (const pause of PAUSES_MS) {
+    try {
+      return await unlessCut((await send(address)).text());
+    } catch (error) {
+      if (!(error instanceof ConnectionLost)) throw error;
+      await new Promise((resolve) => setTimeout(resolve, pause));
+    }
+  }
   return unlessCut((await send(address)).text());
 }
 
@@ -81,10 +91,7 @@ async function unlessCut(receiving) {
     return await receiving;
   } catch (error) {
     if (/** @type {Error} */ (error).name === "AbortError" || error instanceof ProblemError) throw error;
-    throw new ProblemError({
-      title: "No answer from the service",
-      detail: "The connection failed or was closed. Is the service running and reachable?",
-    });
+    throw new ConnectionLost();
   }
 }
 

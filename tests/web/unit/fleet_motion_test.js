@@ -3,6 +3,7 @@ import { test } from "node:test";
 
 import { clearanceOf } from "../../../web/model/clearance.js";
 import { FleetMotion } from "../../../web/model/fleet_motion.js";
+import { ProblemError } from "../../../web/model/problem.js";
 import { readScene, readTracks } from "../../../web/model/scene.js";
 import { Signals } from "../../../web/model/signals.js";
 
@@ -34,29 +35,54 @@ class FakeSession extends Signals {
 
 test("the nearest pair is reported by ids, at any time and for the current answer", () => {
   const session = new FakeSession();
-  const fleet = new FleetMotion(session, () => {});
+  const fleet = new FleetMotion(session, () => new Promise(() => {}));
   assert.deepEqual(fleet.nearestAt(3), { ids: ["mover", "stayer"], gap: 3.5 });
   session.adopt({ plans: [{ robot: "mover", cost: 3, actions: ACTIONS }] });
   assert.deepEqual(fleet.nearestAt(3), { ids: ["mover", "stayer"], gap: 0.5 });
   assert.deepEqual(fleet.nearestAt(1), { ids: ["mover", "stayer"], gap: 2.5 });
 });
 
-test("listeners get a computed curve, unless the answer has been replaced", () => {
+/** Lets what waits for settled promises run. */
+const settled = () => new Promise((resolve) => setImmediate(resolve));
+
+test("listeners get a computed curve, unless the answer has been replaced", async () => {
   const session = new FakeSession();
   const replies = [];
-  const fleet = new FleetMotion(session, (motions, reply) => replies.push(() => reply(clearanceOf(motions))));
+  const compute = (motions) => new Promise((done) => replies.push(() => done(clearanceOf(motions))));
+  const fleet = new FleetMotion(session, compute);
   let changes = 0;
   fleet.onCurve(() => (changes += 1));
   session.adopt({ plans: [] });
   session.adopt({ plans: [{ robot: "mover", cost: 3, actions: ACTIONS }] });
   assert.equal(changes, 2);
   replies[0]();
+  await settled();
   assert.equal(fleet.least, null);
   assert.equal(changes, 2);
   replies[1]();
+  await settled();
   assert.deepEqual(fleet.least, { t: 3, gap: 0.5, ids: ["mover", "stayer"] });
   assert.equal(changes, 3);
   session.adopt(null);
   assert.equal(fleet.least, null);
   assert.equal(replies.length, 2);
+});
+
+test("a curve that cannot be computed is a problem that can be tried again", async () => {
+  const session = new FakeSession();
+  const problems = [];
+  session.fail = ({ problem }, again) => problems.push({ ...problem, again });
+  let broken = true;
+  const compute = async (motions) => {
+    if (broken) throw new ProblemError({ title: "Broken" });
+    return clearanceOf(motions);
+  };
+  const fleet = new FleetMotion(session, compute);
+  session.adopt({ plans: [] });
+  await settled();
+  assert.deepEqual([problems.length, problems[0].title, fleet.least], [1, "Broken", null]);
+  broken = false;
+  problems[0].again();
+  await settled();
+  assert.equal(fleet.least.gap, 3.5);
 });

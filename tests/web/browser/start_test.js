@@ -1,0 +1,156 @@
+// Pages that do not load completely, in headless Chromium.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+
+import { pressPlan, startBrowser } from "../support/browser.js";
+import { startService } from "../support/service.js";
+
+const SOURCES = fileURLToPath(new URL("../../../web", import.meta.url));
+const REQUEST = "#partly-solvable";
+
+let service;
+let browser;
+
+before(async () => {
+  service = await startService(["--web-root", SOURCES]);
+  browser = await startBrowser();
+});
+
+after(async () => {
+  await browser?.close();
+  await service?.stop();
+});
+
+/** Runs the steps on a page of a new context. */
+async function onNewPage(steps, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 390, height: 844 }, ...options });
+  try {
+    await steps(await context.newPage());
+  } finally {
+    await context.close();
+  }
+}
+
+/** Lets requests for an address (a pattern) fail from now on; returns what ends that. */
+async function losing(page, address) {
+  await page.route(address, (route) => route.abort());
+  return () => page.unroute(address);
+}
+
+const begun = (page) => page.waitForFunction(() => window.fleetplan?.request);
+
+for (const part of ["**/model/scene.js", "**/main.js", "**/styles/main.css"]) {
+  test(`a page whose ${part} does not load says so, and loads again with its request`, async () => {
+    await onNewPage(async (page) => {
+      const found = await losing(page, part);
+      await page.goto(service.url + REQUEST);
+      await page.waitForSelector("#not-loaded.certain", { timeout: 5000 });
+      assert.match(await page.innerText("#not-loaded"), /has not loaded completely/);
+      await found();
+      await page.click("#not-loaded a");
+      await begun(page);
+      assert.equal(await page.inputValue("#example"), "partly-solvable");
+      assert.equal(await page.locator("#not-loaded").count(), 0);
+    });
+  });
+}
+
+test("a page that loads shows no such notice meanwhile", async () => {
+  await onNewPage(async (page) => {
+    let release;
+    const held = new Promise((resolve) => (release = resolve));
+    await page.route("**/main.js", async (route) => {
+      await held;
+      await route.continue();
+    });
+    await page.goto(service.url, { waitUntil: "commit" });
+    await page.waitForSelector("#example");
+    assert.equal(await page.isVisible("#not-loaded"), false);
+    release();
+    await begun(page);
+  });
+});
+
+test("a page of which nothing arrives says so after a while", async () => {
+  await onNewPage(async (page) => {
+    await page.route(/(start|main)\.js/, () => {}); // they are never answered
+    await page.goto(service.url, { waitUntil: "commit" });
+    await page.waitForFunction(() => {
+      const notice = document.getElementById("not-loaded");
+      return notice && getComputedStyle(notice).visibility === "hidden"; // as soon as there are styles
+    });
+    await page.waitForSelector("#not-loaded", { state: "visible", timeout: 30_000 });
+  });
+});
+
+test("without JavaScript the page says that it needs it", async () => {
+  await onNewPage(
+    async (page) => {
+      await page.goto(service.url);
+      assert.match(await page.innerText("noscript"), /needs JavaScript/);
+      assert.equal(await page.isVisible("#not-loaded"), false);
+    },
+    { javaScriptEnabled: false },
+  );
+});
+
+test("a request that is lost once is sent again", async () => {
+  await onNewPage(async (page) => {
+    const lost = new Set();
+    await page.route("**/v1/**", (route) => {
+      const address = route.request().url();
+      if (lost.has(address)) return route.continue();
+      lost.add(address);
+      return route.abort();
+    });
+    await page.goto(service.url);
+    await begun(page);
+    assert.ok(lost.size >= 3, [...lost].join());
+    assert.equal(await page.isVisible("#problem"), false);
+  });
+});
+
+test("examples and limits that do not load are loaded again on demand", async () => {
+  for (const part of ["**/v1/examples", "**/v1/limits"]) {
+    await onNewPage(async (page) => {
+      const found = await losing(page, part);
+      await page.goto(service.url);
+      await page.waitForSelector("#problem .again");
+      assert.match(await page.innerText("#problem"), /No answer from the service/);
+      await found();
+      await page.click("#problem .again");
+      await begun(page);
+      await page.waitForSelector("#problem", { state: "hidden" });
+      assert.ok((await page.locator("#example option").count()) > 3);
+    });
+  }
+});
+
+test("an example that does not load is loaded again on demand", async () => {
+  await onNewPage(async (page) => {
+    await page.goto(service.url);
+    await begun(page);
+    const found = await losing(page, "**/v1/examples/crossing");
+    await page.selectOption("#example", "crossing");
+    await page.waitForSelector("#problem .again");
+    await found();
+    await page.click("#problem .again");
+    await page.waitForFunction(() => location.hash === "#crossing");
+    assert.equal(await page.isVisible("#problem"), false);
+  });
+});
+
+test("gaps that cannot be computed, as a part is lost, are computed on demand", async () => {
+  await onNewPage(async (page) => {
+    const found = await losing(page, "**/clearance_worker.js");
+    await page.goto(service.url);
+    await begun(page);
+    await pressPlan(page);
+    await page.waitForSelector("#problem .again");
+    await found();
+    await page.click("#problem .again");
+    await page.waitForFunction(() => window.fleetplan.least);
+  });
+});
