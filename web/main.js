@@ -21,11 +21,14 @@ import { RobotList } from "./panels/robot_list.js";
 import { watchReadout, watchViewMenu } from "./panels/scene_bar.js";
 import { watchSummary, watchUnplanned } from "./panels/summary.js";
 import { TimelineDock } from "./panels/timeline_dock.js";
+import { TimeEntry } from "./panels/time_entry.js";
 import { Transport } from "./panels/transport.js";
 import { BoxSelection } from "./scene/box_selection.js";
 import { Follow } from "./scene/follow.js";
 import { ClosestOverlay, showBlockers, showViolations } from "./scene/overlays.js";
 import { RobotColours } from "./scene/palette.js";
+import { Ruler } from "./scene/ruler.js";
+import { showScale } from "./scene/scale_bar.js";
 import { Stage } from "./scene/stage.js";
 import * as service from "./service/client.js";
 import { byId, setText } from "./ui/dom.js";
@@ -53,6 +56,9 @@ new RobotList(session, colours, filter);
 const finder = new RobotFinder(session, stage, tabs, filter);
 watchChosen(session, fleet);
 stage.setBaseTool(new BoxSelection(session, stage));
+showScale(stage);
+const ruler = new Ruler(session, stage);
+const timeEntry = new TimeEntry(session);
 const follow = new Follow(session, stage);
 new TimelineDock(session, colours, fleet, transport, (over) => closest.peek(over));
 new Inspector(session, stage, colours, fleet, tabs);
@@ -78,6 +84,8 @@ watchShortcuts({
   "]": () => transport.changeSpeed(1),
   c: () => closest.toggle(),
   f: () => stage.fit(),
+  m: () => ruler.toggle(),
+  j: () => timeEntry.begin(),
   F: () => follow.toggle(),
   "/": () => finder.focus(),
   "+": () => stage.zoomIn(),

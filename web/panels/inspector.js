@@ -29,6 +29,7 @@ export class Inspector {
   #tabs;
   #box = byId("inspector");
   #shown = null; // the id of the robot shown
+  #ofGroup = false; // whether it was one of several that were chosen
   #state = null; // the element with its current state
   #rows = []; // of the table, one an action
   #current = -1; // the row of the action under way
@@ -41,18 +42,28 @@ export class Inspector {
     this.#fleet = fleet;
     this.#tabs = tabs;
     session.on("answer", () => this.#show());
-    session.on("marks", () => session.selected !== this.#shown && this.#show());
+    session.on("marks", () => this.#isOther && this.#show());
     session.on("time", () => this.#update());
     colours.onChange(() => this.#show());
     tabs.onChange(() => this.#show());
   }
 
+  get #isOther() {
+    return this.#session.selected !== this.#shown || this.#isGroup !== this.#ofGroup;
+  }
+
+  /** Whether more robots than a pair are chosen: their figures stand side by side instead. */
+  get #isGroup() {
+    return this.#session.chosen.length > 2;
+  }
+
   #show() {
     const { selected, answer } = this.#session;
     this.#shown = selected;
+    this.#ofGroup = this.#isGroup;
     this.#rows = [];
     this.#current = -1;
-    this.#box.hidden = selected === null || answer === null || this.#tabs.chosen === EDITING;
+    this.#box.hidden = selected === null || answer === null || this.#isGroup || this.#tabs.chosen === EDITING;
     if (this.#box.hidden) {
       this.#box.replaceChildren();
       return;

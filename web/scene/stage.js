@@ -32,7 +32,8 @@ export class Stage {
   #fitted = true; // the camera fits the viewport until it is moved
   #look = { colours: "robot", paths: "whole" };
   #overlays = [];
-  #tool = {};
+  #ownTool = {};
+  #lentTool = null;
   #baseTool = {};
   #pressed = {}; // the tool that handles the press
   #scheduled = false;
@@ -66,10 +67,24 @@ export class Stage {
     this.addOverlay((context, view) => tool.paint(context, view));
   }
 
+  /** Sets a tool that comes before the current one, or none again (null). */
+  lendTool(tool) {
+    this.#lentTool = tool;
+    this.#showTool();
+  }
+
   /** Sets the current tool; null: none. */
   setTool(tool) {
-    this.#tool = tool ?? {};
-    this.#canvas.setAttribute("role", tool?.key ? "application" : "img"); // screen readers pass its keys
+    this.#ownTool = tool ?? {};
+    this.#showTool();
+  }
+
+  get #tool() {
+    return this.#lentTool ?? this.#ownTool;
+  }
+
+  #showTool() {
+    this.#canvas.setAttribute("role", this.#tool.key ? "application" : "img"); // screen readers pass its keys
     this.#canvas.style.cursor = "";
     this.redraw();
   }
