@@ -113,21 +113,25 @@ function readEntry(line, number) {
   return entry;
 }
 
+/** Throws FileError if the entries are for a map of another size than `map` (of a request). */
+export function checkMapOf(entries, { rows }) {
+  const [columns, lines] = [rows[0].length, rows.length];
+  const other = entries.find(({ width, height }) => width !== columns || height !== lines);
+  if (other === undefined) return;
+  throw new FileError(
+    `The scenario is for ${other.map} of ${other.width} x ${other.height} cells, but the map has ` +
+      `${columns} x ${lines}: open it with its own map.`,
+  );
+}
+
 /**
  * A request on `map` (of a request) for the first `count` entries that are possible for robots with
  * `defaults` ({radius, linear_speed, angular_speed}; m, m/s, rad/s), starts and goals at the cells' centres,
  * goals with any heading. An entry is skipped if a disk does not fit between the walls or overlaps an earlier
- * one: {request, cells, passedOver: {walls, overlaps}}, with `cells` the entries used. Throws FileError when
- * the map is of another size.
+ * one: {request, cells, passedOver: {walls, overlaps}}, with `cells` the entries used. The map is of the size that the
+ * entries give, see checkMapOf.
  */
 export function scenarioRequest(map, entries, count, defaults) {
-  const [{ width, height, map: name }] = entries;
-  if (map.rows.length !== height || map.rows[0].length !== width) {
-    throw new FileError(
-      `The scenario is for ${name} of ${width} x ${height} cells, but the map has ` +
-        `${map.rows[0].length} x ${map.rows.length}: open it with its own map.`,
-    );
-  }
   const passedOver = { walls: 0, overlaps: 0 };
   const taken = [];
   const reach = (defaults.radius - SLACK) / map.resolution; // in cells

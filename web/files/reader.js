@@ -6,7 +6,7 @@ import { belongsTo, readDocument } from "../model/plan_file.js";
 import { FileError } from "../model/problem.js";
 import { HEAD_BYTES, imageNamed, sortFiles } from "./file_kinds.js";
 import { readImage } from "./map_image.js";
-import { readMovingAiMap, readMovingAiScenario } from "./movingai.js";
+import { checkMapOf, readMovingAiMap, readMovingAiScenario } from "./movingai.js";
 import { RosMapDialog } from "./ros_dialog.js";
 import { classifyPixels, readRosYaml } from "./ros_map.js";
 import { ScenarioDialog } from "./scenario_dialog.js";
@@ -89,6 +89,7 @@ export class Reader {
     const text = await textOf(scenario.file);
     const entries = about(scenario, () => readMovingAiScenario(text));
     const map = drawn ? await readMap(drawn.file) : this.#openMap(scenario.name, entries[0]);
+    about(scenario, () => checkMapOf(entries, map));
     const defaults = { radius: Number((CELL_SHARE * map.resolution).toPrecision(6)), ...SPEEDS };
     const request = await this.#dialogs.scenario(scenario.name, map, entries, defaults);
     return request && opened(scenario.name, request);

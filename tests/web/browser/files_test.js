@@ -325,6 +325,10 @@ test("files that cannot be opened are named with a remedy", async () => {
       [{ "fleet.json": JSON.stringify({ ...TINY, plans: [{}] }) }, /fleet.json: plans\[0\].robot is missing/],
       [{ "arena.map": MAP.replace("@@S", "@@x") }, /arena.map: Line 6 has "x" in column 4/],
       [{ "arena.scen": "version 1\n1 2 3", "arena.map": MAP }, /arena.scen: Line 2 is/],
+      [
+        { "arena.scen": SCENARIO, "hall.map": "type octile\nheight 1\nwidth 6\nmap\n......\n" },
+        /arena.scen: The scenario is for arena.map of 6 x 3 cells, but the map has 6 x 1: open it with its own/,
+      ],
       [{ "lab.yaml": YAML }, /lab.yaml names the image lab.pgm: open both together/],
       [{ "lab.pgm": pgm(GRAYS) }, /lab.pgm is only the image.*together with its map.yaml/],
       [{ "lab.yaml": "image: lab.pgm", "lab.pgm": pgm(GRAYS) }, /lab.yaml: resolution is missing/],
@@ -342,6 +346,7 @@ test("files that cannot be opened are named with a remedy", async () => {
         (pattern) => new RegExp(pattern).test(document.getElementById("problem").innerText),
         words.source,
       );
+      assert.equal(await page.locator("dialog[open]").count(), 0, "nothing covers it");
     }
     assert.deepEqual(await hook(page, "request"), before);
   });

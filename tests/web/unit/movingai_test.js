@@ -1,7 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { readMovingAiMap, readMovingAiScenario, scenarioRequest } from "../../../web/files/movingai.js";
+import {
+  checkMapOf,
+  readMovingAiMap,
+  readMovingAiScenario,
+  scenarioRequest,
+} from "../../../web/files/movingai.js";
 
 const MAP_TEXT = "type octile\nheight 3\nwidth 5\nmap\n.G@OT\nWS#..\n.....\n";
 
@@ -189,12 +194,18 @@ test("an entry that does not fit between walls and edges is skipped", () => {
 });
 
 test("a map of another size is rejected with both sizes", () => {
-  const entries = scenario([
+  const text = scenario([
     [0, 0],
     [1, 3],
   ]);
+  const entries = readMovingAiScenario(text);
   assert.throws(
-    () => request(entries, 1, DEFAULTS, { rows: ["...."], resolution: 1 }),
+    () => checkMapOf(entries, { rows: ["...."] }),
     /for a.map of 6 x 4 cells, but the map has 4 x 1/,
+  );
+  assert.doesNotThrow(() => checkMapOf(entries, { rows: Array(4).fill("......") }));
+  assert.throws(
+    () => checkMapOf([...entries, { ...entries[0], width: 7 }], { rows: Array(4).fill("......") }),
+    /of 7 x 4/,
   );
 });
