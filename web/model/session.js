@@ -29,6 +29,16 @@ import { Signals } from "./signals.js";
 
 const EMPTY = { name: "", example: null, text: "", request: null };
 
+/** The error of planning that has found a plan before it failed. */
+function withBestPlan(error) {
+  if (!(error instanceof ProblemError)) return error;
+  const { detail = "" } = error.problem;
+  return new ProblemError({
+    ...error.problem,
+    detail: `${detail} The best plan until then is shown; the service has checked it.`.trimStart(),
+  });
+}
+
 /** What was opened, {name, example, text, request}, and its request with the edits. */
 const documentOf = (opened, request = opened.request) => ({ opened, request });
 
@@ -214,7 +224,10 @@ export class Session {
 
   // Planning
 
-  /** Plans the request; resolves at the end to whether there is an answer. `budget`: see PlanRun. */
+  /**
+   * Plans the request; resolves at the end to whether there is an answer: the last one, or the best so far if planning
+   * fails. `budget`: see PlanRun.
+   */
   async plan(budget = null) {
     if (this.planning || this.request === null) return false;
     const run = new PlanRun(budget, objectiveOf(this.request));
@@ -235,8 +248,9 @@ export class Session {
     } catch (error) {
       if (this.planning !== run) return false;
       this.#endPlanning();
-      this.fail(error);
-      return false;
+      if (run.incumbent !== null) this.adopt(JSON.parse(run.incumbent));
+      this.fail(run.incumbent === null ? error : withBestPlan(error));
+      return run.incumbent !== null;
     }
   }
 

@@ -29,10 +29,8 @@ export class PlanButton {
   async press() {
     const session = this.#session;
     const solved = await session.plan(budgetOf(session.request, session.limits));
-    if (!solved) {
-      if (session.problem !== null) revealProblem();
-      return;
-    }
+    if (session.problem !== null) revealProblem();
+    if (!solved) return;
     const watching = document.activeElement === this.#plan; // which regains the focus from Cancel
     session.announce(summarize(session.answer));
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches) session.play();

@@ -3,8 +3,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { choose, pressPlan } from "../support/browser.js";
+import { choose, openPage, pressPlan, startBrowser } from "../support/browser.js";
 import { hook, pagesFor, paste, streamPlan } from "../support/on_page.js";
+import { startService } from "../support/service.js";
 
 const onPage = pagesFor();
 
@@ -69,4 +70,45 @@ test("the outcome is announced with both costs", async () => {
     const announced = await page.innerText("#announcer");
     for (const cost of [flowtime, makespan]) assert.ok(announced.includes(cost.toFixed(2)), announced);
   });
+});
+
+test("the best plan is kept when the connection is lost", async () => {
+  await onPage(async (page) => {
+    const better = await pressPlan(page);
+    await choose(page, await page.inputValue("#example"));
+    assert.equal(await hook(page, "answer"), null);
+    const worse = { ...better, plans: better.plans.slice(1) };
+    await streamPlan(page, [...progressOf([[90, 40]]), ["incumbent", worse], ["incumbent", better]], {
+      cut: true,
+    });
+    await page.click("#plan");
+    await page.waitForSelector("#problem:not([hidden])");
+    assert.match(
+      await page.innerText("#problem"),
+      /No answer from the service.*The best plan until then is shown/s,
+    );
+    assert.deepEqual(await hook(page, "answer"), better);
+    assert.match(await page.innerText("#summary"), /Solved\s+Verified/);
+    await page.waitForFunction(() => window.fleetplan.time > 0);
+  });
+});
+
+test("the best plan is kept when the service ends while it improves it", async () => {
+  const service = await startService(["--drain-ms", "2500"]); // enough for its first plan to arrive
+  const browser = await startBrowser();
+  try {
+    const { page, close } = await openPage(browser, service.url);
+    const request = await choose(page, "crossing");
+    await paste(page, { ...request, options: { mode: "anytime", time_budget_ms: 60_000 } });
+    await page.waitForFunction(() => window.fleetplan.request.options?.mode === "anytime");
+    await page.click("#plan");
+    await page.waitForFunction(() => /flowtime/.test(document.getElementById("so-far").textContent));
+    await service.stop();
+    await page.waitForSelector("#problem:not([hidden])");
+    await page.waitForFunction(() => window.fleetplan.answer?.status === "solved");
+    await close();
+  } finally {
+    await browser.close();
+    await service.stop();
+  }
 });

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { ProblemError } from "../../../web/model/problem.js";
+import { ConnectionLost, ProblemError } from "../../../web/model/problem.js";
 import { Session } from "../../../web/model/session.js";
 
 const ROBOT = { id: "a", radius: 0.3, start: { x: 0.5, y: 0.5 }, goal: { x: 2.5, y: 0.5 } };
@@ -202,6 +202,22 @@ test("a failure of planning is shown as a problem until the next attempt", async
   refuses = false;
   assert.equal(await session.plan(), true);
   assert.equal(session.problem, null);
+});
+
+test("planning that fails keeps the best plan so far, and says so", async () => {
+  const { session, heard } = begin({
+    plan: async (text, signal, { incumbent }) => {
+      incumbent(JSON.stringify({ ...ANSWER, flowtime: 3 }));
+      incumbent(JSON.stringify(ANSWER));
+      throw new ConnectionLost();
+    },
+  });
+  session.open(OPENED);
+  assert.equal(await session.plan(), true);
+  assert.deepEqual(session.answer, ANSWER);
+  assert.match(session.problem.detail, /The connection failed.* The best plan until then is shown/);
+  assert.equal(session.planning, null);
+  assert.equal(heard.at(-1), "problem");
 });
 
 test("a check of a plan that is no longer shown is dropped", async () => {
