@@ -11,11 +11,13 @@ file(REMOVE_RECURSE ${work})
 file(COPY ${SOURCE}/ DESTINATION ${source})
 file(WRITE ${work}/tsconfig.json "{}")  # instead of one that esbuild would find in this or an outer folder
 
-# Bundles the file `entry` into `page`; `name` is set to the name of the result.
+# Bundles the file `entry` into `page`; `name` is set to the name of the result, `name`_shared to the names of the
+# scripts that it imports at once.
 function(bundle entry name)
   execute_process(
-    COMMAND ${ESBUILD} ${entry} --bundle --minify --format=esm --charset=utf8 --sourcemap --loader:.svg=copy
-            --loader:.png=copy --entry-names=[name]-[hash] --asset-names=[name]-[hash] --outdir=${page}
+    COMMAND ${ESBUILD} ${entry} --bundle --minify --format=esm --splitting --charset=utf8 --sourcemap
+            --loader:.svg=copy --loader:.png=copy --entry-names=[name]-[hash] --chunk-names=[name]-[hash]
+            --asset-names=[name]-[hash] --outdir=${page}
             --metafile=${work}/metafile.json --tsconfig=${work}/tsconfig.json --log-level=warning
     WORKING_DIRECTORY ${work}
     COMMAND_ERROR_IS_FATAL ANY)
@@ -23,12 +25,35 @@ function(bundle entry name)
   string(JSON last LENGTH ${metafile} outputs)
   math(EXPR last "${last} - 1")
   get_filename_component(extension ${entry} LAST_EXT)
+  file(RELATIVE_PATH own ${work} ${entry})
   foreach(i RANGE ${last})
     string(JSON output MEMBER ${metafile} outputs ${i})
-    if(output MATCHES "/([^/]+\\${extension})$")
-      set(${name} ${CMAKE_MATCH_1} PARENT_SCOPE)
+    string(JSON source ERROR_VARIABLE absent GET ${metafile} outputs ${output} entryPoint)
+    if(source STREQUAL own OR (absent AND output MATCHES "\\${extension}$" AND NOT extension STREQUAL ".js"))
+      get_filename_component(file ${output} NAME)
+      set(${name} ${file} PARENT_SCOPE)
+      imports_of("${metafile}" ${output} shared)
+      set(${name}_shared ${shared} PARENT_SCOPE)
     endif()
   endforeach()
+endfunction()
+
+# Sets `names` to the names of the scripts that an output imports at once, not by import().
+function(imports_of metafile output names)
+  set(found "")
+  string(JSON count LENGTH ${metafile} outputs ${output} imports)
+  if(count GREATER 0)
+    math(EXPR last "${count} - 1")
+    foreach(i RANGE ${last})
+      string(JSON kind GET ${metafile} outputs ${output} imports ${i} kind)
+      string(JSON path GET ${metafile} outputs ${output} imports ${i} path)
+      if(kind STREQUAL "import-statement")
+        get_filename_component(file ${path} NAME)
+        list(APPEND found ${file})
+      endif()
+    endforeach()
+  endif()
+  set(${names} ${found} PARENT_SCOPE)
 endfunction()
 
 # Workers first: the scripts that start them contain their names.
@@ -75,6 +100,9 @@ foreach(reference ${references})
   if(NOT EXISTS ${page}/${path})
     bundle(${source}/${path} name)
     string(REPLACE "\"${path}\"" "\"${name}\"" index "${index}")
+    foreach(shared ${name_shared})
+      string(REPLACE "</head>" "  <link rel=\"modulepreload\" href=\"${shared}\">\n</head>" index "${index}")
+    endforeach()
   endif()
 endforeach()
 file(WRITE ${page}/index.html "${index}")

@@ -13,6 +13,7 @@ import { Session } from "./model/session.js";
 import { watchCheck } from "./panels/check_card.js";
 import { watchChosen } from "./panels/comparison_card.js";
 import { Inspector } from "./panels/inspector.js";
+import { watchLazyTab } from "./panels/lazy_tab.js";
 import { OptionsPanel } from "./panels/options_panel.js";
 import { PlanButton, PlanningStatus } from "./panels/planning_panel.js";
 import { revealProblem, watchProblem } from "./panels/problem_card.js";
@@ -71,6 +72,10 @@ watchReadout(session);
 watchSaving(session, stage, address);
 watchViewMenu(stage);
 watchProblem(session, stage, tabs, edit.choice, () => options.load());
+watchLazyTab(tabs, "analyse", async () => {
+  const { fillAnalysis } = await import("./analysis/analysis_panel.js");
+  return (panel) => fillAnalysis(panel, { session, stage, fleet, service });
+});
 session.on("announcement", (text) => setText(byId("announcer"), text));
 
 watchShortcuts({

@@ -1,5 +1,6 @@
 // The service's HTTP interface. Addresses are relative to the page, so that it works below any path.
 
+import { planFile } from "../model/plan_file.js";
 import { ConnectionLost, ProblemError } from "../model/problem.js";
 
 const PAUSES_MS = [200, 800]; // before the second and the third attempt
@@ -33,33 +34,56 @@ export async function fetchOpenApi() {
  * text, if the service, or a proxy in between, streams events.
  */
 export async function plan(requestText, signal, listener) {
-  const response = await send("v1/plan", {
+  return stream("v1/plan", requestText, signal, listener, "plan");
+}
+
+/**
+ * Simulates a plan, see POST /v1/simulate; `progress({runs, done})` is called meanwhile. Resolves to the figures.
+ */
+export async function simulate(text, progress) {
+  return stream("v1/simulate", text, undefined, { progress }, "simulation");
+}
+
+/** What robots must ask of each other to execute a plan: its own dependencies, or those that the service makes. */
+export async function dependenciesOf(request, answer) {
+  if (Array.isArray(answer.dependencies)) return answer.dependencies;
+  return (await post("v1/dependencies", JSON.stringify(planFile(request, answer)))).dependencies;
+}
+
+/** Posts a text; resolves to the answer, or to the data of the event `last` if the service streams events. */
+async function stream(address, body, signal, listener, last) {
+  const response = await send(address, {
     method: "POST",
     headers: {
       "Content-Type": "application/json",
       Accept: "text/event-stream, application/json;q=0.9",
     },
-    body: requestText,
+    body,
     signal,
   });
   const streams = response.headers.get("Content-Type")?.startsWith("text/event-stream");
-  return parseAnswer(await unlessCut(streams ? lastEvent(response, listener) : response.text()));
+  return parseAnswer(await unlessCut(streams ? lastEvent(response, listener, last) : response.text()));
 }
 
 /** The service's check of a plan file's text: {valid, violations, min_clearance}. */
 export async function validate(text) {
+  return post("v1/validate", text);
+}
+
+/** The answer to a text. */
+async function post(address, body) {
   const headers = { "Content-Type": "application/json" };
-  const response = await send("v1/validate", { method: "POST", headers, body: text });
+  const response = await send(address, { method: "POST", headers, body });
   return parseAnswer(await unlessCut(response.text()));
 }
 
-/** The text of the answer that ends a stream. Reads to the end, so that the connection can be reused. */
-async function lastEvent(response, listener) {
+/** The text of the event `last`, which ends a stream. Reads to the end, so that the connection can be reused. */
+async function lastEvent(response, listener, last) {
   let answer = null;
   for await (const { event, data } of readEvents(response.body)) {
     if (event === "progress") listener.progress(JSON.parse(data));
     if (event === "incumbent") listener.incumbent(data);
-    if (event === "plan") answer = data;
+    if (event === last) answer = data;
     if (event === "problem") throw new ProblemError(readProblem(response, data));
   }
   if (answer === null) throw new Error("the stream ended without an answer");

@@ -16,6 +16,7 @@ const ALLOWED = {
   edit: ["model", "ui", "scene"],
   panels: ["model", "ui", "scene"],
   files: ["model", "ui", "scene"],
+  analysis: ["model", "ui", "scene", "panels"],
 };
 
 /** The folder of a path in the page; "" for main.js and hook.js. */

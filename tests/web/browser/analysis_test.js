@@ -1,0 +1,112 @@
+// The Analyse tab: it loads when it is opened; plans are simulated, and runs played.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { choose, pressPlan } from "../support/browser.js";
+import { hook, pagesFor } from "../support/on_page.js";
+import { expectedPose } from "../support/expected_pose.js";
+
+const onPage = pagesFor();
+const PHONE = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true };
+
+async function planned(page, example) {
+  await choose(page, example);
+  const answer = await pressPlan(page);
+  await page.waitForFunction(() => window.fleetplan.playing);
+  await page.keyboard.press("Space");
+  return answer;
+}
+
+/** Opens the Analyse tab by keys. */
+async function openAnalysis(page) {
+  await page.focus("#tab-plan");
+  await page.keyboard.press("End");
+  await page.waitForSelector(".simulation");
+}
+
+for (const [size, options] of [
+  ["desktop", {}],
+  ["phone", PHONE],
+]) {
+  test(`a plan is simulated by keys alone, and a run with a collision is played, ${size}`, async () => {
+    await onPage(
+      async (page) => {
+        const answer = await planned(page, "crossing");
+        await openAnalysis(page);
+        const asked = page.waitForRequest((request) => request.url().endsWith("/v1/simulate"));
+        await page.getByLabel("Executions").fill("40");
+        await page.getByLabel("Slowest speed").fill("60");
+        await page.getByRole("button", { name: "Simulate" }).focus();
+        await page.keyboard.press("Enter");
+        const body = JSON.parse((await asked).postData());
+        assert.deepEqual(
+          [body.policy, body.runs, body.disturbance.speed.min, body.plans.length],
+          ["absorb_waits", 40, 0.6, answer.plans.length],
+        );
+        await page.waitForSelector(".share-words");
+        const simulated = await page.evaluate(async (sent) => {
+          const headers = { "Content-Type": "application/json" };
+          return (await fetch("v1/simulate", { method: "POST", headers, body: sent })).json();
+        }, JSON.stringify(body));
+        assert.ok(simulated.collision_share > 0);
+        const words = `${Number((simulated.collision_share * 100).toFixed(0))} %`;
+        assert.equal(await page.innerText(".share-words b"), words);
+        assert.match(await page.getAttribute(".quantiles >> nth=0", "aria-label"), /makespan \+/);
+
+        const [first] = simulated.first_collisions;
+        await page.getByRole("button", { name: `Run ${first.run}: ` }).focus();
+        await page.keyboard.press("Enter");
+        await page.waitForFunction(() => /execution/.test(window.fleetplan.answer.warnings[0]));
+        await page.waitForFunction(() => window.fleetplan.playing);
+        await page.evaluate(() => document.activeElement.blur());
+        await page.keyboard.press("Space");
+        const { trace } = await page.evaluate(
+          async (sent) => {
+            const headers = { "Content-Type": "application/json" };
+            return (await fetch("v1/simulate", { method: "POST", headers, body: sent })).json();
+          },
+          JSON.stringify({ ...body, runs: first.run + 1, trace: first.run }),
+        );
+        const time = await hook(page, "time");
+        assert.ok(time >= first.t - 2.001);
+        for (const { robot, actions } of trace.plans) {
+          const { start } = body.robots.find(({ id }) => id === robot);
+          const pose = await page.evaluate((id) => window.fleetplan.poseOf(id), robot);
+          const expected = expectedPose(start, actions, time);
+          assert.ok(Math.hypot(pose.x - expected.x, pose.y - expected.y) < 1e-6, robot);
+        }
+        await page.getByRole("button", { name: "Back to the plan" }).click();
+        assert.deepEqual(await hook(page, "answer"), answer);
+        assert.equal(await page.isVisible(".share-words"), true, "the figures stay");
+      },
+      { options },
+    );
+  });
+}
+
+test("with dependencies the same delays cause no collision", async () => {
+  await onPage(async (page) => {
+    await planned(page, "hospital-ward");
+    await openAnalysis(page);
+    await page.getByLabel("Policy").selectOption("dependencies");
+    await page.getByLabel("Executions").fill("30");
+    await page.getByRole("button", { name: "Simulate" }).click();
+    await page.waitForSelector(".share-words");
+    assert.equal(await page.innerText(".share-words b"), "0 %");
+  });
+});
+
+test("a tab that does not load says so and is loaded again on demand", async () => {
+  await onPage(
+    async (page) => {
+      await page.route(/analysis_panel/, (route) => route.abort());
+      await page.click("#tab-analyse");
+      await page.waitForSelector("#panel-analyse .fault");
+      await page.unroute(/analysis_panel/);
+      await page.click("#panel-analyse button");
+      await page.waitForSelector(".simulation");
+    },
+    { allowed: /ERR_FAILED/ },
+  );
+});

@@ -1,0 +1,15 @@
+// The Analyse tab: what can be learnt about a plan beyond its figures. Loaded when it is first opened.
+
+import { Ghosts } from "../scene/ghosts.js";
+import { element } from "../ui/dom.js";
+import { SimulationSection } from "./simulation_section.js";
+
+/** `page` has session, stage, fleet, service, colours and transport. */
+export function fillAnalysis(panel, page) {
+  const ghosts = new Ghosts(page.session, page.stage);
+  panel.append(section("Simulate delays", new SimulationSection({ ...page, ghosts }).element, true));
+}
+
+function section(title, content, open = false) {
+  return element("details", { class: "section", open }, element("summary", { textContent: title }), content);
+}
