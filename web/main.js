@@ -61,7 +61,7 @@ showScale(stage);
 const ruler = new Ruler(session, stage);
 const timeEntry = new TimeEntry(session);
 const follow = new Follow(session, stage);
-new TimelineDock(session, colours, fleet, transport, (over) => closest.peek(over));
+const timeline = new TimelineDock(session, colours, fleet, transport, (over) => closest.peek(over));
 new Inspector(session, stage, colours, fleet, tabs);
 watchSummary(session);
 watchCheck(session, stage);
@@ -74,7 +74,7 @@ watchViewMenu(stage);
 watchProblem(session, stage, tabs, edit.choice, () => options.load());
 watchLazyTab(tabs, "analyse", async () => {
   const { fillAnalysis } = await import("./analysis/analysis_panel.js");
-  return (panel) => fillAnalysis(panel, { session, stage, fleet, service });
+  return (panel) => fillAnalysis(panel, { session, stage, timeline, fleet, service });
 });
 session.on("announcement", (text) => setText(byId("announcer"), text));
 

@@ -2,12 +2,16 @@
 
 import { Ghosts } from "../scene/ghosts.js";
 import { element } from "../ui/dom.js";
+import { DependenciesSection } from "./dependencies_section.js";
 import { SimulationSection } from "./simulation_section.js";
 
-/** `page` has session, stage, fleet, service, colours and transport. */
+/** `page` has session, stage, timeline, fleet and service. */
 export function fillAnalysis(panel, page) {
   const ghosts = new Ghosts(page.session, page.stage);
-  panel.append(section("Simulate delays", new SimulationSection({ ...page, ghosts }).element, true));
+  panel.append(
+    section("Simulate delays", new SimulationSection({ ...page, ghosts }).element, true),
+    section("Dependencies", new DependenciesSection(page).element),
+  );
 }
 
 function section(title, content, open = false) {

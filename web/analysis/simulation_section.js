@@ -107,8 +107,7 @@ export class SimulationSection {
   async #ask(plan, form, trace) {
     const { service } = this.#page;
     const { request } = this.#session;
-    const dependencies =
-      form.policy === "dependencies" ? await service.dependenciesOf(request, plan) : undefined;
+    const { dependencies } = form.policy === "dependencies" ? await service.dependencies(request, plan) : {};
     const body = simulationOf(request, plan, form, dependencies, trace);
     return service.simulate(JSON.stringify(body), ({ runs, done }) =>
       setText(this.#status, `${done} of ${count(runs, "execution")}`),

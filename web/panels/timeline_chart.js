@@ -31,6 +31,7 @@ export class TimelineChart {
   #size = { clientWidth: 0, clientHeight: 0 }; // of the box, kept to avoid a layout in each frame
   #scroll = 0;
   #scheduled = false;
+  #overlays = [];
   #revealed = null; // the selected robot whose row was revealed last
 
   /**
@@ -59,6 +60,17 @@ export class TimelineChart {
       robotAt: (y) => this.#ids[rowAt(this.#layout(), y)] ?? null,
       over: (y) => overStrip(y !== null && y < STRIP),
     });
+  }
+
+  /** `paint(context, theme, {layout, ids})` paints on top, see gantt.js. */
+  addOverlay(paint) {
+    this.#overlays.push(paint);
+    this.redraw();
+  }
+
+  /** Paints with the next frame. */
+  redraw() {
+    this.#repaint();
   }
 
   /** Sorts the rows: "listed", "start", "cost" or "delay". */
@@ -124,13 +136,16 @@ export class TimelineChart {
     }
     const context = contextOf(this.#canvas);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const layout = this.#layout();
     paintGantt(context, {
-      layout: this.#layout(),
+      layout,
       ids: this.#ids,
       session: this.#session,
       colours: this.#colours,
       curve: this.#fleet.curve,
     });
+    const { theme } = this.#colours;
+    for (const paint of this.#overlays) paint(context, theme, { layout, ids: this.#ids });
     this.#playhead.style.height = `${clientHeight}px`;
     this.#placePlayhead();
   }

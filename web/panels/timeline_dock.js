@@ -17,6 +17,7 @@ export class TimelineDock {
   #body = byId("timeline-body");
   #divider = byId("timeline-divider");
   #sort = byId("timeline-sort");
+  #chart;
   #closest = byId("timeline-closest");
   #least = byId("timeline-least");
   #height = HEIGHT.first;
@@ -26,9 +27,9 @@ export class TimelineDock {
   constructor(session, colours, fleet, transport, overStrip) {
     this.#session = session;
     this.#fleet = fleet;
-    const chart = new TimelineChart(session, colours, fleet, transport, overStrip);
+    this.#chart = new TimelineChart(session, colours, fleet, transport, overStrip);
     this.#toggle.addEventListener("click", () => this.#fold(!this.#body.hidden));
-    this.#sort.addEventListener("change", () => chart.sortBy(this.#sort.value));
+    this.#sort.addEventListener("change", () => this.#chart.sortBy(this.#sort.value));
     this.#least.addEventListener("click", () => this.#goToLeast());
     this.#watchDivider();
     this.#fold(matchMedia("(max-width: 820px)").matches);
@@ -39,6 +40,16 @@ export class TimelineDock {
     });
     session.on("answer time playback", () => this.#showClosest());
     fleet.onCurve(() => this.#showLeast());
+  }
+
+  /** `paint(context, theme, {layout, ids})` paints on top of the chart, see gantt.js. */
+  addOverlay(paint) {
+    this.#chart.addOverlay(paint);
+  }
+
+  /** Paints the chart again. */
+  redraw() {
+    this.#chart.redraw();
   }
 
   #fold(folded) {

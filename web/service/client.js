@@ -44,10 +44,13 @@ export async function simulate(text, progress) {
   return stream("v1/simulate", text, undefined, { progress }, "simulation");
 }
 
-/** What robots must ask of each other to execute a plan: its own dependencies, or those that the service makes. */
-export async function dependenciesOf(request, answer) {
-  if (Array.isArray(answer.dependencies)) return answer.dependencies;
-  return (await post("v1/dependencies", JSON.stringify(planFile(request, answer)))).dependencies;
+/**
+ * What robots must ask of each other to execute a plan: {dependencies, tight}, its own ones or those that the service
+ * makes.
+ */
+export async function dependencies(request, answer) {
+  if (Array.isArray(answer.dependencies)) return answer;
+  return post("v1/dependencies", JSON.stringify(planFile(request, answer)));
 }
 
 /** Posts a text; resolves to the answer, or to the data of the event `last` if the service streams events. */

@@ -1,0 +1,35 @@
+// What robots must ask of each other to execute a plan, see docs/execution.md, for one action of a robot. Pure.
+
+import { poseInAction } from "./timeline.js";
+
+/** @import {Action} from "./types.js" */
+
+/**
+ * @typedef {{robot: string, action: number, progress: number}} Progress
+ * @typedef {{gate: Progress, until: Progress, slack: number}} Dependency
+ */
+
+/**
+ * The dependencies of an action of a robot: those that it waits for, as the gate is in it, and those of others that
+ * wait for it, each in the order of the plan.
+ * @param {Dependency[]} dependencies
+ * @param {string} robot
+ * @param {number} action its number in the robot's plan
+ */
+export function dependenciesOfAction(dependencies, robot, action) {
+  const isIn = (place) => place.robot === robot && place.action === action;
+  const byProgress = (end) => (a, b) => a[end].progress - b[end].progress;
+  return {
+    waitsFor: dependencies.filter(({ gate }) => isIn(gate)).sort(byProgress("gate")),
+    heldFor: dependencies.filter(({ until }) => isIn(until)).sort(byProgress("until")),
+  };
+}
+
+/** When and where a robot with these actions has made such progress: {x, y, t}; null without that action. */
+export function momentOf(actions, { action, progress }) {
+  const found = actions[action];
+  if (found === undefined) return null;
+  const t = found.t_start + (found.t_end - found.t_start) * progress;
+  const { x, y } = poseInAction(found, t);
+  return { x, y, t };
+}
