@@ -95,24 +95,26 @@ export class DependenciesSection {
     const words = actionInWords(this.#session.tracks.get(robot).actions[action]);
     this.#list.prepend(
       element("h3", { textContent: `${robot}, action ${action}: ${words}` }),
-      this.#sentences(
-        waitsFor,
-        "until",
-        ({ gate }) => `May pass ${percent(gate.progress)} once this one has gone on:`,
-      ),
-      this.#sentences(heldFor, "gate", ({ until }) => `At ${percent(until.progress)} it lets go on:`),
+      this.#sentences(waitsFor, "until", ({ gate }) => [
+        `Passes ${percent(gate.progress)} after`,
+        "has done",
+      ]),
+      this.#sentences(heldFor, "gate", ({ until }) => [`At ${percent(until.progress)} lets`, "pass"]),
       waitsFor.length + heldFor.length === 0
         ? element("p", { textContent: "No dependency: it need not ask." })
         : "",
     );
   }
 
-  #sentences(found, other, begin) {
+  /** A sentence for each, about the robot of its `other` end; `words` returns what is before and after the name. */
+  #sentences(found, other, words) {
     const items = found.map((each) => {
-      const place = each[other];
-      const at = momentOf(this.#session.tracks.get(place.robot)?.actions ?? [], place);
-      const where = `action ${place.action}, ${percent(place.progress)}${at === null ? "" : `, ${seconds(at.t)}`}`;
-      return element("li", { class: "chips" }, begin(each), robotChip(this.#session, place.robot), where);
+      const { robot, action, progress } = each[other];
+      const at = momentOf(this.#session.tracks.get(robot)?.actions ?? [], each[other]);
+      const [before, after] = words(each);
+      const what = `${after} ${percent(progress)} of its action ${action}`;
+      const when = at === null ? "" : ` (${seconds(at.t)})`;
+      return element("li", { class: "chips" }, before, robotChip(this.#session, robot), what + when);
     });
     return element("ul", { class: "plain" }, ...items);
   }

@@ -60,7 +60,10 @@ function placeOf(actions, { action, progress }) {
 function timelineColour(page, colour) {
   return page.evaluate((wanted) => {
     const canvas = document.getElementById("timeline-canvas");
-    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const copy = new OffscreenCanvas(canvas.width, canvas.height);
+    const context = copy.getContext("2d", { willReadFrequently: true });
+    context.drawImage(canvas, 0, 0);
+    const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
     const [red, green, blue] = wanted.split(",").map(Number);
     let found = 0;
     for (let at = 0; at < data.length; at += 4) {
