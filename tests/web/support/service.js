@@ -6,7 +6,7 @@ import { createInterface } from "node:readline";
 
 const START_MS = 10_000;
 
-/** Starts the server that FLEETPLAN_BIN names, with the page that was built with it: {url, stop}. */
+/** Starts the server that FLEETPLAN_BIN names, with the page that was built with it: {url, stop, kill}. */
 export async function startService(flags = []) {
   const binary = process.env.FLEETPLAN_BIN;
   if (!binary) throw new Error("FLEETPLAN_BIN must name the server binary");
@@ -17,7 +17,7 @@ export async function startService(flags = []) {
   const ended = new Promise((resolve) => child.once("exit", resolve));
   try {
     const url = await listening(child);
-    return { url, stop: () => stop(child, ended) };
+    return { url, stop: () => stop(child, ended, "SIGTERM"), kill: () => stop(child, ended, "SIGKILL") };
   } catch (error) {
     child.kill("SIGKILL");
     throw error;
@@ -45,8 +45,8 @@ function listening(child) {
   });
 }
 
-async function stop(child, ended) {
-  child.kill("SIGTERM");
+async function stop(child, ended, signal) {
+  child.kill(signal);
   await ended;
 }
 
