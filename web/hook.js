@@ -1,5 +1,6 @@
 // Scripting surface, read-only, for tests and scripts: `window.fleetplan` has `time`, `duration`
-// (seconds), `playing`, `request`, `answer` and `check` (parsed JSON or null), `selected` (id or null), `chosen` (ids),
+// (seconds), `playing`, `request`, `answer` and `check` (parsed JSON or null), `outdated` (if the answer is that of the
+// request before its edits, the ids of the robots whose plans no longer hold; else null), `selected` (id or null), `chosen` (ids),
 // `closest` ({ids, gap} of the two robots that are closest now, metres) and `least` ({t, gap, ids} when two
 // are closest in all of the plan), `poseOf(id)` (the pose drawn now, metres and radians), `stateOf(id)` and
 // `screenOf(id)` ({x, y, radius} of its disk on the canvas, CSS pixels); `pointOf({x, y})` is where a world
@@ -21,6 +22,9 @@ export function offerHook(session, stage, fleet) {
     },
     get answer() {
       return session.answer;
+    },
+    get outdated() {
+      return session.outdated && [...session.outdated];
     },
     get check() {
       return session.check;

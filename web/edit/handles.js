@@ -12,7 +12,7 @@ const PICK = { mouse: 10, touch: 22 }; // pixels around a handle that pick it
 
 /**
  * The part at a world point, or null; `event` gives the type of pointer; with Shift, goals come before
- * starts.
+ * starts. A start is where the robot starts, wherever the robot is under way.
  */
 export function partAt(world, { session, stage, chosen, event }) {
   const reach = (event?.pointerType === "touch" ? PICK.touch : PICK.mouse) / stage.scale;
@@ -21,7 +21,10 @@ export function partAt(world, { session, stage, chosen, event }) {
     if (Math.hypot(knob.x - world.x, knob.y - world.y) > reach) continue;
     return { robot: chosen, pose, turns: true, place: knob };
   }
-  const start = part(stage.diskAt(world), "start");
+  const start = part(
+    stage.diskAt(world, (robot) => robot.start),
+    "start",
+  );
   const goal = part(
     stage.diskAt(world, (robot) => robot.goal),
     "goal",

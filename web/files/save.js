@@ -21,7 +21,7 @@ export function watchSaving(session, stage, address) {
   makeClosable(byId("save-menu"));
   session.on("answer", () => {
     for (const button of [request, picture, curl, link]) button.disabled = session.request === null;
-    plan.disabled = session.answer === null;
+    plan.disabled = session.answer === null || session.outdated !== null;
     note.hidden = true;
   });
   request.addEventListener("click", () => saveText(`${stem()}.json`, session.text));

@@ -108,7 +108,10 @@ export function watchEdits(session, validate, rest = REST_MS) {
 async function judge(session, validate) {
   const { turn } = session;
   const problem = await problemOf(session.request, validate);
-  const stillShown = turn === session.turn && session.planning === null && session.answer === null;
+  const stillShown =
+    turn === session.turn &&
+    session.planning === null &&
+    (session.answer === null || session.outdated !== null);
   if (stillShown) session.setProblem(problem);
 }
 

@@ -24,7 +24,7 @@ export class FleetMotion {
   /** @type {{time: number | null, pair: {ids: string[], gap: number} | null}} */
   #nearest = { time: null, pair: null };
 
-  /** The smallest gap over time, see clearanceOf; null without an answer and until it is computed. */
+  /** The smallest gap over time, see clearanceOf; null without an answer, while that is outdated, and until it is computed. */
   curve = /** @type {any} */ (null);
 
   /** `compute(motions)` resolves to the curve, unless it is called again before. */
@@ -35,7 +35,7 @@ export class FleetMotion {
       this.#byId = this.#sweep = this.curve = null;
       this.#nearest = { time: null, pair: null };
       this.#signals.emit("curve");
-      if (answer !== null) this.#compute(compute);
+      if (answer !== null && !session.outdated) this.#compute(compute);
     });
   }
 
@@ -47,7 +47,8 @@ export class FleetMotion {
       this.curve = curve;
       this.#signals.emit("curve");
     } catch (error) {
-      if (answer === this.#session.answer) this.#session.fail(error, () => this.#compute(compute));
+      const isShown = answer === this.#session.answer && !this.#session.problem;
+      if (isShown) this.#session.fail(error, () => this.#compute(compute));
     }
   }
 

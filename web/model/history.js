@@ -41,6 +41,11 @@ export class History {
     this.#present = value;
   }
 
+  /** Replaces the present value, which stays the same step: undone steps can still be done again. */
+  amend(value) {
+    this.#present = value;
+  }
+
   /** Ends the gesture: the next value is a new step. */
   endGesture() {
     this.#gesture = null;

@@ -93,6 +93,12 @@ export class Playback {
   }
 }
 
+/** The time at which the last motion of an answer ends, seconds; 0 without one. */
+export function durationOf(answer) {
+  const stops = (answer?.unplanned ?? []).map(({ actions }) => actions?.at(-1)?.t_end ?? 0);
+  return Math.max(0, ...(answer?.plans ?? []).map(({ cost }) => cost), ...stops);
+}
+
 /** The starts and ends of all actions of some tracks, ascending, seconds. */
 export function eventTimes(tracks) {
   const times = [];

@@ -20,6 +20,12 @@ export class ConnectionLost extends ProblemError {
   }
 }
 
+/** The error with a further sentence in its detail, if it is a ProblemError. */
+export function withNote(error, note) {
+  if (!(error instanceof ProblemError)) return error;
+  return new ProblemError({ ...error.problem, detail: `${error.problem.detail ?? ""} ${note}`.trimStart() });
+}
+
 /**
  * The message states what is wrong, where in the file, and a remedy; the reader adds the name of the file.
  */

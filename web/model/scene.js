@@ -102,20 +102,26 @@ export function readScene(request, previous = null) {
 }
 
 /**
- * The track of each robot of the scene, by id: {status, actions, radii, path, cost, lowerBound, unplanned}. The
- * status is "ready" before there is an answer, then "planned", "parked" (it has no goal and does not move) or
- * "unplanned" (it executes its committed actions, if any);
+ * The track of each robot of the scene, by id: {status, actions, radii, path, cost, lowerBound, unplanned,
+ * former}. The status is "ready" before there is an answer, then "planned", "parked" (it has no goal and does not move),
+ * "unplanned" (it executes its committed actions, if any) or "outdated" (it stands at its start, and its plan, which no
+ * longer holds, is the actions in `former`; the path is theirs);
  * `radii` are those that it has later, as [{t, radius}], each from its t on;
  * `lowerBound`, the lower bound of its cost (seconds), is null if the answer lacks it.
  * @param {Scene} scene
  * @param {Answer | null} answer
+ * @param {Set<string> | null} outdated the ids of robots whose plans no longer hold
  * @returns {Map<string, Track>}
  */
-export function readTracks(scene, answer) {
+export function readTracks(scene, answer, outdated = null) {
   const plans = new Map((answer?.plans ?? []).map((plan) => [plan.robot, plan]));
   const failures = new Map((answer?.unplanned ?? []).map((entry) => [entry.robot, entry]));
   const tracks = new Map();
   for (const robot of scene.robots) {
+    if (outdated?.has(robot.id)) {
+      tracks.set(robot.id, outdatedTrack(plans.get(robot.id)));
+      continue;
+    }
     const actions = (plans.get(robot.id) ?? failures.get(robot.id))?.actions ?? [];
     tracks.set(robot.id, {
       status: statusOf(robot, plans, failures),
@@ -125,9 +131,17 @@ export function readTracks(scene, answer) {
       cost: plans.get(robot.id)?.cost ?? null,
       lowerBound: plans.get(robot.id)?.lower_bound ?? null,
       unplanned: failures.get(robot.id) ?? null,
+      former: [],
     });
   }
   return tracks;
+}
+
+/** The track of a robot whose plan, if it has one, no longer holds. */
+function outdatedTrack(plan) {
+  const former = plan?.actions ?? [];
+  const nothing = { actions: [], radii: [], cost: null, lowerBound: null, unplanned: null };
+  return { status: plan === undefined ? "ready" : "outdated", ...nothing, path: pathOf(former), former };
 }
 
 /** The radii that goals change, from the ends of their services. */

@@ -4,7 +4,8 @@
 // Features listen with on(names, listener):
 //   request   another request or an edit of it: `request`, `scene` and `tracks` are new. Detail: {opened},
 //             whether another one was opened or restored by undo or redo (true), or this one was edited (false)
-//   answer    another answer, or none: `answer`, `tracks` and the player are new; follows every "request", too
+//   answer    another answer, or none, or what still holds of it: `answer`, `outdated`, `tracks` and the player are
+//             new; follows every "request", too
 //   planning  planning started, progressed or ended: `planning`
 //   problem   a fault to show, or none: `problem`
 //   check     the plan was checked, or the check was dropped: `check`
@@ -16,38 +17,27 @@
 //
 // The state is never changed in place: an edit passes another request.
 
+import { answered, documentOf, edited, outdatedIn } from "./document.js";
 import { History } from "./history.js";
 import { planFile } from "./plan_file.js";
 import { objectiveOf, PlanRun } from "./plan_run.js";
-import { Playback, Player } from "./playback.js";
-import { ProblemError } from "./problem.js";
+import { durationOf, Playback, Player } from "./playback.js";
+import { ProblemError, withNote } from "./problem.js";
 import { readScene, readTracks, robotPoseAt, robotRadiusAt, robotStateAt } from "./scene.js";
 import { Focus } from "./selection.js";
 import { Signals } from "./signals.js";
 
 /** @import {Answer, Check, Limits, Problem, Request, Robot, Scene, Track} from "./types.js" */
 
-const EMPTY = { name: "", example: null, text: "", request: null };
-
-/** The error of planning that has found a plan before it failed. */
-function withBestPlan(error) {
-  if (!(error instanceof ProblemError)) return error;
-  const { detail = "" } = error.problem;
-  return new ProblemError({
-    ...error.problem,
-    detail: `${detail} The best plan until then is shown; the service has checked it.`.trimStart(),
-  });
-}
-
-/** What was opened, {name, example, text, request}, and its request with the edits. */
-const documentOf = (opened, request = opened.request) => ({ opened, request });
+/** What is told when planning fails that has found a plan before. */
+const KEPT = "The best plan until then is shown; the service has checked it.";
 
 export class Session {
   #signals = new Signals();
   #service;
   #playback;
   #focus = new Focus();
-  #history = new History(documentOf(EMPTY)); // of documents
+  #history = new History(documentOf()); // of documents, see document.js
   #turn = 0; // counts requests and edits, so that late results for an older one are dropped
   /** @type {Map<string, Robot>} */
   #robots = new Map(); // of the scene, by id
@@ -59,6 +49,8 @@ export class Session {
   tracks = new Map(); // by id
   /** @type {Answer | null} */
   answer = null;
+  /** @type {Set<string> | null} */
+  outdated = null; // if the answer is of the request before its edits: the robots whose plans no longer hold
   /** @type {PlanRun | null} */
   planning = null; // set while planning
   /** @type {Problem | null} */
@@ -145,7 +137,7 @@ export class Session {
    */
   edit(request, gesture = null) {
     if (request === this.request) return;
-    this.#history.push(documentOf(this.#opened, request), gesture);
+    this.#history.push(edited(this.#history.present, request), gesture);
     this.#requestChanged(false);
   }
 
@@ -176,7 +168,7 @@ export class Session {
     this.scene = readScene(this.request, this.scene);
     this.#robots = new Map(this.scene.robots.map((robot) => [robot.id, robot]));
     this.#focus.keep(this.#robots);
-    this.#setAnswer(null);
+    this.#showAnswer(this.#history.present.answer);
     this.#signals.emit("request", { opened });
     if (opened) this.setProblem(null); // after an edit it stays until the next check, see checks.js
     this.#signals.emit("answer");
@@ -187,18 +179,33 @@ export class Session {
 
   /** Shows an answer of the current request, at time 0. */
   adopt(answer) {
-    this.#setAnswer(answer);
-    this.#signals.emit("answer");
-    this.#signals.emit("marks");
+    this.#history.amend(answered(this.#history.present, answer));
+    this.#showAnswer(answer);
+    this.#answerChanged();
   }
 
-  #setAnswer(answer) {
+  /** Takes note of robots whose plans do not hold under the edited request. */
+  outdate(ids) {
+    this.outdated = new Set([...(this.outdated ?? []), ...ids]);
+    this.tracks = readTracks(this.scene, this.answer, this.outdated);
+    this.#answerChanged();
+  }
+
+  /** Shows an answer, at time 0 unless it was shown before; null: none. */
+  #showAnswer(answer) {
+    const isAnother = answer === null || answer !== this.answer;
     this.answer = answer;
-    this.tracks = readTracks(this.scene, answer);
+    this.outdated = answer && outdatedIn(this.#history.present);
+    this.tracks = readTracks(this.scene, answer, this.outdated);
     this.#focus.keep(this.#robots);
-    const stops = (answer?.unplanned ?? []).map(({ actions }) => actions?.at(-1)?.t_end ?? 0);
-    this.player.reset(Math.max(0, ...(answer?.plans ?? []).map(({ cost }) => cost), ...stops));
+    if (isAnother) this.player.reset(durationOf(answer));
+    else this.player.pause();
     this.#setCheck(null);
+  }
+
+  #answerChanged() {
+    this.#signals.emit("answer");
+    this.#signals.emit("marks");
   }
 
   /**
@@ -233,7 +240,7 @@ export class Session {
     const run = new PlanRun(budget, objectiveOf(this.request));
     this.planning = run;
     this.setProblem(null);
-    this.#setAnswer(null);
+    this.#showAnswer(null);
     this.#signals.emit("answer");
     this.#signals.emit("planning");
     try {
@@ -248,8 +255,8 @@ export class Session {
     } catch (error) {
       if (this.planning !== run) return false;
       this.#endPlanning();
-      if (run.incumbent !== null) this.adopt(JSON.parse(run.incumbent));
-      this.fail(run.incumbent === null ? error : withBestPlan(error));
+      this.#adoptBest(run.incumbent);
+      this.fail(run.incumbent === null ? error : withNote(error, KEPT));
       return run.incumbent !== null;
     }
   }
@@ -277,8 +284,18 @@ export class Session {
   cancel() {
     if (!this.planning) return;
     const text = this.stopPlanning();
-    if (text !== null) this.adopt(JSON.parse(text));
+    this.#adoptBest(text);
     this.announce(`Planning cancelled${text === null ? "" : ": this is the best plan so far"}.`);
+  }
+
+  /** Shows the best answer, a text, of planning that ended early; the answer before if there is none (null). */
+  #adoptBest(text) {
+    if (text !== null) {
+      this.adopt(JSON.parse(text));
+      return;
+    }
+    this.#showAnswer(this.#history.present.answer);
+    this.#answerChanged();
   }
 
   // Problems and announcements

@@ -182,13 +182,14 @@
 /**
  * What a robot does under an answer; see readTracks.
  * @typedef {object} Track
- * @property {"ready" | "planned" | "parked" | "unplanned"} status
+ * @property {"ready" | "planned" | "parked" | "unplanned" | "outdated"} status
  * @property {Action[]} actions
  * @property {{t: number, radius: number}[]} radii
  * @property {Position[]} path
  * @property {number | null} cost
  * @property {number | null} lowerBound
  * @property {Unplanned | null} unplanned
+ * @property {Action[]} former
  */
 
 /** @typedef {{radius: number, knots: Float64Array, radii: {t: number, radius: number}[]}} Motion see motion.js */

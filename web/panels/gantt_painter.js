@@ -15,7 +15,7 @@ const LEAST_BAR = 1; // so that short actions are visible
 const CONTACT = 1e-6; // metres: nearer is contact, further overlapping a collision
 const FONT = 12;
 const HINT = "Plan to see the actions of all robots over time";
-const STATUS = { parked: "Parked", ready: "" };
+const STATUS = { parked: "Parked", ready: "", outdated: "" };
 
 /**
  * `chart` has layout (see model/gantt.js, whose rows begin below the strip and the axis), ids (row by row),
@@ -134,6 +134,7 @@ function paintRows(context, { layout, ids, session, colours }) {
     clipped(context, layout, top, layout.rowHeight, () => {
       if (track.status === "planned")
         paintActions(context, layout, theme, top, track, colours.of(robot.index));
+      else if (track.status === "outdated") paintFormer(context, layout, theme, top, track);
       else paintStatus(context, layout, theme, top, track);
     });
   }
@@ -189,6 +190,13 @@ function paintActions(context, layout, theme, top, { actions, lowerBound }, colo
   if (!Number.isFinite(lowerBound)) return;
   context.fillStyle = theme.ink;
   context.fillRect(Math.round(xOf(layout, lowerBound)) - 1, top + 2, 2, layout.rowHeight - 4);
+}
+
+/** The actions of a plan that no longer holds, faint and without colour. */
+function paintFormer(context, layout, theme, top, { former }) {
+  context.globalAlpha = 0.35;
+  paintActions(context, layout, theme, top, { actions: former, lowerBound: null }, theme.muted);
+  context.globalAlpha = 1;
 }
 
 function paintStatus(context, layout, theme, top, { status, unplanned }) {

@@ -31,7 +31,8 @@ export function watchSummary(session) {
   session.on("answer check", () => showSummary(session));
 }
 
-function showSummary({ answer, check }) {
+function showSummary(session) {
+  const { answer, check, outdated } = session;
   const box = byId("summary");
   box.hidden = answer === null;
   if (answer === null) {
@@ -48,7 +49,8 @@ function showSummary({ answer, check }) {
     figure("Smallest gap", gap === null ? "–" : metres(gap), "between two robots"),
     answer.timings_ms ? effort(answer) : null,
   );
-  box.replaceChildren(badges(answer, check), figures);
+  box.classList.toggle("outdated", outdated !== null);
+  box.replaceChildren(outdated === null ? badges(answer, check) : outdatedNote(answer, outdated), figures);
   if (answer.timings_ms) box.append(otherTimings(answer.timings_ms));
   if (answer.lattice_spacing) box.append(fact(`Lattice spacing ${metres(answer.lattice_spacing)}`));
   if (answer.warnings.length > 0) box.append(warningList(answer.warnings));
@@ -91,6 +93,18 @@ function badges(answer, check) {
     : "The time budget ended the search: another run may differ";
   list.append(badge(answer.deterministic ? "Deterministic" : "Not deterministic", "", null, why));
   return list;
+}
+
+/** What still holds of a plan whose request was edited. */
+function outdatedNote({ plans }, outdated) {
+  const holding = plans.filter(({ robot }) => !outdated.has(robot)).length;
+  const note = `${holding.toLocaleString("en")} of ${count(plans.length, "plan")} still hold; their robots move.`;
+  return element(
+    "div",
+    { class: "badges" },
+    badge("Outdated", "fair", PART, "The request was edited after it was planned"),
+    element("p", { class: "facts", textContent: `${note} Plan again, or undo the edits.` }),
+  );
 }
 
 function badge(text, tone, path, title = "") {

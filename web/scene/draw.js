@@ -15,6 +15,7 @@ const GRID_LINES_FROM = 14; // pixels per cell: below, lines would only darken t
 const NAME_ROOM = 40; // pixels beside a robot that its marks may take
 const COMMITTED = { width: 3.5, alpha: 0.7 };
 const CROSSING = { width: 1, alpha: 0.5, dashes: [2, 4] };
+const OUTDATED = { width: 1.25, alpha: 0.5, dashes: [3, 4] };
 const FAINT = { width: 1.25, alpha: 0.34 };
 
 export class Painter {
@@ -117,7 +118,10 @@ export class Painter {
       const track = this.#tracks.get(robot.id);
       const radius = robot.radius * camera.scale;
       const colour = this.#colours[at];
-      if (this.#look.paths === "whole") drawPath(context, track.path.map(screen), colour, FAINT);
+      const isOutdated = track.status === "outdated";
+      const [line, ink] = isOutdated ? [OUTDATED, this.#theme.muted] : [FAINT, colour];
+      if (this.#look.paths === "whole" || (shown && isOutdated))
+        drawPath(context, track.path.map(screen), ink, line);
       if (shown) drawPath(context, robot.committed.map(screen), colour, COMMITTED);
       if (track.actions.length > 0) drawStart(context, screen(robot.start), radius, colour);
       this.#paintGoals(context, robot, radius, colour, screen);
@@ -154,7 +158,7 @@ export class Painter {
     this.#scene.robots.forEach((robot, at) => {
       if (!marked.has(robot.id)) return;
       const track = this.#tracks.get(robot.id);
-      if (track.path.length > 1) {
+      if (track.actions.length > 0 && track.path.length > 1) {
         const rest = remainingPath(track.actions, robot.start, time).map(screen);
         drawPath(context, rest, this.#colours[at], { width: 3, alpha: 0.95 });
       } else if (robot.goal && track.status !== "planned") {
@@ -188,7 +192,8 @@ export class Painter {
     const beyond = radius + NAME_ROOM;
     if (centre.x < -beyond || centre.x > viewport.width + beyond) return;
     if (centre.y < -beyond || centre.y > viewport.height + beyond) return;
-    const state = this.#look.colours === "state" ? robotStateAt(track, time) : null;
+    const byState = this.#look.colours === "state" || track.status === "outdated"; // which has no colour of its own
+    const state = byState ? robotStateAt(track, time) : null;
     drawRobot(context, this.#theme, {
       centre,
       theta: pose.theta,

@@ -24,6 +24,7 @@ export const STATES_IN_WORDS = {
   arrived: "arrived: a tick",
   parked: "parked: a square",
   ready: "before a plan",
+  outdated: "outdated by an edit",
   unplanned: "without a plan: a cross",
 };
 

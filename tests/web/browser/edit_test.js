@@ -3,8 +3,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { choose, pressPlan } from "../support/browser.js";
+import { choose, pressPlan, seek } from "../support/browser.js";
 import { coloursAt, countColour, hook, pagesFor, paste, REFUSED, themeColour } from "../support/on_page.js";
+import { drag, press, windowPoint } from "../support/scene_pointer.js";
 
 const onPage = pagesFor();
 
@@ -35,30 +36,6 @@ const rowsOf = async (page) => (await hook(page, "request")).map.rows;
 const tool = (page, name) => page.click(`.tool:has([value=${name}])`);
 const isAnnounced = (page, words) =>
   page.waitForFunction((part) => document.getElementById("announcer").textContent.includes(part), words);
-
-/** Where a world point is in the window, CSS pixels. */
-async function windowPoint(page, point) {
-  const box = await page.locator("#scene").boundingBox();
-  const { x, y } = await page.evaluate((world) => window.fleetplan.pointOf(world), point);
-  return { x: box.x + x, y: box.y + y };
-}
-
-async function press(page, point) {
-  const { x, y } = await windowPoint(page, point);
-  await page.mouse.click(x, y);
-}
-
-/** Drags with the mouse from one world point to others; `beside`: pixels off the first. */
-async function drag(page, [from, ...others], beside = { x: 0, y: 0 }) {
-  const first = await windowPoint(page, from);
-  await page.mouse.move(first.x + beside.x, first.y + beside.y);
-  await page.mouse.down();
-  for (const point of others) {
-    const { x, y } = await windowPoint(page, point);
-    await page.mouse.move(x, y, { steps: 8 });
-  }
-  await page.mouse.up();
-}
 
 /** Takes the handle of a pose to a world point. `theta`: where the handle is now. */
 async function turn(page, pose, theta, to) {
@@ -268,7 +245,7 @@ test("robots are added with the mouse, duplicated and deleted", async () => {
     await page.keyboard.press("Space");
     await undoAll(page);
     assert.deepEqual(await hook(page, "request"), REQUEST);
-    assert.equal(await hook(page, "answer"), null);
+    assert.equal(await hook(page, "answer"), null, "it was not planned");
   });
 });
 
@@ -512,24 +489,21 @@ test("a request without a valid map or robots can be edited", async () => {
   }
 });
 
-test("an edit during playback drops the plan, and the dragged robot stays under the pointer", async () => {
+test("a robot under way is selected, not dragged; its start is where it starts", async () => {
   await onPage(async (page) => {
     await editing(page);
     await pressPlan(page);
     await page.keyboard.press("Space");
-    await page.evaluate(() => {
-      const scrubber = document.getElementById("scrubber");
-      scrubber.value = "3";
-      scrubber.dispatchEvent(new Event("input", { bubbles: true }));
-    });
-    const { x, y } = await page.evaluate(() => window.fleetplan.poseOf("robot-2"));
-    assert.ok(x > 1.5);
-    await drag(page, [
-      { x, y },
-      { x: 5.5, y: 2.5 },
-    ]);
-    assert.equal(await hook(page, "answer"), null);
-    assert.deepEqual((await robotAt(page, 1)).start, { x: 5.5, y: 2.5 });
+    await seek(page, 3);
+    const pose = await page.evaluate(() => window.fleetplan.poseOf("robot-2"));
+    assert.ok(pose.x > 1.5);
+    await drag(page, [pose, { x: 5.5, y: 2.5 }]);
+    assert.deepEqual(await hook(page, "request"), REQUEST);
+    await page.keyboard.press("f");
+    await press(page, await page.evaluate(() => window.fleetplan.poseOf("robot-2")));
+    assert.equal(await hook(page, "selected"), "robot-2");
+    await drag(page, [REQUEST.robots[1].start, { x: 2.5, y: 2.5 }]);
+    assert.deepEqual((await robotAt(page, 1)).start, { x: 2.5, y: 2.5 });
   });
 });
 

@@ -103,15 +103,62 @@ test("opening one request after another without an edit leaves nothing to undo",
   assert.equal(session.canUndo, false);
 });
 
-test("an edit drops the answer and signals the request before the answer", () => {
+test("an edit keeps the answer and its time, and signals the request before the answer", () => {
   const { session, heard } = begin();
   session.open(OPENED);
   session.adopt(ANSWER);
-  assert.equal(session.player.duration, 2);
+  session.seek(1);
   heard.length = 0;
   session.edit({ ...REQUEST, options: {} });
-  assert.deepEqual([session.answer, session.player.duration], [null, 0]);
+  assert.deepEqual([session.answer, session.player.duration, session.player.time], [ANSWER, 2, 1]);
+  assert.deepEqual([...session.outdated], []);
+  assert.equal(session.poseOf("a").x, 1.5, "its plan still holds");
   assert.deepEqual(heard, ["check", 'request {"opened":false}', "answer", "marks"]);
+});
+
+test("a robot that was edited stands at its start, its plan outdated", () => {
+  const { session } = begin();
+  session.open(OPENED, ANSWER);
+  session.seek(1);
+  session.edit({ ...REQUEST, robots: [{ ...ROBOT, start: { x: 1.5, y: 0.5 } }] });
+  assert.deepEqual([...session.outdated], ["a"]);
+  assert.equal(session.stateOf("a"), "outdated");
+  assert.deepEqual(session.poseOf("a"), { x: 1.5, y: 0.5, theta: 0 });
+});
+
+test("undo and redo restore the request with its answer", () => {
+  const { session } = begin();
+  const later = { ...ANSWER, flowtime: 7 };
+  session.open(OPENED, ANSWER);
+  session.edit({ ...REQUEST, robots: [{ ...ROBOT, goal: { x: 1.5, y: 0.5 } }] });
+  session.adopt(later);
+  session.undo();
+  assert.deepEqual([session.request, session.answer, session.outdated], [REQUEST, ANSWER, null]);
+  session.redo();
+  assert.deepEqual([session.answer, session.outdated], [later, null]);
+  session.edit({ ...REQUEST, robots: [] });
+  session.undo();
+  assert.deepEqual([session.answer, session.outdated, session.canRedo], [later, null, true]);
+});
+
+test("planning that ends without any plan leaves the one before", async () => {
+  const { session } = begin({ plan: () => new Promise(() => {}) });
+  session.open(OPENED, ANSWER);
+  session.edit({ ...REQUEST, options: {} });
+  session.plan();
+  assert.equal(session.answer, null);
+  session.cancel();
+  assert.deepEqual([session.answer, session.outdated?.size], [ANSWER, 0]);
+});
+
+test("robots whose plans are found to be broken are outdated as well", () => {
+  const { session, heard } = begin();
+  session.open(OPENED, ANSWER);
+  session.edit({ ...REQUEST, map: { rows: [".#."] } });
+  heard.length = 0;
+  session.outdate(["a"]);
+  assert.equal(session.stateOf("a"), "outdated");
+  assert.deepEqual(heard, ["answer", "marks"]);
 });
 
 test("a robot stays selected after an edit if it still exists", () => {
