@@ -43,7 +43,7 @@ export class DependenciesSection {
   #reset() {
     this.#found = null;
     this.#show.hidden = false;
-    this.#show.disabled = !(this.#session.answer?.plans.length > 0);
+    this.#show.disabled = !this.#session.hasPlan;
     setText(this.#status, "What robots must ask of each other to execute the plan at their own pace.");
     this.#update();
   }

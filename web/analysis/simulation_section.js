@@ -75,7 +75,7 @@ export class SimulationSection {
 
   #onAnswer() {
     const { answer } = this.#session;
-    if (answer === this.#played && answer !== null) return;
+    if (answer === this.#played && this.#session.hasPlan) return;
     this.#page.ghosts.show(null);
     if (answer !== this.#plan) this.#results.replaceChildren();
     this.#plan = this.#played = null;
@@ -84,7 +84,7 @@ export class SimulationSection {
 
   #refresh() {
     this.#form.maxDelay.field.hidden = this.#form.policy.input.value !== "clock_stop";
-    const ready = this.#session.answer?.plans.length > 0;
+    const ready = this.#session.hasPlan;
     this.#run.disabled = !ready;
     setText(this.#status, ready ? "" : "Plan first: a simulation executes a plan many times.");
   }
@@ -124,7 +124,7 @@ export class SimulationSection {
       setText(this.#status, "");
       this.#session.fail(error);
     } finally {
-      this.#run.disabled = this.#session.answer === null;
+      this.#run.disabled = !this.#session.hasPlan;
     }
   }
 

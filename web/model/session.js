@@ -177,6 +177,11 @@ export class Session {
 
   // The answer
 
+  /** Whether the answer has plans that are of the current request. */
+  get hasPlan() {
+    return this.outdated === null && (this.answer?.plans.length ?? 0) > 0;
+  }
+
   /** Shows an answer of the current request, at time 0. */
   adopt(answer) {
     this.#history.amend(answered(this.#history.present, answer));

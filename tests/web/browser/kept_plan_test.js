@@ -95,3 +95,18 @@ test("undo brings the whole plan back, redo what is left of it", async () => {
     await areOutdated(page, null);
   });
 });
+
+test("an outdated plan is not simulated", async () => {
+  await onPage(async (page) => {
+    await planned(page);
+    await page.click("#tab-analyse");
+    const run = page.getByRole("button", { name: "Simulate" });
+    await run.waitFor();
+    assert.equal(await run.isEnabled(), true);
+    await page.click("#tab-edit");
+    await drag(page, [REQUEST.robots[0].start, { x: 1.5, y: 1.5 }]);
+    await areOutdated(page, ["robot-1"]);
+    await page.click("#tab-analyse");
+    assert.equal(await run.isEnabled(), false);
+  });
+});
