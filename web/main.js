@@ -103,6 +103,7 @@ watchShortcuts({
   e: () => edit.pick("erase"),
   b: () => edit.pick("box"),
   a: () => edit.pick("robot"),
+  z: () => edit.pick("zone"),
   "Control+z": () => session.undo(),
   "Control+Shift+z": () => session.redo(),
   "Control+y": () => session.redo(),

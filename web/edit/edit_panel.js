@@ -9,6 +9,9 @@ import { RobotActions } from "./robot_actions.js";
 import { RobotForm, watchDefaultsForm, watchRobotPicker } from "./robot_form.js";
 import { RobotTool } from "./robot_tool.js";
 import { SelectTool } from "./select_tool.js";
+import { ZoneChoice } from "./zone_choice.js";
+import { ZoneForm } from "./zone_form.js";
+import { ZoneTool } from "./zone_tool.js";
 
 const TAB = "tab-edit";
 
@@ -22,7 +25,11 @@ export class EditPanel {
   constructor(session, stage, tabs, opening) {
     this.choice = new RobotChoice(session);
     const actions = new RobotActions(session, this.choice);
-    this.#toolbox = new Toolbox(session, stage, tabs, this.choice, actions);
+    const zones = new ZoneChoice(session);
+    const zoneTool = new ZoneTool(session, stage, zones);
+    this.#toolbox = new Toolbox(session, stage, tabs, this.choice, actions, zoneTool);
+    new ZoneForm(session, zones);
+    zones.onChange(() => zones.index !== null && (byId("zones").open = true));
     watchHistoryButtons(session);
     watchRobotPicker(session, this.choice);
     new RobotForm(session, this.choice, actions);
@@ -34,7 +41,7 @@ export class EditPanel {
     });
   }
 
-  /** Selects a tool: select, wall, erase, box or robot. */
+  /** Selects a tool: select, wall, erase, box, robot or zone. */
   pick(tool) {
     this.#toolbox.pick(tool);
   }
@@ -45,6 +52,7 @@ const ICONS = {
   wall: "M3 5h14v10H3zM3 10h14M10 5v5M6.5 10v5M13.5 10v5",
   erase: "M8 16l-4.5-4.5L11 4l5.5 5.5L10 16zM7.3 7.7l5.5 5.5M8 16h8.5",
   box: "M3.5 5.5h13v9h-13zM7.5 5.5l-4 4M12 5.5l-8.5 8.5M16.5 5.5l-9 9M16.5 10l-4.5 4.5",
+  zone: "M4 6.5 12.5 3.5 16.5 10 11 16.5 4 14z",
   robot: "M14.5 11.5a5.5 5.5 0 1 1-6-6M9 11l3-3M14.5 2.5v6M11.5 5.5h6",
 };
 
@@ -56,7 +64,7 @@ export class Toolbox {
   #chosen = "select";
 
   /** `choice`: see RobotChoice; `actions`: see RobotActions. */
-  constructor(session, stage, tabs, choice, actions) {
+  constructor(session, stage, tabs, choice, actions, zoneTool) {
     this.#stage = stage;
     this.#tabs = tabs;
     this.#tools = {
@@ -65,6 +73,7 @@ export class Toolbox {
       erase: { label: "Erase", key: "E", tool: new DrawTool(session, stage, false) },
       box: { label: "Box", key: "B", tool: new BoxTool(session, stage) },
       robot: { label: "Robot", key: "A", tool: new RobotTool(session, stage, choice, actions) },
+      zone: { label: "Zone", key: "Z", tool: zoneTool },
     };
     byId("tools").replaceChildren(...Object.keys(this.#tools).map((name) => this.#button(name)));
     tabs.onChange(() => this.#refresh());

@@ -4,6 +4,7 @@ import { ConnectionLost, FileError, ProblemError } from "../model/problem.js";
 import { readLinkState } from "./address.js";
 import { Reader } from "./reader.js";
 import { prepareMap } from "./request_map.js";
+import { prepareMasks } from "./zone_masks.js";
 
 export class Opening {
   #session;
@@ -60,7 +61,7 @@ export class Opening {
     this.#reader.dismiss();
     try {
       const opened = await read();
-      await prepareMap(opened?.request?.map);
+      await Promise.all([prepareMap(opened?.request?.map), prepareMasks(opened?.request)]);
       if (turn !== this.#turn || opened === null) return false;
       this.#open(opened);
       return true;

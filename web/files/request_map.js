@@ -94,7 +94,8 @@ async function gridOfImage(image) {
   return classifyPixels(described, await readImage(bytesOfBase64(encoded)));
 }
 
-function bytesOfBase64(text) {
+/** The bytes of a text in base64. Throws FileError. */
+export function bytesOfBase64(text) {
   let binary;
   try {
     binary = atob(text);

@@ -1,7 +1,7 @@
 // Maps of a request that are not rows of letters (images, occupancy grids, texts of MovingAI) are read once, when
-// they are opened, and remembered as rows. So whatever draws or edits a map sees rows.
+// they are opened, and remembered as rows. So whatever draws or edits a map sees rows. Masks of zones likewise.
 
-/** @import {RequestMap} from "./types.js" */
+/** @import {Mask, RequestMap} from "./types.js" */
 
 /** @type {WeakMap<object, RequestMap>} */
 const drawn = new WeakMap();
@@ -15,4 +15,17 @@ export function rememberRows(map, rows) {
 export function asRows(map) {
   if (map === null || typeof map !== "object") return null;
   return Array.isArray(map.rows) ? map : (drawn.get(map) ?? null);
+}
+
+/** @type {WeakMap<object, Mask>} */
+const masks = new WeakMap();
+
+/** Remembers what the mask of a zone looks like. */
+export function rememberMask(mask, cells) {
+  masks.set(mask, cells);
+}
+
+/** What is remembered of a mask, or null. */
+export function maskOf(mask) {
+  return masks.get(mask) ?? null;
 }

@@ -98,7 +98,7 @@ export function readScene(request, previous = null) {
   const shared = commonPrefixLength(robots.map(({ id }) => id));
   for (const robot of robots) robot.label = robot.id.slice(shared);
   const grid = readGrid(request?.map, previous?.grid ?? null);
-  return { grid, robots, obstacles: readObstacles(request), zones: readZones(request) };
+  return { grid, robots, obstacles: readObstacles(request), zones: readZones(request, grid) };
 }
 
 /**

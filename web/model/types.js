@@ -171,10 +171,13 @@
 /** @typedef {{id: string, radius: number, motion: {t: number, x: number, y: number}[], stays: boolean}}
  * MovingObstacle */
 
+/** The cells of a zone, row by row from the top, see zone_masks.js.
+ * @typedef {{columns: number, rows: number, percents: Uint8Array}} Mask */
+
 /**
- * A zone as it is drawn; `heading` of one-way zones only.
- * @typedef {{type: "blocked" | "speed" | "one_way", polygon: Position[], middle: Position,
- * heading: number | null, label: string}} Zone
+ * A zone as it is drawn: a polygon, or a mask over the map's `bounds`; `heading` of one-way zones only.
+ * @typedef {{type: "blocked" | "speed" | "one_way", polygon: Position[], mask: Mask | null, bounds: Bounds | null,
+ * middle: Position, heading: number | null, label: string}} Zone
  */
 
 /** @typedef {{grid: Grid | null, robots: Robot[], obstacles: MovingObstacle[], zones: Zone[]}} Scene */

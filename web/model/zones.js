@@ -1,19 +1,47 @@
 // The zones of a request, as they are drawn. Faulty ones are left out. Pure. Metres.
 
-/** @import {Zone} from "./types.js" */
+import { maskOf } from "./drawn_map.js";
+
+/** @import {Grid, Zone} from "./types.js" */
 
 const TYPES = ["blocked", "speed", "one_way"];
 
-/** @returns {Zone[]} */
-export function readZones(request) {
+/**
+ * `grid`: that of the map, which masks lie on, or null.
+ * @param {Grid | null} grid
+ * @returns {Zone[]}
+ */
+export function readZones(request, grid = null) {
   const listed = Array.isArray(request?.zones) ? request.zones : [];
-  return listed.filter(isDrawable).map((zone) => ({
+  return listed
+    .map((zone) => (isDrawable(zone) ? polygonZone(zone) : maskZone(zone, grid)))
+    .filter((zone) => zone !== null);
+}
+
+function polygonZone(zone) {
+  return {
     type: zone.type,
     polygon: zone.polygon.map(({ x, y }) => ({ x, y })),
+    mask: null,
+    bounds: null,
     middle: middleOf(zone.polygon),
     heading: zone.type === "one_way" && Number.isFinite(zone.heading) ? zone.heading : null,
     label: labelOf(zone),
-  }));
+  };
+}
+
+/** A zone with a mask of the size of the map, or null. */
+function maskZone(zone, grid) {
+  const mask = maskOf(zone?.mask);
+  if (mask === null || mask.columns !== grid?.columns || mask.rows !== grid.rows) return null;
+  const { bounds, resolution } = grid;
+  const cells = [...mask.percents.keys()].filter((at) => mask.percents[at] > 0);
+  const mean = (part) => cells.reduce((sum, at) => sum + part(at), 0) / Math.max(1, cells.length) + 0.5;
+  const middle = {
+    x: bounds.left + mean((at) => at % mask.columns) * resolution,
+    y: bounds.top - mean((at) => Math.floor(at / mask.columns)) * resolution,
+  };
+  return { type: zone.type, polygon: [], mask, bounds, middle, heading: null, label: labelOf(zone) };
 }
 
 function isDrawable(zone) {
@@ -29,10 +57,11 @@ function middleOf(polygon) {
 }
 
 /** Its name and what holds in it, such as "ward: at most 0.5 m/s". */
-function labelOf({ id, type, linear_speed: linear, angular_speed: angular }) {
+function labelOf({ id, type, mask, linear_speed: linear, angular_speed: angular }) {
   const limits = [];
   if (Number.isFinite(linear)) limits.push(`${linear} m/s`);
   if (Number.isFinite(angular)) limits.push(`${angular} rad/s`);
   const rules = { blocked: "blocked", one_way: "one way", speed: `at most ${limits.join(", ") || "?"}` };
+  if (mask !== undefined) rules.speed = "slower";
   return typeof id === "string" && id !== "" ? `${id}: ${rules[type]}` : rules[type];
 }

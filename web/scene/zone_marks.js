@@ -1,6 +1,7 @@
 // Zones of a scene: areas with a rule, each with its label. Positions and sizes in CSS pixels.
 
 import { drawPath } from "./marks.js";
+import { rasterOf } from "./mask_raster.js";
 
 const COLOURS = { blocked: "danger", speed: "muted", one_way: "accent" }; // of the theme
 const FILL = 0.14; // opacity
@@ -11,8 +12,18 @@ const ARROW_PIXELS = 34; // the longest
 const ABOVE = 14; // from the middle to a label, where an arrow is in the middle
 
 /** `screen(point)` is where a point of the world is, `scale` the pixels of a metre. */
-export function drawZone(context, theme, { type, polygon, middle, heading, label }, screen, scale) {
+export function drawZone(context, theme, zone, screen, scale) {
+  const { type, mask, middle, heading, label } = zone;
   const colour = theme[COLOURS[type]];
+  const extent =
+    mask === null ? drawPolygon(context, colour, zone, screen) : drawMask(context, colour, zone, screen);
+  const centre = screen(middle);
+  if (heading !== null) drawArrow(context, colour, centre, heading, Math.min(ARROW_PIXELS, scale));
+  drawLabel(context, theme, { x: centre.x, y: centre.y - (heading === null ? 0 : ABOVE) }, label, extent);
+}
+
+/** Returns its width. */
+function drawPolygon(context, colour, { polygon }, screen) {
   const corners = polygon.map(screen);
   context.save();
   context.globalAlpha = FILL;
@@ -23,10 +34,20 @@ export function drawZone(context, theme, { type, polygon, middle, heading, label
   context.fill();
   context.restore();
   drawPath(context, [...corners, corners[0]], colour, BORDER);
-  const centre = screen(middle);
-  if (heading !== null) drawArrow(context, colour, centre, heading, Math.min(ARROW_PIXELS, scale));
-  const width = Math.max(...corners.map(({ x }) => x)) - Math.min(...corners.map(({ x }) => x));
-  drawLabel(context, theme, { x: centre.x, y: centre.y - (heading === null ? 0 : ABOVE) }, label, width);
+  return Math.max(...corners.map(({ x }) => x)) - Math.min(...corners.map(({ x }) => x));
+}
+
+/** Returns the width of the map. */
+function drawMask(context, colour, { type, mask, bounds }, screen) {
+  const [corner, end] = [
+    screen({ x: bounds.left, y: bounds.top }),
+    screen({ x: bounds.right, y: bounds.bottom }),
+  ];
+  context.save();
+  context.imageSmoothingEnabled = false;
+  context.drawImage(rasterOf(mask, type, colour), corner.x, corner.y, end.x - corner.x, end.y - corner.y);
+  context.restore();
+  return end.x - corner.x;
 }
 
 function drawArrow(context, colour, centre, heading, length) {

@@ -1,0 +1,54 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { prepareMasks } from "../../../web/files/zone_masks.js";
+import { maskOf } from "../../../web/model/drawn_map.js";
+import { readScene } from "../../../web/model/scene.js";
+import { opacityOf } from "../../../web/scene/mask_raster.js";
+import { pgm, png } from "../support/map_files.js";
+
+const base64 = (bytes) => bytes.toString("base64");
+const maskZone = (type, mask) => ({ id: "lab", type, mask });
+
+test("the percentages of a mask are those that the service reads", async () => {
+  const trinary = { pgm: base64(pgm([[0, 254, 205]])) };
+  const raw = { png: base64(png(0, [[30, 100, 255]])), mode: "raw" };
+  await prepareMasks({ zones: [maskZone("blocked", trinary), maskZone("speed", raw)] });
+  assert.deepEqual([...maskOf(trinary).percents], [100, 0, 0]);
+  assert.deepEqual([...maskOf(raw).percents], [30, 100, 0]);
+});
+
+test("a mask lies on the cells of the map, with its name in the middle of what it marks", async () => {
+  const mask = {
+    pgm: base64(
+      pgm([
+        [254, 0, 0],
+        [254, 254, 254],
+      ]),
+    ),
+  };
+  const request = { map: { rows: ["...", "..."], resolution: 2 }, zones: [maskZone("blocked", mask)] };
+  assert.deepEqual(readScene(request).zones, [], "before it is read");
+  await prepareMasks(request);
+  const [zone] = readScene(request).zones;
+  assert.deepEqual([zone.middle, zone.label], [{ x: 4, y: 3 }, "lab: blocked"]);
+  assert.deepEqual(zone.bounds, { left: 0, bottom: 0, right: 6, top: 4 });
+});
+
+test("masks of another size, and those that cannot be read, are not drawn", async () => {
+  const small = { pgm: base64(pgm([[0]])) };
+  const broken = { pgm: "not base64!" };
+  const request = {
+    map: { rows: [".."] },
+    zones: [maskZone("blocked", small), maskZone("blocked", broken), null],
+  };
+  await prepareMasks(request);
+  assert.deepEqual(readScene(request).zones, []);
+});
+
+test("blocked cells are marked fully, slow ones the more the slower", () => {
+  assert.deepEqual([opacityOf("blocked", 64), opacityOf("blocked", 65) > 0], [0, true]);
+  assert.equal(opacityOf("speed", 0), 0);
+  assert.ok(opacityOf("speed", 10) > opacityOf("speed", 90));
+  assert.ok(opacityOf("speed", 100) > 0);
+});

@@ -1,0 +1,99 @@
+// Edits of the zones of a request, see edit_request.js. Zones are identified by their index. Pure. Metres, radians.
+
+import { tidy } from "./cells.js";
+import { objectOf, withMembers } from "./edit_request.js";
+
+const SPEED = 0.5; // m/s, of a new slow zone
+const HALF_ANGLE = 1.5708; // radians: a right angle
+
+/** What the types of zones ask of robots. */
+export const ZONE_RULES = {
+  blocked: "No part of a robot may be inside. Contact with the border is allowed, as with a wall.",
+  speed: "While its centre is inside, a robot is at most this fast.",
+  one_way:
+    "With the centre inside, robots drive at most the half angle off the heading. They may wait and turn.",
+};
+
+/** The zones of the request, valid or not. */
+export function zonesOf(request) {
+  return Array.isArray(request?.zones) ? request.zones : [];
+}
+
+/** The corners of a zone; empty if it has none, as one with a mask. */
+export function cornersOf(zone) {
+  return Array.isArray(zone?.polygon) ? zone.polygon : [];
+}
+
+/** The request with a blocked zone from corner to corner at the end. */
+export function addZone(request, a, b) {
+  const polygon = [a, { x: b.x, y: a.y }, b, { x: a.x, y: b.y }].map(({ x, y }) => ({ x, y }));
+  const zone = { id: freshZoneId(request), type: "blocked", polygon };
+  return { ...objectOf(request), zones: [...zonesOf(request), zone] };
+}
+
+function freshZoneId(request) {
+  const taken = new Set(zonesOf(request).map((zone) => zone?.id));
+  let number = 1;
+  while (taken.has(`zone-${number}`)) number += 1;
+  return `zone-${number}`;
+}
+
+/** The request with members of a zone set, or removed if undefined. */
+export function setZone(request, index, members) {
+  return withZone(request, index, (zone) => withMembers(zone, members));
+}
+
+/** The request with a zone of another type, with the members that it needs and without those it must not have. */
+export function setZoneType(request, index, type) {
+  return withZone(request, index, (zone) => {
+    const { linear_speed, angular_speed, heading, half_angle, ...rest } = zone;
+    const limits = { linear_speed, angular_speed };
+    if (type === "speed") {
+      const known = linear_speed === undefined && angular_speed === undefined && zone.mask === undefined;
+      return withMembers({ ...rest, type }, known ? { linear_speed: SPEED } : limits);
+    }
+    if (type === "one_way")
+      return { ...rest, type, heading: heading ?? 0, half_angle: half_angle ?? HALF_ANGLE };
+    return { ...rest, type };
+  });
+}
+
+/** The request with a corner of a zone at another point. */
+export function moveCorner(request, index, corner, { x, y }) {
+  return withCorners(request, index, (corners) =>
+    corners.map((each, at) => (at === corner ? { x, y } : each)),
+  );
+}
+
+/** The request with a corner more, after one of a zone. */
+export function insertCorner(request, index, after, { x, y }) {
+  return withCorners(request, index, (corners) => corners.toSpliced(after + 1, 0, { x, y }));
+}
+
+/** The request without a corner of a zone, which keeps at least three. */
+export function removeCorner(request, index, corner) {
+  return withCorners(request, index, (corners) =>
+    corners.length > 3 ? corners.toSpliced(corner, 1) : corners,
+  );
+}
+
+/** The request with a zone moved by {x, y}. */
+export function moveZone(request, index, by) {
+  return withCorners(request, index, (corners) =>
+    corners.map(({ x, y }) => ({ x: tidy(x + by.x), y: tidy(y + by.y) })),
+  );
+}
+
+export function deleteZone(request, index) {
+  const zones = zonesOf(request).filter((_, at) => at !== index);
+  return withMembers(objectOf(request), { zones: zones.length > 0 ? zones : undefined });
+}
+
+function withCorners(request, index, change) {
+  return withZone(request, index, (zone) => ({ ...zone, polygon: change(cornersOf(zone)) }));
+}
+
+function withZone(request, index, change) {
+  const zones = zonesOf(request).map((zone, at) => (at === index ? change(objectOf(zone)) : zone));
+  return { ...objectOf(request), zones };
+}
