@@ -48,6 +48,7 @@ export function watchKeptPlan(session, validate, rest = REST_MS) {
     clearTimeout(timer);
     if (session.outdated !== null) timer = setTimeout(() => judge(session, validate), rest);
   });
+  session.on("planning", () => clearTimeout(timer)); // a new plan replaces it
 }
 
 async function judge(session, validate) {

@@ -88,3 +88,14 @@ test("after an edit, the check tells which plans hold; again if it does not list
 test("without a check, nothing more is outdated", async () => {
   assert.deepEqual(await outdatedAfter([null]), { outdated: [], sent: [["a", "b"]] });
 });
+
+test("planning begins before the check: the former plan is not checked any more", async () => {
+  const session = new FakeSession();
+  const sent = [];
+  watchKeptPlan(session, async (text) => sent.push(text), 0);
+  session.emit("request", { opened: false });
+  Object.assign(session, { answer: null, outdated: null });
+  session.emit("planning");
+  await new Promise((done) => setTimeout(done, 5));
+  assert.deepEqual(sent, []);
+});
