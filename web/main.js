@@ -7,6 +7,7 @@ import { watchSaving } from "./files/save.js";
 import { Setup } from "./files/setup.js";
 import { offerHook } from "./hook.js";
 import { watchEdits } from "./model/checks.js";
+import { EarlierPlans } from "./model/earlier_plans.js";
 import { clearanceJob, FleetMotion } from "./model/fleet_motion.js";
 import { RobotFilter } from "./model/robot_filter.js";
 import { watchKeptPlan } from "./model/kept_plan.js";
@@ -39,6 +40,7 @@ import { Tabs } from "./ui/tabs.js";
 
 const session = new Session(service, requestAnimationFrame.bind(window));
 const colours = new RobotColours();
+const earlier = new EarlierPlans(session);
 const stage = new Stage(session, colours);
 const fleet = new FleetMotion(session, clearanceJob());
 const closest = new ClosestOverlay(session, stage, fleet);
@@ -76,7 +78,7 @@ watchViewMenu(stage);
 watchProblem(session, stage, tabs, edit.choice, () => options.load());
 watchLazyTab(tabs, "analyse", async () => {
   const { fillAnalysis } = await import("./analysis/analysis_panel.js");
-  return (panel) => fillAnalysis(panel, { session, stage, timeline, fleet, service });
+  return (panel) => fillAnalysis(panel, { session, stage, timeline, fleet, service, earlier });
 });
 session.on("announcement", (text) => setText(byId("announcer"), text));
 

@@ -2,14 +2,16 @@
 
 import { Ghosts } from "../scene/ghosts.js";
 import { element } from "../ui/dom.js";
+import { CompareSection } from "./compare_section.js";
 import { DependenciesSection } from "./dependencies_section.js";
 import { SimulationSection } from "./simulation_section.js";
 
-/** `page` has session, stage, timeline, fleet and service. */
+/** `page` has session, stage, timeline, fleet, service and earlier. */
 export function fillAnalysis(panel, page) {
   const ghosts = new Ghosts(page.session, page.stage);
   panel.append(
     section("Simulate delays", new SimulationSection({ ...page, ghosts }).element, true),
+    section("Compare plans", new CompareSection({ ...page, ghosts }).element),
     section("Dependencies", new DependenciesSection(page).element),
   );
 }

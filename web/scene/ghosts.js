@@ -3,7 +3,7 @@
 import { pathOf, poseAt } from "../model/timeline.js";
 import { drawPath, ring } from "./marks.js";
 
-const RING = { width: 2, alpha: 0.95, dashes: [4, 3] };
+const RING = { width: 2, alpha: 1, dashes: [4, 3] };
 const PATH = { width: 1.5, alpha: 0.6, dashes: [2, 4] };
 const LINK = { width: 1, alpha: 0.8, dashes: [] };
 const MOST_PATHS = 60; // more would cover the map
