@@ -3,7 +3,8 @@
 import { EditPanel } from "./edit/edit_panel.js";
 import { Address } from "./files/address.js";
 import { Opening } from "./files/opening.js";
-import { watchSaving } from "./files/save.js";
+import { fileStem, watchSaving } from "./files/save.js";
+import { watchSharing } from "./files/sharing.js";
 import { Setup } from "./files/setup.js";
 import { offerHook } from "./hook.js";
 import { watchEdits } from "./model/checks.js";
@@ -73,7 +74,13 @@ showBlockers(session, stage);
 showViolations(session, stage, fleet);
 watchUnplanned(session);
 watchReadout(session);
-watchSaving(session, stage, address);
+watchSaving(session, address);
+watchSharing(
+  session,
+  stage,
+  { animation: () => import("./share/animation.js"), page: () => import("./share/html_page.js") },
+  () => fileStem(session.name),
+);
 watchViewMenu(stage);
 watchProblem(session, stage, tabs, edit.choice, () => options.load());
 watchLazyTab(tabs, "analyse", async () => {

@@ -4,33 +4,24 @@ import { planFile } from "../model/plan_file.js";
 import { byId, makeClosable, setText } from "../ui/dom.js";
 import { count } from "../ui/format.js";
 import { LONGEST_LINK } from "./address.js";
+import { saveText } from "./downloads.js";
 
 const SHOWN_MS = 1500;
 
-/** `stage`: see Stage; `address`: see Address. */
-export function watchSaving(session, stage, address) {
-  const [request, plan, picture, curl, link] = [
-    "save-request",
-    "save-plan",
-    "save-picture",
-    "copy-curl",
-    "copy-link",
-  ].map(byId);
+/** `address`: see Address. */
+export function watchSaving(session, address) {
+  const [request, plan, curl, link] = ["save-request", "save-plan", "copy-curl", "copy-link"].map(byId);
   const note = byId("save-note");
   const stem = () => fileStem(session.name);
   makeClosable(byId("save-menu"));
   session.on("answer", () => {
-    for (const button of [request, picture, curl, link]) button.disabled = session.request === null;
+    for (const button of [request, curl, link]) button.disabled = session.request === null;
     plan.disabled = session.answer === null || session.outdated !== null;
     note.hidden = true;
   });
   request.addEventListener("click", () => saveText(`${stem()}.json`, session.text));
   plan.addEventListener("click", () => {
     saveText(`${stem()}.plan.json`, JSON.stringify(planFile(session.request, session.answer)));
-  });
-  picture.addEventListener("click", () => {
-    stage.paint(); // with all pending changes
-    stage.canvas.toBlob((blob) => saveBlob(`${stem()}.png`, blob), "image/png");
   });
   curl.addEventListener("click", () => copyFrom(curl, curlCommand(session, document.baseURI), session));
   link.addEventListener("click", async () => {
@@ -57,20 +48,6 @@ async function copyFrom(button, text, session) {
   setText(button, (await copyText(text)) ? "Copied" : "Could not copy");
   session.announce(button.textContent);
   setTimeout(() => setText(button, label), SHOWN_MS);
-}
-
-/** Saves a text of JSON as a file. */
-export function saveText(name, text) {
-  saveBlob(name, new Blob([text], { type: "application/json" }));
-}
-
-export function saveBlob(name, blob) {
-  const address = URL.createObjectURL(blob);
-  const link = document.createElement("a");
-  link.href = address;
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
 /** A file name, without extension, for a request's name. */

@@ -194,17 +194,17 @@ export class Stage {
   redraw() {
     if (this.#scheduled) return;
     this.#scheduled = true;
-    requestAnimationFrame(() => this.paint());
+    requestAnimationFrame(() => this.#scheduled && this.paint());
   }
 
-  /** Paints at once. */
-  paint() {
+  /** Paints at once, with so many pixels a CSS pixel. */
+  paint(ratio = window.devicePixelRatio || 1) {
     this.#scheduled = false;
     const { player, marked } = this.#session;
     this.#painter.paint({
       camera: this.#camera,
       viewport: this.#viewport,
-      ratio: window.devicePixelRatio || 1,
+      ratio,
       time: player.time,
       marked,
       overlays: this.#tool.paint ? [...this.#overlays, this.#tool.paint.bind(this.#tool)] : this.#overlays,

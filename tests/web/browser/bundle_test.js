@@ -23,17 +23,17 @@ async function planAndClear(page) {
 const filesIn = (requested) =>
   [...new Set(requested)].filter((address) => !new URL(address).pathname.startsWith("/v1/"));
 
-test("the bundle is a page, three scripts, a style sheet, an icon and a worker, immutable but for the page", async () => {
+test("the bundle is a page, four scripts, a style sheet, an icon and a worker, immutable but for the page", async () => {
   await onBundle(async (page, { requested, url }) => {
     await planAndClear(page);
     assert.equal(
-      requested.some((address) => address.includes("analysis_panel")),
+      requested.some((address) => /analysis_panel|animation|html_page|viewer/.test(address)),
       false,
     );
     const files = filesIn(requested);
     assert.ok(files.includes(url));
     const kinds = files.filter((address) => address !== url).map((address) => /\w+$/.exec(address)[0]);
-    assert.deepEqual(kinds.sort(), ["css", "js", "js", "js", "js", "svg"]);
+    assert.deepEqual(kinds.sort(), ["css", "js", "js", "js", "js", "js", "svg"]);
     for (const address of files) {
       const { headers } = await fetch(address);
       const expected = address === url ? "no-cache" : "public, max-age=31536000, immutable";

@@ -16,6 +16,7 @@ const ALLOWED = {
   edit: ["model", "ui", "scene"],
   panels: ["model", "ui", "scene"],
   files: ["model", "ui", "scene"],
+  share: ["model", "ui", "scene", "panels", "files"],
   analysis: ["model", "ui", "scene", "panels"],
 };
 

@@ -1,0 +1,122 @@
+// What is saved for others: a picture, an animation, and a page that needs no server.
+
+import assert from "node:assert/strict";
+import { mkdtemp, readFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { test } from "node:test";
+import { fileURLToPath, pathToFileURL } from "node:url";
+
+import { choose, pressPlan } from "../support/browser.js";
+import { hook, pagesFor, paste } from "../support/on_page.js";
+
+const onBundle = pagesFor();
+const onSources = pagesFor(["--web-root", fileURLToPath(new URL("../../../web", import.meta.url))]);
+
+/** The file that pressing a button of the Save menu saves: {name, path}. */
+async function saved(page, button) {
+  await page.focus("#save-menu summary");
+  await page.keyboard.press("Enter");
+  const [download] = await Promise.all([
+    page.waitForEvent("download", { timeout: 60_000 }),
+    (async () => {
+      await page.focus(button);
+      await page.keyboard.press("Enter");
+    })(),
+  ]);
+  const name = download.suggestedFilename();
+  const path = join(await mkdtemp(join(tmpdir(), "fleetplan-")), name);
+  await download.saveAs(path);
+  return { name, path };
+}
+
+test("a picture has twice the pixels of the scene", async () => {
+  await onBundle(async (page) => {
+    const { name, path } = await saved(page, "#save-picture");
+    assert.match(name, /\.png$/);
+    const bytes = await readFile(path);
+    const { width, height } = await page.evaluate(() => {
+      const { clientWidth, clientHeight } = document.getElementById("scene");
+      return { width: clientWidth, height: clientHeight };
+    });
+    assert.deepEqual([bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [2 * width, 2 * height]);
+    assert.equal(await page.evaluate(() => document.getElementById("scene").width), width);
+  });
+});
+
+const SHORT = {
+  map: { rows: ["....."] },
+  robots: [
+    {
+      id: "solo",
+      radius: 0.3,
+      linear_speed: 2,
+      angular_speed: 3,
+      start: { x: 0.5, y: 0.5 },
+      goal: { x: 4.5, y: 0.5 },
+    },
+  ],
+};
+
+test("an animation plays the whole plan", async () => {
+  await onBundle(async (page) => {
+    await paste(page, SHORT);
+    const { makespan } = await pressPlan(page);
+    const { name, path } = await saved(page, "#save-animation");
+    assert.match(name, /\.webm$/);
+    const bytes = await readFile(path);
+    assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3, "EBML");
+    const other = await page.context().newPage(); // without the page's policy of content
+    const lasts = await other.evaluate(async (base64) => {
+      const video = document.createElement("video");
+      video.src = `data:video/webm;base64,${base64}`;
+      video.muted = true;
+      await video.play();
+      await new Promise((done) => video.addEventListener("ended", done));
+      return video.currentTime;
+    }, bytes.toString("base64"));
+    assert.ok(lasts > makespan * 0.8, `${lasts} s of a plan of ${makespan} s`);
+    assert.ok((await page.innerText("#save-animation")).startsWith("Animation"));
+  });
+});
+
+for (const [how, onPage] of [
+  ["the bundle", onBundle],
+  ["the sources", onSources],
+]) {
+  test(`a page to send shows the plan without a server, made from ${how}`, async () => {
+    await onPage(async (page) => {
+      await choose(page, "hospital-ward");
+      const answer = await pressPlan(page);
+      await page.waitForFunction(() => window.fleetplan.playing);
+      const { name, path } = await saved(page, "#save-page");
+      assert.equal(name, "hospital-ward.html");
+      const away = await page.context().browser().newContext({ offline: true });
+      try {
+        const other = await away.newPage();
+        const complaints = [];
+        other.on("console", (message) => complaints.push(message.text()));
+        other.on("pageerror", (error) => complaints.push(String(error)));
+        await other.goto(pathToFileURL(path).href);
+        const end = `${answer.makespan.toFixed(2)} s`;
+        await other.waitForFunction(
+          (words) => document.getElementById("clock").textContent.endsWith(words),
+          end,
+        );
+        await other.keyboard.press("Space");
+        await other.waitForFunction(() => parseFloat(document.getElementById("clock").textContent) > 0.3);
+        const colours = await other.evaluate(() => {
+          const canvas = document.getElementById("scene");
+          const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+          return new Set(new Uint32Array(data.buffer)).size;
+        });
+        assert.ok(colours > 20);
+        assert.match(await other.innerText("#facts"), /^10 robots, flowtime /);
+        assert.deepEqual(complaints, []);
+      } finally {
+        await away.close();
+      }
+      assert.deepEqual(await hook(page, "answer"), answer);
+    });
+  });
+}

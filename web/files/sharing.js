@@ -1,0 +1,67 @@
+// What the Save menu offers for others to look at: a picture, an animation, a page of its own. The last two are loaded
+// when they are asked for.
+
+import { asRows } from "../model/drawn_map.js";
+import { planFile } from "../model/plan_file.js";
+import { byId, setText } from "../ui/dom.js";
+import { saveBlob } from "./downloads.js";
+
+const FINE = 2; // pixels of the picture a pixel of the page, at least
+const FAILED = "This did not work here. Is the service reachable, and the browser recent?";
+
+/** `load` has animation() and page(), which resolve to the modules; `stem()` is the name of files. */
+export function watchSharing(session, stage, load, stem) {
+  const [picture, animation, page] = ["save-picture", "save-animation", "save-page"].map(byId);
+  const note = byId("save-note");
+  const tell = (text) => {
+    note.hidden = text === "";
+    setText(note, text);
+  };
+  /** @type {AbortController | null} */
+  let recording = null;
+  session.on("answer", () => {
+    recording?.abort();
+    picture.disabled = session.request === null;
+    for (const button of [animation, page]) button.disabled = !session.hasPlan;
+  });
+  picture.addEventListener("click", () => savePicture(stage, stem()));
+  page.addEventListener("click", async () => {
+    const made = await load.page().then(
+      (loaded) => pageOf(loaded, session),
+      () => null,
+    );
+    tell(made === null ? FAILED : "");
+    if (made !== null) saveBlob(`${stem()}.html`, new Blob([made], { type: "text/html" }));
+  });
+  animation.addEventListener("click", async () => {
+    if (recording !== null) {
+      recording.abort();
+      return;
+    }
+    recording = new AbortController();
+    const label = animation.firstChild;
+    const words = label.textContent;
+    const progress = (share) => (label.textContent = `Recording, ${Math.round(share * 100)} %: stop `);
+    const recorded = await load.animation().then(
+      ({ canRecord, recordPlan }) =>
+        canRecord() ? recordPlan(session, stage, recording?.signal, progress) : undefined,
+      () => undefined,
+    );
+    recording = null;
+    label.textContent = words;
+    tell(recorded === undefined ? FAILED : "");
+    if (recorded) saveBlob(`${stem()}.webm`, recorded);
+  });
+}
+
+function pageOf({ sharedPage }, { name, request, answer }) {
+  const rows = Array.isArray(request.map?.rows) ? null : asRows(request.map);
+  return sharedPage(name, planFile(request, answer), rows);
+}
+
+/** Saves the scene as it is seen, with at least twice the pixels of the page. */
+function savePicture(stage, stem) {
+  stage.paint(Math.max(FINE, window.devicePixelRatio || 1)); // with all pending changes
+  stage.canvas.toBlob((blob) => saveBlob(`${stem}.png`, blob), "image/png");
+  stage.paint();
+}
