@@ -13,6 +13,8 @@ FinerVertices::FinerVertices(int first, std::vector<Position> positions, std::ve
   std::sort(links_.begin(), links_.end());
   links_.erase(std::unique(links_.begin(), links_.end()), links_.end());
   links_.shrink_to_fit();
+  linked_.resize(static_cast<std::size_t>(first + count()));
+  for (const Link& link : links_) linked_[static_cast<std::size_t>(link.first)] = true;
   by_x_.resize(positions_.size());
   std::iota(by_x_.begin(), by_x_.end(), first);
   std::sort(by_x_.begin(), by_x_.end(), [&](int a, int b) {
@@ -22,6 +24,7 @@ FinerVertices::FinerVertices(int first, std::vector<Position> positions, std::ve
 }
 
 std::span<const FinerVertices::Link> FinerVertices::links_from(int vertex) const {
+  if (!linked_[static_cast<std::size_t>(vertex)]) return {};
   const auto begin = std::lower_bound(links_.begin(), links_.end(), Link{vertex, -1});
   auto end = begin;
   while (end != links_.end() && end->first == vertex) ++end;

@@ -30,7 +30,7 @@ class FinerVertices {
   std::span<const Link> links() const { return links_; }
   std::size_t bytes() const {
     return positions_.capacity() * sizeof(Position) + links_.capacity() * sizeof(Link) +
-           by_x_.capacity() * sizeof(int);
+           linked_.capacity() / 8 + by_x_.capacity() * sizeof(int);
   }
   /// Finer vertices within `distance` metres of a position, ascending.
   std::vector<int> near(const Position& position, double distance) const;
@@ -38,8 +38,9 @@ class FinerVertices {
  private:
   int first_ = 0;
   std::vector<Position> positions_;
-  std::vector<Link> links_;  // ascending
-  std::vector<int> by_x_;    // vertices
+  std::vector<Link> links_;   // ascending
+  std::vector<bool> linked_;  // by vertex, whether it has links
+  std::vector<int> by_x_;     // vertices
 };
 
 }  // namespace fleetplan::core

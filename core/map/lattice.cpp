@@ -27,6 +27,11 @@ std::vector<Lattice::Step> neighbourhood(int connectivity) {
   return steps;
 }
 
+/// The angle between the first two moves is the largest of all.
+double cosine_of_half(const Lattice::Step& second) {
+  return std::cos(0.5 * std::atan2(second.rows, second.columns));
+}
+
 }  // namespace
 
 Lattice::Lattice(const OccupancyGrid& grid, int connectivity)
@@ -37,6 +42,7 @@ Lattice::Lattice(const OccupancyGrid& grid, int connectivity, double spacing)
       rows_(static_cast<int>(vertices_along(grid.height(), spacing))),
       spacing_(spacing),
       steps_(neighbourhood(connectivity)),
+      least_straight_(cosine_of_half(steps_[1])),
       table_columns_(std::min(columns_, kMaxTableSize)),
       table_rows_(std::min(rows_, kMaxTableSize)) {
   first_quadrant_.reserve(static_cast<std::size_t>(table_columns_) * static_cast<std::size_t>(table_rows_));

@@ -48,6 +48,9 @@ class Lattice {
   double spacing() const { return spacing_; }
   int vertex_count() const { return columns_ * rows_; }
   std::span<const Step> steps() const { return steps_; }
+  /// The length of a straight line by that of lattice moves between its ends, at least, without obstacles:
+  /// the cosine of half the angle between neighbouring moves.
+  double least_straight() const { return least_straight_; }
 
   Position position(int vertex) const {
     const int column = vertex % columns_;
@@ -85,6 +88,7 @@ class Lattice {
   int rows_;
   double spacing_;
   std::vector<Step> steps_;
+  double least_straight_;
   // Heading and length of displacements by fewer columns and rows than these; by row, then column.
   int table_columns_;
   int table_rows_;

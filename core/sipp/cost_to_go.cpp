@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <queue>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
 #include "core/map/paged_array.h"
+#include "core/sipp/start_distances.h"
 #include "core/sipp/vertices.h"
 
 namespace fleetplan::core {
@@ -26,13 +28,12 @@ class CostToGo::BackwardSearch {
         vertices_(vertices),
         goal_(vertices.goals()[goal].vertex),
         goal_heading_(vertices.goals()[goal].heading),
-        start_(goal == 0 ? vertices.start_pose().position
-                         : vertices.position(vertices.goals()[goal - 1].vertex)),
+        start_(goal == 0 ? vertices.start() : vertices.goals()[goal - 1].vertex),
+        start_position_(vertices.position(start_)),
+        from_start_(vertices, start_, goal_),
+        shortening_(vertices.any_angle() ? 0.5 * (1.0 + vertices.least_straight()) : 1.0),
         nodes_(static_cast<std::size_t>(vertices.count())),
-        reverse_seconds_(motion_.may_reverse ? static_cast<std::size_t>(vertices.count()) : 0) {
-    node(goal_).state = State::closed;
-    relax_neighbours(goal_, goal_);
-  }
+        reverse_seconds_(motion_.may_reverse ? static_cast<std::size_t>(vertices.count()) : 0) {}
 
   Estimate from(int vertex, const StopCondition& stop) {
     Estimate straight;
@@ -42,6 +43,7 @@ class CostToGo::BackwardSearch {
       straight.straight = true;
       if (!is_slowed(vertex, goal_)) return straight;
     }
+    begin(stop);
     const Node& n = node(vertex);
     for (int step = 0; n.state != State::closed; ++step) {
       if (open_.empty()) return straight;
@@ -54,6 +56,8 @@ class CostToGo::BackwardSearch {
 
   std::optional<bool> reaches(int vertex, std::int64_t max_expansions, const StopCondition& stop) {
     if (vertices_.any_angle() && goal_in_sight(vertex)) return true;
+    if (vertex == start_) return from_start_.reach_goal(max_expansions, stop);
+    begin(stop);
     const Node& n = node(vertex);
     const std::int64_t last = expansions_ + max_expansions;
     while (n.state != State::closed) {
@@ -64,8 +68,8 @@ class CostToGo::BackwardSearch {
     return n.seconds < kForever;
   }
 
-  std::int64_t expansions() const { return expansions_; }
-  std::size_t bytes() const { return nodes_.bytes() + reverse_seconds_.bytes(); }
+  std::int64_t expansions() const { return expansions_ + from_start_.expansions(); }
+  std::size_t bytes() const { return nodes_.bytes() + reverse_seconds_.bytes() + from_start_.bytes(); }
 
  private:
   enum class State : std::uint8_t { unseen, open, closed };
@@ -91,6 +95,8 @@ class CostToGo::BackwardSearch {
   /// Of a vertex that was reached.
   double least(const Node& node, int vertex) { return std::min(node.seconds, reverse_seconds(vertex)); }
   void set(Node& node, int vertex, int next, const Estimate& estimate);
+  void begin(const StopCondition& stop);
+  double seconds_from_start(int vertex);
   Estimate via(int vertex, int next);
   void add_onward(Estimate& estimate, int next);
   bool goal_in_sight(int vertex);
@@ -104,12 +110,30 @@ class CostToGo::BackwardSearch {
   const Vertices& vertices_;
   const int goal_;
   const std::optional<double> goal_heading_;
-  const Position start_;  // or the goal before; the search is directed there
+  const int start_;  // or the goal before; the search is directed there
+  const Position start_position_;
+  StartDistances from_start_;
+  const double shortening_;  // of lattice moves by any-angle ones: the mean of none and of the most
   PagedArray<Node> nodes_;
   PagedArray<double> reverse_seconds_;  // see Estimate; of a robot that may reverse
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
   std::int64_t expansions_ = 0;
+  bool has_begun_ = false;
 };
+
+void CostToGo::BackwardSearch::begin(const StopCondition& stop) {
+  if (has_begun_) return;
+  has_begun_ = true;
+  from_start_.reach_goal(std::numeric_limits<std::int64_t>::max(), stop);
+  node(goal_).state = State::closed;
+  relax_neighbours(goal_, goal_);
+}
+
+/// About the seconds that translations from the start to a vertex take, at least.
+double CostToGo::BackwardSearch::seconds_from_start(int vertex) {
+  const double straight = (vertices_.position(vertex) - start_position_).norm();
+  return motion_.translation_time(std::max(straight, shortening_ * from_start_.at_least(vertex)));
+}
 
 /// The cost from `vertex` with a first translation straight to `next`, which is closed or the goal.
 CostToGo::Estimate CostToGo::BackwardSearch::via(int vertex, int next) {
@@ -178,8 +202,7 @@ void CostToGo::BackwardSearch::relax(int vertex, int next) {
   if (n.state == State::open && estimate.least() >= least(n, vertex)) return;
   n.state = State::open;
   set(n, vertex, next, estimate);
-  const double to_start = motion_.translation_time((vertices_.position(vertex) - start_).norm());
-  open_.push({estimate.least() + to_start, estimate.least(), vertex});
+  open_.push({estimate.least() + seconds_from_start(vertex), estimate.least(), vertex});
 }
 
 void CostToGo::BackwardSearch::close(int vertex) {

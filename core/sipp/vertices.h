@@ -39,6 +39,8 @@ class Vertices {
   /// Whether the search may leave the lattice's directions.
   bool any_angle() const { return any_angle_; }
   double spacing() const { return lattice_.spacing(); }
+  /// The length of a straight line by that of lattice moves between its ends, at least.
+  double least_straight() const { return lattice_.least_straight(); }
 
   int count() const { return first_own_ + static_cast<int>(own_.size()); }
   /// -1 if the robot has another radius there.

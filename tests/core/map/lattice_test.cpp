@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -54,6 +55,17 @@ TEST_P(LatticeSteps, AreDistinctAndSymmetric) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Connectivities, LatticeSteps, testing::Values(4, 8, 16, 32));
+
+TEST(Lattice, KnowsHowMuchStraightLinesShortenItsMoves) {
+  const auto least_straight = [](int connectivity) {
+    return Lattice(OccupancyGrid(3, 3, 1.0), connectivity).least_straight();
+  };
+  EXPECT_NEAR(least_straight(4), std::hypot(1.0, 1.0) / 2.0, 1e-12) << "one up and one right";
+  EXPECT_NEAR(least_straight(8), std::cos(std::numbers::pi / 8.0), 1e-12);
+  // As far along (1, 0) as along the next move.
+  EXPECT_NEAR(least_straight(16), std::hypot(std::sqrt(5.0) + 2.0, 1.0) / (2.0 * std::sqrt(5.0)), 1e-12);
+  EXPECT_NEAR(least_straight(32), std::hypot(std::sqrt(10.0) + 3.0, 1.0) / (2.0 * std::sqrt(10.0)), 1e-12);
+}
 
 TEST(Lattice, HasAnotherSpacingThanTheMap) {
   const OccupancyGrid grid(10, 7, 0.1);

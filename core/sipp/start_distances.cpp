@@ -1,0 +1,65 @@
+#include "core/sipp/start_distances.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/sipp/vertices.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Expansions between two checks of the stop condition.
+constexpr std::int64_t kCheckStride = 256;
+
+}  // namespace
+
+StartDistances::StartDistances(const Vertices& vertices, int start, int goal)
+    : vertices_(vertices),
+      goal_(goal),
+      goal_position_(vertices.position(goal)),
+      lengths_(static_cast<std::size_t>(vertices.count())) {
+  open(start, 0.0F);
+}
+
+std::optional<bool> StartDistances::reach_goal(std::int64_t max_expansions, const StopCondition& stop) {
+  for (std::int64_t count = 0; !reached_goal_; ++count) {
+    if (open_.empty()) return false;
+    if (count >= max_expansions || (count % kCheckStride == 0 && stop.met())) return std::nullopt;
+    ++expansions_;
+    const Open best = open_.top();
+    open_.pop();
+    if (best.length > length(best.vertex)) continue;
+    reached_goal_ = best.vertex == goal_;
+    if (!reached_goal_) expand(best);
+  }
+  open_ = {};
+  return true;
+}
+
+void StartDistances::expand(const Open& best) {
+  const Position here = vertices_.position(best.vertex);
+  vertices_.for_each_neighbour(best.vertex, [&](int neighbour) {
+    if (!vertices_.allow(best.vertex, neighbour)) return;
+    const double move = (vertices_.position(neighbour) - here).norm();
+    const auto through = static_cast<float>(best.length + move);
+    if (through < length(neighbour)) open(neighbour, through);
+  });
+}
+
+void StartDistances::open(int vertex, float length) {
+  this->length(vertex) = length;
+  open_.push({static_cast<float>(length + to_goal(vertex)), length, vertex});
+}
+
+double StartDistances::to_goal(int vertex) const {
+  return (vertices_.position(vertex) - goal_position_).norm();
+}
+
+/// No way to the goal is shorter than the one found, so a vertex off it is at least so far from the start
+/// that a straight line to the goal makes it as long.
+double StartDistances::at_least(int vertex) {
+  if (!reached_goal_) return 0.0;
+  return std::clamp<double>(length(goal_) - to_goal(vertex), 0.0, length(vertex));
+}
+
+}  // namespace fleetplan::core
