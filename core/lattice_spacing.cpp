@@ -9,7 +9,7 @@ namespace fleetplan::core {
 namespace {
 
 /// Cells are fine if the smallest radius is at least so many of them.
-constexpr double kFineCells = 5.0 * (1.0 - 1e-9);
+constexpr double kFineCells = 4.0 * (1.0 - 1e-9);
 /// In units of the smallest radius; see docs/method.md.
 constexpr double kLargestSpacing = 1.0;
 

@@ -110,9 +110,8 @@ constexpr std::array<OptionRow, 20> kTable{{
      "plans the others."},
     {"lattice_spacing", "Lattice spacing", "m", ChosenOption{kLength, &PlanOptions::lattice_spacing},
      "Metres between the points at which robots may stop besides their starts and goals. By default, the "
-     "resolution of the map; on a map finer than a fifth of the smallest radius, about that radius. "
-     "Clearance "
-     "to obstacles is exact in any case."},
+     "resolution of the map; on a map whose cells are at most a quarter of the smallest radius, about that "
+     "radius. Clearance to obstacles is exact in any case."},
     {"dependencies", "Dependencies", "", AnswerBooleanOption{&ReadOptions::dependencies},
      "Adds `dependencies` and `tight` to the answer: what robots must ask of each other so that they can "
      "execute the plan at their own pace. See docs/execution.md."},

@@ -79,9 +79,7 @@ bool Polygon::comes_near(const Position& from, const Position& to, double distan
 }
 
 std::vector<Polygon::Span> Polygon::spans_inside(const Position& from, const Position& to) const {
-  const Position low = from.cwiseMin(to);
-  const Position high = from.cwiseMax(to);
-  if (high_.x() < low.x() || high_.y() < low.y() || low_.x() > high.x() || low_.y() > high.y()) return {};
+  if (!box_meets(from, to)) return {};
   const Position way = to - from;
   // Where the line of the segment enters and leaves, in turns. A corner on the line counts to its left.
   std::vector<double> crossings;

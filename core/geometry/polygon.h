@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -20,6 +21,12 @@ class Polygon {
 
   /// Whether a point is inside, by the even-odd rule. Either answer is possible on the border.
   bool contains(const Position& point) const;
+  /// Whether the bounding boxes of the polygon and of the segment between two points (possibly equal) have a
+  /// point in common.
+  bool box_meets(const Position& a, const Position& b) const {
+    return std::min(a.x(), b.x()) <= high_.x() && std::max(a.x(), b.x()) >= low_.x() &&
+           std::min(a.y(), b.y()) <= high_.y() && std::max(a.y(), b.y()) >= low_.y();
+  }
   /// Whether some point of the segment from `from` to `to` (possibly equal) is nearer than `distance` (> 0,
   /// metres) to the polygon.
   bool comes_near(const Position& from, const Position& to, double distance) const;

@@ -78,10 +78,10 @@ DriveZones::DriveZones(const std::vector<Zone>& zones, std::size_t robot, const 
 }
 
 std::optional<std::size_t> DriveZones::that_forbids(const Position& from, const Position& to) const {
-  if (one_way_.empty()) return std::nullopt;
   const Position way = to - from;
-  const double direction = std::atan2(way.y(), way.x());
   for (const OneWayZone& zone : one_way_) {
+    if (!zone.polygon.box_meets(from, to)) continue;
+    const double direction = std::atan2(way.y(), way.x());
     if (angle_between(normalize_angle(direction), zone.heading) <= zone.half_angle + kSameHeading) continue;
     if (!zone.polygon.spans_inside(from, to).empty()) return zone.index;
   }
@@ -146,18 +146,29 @@ std::vector<DriveZones::Piece> DriveZones::pieces(const Position& from, const Po
 }
 
 double DriveZones::translation_time(const Position& from, const Position& to) const {
+  if (!meets_speed_zone(from, to)) return (to - from).norm() / linear_speed_;
   return pieces(from, to).back().end;
 }
 
-double DriveZones::angular_speed_at(const Position& position) const {
-  double least = angular_speed_;
+bool DriveZones::meets_speed_zone(const Position& from, const Position& to) const {
+  return std::any_of(speed_.begin(), speed_.end(),
+                     [&](const SpeedZone& zone) { return zone.polygon.box_meets(from, to); });
+}
+
+DriveZones::Speeds DriveZones::speeds_at(const Position& position) const {
+  Speeds least{linear_speed_, angular_speed_};
   for (const SpeedZone& zone : speed_) {
-    if (zone.angular_speed < least && zone.polygon.contains(position) &&
-        zone.polygon.distance_to_border(position) > kSamePosition) {
-      least = zone.angular_speed;
+    if (!zone.polygon.box_meets(position, position) || !zone.polygon.contains(position) ||
+        zone.polygon.distance_to_border(position) <= kSamePosition) {
+      continue;
     }
+    least = {std::min(least.linear, zone.linear_speed), std::min(least.angular, zone.angular_speed)};
   }
   return least;
 }
+
+double DriveZones::linear_speed_at(const Position& position) const { return speeds_at(position).linear; }
+
+double DriveZones::angular_speed_at(const Position& position) const { return speeds_at(position).angular; }
 
 }  // namespace fleetplan::core

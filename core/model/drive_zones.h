@@ -44,6 +44,8 @@ class DriveZones {
   /// direction, or an action that is faster than it allows.
   std::optional<std::size_t> broken_by(const Action& action) const;
 
+  /// The greatest linear speed at a position, metres per second.
+  double linear_speed_at(const Position& position) const;
   /// The greatest angular speed at a position, radians per second.
   double angular_speed_at(const Position& position) const;
   /// The least of these anywhere.
@@ -62,6 +64,14 @@ class DriveZones {
     double heading = 0.0;
     double half_angle = 0.0;
   };
+
+  struct Speeds {
+    double linear;
+    double angular;
+  };
+
+  bool meets_speed_zone(const Position& from, const Position& to) const;
+  Speeds speeds_at(const Position& position) const;
 
   double linear_speed_;
   double angular_speed_;

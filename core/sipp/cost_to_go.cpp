@@ -10,7 +10,7 @@
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
 #include "core/map/paged_array.h"
-#include "core/sipp/start_distances.h"
+#include "core/sipp/times_from_start.h"
 #include "core/sipp/vertices.h"
 
 namespace fleetplan::core {
@@ -112,7 +112,7 @@ class CostToGo::BackwardSearch {
   const std::optional<double> goal_heading_;
   const int start_;  // or the goal before; the search is directed there
   const Position start_position_;
-  StartDistances from_start_;
+  TimesFromStart from_start_;
   const double shortening_;  // of lattice moves by any-angle ones: the mean of none and of the most
   PagedArray<Node> nodes_;
   PagedArray<double> reverse_seconds_;  // see Estimate; of a robot that may reverse
@@ -131,8 +131,8 @@ void CostToGo::BackwardSearch::begin(const StopCondition& stop) {
 
 /// About the seconds that translations from the start to a vertex take, at least.
 double CostToGo::BackwardSearch::seconds_from_start(int vertex) {
-  const double straight = (vertices_.position(vertex) - start_position_).norm();
-  return motion_.translation_time(std::max(straight, shortening_ * from_start_.at_least(vertex)));
+  const double straight = motion_.translation_time((vertices_.position(vertex) - start_position_).norm());
+  return std::max(straight, shortening_ * from_start_.at_least(vertex));
 }
 
 /// The cost from `vertex` with a first translation straight to `next`, which is closed or the goal.

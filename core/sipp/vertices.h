@@ -80,6 +80,10 @@ class Vertices {
     return limit_speeds() ? angle_between(from, to) / zones_->angular_speed_at(position(vertex))
                           : motion_.rotation_time(from, to);
   }
+  /// The greatest linear speed at a vertex, metres per second.
+  double linear_speed(int vertex) const {
+    return limit_speeds() ? zones_->linear_speed_at(position(vertex)) : motion_.linear_speed;
+  }
   bool limit_speeds() const { return zones_ != nullptr && zones_->limit_speeds(); }
   /// Returns whether the one-way zones allow the straight move.
   bool allow(int from, int to) const {

@@ -18,10 +18,11 @@ double chosen(double resolution, double radius, const PlanOptions& options = {})
 
 TEST(LatticeSpacing, IsTheResolutionUnlessCellsAreSmall) {
   EXPECT_EQ(chosen(1.0, 0.3), 1.0);
-  EXPECT_EQ(chosen(0.1, 0.49), 0.1);
+  EXPECT_EQ(chosen(0.1, 0.39), 0.1);
 }
 
 TEST(LatticeSpacing, IsAnOddNumberOfSmallCellsWithinTheRadius) {
+  EXPECT_DOUBLE_EQ(chosen(0.05, 0.2), 0.15);
   EXPECT_DOUBLE_EQ(chosen(0.05, 0.25), 0.25);
   EXPECT_DOUBLE_EQ(chosen(0.05, 0.3), 0.25);
   EXPECT_DOUBLE_EQ(chosen(0.05, 0.36), 0.35);

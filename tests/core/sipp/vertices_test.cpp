@@ -72,8 +72,10 @@ TEST(Vertices, AddsAStartOnTheLatticeThatIsTooNearToAWall) {
 }
 
 TEST(Vertices, LinksAStartThatIsTooNearFarEnoughToBeClear) {
+  PlanOptions options = inflated(0.1);
+  options.lattice_spacing = 0.1;
   const Planning p(OccupancyGrid(80, 80, 0.1), {robot_at(4.05, 4.05).to(7.5, 7.5), robot_at(4.9, 4.05)},
-                   inflated(0.1));
+                   options);
   const Vertices vertices(p.instance, 0);
   ASSERT_GE(vertices.start(), 6400);
   double farthest = 0.0;
