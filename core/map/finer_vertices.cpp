@@ -13,8 +13,9 @@ FinerVertices::FinerVertices(int first, std::vector<Position> positions, std::ve
   std::sort(links_.begin(), links_.end());
   links_.erase(std::unique(links_.begin(), links_.end()), links_.end());
   links_.shrink_to_fit();
-  linked_.resize(static_cast<std::size_t>(first + count()));
-  for (const Link& link : links_) linked_[static_cast<std::size_t>(link.first)] = true;
+  blocks_.resize(block_of(first + count()) + 2);
+  for (const Link& link : links_) ++blocks_[block_of(link.first) + 1];
+  std::partial_sum(blocks_.begin(), blocks_.end(), blocks_.begin());
   by_x_.resize(positions_.size());
   std::iota(by_x_.begin(), by_x_.end(), first);
   std::sort(by_x_.begin(), by_x_.end(), [&](int a, int b) {
@@ -24,10 +25,13 @@ FinerVertices::FinerVertices(int first, std::vector<Position> positions, std::ve
 }
 
 std::span<const FinerVertices::Link> FinerVertices::links_from(int vertex) const {
-  if (!linked_[static_cast<std::size_t>(vertex)]) return {};
-  const auto begin = std::lower_bound(links_.begin(), links_.end(), Link{vertex, -1});
+  if (links_.empty()) return {};
+  const std::size_t block = block_of(vertex);
+  auto begin = links_.begin() + blocks_[block];
+  const auto last = links_.begin() + blocks_[block + 1];
+  while (begin != last && begin->first < vertex) ++begin;
   auto end = begin;
-  while (end != links_.end() && end->first == vertex) ++end;
+  while (end != last && end->first == vertex) ++end;
   return {begin, end};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -30,17 +31,19 @@ class FinerVertices {
   std::span<const Link> links() const { return links_; }
   std::size_t bytes() const {
     return positions_.capacity() * sizeof(Position) + links_.capacity() * sizeof(Link) +
-           linked_.capacity() / 8 + by_x_.capacity() * sizeof(int);
+           blocks_.capacity() * sizeof(std::int32_t) + by_x_.capacity() * sizeof(int);
   }
   /// Finer vertices within `distance` metres of a position, ascending.
   std::vector<int> near(const Position& position, double distance) const;
 
  private:
+  static std::size_t block_of(int vertex) { return static_cast<std::size_t>(vertex) / 64; }
+
   int first_ = 0;
   std::vector<Position> positions_;
-  std::vector<Link> links_;   // ascending
-  std::vector<bool> linked_;  // by vertex, whether it has links
-  std::vector<int> by_x_;     // vertices
+  std::vector<Link> links_;           // ascending
+  std::vector<std::int32_t> blocks_;  // where the links of 64 vertices begin
+  std::vector<int> by_x_;             // vertices
 };
 
 }  // namespace fleetplan::core

@@ -1,5 +1,7 @@
 #include "core/map/free_space.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -11,7 +13,12 @@ FreeSpace::FreeSpace(const Lattice& lattice, const LineOfSight& sight, double ra
       sight_(sight),
       radius_(radius),
       finer_(finer ? std::move(finer) : std::make_shared<FinerVertices>()),
-      masks_(static_cast<std::size_t>(lattice.vertex_count())) {}
+      masks_(static_cast<std::size_t>(lattice.vertex_count())) {
+  for (const Lattice::Step& step : lattice.steps()) {
+    longest_step_ = std::max(longest_step_, lattice.spacing() * std::hypot(step.columns, step.rows));
+    all_steps_ = all_steps_ << 1 | 1u;
+  }
+}
 
 std::uint32_t FreeSpace::steps_from(int vertex) {
   Mask& cached = masks_[static_cast<std::size_t>(vertex)];
@@ -20,6 +27,10 @@ std::uint32_t FreeSpace::steps_from(int vertex) {
   const int row = vertex / lattice_.columns();
   const Position here = lattice_.position(vertex);
   const double surely_free = sight_.surely_free(here, radius_);
+  if (surely_free >= longest_step_) {  // which is inside the map, hence between vertices
+    cached = {all_steps_, true};
+    return all_steps_;
+  }
   std::uint32_t mask = 0;
   for (std::size_t k = 0; k < lattice_.steps().size(); ++k) {
     const auto [dc, dr] = lattice_.steps()[k];

@@ -46,6 +46,8 @@ class FreeSpace {
   const LineOfSight& sight_;
   double radius_;
   std::shared_ptr<const FinerVertices> finer_;
+  double longest_step_ = 0.0;    // metres
+  std::uint32_t all_steps_ = 0;  // bits
   PagedArray<Mask> masks_;
 };
 

@@ -26,7 +26,7 @@ constexpr std::int64_t kOffLatticeSteps = 50'000;
 /// A lattice has every way that is wider than the robot by this many spacings.
 constexpr double kWidestCells = 3.0;
 /// Expansions of a search on the map before Enclosure is asked.
-constexpr std::int64_t kFirstExpansions = 1024;
+constexpr std::int64_t kFirstExpansions = 16'384;
 
 std::vector<double> radii(const Instance& instance) {
   std::vector<double> radii;

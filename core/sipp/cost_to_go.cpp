@@ -18,6 +18,9 @@ namespace {
 
 /// Expansions between two checks of the stop condition.
 constexpr int kStopStride = 64;
+/// Of what any-angle moves shorten lattice moves at most, so much is expected. With none, ways cost up to
+/// 0.3 % more in offices; with all of it, the search takes more than twice as many expansions.
+constexpr double kShortened = 0.25;
 
 }  // namespace
 
@@ -31,7 +34,7 @@ class CostToGo::BackwardSearch {
         start_(goal == 0 ? vertices.start() : vertices.goals()[goal - 1].vertex),
         start_position_(vertices.position(start_)),
         from_start_(vertices, start_, goal_),
-        shortening_(vertices.any_angle() ? 0.5 * (1.0 + vertices.least_straight()) : 1.0),
+        shortening_(vertices.any_angle() ? 1.0 - kShortened * (1.0 - vertices.least_straight()) : 1.0),
         nodes_(static_cast<std::size_t>(vertices.count())),
         reverse_seconds_(motion_.may_reverse ? static_cast<std::size_t>(vertices.count()) : 0) {}
 
@@ -113,7 +116,7 @@ class CostToGo::BackwardSearch {
   const int start_;  // or the goal before; the search is directed there
   const Position start_position_;
   TimesFromStart from_start_;
-  const double shortening_;  // of lattice moves by any-angle ones: the mean of none and of the most
+  const double shortening_;  // of lattice moves by any-angle ones
   PagedArray<Node> nodes_;
   PagedArray<double> reverse_seconds_;  // see Estimate; of a robot that may reverse
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;

@@ -121,6 +121,7 @@ bool Vertices::may_move(const OwnVertex& own, const Position& to, double radius)
 }
 
 bool Vertices::linked(const OwnVertex& own, int vertex) {
+  if (own.links.empty() || vertex < own.links.front() || vertex > own.links.back()) return false;
   return std::binary_search(own.links.begin(), own.links.end(), vertex);
 }
 

@@ -106,9 +106,7 @@ class Vertices {
       if ((mask & 1u) != 0)
         visit(vertex + lattice_.steps()[k].rows * lattice_.columns() + lattice_.steps()[k].columns);
     }
-    if (!finer_.links().empty()) {
-      for (const auto& [from, to] : finer_.links_from(vertex)) visit(to);
-    }
+    for (const auto& [from, to] : finer_.links_from(vertex)) visit(to);
     for (std::size_t k = 0; k < own_.size(); ++k) {
       if (linked(own_[k], vertex)) visit(first_own_ + static_cast<int>(k));
     }
