@@ -1,5 +1,4 @@
-// The service's check (POST /v1/validate): of an edited request, soon after each edit, and its violations in
-// words. No DOM; the service is passed in.
+// The service's check (POST /v1/validate): of an opened or edited request, and its violations in words. No DOM; the service is passed in.
 
 import { robotsOf } from "./edit_request.js";
 import { goalsOf, lastGoalOf, lastGoalPlace } from "./goals.js";
@@ -94,25 +93,25 @@ export function placementErrors(request, violations, pose) {
 const inMetres = (value) => `${Number(value.toFixed(4))} m`;
 
 /**
- * Checks the session's request when there was no edit for `rest` milliseconds. `validate(text)`: see
- * service/client.js.
+ * Checks the session's request at once when it is opened, unless it is an example, and after edits, when there was none
+ * for `rest` milliseconds. `validate(text)`: see service/client.js.
  */
-export function watchEdits(session, validate, rest = REST_MS) {
+export function watchRequest(session, validate, rest = REST_MS) {
   let timer = null;
   session.on("request", ({ opened }) => {
     clearTimeout(timer);
-    if (!opened || session.edited) timer = setTimeout(() => judge(session, validate), rest);
+    if (session.example !== null) return;
+    timer = setTimeout(() => judge(session, validate, opened && !session.edited), opened ? 0 : rest);
   });
 }
 
-async function judge(session, validate) {
+async function judge(session, validate, opened) {
+  const isOpen = () => session.planning === null && (session.answer === null || session.outdated !== null);
+  if (!isOpen()) return; // planning, or the check of an opened plan, finds the same faults
   const { turn } = session;
   const problem = await problemOf(session.request, validate);
-  const stillShown =
-    turn === session.turn &&
-    session.planning === null &&
-    (session.answer === null || session.outdated !== null);
-  if (stillShown) session.setProblem(problem);
+  if (turn !== session.turn || !isOpen()) return;
+  if (problem !== null || !opened) session.setProblem(problem); // others, such as of a lost connection, stay
 }
 
 /** The problem of a request, or null. */

@@ -1,15 +1,16 @@
 // The problem card, and its errors at their places: robots and rows in the scene, fields in the panels.
 // Pressing a listed error leads to its place.
 
-import { nameOf, robotsOf } from "../model/edit_request.js";
-import { goalAt } from "../model/goals.js";
-import { mapRowOf, partsOf, robotIndexOf } from "../model/problem.js";
+import { nameOf } from "../model/edit_request.js";
+import { diskOf, groupFaults, placeOfFault } from "../model/faults.js";
+import { mapRowOf, robotIndexOf } from "../model/problem.js";
 import { markRow, markWrong } from "../scene/marks.js";
 import { byId, element } from "../ui/dom.js";
 import { fieldOf, showFieldErrors } from "../ui/field_errors.js";
 import { count } from "../ui/format.js";
 
 const FORMS = ["panel-edit", "panel-options"];
+const LEADING = /^\/(robots\/\d|robot_defaults|map|options)/; // what has fields in the forms
 const MOST_ERRORS = 100; // to list
 
 /**
@@ -31,7 +32,7 @@ export function watchProblem(session, stage, tabs, choice, loadOptions) {
 
   stage.addOverlay((context, view) => {
     for (const { pointer = "" } of errors()) {
-      const disk = diskOf(session, pointer);
+      const disk = diskOf(session.request, session.scene, pointer);
       const row = mapRowOf(pointer);
       if (row !== null && session.scene.grid) markRow(context, view, session.scene.grid, row);
       if (disk) markWrong(context, view, disk, disk.radius);
@@ -41,14 +42,17 @@ export function watchProblem(session, stage, tabs, choice, loadOptions) {
   const lead = async (pointer) => {
     if (isAboutOptions({ pointer })) await loadOptions();
     const index = robotIndexOf(pointer);
-    const disk = diskOf(session, pointer);
+    const place = placeOfFault(session.request, session.scene, pointer);
     if (index !== null) choice.choose(index);
-    if (disk) stage.reveal(disk);
+    if (place) stage.reveal(place);
     refresh();
     const form = forms.find((each) => fieldOf(each, pointer) !== null);
     if (form) focusOn(fieldOf(form, pointer), tabs);
   };
-  session.on("problem", () => showProblem(session.problem, session.request, lead));
+  const leads = (pointer) =>
+    LEADING.test(pointer) || placeOfFault(session.request, session.scene, pointer) !== null;
+  const listed = (problem) => errorList(problem, session.request, { lead, leads });
+  session.on("problem", () => showProblem(session.problem, listed));
 }
 
 const isAboutOptions = ({ pointer = "" }) => pointer.startsWith("/options");
@@ -62,24 +66,12 @@ function focusOn(field, tabs) {
   control.focus();
 }
 
-/**
- * The disk at the start of the robot that an error points to, or at its goal if it points there: {x, y,
- * radius}, metres; null if there is none. A robot that is too faulty to be drawn may still have one.
- */
-function diskOf({ request, scene }, pointer) {
-  const robot = robotsOf(request)[robotIndexOf(pointer) ?? -1];
-  const pose = goalAt(robot, partsOf(pointer).slice(2)) ?? robot?.start;
-  if (!Number.isFinite(pose?.x) || !Number.isFinite(pose?.y)) return null;
-  const radius = robot.radius ?? request.robot_defaults?.radius;
-  return { x: pose.x, y: pose.y, radius: radius > 0 ? radius : (scene.grid?.resolution ?? 1) / 2 };
-}
-
 /** Scrolls the problem into view on pages longer than the window, as on a phone. */
 export function revealProblem() {
   byId("problem").scrollIntoView({ block: "center" });
 }
 
-function showProblem(problem, request, show) {
+function showProblem(problem, listed) {
   const box = byId("problem");
   box.hidden = problem === null;
   box.replaceChildren();
@@ -89,7 +81,7 @@ function showProblem(problem, request, show) {
   if (problem.retry_after) {
     box.append(element("p", { textContent: `Try again in ${count(problem.retry_after, "second")}.` }));
   }
-  if (problem.errors?.length > 0) box.append(errorList(problem, request, show));
+  if (problem.errors?.length > 0) box.append(listed(problem));
   if (problem.again) box.append(againButton(problem.again));
   if (problem.request_id) {
     box.append(element("p", { class: "request-id", textContent: `Request ${problem.request_id}` }));
@@ -102,21 +94,30 @@ function againButton(again) {
   return button;
 }
 
-function errorList({ errors, errors_total = errors.length }, request, show) {
+/** The errors, each detail once; places lead to where they are: `lead(pointer)`, if there is such, `leads(pointer)`. */
+function errorList({ errors, errors_total = errors.length }, request, { lead, leads }) {
   const list = element("ul", { class: "errors" });
-  for (const { pointer = "", detail } of errors.slice(0, MOST_ERRORS)) {
-    const place = element("button", { type: "button", class: "error", "data-error": pointer });
-    place.append(
-      element("span", { class: "error-place" }, placeInWords(pointer, request)),
-      element("code", { textContent: pointer || "(whole request)" }),
-      element("span", { textContent: detail }),
-    );
-    place.addEventListener("click", () => show(pointer));
-    list.append(element("li", {}, place));
+  for (const { detail, pointers } of groupFaults(errors.slice(0, MOST_ERRORS))) {
+    const places = pointers.map((pointer) => placeButton(pointer, request, leads(pointer) ? lead : null));
+    const text = element("span", { textContent: detail });
+    if (places.length === 1) places[0].append(text);
+    list.append(element("li", {}, ...places, places.length === 1 ? null : text));
   }
   const more = errors_total - Math.min(errors.length, MOST_ERRORS);
   if (more > 0) list.append(element("li", { textContent: `and ${count(more, "more", "more")}` }));
   return list;
+}
+
+/** A place with an error: a button that leads there, or plain if `lead` is null. */
+function placeButton(pointer, request, lead) {
+  const properties = { class: "error", "data-error": pointer };
+  const place = element(lead ? "button" : "div", lead ? { ...properties, type: "button" } : properties);
+  place.append(
+    element("span", { class: "error-place" }, placeInWords(pointer, request)),
+    element("code", { textContent: pointer || "(whole request)" }),
+  );
+  if (lead) place.addEventListener("click", () => lead(pointer));
+  return place;
 }
 
 /** The place that a pointer leads to, in words. */
@@ -128,5 +129,6 @@ function placeInWords(pointer, request) {
   if (pointer.startsWith("/map")) return "Map";
   if (pointer.startsWith("/options")) return "Option";
   if (pointer.startsWith("/obstacles")) return "Obstacle";
+  if (pointer.startsWith("/zones")) return "Zone";
   return "Request";
 }

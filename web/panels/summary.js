@@ -78,8 +78,9 @@ function fact(textContent) {
 
 function badges(answer, check) {
   const outcome = OUTCOMES[answer.status] ?? OUTCOMES.none;
-  const list = element("div", { class: "badges" }, badge(outcome.text, outcome.tone, outcome.path));
   const verified = check?.valid ?? answer.verified ?? null;
+  const [tone, path] = verified === false ? ["", null] : [outcome.tone, outcome.path];
+  const list = element("div", { class: "badges" }, badge(outcome.text, tone, path));
   if (verified) {
     list.append(
       badge("Verified", "good", TICK, "An independent check in continuous time found no collision"),

@@ -7,7 +7,7 @@ import {
   standingAtGoals,
   standingAtStarts,
   violationsAt,
-  watchEdits,
+  watchRequest,
 } from "../../../web/model/checks.js";
 import { ProblemError } from "../../../web/model/problem.js";
 import { Session } from "../../../web/model/session.js";
@@ -111,7 +111,7 @@ async function afterEdit(validate, request = { ...REQUEST, options: { seed: 1 } 
 function watched(validate) {
   const session = new Session({}, () => {});
   const checked = [];
-  watchEdits(session, async (text) => validate(checked.push(JSON.parse(text))), 0);
+  watchRequest(session, async (text) => validate(checked.push(JSON.parse(text))), 0);
   return { session, checked };
 }
 
@@ -151,16 +151,31 @@ test("starts and goals that do not fit are reported together", async () => {
   assert.deepEqual(pointers, ["/robots/0/start", "/robots/0/goal"]);
 });
 
-test("an opened request is not checked, unless undo restored an edit", async () => {
+test("an opened request is checked at once, an unchanged example is not", async () => {
   const { session, checked } = watched(() => FITS);
-  session.open(OPENED);
+  session.open({ ...OPENED, example: "one" });
   await rest();
   assert.equal(checked.length, 0);
   session.edit({ ...REQUEST });
   session.open({ ...OPENED, name: "two" });
   await rest();
-  assert.equal(checked.length, 0);
+  assert.equal(checked.length, 2, "at starts and at goals");
   session.undo();
   await rest();
-  assert.equal(checked.length, 2);
+  assert.equal(checked.length, 4);
+  session.open(OPENED, { plans: [] });
+  await rest();
+  assert.equal(checked.length, 4, "its plan is checked instead");
+});
+
+test("an opened request without faults leaves another problem alone", async () => {
+  const { session } = watched(() => FITS);
+  session.open(OPENED);
+  const problem = { title: "No answer" };
+  session.setProblem(problem);
+  await rest();
+  assert.equal(session.problem, problem);
+  session.edit({ ...REQUEST });
+  await rest();
+  assert.equal(session.problem, null);
 });
