@@ -2,6 +2,7 @@
 
 import { robotsOf } from "./edit_request.js";
 import { goalsOf, lastGoalOf, lastGoalPlace } from "./goals.js";
+import { latestOnly } from "./latest.js";
 import { Follower } from "./motion.js";
 import { ProblemError } from "./problem.js";
 
@@ -97,11 +98,12 @@ const inMetres = (value) => `${Number(value.toFixed(4))} m`;
  * for `rest` milliseconds. `validate(text)`: see service/client.js.
  */
 export function watchRequest(session, validate, rest = REST_MS) {
-  let timer = null;
+  const later = latestOnly();
   session.on("request", ({ opened }) => {
-    clearTimeout(timer);
-    if (session.example !== null) return;
-    timer = setTimeout(() => judge(session, validate, opened && !session.edited), opened ? 0 : rest);
+    later(opened ? 0 : rest, async (signal) => {
+      if (opened && session.example !== null) return;
+      await judge(session, (text) => validate(text, signal), opened && !session.edited);
+    });
   });
 }
 

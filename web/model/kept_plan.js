@@ -4,6 +4,7 @@
 
 import { robotsOf } from "./edit_request.js";
 import { goalsOf } from "./goals.js";
+import { latestOnly } from "./latest.js";
 import { ProblemError } from "./problem.js";
 
 const REST_MS = 350; // without a further edit
@@ -43,12 +44,13 @@ export function brokenBy(violations, { plans, ...request }) {
  * service/client.js.
  */
 export function watchKeptPlan(session, validate, rest = REST_MS) {
-  let timer = null;
+  const later = latestOnly();
   session.on("request", () => {
-    clearTimeout(timer);
-    if (session.outdated !== null) timer = setTimeout(() => judge(session, validate), rest);
+    later(rest, async (signal) => {
+      if (session.outdated !== null) await judge(session, (text) => validate(text, signal));
+    });
   });
-  session.on("planning", () => clearTimeout(timer)); // a new plan replaces it
+  session.on("planning", () => later(0, async () => {})); // a new plan replaces it
 }
 
 async function judge(session, validate) {

@@ -10,6 +10,7 @@ export class PlanRun {
   progress = null; // the latest one
   costs = []; // of each better plan: [{elapsed_ms, flowtime, makespan}]
   incumbent = null; // the text of the best answer so far
+  waiting = null; // seconds after which a busy service is asked again
 
   /** `budget`: the time budget, seconds, or null if unknown; `objective`: see objectiveOf. */
   constructor(budget, objective) {
@@ -24,6 +25,7 @@ export class PlanRun {
 
   record(progress) {
     this.progress = progress;
+    this.waiting = null;
     const { elapsed_ms, best } = progress;
     const least = this.costs.at(-1)?.[this.objective] ?? Infinity;
     if (best !== null && best[this.objective] < least) this.costs.push({ elapsed_ms, ...best });

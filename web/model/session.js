@@ -252,6 +252,7 @@ export class Session {
       const answer = await this.#service.plan(this.text, run.signal, {
         progress: (progress) => this.planning === run && this.#onProgress(progress),
         incumbent: (incumbent) => (run.incumbent = incumbent),
+        waiting: (seconds) => this.planning === run && this.#onWaiting(seconds),
       });
       if (this.planning !== run) return false;
       this.#endPlanning();
@@ -269,6 +270,12 @@ export class Session {
   #onProgress(progress) {
     this.planning?.record(progress);
     this.#signals.emit("planning");
+  }
+
+  #onWaiting(seconds) {
+    if (this.planning) this.planning.waiting = seconds;
+    this.#signals.emit("planning");
+    this.announce(`The service is busy. Planning is tried again in ${seconds} s.`);
   }
 
   #endPlanning() {

@@ -66,6 +66,7 @@ export function describeProgress({ attempt, planned, robots, best }, objective) 
 
 export class PlanningStatus {
   #session;
+  #since = 0; // when planning began, or begins again: of performance.now()
   #elapsed = byId("elapsed");
   #box = byId("planning");
   #bar = byId("budget");
@@ -84,7 +85,7 @@ export class PlanningStatus {
   }
 
   #begin() {
-    const since = performance.now();
+    this.#since = performance.now();
     const { budget } = this.#session.planning;
     this.#elapsed.hidden = this.#box.hidden = false;
     setText(this.#soFar, "");
@@ -93,7 +94,7 @@ export class PlanningStatus {
     this.#bar.max = budget ?? 1;
     const limit = budget === null ? "" : ` of ${budget.toFixed(1)}`;
     const show = () => {
-      const passed = (performance.now() - since) / 1000;
+      const passed = Math.max(0, performance.now() - this.#since) / 1000;
       setText(this.#elapsed, `Planning ${passed.toFixed(1)}${limit} s`);
       this.#bar.value = passed;
     };
@@ -102,7 +103,12 @@ export class PlanningStatus {
   }
 
   #show() {
-    const { progress, costs, objective } = this.#session.planning;
+    const { progress, costs, objective, waiting } = this.#session.planning;
+    if (waiting !== null) {
+      this.#since = performance.now() + waiting * 1000;
+      setText(this.#soFar, `The service is busy. Trying again in ${count(waiting, "second")}.`);
+      return;
+    }
     setText(this.#soFar, describeProgress(progress, objective));
     drawCosts(this.#curve, costs, objective, progress.elapsed_ms);
   }

@@ -4,6 +4,9 @@ import { planFile } from "../model/plan_file.js";
 import { ConnectionLost, ProblemError } from "../model/problem.js";
 
 const PAUSES_MS = [200, 800]; // before the second and the third attempt
+const BUSY = 503;
+const MOST_ATTEMPTS = 6; // at a service that is busy
+const LONGEST_WAIT = 60; // seconds for which a busy service is waited for
 const END_OF_EVENT = /\r?\n\r?\n/;
 
 /** The examples: [{name, title, description, robots, columns, rows}]. */
@@ -23,6 +26,11 @@ export async function fetchLimits() {
   return parseAnswer(await ask("v1/limits"));
 }
 
+/** Whether the service asks for a token, which browsers send by themselves as a password. */
+export async function needsToken() {
+  return (await unlessCut(fetch("v1/limits", { credentials: "omit" }))).status === 401;
+}
+
 /** The OpenAPI document of the service, which describes the options of a request. */
 export async function fetchOpenApi() {
   return parseAnswer(await ask("v1/openapi.json"));
@@ -31,7 +39,7 @@ export async function fetchOpenApi() {
 /**
  * Plans the request, a JSON text. Resolves to the answer; rejects with AbortError when aborted. Meanwhile
  * `listener` gets progress({elapsed_ms, attempt, planned, robots, best}) and incumbent(text), an answer's
- * text, if the service, or a proxy in between, streams events.
+ * text, if the service, or a proxy in between, streams events; and waiting(seconds) while the service is busy.
  */
 export async function plan(requestText, signal, listener) {
   return stream("v1/plan", requestText, signal, listener, "plan");
@@ -55,28 +63,24 @@ export async function dependencies(request, answer) {
 
 /** Posts a text; resolves to the answer, or to the data of the event `last` if the service streams events. */
 async function stream(address, body, signal, listener, last) {
-  const response = await send(address, {
-    method: "POST",
-    headers: {
-      "Content-Type": "application/json",
-      Accept: "text/event-stream, application/json;q=0.9",
-    },
-    body,
-    signal,
-  });
+  const headers = {
+    "Content-Type": "application/json",
+    Accept: "text/event-stream, application/json;q=0.9",
+  };
+  const response = await send(address, { method: "POST", headers, body, signal }, listener.waiting);
   const streams = response.headers.get("Content-Type")?.startsWith("text/event-stream");
   return parseAnswer(await unlessCut(streams ? lastEvent(response, listener, last) : response.text()));
 }
 
-/** The service's check of a plan file's text: {valid, violations, min_clearance}. */
-export async function validate(text) {
-  return post("v1/validate", text);
+/** The service's check of a plan file's text: {valid, violations, min_clearance}; `signal` may abort it. */
+export async function validate(text, signal = undefined) {
+  return post("v1/validate", text, signal);
 }
 
 /** The answer to a text. */
-async function post(address, body) {
+async function post(address, body, signal = undefined) {
   const headers = { "Content-Type": "application/json" };
-  const response = await send(address, { method: "POST", headers, body });
+  const response = await send(address, { method: "POST", headers, body, signal });
   return parseAnswer(await unlessCut(response.text()));
 }
 
@@ -95,22 +99,43 @@ async function lastEvent(response, listener, last) {
 
 /** The text at an address, asked for again a few times while the connection fails. */
 async function ask(address) {
-  for (const pause of PAUSES_MS) {
+  for (const milliseconds of PAUSES_MS) {
     try {
       return await unlessCut((await send(address)).text());
     } catch (error) {
       if (!(error instanceof ConnectionLost)) throw error;
-      await new Promise((resolve) => setTimeout(resolve, pause));
+      await pause(milliseconds);
     }
   }
   return unlessCut((await send(address)).text());
 }
 
-/** The response; rejects with ProblemError if it is an error. */
-async function send(address, init) {
-  const response = await unlessCut(fetch(address, init));
-  if (!response.ok) throw new ProblemError(readProblem(response, await unlessCut(response.text())));
-  return response;
+/**
+ * The response; rejects with ProblemError if it is an error. A busy service is asked again when it says; `onWait(seconds)`
+ * is called before.
+ */
+async function send(address, init = {}, /** @type {(seconds: number) => void} */ onWait = () => {}) {
+  for (let attempt = 1; ; attempt += 1) {
+    const response = await unlessCut(fetch(address, init));
+    if (response.ok) return response;
+    const problem = readProblem(response, await unlessCut(response.text()));
+    const isBusy = response.status === BUSY && problem.retry_after <= LONGEST_WAIT;
+    if (!isBusy || attempt === MOST_ATTEMPTS) throw new ProblemError(problem);
+    onWait(problem.retry_after);
+    await pause(problem.retry_after * 1000, init.signal);
+  }
+}
+
+/** Resolves after a time; rejects as `signal`, if there is one, is aborted. */
+function pause(milliseconds, signal) {
+  return new Promise((resolve, reject) => {
+    signal?.throwIfAborted();
+    const timer = setTimeout(resolve, milliseconds);
+    signal?.addEventListener("abort", () => {
+      clearTimeout(timer);
+      reject(signal.reason);
+    });
+  });
 }
 
 async function unlessCut(receiving) {

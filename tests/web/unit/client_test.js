@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { readEvents } from "../../../web/service/client.js";
+import { ProblemError } from "../../../web/model/problem.js";
+import { plan, readEvents } from "../../../web/service/client.js";
 
 /** The events of a text that arrives in pieces of this many bytes. */
 async function eventsOf(text, size = Infinity) {
@@ -55,4 +56,54 @@ test("a reader that stops cancels the stream", async () => {
     break;
   }
   assert.equal(cancelled, true);
+});
+
+/** Calls steps(requests) while fetch is answered by one response after the other: {status, retry_after, answer}. */
+async function answering(responses, steps) {
+  const whole = globalThis.fetch;
+  const requests = [];
+  globalThis.fetch = async (address) => {
+    requests.push(address);
+    const { status, retry_after, answer } = responses[Math.min(requests.length, responses.length) - 1];
+    const headers = retry_after === undefined ? {} : { "Retry-After": String(retry_after) };
+    return new Response(JSON.stringify(answer ?? { title: "Service Unavailable" }), { status, headers });
+  };
+  try {
+    await steps(requests);
+  } finally {
+    globalThis.fetch = whole;
+  }
+}
+
+test("a busy service is asked again when it says", async () => {
+  const busy = { status: 503, retry_after: 0.01 };
+  await answering([busy, busy, { status: 200, answer: { plans: [] } }], async (requests) => {
+    const waits = [];
+    const listener = { waiting: (seconds) => waits.push(seconds) };
+    assert.deepEqual(await plan("{}", undefined, listener), { plans: [] });
+    assert.deepEqual([requests.length, waits], [3, [0.01, 0.01]]);
+  });
+});
+
+test("a service that stays busy, or does not say for how long, is reported", async () => {
+  for (const [response, attempts] of [
+    [{ status: 503, retry_after: 0.01 }, 6],
+    [{ status: 503, retry_after: 3600 }, 1],
+    [{ status: 503 }, 1],
+    [{ status: 429, retry_after: 0.01 }, 1],
+  ]) {
+    await answering([response], async (requests) => {
+      await assert.rejects(plan("{}", undefined, { waiting: () => {} }), ProblemError);
+      assert.equal(requests.length, attempts);
+    });
+  }
+});
+
+test("waiting for a busy service ends when it is aborted", async () => {
+  await answering([{ status: 503, retry_after: 30 }], async (requests) => {
+    const control = new AbortController();
+    const asked = plan("{}", control.signal, { waiting: () => control.abort() });
+    await assert.rejects(asked, { name: "AbortError" });
+    assert.equal(requests.length, 1);
+  });
 });

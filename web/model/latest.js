@@ -1,0 +1,23 @@
+// Work for the present request, which a newer one replaces. No DOM.
+
+/**
+ * A function (delay, work) that calls work(signal) after a delay in milliseconds. Another call drops earlier work: it is
+ * not begun any more, or its signal is aborted, in which case its AbortError is nobody's concern.
+ */
+export function latestOnly() {
+  let timer = null;
+  let control = new AbortController();
+  return (delay, work) => {
+    clearTimeout(timer);
+    control.abort();
+    control = new AbortController();
+    const { signal } = control;
+    timer = setTimeout(async () => {
+      try {
+        await work(signal);
+      } catch (error) {
+        if (!signal.aborted) throw error;
+      }
+    }, delay);
+  };
+}
