@@ -18,15 +18,16 @@ import { watchChosen } from "./panels/comparison_card.js";
 import { Inspector } from "./panels/inspector.js";
 import { watchLazyTab } from "./panels/lazy_tab.js";
 import { OptionsPanel } from "./panels/options_panel.js";
-import { PlanButton, PlanningStatus } from "./panels/planning_panel.js";
+import { budgetOf, PlanButton, PlanningStatus } from "./panels/planning_panel.js";
 import { revealProblem, watchProblem } from "./panels/problem_card.js";
 import { RobotFinder } from "./panels/robot_finder.js";
 import { RobotList } from "./panels/robot_list.js";
 import { watchReadout, watchViewMenu } from "./panels/scene_bar.js";
-import { watchSummary, watchUnplanned } from "./panels/summary.js";
+import { watchSummary } from "./panels/summary.js";
 import { TimelineDock } from "./panels/timeline_dock.js";
 import { TimeEntry } from "./panels/time_entry.js";
 import { Transport } from "./panels/transport.js";
+import { watchUnplanned } from "./panels/unplanned_card.js";
 import { BoxSelection } from "./scene/box_selection.js";
 import { Follow } from "./scene/follow.js";
 import { ClosestOverlay, showBlockers, showViolations } from "./scene/overlays.js";
@@ -72,9 +73,9 @@ watchSummary(session);
 watchCheck(session, stage);
 showBlockers(session, stage);
 showViolations(session, stage, fleet);
-watchUnplanned(session);
+watchUnplanned(session, budgetOf, () => planButton.press());
 watchReadout(session);
-watchSaving(session, address);
+watchSaving(session, address, service.needsToken);
 watchSharing(
   session,
   stage,

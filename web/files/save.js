@@ -8,12 +8,17 @@ import { saveText } from "./downloads.js";
 
 const SHOWN_MS = 1500;
 
-/** `address`: see Address. */
-export function watchSaving(session, address) {
+/** `address`: see Address; `needsToken()` resolves to whether the service asks for a token. */
+export function watchSaving(session, address, needsToken) {
   const [request, plan, curl, link] = ["save-request", "save-plan", "copy-curl", "copy-link"].map(byId);
   const note = byId("save-note");
   const stem = () => fileStem(session.name);
-  makeClosable(byId("save-menu"));
+  const menu = byId("save-menu");
+  let token = false;
+  makeClosable(menu);
+  menu.addEventListener("toggle", async () => {
+    if (menu.open) token = await needsToken().catch(() => token); // known before anything is copied
+  });
   session.on("answer", () => {
     for (const button of [request, curl, link]) button.disabled = session.request === null;
     plan.disabled = session.answer === null || session.outdated !== null;
@@ -23,7 +28,9 @@ export function watchSaving(session, address) {
   plan.addEventListener("click", () => {
     saveText(`${stem()}.plan.json`, JSON.stringify(planFile(session.request, session.answer)));
   });
-  curl.addEventListener("click", () => copyFrom(curl, curlCommand(session, document.baseURI), session));
+  curl.addEventListener("click", () =>
+    copyFrom(curl, curlCommand(session, document.baseURI, token), session),
+  );
   link.addEventListener("click", async () => {
     const { address: made, length } = await address.link();
     note.hidden = length <= LONGEST_LINK;
@@ -55,11 +62,15 @@ export function fileStem(name) {
   return name.replace(/(\.plan)?\.(json|map|scen|ya?ml)$/i, "").replace(/[^\w.-]+/g, "-") || "request";
 }
 
-/** The command that plans the request from a POSIX shell; examples are fetched, other requests inlined. */
-export function curlCommand({ example, text }, base) {
-  const post = `curl -sS ${new URL("v1/plan", base)} -H 'Content-Type: application/json' --data-binary @-`;
+/**
+ * The command that plans the request from a POSIX shell; examples are fetched, other requests inlined. `token`: whether
+ * the service asks for one, which the command takes from the variable TOKEN.
+ */
+export function curlCommand({ example, text }, base, token) {
+  const curl = token ? `curl -sS -H "Authorization: Bearer $TOKEN"` : "curl -sS";
+  const post = `${curl} ${new URL("v1/plan", base)} -H 'Content-Type: application/json' --data-binary @-`;
   if (example !== null)
-    return `curl -sS ${new URL(`v1/examples/${encodeURIComponent(example)}`, base)} | ${post}`;
+    return `${curl} ${new URL(`v1/examples/${encodeURIComponent(example)}`, base)} | ${post}`;
   return `${post} <<'JSON'\n${text}\nJSON\n`;
 }
 

@@ -3,7 +3,7 @@
 // pixels.
 
 import { rowsSeen, thinned, ticks, xOf, yOf } from "../model/gantt.js";
-import { REASONS } from "./summary.js";
+import { REASONS } from "./unplanned_card.js";
 
 export const STRIP = 44; // the height of the curve above the rows
 export const AXIS = 20; // the height of the axis between

@@ -7,7 +7,7 @@ import { actionIndexAt } from "../model/timeline.js";
 import { byId, element, icon, scrollWithin, setText } from "../ui/dom.js";
 import { seconds } from "../ui/format.js";
 import { andMore, robotChip } from "./robot_list.js";
-import { REASONS } from "./summary.js";
+import { REASONS } from "./unplanned_card.js";
 
 const EDITING = "tab-edit"; // whose form shows the robot instead
 const CROSS = "M5 5 15 15M15 5 5 15";

@@ -1,8 +1,7 @@
-// The outcome of planning: the figures of the answer, and the robots without a plan with the reasons.
+// The outcome of planning: the figures of the answer.
 
 import { byId, element, icon } from "../ui/dom.js";
 import { count, metres, milliseconds, seconds } from "../ui/format.js";
-import { andMore, robotChip } from "./robot_list.js";
 
 const TICK = "M4.5 10.5 8.5 14.5 15.5 6";
 const CROSS = "M5 5 15 15M15 5 5 15";
@@ -131,50 +130,4 @@ function warningList(warnings) {
     { class: "warnings", "aria-label": "Warnings" },
     ...texts.map((textContent) => element("li", { textContent })),
   );
-}
-
-/** Names of the reasons of /v1/plan. */
-export const REASONS = {
-  start_blocked: "Start blocked",
-  goal_blocked: "Goal blocked",
-  goal_unreachable: "Goal unreachable",
-  blocked_by_robots: "Blocked by other robots",
-  budget_exhausted: "Out of time",
-  committed_in_the_way: "In the way of what is certain to move",
-  invalid: "Invalid",
-};
-
-/** Lists the robots that the session's answer leaves without a plan. */
-export function watchUnplanned(session) {
-  session.on("answer", () => showUnplanned(session.answer?.unplanned ?? [], session));
-}
-
-function showUnplanned(unplanned, session) {
-  const box = byId("unplanned");
-  box.hidden = unplanned.length === 0;
-  box.replaceChildren();
-  if (unplanned.length === 0) return;
-  const entries = unplanned.map(({ robot, reason, detail, blocked_by, blocked_by_total }) =>
-    element(
-      "li",
-      { class: "card" },
-      element(
-        "div",
-        { class: "chips" },
-        robotChip(session, robot),
-        element("span", { class: "reason", textContent: REASONS[reason] ?? reason }),
-      ),
-      detail ? element("p", { textContent: detail }) : null,
-      blocked_by?.length > 0
-        ? element(
-            "div",
-            { class: "chips" },
-            "Blocked by:",
-            ...blocked_by.map((id) => robotChip(session, id)),
-            andMore(blocked_by, blocked_by_total),
-          )
-        : null,
-    ),
-  );
-  box.append(element("h2", { textContent: "Without a plan" }), element("ul", { class: "stuck" }, ...entries));
 }

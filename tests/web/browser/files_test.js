@@ -1,12 +1,17 @@
 // Opening and saving files and links, in headless Chromium against the real server.
 
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
+import { execFile } from "node:child_process";
+import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { test } from "node:test";
+import { promisify } from "node:util";
 
-import { choose, pressPlan } from "../support/browser.js";
+import { choose, openPage, pressPlan, startBrowser } from "../support/browser.js";
 import { drop, pgm, png, WAYS } from "../support/map_files.js";
 import { hook, pagesFor, REFUSED } from "../support/on_page.js";
+import { startService } from "../support/service.js";
 
 const onPage = pagesFor(["--max-cells", "200"]);
 
@@ -465,6 +470,32 @@ test("the copied command line plans the same request", async () => {
     );
     assert.deepEqual(JSON.parse(command.split("\n")[1]), TINY);
   });
+});
+
+test("with a token, the copied command line presents it", async () => {
+  const folder = await mkdtemp(join(tmpdir(), "token-"));
+  const file = join(folder, "token");
+  await writeFile(file, "a-long-token-for-tests\n");
+  const service = await startService(["--auth-token-file", file]);
+  const browser = await startBrowser();
+  try {
+    const httpCredentials = { username: "any", password: "a-long-token-for-tests" };
+    const { page } = await openPage(browser, service.url, { httpCredentials });
+    const learnt = page.waitForResponse((response) => response.status() === 401);
+    await page.click("#save-menu summary");
+    await learnt;
+    await page.keyboard.press("Escape");
+    const command = await copied(page, "#copy-curl");
+    const run = promisify(execFile);
+    const { stdout } = await run("sh", ["-c", command], {
+      env: { ...process.env, TOKEN: "a-long-token-for-tests" },
+    });
+    assert.equal(JSON.parse(stdout).status, "solved");
+  } finally {
+    await browser.close();
+    await service.stop();
+    await rm(folder, { recursive: true });
+  }
 });
 
 test("the save menu opens, and closes by Escape, with the keyboard", async () => {

@@ -112,3 +112,71 @@ test("the best plan is kept when the service is killed while it improves it", as
     await service.kill();
   }
 });
+
+/** Answers plans with 503; returns what ends that. */
+async function overloaded(page, headers) {
+  const problem = {
+    title: "Service Unavailable",
+    detail: "The queue is full.",
+    status: 503,
+    code: "overloaded",
+  };
+  const contentType = "application/problem+json";
+  await page.route("**/v1/plan", (route) =>
+    route.fulfill({ status: 503, contentType, headers, body: JSON.stringify(problem) }),
+  );
+  return () => page.unroute("**/v1/plan");
+}
+
+test("planning waits for a busy service, and can be cancelled meanwhile", async () => {
+  await onPage(
+    async (page) => {
+      const free = await overloaded(page, { "Retry-After": "1" });
+      await page.click("#plan");
+      const waits = () => /The service is busy/.test(document.getElementById("so-far").textContent);
+      await page.waitForFunction(waits);
+      assert.match(await page.innerText("#announcer"), /is tried again in 1 s/);
+      await page.click("#cancel");
+      assert.equal(await hook(page, "answer"), null);
+      await page.click("#plan");
+      await page.waitForFunction(waits);
+      await free();
+      await page.waitForFunction(() => window.fleetplan.answer?.verified);
+      assert.equal(await page.isVisible("#problem"), false);
+    },
+    { allowed: /status of 503/ },
+  );
+});
+
+test("a busy service that does not say when to come back is reported", async () => {
+  await onPage(
+    async (page) => {
+      await overloaded(page, {});
+      await page.click("#plan");
+      await page.waitForSelector("#problem:not([hidden])");
+      assert.match(await page.innerText("#problem"), /The queue is full\./);
+    },
+    { allowed: /status of 503/ },
+  );
+});
+
+test("robots that ran out of time are counted by reason, and planned with more", async () => {
+  await onPage(async (page) => {
+    const request = await choose(page, "warehouse");
+    await paste(page, { ...request, options: { time_budget_ms: 5 } });
+    await page.waitForFunction(() => window.fleetplan.request.options.time_budget_ms === 5);
+    let answer = await pressPlan(page);
+    assert.equal(answer.status === "solved", false, "5 ms do not suffice");
+    const late = answer.unplanned.filter(({ reason }) => reason === "budget_exhausted");
+    const group = page.locator('.reason-group[data-reason="budget_exhausted"]');
+    assert.match(await group.locator("summary").innerText(), new RegExp(`^Out of time ${late.length}$`));
+    assert.equal(await group.locator(".card").count(), late.length);
+    for (let round = 0; round < 8 && answer.status !== "solved"; round += 1) {
+      await page.click("#more-time");
+      await page.waitForFunction(() => window.fleetplan.answer && !window.fleetplan.outdated);
+      answer = await hook(page, "answer");
+    }
+    assert.equal(answer.status, "solved");
+    assert.ok((await hook(page, "request")).options.time_budget_ms >= 20);
+  });
+});

@@ -19,9 +19,14 @@ test("the command line fetches an example and inlines any other request", () => 
   const post =
     "curl -sS http://fleet.example/plans/v1/plan -H 'Content-Type: application/json' --data-binary @-";
   assert.equal(
-    curlCommand({ example: "hall-100", text: "{}" }, base),
+    curlCommand({ example: "hall-100", text: "{}" }, base, false),
     `curl -sS http://fleet.example/plans/v1/examples/hall-100 | ${post}`,
   );
   const text = `{"robots":[{"id":"o'neill"}]}`;
-  assert.equal(curlCommand({ example: null, text }, base), `${post} <<'JSON'\n${text}\nJSON\n`);
+  assert.equal(curlCommand({ example: null, text }, base, false), `${post} <<'JSON'\n${text}\nJSON\n`);
+});
+
+test("the command presents a token where the service asks for one", () => {
+  const command = curlCommand({ example: "crossing", text: "{}" }, "http://fleet.example/", true);
+  assert.equal(command.match(/curl -sS -H "Authorization: Bearer \$TOKEN" http/g).length, 2);
 });

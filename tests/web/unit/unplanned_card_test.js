@@ -1,0 +1,32 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { groupsOf, longerBudget } from "../../../web/panels/unplanned_card.js";
+
+const LIMITS = { max_budget_ms: 60_000 };
+const answer = (reason, search = {}) => ({ unplanned: [{ robot: "a", reason }], search });
+
+test("robots without a plan are grouped by reason, the most frequent one first", () => {
+  const entry = (robot, reason) => ({ robot, reason });
+  const unplanned = [entry("a", "invalid"), entry("b", "goal_blocked"), entry("c", "goal_blocked")];
+  assert.deepEqual(groupsOf(unplanned), [
+    ["goal_blocked", [unplanned[1], unplanned[2]]],
+    ["invalid", [unplanned[0]]],
+  ]);
+});
+
+test("more time is offered where it may help, up to the limit of the service", () => {
+  assert.equal(longerBudget(answer("budget_exhausted"), 5, LIMITS), 20);
+  assert.equal(longerBudget(answer("blocked_by_robots"), 5, LIMITS), 20);
+  assert.equal(longerBudget(answer("budget_exhausted"), 30, LIMITS), 60);
+  assert.equal(longerBudget(answer("budget_exhausted"), 60, LIMITS), null);
+  assert.equal(longerBudget(answer("budget_exhausted"), null, LIMITS), null);
+  assert.equal(longerBudget(answer("budget_exhausted", { exhausted: true }), 5, LIMITS), null);
+  assert.equal(longerBudget(answer("goal_unreachable"), 5, LIMITS), null);
+  assert.equal(longerBudget(answer("budget_exhausted"), 5, {}), 20, "before the limits are known");
+  assert.equal(
+    longerBudget({ unplanned: answer("budget_exhausted").unplanned }, 5, LIMITS),
+    null,
+    "of a file",
+  );
+});

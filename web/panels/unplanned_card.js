@@ -1,0 +1,96 @@
+// The robots without a plan, by the reasons, and more time for those that had too little.
+
+import { byId, element } from "../ui/dom.js";
+import { seconds } from "../ui/format.js";
+import { andMore, robotChip } from "./robot_list.js";
+
+const MOST_UNFOLDED = 12; // robots of a reason
+const WITH_MORE_TIME = ["budget_exhausted", "blocked_by_robots"]; // reasons that may change
+const LONGER = 4; // times the budget, to offer
+
+/** Names of the reasons of /v1/plan. */
+export const REASONS = {
+  start_blocked: "Start blocked",
+  goal_blocked: "Goal blocked",
+  goal_unreachable: "Goal unreachable",
+  blocked_by_robots: "Blocked by other robots",
+  budget_exhausted: "Out of time",
+  committed_in_the_way: "In the way of what is certain to move",
+  invalid: "Invalid",
+};
+
+/**
+ * Lists the robots that the session's answer leaves without a plan. `budgetOf(request, limits)`: see planning_panel.js;
+ * `plan()` plans the request.
+ */
+export function watchUnplanned(session, budgetOf, plan) {
+  const planLonger = (budget) => {
+    const { request } = session;
+    const options = { ...request.options, time_budget_ms: Math.round(budget * 1000) };
+    session.edit({ ...request, options });
+    plan();
+  };
+  session.on("answer limits", () => {
+    const { answer, request, limits, outdated } = session;
+    const unplanned = answer?.unplanned ?? [];
+    const box = byId("unplanned");
+    box.hidden = unplanned.length === 0;
+    box.replaceChildren();
+    if (unplanned.length === 0) return;
+    const longer = outdated === null ? longerBudget(answer, budgetOf(request, limits), limits) : null;
+    box.append(
+      element("h2", { textContent: "Without a plan" }),
+      longer === null ? "" : moreTimeButton(longer, planLonger),
+      ...groupsOf(unplanned).map(([reason, entries]) => groupOf(session, reason, entries)),
+    );
+  });
+}
+
+/** A longer budget, seconds, if one may help and the service has one; else null. */
+export function longerBudget({ unplanned, search }, budget, { max_budget_ms = Infinity }) {
+  const isOpen = search !== undefined && search.exhausted !== true;
+  const mayHelp = isOpen && unplanned.some(({ reason }) => WITH_MORE_TIME.includes(reason));
+  const longer = Math.min(LONGER * (budget ?? 0), max_budget_ms / 1000);
+  return mayHelp && longer > (budget ?? Infinity) ? longer : null;
+}
+
+/** The entries by reason, the most frequent one first: [[reason, entries]]. */
+export function groupsOf(unplanned) {
+  const groups = new Map();
+  for (const entry of unplanned) groups.set(entry.reason, [...(groups.get(entry.reason) ?? []), entry]);
+  return [...groups].sort(([, a], [, b]) => b.length - a.length);
+}
+
+function moreTimeButton(budget, planLonger) {
+  const textContent = `Plan again with ${seconds(budget)}`;
+  const button = element("button", { type: "button", id: "more-time", textContent });
+  button.addEventListener("click", () => planLonger(budget));
+  return button;
+}
+
+function groupOf(session, reason, entries) {
+  const name = REASONS[reason] ?? reason;
+  const title = element(
+    "summary",
+    {},
+    element("span", { class: "reason", textContent: name }),
+    " ",
+    element("span", { class: "count", textContent: entries.length.toLocaleString("en") }),
+  );
+  const list = element("ul", { class: "stuck" }, ...entries.map((entry) => robotCard(session, entry)));
+  const open = entries.length <= MOST_UNFOLDED;
+  return element("details", { class: "reason-group", "data-reason": reason, open }, title, list);
+}
+
+function robotCard(session, { robot, detail, blocked_by, blocked_by_total }) {
+  const blockers = blocked_by?.length > 0 ? blocked_by.map((id) => robotChip(session, id)) : [];
+  return element(
+    "li",
+    { class: "card" },
+    element("div", { class: "chips" }, robotChip(session, robot)),
+    detail ? element("p", { textContent: detail }) : null,
+    blockers.length > 0
+      ? element("div", { class: "chips" }, "Blocked by:", ...blockers, andMore(blocked_by, blocked_by_total))
+      : null,
+  );
+}
