@@ -9,6 +9,7 @@ export const STRIP = 44; // the height of the curve above the rows
 export const AXIS = 20; // the height of the axis between
 
 const PAD = 8;
+const LABELLED = 14; // pixels: lower rows have no room for names
 const SWATCH = 5; // radius
 const TICK_WIDTH = 72; // pixels per tick label
 const LEAST_BAR = 1; // so that short actions are visible
@@ -153,6 +154,11 @@ function paintGround(context, { left, width, rowHeight }, theme, top, hovered, m
 
 function paintLabel(context, { left, rowHeight }, theme, { top, robot, track, colour }) {
   const middle = top + rowHeight / 2;
+  if (rowHeight < LABELLED) {
+    context.fillStyle = colour;
+    context.fillRect(PAD, top + 1, left - 2 * PAD, rowHeight - 2);
+    return;
+  }
   context.beginPath();
   context.arc(PAD + SWATCH, middle, SWATCH - 0.75, 0, 2 * Math.PI);
   context.fillStyle = context.strokeStyle = colour;

@@ -2,6 +2,7 @@
 // painted when its content changes; during playback only the playhead moves.
 
 import { orderRows, panTime, revealTime, rowAt, scrollToRow, timeAt, xOf, zoomTime } from "../model/gantt.js";
+import { Signals } from "../model/signals.js";
 import { byId, contextOf } from "../ui/dom.js";
 import { seconds } from "../ui/format.js";
 import { wheelFactor, wheelTravel } from "../ui/input.js";
@@ -11,7 +12,7 @@ import { watchPinching, watchScrubbing } from "./timeline_gestures.js";
 const LABELS = { wide: 132, narrow: 108 }; // pixels for the robots' names
 const NARROW = 560; // pixels
 const RIGHT = 10; // pixels kept free at the right
-const ROW = { fine: 20, coarse: 28 }; // pixels; coarse for fingers
+const ROW = { fine: 20, coarse: 28, compact: 6 }; // pixels; coarse for fingers
 const KEY_ZOOM = 1.5;
 const WHEEL_GAIN = 0.005; // see wheelFactor
 
@@ -24,7 +25,9 @@ export class TimelineChart {
   #canvas = byId("timeline-canvas");
   #playhead = byId("timeline-playhead");
   #rows = byId("timeline-rows");
-  #rowHeight = matchMedia("(pointer: coarse)").matches ? ROW.coarse : ROW.fine;
+  #usualHeight = matchMedia("(pointer: coarse)").matches ? ROW.coarse : ROW.fine;
+  #rowHeight = this.#usualHeight;
+  #signals = new Signals();
   #sortedBy = "listed";
   #ids = []; // row by row
   #range = { from: 0, to: 0 };
@@ -71,6 +74,30 @@ export class TimelineChart {
   /** Paints with the next frame. */
   redraw() {
     this.#repaint();
+  }
+
+  /** Makes the rows thin, or as high as usual. */
+  compact(isCompact) {
+    this.#rowHeight = isCompact ? ROW.compact : this.#usualHeight;
+    this.#order();
+    this.#repaint();
+  }
+
+  /** Where its time is: {left, width} in pixels and {range} in seconds. */
+  get span() {
+    const { left, width, range } = this.#layout();
+    return { left, width, range };
+  }
+
+  /** `listener` is called when another range of time is shown. */
+  onRange(listener) {
+    this.#signals.on("range", listener);
+  }
+
+  /** Moves the range of time so that a moment is in its middle. */
+  showAround(t) {
+    const shift = t - (this.#range.from + this.#range.to) / 2;
+    this.#setRange(panTime(this.#range, this.#session.player.duration, shift));
   }
 
   /** Sorts the rows: "listed", "start", "cost" or "delay". */
@@ -191,6 +218,7 @@ export class TimelineChart {
 
   #setRange(range) {
     this.#range = range;
+    this.#signals.emit("range");
     this.#repaint();
   }
 

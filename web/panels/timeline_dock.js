@@ -5,9 +5,10 @@ import { delayOf } from "../model/gantt.js";
 import { byId, setText } from "../ui/dom.js";
 import { metres } from "../ui/format.js";
 import { TimelineChart } from "./timeline_chart.js";
+import { TimelineOverview } from "./timeline_overview.js";
 
 const EVERY_MS = 100; // between updates of the text while playing
-const HEIGHT = { least: 110, first: 216, step: 24 }; // pixels of the chart
+const HEIGHT = { least: 110, first: 242, step: 24 }; // pixels of the chart
 const MOST_OF_WINDOW = 0.6;
 
 export class TimelineDock {
@@ -17,6 +18,7 @@ export class TimelineDock {
   #body = byId("timeline-body");
   #divider = byId("timeline-divider");
   #sort = byId("timeline-sort");
+  #compact = byId("timeline-compact");
   #chart;
   #closest = byId("timeline-closest");
   #least = byId("timeline-least");
@@ -28,6 +30,8 @@ export class TimelineDock {
     this.#session = session;
     this.#fleet = fleet;
     this.#chart = new TimelineChart(session, colours, fleet, transport, overStrip);
+    new TimelineOverview(session, this.#chart, colours);
+    this.#compact.addEventListener("click", () => this.#makeCompact());
     this.#toggle.addEventListener("click", () => this.#fold(!this.#body.hidden));
     this.#sort.addEventListener("change", () => this.#chart.sortBy(this.#sort.value));
     this.#least.addEventListener("click", () => this.#goToLeast());
@@ -50,6 +54,12 @@ export class TimelineDock {
   /** Paints the chart again. */
   redraw() {
     this.#chart.redraw();
+  }
+
+  #makeCompact() {
+    const isCompact = this.#compact.getAttribute("aria-pressed") !== "true";
+    this.#compact.setAttribute("aria-pressed", String(isCompact));
+    this.#chart.compact(isCompact);
   }
 
   #fold(folded) {

@@ -5,6 +5,7 @@ import { obstacleAt } from "../model/moving_obstacles.js";
 import { robotPoseAt, robotRadiusAt, robotStateAt } from "../model/scene.js";
 import { remainingPath } from "../model/timeline.js";
 import { contextOf } from "../ui/dom.js";
+import { HeatMap } from "./heat_map.js";
 import { MapRaster } from "./map_raster.js";
 import { drawGoal, drawNumber, drawObstacle, drawPath, drawRobot, drawStart } from "./marks.js";
 import { drawZone } from "./zone_marks.js";
@@ -17,6 +18,8 @@ const COMMITTED = { width: 3.5, alpha: 0.7 };
 const CROSSING = { width: 1, alpha: 0.5, dashes: [2, 4] };
 const OUTDATED = { width: 1.25, alpha: 0.5, dashes: [3, 4] };
 const FAINT = { width: 1.25, alpha: 0.34 };
+const MANY = 100; // robots: the paths of more are fainter, or they would cover the map
+const FAINTEST = 0.05;
 
 export class Painter {
   #canvas;
@@ -29,6 +32,7 @@ export class Painter {
   #theme = /** @type {any} */ (null);
   #look = /** @type {any} */ (null);
   #map = new MapRaster();
+  #heat = new HeatMap();
   #colours = [];
 
   constructor(canvas) {
@@ -109,23 +113,33 @@ export class Painter {
 
   #paintPlan(context, camera, viewport) {
     const screen = (point) => toScreen(camera, viewport, point);
+    this.#paintHeat(context, camera, screen);
     for (const zone of this.#scene.zones) drawZone(context, this.#theme, zone, screen, camera.scale);
     const shown = this.#look.paths !== "none";
     for (const { motion } of this.#scene.obstacles) {
       if (shown) drawPath(context, motion.map(screen), this.#theme.ink, CROSSING);
     }
+    const faint = pathLine(this.#scene.robots.length);
     this.#scene.robots.forEach((robot, at) => {
       const track = this.#tracks.get(robot.id);
       const radius = robot.radius * camera.scale;
       const colour = this.#colours[at];
       const isOutdated = track.status === "outdated";
-      const [line, ink] = isOutdated ? [OUTDATED, this.#theme.muted] : [FAINT, colour];
+      const [line, ink] = isOutdated ? [OUTDATED, this.#theme.muted] : [faint, colour];
       if (this.#look.paths === "whole" || (shown && isOutdated))
         drawPath(context, track.path.map(screen), ink, line);
       if (shown) drawPath(context, robot.committed.map(screen), colour, COMMITTED);
       if (track.actions.length > 0) drawStart(context, screen(robot.start), radius, colour);
       this.#paintGoals(context, robot, radius, colour, screen);
     });
+  }
+
+  #paintHeat(context, { scale }, screen) {
+    const { grid } = this.#scene;
+    const { heat } = this.#look;
+    if (grid === null || heat === "none") return;
+    const colour = heat === "waiting" ? this.#theme.states.waiting : this.#theme.accent;
+    this.#heat.draw(context, { grid, tracks: this.#tracks, kind: heat, colour, screen, scale });
   }
 
   /** The goals of a robot; several ones with their numbers, from 1. */
@@ -146,11 +160,12 @@ export class Painter {
   }
 
   #paintRemainingPaths(context, { time, screen }) {
+    const faint = pathLine(this.#scene.robots.length);
     this.#scene.robots.forEach((robot, at) => {
       const { actions, cost } = this.#tracks.get(robot.id);
       if (cost === null || time >= cost) return;
       const rest = remainingPath(actions, robot.start, time).map(screen);
-      drawPath(context, rest, this.#colours[at], FAINT);
+      drawPath(context, rest, this.#colours[at], faint);
     });
   }
 
@@ -205,6 +220,12 @@ export class Painter {
       name,
     });
   }
+}
+
+/** The line of the path of one of so many robots, see drawPath. */
+export function pathLine(robots) {
+  if (robots <= MANY) return FAINT;
+  return { width: 1, alpha: Math.max(FAINTEST, (FAINT.alpha * MANY) / robots) };
 }
 
 function paintGridLines(context, { left, top, cell, columns, rows }, colour) {

@@ -30,7 +30,7 @@ export class Stage {
   #viewport = { width: 0, height: 0 };
   #camera = { x: 0, y: 0, scale: 1 };
   #fitted = true; // the camera fits the viewport until it is moved
-  #look = { colours: "robot", paths: "whole" };
+  #look = { colours: "robot", paths: "whole", heat: "none" };
   #overlays = [];
   #ownTool = {};
   #lentTool = null;
@@ -89,7 +89,7 @@ export class Stage {
     this.redraw();
   }
 
-  /** The display options: {colours: "robot" or "state", paths: "whole", "remaining" or "none"}. */
+  /** The display options: {colours: "robot" or "state", paths: "whole", "remaining" or "none", heat: "none", "waiting" or "passage"}. */
   get look() {
     return this.#look;
   }
@@ -141,6 +141,12 @@ export class Stage {
     const { max } = this.#scaleLimits();
     const scale = Math.max(this.#camera.scale, Math.min(max, LEGIBLE / radius));
     this.#move({ x, y, scale });
+  }
+
+  /** Puts a world point into the middle, by hand. */
+  moveTo({ x, y }) {
+    this.#move({ ...this.#camera, x, y });
+    this.#signals.emit("pan");
   }
 
   /** Calls `listener` when the camera is moved by hand. */
