@@ -94,14 +94,14 @@ export function placementErrors(request, violations, pose) {
 const inMetres = (value) => `${Number(value.toFixed(4))} m`;
 
 /**
- * Checks the session's request at once when it is opened, unless it is an example, and after edits, when there was none
- * for `rest` milliseconds. `validate(text)`: see service/client.js.
+ * Checks the session's request at once when it is opened, unless it is an example or a map without robots, and after
+ * edits, when there was none for `rest` milliseconds. `validate(text)`: see service/client.js.
  */
 export function watchRequest(session, validate, rest = REST_MS) {
   const later = latestOnly();
   session.on("request", ({ opened }) => {
     later(opened ? 0 : rest, async (signal) => {
-      if (opened && session.example !== null) return;
+      if (opened && (session.example !== null || isEmpty(session.request))) return;
       await judge(session, (text) => validate(text, signal), opened && !session.edited);
     });
   });
@@ -135,6 +135,9 @@ async function problemOf(request, validate) {
     return errors.length > 0 ? { ...error.problem, errors } : null; // others do not concern the request
   }
 }
+
+/** Whether a request has no robots yet, as that of an opened map. */
+const isEmpty = (request) => Array.isArray(request?.robots) && request.robots.length === 0;
 
 /** A request without robots is not reported while it is being edited. */
 const isWithoutRobots = ({ pointer, code }) => pointer === "/robots" && ["empty", "missing"].includes(code);

@@ -165,7 +165,9 @@ test("an opened request is checked at once, an unchanged example is not", async 
   assert.equal(checked.length, 4);
   session.open(OPENED, { plans: [] });
   await rest();
-  assert.equal(checked.length, 4, "its plan is checked instead");
+  session.open({ ...OPENED, request: { ...REQUEST, robots: [] } });
+  await rest();
+  assert.equal(checked.length, 4, "a plan is checked instead, and a map alone has nothing to check");
 });
 
 test("an opened request without faults leaves another problem alone", async () => {
