@@ -2,6 +2,7 @@
 
 import { EditPanel } from "./edit/edit_panel.js";
 import { Address } from "./files/address.js";
+import { KeptRequests } from "./files/kept_requests.js";
 import { Opening } from "./files/opening.js";
 import { fileStem, watchSaving } from "./files/save.js";
 import { watchSharing } from "./files/sharing.js";
@@ -51,7 +52,7 @@ const tabs = new Tabs(byId("tabs"));
 const transport = new Transport(session);
 const show = (part) => (part === "problem" ? revealProblem() : tabs.choose(`tab-${part}`));
 const opening = new Opening(session, service.fetchExample, show);
-const address = new Address(session, opening);
+const address = new Address(session, opening, new KeptRequests());
 const setup = new Setup(session, opening);
 const planButton = new PlanButton(session, transport);
 const edit = new EditPanel(session, stage, tabs, opening);

@@ -1,11 +1,13 @@
 // The page's address identifies what is open: an example by its name (#name), any other request by its
-// content if it is small enough (#r=…), so that it can be bookmarked and shared.
+// content if it is small enough (#r=…), so that it can be bookmarked and shared. A larger one is kept in this browser, and
+// the address identifies it here (#kept=…).
 
 import { FileError } from "../model/problem.js";
 
 const REST_MS = 400; // without a further edit
 const MOST_TO_COMPRESS = 2 ** 20; // characters: longer requests are not compressed after each edit
 const PREFIX = "#r=";
+const KEPT = "#kept=";
 const LONGEST_TEXT = 8 * 2 ** 20; // bytes when inflated
 
 export class Address {
@@ -14,12 +16,21 @@ export class Address {
   /** @type {number | undefined} */
   #timer;
   #examples = [];
+  #kept;
+  /** @type {string | null} */
+  #keptId = null; // of this page's request
+  #isLarge = false; // the request is too large for a link
+  #isKept = true; // the address leads to the request as it is now
 
-  /** `opening`: see Opening. */
-  constructor(session, opening) {
+  /** `opening`: see Opening; `kept`: see KeptRequests. */
+  constructor(session, opening, kept) {
     this.#session = session;
     this.#opening = opening;
-    session.on("request", () => this.#showSoon());
+    this.#kept = kept;
+    session.on("request", ({ opened }) => this.#showSoon(opened));
+    addEventListener("beforeunload", (event) => {
+      if (this.#isLarge && !this.#isKept) event.preventDefault(); // the browser asks whether to leave
+    });
     // The event's address: by now, the page may have put that of its request in place of it.
     addEventListener("hashchange", ({ newURL }) => this.#follow(new URL(newURL).hash));
   }
@@ -29,8 +40,8 @@ export class Address {
     this.#examples = examples;
     if (this.#opening.begun) return;
     let problem = null;
-    if (isLinkState(location.hash)) {
-      if (await this.#opening.link(location.hash)) return;
+    if (isOwn(location.hash)) {
+      if (await this.#openOwn(location.hash)) return;
       problem = this.#session.problem;
     }
     const first = this.#named(location.hash) ?? examples[0];
@@ -50,25 +61,51 @@ export class Address {
 
   #follow(fragment) {
     const named = this.#named(fragment);
-    if (isLinkState(fragment)) this.#opening.link(fragment);
+    if (isOwn(fragment)) this.#openOwn(fragment);
     else if (named && named.name !== this.#session.example) this.#opening.example(named.name);
   }
 
-  #showSoon() {
+  /** Opens the request that a fragment holds, or that is kept under its id; resolves to whether it is open. */
+  #openOwn(fragment) {
+    if (isLinkState(fragment)) return this.#opening.link(fragment);
+    const id = fragment.slice(KEPT.length);
+    this.#keptId = id;
+    return this.#opening.kept(() => this.#kept.get(id));
+  }
+
+  #showSoon(opened) {
     clearTimeout(this.#timer);
     const { example } = this.#session;
+    this.#isKept = example !== null;
+    if (opened) this.#isLarge = example === null && this.#session.text.length > MOST_TO_COMPRESS;
     if (example !== null) {
       put(`#${example}`);
       return;
     }
-    if (!isLinkState(location.hash)) put(""); // it is no longer the example
+    if (!isOwn(location.hash)) put(""); // it is no longer the example
     this.#timer = setTimeout(() => this.#showRequest(), REST_MS);
   }
 
   async #showRequest() {
-    const { request, text, turn } = this.#session;
+    const { name, request, text, turn } = this.#session;
     const fragment = text.length <= MOST_TO_COMPRESS ? await writeLinkState(request) : "";
-    if (turn === this.#session.turn) put(fragment.length <= LONGEST_LINK ? fragment : "");
+    if (turn !== this.#session.turn) return;
+    this.#isLarge = fragment === "" || fragment.length > LONGEST_LINK;
+    const address = this.#isLarge ? await this.#keep({ name, text }) : fragment;
+    if (turn !== this.#session.turn) return;
+    this.#isKept = address !== "";
+    put(address);
+  }
+
+  /** Keeps a request; resolves to the fragment that leads to it, "" if the browser does not keep it. */
+  async #keep(named) {
+    this.#keptId ??= `${Date.now().toString(36)}-${Math.random().toString(36).slice(2)}`;
+    try {
+      await this.#kept.put(this.#keptId, named);
+      return KEPT + this.#keptId;
+    } catch {
+      return ""; // such as in a private window; leaving asks
+    }
   }
 }
 
@@ -80,6 +117,9 @@ export const LONGEST_LINK = 8000; // characters of the fragment; longer addresse
 
 /** Whether the fragment of an address has the form of a request. */
 export const isLinkState = (fragment) => fragment.startsWith(PREFIX);
+
+/** Whether the fragment leads to a request that is not an example. */
+const isOwn = (fragment) => isLinkState(fragment) || fragment.startsWith(KEPT);
 
 /** The fragment that holds the request, of any length. */
 export async function writeLinkState(request) {

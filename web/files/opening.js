@@ -6,6 +6,10 @@ import { Reader } from "./reader.js";
 import { prepareMap } from "./request_map.js";
 import { prepareMasks } from "./zone_masks.js";
 
+const NOT_KEPT =
+  "This address is of a request that is too large for a link. It is kept only in the browser in which it was open, and " +
+  "not for ever. Open its file.";
+
 export class Opening {
   #session;
   #fetchExample;
@@ -52,6 +56,15 @@ export class Opening {
   link(fragment) {
     return this.#choose(async () => {
       return this.#reader.text("linked request", JSON.stringify(await readLinkState(fragment)));
+    });
+  }
+
+  /** Opens a request that this browser keeps: `load()` resolves to {name, text}, or to null if there is none. */
+  kept(load) {
+    return this.#choose(async () => {
+      const found = await load().catch(() => null);
+      if (found === null) throw new FileError(NOT_KEPT);
+      return this.#reader.text(found.name, found.text);
     });
   }
 
