@@ -20,7 +20,8 @@ export class EarlierPlans {
   }
 
   #note(answer) {
-    if (answer === null || answer.plans.length === 0) return;
+    const isFinal = this.#session.planning === null;
+    if (!isFinal || answer === null || answer.plans.length === 0) return;
     this.#shown = [...this.#shown.filter((each) => each !== answer), answer].slice(-MOST - 1);
   }
 }

@@ -18,6 +18,12 @@ export class Player {
     this.pause();
   }
 
+  /** Goes on at the same time in a plan of another duration. */
+  extend(duration) {
+    this.duration = duration;
+    this.time = Math.min(this.time, duration);
+  }
+
   /** Plays; from the start if it was at the end. */
   play() {
     if (this.duration <= 0) return;

@@ -6,6 +6,7 @@
 //             whether another one was opened or restored by undo or redo (true), or this one was edited (false)
 //   answer    another answer, or none, or what still holds of it: `answer`, `outdated`, `tracks` and the player are
 //             new; follows every "request", too
+//   incumbent a better plan is shown while planning goes on, after "answer". Detail: whether it is the first one
 //   planning  planning started, progressed or ended: `planning`
 //   problem   a fault to show, or none: `problem`
 //   check     the plan was checked, or the check was dropped: `check`
@@ -182,10 +183,10 @@ export class Session {
     return this.outdated === null && (this.answer?.plans.length ?? 0) > 0;
   }
 
-  /** Shows an answer of the current request, at time 0. */
-  adopt(answer) {
+  /** Shows an answer of the current request, at time 0 or, if it `continues` what is shown, at the present time. */
+  adopt(answer, continues = false) {
     this.#history.amend(answered(this.#history.present, answer));
-    this.#showAnswer(answer);
+    this.#showAnswer(answer, continues);
     this.#answerChanged();
   }
 
@@ -196,14 +197,15 @@ export class Session {
     this.#answerChanged();
   }
 
-  /** Shows an answer, at time 0 unless it was shown before; null: none. */
-  #showAnswer(answer) {
+  /** Shows an answer, at time 0 unless it was shown before or `continues` what is shown; null: none. */
+  #showAnswer(answer, continues = false) {
     const isAnother = answer === null || answer !== this.answer;
     this.answer = answer;
     this.outdated = answer && outdatedIn(this.#history.present);
     this.tracks = readTracks(this.scene, answer, this.outdated);
     this.#focus.keep(this.#robots);
-    if (isAnother) this.player.reset(durationOf(answer));
+    if (continues) this.player.extend(durationOf(answer));
+    else if (isAnother) this.player.reset(durationOf(answer));
     else this.player.pause();
     this.#setCheck(null);
   }
@@ -251,12 +253,12 @@ export class Session {
     try {
       const answer = await this.#service.plan(this.text, run.signal, {
         progress: (progress) => this.planning === run && this.#onProgress(progress),
-        incumbent: (incumbent) => (run.incumbent = incumbent),
+        incumbent: (incumbent) => this.planning === run && this.#onIncumbent(run, incumbent),
         waiting: (seconds) => this.planning === run && this.#onWaiting(seconds),
       });
       if (this.planning !== run) return false;
       this.#endPlanning();
-      this.adopt(answer);
+      this.adopt(answer, run.incumbent !== null);
       return true;
     } catch (error) {
       if (this.planning !== run) return false;
@@ -265,6 +267,15 @@ export class Session {
       this.fail(run.incumbent === null ? error : withNote(error, KEPT));
       return run.incumbent !== null;
     }
+  }
+
+  /** Shows a better plan, the text of an answer, and goes on planning; playing continues. */
+  #onIncumbent(run, text) {
+    const isFirst = run.incumbent === null;
+    run.incumbent = text;
+    this.#showAnswer(JSON.parse(text), !isFirst);
+    this.#answerChanged();
+    this.#signals.emit("incumbent", isFirst);
   }
 
   #onProgress(progress) {
@@ -303,7 +314,7 @@ export class Session {
   /** Shows the best answer, a text, of planning that ended early; the answer before if there is none (null). */
   #adoptBest(text) {
     if (text !== null) {
-      this.adopt(JSON.parse(text));
+      this.adopt(JSON.parse(text), true);
       return;
     }
     this.#showAnswer(this.#history.present.answer);

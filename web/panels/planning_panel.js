@@ -16,6 +16,7 @@ export class PlanButton {
   #transport;
   #plan = byId("plan");
   #cancel = byId("cancel");
+  #played = false; // the plan was played, as soon as there was a first one
 
   constructor(session, transport) {
     this.#session = session;
@@ -23,18 +24,25 @@ export class PlanButton {
     this.#plan.addEventListener("click", () => this.press());
     this.#cancel.addEventListener("click", () => session.cancel());
     session.on("request planning", () => this.#refresh());
+    session.on("incumbent", (isFirst) => isFirst && this.#play());
   }
 
   /** Plans, and plays the plan. */
   async press() {
     const session = this.#session;
+    this.#played = false;
     const solved = await session.plan(budgetOf(session.request, session.limits));
     if (session.problem !== null) revealProblem();
     if (!solved) return;
     const watching = document.activeElement === this.#plan; // which regains the focus from Cancel
     session.announce(summarize(session.answer));
-    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) session.play();
+    if (!this.#played) this.#play();
     if (watching) this.#transport.focusPlay();
+  }
+
+  #play() {
+    this.#played = true;
+    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) this.#session.play();
   }
 
   #refresh() {

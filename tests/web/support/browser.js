@@ -74,7 +74,8 @@ export async function choose(page, name) {
 /** Presses Plan and waits for the answer. */
 export async function pressPlan(page) {
   await page.click("#plan");
-  await page.waitForFunction(() => window.fleetplan.answer, null, { timeout: 60_000 });
+  const isDone = () => window.fleetplan.answer && document.getElementById("cancel").hidden;
+  await page.waitForFunction(isDone, null, { timeout: 60_000 });
   return page.evaluate(() => window.fleetplan.answer);
 }
 

@@ -33,6 +33,7 @@ function begin(service = {}) {
   for (const name of [
     "request",
     "answer",
+    "incumbent",
     "planning",
     "problem",
     "check",
@@ -308,4 +309,51 @@ test("several robots are highlighted together, with the first selected", () => {
   assert.deepEqual([session.selected, [...session.marked].sort()], ["b", ["a", "b"]]);
   session.select(null);
   assert.equal(session.marked.size, 0);
+});
+
+test("better plans are shown while planning goes on, and playing continues", async () => {
+  const ended = deferred();
+  const better = { ...ANSWER, plans: [{ ...ANSWER.plans[0], cost: 1.5 }] };
+  const shown = {};
+  const { session, heard, frames } = begin({
+    plan: (text, signal, { incumbent }) => {
+      incumbent(JSON.stringify(ANSWER));
+      shown.first = session.answer;
+      session.play();
+      frames.shift()(1000);
+      frames.shift()(1800);
+      incumbent(JSON.stringify(better));
+      shown.second = session.answer;
+      return ended.promise;
+    },
+  });
+  session.open(OPENED);
+  const planned = session.plan();
+  assert.deepEqual([shown.first, shown.second], [ANSWER, better]);
+  assert.deepEqual(
+    heard.filter((name) => name.startsWith("incumbent")),
+    ["incumbent true", "incumbent false"],
+  );
+  assert.ok(Math.abs(session.player.time - 0.8) < 1e-9);
+  assert.deepEqual([session.player.duration, session.player.playing], [1.5, true]);
+  assert.notEqual(session.planning, null);
+  ended.resolve(ANSWER);
+  assert.equal(await planned, true);
+  assert.equal(session.answer, ANSWER);
+  assert.ok(Math.abs(session.player.time - 0.8) < 1e-9);
+  assert.equal(session.player.playing, true);
+});
+
+test("an edit while a better plan is shown ends planning and drops that plan", async () => {
+  const { session } = begin({
+    plan: (text, signal, { incumbent }) => {
+      incumbent(JSON.stringify(ANSWER));
+      return new Promise(() => {});
+    },
+  });
+  session.open(OPENED);
+  session.plan();
+  assert.deepEqual(session.answer, ANSWER);
+  session.edit({ ...REQUEST, options: { seed: 1 } });
+  assert.deepEqual([session.answer, session.planning], [null, null]);
 });
