@@ -4,6 +4,7 @@ import { Ghosts } from "../scene/ghosts.js";
 import { element } from "../ui/dom.js";
 import { CompareSection } from "./compare_section.js";
 import { DependenciesSection } from "./dependencies_section.js";
+import { FleetSection } from "./fleet_section.js";
 import { SimulationSection } from "./simulation_section.js";
 
 /** `page` has session, stage, timeline, fleet, service and earlier. */
@@ -12,6 +13,7 @@ export function fillAnalysis(panel, page) {
   panel.append(
     section("Simulate delays", new SimulationSection({ ...page, ghosts }).element, true),
     section("Compare plans", new CompareSection({ ...page, ghosts }).element),
+    section("Keep running", new FleetSection(page).element),
     section("Dependencies", new DependenciesSection(page).element),
   );
 }

@@ -99,9 +99,9 @@ const inMetres = (value) => `${Number(value.toFixed(4))} m`;
  */
 export function watchRequest(session, validate, rest = REST_MS) {
   const later = latestOnly();
-  session.on("request", ({ opened }) => {
+  session.on("request", ({ opened, proceeded = false }) => {
     later(opened ? 0 : rest, async (signal) => {
-      if (opened && (session.example !== null || isEmpty(session.request))) return;
+      if (proceeded || (opened && (session.example !== null || isEmpty(session.request)))) return;
       await judge(session, (text) => validate(text, signal), opened && !session.edited);
     });
   });

@@ -3,7 +3,8 @@
 //
 // Features listen with on(names, listener):
 //   request   another request or an edit of it: `request`, `scene` and `tracks` are new. Detail: {opened},
-//             whether another one was opened or restored by undo or redo (true), or this one was edited (false)
+//             whether another one was opened or restored by undo or redo (true), or this one was edited (false); and
+//             {proceeded: true} if it is that of a later moment of the same fleet
 //   answer    another answer, or none, or what still holds of it: `answer`, `outdated`, `tracks` and the player are
 //             new; follows every "request", too
 //   incumbent a better plan is shown while planning goes on, after "answer". Detail: whether it is the first one
@@ -162,7 +163,14 @@ export class Session {
     this.announce(reopened ? `${word}: ${this.name} is open again.` : `${word}.`);
   }
 
-  #requestChanged(opened) {
+  /** Goes on with the request of a later moment of the running fleet and its plan; what is selected stays. */
+  proceed(request, answer) {
+    const opened = { ...this.#opened, example: null, text: JSON.stringify(request), request };
+    this.#history.replace(answered(documentOf(opened), answer));
+    this.#requestChanged(false, true);
+  }
+
+  #requestChanged(opened, proceeded = false) {
     this.#turn += 1;
     this.stopPlanning();
     if (opened) this.#focus = new Focus();
@@ -170,7 +178,7 @@ export class Session {
     this.#robots = new Map(this.scene.robots.map((robot) => [robot.id, robot]));
     this.#focus.keep(this.#robots);
     this.#showAnswer(this.#history.present.answer);
-    this.#signals.emit("request", { opened });
+    this.#signals.emit("request", proceeded ? { opened, proceeded } : { opened });
     if (opened) this.setProblem(null); // after an edit it stays until the next check, see checks.js
     this.#signals.emit("answer");
     this.#signals.emit("marks");

@@ -61,6 +61,11 @@ export async function dependencies(request, answer) {
   return post("v1/dependencies", JSON.stringify(planFile(request, answer)));
 }
 
+/** The request of a later moment, see POST /v1/advance. */
+export async function advance(text) {
+  return post("v1/advance", text);
+}
+
 /** Posts a text; resolves to the answer, or to the data of the event `last` if the service streams events. */
 async function stream(address, body, signal, listener, last) {
   const headers = {

@@ -83,7 +83,8 @@ test("after a replan with other options, the plan before is compared by keys alo
     await page.keyboard.press("p");
     await page.waitForFunction(
       (flowtime) =>
-        document.getElementById("cancel").hidden && (window.fleetplan.answer?.flowtime ?? flowtime) !== flowtime,
+        document.getElementById("cancel").hidden &&
+        (window.fleetplan.answer?.flowtime ?? flowtime) !== flowtime,
       first.flowtime,
     );
     await openCompare(page);

@@ -1,0 +1,117 @@
+// Keeping a fleet running: rounds, charts of throughput and latency, and robots that are held.
+
+import { FleetRun, throughput } from "../model/fleet_run.js";
+import { robotChip } from "../panels/robot_list.js";
+import { ring } from "../scene/marks.js";
+import { element, setText } from "../ui/dom.js";
+import { count, milliseconds } from "../ui/format.js";
+import { lineChart } from "./charts.js";
+import { button, numberPart } from "./fields.js";
+
+const SHOWN = 60; // rounds in the charts
+const HELD = { width: 3, alpha: 1, dashes: [] };
+
+export class FleetSection {
+  #session;
+  #run;
+  #period = numberPart("Round", "s", 2, { min: 0.5, max: 60 });
+  #held = numberPart("Hold for", "s", 10, { min: 0.1, max: 10000 });
+  #start = button("Keep running", () => this.#toggle(), { class: "primary" });
+  #hold = button("Hold", () => this.#holdSelected());
+  #byClick = element("input", { type: "checkbox" });
+  #status = element("p", { class: "facts" });
+  #holds = element("ul", { class: "plain" });
+  #charts = element("div", { class: "results" });
+  #selected = null;
+
+  element;
+
+  /** `page`: see fillAnalysis. */
+  constructor({ session, stage, service }) {
+    this.#session = session;
+    this.#run = new FleetRun(session, service, () => performance.now());
+    this.element = element(
+      "div",
+      { class: "simulation" },
+      element("p", {
+        class: "facts",
+        textContent:
+          "Robots that arrive go to their start and back, round after round. The plan of a round is made while the one before is played.",
+      }),
+      element("div", { class: "parts" }, this.#period.field, this.#held.field),
+      element("div", { class: "row" }, this.#start, this.#hold),
+      element("label", { class: "choice" }, this.#byClick, "A click on a robot holds it"),
+      this.#status,
+      this.#holds,
+      this.#charts,
+    );
+    this.#run.onChange(() => this.#show());
+    session.on("answer", () => this.#refresh());
+    session.on("marks", () => this.#onMarks());
+    stage.addOverlay((context, { scale, screen, theme, time }) => {
+      for (const { robot } of this.#run.running ? this.#run.holds : []) {
+        const radius = session.radiusOf(robot, time) * scale + 5;
+        ring(context, screen(session.poseOf(robot, time)), radius, theme.danger, HELD);
+      }
+    });
+    this.#show();
+  }
+
+  #toggle() {
+    if (this.#run.running) this.#run.stop();
+    else if (this.#period.input.reportValidity()) this.#run.start(this.#period.input.valueAsNumber);
+  }
+
+  #onMarks() {
+    const { selected } = this.#session;
+    const isAnother = selected !== this.#selected;
+    this.#selected = selected;
+    if (isAnother && selected !== null && this.#byClick.checked && this.#run.running) this.#holdSelected();
+    this.#refresh();
+  }
+
+  #holdSelected() {
+    if (!this.#held.input.reportValidity()) return;
+    const { selected } = this.#session;
+    this.#run.hold(selected, this.#held.input.valueAsNumber);
+    this.#session.announce(`${selected} is held as soon as the next round is over.`);
+  }
+
+  #refresh() {
+    const { running } = this.#run;
+    const { selected, hasPlan } = this.#session;
+    setText(this.#start, running ? "Stop" : "Keep running");
+    this.#start.disabled = !running && !hasPlan;
+    this.#hold.disabled = !running || selected === null;
+    setText(this.#hold, selected === null ? "Hold" : `Hold ${selected}`);
+  }
+
+  #show() {
+    this.#refresh();
+    const { rounds, holds, period } = this.#run;
+    const last = rounds.at(-1);
+    const unplanned = last?.unplanned ?? 0;
+    const stuck = unplanned > 0 ? `, ${count(unplanned, "robot")} without a plan` : "";
+    setText(this.#status, last === undefined ? "" : `${count(rounds.length, "round")}${stuck}`);
+    this.#holds.replaceChildren(
+      ...holds.map(({ robot, left }) => {
+        const release = button("Release", () => this.#run.hold(robot, 0), { class: "quiet" });
+        return element(
+          "li",
+          { class: "chips" },
+          robotChip(this.#session, robot),
+          `held, ${left.toFixed(1)} s left`,
+          release,
+        );
+      }),
+    );
+    if (last === undefined) return;
+    const latencies = rounds.map(({ latency }) => latency).slice(-SHOWN);
+    this.#charts.replaceChildren(
+      lineChart("Goals reached a minute", throughput(rounds, period).slice(-SHOWN), (value) =>
+        value.toFixed(0),
+      ),
+      lineChart("Time to plan a round", latencies, milliseconds),
+    );
+  }
+}

@@ -1,0 +1,181 @@
+// A fleet that keeps running: rounds of playing a plan, advancing its request to the end of the round, and planning the
+// next one meanwhile (see docs/fleet_loop.md). Robots that have arrived go to their start and back. No DOM; the service
+// is passed in. Seconds.
+
+import { robotsOf } from "./edit_request.js";
+import { goalsOf, lastGoalOf } from "./goals.js";
+import { Signals } from "./signals.js";
+
+const SERVICE = 2; // seconds at the start before a robot goes back
+const BUDGET_SHARE = 0.9; // of a round
+const LEAST_BUDGET_MS = 200;
+const SMOOTHED = 5; // rounds whose goals count for the throughput
+const NO_LISTENER = { progress() {}, incumbent() {}, waiting() {} };
+
+/** The request with the options of a running fleet: it is planned in time, and only what must change. */
+export function runningRequest(request, period) {
+  const budget = Math.max(LEAST_BUDGET_MS, Math.round(period * 1000 * BUDGET_SHARE));
+  return {
+    ...request,
+    options: { ...request.options, mode: "first", replan: "where_needed", time_budget_ms: budget },
+  };
+}
+
+/** The goals of robots that have arrived by a time: to their start, where they are served, and back. */
+export function goalsAfter(plans, places, t) {
+  const arrived = plans.filter(({ robot, cost }) => cost <= t && places.has(robot));
+  return arrived.map(({ robot }) => {
+    const { start, goal } = places.get(robot);
+    return { robot, goals: [{ ...start, service: SERVICE }, goal] };
+  });
+}
+
+/** How many goals robots reach by a time. */
+export function reachedBy(plans, t) {
+  const isIn = (at) => at > 0 && at <= t;
+  return plans.reduce((sum, { cost, visits }) => {
+    const times = visits?.map(({ t_leave }) => t_leave ?? cost) ?? [cost];
+    return sum + times.filter(isIn).length;
+  }, 0);
+}
+
+/** Where each robot with a goal goes: id -> {start, goal}, the poses alone. */
+export function placesOf(request) {
+  const pose = ({ x, y, theta }) => ({ x, y, ...(theta === undefined ? {} : { theta }) });
+  const moving = robotsOf(request).filter((robot) => goalsOf(robot).length > 0);
+  return new Map(
+    moving.map((robot) => [robot.id, { start: pose(robot.start), goal: pose(lastGoalOf(robot)) }]),
+  );
+}
+
+/** The goals reached a minute, after each round, in the last few rounds. */
+export function throughput(rounds, period) {
+  return rounds.map((_, at) => {
+    const recent = rounds.slice(Math.max(0, at + 1 - SMOOTHED), at + 1);
+    const reached = recent.reduce((sum, round) => sum + round.reached, 0);
+    return (reached / (recent.length * period)) * 60;
+  });
+}
+
+export class FleetRun {
+  #session;
+  #service;
+  #now;
+  #signals = new Signals();
+  #turn = 0; // counts starts and stops, so that late answers are dropped
+  #places = new Map();
+  #holds = new Map(); // id -> seconds from the start of the round
+  /** @type {Promise<any> | null} */
+  #next = null; // of the request and answer of the next round
+  #isProceeding = false;
+
+  running = false;
+  period = 2; // seconds of a round
+  /** @type {{reached: number, latency: number, unplanned: number}[]} */
+  rounds = []; // that have ended
+
+  /** `now()` is the wall clock in milliseconds. */
+  constructor(session, service, now) {
+    this.#session = session;
+    this.#service = service;
+    this.#now = now;
+    session.on("time playback", () => this.#watch());
+    session.on("request", ({ proceeded }) => proceeded || this.stop());
+  }
+
+  /** `listener` is called when it starts, stops, ends a round, or holds other robots. */
+  onChange(listener) {
+    this.#signals.on("change", listener);
+  }
+
+  /** The held robots: [{robot, left}], with the seconds that are left from now on. */
+  get holds() {
+    const { time } = this.#session.player;
+    return [...this.#holds].map(([robot, until]) => ({ robot, left: Math.max(0, until - time) }));
+  }
+
+  /** Starts from the session's request and plan, which must be there. */
+  start(period) {
+    this.stop();
+    this.period = period;
+    this.rounds = [];
+    this.#holds.clear();
+    this.#places = placesOf(this.#session.request);
+    this.running = true;
+    this.#turn += 1;
+    this.#begin(runningRequest(this.#session.request, period), this.#session.answer);
+  }
+
+  stop() {
+    if (!this.running) return;
+    this.running = false;
+    this.#turn += 1;
+    this.#next = null;
+    this.#isProceeding = false;
+    this.#session.pause();
+    this.#signals.emit("change");
+  }
+
+  /** Holds a robot for so many seconds from the round after the next one, which is planned already; 0 releases it. */
+  hold(robot, duration) {
+    if (duration > 0) this.#holds.set(robot, 2 * this.period + duration);
+    else this.#holds.delete(robot);
+    this.#signals.emit("change");
+  }
+
+  /** Plans the next round while this one is played. */
+  #begin(request, answer) {
+    this.#next = this.#plan(request, answer);
+    this.#next.catch(() => {}); // it is awaited at the end of the round
+    this.#signals.emit("change");
+    this.#session.play();
+    this.#watch();
+  }
+
+  async #plan(request, { plans }) {
+    const at = this.period;
+    const holds = [...this.#holds]
+      .filter(([, until]) => until > at)
+      .map(([robot, until]) => ({ robot, until: until - at }));
+    const goals = goalsAfter(plans, this.#places, at);
+    const advanced = await this.#service.advance(
+      JSON.stringify({ request, plans, at, commit: at, goals, holds }),
+    );
+    const asked = this.#now();
+    const answer = await this.#service.plan(JSON.stringify(advanced), undefined, NO_LISTENER);
+    const latency = this.#now() - asked;
+    const figures = { reached: reachedBy(plans, at), latency, unplanned: answer.unplanned.length };
+    return { request: advanced, answer, figures };
+  }
+
+  /** Ends the round when it has been played. */
+  #watch() {
+    const { time, duration } = this.#session.player;
+    if (!this.running || this.#isProceeding || time < Math.min(this.period, duration)) return;
+    this.#isProceeding = true;
+    this.#proceed(this.#turn);
+  }
+
+  async #proceed(turn) {
+    let next;
+    try {
+      next = await this.#next;
+    } catch (error) {
+      if (turn !== this.#turn) return;
+      this.stop();
+      this.#session.fail(error);
+      return;
+    }
+    if (turn !== this.#turn) return;
+    const late = Math.max(0, this.#session.player.time - this.period);
+    this.rounds = [...this.rounds, next.figures];
+    for (const [robot, until] of this.#holds) {
+      if (until > this.period) this.#holds.set(robot, until - this.period);
+      else this.#holds.delete(robot);
+    }
+    this.#session.proceed(next.request, next.answer);
+    this.#session.seek(Math.min(late, this.period / 2));
+    this.#isProceeding = false;
+    this.#begin(next.request, next.answer);
+  }
+}
