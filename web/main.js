@@ -32,6 +32,7 @@ import { watchUnplanned } from "./panels/unplanned_card.js";
 import { BoxSelection } from "./scene/box_selection.js";
 import { Follow } from "./scene/follow.js";
 import { ClosestOverlay, showBlockers, showViolations } from "./scene/overlays.js";
+import { showMoment } from "./scene/pair_view.js";
 import { RobotColours } from "./scene/palette.js";
 import { Minimap } from "./scene/minimap.js";
 import { Ruler } from "./scene/ruler.js";
@@ -70,7 +71,14 @@ new Minimap(session, stage);
 const ruler = new Ruler(session, stage);
 const timeEntry = new TimeEntry(session);
 const follow = new Follow(session, stage);
-const timeline = new TimelineDock(session, colours, fleet, transport, (over) => closest.peek(over));
+const timeline = new TimelineDock(
+  session,
+  colours,
+  fleet,
+  transport,
+  (over) => closest.peek(over),
+  (ids, t) => showMoment(session, stage, ids, t),
+);
 new Inspector(session, stage, colours, fleet, tabs);
 watchSummary(session);
 watchCheck(session, stage);

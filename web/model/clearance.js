@@ -5,13 +5,16 @@
 import { Follower, knotTimes, lastKnot, sortedOnce } from "./motion.js";
 
 const SAMPLES = 600; // least number of windows, so that the curve is smooth
+const CONTACT = 1e-6; // metres that disks in contact may overlap
 
 /**
  * The smallest gap of any two motions, window by window: {t, gap, first, second, least} of equally long
  * arrays, where t[k] is the moment in window k when motions first[k] and second[k] are `gap[k]` apart, the
- * nearest in that window. `least` is the k of the smallest gap of all. Null with fewer than two motions.
+ * nearest in that window. `least` is the k of the smallest gap of all. Null with fewer than two motions. Without
+ * `resting`, two that rest side by side do not count while they rest, unless they overlap; the gap of a window in which
+ * no others are left is Infinity.
  */
-export function clearanceOf(motions, samples = SAMPLES) {
+export function clearanceOf(motions, samples = SAMPLES, resting = true) {
   if (motions.length < 2) return null;
   const end = lastKnot(motions);
   const even = Array.from({ length: samples }, (_, k) => (end * k) / samples);
@@ -24,7 +27,7 @@ export function clearanceOf(motions, samples = SAMPLES) {
     second: new Int32Array(windows),
     least: 0,
   };
-  const sweep = new ClearanceSweep(motions);
+  const sweep = new ClearanceSweep(motions, resting);
   for (let k = 0; k < windows; k += 1) {
     const nearest = sweep.nearestIn(times[k], times[k + 1] ?? times[k]);
     curve.t[k] = nearest.t;
@@ -34,6 +37,22 @@ export function clearanceOf(motions, samples = SAMPLES) {
     if (nearest.gap < curve.gap[curve.least]) curve.least = k;
   }
   return curve;
+}
+
+/** The runs of windows in which a curve's gap is below a threshold: [{from, to, least}], the windows' indices. */
+export function spellsBelow({ gap }, threshold) {
+  const spells = [];
+  for (let k = 0; k < gap.length; k += 1) {
+    if (!(gap[k] < threshold)) continue;
+    const spell = spells.at(-1);
+    if (spell?.to !== k - 1) {
+      spells.push({ from: k, to: k, least: k });
+      continue;
+    }
+    spell.to = k;
+    if (gap[k] < gap[spell.least]) spell.least = k;
+  }
+  return spells;
 }
 
 /**
@@ -49,8 +68,11 @@ export class ClearanceSweep {
   #top;
   #order;
   #nearest = { t: 0, gap: Infinity, first: 0, second: 1 };
+  #resting;
 
-  constructor(motions) {
+  /** `resting`: whether two that both rest count, see clearanceOf. */
+  constructor(motions, resting = true) {
+    this.#resting = resting;
     this.#followers = motions.map((motion) => new Follower(motion));
     [this.#left, this.#right, this.#bottom, this.#top] = [0, 0, 0, 0].map(
       () => new Float64Array(motions.length),
@@ -104,6 +126,7 @@ export class ClearanceSweep {
     const share = closestShare(x, y, wayX, wayY);
     const apart = Math.sqrt((x + wayX * share) ** 2 + (y + wayY * share) ** 2);
     const gap = apart - a.radius - b.radius;
+    if (!this.#resting && a.rests && b.rests && gap >= -CONTACT) return;
     if (gap < this.#nearest.gap) this.#nearest = { t: t0 + (t1 - t0) * share, gap, first, second };
   }
 }

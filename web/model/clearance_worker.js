@@ -3,7 +3,7 @@
 import { clearanceOf } from "./clearance.js";
 
 addEventListener("message", ({ data }) => {
-  const curve = clearanceOf(data);
+  const curve = clearanceOf(data, undefined, false);
   const buffers = curve ? [curve.t, curve.gap, curve.first, curve.second].map(({ buffer }) => buffer) : [];
   postMessage(curve, { transfer: buffers });
 });

@@ -80,11 +80,16 @@ export class FleetMotion {
     return this.#nearest.pair;
   }
 
-  /** The smallest gap of the plan: {t, gap, ids}, or null. */
+  /** The smallest gap of the plan but for pairs at rest: {t, gap, ids}, or null. */
   get least() {
-    if (this.curve === null) return null;
-    const { t, gap, first, second, least } = this.curve;
-    return { t: t[least], gap: gap[least], ids: this.#idsOf(first[least], second[least]) };
+    if (this.curve === null || this.curve.gap[this.curve.least] === Infinity) return null; // or nobody moves
+    return this.momentOf(this.curve.least);
+  }
+
+  /** When two are nearest in a window of the curve: {t, gap, ids}. */
+  momentOf(window) {
+    const { t, gap, first, second } = this.curve;
+    return { t: t[window], gap: gap[window], ids: this.#idsOf(first[window], second[window]) };
   }
 
   #idsOf(first, second) {

@@ -65,13 +65,14 @@ export function sortedOnce(numbers) {
 
 /**
  * Follows a motion through time. `x`, `y` and `endX`, `endY` are its positions at both ends of a span, `radius` is that
- * of all the span.
+ * of all the span, and `rests` whether it does not move in it.
  */
 export class Follower {
   x = 0;
   y = 0;
   endX = 0;
   endY = 0;
+  rests = true;
   radius;
   #motion;
   #knots;
@@ -93,7 +94,9 @@ export class Follower {
     const y = knots[at + 2];
     this.x = this.endX = x;
     this.y = this.endY = y;
+    this.rests = true;
     if (at + 3 >= knots.length || t0 < knots[at]) return;
+    this.rests = knots[at + 4] === x && knots[at + 5] === y;
     const lasts = knots[at + 3] - knots[at];
     const begin = (t0 - knots[at]) / lasts;
     const end = (t1 - knots[at]) / lasts;

@@ -2,6 +2,7 @@
 // it.
 
 import { kindInWords } from "../model/checks.js";
+import { showMoment } from "../scene/pair_view.js";
 import { byId, element, icon } from "../ui/dom.js";
 import { count, metres, seconds } from "../ui/format.js";
 
@@ -76,11 +77,7 @@ function violationButton({ kind, robots, t, distance, required, detail }, sessio
     element("span", { class: "violation-detail", textContent: detail }),
   );
   button.addEventListener("click", () => {
-    session.pause();
-    session.highlight(robots);
-    session.seek(t);
-    const at = session.poseOf(robots[0]);
-    if (at) stage.reveal(at);
+    showMoment(session, stage, robots, t);
   });
   return button;
 }

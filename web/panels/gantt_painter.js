@@ -2,6 +2,7 @@
 // action is shown by form: driving is a full bar, turning half a bar, waiting an open one. Sizes in CSS
 // pixels.
 
+import { spellsBelow } from "../model/clearance.js";
 import { rowsSeen, thinned, ticks, xOf, yOf } from "../model/gantt.js";
 import { REASONS } from "./unplanned_card.js";
 
@@ -20,7 +21,7 @@ const STATUS = { parked: "Parked", ready: "", outdated: "" };
 
 /**
  * `chart` has layout (see model/gantt.js, whose rows begin below the strip and the axis), ids (row by row),
- * session, colours (see RobotColours) and curve (see clearanceOf, or null).
+ * session, colours (see RobotColours), curve (see clearanceOf, or null) and threshold (of gaps, metres, or null).
  */
 export function paintGantt(context, chart) {
   const { layout, colours } = chart;
@@ -31,7 +32,7 @@ export function paintGantt(context, chart) {
   paintRows(context, chart);
   context.clearRect(0, 0, layout.left + layout.width + PAD, layout.top);
   paintAxis(context, layout, theme);
-  clipped(context, layout, 0, STRIP, () => paintCurve(context, layout, theme, chart.curve));
+  clipped(context, layout, 0, STRIP, () => paintCurve(context, layout, theme, chart.curve, chart.threshold));
   paintStripLabel(context, layout, theme, chart.curve);
   if (chart.session.answer === null) paintHint(context, layout, theme);
 }
@@ -73,12 +74,13 @@ function paintStripLabel(context, layout, theme, curve) {
 }
 
 /** The curve on a square-root scale, which spreads small gaps; below it contacts and overlaps. */
-function paintCurve(context, layout, theme, curve) {
+function paintCurve(context, layout, theme, curve, threshold) {
   if (curve === null) return;
   const { t, gap } = curve;
   const most = largestGap(curve, layout.range);
   const bottom = STRIP - 5;
-  const yAt = (value) => bottom - Math.sqrt(Math.max(0, value) / most) * (bottom - 5);
+  const yAt = (value) => bottom - Math.sqrt(Math.min(most, Math.max(0, value)) / most) * (bottom - 5);
+  if (threshold !== null) paintThreshold(context, layout, theme, curve, threshold, yAt);
   context.beginPath();
   const shown = thinned(curve, layout.range, layout.width);
   const [first, last] = [shown[0], shown[shown.length - 1]];
@@ -97,6 +99,26 @@ function paintCurve(context, layout, theme, curve) {
   context.fill();
   context.globalAlpha = 1;
   shown.forEach((k, at) => paintContact(context, layout, theme, curve, [k, shown[at + 1]], bottom));
+}
+
+/** A line at the threshold, and the times at which the gap is below it. */
+function paintThreshold(context, layout, theme, curve, threshold, yAt) {
+  context.fillStyle = context.strokeStyle = theme.danger;
+  context.globalAlpha = 0.2;
+  for (const { from, to } of spellsBelow(curve, threshold)) {
+    const x = xOf(layout, curve.t[from]);
+    const end = xOf(layout, curve.t[to + 1] ?? curve.t[to]);
+    context.fillRect(x - 1, 0, Math.max(2, end - x), STRIP);
+  }
+  context.globalAlpha = 0.8;
+  context.setLineDash([4, 3]);
+  context.lineWidth = 1;
+  context.beginPath();
+  context.moveTo(layout.left, yAt(threshold));
+  context.lineTo(layout.left + layout.width, yAt(threshold));
+  context.stroke();
+  context.setLineDash([]);
+  context.globalAlpha = 1;
 }
 
 /** Marks contact below the curve and overlap over its whole height, up to the next point if it continues. */
@@ -118,7 +140,7 @@ function paintContact(context, layout, theme, { t, gap }, [k, next], bottom) {
 function largestGap({ t, gap }, { from, to }) {
   let largest = CONTACT;
   for (let k = 0; k < t.length; k += 1) {
-    if (t[k] >= from && t[k] <= to) largest = Math.max(largest, gap[k]);
+    if (t[k] >= from && t[k] <= to && gap[k] < Infinity) largest = Math.max(largest, gap[k]);
   }
   return largest;
 }

@@ -29,6 +29,8 @@ export class TimelineChart {
   #rowHeight = this.#usualHeight;
   #signals = new Signals();
   #sortedBy = "listed";
+  /** @type {number | null} */
+  #threshold = null;
   #ids = []; // row by row
   #range = { from: 0, to: 0 };
   #size = { clientWidth: 0, clientHeight: 0 }; // of the box, kept to avoid a layout in each frame
@@ -98,6 +100,12 @@ export class TimelineChart {
   showAround(t) {
     const shift = t - (this.#range.from + this.#range.to) / 2;
     this.#setRange(panTime(this.#range, this.#session.player.duration, shift));
+  }
+
+  /** Marks gaps below a threshold, metres; null: none. */
+  setThreshold(threshold) {
+    this.#threshold = threshold;
+    this.#repaint();
   }
 
   /** Sorts the rows: "listed", "start", "cost" or "delay". */
@@ -170,6 +178,7 @@ export class TimelineChart {
       session: this.#session,
       colours: this.#colours,
       curve: this.#fleet.curve,
+      threshold: this.#threshold,
     });
     const { theme } = this.#colours;
     for (const paint of this.#overlays) paint(context, theme, { layout, ids: this.#ids });

@@ -4,6 +4,7 @@
 import { delayOf } from "../model/gantt.js";
 import { byId, setText } from "../ui/dom.js";
 import { metres } from "../ui/format.js";
+import { watchGapThreshold } from "./gap_threshold.js";
 import { TimelineChart } from "./timeline_chart.js";
 import { TimelineOverview } from "./timeline_overview.js";
 
@@ -25,8 +26,8 @@ export class TimelineDock {
   #height = HEIGHT.first;
   #updated = -Infinity;
 
-  /** See TimelineChart. */
-  constructor(session, colours, fleet, transport, overStrip) {
+  /** See TimelineChart; `show(ids, t)` shows a moment of two robots. */
+  constructor(session, colours, fleet, transport, overStrip, show) {
     this.#session = session;
     this.#fleet = fleet;
     this.#chart = new TimelineChart(session, colours, fleet, transport, overStrip);
@@ -34,7 +35,8 @@ export class TimelineDock {
     this.#compact.addEventListener("click", () => this.#makeCompact());
     this.#toggle.addEventListener("click", () => this.#fold(!this.#body.hidden));
     this.#sort.addEventListener("change", () => this.#chart.sortBy(this.#sort.value));
-    this.#least.addEventListener("click", () => this.#goToLeast());
+    this.#least.addEventListener("click", () => show(fleet.least.ids, fleet.least.t));
+    watchGapThreshold(session, fleet, this.#chart, show);
     this.#watchDivider();
     this.#fold(matchMedia("(max-width: 820px)").matches);
     session.on("answer", () => {
@@ -72,10 +74,9 @@ export class TimelineDock {
     if (this.#session.player.playing && now - this.#updated < EVERY_MS) return;
     this.#updated = now;
     const pair = this.#session.answer === null ? null : this.#fleet.nearestAt(this.#session.player.time);
-    setText(
-      this.#closest,
-      pair === null ? "" : `Closest now: ${pair.ids.join(" and ")}, ${metres(pair.gap)}`,
-    );
+    const text = pair === null ? "" : `Closest now: ${pair.ids.join(" and ")}, ${metres(pair.gap)}`;
+    setText(this.#closest, text);
+    this.#closest.title = text; // whole names where there is no room
   }
 
   #showLeast() {
@@ -84,13 +85,6 @@ export class TimelineDock {
     if (least === null) return;
     setText(this.#least, `Smallest gap ${metres(least.gap)}`);
     this.#least.title = `${least.ids.join(" and ")} at ${least.t.toFixed(2)} s: show that moment`;
-  }
-
-  #goToLeast() {
-    const { t, ids } = this.#fleet.least;
-    this.#session.pause();
-    this.#session.highlight(ids);
-    this.#session.seek(t);
   }
 
   #watchDivider() {

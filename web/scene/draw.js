@@ -8,6 +8,7 @@ import { contextOf } from "../ui/dom.js";
 import { HeatMap } from "./heat_map.js";
 import { MapRaster } from "./map_raster.js";
 import { drawGoal, drawNumber, drawObstacle, drawPath, drawRobot, drawStart } from "./marks.js";
+import { TagPlaces } from "./tag_places.js";
 import { drawZone } from "./zone_marks.js";
 import { robotColour } from "./palette.js";
 import { toScreen } from "./view.js";
@@ -70,7 +71,16 @@ export class Painter {
     context.drawImage(this.#backdrop, 0, 0);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     const screen = (point) => toScreen(camera, viewport, point);
-    const view = { camera, viewport, time, marked, theme: this.#theme, scale: camera.scale, screen };
+    const view = {
+      camera,
+      viewport,
+      time,
+      marked,
+      theme: this.#theme,
+      scale: camera.scale,
+      screen,
+      tags: new TagPlaces(),
+    };
     if (this.#look.paths === "remaining") this.#paintRemainingPaths(context, view);
     this.#paintMarkedPaths(context, view);
     this.#paintRobots(context, view);
@@ -198,7 +208,7 @@ export class Painter {
   }
 
   /** `name`: the text beside the robot at this index of the scene, or null. */
-  #paintRobot(context, { viewport, time, scale, screen }, at, name) {
+  #paintRobot(context, { viewport, time, scale, screen, tags }, at, name) {
     const robot = this.#scene.robots[at];
     const track = this.#tracks.get(robot.id);
     const pose = robotPoseAt(robot, track, time);
@@ -218,6 +228,7 @@ export class Painter {
       state,
       unplanned: track.status === "unplanned",
       name,
+      tags,
     });
   }
 }

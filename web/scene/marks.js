@@ -9,12 +9,16 @@ const CROSS = { width: 2, alpha: 0.9 };
  * A robot as a disk with a wedge for its heading and, if there is room, its label or, if `state` is not null,
  * the sign of its state; one without a plan is hollow and crossed out.
  */
-export function drawRobot(context, theme, { centre, theta, radius, colour, label, state, unplanned, name }) {
+export function drawRobot(
+  context,
+  theme,
+  { centre, theta, radius, colour, label, state, unplanned, name, tags },
+) {
   const shown = Math.max(radius, SMALLEST_DOT);
   if (name !== null) drawHalo(context, centre, shown, theme);
   if (unplanned) drawUnplanned(context, theme, centre, shown, colour);
   else drawDisk(context, theme, { centre, theta, radius: shown, colour, label, state });
-  if (name !== null) drawName(context, theme, centre, shown, name);
+  if (name !== null) drawName(context, theme, centre, shown, name, tags);
 }
 
 /** The start of a robot: a faint ring. */
@@ -198,17 +202,22 @@ function drawHalo(context, centre, radius, theme) {
   ring(context, centre, radius + 4, theme.ink, { width: 2, alpha: 0.85, dashes: [] });
 }
 
-function drawName(context, theme, centre, radius, name) {
-  drawTag(context, theme, { x: centre.x, y: centre.y - radius - 17 }, name);
+/** Writes the name above the disk, or where `tags` (see TagPlaces) has room. */
+function drawName(context, theme, centre, radius, name, tags) {
+  drawTag(context, theme, tags.place(centre, radius + 17, tagWidth(context, theme, name)), name);
+}
+
+function tagWidth(context, theme, text) {
+  context.font = `600 12px ${theme.font}`;
+  return context.measureText(text).width + 12;
 }
 
 /** A short text on its own background, centred at a point. */
 export function drawTag(context, theme, { x, y }, text) {
   context.save();
-  context.font = `600 12px ${theme.font}`;
+  const width = tagWidth(context, theme, text);
   context.textAlign = "center";
   context.textBaseline = "middle";
-  const width = context.measureText(text).width + 12;
   context.fillStyle = theme.ink;
   context.beginPath();
   context.roundRect(x - width / 2, y - 9, width, 18, 5);

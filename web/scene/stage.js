@@ -13,6 +13,7 @@ const HEADROOM = 64; // pixels above it, where the view's buttons are
 const KEY_PAN = 60; // pixels
 const KEY_ZOOM = 1.4;
 const LEGIBLE = 10; // pixels: the least radius of a robot in the middle
+const FRAMED = 40; // pixels: the largest radius of the smallest disk that is framed with others
 const REACH = 6; // pixels: the least radius for picking a robot
 const NOWHERE = { left: 0, bottom: 0, right: 1, top: 1 };
 
@@ -141,6 +142,25 @@ export class Stage {
     const { max } = this.#scaleLimits();
     const scale = Math.max(this.#camera.scale, Math.min(max, LEGIBLE / radius));
     this.#move({ x, y, scale });
+  }
+
+  /** Shows some disks ({x, y, radius}, metres) together, in the middle and large enough to tell them apart. */
+  frame(disks) {
+    if (disks.length === 0) return;
+    const least = Math.min(...disks.map(({ radius }) => radius));
+    const room = 4 * Math.max(...disks.map(({ radius }) => radius));
+    const [xs, ys] = ["x", "y"].map((axis) => disks.map((disk) => disk[axis]));
+    const bounds = {
+      left: Math.min(...xs) - room,
+      right: Math.max(...xs) + room,
+      bottom: Math.min(...ys) - room,
+      top: Math.max(...ys) + room,
+    };
+    const camera = fit(bounds, this.#viewport, this.#insets());
+    const { min, max } = this.#scaleLimits();
+    const scale = Math.max(min, Math.min(camera.scale, max, FRAMED / least));
+    const middle = { x: (bounds.left + bounds.right) / 2, y: (bounds.bottom + bounds.top) / 2 };
+    this.#move({ ...middle, scale });
   }
 
   /** Puts a world point into the middle, by hand. */

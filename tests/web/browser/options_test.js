@@ -161,8 +161,8 @@ test("arrow keys move between tabs", async () => {
   await onPage(async (page) => {
     await page.focus("#tab-plan");
     await page.keyboard.press("ArrowLeft");
-    assert.equal(await page.evaluate(() => document.activeElement.id), "tab-options");
-    assert.equal(await page.isVisible("#panel-options"), true);
+    assert.equal(await page.evaluate(() => document.activeElement.id), "tab-analyse");
+    assert.equal(await page.isVisible("#panel-analyse"), true);
     assert.equal(await page.isVisible("#panel-plan"), false);
     await page.keyboard.press("Home");
     assert.equal(await page.isVisible("#panel-plan"), true);

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { clearanceOf, ClearanceSweep } from "../../../web/model/clearance.js";
+import { clearanceOf, ClearanceSweep, spellsBelow } from "../../../web/model/clearance.js";
 
 const near = (actual, expected) =>
   assert.ok(Math.abs(actual - expected) < 1e-12, `${actual} is not ${expected}`);
@@ -103,4 +103,31 @@ test("the nearest pair equals the one found by comparing all pairs, forward and 
       for (let b = a + 1; b < 30; b += 1) assert.ok(gapAt(motions, a, b, t) >= gap - 1e-12);
     }
   }
+});
+
+test("without resting pairs, neighbours count only while one of them moves", () => {
+  const mover = motion(0.5, [0, 10, 0], [4, 10, 0], [6, 12, 0]);
+  const neighbours = [motion(0.5, [0, 0, 0]), motion(0.5, [0, 1, 0])];
+  const curve = clearanceOf([...neighbours, mover], 6, false);
+  assert.deepEqual([...curve.gap], [Infinity, Infinity, Infinity, Infinity, 8, 9]);
+  assert.deepEqual([curve.first[curve.least], curve.second[curve.least]], [1, 2]);
+  near(clearanceOf([...neighbours, mover], 6).gap[5], 0);
+});
+
+test("without resting pairs, one that overlaps counts, and one that leaves contact", () => {
+  const overlapping = [motion(0.5, [0, 0, 0]), motion(0.5, [0, 0.9, 0])];
+  near(clearanceOf(overlapping, 1, false).gap[0], -0.1);
+  const leaving = [motion(0.5, [0, 0, 0]), motion(0.5, [0, 1, 0], [2, 1, 0], [4, 3, 0])];
+  const { t, gap, least } = clearanceOf(leaving, 4, false);
+  near(gap[least], 0);
+  assert.equal(t[least], 2);
+});
+
+test("the times below a threshold are runs of windows with their nearest moment", () => {
+  const gap = [3, 0.5, 0.2, 0.4, 2, Infinity, 0.1, 0.1];
+  assert.deepEqual(spellsBelow({ gap }, 0.5), [
+    { from: 2, to: 3, least: 2 },
+    { from: 6, to: 7, least: 6 },
+  ]);
+  assert.deepEqual(spellsBelow({ gap }, 0), []);
 });
