@@ -1,5 +1,6 @@
 // The list of robots with their current states, and robots named in a text.
 
+import { ChunkedList } from "../ui/chunked_list.js";
 import { byId, element, scrollWithin, setText } from "../ui/dom.js";
 import { count, seconds } from "../ui/format.js";
 
@@ -10,7 +11,8 @@ export class RobotList {
   #colours;
   #filter;
   #list = byId("robots");
-  #rows = new Map(); // id -> {button, state}
+  #rows = new Map(); // of what is in the document: id -> {button, state}
+  #chunks = new ChunkedList(this.#list, () => this.#update());
   #updated = -Infinity;
 
   /** `colours`: see RobotColours; `filter`: see RobotFilter. */
@@ -53,14 +55,15 @@ export class RobotList {
   }
 
   #show() {
+    const { robots } = this.#filter;
     this.#rows.clear();
-    const items = this.#filter.robots.map((robot) => {
+    this.#chunks.show(robots.length, (index) => {
+      const robot = robots[index];
       const row = this.#row(robot, this.#session.tracks.get(robot.id));
       this.#rows.set(robot.id, row);
-      return element("li", {}, row.button);
+      const place = { "aria-posinset": String(index + 1), "aria-setsize": String(robots.length) };
+      return element("div", { role: "listitem", ...place }, row.button);
     });
-    this.#list.replaceChildren(...items);
-    this.#update();
   }
 
   #row(robot, track) {
@@ -87,6 +90,10 @@ export class RobotList {
     this.#updated = performance.now();
     const { hovered, marked } = this.#session;
     for (const [id, { button, state }] of this.#rows) {
+      if (!button.isConnected) {
+        this.#rows.delete(id); // its part of the list is out of sight
+        continue;
+      }
       setText(state, this.#session.stateOf(id));
       button.classList.toggle("hovered", id === hovered);
       const pressed = String(id !== hovered ? marked.has(id) : id === this.#session.selected);
@@ -97,6 +104,7 @@ export class RobotList {
   #reveal(id) {
     if (id === this.#revealed) return;
     this.#revealed = id;
+    this.#chunks.fillAt(this.#filter.robots.findIndex((robot) => robot.id === id));
     const button = this.#rows.get(id)?.button;
     if (button?.checkVisibility()) scrollWithin(button.closest(".side-body"), button);
   }
