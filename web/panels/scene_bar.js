@@ -10,6 +10,8 @@ export function watchViewMenu(stage) {
   for (const choice of menu.querySelectorAll("input[type=radio]")) {
     choice.addEventListener("change", () => stage.setLook({ [choice.name]: choice.value }));
   }
+  const lattice = menu.querySelector("input[name=lattice]");
+  lattice.addEventListener("change", () => stage.setLook({ lattice: lattice.checked }));
   byId("state-legend").replaceChildren(
     ...Object.entries(STATES_IN_WORDS).map(([state, words]) => {
       return element("li", {}, element("span", { class: `swatch filled state-${state}` }), words);

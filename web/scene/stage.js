@@ -31,7 +31,7 @@ export class Stage {
   #viewport = { width: 0, height: 0 };
   #camera = { x: 0, y: 0, scale: 1 };
   #fitted = true; // the camera fits the viewport until it is moved
-  #look = { colours: "robot", paths: "whole", heat: "none" };
+  #look = { colours: "robot", paths: "whole", heat: "none", lattice: false };
   #overlays = [];
   #ownTool = {};
   #lentTool = null;

@@ -7,6 +7,7 @@ import { Session } from "../model/session.js";
 import { watchReadout, watchViewMenu } from "../panels/scene_bar.js";
 import { TimeEntry } from "../panels/time_entry.js";
 import { Transport } from "../panels/transport.js";
+import { showLattice } from "../scene/lattice_overlay.js";
 import { RobotColours } from "../scene/palette.js";
 import { showScale } from "../scene/scale_bar.js";
 import { Stage } from "../scene/stage.js";
@@ -23,6 +24,7 @@ const stage = new Stage(session, new RobotColours());
 const transport = new Transport(session);
 const timeEntry = new TimeEntry(session);
 showScale(stage);
+showLattice(session, stage);
 watchReadout(session);
 watchViewMenu(stage);
 watchShortcuts({

@@ -101,3 +101,24 @@ test("the overview moves the part of the plan that the timeline shows; thin rows
     assert.ok(Math.abs(time - makespan * 0.8) < makespan * 0.02, `${time} of ${makespan}`);
   });
 });
+
+test("the lattice is shown on demand: a point in the middle of a cell", async () => {
+  await onPage(async (page) => {
+    const { map } = await choose(page, "crossing");
+    const cell = map.resolution ?? 1;
+    const column = map.rows[0].indexOf(".");
+    const origin = map.origin ?? { x: 0, y: 0 };
+    const top = origin.y + (map.rows.length - 0.5) * cell;
+    const place = await page.evaluate((point) => window.fleetplan.pointOf(point), {
+      x: origin.x + (column + 0.5) * cell,
+      y: top,
+    });
+    const [plain] = await coloursAt(page, [place]);
+    await page.focus("#view-menu summary");
+    await page.keyboard.press("Enter");
+    await page.focus("input[name=lattice]");
+    await page.keyboard.press("Space");
+    const [shown] = await coloursAt(page, [place]);
+    assert.notEqual(shown, plain);
+  });
+});
