@@ -3,6 +3,7 @@
 import { RobotChoice } from "../model/selection.js";
 import { byId, element, icon, setText } from "../ui/dom.js";
 import { BoxTool, DrawTool } from "./draw_tools.js";
+import { GoalsForm } from "./goals_form.js";
 import { GroupForm } from "./group_form.js";
 import { MapForm, watchNewMapForm } from "./map_form.js";
 import { RobotActions } from "./robot_actions.js";
@@ -34,6 +35,7 @@ export class EditPanel {
     watchRobotPicker(session, this.choice);
     new RobotForm(session, this.choice, actions);
     new GroupForm(session);
+    new GoalsForm(session, this.choice);
     watchDefaultsForm(session);
     new MapForm(session);
     watchNewMapForm(session, async (request) => {

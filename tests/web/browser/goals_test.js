@@ -1,0 +1,61 @@
+// Goals of a robot in order, edited by keys and planned.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { pressPlan } from "../support/browser.js";
+import { hook, pagesFor, paste } from "../support/on_page.js";
+
+const onPage = pagesFor();
+
+const HALL = {
+  map: { rows: Array(5).fill("..........") },
+  robot_defaults: { radius: 0.3, linear_speed: 1, angular_speed: 3 },
+  robots: [{ id: "cart", start: { x: 0.5, y: 2.5 }, goal: { x: 5.5, y: 2.5 } }],
+};
+
+test("a goal is added, placed, served and moved earlier by keys alone, and the plan visits it", async () => {
+  await onPage(async (page) => {
+    await paste(page, HALL);
+    await page.click("#tab-edit");
+    await page.selectOption("#edited-robot", "0");
+    await page.focus("#goals summary");
+    await page.keyboard.press("Enter");
+    await page.focus("#append-goal");
+    await page.keyboard.press("Enter");
+    const type = async (label, text) => {
+      await page.locator("#goals-list li").nth(1).getByLabel(label).focus();
+      await page.keyboard.press("Control+a");
+      await page.keyboard.type(text);
+      await page.keyboard.press("Tab");
+    };
+    await type("x", "2.5");
+    await type("y", "4.5");
+    await type("Service", "4");
+    await page.getByRole("button", { name: "Earlier: goal 2" }).focus();
+    await page.keyboard.press("Enter");
+    const [{ goals, goal }] = (await hook(page, "request")).robots;
+    assert.equal(goal, undefined);
+    assert.deepEqual(goals, [{ x: 2.5, y: 4.5, service: 4 }, HALL.robots[0].goal]);
+    const { plans } = await pressPlan(page);
+    const [first, last] = plans[0].visits;
+    assert.ok(first.t_leave - first.t_arrive >= 4 - 1e-6 && last.t_leave === null);
+    await page.getByRole("button", { name: "Remove: goal 1" }).focus();
+    await page.keyboard.press("Enter");
+    assert.deepEqual((await hook(page, "request")).robots, HALL.robots);
+  });
+});
+
+test("a fault of a goal is shown at its field", async () => {
+  await onPage(
+    async (page) => {
+      await paste(page, HALL);
+      await page.click("#tab-edit");
+      await page.selectOption("#edited-robot", "0");
+      await page.click("#goals summary");
+      await page.locator("#goals-list").getByLabel("Service").fill("-1");
+      await page.waitForSelector("#goals-list .field-error");
+    },
+    { allowed: /status of 422/ },
+  );
+});

@@ -1,0 +1,42 @@
+// Edits of the goals of a robot, in the order of its visits; see edit_request.js and goals.js. Pure. Metres, seconds.
+
+import { objectOf, robotsOf, withMembers } from "./edit_request.js";
+import { goalsOf } from "./goals.js";
+
+/** The request with members of one of a robot's goals set, or removed if undefined. */
+export function setGoal(request, index, number, members) {
+  return withGoals(request, index, (goals) =>
+    goals.map((goal, at) => (at === number ? withMembers(objectOf(goal), members) : goal)),
+  );
+}
+
+/** The request with a goal {x, y} more, which the robot visits last. */
+export function appendGoal(request, index, goal) {
+  return withGoals(request, index, (goals) => [...goals, goal]);
+}
+
+/** The request without one of a robot's goals. */
+export function removeGoalAt(request, index, number) {
+  return withGoals(request, index, (goals) => goals.filter((_, at) => at !== number));
+}
+
+/** The request with a goal visited one place earlier. */
+export function advanceGoal(request, index, number) {
+  if (number < 1) return request;
+  return withGoals(request, index, (goals) => {
+    const [before, goal] = [goals[number - 1], goals[number]];
+    return goals.toSpliced(number - 1, 2, goal, before);
+  });
+}
+
+/** A robot with one goal has `goal`, with several `goals`, as people write them. */
+function withGoals(request, index, change) {
+  const robots = robotsOf(request).map((robot, at) => {
+    if (at !== index) return robot;
+    const goals = change(goalsOf(robot));
+    const { goal: _, goals: __, ...rest } = objectOf(robot);
+    if (goals.length === 0) return rest;
+    return goals.length === 1 ? { ...rest, goal: goals[0] } : { ...rest, goals };
+  });
+  return { ...objectOf(request), robots };
+}
