@@ -5,8 +5,9 @@
 import { FileError, quoted } from "../model/problem.js";
 import { linesOf, plusTimes } from "./text.js";
 
-const FREE = ".GS"; // ground, and swamp, which can be entered from ground
-const BLOCKED = "@OTW#"; // out of bounds (two letters), trees, water; and the wall of a request
+// Free: ground (two letters), and swamp, which can be entered from ground. Blocked: out of bounds (two letters), trees,
+// water; and the wall of a request.
+const OTHER = /[^.GS@OTW#]/;
 const HEADER = { type: /^\S+$/, height: /^[1-9]\d{0,8}$/, width: /^[1-9]\d{0,8}$/ };
 const ENTRY = /^\s*\d+\s+(.+?)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+[\d.eE+-]+\s*$/;
 const SLACK = 1e-10; // metres by which disks may overlap after rounding, below the tolerance of the service
@@ -54,8 +55,8 @@ function sizesIn({ width, height }) {
 }
 
 function readRow(line, number, width) {
-  for (let column = 0; column < line.length; column += 1) {
-    if (FREE.includes(line[column]) || BLOCKED.includes(line[column])) continue;
+  const column = line.search(OTHER);
+  if (column >= 0) {
     throw new FileError(
       `Line ${number} has ${quoted(line[column])} in column ${column + 1}; free cells are . G and S, ` +
         "blocked ones @ O T W and #.",

@@ -1,5 +1,7 @@
 // Opening what to plan: an example, files, a text, a link. The last choice wins.
 
+import { asRows } from "../model/drawn_map.js";
+import { prepareCells } from "../model/grid_cells.js";
 import { ConnectionLost, FileError, ProblemError } from "../model/problem.js";
 import { readLinkState } from "./address.js";
 import { Reader } from "./reader.js";
@@ -9,6 +11,9 @@ import { prepareMasks } from "./zone_masks.js";
 const NOT_KEPT =
   "This address is of a request that is too large for a link. It is kept only in the browser in which it was open, and " +
   "not for ever. Open its file.";
+
+/** Lets the browser paint and answer people before long work goes on. */
+const nextTask = () => new Promise((resolve) => setTimeout(resolve));
 
 export class Opening {
   #session;
@@ -75,6 +80,8 @@ export class Opening {
     try {
       const opened = await read();
       await Promise.all([prepareMap(opened?.request?.map), prepareMasks(opened?.request)]);
+      await prepareCells(asRows(opened?.request?.map)?.rows ?? [], nextTask);
+      await nextTask(); // reading and showing are two
       if (turn !== this.#turn || opened === null) return false;
       this.#open(opened);
       return true;
@@ -85,6 +92,14 @@ export class Opening {
       this.#show("problem");
       return false;
     }
+  }
+
+  /** Checks the opened plan, after it is shown. */
+  async #check() {
+    const { turn } = this.#session;
+    await nextTask();
+    if (turn !== this.#session.turn) return;
+    if (!(await this.#session.validate())) this.#show("problem");
   }
 
   #open({ answer, ...opened }) {
@@ -98,7 +113,7 @@ export class Opening {
     }
     if (answer !== null) {
       this.#show("plan"); // which shows the result of the check
-      session.validate().then((judged) => judged || this.#show("problem"));
+      this.#check();
     }
     if (Array.isArray(opened.request.robots) && opened.request.robots.length === 0) {
       session.announce(`${opened.name} is open and has no robots yet: add some under Edit.`);

@@ -3,14 +3,13 @@
 
 import { asRows } from "./drawn_map.js";
 import { goalsOf } from "./goals.js";
+import { preparedCells, readRows } from "./grid_cells.js";
 import { radiusAt } from "./motion.js";
 import { readObstacles } from "./moving_obstacles.js";
 import { doingAt, pathOf, poseAt } from "./timeline.js";
 import { readZones } from "./zones.js";
 
 /** @import {Answer, Grid, Robot, Scene, Track} from "./types.js" */
-
-const [GROUND, GRASS] = [...".G"].map((letter) => letter.charCodeAt(0)); // the letters of free cells
 
 /**
  * The map as {map, lines, columns, rows, resolution, origin, blocked, bounds}; blocked[row * columns +
@@ -32,21 +31,16 @@ export function readGrid(map, previous) {
     right: origin.x + columns * resolution,
     top: origin.y + lines.length * resolution,
   };
-  const blocked = readCells(lines, columns, previous);
+  const blocked = preparedCells(drawn.rows) ?? readCells(lines, columns, previous);
   return { map, lines, columns, rows: lines.length, resolution, origin, blocked, bounds };
 }
 
 function readCells(lines, columns, previous) {
   const alike = previous?.columns === columns && previous.rows === lines.length;
   const blocked = alike ? previous.blocked.slice() : new Uint8Array(columns * lines.length);
-  lines.forEach((line, row) => {
-    if (alike && line === previous.lines[row]) return;
-    const first = row * columns;
-    for (let column = 0; column < columns; column += 1) {
-      const letter = line.charCodeAt(column);
-      blocked[first + column] = letter === GROUND || letter === GRASS ? 0 : 1;
-    }
-  });
+  for (let row = 0; row < lines.length; row += 1) {
+    if (!alike || lines[row] !== previous.lines[row]) readRows(lines, columns, blocked, row, row + 1);
+  }
   return blocked;
 }
 
