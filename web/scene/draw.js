@@ -6,6 +6,7 @@ import { robotPoseAt, robotRadiusAt, robotStateAt } from "../model/scene.js";
 import { remainingPath } from "../model/timeline.js";
 import { contextOf } from "../ui/dom.js";
 import { HeatMap } from "./heat_map.js";
+import { Backdrop } from "./backdrop.js";
 import { MapRaster } from "./map_raster.js";
 import { drawGoal, drawNumber, drawObstacle, drawPath, drawRobot, drawStart } from "./marks.js";
 import { TagPlaces } from "./tag_places.js";
@@ -19,15 +20,13 @@ const COMMITTED = { width: 3.5, alpha: 0.7 };
 const CROSSING = { width: 1, alpha: 0.5, dashes: [2, 4] };
 const OUTDATED = { width: 1.25, alpha: 0.5, dashes: [3, 4] };
 const FAINT = { width: 1.25, alpha: 0.34 };
-const MANY = 100; // robots: the paths of more are fainter, or they would cover the map
+const MANY = 100; // robots: paths of more are fainter, or they would cover the map, and wait until the camera rests
 const FAINTEST = 0.05;
 
 export class Painter {
   #canvas;
   #context;
-  #backdrop = document.createElement("canvas");
-  /** @type {string | null} */
-  #backdropKey = null;
+  #backdrop = new Backdrop();
   #scene = /** @type {any} */ (null);
   #tracks = /** @type {any} */ (null);
   #theme = /** @type {any} */ (null);
@@ -49,15 +48,15 @@ export class Painter {
     this.#tracks = tracks;
     this.#theme = theme;
     this.#look = look;
-    this.#backdropKey = null;
+    this.#backdrop.drop();
   }
 
   /**
-   * Paints the moment `time`; `marked` are the ids to bring out. `overlays` are functions (context, view)
+   * Paints the moment `time`; `marked` are the ids to bring out; `moving`: whether the camera is being moved. `overlays` are functions (context, view)
    * where view has camera, viewport, time, marked, theme, scale (pixels per metre) and screen(point), all in
    * CSS pixels.
    */
-  paint({ camera, viewport, ratio, time, marked, overlays }) {
+  paint({ camera, viewport, ratio, time, marked, moving, overlays }) {
     if (!this.#scene || viewport.width === 0) return;
     const width = Math.round(viewport.width * ratio);
     const height = Math.round(viewport.height * ratio);
@@ -65,10 +64,14 @@ export class Painter {
       this.#canvas.width = width;
       this.#canvas.height = height;
     }
-    this.#refreshBackdrop(camera, viewport, ratio, width, height);
     const context = this.#context;
     context.setTransform(1, 0, 0, 1, 0, 0);
-    context.drawImage(this.#backdrop, 0, 0);
+    const picture = { camera, viewport, ratio, width, height };
+    this.#backdrop.draw(context, picture, {
+      moving: moving && this.#scene.robots.length > MANY,
+      background: this.#theme.void,
+      paint: (target) => this.#paintBackdrop(target, picture),
+    });
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     const screen = (point) => toScreen(camera, viewport, point);
     const view = {
@@ -88,13 +91,7 @@ export class Painter {
     for (const overlay of overlays) overlay(context, view);
   }
 
-  #refreshBackdrop(camera, viewport, ratio, width, height) {
-    const key = [camera.x, camera.y, camera.scale, width, height, ratio].join();
-    if (key === this.#backdropKey) return;
-    this.#backdropKey = key;
-    this.#backdrop.width = width;
-    this.#backdrop.height = height;
-    const context = contextOf(this.#backdrop, { alpha: false });
+  #paintBackdrop(context, { camera, viewport, ratio, width, height }) {
     context.fillStyle = this.#theme.void;
     context.fillRect(0, 0, width, height);
     if (this.#scene.grid) this.#paintMap(context, camera, viewport, ratio);

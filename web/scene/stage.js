@@ -10,6 +10,7 @@ import { fit, keepInSight, panBy, scaleLimits, toScreen, toWorld, zoomAt } from 
 
 const MARGIN = 24; // pixels around a fitted map
 const HEADROOM = 64; // pixels above it, where the view's buttons are
+const REST_MS = 120; // without a movement of the camera
 const KEY_PAN = 60; // pixels
 const KEY_ZOOM = 1.4;
 const LEGIBLE = 10; // pixels: the least radius of a robot in the middle
@@ -38,6 +39,8 @@ export class Stage {
   #baseTool = {};
   #pressed = {}; // the tool that handles the press
   #scheduled = false;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #rest; // set while the camera is being moved
   #signals = new Signals();
 
   /** `colours`: see RobotColours. */
@@ -233,6 +236,7 @@ export class Stage {
       ratio,
       time: player.time,
       marked,
+      moving: this.#rest !== undefined,
       overlays: this.#tool.paint ? [...this.#overlays, this.#tool.paint.bind(this.#tool)] : this.#overlays,
     });
   }
@@ -302,6 +306,11 @@ export class Stage {
   #move(camera) {
     this.#fitted = false;
     this.#camera = keepInSight(camera, this.#bounds());
+    clearTimeout(this.#rest);
+    this.#rest = setTimeout(() => {
+      this.#rest = undefined;
+      this.redraw();
+    }, REST_MS);
     this.redraw();
   }
 
