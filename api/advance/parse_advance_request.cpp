@@ -3,16 +3,15 @@
 #include <array>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
-#include "api/json/fault_text.h"
 #include "api/request/motion/parse_goals.h"
 #include "api/request/motion/parse_obstacles.h"
 #include "api/request/parse_body.h"
 #include "api/request/parse_plans.h"
 #include "api/request/ranges.h"
+#include "api/request/robot_names.h"
 #include "core/geometry/angle.h"
 #include "core/model/drive_zones.h"
 
@@ -20,45 +19,21 @@ namespace fleetplan::api {
 
 namespace {
 
-using Robots = std::vector<ReadRobot>;
-
 constexpr std::array<std::string_view, 7> kRequestMembers{"map",   "robot_defaults", "robots",  "obstacles",
                                                           "zones", "options",        "metadata"};
 constexpr std::array<std::string_view, 4> kPoseMembers{"robot", "x", "y", "theta"};
 constexpr std::array<std::string_view, 2> kHoldMembers{"robot", "until"};
 constexpr std::array<std::string_view, 2> kGoalsMembers{"robot", "goals"};
 
-/// The robots by id.
-class Ids {
- public:
-  explicit Ids(const Robots& robots) {
-    for (std::size_t index = 0; index < robots.size(); ++index)
-      robots_.emplace(robots[index].robot.id, index);
-  }
-
-  std::optional<std::size_t> find(const JsonReader& robot) const {
-    const auto id = robot.name();
-    if (!id) return std::nullopt;
-    const auto found = robots_.find(*id);
-    if (found != robots_.end()) return found->second;
-    robot.fault(fault::kUnknownRobot,
-                [&] { return "There is no robot " + in_quotes(*id) + " in robots of the request."; });
-    return std::nullopt;
-  }
-
- private:
-  std::unordered_map<std::string, std::size_t> robots_;
-};
-
 /// Reads a list of entries of robots, at most one for each. `read` gets an entry and its robot's index.
 template <typename Read>
-void read_entries(const JsonReader& list, std::span<const std::string_view> members, const Ids& ids,
+void read_entries(const JsonReader& list, std::span<const std::string_view> members, const RobotNames& names,
                   const Read& read) {
   std::unordered_set<std::size_t> seen;
   for (const JsonReader item : list.array().items()) {
     const JsonReader entry = item.object(members);
     const JsonReader robot = entry.require("robot");
-    const auto index = ids.find(robot);
+    const auto index = names.find(robot);
     if (index && !seen.insert(*index).second) {
       robot.fault(fault::kDuplicate, "This robot already has an entry in this list; give only one.");
     }
@@ -74,18 +49,19 @@ std::optional<core::Pose> parse_measured(const JsonReader& entry) {
   return core::Pose{{*x, *y}, core::normalize_angle(*theta)};
 }
 
-void parse_events(const JsonReader& root, const Ids& ids, const Limits& limits, AdvanceRequest& request) {
+void parse_events(const JsonReader& root, const RobotNames& names, const Limits& limits,
+                  AdvanceRequest& request) {
   std::vector<Execution>& executions = request.executions;
   Quota quota(limits.max_goals, "goals");
-  read_entries(root.find("poses"), kPoseMembers, ids, [&](const JsonReader& entry, auto robot) {
+  read_entries(root.find("poses"), kPoseMembers, names, [&](const JsonReader& entry, auto robot) {
     const auto pose = parse_measured(entry);
     if (robot) executions[*robot].measured = pose;
   });
-  read_entries(root.find("holds"), kHoldMembers, ids, [&](const JsonReader& entry, auto robot) {
+  read_entries(root.find("holds"), kHoldMembers, names, [&](const JsonReader& entry, auto robot) {
     const auto until = entry.require("until").number(kDuration);
     if (robot) executions[*robot].hold = until;
   });
-  read_entries(root.find("goals"), kGoalsMembers, ids, [&](const JsonReader& entry, auto robot) {
+  read_entries(root.find("goals"), kGoalsMembers, names, [&](const JsonReader& entry, auto robot) {
     entry.require("goals");
     ReadGoals goals = parse_goals(entry, WorldFrame{}, quota);
     if (!robot) return;
@@ -110,10 +86,9 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   }
   read.moment.wait_before_move = fleet.options.plan.wait_before_move;
   read.moment.inflation = fleet.options.plan.inflation;
-  const Ids ids(fleet.robots);
   read.executions.resize(fleet.robots.size());
   read.goal_metadata.resize(fleet.robots.size());
-  parse_events(root, ids, limits, read);
+  parse_events(root, RobotNames(fleet.robots, "robots of the request"), limits, read);
   // Without the map's frame, so that no number changes.
   for (core::RobotPlan& plan : parse_plans(root.require("plans"), fleet.robots, WorldFrame{})) {
     read.executions[plan.robot].actions = std::move(plan.actions);

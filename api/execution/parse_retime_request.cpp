@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -16,6 +15,7 @@
 #include "api/request/parse_plans.h"
 #include "api/request/parse_robots.h"
 #include "api/request/ranges.h"
+#include "api/request/robot_names.h"
 
 namespace fleetplan::api {
 
@@ -57,9 +57,7 @@ void check_times(const JsonReader& list, const std::vector<core::RobotPlan>& pla
 class StateReader {
  public:
   StateReader(const std::vector<core::Robot>& robots, const std::vector<core::RobotPlan>& plans)
-      : actions_(core::executed_actions(robots, plans)) {
-    for (std::size_t k = 0; k < robots.size(); ++k) robots_.emplace(robots[k].id, k);
-  }
+      : actions_(core::executed_actions(robots, plans)), names_(robots) {}
 
   std::optional<core::ObservedState> read(const JsonReader& item) {
     const JsonReader json = item.object(kStateMembers);
@@ -89,22 +87,15 @@ class StateReader {
 
  private:
   std::optional<std::size_t> read_robot(const JsonReader& member) {
-    const auto id = member.name();
-    if (!id) return std::nullopt;
-    const auto found = robots_.find(*id);
-    if (found == robots_.end()) {
-      member.fault(fault::kUnknownRobot,
-                   [&] { return "There is no robot " + in_quotes(*id) + " in robots."; });
-      return std::nullopt;
-    }
-    if (!seen_.insert(found->second).second) {
+    const auto robot = names_.find(member);
+    if (robot && !seen_.insert(*robot).second) {
       member.fault(fault::kDuplicate, "This robot already has a state; give only one.");
     }
-    return found->second;
+    return robot;
   }
 
   std::vector<core::Actions> actions_;
-  std::unordered_map<std::string_view, std::size_t> robots_;
+  RobotNames names_;
   std::unordered_set<std::size_t> seen_;
 };
 

@@ -3,15 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
 #include "api/json/fault_text.h"
 #include "api/request/motion/parse_actions.h"
 #include "api/request/ranges.h"
+#include "api/request/robot_names.h"
 #include "core/geometry/segment.h"
 
 namespace fleetplan::api {
@@ -58,31 +57,23 @@ core::RobotPlan parse_plan(const JsonReader& json, const WorldFrame& frame) {
 /// The robots by id, and which of them have a plan already.
 class Roster {
  public:
-  explicit Roster(const std::vector<ReadRobot>& robots) {
-    for (std::size_t index = 0; index < robots.size(); ++index)
-      robots_.emplace(robots[index].robot.id, index);
-  }
+  explicit Roster(const std::vector<ReadRobot>& robots) : names_(robots) {}
 
   /// The index of the robot that a plan is for, if there is one that has no plan yet.
   std::optional<std::size_t> assign(const JsonReader& robot) {
-    const auto id = robot.name();
-    if (!id) return std::nullopt;
-    const auto found = robots_.find(*id);
-    if (found == robots_.end()) {
-      robot.fault(fault::kUnknownRobot,
-                  [&] { return "There is no robot " + in_quotes(*id) + " in robots."; });
+    const auto index = names_.find(robot);
+    if (!index) return std::nullopt;
+    if (!planned_.insert(*index).second) {
+      robot.fault(fault::kDuplicate, [&] {
+        return "Robot " + in_quotes(*robot.string()) + " already has a plan; give only one.";
+      });
       return std::nullopt;
     }
-    if (!planned_.insert(found->second).second) {
-      robot.fault(fault::kDuplicate,
-                  [&] { return "Robot " + in_quotes(*id) + " already has a plan; give only one."; });
-      return std::nullopt;
-    }
-    return found->second;
+    return index;
   }
 
  private:
-  std::unordered_map<std::string, std::size_t> robots_;
+  RobotNames names_;
   std::unordered_set<std::size_t> planned_;
 };
 

@@ -1,15 +1,14 @@
 #include "api/vda5050/parse_vda5050_request.h"
 
 #include <algorithm>
-#include <unordered_map>
 #include <utility>
 
-#include "api/json/fault_text.h"
 #include "api/request/motion/parse_dependencies.h"
 #include "api/request/parse_options.h"
 #include "api/request/parse_plans.h"
 #include "api/request/parse_robots.h"
 #include "api/request/ranges.h"
+#include "api/request/robot_names.h"
 #include "api/vda5050/release.h"
 #include "core/execution/executed_actions.h"
 
@@ -52,18 +51,7 @@ OrderHeader read_header(const JsonReader& root) {
   return header;
 }
 
-using RobotNumbers = std::unordered_map<std::string_view, std::size_t>;
-
-/// The robot of that name; a name that no robot has is a fault.
-std::optional<std::size_t> find_robot(const RobotNumbers& numbers, const JsonReader& member,
-                                      std::string_view id) {
-  const auto found = numbers.find(id);
-  if (found != numbers.end()) return found->second;
-  member.fault(fault::kUnknownRobot, [&] { return "There is no robot " + in_quotes(id) + " in robots."; });
-  return std::nullopt;
-}
-
-std::vector<std::string> read_serial_numbers(const JsonReader& member, const RobotNumbers& numbers,
+std::vector<std::string> read_serial_numbers(const JsonReader& member,
                                              const std::vector<core::Robot>& robots) {
   std::vector<std::string> serials;
   std::vector<std::string_view> known;
@@ -73,29 +61,27 @@ std::vector<std::string> read_serial_numbers(const JsonReader& member, const Rob
   }
   const JsonReader json = member.object(known);
   if (!json) return serials;
-  for (const auto& [id, robot] : numbers) {
-    if (const auto serial = json.find(id).name()) serials[robot] = *serial;
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    if (const auto serial = json.find(robots[k].id).name()) serials[k] = *serial;
   }
   return serials;
 }
 
 class ProgressReader {
  public:
-  ProgressReader(const RobotNumbers& numbers, const std::vector<core::Actions>& actions,
+  ProgressReader(const std::vector<core::Robot>& robots, const std::vector<core::Actions>& actions,
                  const std::vector<Route>& routes)
-      : numbers_(numbers), actions_(actions), routes_(routes), seen_(actions.size(), false) {}
+      : names_(robots), actions_(actions), routes_(routes), seen_(actions.size(), false) {}
 
   std::vector<OrderProgress> read(const JsonReader& member) {
     std::vector<OrderProgress> progress(actions_.size());
     for (const JsonReader item : member.array().items()) {
       const JsonReader json = item.object(kProgressMembers);
-      const auto id = json.require("robot").name();
-      if (!id) continue;
-      const auto robot = find_robot(numbers_, json.find("robot"), *id);
+      const JsonReader robot_member = json.require("robot");
+      const auto robot = names_.find(robot_member);
       if (!robot) continue;
       if (seen_[*robot])
-        json.find("robot").fault(fault::kDuplicate,
-                                 "The progress of this robot is given twice; give it once.");
+        robot_member.fault(fault::kDuplicate, "The progress of this robot is given twice; give it once.");
       seen_[*robot] = true;
       progress[*robot] = read_one(json, *robot);
     }
@@ -137,7 +123,7 @@ class ProgressReader {
     return {};
   }
 
-  const RobotNumbers& numbers_;
+  RobotNames names_;
   const std::vector<core::Actions>& actions_;
   const std::vector<Route>& routes_;
   std::vector<bool> seen_;
@@ -172,12 +158,10 @@ std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Li
       root.require("dependencies",
                    "; make them with POST /v1/dependencies, or with options.dependencies of POST /v1/plan"),
       request.robots, request.plans);
-  RobotNumbers numbers;
-  for (std::size_t k = 0; k < request.robots.size(); ++k) numbers.emplace(request.robots[k].id, k);
-  request.serial_numbers = read_serial_numbers(root.find("serial_numbers"), numbers, request.robots);
+  request.serial_numbers = read_serial_numbers(root.find("serial_numbers"), request.robots);
   const auto actions = core::executed_actions(request.robots, request.plans);
   request.routes = routes_of(request, actions, wait_before_move);
-  request.progress = ProgressReader(numbers, actions, request.routes).read(root.find("progress"));
+  request.progress = ProgressReader(request.robots, actions, request.routes).read(root.find("progress"));
   if (root.fault_count() > 0 || stop.met()) return std::nullopt;
   return request;
 }

@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 
 #include "api/json/fault_text.h"
 #include "api/request/ranges.h"
+#include "api/request/robot_names.h"
 #include "core/execution/executed_actions.h"
 
 namespace fleetplan::api {
@@ -28,9 +28,7 @@ constexpr double kSameSlack = 1e-6;
 class DependencyReader {
  public:
   DependencyReader(const std::vector<core::Robot>& robots, const std::vector<core::RobotPlan>& plans)
-      : actions_(core::executed_actions(robots, plans)) {
-    for (std::size_t k = 0; k < robots.size(); ++k) robots_.emplace(robots[k].id, k);
-  }
+      : actions_(core::executed_actions(robots, plans)), names_(robots) {}
 
   std::optional<core::Dependency> read(const JsonReader& item) const {
     const JsonReader json = item.object(kDependencyMembers);
@@ -71,31 +69,24 @@ class DependencyReader {
     const JsonReader json = member.object(kProgressMembers);
     const JsonReader robot_member = json.require("robot");
     const JsonReader action_member = json.require("action");
-    const auto id = robot_member.name();
+    const auto robot = names_.find(robot_member);
     const auto action = action_member.natural(kMostActions);
     const auto fraction = json.require("progress").number(kFraction);
-    if (!id) return std::nullopt;
-    const auto robot = robots_.find(*id);
-    if (robot == robots_.end()) {
-      robot_member.fault(fault::kUnknownRobot,
-                         [&] { return "There is no robot " + in_quotes(*id) + " in robots."; });
-      return std::nullopt;
-    }
-    if (!action || !fraction) return std::nullopt;
-    const std::size_t count = actions_[robot->second].size();
+    if (!robot || !action || !fraction) return std::nullopt;
+    const std::size_t count = actions_[*robot].size();
     if (*action >= count) {
       action_member.fault(fault::kDependency, [&] {
-        return "Robot " + in_quotes(*id) + " has " + std::to_string(count) +
+        return "Robot " + in_quotes(*robot_member.string()) + " has " + std::to_string(count) +
                " actions, numbered from 0: the dependencies belong to other plans; send those made for "
                "these.";
       });
       return std::nullopt;
     }
-    return core::ActionProgress{robot->second, *action, *fraction};
+    return core::ActionProgress{*robot, *action, *fraction};
   }
 
   std::vector<core::Actions> actions_;
-  std::unordered_map<std::string_view, std::size_t> robots_;
+  RobotNames names_;
 };
 
 }  // namespace

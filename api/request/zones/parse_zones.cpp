@@ -13,6 +13,7 @@
 #include "api/json/fault_text.h"
 #include "api/request/motion/quota.h"
 #include "api/request/ranges.h"
+#include "api/request/robot_names.h"
 #include "api/request/zones/parse_mask.h"
 #include "api/request/zones/parse_polygon.h"
 #include "core/geometry/angle.h"
@@ -28,17 +29,10 @@ constexpr std::array<std::string_view, 9> kMembers{
     "id", "type", "polygon", "mask", "robots", "linear_speed", "angular_speed", "heading", "half_angle"};
 constexpr Range kHalfAngle{1e-3, std::numbers::pi, "radians"};
 
-/// The ids of the robots and of the zones, with their numbers.
-using Ids = std::unordered_map<std::string, std::size_t>;
-
 class ZoneReader {
  public:
   ZoneReader(const WorldMap* map, const Limits& limits, const std::vector<ReadRobot>& robots)
-      : map_(map), all_(robots), corners_(limits.max_zone_corners, "corners of zones") {
-    for (std::size_t index = 0; index < robots.size(); ++index) {
-      robots_.emplace(robots[index].robot.id, index);
-    }
-  }
+      : map_(map), all_(robots), corners_(limits.max_zone_corners, "corners of zones"), names_(robots) {}
 
   /// The zone, or the parts of its mask.
   std::vector<core::Zone> read(const JsonReader& item) {
@@ -155,29 +149,24 @@ class ZoneReader {
                  "robots must name at least one robot; leave it out for a zone for all robots.");
     }
     for (const JsonReader item : list.items()) {
-      const auto id = item.name();
-      if (!id) continue;
-      const auto found = robots_.find(*id);
-      if (found == robots_.end()) {
-        item.fault(fault::kUnknownRobot,
-                   [&] { return "There is no robot " + in_quotes(*id) + " in robots."; });
+      const auto robot = names_.find(item);
+      if (!robot) continue;
+      const auto place = std::lower_bound(zone.robots.begin(), zone.robots.end(), *robot);
+      if (place != zone.robots.end() && *place == *robot) {
+        item.fault(fault::kDuplicate, [&] {
+          return "The robot " + in_quotes(*item.string()) + " is already in this list; name it once.";
+        });
         continue;
       }
-      const auto place = std::lower_bound(zone.robots.begin(), zone.robots.end(), found->second);
-      if (place != zone.robots.end() && *place == found->second) {
-        item.fault(fault::kDuplicate,
-                   [&] { return "The robot " + in_quotes(*id) + " is already in this list; name it once."; });
-        continue;
-      }
-      zone.robots.insert(place, found->second);
+      zone.robots.insert(place, *robot);
     }
   }
 
   const WorldMap* map_;
   const std::vector<ReadRobot>& all_;
   Quota corners_;
-  Ids robots_;
-  Ids zones_;
+  RobotNames names_;
+  std::unordered_map<std::string, std::size_t> zones_;  // by id, their numbers
   std::size_t count_ = 0;
 };
 
