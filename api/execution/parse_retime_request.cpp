@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <unordered_set>
@@ -23,9 +22,7 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kStateMembers{"robot", "action", "progress", "speed_factor",
                                                         "held_s"};
-constexpr Range kShare{0.0, 1.0, ""};
 constexpr Range kSpeedFactor{1e-3, 1e3, ""};
-constexpr std::uint64_t kMostActionsOfRobot = 1'000'000'000;  // far beyond any limit of a request
 /// Seconds: what times that went through decimal text may be off.
 constexpr double kContiguous = 1e-6;
 
@@ -64,8 +61,8 @@ class StateReader {
     const JsonReader action_member = json.require("action");
     core::ObservedState state;
     const auto robot = read_robot(json.require("robot"));
-    const auto action = action_member.natural(kMostActionsOfRobot);
-    const auto fraction = json.require("progress").number(kShare);
+    const auto action = action_member.natural(kGreatestIndex);
+    const auto fraction = json.require("progress").number(kFraction);
     state.speed_factor = json.find("speed_factor").number(kSpeedFactor).value_or(1.0);
     state.held = json.find("held_s").number(kDuration).value_or(0.0);
     if (!robot || !action || !fraction) return std::nullopt;

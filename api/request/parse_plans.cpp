@@ -1,7 +1,7 @@
 #include "api/request/parse_plans.h"
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <unordered_set>
@@ -21,7 +21,6 @@ namespace {
 constexpr std::array<std::string_view, 6> kMembers{"robot",   "cost",   "lower_bound",
                                                    "actions", "visits", "metadata"};
 constexpr std::array<std::string_view, 4> kVisitMembers{"goal", "t_arrive", "t_leave", "metadata"};
-constexpr std::uint64_t kMostGoals = 1'000'000'000;  // of a robot, far beyond any limit of a request
 
 // A plan that begins before 0 is a violation to report, not a fault of the request.
 constexpr Range kTime{-kLongestTime, kLongestTime, "seconds"};
@@ -29,7 +28,7 @@ constexpr Range kTime{-kLongestTime, kLongestTime, "seconds"};
 core::Visit parse_visit(const JsonReader& item) {
   const JsonReader json = item.object(kVisitMembers);
   core::Visit visit;
-  visit.goal = json.require("goal").natural(kMostGoals).value_or(0);
+  visit.goal = json.require("goal").natural(kGreatestIndex).value_or(0);
   visit.t_arrive = json.require("t_arrive").number(kTime).value_or(0.0);
   const JsonReader leaves = json.require("t_leave", "; give null for the last goal");
   visit.t_leave = leaves.is_null() ? core::kForever : leaves.number(kTime).value_or(0.0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 
 #include "api/json/json_reader.h"
@@ -21,5 +22,8 @@ inline constexpr Range kDuration{0.0, kLongestTime, "seconds"};
 inline constexpr Range kSlackInTime{1e-3, kLongestTime, "seconds"};  // of dependencies
 inline constexpr Range kAnyAngle{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
                                  "radians"};
+inline constexpr Range kFraction{0.0, 1.0, ""};  // of an action
+/// The number of an action or a goal of a robot; far beyond any limit of a request.
+inline constexpr std::uint64_t kGreatestIndex = 1'000'000'000;
 
 }  // namespace fleetplan::api

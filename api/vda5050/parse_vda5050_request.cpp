@@ -19,9 +19,7 @@ namespace {
 constexpr std::array<std::string_view, 2> kVersions{"2.1.0", "3.0.0"};  // in the order of VdaVersion
 constexpr std::array<std::string_view, 6> kProgressMembers{
     "robot", "order_id", "order_update_id", "last_released_sequence_id", "action", "progress"};
-constexpr Range kShareDone{0.0, 1.0, ""};
 constexpr std::uint64_t kMostUpdates = 4'294'967'294;  // ids are unsigned numbers of 32 bits
-constexpr std::uint64_t kMostActionIndex = 1'000'000'000;
 
 bool is_timestamp(std::string_view text) {
   constexpr std::string_view kShape = "0000-00-00T00:00:00";
@@ -110,8 +108,8 @@ class ProgressReader {
 
   RoutePoint read_point(const JsonReader& json, std::size_t robot) const {
     const JsonReader action = json.require("action");
-    const auto index = action.natural(kMostActionIndex);
-    const auto fraction = json.require("progress").number(kShareDone);
+    const auto index = action.natural(kGreatestIndex);
+    const auto fraction = json.require("progress").number(kFraction);
     if (!index || !fraction) return {};
     const std::size_t count = actions_[robot].size();
     // A robot that has no actions, or has executed all, may be at their end.

@@ -1,7 +1,6 @@
 #include "api/request/motion/parse_actions.h"
 
 #include <array>
-#include <cstdint>
 #include <string_view>
 #include <utility>
 
@@ -17,7 +16,6 @@ constexpr std::array<std::string_view, 7> kMembers{"type", "t_start", "t_end",  
                                                    "to",   "goal",    "reverse"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
 constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};  // as in core::Action::Type
-constexpr std::uint64_t kMostGoals = 1'000'000'000;  // of a robot, far beyond any limit of a request
 
 core::Pose parse_pose(const JsonReader& member) {
   const JsonReader pose = member.object(kPoseMembers);
@@ -50,7 +48,7 @@ core::Action parse_action(const JsonReader& item, const Range& times) {
   const JsonReader goal = json.find("goal");
   if (goal && type && action.type != core::Action::Type::wait) {
     goal.fault(fault::kUnknownKey, [] { return "goal is a member of wait actions only; remove it."; });
-  } else if (const auto number = goal.natural(kMostGoals)) {
+  } else if (const auto number = goal.natural(kGreatestIndex)) {
     action.goal = *number;
   }
   const JsonReader reverse = json.find("reverse");

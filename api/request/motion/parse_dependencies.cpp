@@ -18,9 +18,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kDependencyMembers{"gate", "until", "slack"};
 constexpr std::array<std::string_view, 3> kProgressMembers{"robot", "action", "progress"};
-constexpr Range kFraction{0.0, 1.0, ""};
 constexpr Range kSlack{-kLongestTime, kLongestTime, "seconds"};
-constexpr std::uint64_t kMostActions = 1'000'000'000;  // of a robot, far beyond any limit of a request
 
 /// Seconds: what a slack that went through decimal text, or was made for rounded times, may be off.
 constexpr double kSameSlack = 1e-6;
@@ -70,7 +68,7 @@ class DependencyReader {
     const JsonReader robot_member = json.require("robot");
     const JsonReader action_member = json.require("action");
     const auto robot = names_.find(robot_member);
-    const auto action = action_member.natural(kMostActions);
+    const auto action = action_member.natural(kGreatestIndex);
     const auto fraction = json.require("progress").number(kFraction);
     if (!robot || !action || !fraction) return std::nullopt;
     const std::size_t count = actions_[*robot].size();
