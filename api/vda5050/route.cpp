@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/execution/wait_purposes.h"
 #include "core/geometry/angle.h"
 
 namespace fleetplan::api {
@@ -21,7 +22,7 @@ class RouteMaker {
              double wait_before_move)
       : robot_(robot),
         actions_(actions),
-        wait_before_move_(wait_before_move),
+        purposes_(core::wait_purposes(robot, actions, wait_before_move)),
         cut_(cuts.begin()),
         cuts_end_(cuts.end()) {}
 
@@ -54,19 +55,22 @@ class RouteMaker {
       heading_ = action.to.theta;
       turned_ = true;
     } else if (action.goal) {
-      serve(*action.goal, action.t_end - action.t_start);
-    } else if (wait_before_move_ > 0.0 && k + 1 < actions_.size() && moves(actions_[k + 1])) {
+      serve(*action.goal, purposes_[k].least);
+    } else if (purposes_[k].least > 0.0) {
       assume_heading();
-      last().stops.push_back({{}, std::min(wait_before_move_, action.t_end - action.t_start), 0.0});
+      last().stops.push_back({{}, purposes_[k].least, 0.0});
     }
   }
 
+  /// `duration`: of the service, or of an added wait that ends with it.
   void serve(std::size_t number, double duration) {
     assume_heading();
     const core::Goal& goal = robot_.goal_at(number);
     std::vector<Stop>& stops = last().stops;
     if (stops.empty() || stops.back().goal != number) stops.push_back({number, 0.0, goal.not_before});
     stops.back().duration = std::min(goal.service, stops.back().duration + duration);
+    const double more = duration - goal.service;
+    if (more > 0.0) stops.insert(stops.end() - 1, {{}, more, 0.0});
   }
 
   /// Sees to it that the last node has the heading of now.
@@ -109,7 +113,7 @@ class RouteMaker {
 
   const core::Robot& robot_;
   core::Actions actions_;
-  double wait_before_move_;
+  std::vector<core::WaitPurpose> purposes_;  // by action
   std::vector<RoutePoint>::const_iterator cut_;
   std::vector<RoutePoint>::const_iterator cuts_end_;
   Route route_;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/execution/pace.h"
+#include "core/execution/wait_purposes.h"
 
 namespace fleetplan::core {
 
@@ -31,8 +32,9 @@ bool earlier(const Mark& a, const Mark& b) {
 /// A robot on its way. Progress is whole: the number of actions, and the fraction of the one under way.
 struct Traveller {
   Actions actions;
-  std::vector<Mark> gates;    // ascending
-  std::vector<Mark> awaited;  // ascending
+  std::vector<WaitPurpose> purposes;  // by action
+  std::vector<Mark> gates;            // ascending
+  std::vector<Mark> awaited;          // ascending
   std::size_t next_gate = 0;
   std::size_t next_awaited = 0;
   double at = 0.0;
@@ -56,10 +58,11 @@ class Forward {
   Forward(const std::vector<Robot>& robots, const std::vector<Actions>& actions,
           const std::vector<Dependency>& dependencies, const std::vector<ObservedState>& states,
           const RetimeRules& rules)
-      : robots_(robots), dependencies_(dependencies), rules_(rules), travellers_(robots.size()) {
+      : dependencies_(dependencies), rules_(rules), travellers_(robots.size()) {
     for (std::size_t k = 0; k < robots.size(); ++k) {
       Traveller& one = travellers_[k];
       one.actions = actions[k];
+      one.purposes = wait_purposes(robots[k], actions[k], rules.wait_before_move);
       one.now = rules.now;
       one.at = Pace(actions[k]).progress_at(rules.now);
     }
@@ -141,25 +144,11 @@ class Forward {
       return std::max(one.now, one.held_until) + (planned - from) / one.speed_factor;
     }
     // Of a wait, only what must be waited counts: it lies at its end.
-    const auto [least, earliest_end] = required_wait(robot);
-    const double left = std::min(action.t_end - from, least);
+    const WaitPurpose& purpose = one.purposes[static_cast<std::size_t>(one.at)];
+    const double left = std::min(action.t_end - from, purpose.least);
+    const double earliest_end = purpose.not_before + purpose.least;
     const double end = std::max({one.now + left, earliest_end, action.goal ? 0.0 : action.t_end});
     return progress >= std::floor(one.at) + 1.0 ? end : std::max(one.now, std::min(end, planned));
-  }
-
-  /// How long the wait under way has to be, and when it ends at the earliest.
-  std::pair<double, double> required_wait(std::size_t robot) const {
-    const Traveller& one = travellers_[robot];
-    const Action& action = one.action();
-    const double planned = action.t_end - action.t_start;
-    const Robot& waiter = robots_[robot];
-    if (action.goal && *action.goal < waiter.goal_count()) {
-      const Goal& goal = waiter.goal_at(*action.goal);
-      return {std::min(planned, goal.service), std::min(action.t_end, goal.not_before + goal.service)};
-    }
-    const auto next = static_cast<std::size_t>(one.at) + 1;
-    const bool before_move = next < one.actions.size() && one.actions[next].type == Action::Type::translate;
-    return {before_move ? std::min(planned, rules_.wait_before_move) : 0.0, 0.0};
   }
 
   void arrive(std::size_t robot, double t) {
@@ -214,7 +203,6 @@ class Forward {
     retimed.because_of = one.because_of == kNobody ? robot : one.because_of;
   }
 
-  const std::vector<Robot>& robots_;
   const std::vector<Dependency>& dependencies_;
   const RetimeRules& rules_;
   std::vector<Traveller> travellers_;

@@ -105,6 +105,21 @@ TEST(Route, HasServicesAndAddedWaitsButNoWaitsThatGiveWay) {
   EXPECT_EQ(way.nodes[2].at, way.nodes[1].at);
 }
 
+TEST(Route, HasTheAddedWaitThatIsLongerThanTheServiceAtItsEnd) {
+  core::Robot robot = make_robot();
+  robot.via = {core::Goal{{4.5, 0.5}, {}, 2.0, 7.0}};
+  auto visit = plan(robot).translate_to(4.5, 0.5).wait(5.0).translate_to(6.5, 0.5).build();
+  visit.actions[1].goal = 0;
+  const Route way = route(robot, visit, {}, 3.5);
+  ASSERT_EQ(way.nodes.size(), 3U);
+  ASSERT_EQ(way.nodes[1].stops.size(), 2U);
+  EXPECT_FALSE(way.nodes[1].stops[0].goal);
+  EXPECT_EQ(way.nodes[1].stops[0].duration, 1.5);
+  EXPECT_EQ(way.nodes[1].stops[1].goal, 0U);
+  EXPECT_EQ(way.nodes[1].stops[1].duration, 2.0);
+  EXPECT_EQ(way.nodes[1].stops[1].not_before, 7.0);
+}
+
 TEST(Route, IsEmptyWithoutActions) { EXPECT_TRUE(route(make_robot(), {}).nodes.empty()); }
 
 TEST(Release, EndsAtTheFirstGateWhoseConditionIsNotMet) {

@@ -95,6 +95,14 @@ TEST_F(Retime, AServiceLastsAndBeginsNoEarlierThanItMay) {
   EXPECT_NEAR(times({{1, 0, 0.0, 1.0, 0.0}}, {3.5, 0.0})[1].delay, 0.5, 1e-9);
 }
 
+TEST_F(Retime, AnAddedWaitMayBeLongerThanTheServiceAtItsEnd) {
+  robots_[1].via = {Goal{{0, -5}, {}, 1.0, 3.0}};
+  plan(4.0);
+  plans_[1].actions[0].goal = 0;
+  EXPECT_NEAR(times({}, {0.0, 2.5})[1].delay, 0.0, 1e-9);
+  EXPECT_NEAR(times({{1, 0, 0.0, 1.0, 0.0}}, {3.0, 2.5})[1].delay, 1.5, 1e-9);
+}
+
 TEST_F(Retime, ARobotThatHasPassedItsGateGoesOn) {
   const auto found = times({{0, 0, 0.1, 1.0, 0.0}, {1, 1, 0.5, 1.0, 0.0}}, {9.0, 0.0});
   EXPECT_NEAR(found[1].delay, 0.0, 1e-9);
