@@ -54,7 +54,7 @@ class RouteMaker {
       if (duration > 0.0) rotation_speed_ = std::min(robot_.angular_speed, angle / duration);
       heading_ = action.to.theta;
       turned_ = true;
-    } else if (action.goal) {
+    } else if (action.goal && *action.goal < robot_.goal_count()) {
       serve(*action.goal, purposes_[k].least);
     } else if (purposes_[k].least > 0.0) {
       assume_heading();

@@ -120,6 +120,14 @@ TEST(Route, HasTheAddedWaitThatIsLongerThanTheServiceAtItsEnd) {
   EXPECT_EQ(way.nodes[1].stops[1].not_before, 7.0);
 }
 
+TEST(Route, HasNoServiceOfAGoalThatTheRobotDoesNotHave) {
+  core::Robot robot = make_robot();
+  robot.goal.reset();
+  auto visit = plan(robot).translate_to(4.5, 0.5).wait(5.0).build();
+  visit.actions[1].goal = 0;
+  EXPECT_THAT(brief(route(robot, visit)), ElementsAre("0.5,0.5 0 0+0 0", "4.5,0.5 0 1+0 0"));
+}
+
 TEST(Route, IsEmptyWithoutActions) { EXPECT_TRUE(route(make_robot(), {}).nodes.empty()); }
 
 TEST(Release, EndsAtTheFirstGateWhoseConditionIsNotMet) {
