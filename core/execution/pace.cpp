@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/model/radius_steps.h"
 #include "core/model/served_goals.h"
 
 namespace fleetplan::core {
@@ -13,41 +14,29 @@ namespace {
 /// The radii of a robot while it executes its actions.
 class Radii {
  public:
-  Radii(const Robot& robot, Actions actions) : robot_(robot), radius_(robot.radius) {
-    bool changes = false;
-    for (std::size_t k = 0; k < robot.goal_count(); ++k) {
-      changes = changes || robot.goal_at(k).radius_after.has_value();
-    }
-    if (changes) visits_ = visits_of(robot, actions);
+  Radii(const Robot& robot, Actions actions) : radii_(radii_of(robot)) {
+    if (changes_radius(robot)) visits_ = visits_of(robot, actions);
   }
 
   /// The largest one during an action, its end included; those of later actions are asked later.
   double during(const Action& action, bool is_last) {
-    while (next_ < visits_.size() && visits_[next_].t_leave <= action.t_start) radius_ = after(next_++);
-    double largest = radius_;
-    for (std::size_t k = next_; k < visits_.size(); ++k) {
+    while (served_ < visits_.size() && visits_[served_].t_leave <= action.t_start) ++served_;
+    double largest = radii_[served_];
+    for (std::size_t k = served_; k < visits_.size(); ++k) {
       const bool ends = is_last || visits_[k].t_leave <= action.t_end || action.goal == visits_[k].goal;
       if (!ends) break;
-      largest = std::max(largest, after(k));
+      largest = std::max(largest, radii_[k + 1]);
     }
     return largest;
   }
 
   /// After the last action.
-  double at_rest() {
-    while (next_ < visits_.size()) radius_ = after(next_++);
-    return radius_;
-  }
+  double at_rest() const { return radii_[visits_.size()]; }
 
  private:
-  double after(std::size_t visit) const {
-    return robot_.goal_at(visits_[visit].goal).radius_after.value_or(radius_);
-  }
-
-  const Robot& robot_;
-  double radius_;
-  std::vector<Visit> visits_;
-  std::size_t next_ = 0;
+  std::vector<double> radii_;  // by the number of goals served
+  std::vector<Visit> visits_;  // to all of them, in order
+  std::size_t served_ = 0;
 };
 
 TimedSegment standing(const Position& position, double t_start, double t_end) {
