@@ -119,7 +119,7 @@ void turn_back(Actions& driven, Actions& following, double planned_heading, doub
 double heading_along(const core::Position& path, const Action& planned) {
   const core::Position ahead(std::cos(planned.from.theta), std::sin(planned.from.theta));
   const core::Position planned_path = planned.to.position - planned.from.position;
-  const double aside = ahead.x() * path.y() - ahead.y() * path.x();
+  const double aside = core::cross_product(ahead, path);
   if (std::abs(aside) <= kOnLine && ahead.dot(path) * ahead.dot(planned_path) > 0.0)
     return planned.from.theta;
   const double sign = ahead.dot(planned_path) < 0.0 ? -1.0 : 1.0;

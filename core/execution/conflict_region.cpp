@@ -11,8 +11,6 @@ namespace {
 /// Sines of angles between lines up to this are those of parallel lines: rounding.
 constexpr double kParallel = 1e-12;
 
-double cross(const Position& a, const Position& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// The region |offset + x along - y across| < distance, of which x is cut to an interval.
 struct Section {
   Position offset;
@@ -24,7 +22,7 @@ struct Section {
   ConflictRegion::Range roots(double x) const {
     const Position w = offset + x * along;
     const double square = across.squaredNorm();
-    const double beside = cross(w, across);
+    const double beside = cross_product(w, across);
     const double half = std::sqrt(std::max(0.0, distance * distance * square - beside * beside)) / square;
     const double middle = w.dot(across) / square;
     return {middle - half, middle + half};
@@ -33,8 +31,8 @@ struct Section {
   /// The x within [from, to] at which the line across meets the region.
   std::optional<ConflictRegion::Range> meeting(double from, double to) const {
     const double reach = distance * across.norm();
-    const double at_zero = cross(offset, across);
-    const double slope = cross(along, across);
+    const double at_zero = cross_product(offset, across);
+    const double slope = cross_product(along, across);
     if (std::abs(slope) <= kParallel * along.norm() * across.norm()) {
       return std::abs(at_zero) < reach ? std::optional(ConflictRegion::Range{from, to}) : std::nullopt;
     }
@@ -64,7 +62,7 @@ struct Section {
       found = {std::min(found.least, here.least), std::max(found.most, here.most)};
     };
     include(met->most);
-    if (std::abs(cross(along, across)) > kParallel * along.norm() * across.norm()) {
+    if (std::abs(cross_product(along, across)) > kParallel * along.norm() * across.norm()) {
       include(extreme(-1.0));
       include(extreme(1.0));
     }
@@ -81,12 +79,6 @@ struct Section {
                                                         : std::nullopt;
   }
 };
-
-double nearest_share(const Segment& segment, const Position& p) {
-  const Position d = segment.to - segment.from;
-  const double square = d.squaredNorm();
-  return square > 0.0 ? std::clamp((p - segment.from).dot(d) / square, 0.0, 1.0) : 0.0;
-}
 
 Position point_at(const Segment& segment, double share) {
   return segment.from + share * (segment.to - segment.from);
@@ -112,10 +104,10 @@ NearestShares nearest_shares(const Segment& first, const Segment& second) {
   const Position d = first.to - first.from;
   const Position e = second.to - second.from;
   const Position offset = second.from - first.from;
-  const double slope = cross(d, e);
+  const double slope = cross_product(d, e);
   if (slope != 0.0) {
-    const double u = cross(offset, e) / slope;
-    const double v = cross(offset, d) / slope;
+    const double u = cross_product(offset, e) / slope;
+    const double v = cross_product(offset, d) / slope;
     if (u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0) return {{u, v}, 0.0};
   }
   NearestShares best{{0.0, nearest_share(second, first.from)}, 0.0};

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/geometry/disk_motion.h"
+
 namespace fleetplan::core {
 
 namespace {
@@ -14,16 +16,12 @@ struct NearestInTime {
   double distance = kForever;
 };
 
-Position place_at(const TimedSegment& segment, double t) {
-  return segment.path.from + segment.velocity() * (t - segment.t_start);
-}
-
-NearestInTime nearest_in_time(const TimedSegment& first, const TimedSegment& second) {
+NearestInTime nearest_in_time(const MovingDisk& first, const MovingDisk& second) {
   const double begin = std::max(first.t_start, second.t_start);
   const double end = std::min(first.t_end, second.t_end);
   if (begin > end || begin == kForever) return {};
-  const Position offset = place_at(first, begin) - place_at(second, begin);
-  const Position velocity = first.velocity() - second.velocity();
+  const Position offset = first.at(begin) - second.at(begin);
+  const Position velocity = first.velocity - second.velocity;
   const double square = velocity.squaredNorm();
   const double after = square > 0.0 ? std::clamp(-offset.dot(velocity) / square, 0.0, end - begin) : 0.0;
   return {begin + after, (offset + after * velocity).norm()};
@@ -41,7 +39,7 @@ class PairRegions {
     const PlannedStretch& a = first_.stretches[near.other_stretch];
     const PlannedStretch& b = second_.stretches[near.stretch];
     double distance = a.radius + b.radius - tolerance_;
-    const NearestInTime planned = nearest_in_time(a.planned, b.planned);
+    const NearestInTime planned = nearest_in_time(MovingDisk(a.planned), MovingDisk(b.planned));
     if (planned.distance < distance) {
       too_near_.push_back({planned.t, 0.0});
       distance = planned.distance * kJustLess;

@@ -10,8 +10,6 @@ namespace {
 /// extreme points of the ellipse then lie outside any rectangle that can occur.
 constexpr double kParallel = 1e-12;
 
-double cross(const Position& a, const Position& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// The part of [0, length] on which |q + v x| < reach; empty if there is none.
 UnsafeInterval near_zero(const Position& q, const Position& v, double length, double reach) {
   const double qq = q.squaredNorm() - reach * reach;
@@ -19,7 +17,7 @@ UnsafeInterval near_zero(const Position& q, const Position& v, double length, do
   if (vv == 0.0) return qq < 0.0 ? UnsafeInterval{0.0, length} : UnsafeInterval{};
   const double qv = q.dot(v);
   // The distance of the line from the origin, by the cross product: no cancellation far away from the origin.
-  const double c = cross(q, v);
+  const double c = cross_product(q, v);
   const double discriminant = reach * reach * vv - c * c;
   if (discriminant <= 0.0) return {};
   const double half = std::sqrt(discriminant);
@@ -56,7 +54,7 @@ bool collide(const MovingDisk& a, const MovingDisk& b, double reach) {
   const double vv = v.squaredNorm();
   const double length = end - begin;
   if (-qv < vv * length) {  // closest between the two ends
-    const double c = cross(q, v);
+    const double c = cross_product(q, v);
     return c * c < rr * vv;
   }
   return (q + v * length).squaredNorm() < rr;
@@ -96,10 +94,10 @@ UnsafeInterval forbidden_departures(const Position& from, const Position& veloci
   // The ellipse's extreme points: offsets w whose relative path is a tangent of the disk.
   const Position relative = velocity - b.velocity;
   const double vv = relative.squaredNorm();
-  const double turn = cross(b.velocity, velocity);
+  const double turn = cross_product(b.velocity, velocity);
   if (std::abs(turn) > kParallel * std::sqrt(velocity.squaredNorm() * b.velocity.squaredNorm())) {
     for (const double side : {-reach, reach}) {
-      const double w = (cross(q, relative) + side * std::sqrt(vv)) / turn;
+      const double w = (cross_product(q, relative) + side * std::sqrt(vv)) / turn;
       const double s = (b.velocity * w - q).dot(relative) / vv;
       const double u = s + w;
       if (s >= 0.0 && s <= duration && u >= 0.0 && u <= length) extent.add(w);

@@ -5,18 +5,14 @@
 #include <limits>
 #include <utility>
 
+#include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {
 namespace {
 
-double cross_product(const Position& a, const Position& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 double squared_distance(const Position& point, const Position& a, const Position& b) {
-  const Position d = b - a;
-  const double length = d.squaredNorm();
-  const double share = length > 0.0 ? std::clamp((point - a).dot(d) / length, 0.0, 1.0) : 0.0;
-  return (point - a - share * d).squaredNorm();
+  return (point - a - nearest_share({a, b}, point) * (b - a)).squaredNorm();
 }
 
 /// Whether the segments cross each other in their insides. Those that only touch may give either answer.

@@ -11,6 +11,9 @@ namespace fleetplan::core {
 /// A point or a displacement in the plane, metres.
 using Position = Eigen::Vector2d;
 
+/// The product of the lengths and the sine of the angle from `a` to `b`; > 0 if `b` is to the left.
+inline double cross_product(const Position& a, const Position& b) { return a.x() * b.y() - a.y() * b.x(); }
+
 /// Position and heading; theta in radians, counter-clockwise from +x (REP-103), normalised to (-pi, pi].
 struct Pose {
   Position position{0.0, 0.0};

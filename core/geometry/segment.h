@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "core/geometry/position.h"
@@ -15,6 +16,18 @@ struct Segment {
 
   double length() const { return (to - from).norm(); }
 };
+
+/// The share of the segment, in [0, 1], at which it is nearest to a point.
+inline double nearest_share(const Segment& segment, const Position& point) {
+  const Position way = segment.to - segment.from;
+  const double square = way.squaredNorm();
+  return square > 0.0 ? std::clamp((point - segment.from).dot(way) / square, 0.0, 1.0) : 0.0;
+}
+
+/// The distance of a point from the segment, metres.
+inline double distance_to_segment(const Position& point, const Segment& segment) {
+  return (segment.from + nearest_share(segment, point) * (segment.to - segment.from) - point).norm();
+}
 
 /// A segment traversed at constant speed during [t_start, t_end], seconds. A wait has from == to; only a wait
 /// may have no end.

@@ -21,15 +21,11 @@ Position position_at(const Trajectory& trajectory, double time) {
   return trajectory.end();
 }
 
-double distance_to(const Position& point, const Segment& path) {
-  const Position d = path.to - path.from;
-  const double fraction = std::clamp((point - path.from).dot(d) / d.squaredNorm(), 0.0, 1.0);
-  return (path.from + fraction * d - point).norm();
-}
-
 double distance_to(const Position& point, const Trajectory& trajectory) {
   double least = (trajectory.start - point).norm();
-  for (const TimedSegment& move : trajectory.moves) least = std::min(least, distance_to(point, move.path));
+  for (const TimedSegment& move : trajectory.moves) {
+    least = std::min(least, distance_to_segment(point, move.path));
+  }
   return least;
 }
 

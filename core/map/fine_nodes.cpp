@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {
@@ -18,12 +19,6 @@ constexpr double kHalfDiagonal = 0.7072;
 
 double distance_to_box(const Position& point, const Position& low, const Position& high) {
   return (low - point).cwiseMax(point - high).cwiseMax(0.0).norm();
-}
-
-double distance_to_segment(const Position& point, const Position& from, const Position& to) {
-  const Position along = to - from;
-  const double share = std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (from + share * along - point).norm();
 }
 
 }  // namespace
@@ -74,6 +69,7 @@ FineNodes::Limits FineNodes::limits(double x, double y, double radius, double am
 /// The cells, from the one at the origin, that a disk overlaps on the way but perhaps not at its ends.
 std::vector<Cell> FineNodes::cells_between(const Position& from, const Position& to, double radius) {
   std::vector<Cell> between;
+  const Segment way{from, to};
   const int reach = static_cast<int>(std::ceil(radius)) + 2;
   for (int row = -reach; row <= reach; ++row) {
     for (int column = -reach; column <= reach; ++column) {
@@ -81,10 +77,9 @@ std::vector<Cell> FineNodes::cells_between(const Position& from, const Position&
       const Position high(column + 0.5, row + 0.5);
       const double at_ends = std::min(distance_to_box(from, low, high), distance_to_box(to, low, high));
       if (at_ends < radius - kUnclear) continue;
-      const double nearest =
-          std::min({at_ends, distance_to_segment(low, from, to), distance_to_segment(high, from, to),
-                    distance_to_segment({low.x(), high.y()}, from, to),
-                    distance_to_segment({high.x(), low.y()}, from, to)});
+      const double nearest = std::min({at_ends, distance_to_segment(low, way), distance_to_segment(high, way),
+                                       distance_to_segment({low.x(), high.y()}, way),
+                                       distance_to_segment({high.x(), low.y()}, way)});
       if (nearest < radius + kUnclear) between.push_back({column, row});
     }
   }

@@ -25,9 +25,7 @@ constexpr std::size_t kMostCorners = 1000;
 constexpr std::size_t kWorkOfAComparison = 8;
 
 double turn(const core::Position& a, const core::Position& b, const core::Position& c) {
-  const core::Position d = b - a;
-  const core::Position e = c - a;
-  return d.x() * e.y() - d.y() * e.x();
+  return core::cross_product(b - a, c - a);
 }
 
 /// Whether a point on the line of a segment lies within its box.
