@@ -100,8 +100,7 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   const bool has_come = context.turn == nullptr || context.turn->await();
   stages.started = Clock::now();
   if (stop.cancelled()) {
-    return problem_reply(ErrorCode::draining, "The service is shutting down: try another replica.",
-                         context.request_id);
+    return problem_reply(ErrorCode::draining, kDrainingDetail, context.request_id);
   }
   if (!has_come) return too_busy(context.request_id);
   // Previous plans that hold are kept whatever the budget.

@@ -7,12 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "api/endpoints/unfinished_reply.h"
 #include "api/endpoints/within_memory.h"
-#include "api/json/fault_text.h"
 #include "api/request/parse_simulate_request.h"
 #include "api/response/error.h"
 #include "api/response/write_simulation.h"
-#include "core/runtime/memory_account.h"
 
 namespace fleetplan::api {
 
@@ -27,26 +26,9 @@ core::StopCondition end_of_runs(const RequestContext& context, const SimulateReq
   return core::StopCondition(context.received_at + request.budget - answer, context.stop);
 }
 
-Reply unfinished_runs(const SimulateRequest& request, const core::StopCondition& stop,
-                      const RequestContext& context) {
-  if (stop.cancelled()) {
-    return problem_reply(ErrorCode::draining, "The service is shutting down: try another replica.",
-                         context.request_id);
-  }
-  if (core::memory_shortages() > 0) return memory_exceeded(context);
-  const auto ms = std::chrono::duration<double, std::milli>(request.budget).count();
-  return problem_reply(ErrorCode::check_unfinished,
-                       "Not a single run was finished within " + number_text(ms) +
-                           " ms: increase options.time_budget_ms, up to max_budget_ms of /v1/limits, or "
-                           "send fewer robots or a shorter part of the plans.",
-                       context.request_id);
-}
-
 bool takes_turn(Turn& turn, const SimulateRequest& request, const core::StopCondition& stop) {
-  std::size_t work = request.robots.size();
-  for (const core::RobotPlan& plan : request.plans) work += plan.actions.size();
-  const TurnNeed need{TurnNeed::Kind::simulation, stop, stop.deadline(), static_cast<double>(work), false};
-  return turn.request(need);
+  const double work = work_of(request.robots.size(), request.plans);
+  return turn.request({TurnNeed::Kind::simulation, stop, stop.deadline(), work, false});
 }
 
 /// The dependencies, whose robots become positions in the list of plans.
@@ -94,6 +76,9 @@ Reply simulated(std::string_view body, const RequestContext& context) {
   auto request = parse_simulate_request(body, context.limits, context.parse_stop());
   if (!request) return problem_reply(request.failure(), context.request_id);
   const core::StopCondition stop = end_of_runs(context, *request);
+  const auto unfinished = [&] {
+    return unfinished_reply("Not a single run was finished", request->budget, stop, context);
+  };
   if (context.turn != nullptr && !takes_turn(*context.turn, *request, stop)) {
     return too_busy(context.request_id);
   }
@@ -101,11 +86,11 @@ Reply simulated(std::string_view body, const RequestContext& context) {
     context.events->begin({request->robots.size(), {}, core::SimulationProgress{0, request->settings.runs}});
   }
   if (context.turn != nullptr && !context.turn->await()) {
-    return stop.cancelled() ? unfinished_runs(*request, stop, context) : too_busy(context.request_id);
+    return stop.cancelled() ? unfinished() : too_busy(context.request_id);
   }
   const core::SimulatedFleet fleet = fleet_of(*request);
   const core::SimulationReport report = run_all(fleet, *request, stop, context);
-  if (report.totals.done == 0) return unfinished_runs(*request, stop, context);
+  if (report.totals.done == 0) return unfinished();
   if (report.totals.done < report.totals.runs) {
     request->warnings.push_back("Only the first " + std::to_string(report.totals.done) + " of " +
                                 std::to_string(report.totals.runs) +

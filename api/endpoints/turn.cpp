@@ -4,6 +4,12 @@
 
 namespace fleetplan::api {
 
+double work_of(std::size_t robots, const std::vector<core::RobotPlan>& plans) {
+  std::size_t work = robots;
+  for (const core::RobotPlan& plan : plans) work += plan.actions.size();
+  return static_cast<double>(work);
+}
+
 Reply too_busy(const std::string& request_id) {
   return problem_reply(ErrorCode::overloaded,
                        "All workers are busy, and the request's time budget would be spent in the queue: try "

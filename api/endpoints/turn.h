@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "api/response/reply.h"
+#include "core/model/plan.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::api {
@@ -34,6 +37,9 @@ class Turn {
   /// the time is left that the server gives up.
   virtual bool await() = 0;
 };
+
+/// TurnNeed::work of plans that are checked or executed.
+double work_of(std::size_t robots, const std::vector<core::RobotPlan>& plans);
 
 /// The answer to a request that gets no turn.
 Reply too_busy(const std::string& request_id);

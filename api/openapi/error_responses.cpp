@@ -90,7 +90,7 @@ constexpr std::array<Example, 22> kExamples{{
     {ErrorCode::overloaded, "All workers are busy and the queue is full: try again later."},
     {ErrorCode::overloaded, "Too many large requests are being received: try again later.",
      "overloaded_by_bodies"},
-    {ErrorCode::draining, "The service is shutting down: try another replica."},
+    {ErrorCode::draining, kDrainingDetail},
 }};
 
 std::vector<Fault> faults_of(ErrorCode code) {

@@ -82,7 +82,7 @@ RequestError request_error(const JsonError& error, const ParseStop& stop) {
 
 RequestError unfinished(const ParseStop& stop) {
   if (stop.cancelled()) {
-    return {ErrorCode::draining, "The service is shutting down: try another replica.", {}, 0};
+    return {ErrorCode::draining, kDrainingDetail, {}, 0};
   }
   return {ErrorCode::parse_unfinished,
           "Reading the request was given up after " +

@@ -39,6 +39,9 @@ enum class ErrorCode {
   draining,                // 503, shutting down
 };
 
+/// The detail of `draining`.
+inline constexpr const char* kDrainingDetail = "The service is shutting down: try another replica.";
+
 struct ErrorRow {
   ErrorCode code;
   int status;

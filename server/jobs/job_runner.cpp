@@ -25,8 +25,7 @@ double seconds_since(Clock::time_point then) {
 /// The answer to a request whose body was not parsed.
 api::Reply unparsed(const std::string& request_id, bool cancelled) {
   if (!cancelled) return api::too_busy(request_id);
-  return api::problem_reply(api::ErrorCode::draining, "The service is shutting down: try another replica.",
-                            request_id);
+  return api::problem_reply(api::ErrorCode::draining, api::kDrainingDetail, request_id);
 }
 
 Schedule::Kind kind_of(api::TurnNeed::Kind kind) {

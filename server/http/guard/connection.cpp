@@ -232,7 +232,7 @@ bool Connection::body() {
   } else if (input == Input::end) {
     refuse(malformed_body("The body ended early."));
   } else if (input == Input::stopped) {
-    refuse({BodyFault::Kind::stopped, "The service is shutting down: try another replica."});
+    refuse({BodyFault::Kind::stopped, api::kDrainingDetail});
   } else if (input == Input::timeout) {
     refuse({BodyFault::Kind::too_slow, "The body did not arrive in time: it may pause for " +
                                            std::to_string(context_.settings.read_timeout.count()) +

@@ -128,7 +128,7 @@ Steps::Answer Steps::content(const Exchange& exchange) const {
 
 Steps::Answer Steps::draining(const Exchange& exchange) const {
   if (!draining_ || !exchange.route->takes_body()) return std::nullopt;
-  return refusal(exchange, ErrorCode::draining, "The service is shutting down: try another replica.");
+  return refusal(exchange, ErrorCode::draining, api::kDrainingDetail);
 }
 
 void Steps::end(Exchange& exchange, std::uint64_t bytes_out, const std::string& peer) const {

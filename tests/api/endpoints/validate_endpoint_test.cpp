@@ -242,6 +242,7 @@ TEST(ValidateEndpoint, StopsOnRequest) {
   const Reply reply = validate_endpoint(heap_request(2, 10).dump(), context);
   EXPECT_EQ(reply.status, 503);
   EXPECT_EQ(json_of(reply)["code"], "draining");
+  EXPECT_EQ(json_of(reply)["detail"], "The service is shutting down: try another replica.");
 }
 
 TEST(ValidateEndpoint, ReturnsAtMostTwentyViolationsAndTheNumberOfAll) {
