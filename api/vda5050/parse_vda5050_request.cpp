@@ -106,7 +106,7 @@ class ProgressReader {
     return progress;
   }
 
-  RoutePoint read_point(const JsonReader& json, std::size_t robot) const {
+  core::ActionPlace read_point(const JsonReader& json, std::size_t robot) const {
     const JsonReader action = json.require("action");
     const auto index = action.natural(kGreatestIndex);
     const auto fraction = json.require("progress").number(kFraction);
@@ -114,7 +114,7 @@ class ProgressReader {
     const std::size_t count = actions_[robot].size();
     // A robot that has no actions, or has executed all, may be at their end.
     if (*index < count || (*index == count && *fraction == 0.0)) {
-      return route_point({robot, *index, *fraction});
+      return core::place_of({robot, *index, *fraction});
     }
     action.fault(fault::kOutOfRange,
                  [&] { return "The robot has " + std::to_string(count) + " actions, numbered from 0."; });

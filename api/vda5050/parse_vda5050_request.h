@@ -20,7 +20,7 @@ namespace fleetplan::api {
 
 /// How far a robot is, and the order that it has.
 struct OrderProgress {
-  RoutePoint at;
+  core::ActionPlace at;
   std::optional<std::string> order_id;  // none: it has no order yet
   std::uint64_t update_id = 0;          // of the last message
   std::uint64_t last_released = 0;      // the sequence id of the last node of the base

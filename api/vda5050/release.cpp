@@ -5,12 +5,12 @@
 
 namespace fleetplan::api {
 
-std::vector<std::vector<RoutePoint>> points_of(const std::vector<core::Dependency>& dependencies,
-                                               std::size_t robots) {
-  std::vector<std::vector<RoutePoint>> points(robots);
+std::vector<std::vector<core::ActionPlace>> points_of(const std::vector<core::Dependency>& dependencies,
+                                                      std::size_t robots) {
+  std::vector<std::vector<core::ActionPlace>> points(robots);
   for (const core::Dependency& dependency : dependencies) {
     for (const core::ActionProgress& progress : {dependency.gate, dependency.until}) {
-      points[progress.robot].push_back(route_point(progress));
+      points[progress.robot].push_back(core::place_of(progress));
     }
   }
   for (auto& of_robot : points) {
@@ -22,13 +22,13 @@ std::vector<std::vector<RoutePoint>> points_of(const std::vector<core::Dependenc
 
 std::vector<std::size_t> released_nodes(const std::vector<Route>& routes,
                                         const std::vector<core::Dependency>& dependencies,
-                                        const std::vector<RoutePoint>& progress) {
-  constexpr RoutePoint kNever{std::numeric_limits<std::size_t>::max(), 0.0};
-  std::vector<RoutePoint> closed(routes.size(), kNever);  // the first gate that is not open
+                                        const std::vector<core::ActionPlace>& progress) {
+  constexpr core::ActionPlace kNever{std::numeric_limits<std::size_t>::max(), 0.0};
+  std::vector<core::ActionPlace> closed(routes.size(), kNever);  // the first gate that is not open
   for (const core::Dependency& dependency : dependencies) {
-    if (route_point(dependency.until) <= progress[dependency.until.robot]) continue;
-    RoutePoint& first = closed[dependency.gate.robot];
-    first = std::min(first, route_point(dependency.gate));
+    if (core::place_of(dependency.until) <= progress[dependency.until.robot]) continue;
+    core::ActionPlace& first = closed[dependency.gate.robot];
+    first = std::min(first, core::place_of(dependency.gate));
   }
   std::vector<std::size_t> released;
   released.reserve(routes.size());

@@ -11,8 +11,8 @@
 namespace fleetplan::api {
 
 /// The points of routes that dependencies name, by robot, ascending and each once.
-std::vector<std::vector<RoutePoint>> points_of(const std::vector<core::Dependency>& dependencies,
-                                               std::size_t robots);
+std::vector<std::vector<core::ActionPlace>> points_of(const std::vector<core::Dependency>& dependencies,
+                                                      std::size_t robots);
 
 /// How many nodes of each route, the first ones, are released when every robot has reached the point of its
 /// progress: those that come before or at the first gate whose `until` is not reached. At least the first.
@@ -22,6 +22,6 @@ std::vector<std::vector<RoutePoint>> points_of(const std::vector<core::Dependenc
 /// where it ends, and an `until` there is reported with the next node, which is no later than the next gate.
 std::vector<std::size_t> released_nodes(const std::vector<Route>& routes,
                                         const std::vector<core::Dependency>& dependencies,
-                                        const std::vector<RoutePoint>& progress);
+                                        const std::vector<core::ActionPlace>& progress);
 
 }  // namespace fleetplan::api

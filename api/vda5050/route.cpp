@@ -18,7 +18,7 @@ bool moves(const Action& action) {
 
 class RouteMaker {
  public:
-  RouteMaker(const core::Robot& robot, core::Actions actions, const std::vector<RoutePoint>& cuts,
+  RouteMaker(const core::Robot& robot, core::Actions actions, const std::vector<core::ActionPlace>& cuts,
              double wait_before_move)
       : robot_(robot),
         actions_(actions),
@@ -78,7 +78,7 @@ class RouteMaker {
     const bool is_fixed = is_first() || !last().stops.empty();
     if (is_fixed && turned_) {
       const core::Position position = last().position;
-      const RoutePoint at = last().at;
+      const core::ActionPlace at = last().at;
       route_.edges.push_back({0.0, 0.0, rotation_speed_, false});
       route_.nodes.push_back({position, {}, at, {}});
     }
@@ -89,7 +89,7 @@ class RouteMaker {
   void translate(std::size_t k) {
     const Action& action = actions_[k];
     if (turned_ && !is_first() && last().stops.empty()) assume_heading();
-    for (; cut_ != cuts_end_ && *cut_ <= RoutePoint{k, 0.0}; ++cut_) continue;
+    for (; cut_ != cuts_end_ && *cut_ <= core::ActionPlace{k, 0.0}; ++cut_) continue;
     double done = 0.0;
     for (; cut_ != cuts_end_ && cut_->action == k; ++cut_) {
       add_leg(action, done, cut_->fraction, *cut_);
@@ -101,7 +101,7 @@ class RouteMaker {
     rotation_speed_ = robot_.angular_speed;
   }
 
-  void add_leg(const Action& action, double from, double to, const RoutePoint& end) {
+  void add_leg(const Action& action, double from, double to, const core::ActionPlace& end) {
     const core::Position way = action.to.position - action.from.position;
     const double duration = action.t_end - action.t_start;
     const double speed = duration > 0.0 ? way.norm() / duration : robot_.linear_speed;
@@ -114,8 +114,8 @@ class RouteMaker {
   const core::Robot& robot_;
   core::Actions actions_;
   std::vector<core::WaitPurpose> purposes_;  // by action
-  std::vector<RoutePoint>::const_iterator cut_;
-  std::vector<RoutePoint>::const_iterator cuts_end_;
+  std::vector<core::ActionPlace>::const_iterator cut_;
+  std::vector<core::ActionPlace>::const_iterator cuts_end_;
   Route route_;
   double heading_ = 0.0;
   bool turned_ = false;  // since the last node's heading was fixed
@@ -124,12 +124,7 @@ class RouteMaker {
 
 }  // namespace
 
-RoutePoint route_point(const core::ActionProgress& progress) {
-  if (progress.fraction >= 1.0) return {progress.action + 1, 0.0};
-  return {progress.action, progress.fraction};
-}
-
-Route route_of(const core::Robot& robot, core::Actions actions, const std::vector<RoutePoint>& cuts,
+Route route_of(const core::Robot& robot, core::Actions actions, const std::vector<core::ActionPlace>& cuts,
                double wait_before_move) {
   return RouteMaker(robot, actions, cuts, wait_before_move).run();
 }

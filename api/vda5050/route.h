@@ -4,28 +4,13 @@
 
 #include <cstddef>
 #include <optional>
-#include <tuple>
 #include <vector>
 
+#include "core/execution/dependency.h"
 #include "core/execution/executed_actions.h"
 #include "core/model/robot.h"
 
 namespace fleetplan::api {
-
-/// A point in a robot's actions: the action and the fraction of it in [0, 1) that is executed, all before it
-/// included. The end of an action is the beginning of the next.
-struct RoutePoint {
-  std::size_t action = 0;
-  double fraction = 0.0;
-
-  bool operator==(const RoutePoint&) const = default;
-  bool operator<(const RoutePoint& other) const {
-    return std::tie(action, fraction) < std::tie(other.action, other.fraction);
-  }
-  bool operator<=(const RoutePoint& other) const { return !(other < *this); }
-};
-
-RoutePoint route_point(const core::ActionProgress& progress);
 
 /// What a robot does at a node: it serves a goal, or makes the added wait (PlanOptions::wait_before_move).
 struct Stop {
@@ -37,7 +22,7 @@ struct Stop {
 struct RouteNode {
   core::Position position{0.0, 0.0};
   std::optional<double> theta;  // radians: the heading to assume at the node before its stops
-  RoutePoint at;                // when the robot arrives
+  core::ActionPlace at;         // when the robot arrives, see place_of
   std::vector<Stop> stops;
 };
 
@@ -55,10 +40,10 @@ struct Route {
   std::vector<RouteEdge> edges;
 };
 
-/// There is a node wherever the robot stops or turns, and at each of the `cuts` (ascending) within a
-/// translation. Waits that only give way are left out: passage is by release. A robot that has to assume two
-/// headings in one place, for two goals, has two nodes there.
-Route route_of(const core::Robot& robot, core::Actions actions, const std::vector<RoutePoint>& cuts,
+/// There is a node wherever the robot stops or turns, and at each of the `cuts` (ascending, see place_of)
+/// within a translation. Waits that only give way are left out: passage is by release. A robot that has to
+/// assume two headings in one place, for two goals, has two nodes there.
+Route route_of(const core::Robot& robot, core::Actions actions, const std::vector<core::ActionPlace>& cuts,
                double wait_before_move);
 
 }  // namespace fleetplan::api

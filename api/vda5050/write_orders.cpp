@@ -30,7 +30,7 @@ std::optional<Order> next_order(const VdaRequest& request, std::size_t robot, st
 void write_progress(JsonWriter& json, const Route& route, std::size_t first) {
   json.key("nodes").begin_array();
   for (std::size_t k = first; k < route.nodes.size(); ++k) {
-    const RoutePoint& at = route.nodes[k].at;
+    const core::ActionPlace& at = route.nodes[k].at;
     // The end of an action is its progress 1.
     const bool is_end = at.fraction == 0.0 && at.action > 0;
     json.begin_object().member("sequence_id", 2 * k);
@@ -44,7 +44,7 @@ void write_progress(JsonWriter& json, const Route& route, std::size_t first) {
 
 std::string write_orders(const VdaRequest& request) {
   const std::vector<Route>& routes = request.routes;
-  std::vector<RoutePoint> reached;
+  std::vector<core::ActionPlace> reached;
   for (const OrderProgress& progress : request.progress) reached.push_back(progress.at);
   const auto released = released_nodes(routes, request.dependencies, reached);
   bool all_released = true;

@@ -2,6 +2,7 @@
 
 // Dependencies between robots that execute a plan at their own pace.
 
+#include <compare>
 #include <cstddef>
 #include <vector>
 
@@ -14,6 +15,20 @@ struct ActionProgress {
   std::size_t action = 0;  // index into its actions
   double fraction = 0.0;
 };
+
+/// A place in a robot's actions: this one is executed up to the fraction, and all before it.
+struct ActionPlace {
+  std::size_t action = 0;
+  double fraction = 0.0;
+
+  auto operator<=>(const ActionPlace&) const = default;  // NOLINT(modernize-use-nullptr): its own 0
+};
+
+/// The place of a progress, which is before an action rather than after another.
+inline ActionPlace place_of(const ActionProgress& progress) {
+  if (progress.fraction < 1.0) return {progress.action, progress.fraction};
+  return {progress.action + 1, 0.0};
+}
 
 /// The robot of `gate` may reach that progress, but not pass it until the robot of `until` has reached its
 /// own.

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "core/execution/simulation/execution_policy.h"
@@ -8,41 +7,25 @@
 namespace fleetplan::core {
 namespace {
 
-/// A place in a plan: the end of an action is the beginning of the next one.
-struct Place {
-  std::size_t action = 0;
-  double fraction = 0.0;
-
-  friend bool operator<(const Place& a, const Place& b) {
-    return std::tie(a.action, a.fraction) < std::tie(b.action, b.fraction);
-  }
-};
-
 /// A robot may pass `place` once another one has reached its own.
 struct Gate {
-  Place place;
+  ActionPlace place;
   std::size_t other = 0;
-  Place until;
+  ActionPlace until;
 };
 
-/// The place as a gate: before an action rather than after another.
-Place as_gate(const ActionProgress& progress) {
-  if (progress.fraction < 1.0) return {progress.action, progress.fraction};
-  return {progress.action + 1, 0.0};
-}
-
-/// The place as one that is reached: after an action rather than before another.
-Place as_reached(const ActionProgress& progress) {
+/// The place of a progress that is to be reached: after an action rather than before another.
+ActionPlace as_reached(const ActionProgress& progress) {
   if (progress.fraction > 0.0 || progress.action == 0) return {progress.action, progress.fraction};
   return {progress.action - 1, 1.0};
 }
 
 /// When the robot reaches the place; none if it has not come so far.
-std::optional<double> time_reached(const ExecutedProgress& progress, const Place& place) {
+std::optional<double> time_reached(const ExecutedProgress& progress, const ActionPlace& place) {
   if (place.action == 0 && place.fraction <= 0.0) return 0.0;
   const auto found = std::lower_bound(progress.knots.begin(), progress.knots.end(), place,
-                                      [](const ExecutionKnot& knot, const Place& sought) {
-                                        return Place{knot.action, knot.fraction} < sought;
+                                      [](const ExecutionKnot& knot, const ActionPlace& sought) {
+                                        return ActionPlace{knot.action, knot.fraction} < sought;
                                       });
   if (found == progress.knots.end()) return std::nullopt;
   if (found->action != place.action || found == progress.knots.begin()) return found->t;
@@ -59,7 +42,7 @@ class DependentExecution {
                      const StopCondition& stop)
       : planned_(planned), disturbed_(disturbed), stop_(stop), robots_(planned.plans.size()) {
     for (const Dependency& dependency : planned.dependencies) {
-      const Place place = as_gate(dependency.gate);
+      const ActionPlace place = place_of(dependency.gate);
       robots_[dependency.gate.robot].gates.push_back(
           {place, dependency.until.robot, as_reached(dependency.until)});
     }
@@ -150,7 +133,7 @@ class DependentExecution {
   bool advance_phase(Robot& robot) {
     Phase& phase = robot.phases[robot.phase];
     while (robot.gate < robot.gates.size()) {
-      const Place& place = robot.gates[robot.gate].place;
+      const ActionPlace& place = robot.gates[robot.gate].place;
       if (place.action != robot.action || place.fraction >= phase.to_fraction) break;
       const double from = robot.builder.fraction();
       if (place.fraction > from) {
@@ -166,7 +149,7 @@ class DependentExecution {
 
   /// Waits at the gates up to a fraction of the present action; false: one of them is not known to open.
   bool pass_gates(Robot& robot, double fraction) {
-    const Place here{robot.action, fraction};
+    const ActionPlace here{robot.action, fraction};
     for (; robot.gate < robot.gates.size() && !(here < robot.gates[robot.gate].place); ++robot.gate) {
       const Gate& gate = robot.gates[robot.gate];
       const auto opens = time_reached(robots_[gate.other].builder.progress(), gate.until);

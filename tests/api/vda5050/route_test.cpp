@@ -22,8 +22,8 @@ core::Robot make_robot() { return {"a", 0.3, 1.0, 2.0, {{0.5, 0.5}, 0.0}, core::
 
 support::PlanBuilder plan(const core::Robot& robot) { return {0, robot}; }
 
-Route route(const core::Robot& robot, const core::RobotPlan& plan, const std::vector<RoutePoint>& cuts = {},
-            double wait_before_move = 0.0) {
+Route route(const core::Robot& robot, const core::RobotPlan& plan,
+            const std::vector<core::ActionPlace>& cuts = {}, double wait_before_move = 0.0) {
   return route_of(robot, plan.actions, cuts, wait_before_move);
 }
 
@@ -136,10 +136,11 @@ TEST(Release, EndsAtTheFirstGateWhoseConditionIsNotMet) {
   const std::vector<core::Dependency> dependencies{
       {{0, 0, 0.5}, {1, 0, 0.25}, 1.0}, {{0, 1, 0.5}, {1, 0, 0.5}, 1.0}, {{0, 2, 0.5}, {1, 0, 1.0}, 1.0}};
   const auto points = points_of(dependencies, 2);
-  EXPECT_THAT(points[1], ElementsAre(RoutePoint{0, 0.25}, RoutePoint{0, 0.5}, RoutePoint{1, 0.0}));
+  EXPECT_THAT(points[1],
+              ElementsAre(core::ActionPlace{0, 0.25}, core::ActionPlace{0, 0.5}, core::ActionPlace{1, 0.0}));
   const std::vector<Route> routes{route(robot, way, points[0]), {}};
-  const auto released = [&](RoutePoint other) {
-    return released_nodes(routes, dependencies, {RoutePoint{}, other}).front();
+  const auto released = [&](core::ActionPlace other) {
+    return released_nodes(routes, dependencies, {core::ActionPlace{}, other}).front();
   };
   ASSERT_EQ(routes[0].nodes.size(), 5U);
   EXPECT_EQ(released({0, 0.0}), 2U);   // up to the gate in the first translation
