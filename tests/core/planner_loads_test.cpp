@@ -5,26 +5,16 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/planner.h"
-#include "tests/core/support/planning.h"
 #include "tests/support/ascii_map.h"
-#include "tests/support/expect_bounds.h"
-#include "tests/support/expect_safe.h"
+#include "tests/support/plan_checked.h"
 #include "tests/support/problem_builder.h"
 
 namespace fleetplan::core {
 namespace {
 
 using support::ascii_map;
+using support::plan_checked;
 using support::robot_at;
-
-/// The plan, after the checker accepted it.
-Plan plan_checked(const Problem& problem, const PlanOptions& options = {}) {
-  Plan plan = core::plan(problem, options, {});
-  support::expect_safe(problem, plan, options);
-  support::expect_bounded(plan);
-  return plan;
-}
 
 /// Visits this place before its last goal and leaves it with another radius.
 Robot with_load(Robot robot, double x, double y, double radius_after, double service = 0.0) {

@@ -6,28 +6,19 @@
 #include <numbers>
 #include <vector>
 
-#include "core/planner.h"
-#include "tests/core/support/planning.h"
 #include "tests/support/ascii_map.h"
-#include "tests/support/expect_bounds.h"
-#include "tests/support/expect_safe.h"
+#include "tests/support/plan_checked.h"
 #include "tests/support/problem_builder.h"
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
 namespace {
 
+using support::plan_checked;
 using support::robot_at;
 using Type = Action::Type;
 
 constexpr double kPi = std::numbers::pi;
-
-Plan plan_checked(const Problem& problem, const PlanOptions& options = {}) {
-  Plan plan = core::plan(problem, options, {});
-  support::expect_safe(problem, plan, options);
-  support::expect_bounded(plan);
-  return plan;
-}
 
 Robot reversing(Robot robot) {
   robot.may_reverse = true;

@@ -2,25 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include "core/planner.h"
-#include "tests/core/support/planning.h"
 #include "tests/support/ascii_map.h"
-#include "tests/support/expect_bounds.h"
 #include "tests/support/expect_safe.h"
+#include "tests/support/plan_checked.h"
 #include "tests/support/problem_builder.h"
 
 namespace fleetplan::core {
 namespace {
 
+using support::plan_checked;
 using support::robot_at;
-
-/// The plan, after the checker accepted it.
-Plan plan_checked(const Problem& problem, const PlanOptions& options = {}) {
-  Plan plan = core::plan(problem, options, {});
-  support::expect_safe(problem, plan, options);
-  support::expect_bounded(plan);
-  return plan;
-}
 
 std::vector<Robot> with_vicinity(std::vector<Robot> robots, double vicinity) {
   for (Robot& robot : robots) robot.vicinity = vicinity;

@@ -5,16 +5,15 @@
 
 #include <algorithm>
 
-#include "core/planner.h"
-#include "tests/core/support/planning.h"
 #include "tests/support/ascii_map.h"
-#include "tests/support/expect_bounds.h"
 #include "tests/support/expect_safe.h"
+#include "tests/support/plan_checked.h"
 #include "tests/support/problem_builder.h"
 
 namespace fleetplan::core {
 namespace {
 
+using support::plan_checked;
 using support::robot_at;
 using testing::HasSubstr;
 
@@ -32,14 +31,6 @@ Problem with_zones(OccupancyGrid grid, std::vector<Robot> robots, std::vector<Zo
   ProblemConditions conditions;
   conditions.zones = std::move(zones);
   return support::make_problem(std::move(grid), std::move(robots), std::move(conditions));
-}
-
-/// The plan, after the checker accepted it.
-Plan plan_checked(const Problem& problem, const PlanOptions& options = {}) {
-  Plan plan = core::plan(problem, options, {});
-  support::expect_safe(problem, plan, options);
-  support::expect_bounded(plan);
-  return plan;
 }
 
 double length_of(const RobotPlan& plan) {

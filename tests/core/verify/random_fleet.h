@@ -53,19 +53,24 @@ inline RandomFleet random_fleet(std::mt19937& random, std::size_t count, double 
   return fleet;
 }
 
-/// The position of a robot of the fleet at time t; its plan is valid.
-inline Position sampled_position(const RandomFleet& fleet, std::size_t robot, double t) {
-  Position position = fleet.robots[robot].start.position;
-  for (const RobotPlan& plan : fleet.plans) {
-    if (plan.robot != robot) continue;
-    for (const Action& action : plan.actions) {
-      if (t < action.t_start) break;
-      const double duration = action.t_end - action.t_start;
-      const double part = duration > 0.0 ? std::min(1.0, (t - action.t_start) / duration) : 1.0;
-      position = (1.0 - part) * action.from.position + part * action.to.position;
-    }
+/// The position at time t of a robot that executes these actions, or is at `start` without any.
+inline Position sampled(const std::vector<Action>& actions, const Position& start, double t) {
+  Position position = actions.empty() ? start : actions.front().from.position;
+  for (const Action& action : actions) {
+    if (t < action.t_start) break;
+    const double duration = action.t_end - action.t_start;
+    const double part = duration > 0.0 ? std::min(1.0, (t - action.t_start) / duration) : 1.0;
+    position = (1.0 - part) * action.from.position + part * action.to.position;
   }
   return position;
+}
+
+/// The position of a robot of the fleet at time t; its plan is valid.
+inline Position sampled_position(const RandomFleet& fleet, std::size_t robot, double t) {
+  const auto plan = std::find_if(fleet.plans.begin(), fleet.plans.end(),
+                                 [robot](const RobotPlan& one) { return one.robot == robot; });
+  const Position& start = fleet.robots[robot].start.position;
+  return plan == fleet.plans.end() ? start : sampled(plan->actions, start, t);
 }
 
 }  // namespace fleetplan::core

@@ -48,16 +48,4 @@ inline ExecutionKnot knot_at(const ExecutedProgress& progress, double t) {
   return at;
 }
 
-/// Where a robot is that executes these actions so far: computed in the simplest way.
-inline Position sampled(const std::vector<Action>& actions, const Position& rest, double t) {
-  Position position = actions.empty() ? rest : actions.front().from.position;
-  for (const Action& action : actions) {
-    if (t < action.t_start) break;
-    const double duration = action.t_end - action.t_start;
-    const double part = duration > 0.0 ? std::min(1.0, (t - action.t_start) / duration) : 1.0;
-    position = (1.0 - part) * action.from.position + part * action.to.position;
-  }
-  return position;
-}
-
 }  // namespace fleetplan::core

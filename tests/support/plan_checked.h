@@ -1,0 +1,17 @@
+#pragma once
+
+#include "core/planner.h"
+#include "tests/support/expect_bounds.h"
+#include "tests/support/expect_safe.h"
+
+namespace fleetplan::support {
+
+/// The plan of the facade, of which it expects that the checker accepts it and that its bounds hold.
+inline core::Plan plan_checked(const core::Problem& problem, const core::PlanOptions& options = {}) {
+  core::Plan plan = core::plan(problem, options, {});
+  expect_safe(problem, plan, options);
+  expect_bounded(plan);
+  return plan;
+}
+
+}  // namespace fleetplan::support
