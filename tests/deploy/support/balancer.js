@@ -4,10 +4,11 @@ import { spawn } from "node:child_process";
 import { once } from "node:events";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
-import { createConnection, createServer as createTcpServer } from "node:net";
+import { createConnection } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
+import { freePorts } from "../../web/support/free_ports.js";
 import { textOf } from "./files.js";
 
 const START_MS = 20_000;
@@ -96,14 +97,6 @@ async function activeServers(metricsPort) {
   } catch {
     return 0; // it does not listen yet
   }
-}
-
-async function freePorts(count) {
-  const probes = Array.from({ length: count }, () => createTcpServer().listen(0, "127.0.0.1"));
-  await Promise.all(probes.map((probe) => once(probe, "listening")));
-  const ports = probes.map((probe) => probe.address().port);
-  for (const probe of probes) probe.close();
-  return ports;
 }
 
 async function until(condition) {

@@ -1,8 +1,9 @@
 // The real server, started for a test run on a free port of 127.0.0.1 and stopped by its pid.
 
 import { spawn } from "node:child_process";
-import { createServer } from "node:net";
 import { createInterface } from "node:readline";
+
+import { freePorts } from "./free_ports.js";
 
 const START_MS = 10_000;
 
@@ -10,8 +11,8 @@ const START_MS = 10_000;
 export async function startService(flags = []) {
   const binary = process.env.FLEETPLAN_BIN;
   if (!binary) throw new Error("FLEETPLAN_BIN must name the server binary");
-  const port = String(await freePort());
-  const all = ["--host", "127.0.0.1", "--port", port, "--log-level", "warn", ...flags];
+  const [port] = await freePorts(1);
+  const all = ["--host", "127.0.0.1", "--port", String(port), "--log-level", "warn", ...flags];
   const env = { ...process.env, FLEETPLAN_BIN: undefined }; // which the server would warn of
   const child = spawn(binary, all, { env, stdio: ["ignore", "pipe", "inherit"] });
   const ended = new Promise((resolve) => child.once("exit", resolve));
@@ -48,15 +49,4 @@ function listening(child) {
 async function stop(child, ended, signal) {
   child.kill(signal);
   await ended;
-}
-
-function freePort() {
-  return new Promise((resolve, reject) => {
-    const probe = createServer();
-    probe.once("error", reject);
-    probe.listen(0, "127.0.0.1", () => {
-      const { port } = probe.address();
-      probe.close(() => resolve(port));
-    });
-  });
 }
