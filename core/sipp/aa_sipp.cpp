@@ -239,9 +239,22 @@ EdgeId Search::add_edge(LabelId via, PlaceId target, bool with_shortcut, bool re
 inline Move Search::move_between(LabelId from, PlaceId target, bool reverse) const {
   if (changes_radius_) return move_with_radius(from, target, reverse);
   const Label& label = state_.labels[from];
-  const MoveSource source{label.arrival, label.heading, label.by_translation, label.reverse,
-                          state_.intervals[label.interval]};
-  const Displacement d = vertices_.between(place_at(from).vertex, state_.places[target].vertex);
+  return move_within(state_.intervals[label.interval], vertices_, label, target, reverse);
+}
+
+/// The same for a robot whose radius changes.
+Move Search::move_with_radius(LabelId from, PlaceId target, bool reverse) const {
+  const Label& label = state_.labels[from];
+  SafeInterval interval = state_.intervals[label.interval];
+  interval.end = latest_departure(from);
+  return move_within(interval, vertices(place_at(from).stage), label, target, reverse);
+}
+
+/// The same from a label that the robot leaves within this interval, by the vertices of its stage.
+inline Move Search::move_within(const SafeInterval& interval, const Vertices& of_stage, const Label& label,
+                                PlaceId target, bool reverse) const {
+  const MoveSource source{label.arrival, label.heading, label.by_translation, label.reverse, interval};
+  const Displacement d = of_stage.between(state_.places[label.place].vertex, state_.places[target].vertex);
   Move move = timing_.move(source, d.heading, d.length, reverse);
   if (vertices_.limit_speeds()) limit_speeds(move, label, target);
   return move;
@@ -253,19 +266,6 @@ void Search::limit_speeds(Move& move, const Label& from, PlaceId target) const {
   move.duration = zones_->translation_time(here, state_.places[target].position);
   move.ready = from.arrival + angle_between(from.heading, move.heading) / zones_->angular_speed_at(here) +
                motion_.wait_before_move;
-}
-
-/// The same for a robot whose radius changes.
-Move Search::move_with_radius(LabelId from, PlaceId target, bool reverse) const {
-  const Label& label = state_.labels[from];
-  MoveSource source{label.arrival, label.heading, label.by_translation, label.reverse,
-                    state_.intervals[label.interval]};
-  source.interval.end = latest_departure(from);
-  const Place& place = place_at(from);
-  const Displacement d = vertices(place.stage).between(place.vertex, state_.places[target].vertex);
-  Move move = timing_.move(source, d.heading, d.length, reverse);
-  if (vertices_.limit_speeds()) limit_speeds(move, label, target);
-  return move;
 }
 
 /// Of a robot whose radius changes. A rest in the pose of a goal serves it as soon as it is long enough,

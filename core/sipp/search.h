@@ -77,6 +77,8 @@ class Search {
 
   EdgeId add_edge(LabelId via, PlaceId target, bool with_shortcut, bool reverse);
   Move move_between(LabelId from, PlaceId target, bool reverse) const;
+  Move move_within(const SafeInterval& interval, const Vertices& of_stage, const Label& label, PlaceId target,
+                   bool reverse) const;
   void limit_speeds(Move& move, const Label& from, PlaceId target) const;
   void test_sight(Edge& edge) const;
   std::optional<double> earliest_departure(const OpenEntry& entry);
