@@ -69,7 +69,7 @@ export class ScenarioDialog {
       : null;
     const robots = this.#made?.request.robots ?? [];
     this.#dialog.ready = robots.length > 0;
-    setText(this.#status, this.#made ? this.#inWords() : "Fill in numbers above 0 in all fields.");
+    setText(this.#status, this.#made ? this.#inWords() : "Enter positive numbers in all fields.");
     this.#paint(robots.length, defaults.radius / this.#map.resolution);
   }
 

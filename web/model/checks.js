@@ -17,7 +17,7 @@ const KINDS = {
   speed: "Exceeds the speed limit",
   wrong_start: "Does not start at the start pose",
   wrong_goal: "Does not end at the goal pose",
-  wrong_visit: "Does not visit a goal as asked",
+  wrong_visit: "Does not visit a goal as requested",
   committed_changed: "Does not begin with its committed actions",
   margin: "Robots pass too soon after each other",
   moving_obstacle: "Collides with a moving obstacle",

@@ -152,7 +152,7 @@ export class Session {
   }
 
   redo() {
-    if (this.canRedo) this.#step(() => this.#history.redo(), "Done again");
+    if (this.canRedo) this.#step(() => this.#history.redo(), "Redone");
   }
 
   #step(take, word) {

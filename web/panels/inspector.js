@@ -16,7 +16,7 @@ const COLUMNS = ["", "From, s", "To, s", "What"];
 const NO_ACTIONS = {
   parked: "It has no goal and stays at its start.",
   planned: "It is already at its goal.",
-  outdated: "Its plan no longer holds after the edits. Plan again.",
+  outdated: "An edit made its plan invalid. Plan again.",
   ready: "It is not part of the plan and stays at its start.",
 };
 

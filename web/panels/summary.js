@@ -98,11 +98,11 @@ function badges(answer, check) {
 /** What still holds of a plan whose request was edited. */
 function outdatedNote({ plans }, outdated) {
   const holding = plans.filter(({ robot }) => !outdated.has(robot)).length;
-  const note = `${holding.toLocaleString("en")} of ${count(plans.length, "plan")} still hold; their robots move.`;
+  const note = `${holding.toLocaleString("en")} of ${count(plans.length, "plan")} still hold.`;
   return element(
     "div",
     { class: "badges" },
-    badge("Outdated", "fair", PART, "The request was edited after it was planned"),
+    badge("Outdated", "fair", PART, "The request was edited after planning"),
     element("p", { class: "facts", textContent: `${note} Plan again, or undo the edits.` }),
   );
 }

@@ -15,7 +15,7 @@ export const REASONS = {
   goal_unreachable: "Goal unreachable",
   blocked_by_robots: "Blocked by other robots",
   budget_exhausted: "Out of time",
-  committed_in_the_way: "In the way of what is certain to move",
+  committed_in_the_way: "In the way of committed motion",
   invalid: "Invalid",
 };
 

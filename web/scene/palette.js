@@ -23,7 +23,7 @@ export const STATES_IN_WORDS = {
   waiting: "waiting: two bars",
   arrived: "arrived: a tick",
   parked: "parked: a square",
-  ready: "before a plan",
+  ready: "not planned yet",
   outdated: "outdated by an edit",
   unplanned: "without a plan: a cross",
 };
