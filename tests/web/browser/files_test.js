@@ -383,13 +383,13 @@ test("a saved request and its plan can be opened again", async () => {
   });
 });
 
-test("a picture of the scene is saved", async () => {
+test("a picture of the scene is saved, twice as fine", async () => {
   await onPage(async (page) => {
     const { name, content } = await save(page, "#save-picture");
     assert.match(name, /\.png$/);
     const size = await page.evaluate(() => [
-      document.getElementById("scene").width,
-      document.getElementById("scene").height,
+      2 * document.getElementById("scene").width,
+      2 * document.getElementById("scene").height,
     ]);
     assert.deepEqual([content.readUInt32BE(16), content.readUInt32BE(20)], size);
   });
