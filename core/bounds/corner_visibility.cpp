@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 
 namespace fleetplan::core {
@@ -25,17 +27,25 @@ constexpr double kWidthMargin = 0.99;
 /// The work of following a sector through a row; measured.
 constexpr int kSectorWork = 2;
 
-std::optional<Corner> convex_corner(const OccupancyGrid& grid, int x, int line) {
-  std::optional<Corner> corner;
-  for (const int away_x : {1, -1}) {
-    for (const int away_y : {1, -1}) {
-      const Cell behind{away_x > 0 ? x - 1 : x, away_y > 0 ? line - 1 : line};
-      if (!grid.blocked(behind)) continue;
-      if (corner) return std::nullopt;
-      corner = Corner{x, line, away_x, away_y};
-    }
+/// The corner at a grid point with one blocked cell around it.
+Corner convex_corner(const OccupancyGrid& grid, int x, int line) {
+  const bool is_left = grid.blocked({x - 1, line - 1}) || grid.blocked({x - 1, line});
+  const bool is_below = grid.blocked({x - 1, line - 1}) || grid.blocked({x, line - 1});
+  return {x, line, is_left ? 1 : -1, is_below ? 1 : -1};
+}
+
+/// Calls visit(index) for each byte of this value.
+template <class Visit>
+void for_each_equal(const std::vector<std::uint8_t>& bytes, int value, Visit&& visit) {
+  const std::uint8_t* const first = bytes.data();
+  const std::uint8_t* const last = first + bytes.size();
+  const std::uint8_t* at = first;
+  while (at != last) {
+    at = static_cast<const std::uint8_t*>(std::memchr(at, value, static_cast<std::size_t>(last - at)));
+    if (at == nullptr) return;
+    visit(static_cast<int>(at - first));
+    ++at;
   }
-  return corner;
 }
 
 }  // namespace
@@ -180,12 +190,24 @@ CornerVisibility::CornerVisibility(const OccupancyGrid& grid, double least_radiu
 }
 
 void CornerVisibility::find_corners() {
+  const auto columns = static_cast<std::size_t>(grid_.columns());
+  // The rows on both sides of a line, and what is outside the map beside them.
+  std::vector<std::uint8_t> below(columns + 2, 1);
+  std::vector<std::uint8_t> above(columns + 2, 1);
+  std::vector<std::uint8_t> blocked(columns + 1);  // of the four cells around each grid point of the line
   for (int line = 0; line <= grid_.rows(); ++line) {
-    first_of_line_.push_back(count());
-    for (int x = 0; x <= grid_.columns(); ++x) {
-      const auto corner = convex_corner(grid_, x, line);
-      if (corner) corners_.push_back(*corner);
+    std::swap(below, above);
+    if (line < grid_.rows()) {
+      const auto row = grid_.row(line);
+      std::copy(row.begin(), row.end(), above.begin() + 1);
+    } else {
+      std::fill(above.begin(), above.end(), std::uint8_t{1});
     }
+    for (std::size_t x = 0; x <= columns; ++x) {
+      blocked[x] = static_cast<std::uint8_t>(below[x] + below[x + 1] + above[x] + above[x + 1]);
+    }
+    first_of_line_.push_back(count());
+    for_each_equal(blocked, 1, [&](int x) { corners_.push_back(convex_corner(grid_, x, line)); });
   }
   first_of_line_.push_back(count());
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/geometry/position.h"
@@ -34,6 +36,10 @@ class OccupancyGrid {
   /// True for cells outside the map too.
   bool blocked(Cell cell) const { return !inside(cell) || blocked_[index(cell)] != 0; }
   void block(Cell cell) { blocked_[index(cell)] = 1; }
+  /// The cells of a row, 1 for those blocked.
+  std::span<const std::uint8_t> row(int row) const {
+    return std::span(blocked_).subspan(index({0, row}), static_cast<std::size_t>(columns_));
+  }
 
   Position center(Cell cell) const {
     return {(cell.column + 0.5) * resolution_, (cell.row + 0.5) * resolution_};
