@@ -10,15 +10,6 @@
 namespace fleetplan::core {
 namespace {
 
-/// Memory for the robots' costs-to-go; beyond it they are discarded and computed again.
-constexpr std::size_t kMaxSearchSpaceBytes = std::size_t{384} << 20;
-
-/// Whether costs-to-go of so many bytes are too much to keep: half of the job's memory is for the rest.
-bool is_too_much(std::size_t bytes) {
-  const MemoryAccount* account = MemoryScope::current();
-  return bytes >= kMaxSearchSpaceBytes || (account != nullptr && account->used() > account->limit() / 2);
-}
-
 /// Steps of Enclosure for each expansion of a search on the map, which takes five times as long.
 constexpr std::int64_t kEnclosureSteps = 2;
 /// Steps of Enclosure for a way that the lattice misses: about 2 ms.
@@ -65,7 +56,7 @@ PlanState::PlanState(const Instance& instance)
       search_(table_),
       reservations_{std::vector<std::optional<Trajectory>>(instance.size()),
                     std::vector<double>(instance.size(), 0.0)},
-      search_spaces_(instance.size()),
+      search_spaces_(instance),
       ways_(instance.size()) {}
 
 Trajectory PlanState::staying(std::size_t robot) const { return instance_.itinerary(robot).committed; }
@@ -158,23 +149,6 @@ void PlanState::finish_with(const Reservations& reservations) {
                     [](const auto& trajectory) { return trajectory.has_value(); }));
 }
 
-SearchSpace& PlanState::search_space(std::size_t robot) {
-  if (!search_spaces_[robot]) {
-    discard_search_spaces_except(robot);
-    search_spaces_[robot] = std::make_unique<SearchSpace>(instance_, robot);
-  }
-  return *search_spaces_[robot];
-}
-
-void PlanState::discard_search_spaces_except(std::size_t robot) {
-  std::size_t bytes = 0;
-  for (const auto& space : search_spaces_) bytes += space ? space->bytes() : 0;
-  if (!is_too_much(bytes)) return;
-  for (std::size_t i = 0; i < search_spaces_.size(); ++i) {
-    if (i != robot) search_spaces_[i].reset();
-  }
-}
-
 template <class Result, class Compute>
 Result PlanState::within_memory(Result otherwise, const Compute& compute) {
   bool is_spent = false;
@@ -185,7 +159,7 @@ Result PlanState::within_memory(Result otherwise, const Compute& compute) {
   }
   if (is_spent || is_short_of_memory()) {
     search_.release_memory();
-    for (auto& space : search_spaces_) space.reset();
+    search_spaces_.discard_all();
   }
   return otherwise;
 }
@@ -214,16 +188,21 @@ SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, cons
 SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
   if (!goal_stays_free(robot)) return {};
   constexpr auto no_memory = [] { return SearchResult{std::nullopt, false, 0}; };
-  SearchResult result = within_memory(no_memory(), [&]() -> SearchResult {
+  const auto search_once = [&]() -> SearchResult {
     constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
     const Way& way = way_to_goal(robot, kAnyNumber, stop);
     if (way.kind == Way::Kind::unknown) return no_memory();
     if (way.none()) return {};
-    SearchSpace& space = search_space(robot);
+    SearchSpace& space = search_spaces_.of(robot);
     SearchLimits within = limits;
     within.bound = std::min(limits.bound, instance_.longest_plan(robot));
     return search_.run(robot, space, within, stop);
-  });
+  };
+  const std::int64_t shortages = memory_shortages();
+  SearchResult result = within_memory(no_memory(), search_once);
+  // What was kept of other searches is discarded by now, which may leave enough for this one.
+  const bool lacked_memory = !result.trajectory && !result.complete && memory_shortages() > shortages;
+  if (lacked_memory && !stop.met()) result = within_memory(no_memory(), search_once);
   expansions_ += result.expansions;
   return result;
 }
@@ -248,7 +227,7 @@ SearchResult PlanState::plan_ignoring(const std::vector<std::size_t>& ignored, s
 
 bool PlanState::can_leave_start(std::size_t robot) {
   return within_memory(true, [&] {
-    const Vertices& vertices = search_space(robot).vertices();
+    const Vertices& vertices = search_spaces_.of(robot).vertices();
     bool can_leave = false;
     vertices.for_each_neighbour(vertices.start(), [&](int) { can_leave = true; });
     return can_leave;
@@ -266,7 +245,7 @@ const Way& PlanState::way_to_goal(std::size_t robot, std::int64_t max_expansions
 }
 
 void PlanState::find_way(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop) {
-  SearchSpace& space = search_space(robot);
+  SearchSpace& space = search_spaces_.of(robot);
   const std::int64_t before = space.expansions();
   for (std::size_t goal = 0; goal < space.goal_count(); ++goal) {
     ways_[robot] = {};
@@ -280,7 +259,7 @@ void PlanState::find_way(std::size_t robot, std::int64_t max_expansions, const S
 void PlanState::find_leg(std::size_t robot, std::size_t goal, std::int64_t max_expansions,
                          const StopCondition& stop) {
   Way& way = ways_[robot];
-  SearchSpace& space = search_space(robot);
+  SearchSpace& space = search_spaces_.of(robot);
   const int from = space.begin_of(goal);
   if (from == space.goal(goal).vertex) {
     way.kind = Way::Kind::on_lattice;
@@ -324,7 +303,7 @@ bool PlanState::test_enclosure(std::size_t robot, std::int64_t max_steps) {
 
 bool PlanState::takes_too_long(std::size_t robot, const StopCondition& stop) {
   return within_memory(false, [&] {
-    SearchSpace& space = search_space(robot);
+    SearchSpace& space = search_spaces_.of(robot);
     return estimated_end(space, stop) >= instance_.longest_plan(robot);
   });
 }
@@ -334,7 +313,7 @@ Trajectory PlanState::plan_alone(std::size_t robot, const StopCondition& stop) {
   const double cell_size = grid.width();  // coarse, as the table stays empty
   const ReservationTable empty(grid.width(), grid.height(), cell_size, radii(instance_));
   SearchResult result = within_memory(SearchResult(), [&] {
-    SearchSpace& space = search_space(robot);
+    SearchSpace& space = search_spaces_.of(robot);
     AaSipp search(empty);
     return search.run(robot, space, {}, stop);
   });

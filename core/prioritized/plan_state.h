@@ -9,10 +9,10 @@
 #include "core/instance.h"
 #include "core/model/trajectory.h"
 #include "core/prioritized/enclosure.h"
+#include "core/prioritized/search_spaces.h"
 #include "core/reservation/reservation_table.h"
 #include "core/runtime/stop_condition.h"
 #include "core/sipp/aa_sipp.h"
-#include "core/sipp/search_space.h"
 
 namespace fleetplan::core {
 
@@ -105,7 +105,6 @@ class PlanState {
  private:
   class EnclosureTest;
 
-  SearchSpace& search_space(std::size_t robot);
   /// Returns the result of a search, or `otherwise` if the memory for it is not granted (see MemoryAccount).
   /// When memory is short, what searches keep for later is given up.
   template <class Result, class Compute>
@@ -119,7 +118,6 @@ class PlanState {
   bool goal_stays_free(std::size_t robot) const;
   Way way_off_lattice(std::size_t robot) const;
   bool test_enclosure(std::size_t robot, std::int64_t max_steps);
-  void discard_search_spaces_except(std::size_t robot);
   void reserve(std::size_t robot, const std::vector<TimedSegment>& segments);
   std::vector<TimedSegment> after_commitment(std::size_t robot, const Trajectory& trajectory) const;
   Trajectory staying(std::size_t robot) const;
@@ -129,7 +127,7 @@ class PlanState {
   AaSipp search_;
   Reservations reservations_;
   std::size_t planned_count_ = 0;
-  std::vector<std::unique_ptr<SearchSpace>> search_spaces_;  // by robot, created on first use
+  SearchSpaces search_spaces_;
   std::size_t staying_count_ = 0;
   std::vector<Way> ways_;                      // by robot
   std::vector<std::size_t> closed_by_robots_;  // robots whose way robots close, until one of those leaves

@@ -14,8 +14,17 @@ constexpr int kFailuresBeforeShuffle = 3;
 /// A robot that fails more often than this is given up. In the paper's halls with 300 robots none failed
 /// more than 5 times.
 constexpr int kMaxFailuresOfRobot = 40;
+/// A quick search that takes more expansions than this, and than half of the vertices, has failed: most often
+/// there is no path. In the paper's crowds none takes 5,000.
+constexpr std::int64_t kMaxQuickExpansions = 20'000;
 /// The first search of a robot is incomplete: when it fails, others follow.
-constexpr SearchLimits kQuickSearch{.thorough = false};
+SearchLimits quick_search(const Lattice& lattice) {
+  SearchLimits limits;
+  limits.thorough = false;
+  limits.max_expansions = std::max<std::int64_t>(kMaxQuickExpansions, lattice.vertex_count() / 2);
+  return limits;
+}
+
 /// The maximum number of robots outside a cycle whose ranks are shuffled along with it.
 constexpr int kMaxExtraRobots = 12;
 
@@ -29,6 +38,7 @@ class Repair {
         stop_(stop),
         progress_(progress),
         on_stop_(on_stop),
+        quick_search_(quick_search(state.instance().lattice())),
         rank_(state.instance().size(), 0),
         failures_(state.instance().size(), 0) {
     for (std::size_t k = 0; k < order_.size(); ++k) rank_[order_[k]] = static_cast<std::int64_t>(k);
@@ -51,12 +61,12 @@ class Repair {
       const std::size_t robot = pending_.begin()->second;
       pending_.erase(pending_.begin());
       state_.remove(robot);
-      SearchResult result = state_.plan(robot, kQuickSearch, stop_);
+      SearchResult result = state_.plan(robot, quick_search_, stop_);
       if (result.trajectory) {
         state_.follow(robot, std::move(*result.trajectory));
         continue;
       }
-      if (result.complete) result = plan_among_fewer(robot);
+      if (has_failed(result)) result = plan_among_fewer(robot);
       if (result.trajectory) {
         follow_and_postpone_conflicting(robot, std::move(*result.trajectory));
       } else if (result.complete) {
@@ -96,6 +106,11 @@ class Repair {
     for (const std::size_t other : conflicting) postpone(other);
   }
 
+  /// Whether a search ended without a trajectory, but not because the time or the memory is spent.
+  bool has_failed(const SearchResult& result) const {
+    return !result.trajectory && (result.complete || result.expansions >= quick_search_.max_expansions);
+  }
+
   /// Steps 1 and 2 for a robot that failed among all others. Smaller robots are ignored before larger ones,
   /// as they find another path more easily.
   SearchResult plan_among_fewer(std::size_t robot) {
@@ -110,18 +125,18 @@ class Repair {
     });
     const auto all = planned_robots([](std::size_t) { return true; });
     if (!lower.empty()) {
-      SearchResult result = state_.plan_ignoring(lower, robot, kQuickSearch, stop_);
-      if (result.trajectory || !result.complete) return result;
+      SearchResult result = state_.plan_ignoring(lower, robot, quick_search_, stop_);
+      if (!has_failed(result)) return result;
     }
     rank_[robot] = --highest_rank_;
     if (lower_or_smaller.size() > lower.size() && lower_or_smaller.size() < all.size()) {
-      SearchResult result = state_.plan_ignoring(lower_or_smaller, robot, kQuickSearch, stop_);
-      if (result.trajectory || !result.complete) return result;
+      SearchResult result = state_.plan_ignoring(lower_or_smaller, robot, quick_search_, stop_);
+      if (!has_failed(result)) return result;
     }
     if (failures_[robot] > kFailuresBeforeShuffle) {  // a delay gives the others time to get out of its way
       SearchResult result = state_.plan_ignoring(
           all, robot, {.start_delay = random_start_delay(state_.instance(), order_, random_)}, stop_);
-      if (result.trajectory || !result.complete) return result;
+      if (!has_failed(result)) return result;
     }
     return state_.plan_ignoring(all, robot, {}, stop_);
   }
@@ -167,6 +182,7 @@ class Repair {
   const StopCondition& stop_;
   ProgressReport& progress_;
   const OnStop& on_stop_;
+  const SearchLimits quick_search_;
   std::vector<std::int64_t> rank_;  // by robot; a smaller rank is a higher priority
   std::int64_t highest_rank_ = 0;
   std::vector<int> failures_;                               // by robot
