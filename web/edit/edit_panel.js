@@ -6,6 +6,7 @@ import { BoxTool, DrawTool } from "./draw_tools.js";
 import { GoalsForm } from "./goals_form.js";
 import { GroupForm } from "./group_form.js";
 import { MapForm, watchNewMapForm } from "./map_form.js";
+import { ObstacleForm } from "./obstacle_form.js";
 import { RobotActions } from "./robot_actions.js";
 import { RobotForm, watchDefaultsForm, watchRobotPicker } from "./robot_form.js";
 import { RobotTool } from "./robot_tool.js";
@@ -30,6 +31,7 @@ export class EditPanel {
     const zoneTool = new ZoneTool(session, stage, zones);
     this.#toolbox = new Toolbox(session, stage, tabs, this.choice, actions, zoneTool);
     new ZoneForm(session, zones);
+    new ObstacleForm(session, stage);
     zones.onChange(() => zones.index !== null && (byId("zones").open = true));
     watchHistoryButtons(session);
     watchRobotPicker(session, this.choice);

@@ -16,6 +16,7 @@ const FIELDS = {
   not_before: { label: "Not before", unit: "s" },
   radius_after: { label: "Radius after", unit: "m" },
 };
+const POSE = new Set(["x", "y", "theta"]);
 const ASIDE = 3; // radii between the last goal and a new one
 
 export class GoalsForm {
@@ -63,10 +64,11 @@ export class GoalsForm {
     const { index } = this.#choice;
     const listed = Array.isArray(robotsOf(this.#session.request)[index]?.goals);
     const pointer = listed ? `/robots/${index}/goals/${number}` : `/robots/${index}/goal`;
-    row.dataset.pointer = pointer;
+    const isLast = number === this.#goals.length - 1; // whose pose the form of the robot has, too
+    point(row, isLast ? null : pointer);
     for (const [name, field] of Object.entries(fields)) {
       const value = goal?.[name];
-      field.input.dataset.pointer = `${pointer}/${name}`;
+      point(field.input, isLast && POSE.has(name) ? null : `${pointer}/${name}`);
       field.show(name === "theta" && typeof value === "number" ? tidy(value / DEGREE) : value);
     }
   }
@@ -105,4 +107,10 @@ export class GoalsForm {
     });
     return made;
   }
+}
+
+/** Sets what faults an element is for, see field_errors.js; null: none. */
+function point(target, pointer) {
+  if (pointer === null) delete target.dataset.pointer;
+  else target.dataset.pointer = pointer;
 }

@@ -16,7 +16,6 @@ export class PlanButton {
   #transport;
   #plan = byId("plan");
   #cancel = byId("cancel");
-  #played = false; // the plan was played, as soon as there was a first one
 
   constructor(session, transport) {
     this.#session = session;
@@ -30,18 +29,16 @@ export class PlanButton {
   /** Plans, and plays the plan. */
   async press() {
     const session = this.#session;
-    this.#played = false;
     const solved = await session.plan(budgetOf(session.request, session.limits));
     if (session.problem !== null) revealProblem();
     if (!solved) return;
     const watching = document.activeElement === this.#plan; // which regains the focus from Cancel
     session.announce(summarize(session.answer));
-    if (!this.#played) this.#play();
+    if (!session.player.playing && session.player.time === 0) this.#play();
     if (watching) this.#transport.focusPlay();
   }
 
   #play() {
-    this.#played = true;
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches) this.#session.play();
   }
 

@@ -3,20 +3,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { choose, pressPlan } from "../support/browser.js";
+import { planned } from "../support/browser.js";
 import { hook, pagesFor } from "../support/on_page.js";
 import { expectedPose } from "../support/expected_pose.js";
 
 const onPage = pagesFor();
 const PHONE = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true };
-
-async function planned(page, example) {
-  await choose(page, example);
-  const answer = await pressPlan(page);
-  await page.waitForFunction(() => window.fleetplan.playing);
-  await page.keyboard.press("Space");
-  return answer;
-}
 
 /** Opens the Analyse tab by keys. */
 async function openAnalysis(page) {

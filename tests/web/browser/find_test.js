@@ -3,20 +3,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { choose, pressPlan, seek } from "../support/browser.js";
+import { planned, seek } from "../support/browser.js";
 import { hasTime, hook, pagesFor } from "../support/on_page.js";
 
 const onPage = pagesFor();
 const PHONE = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true };
-
-/** An example's plan, paused. */
-async function planned(page, example) {
-  await choose(page, example);
-  const answer = await pressPlan(page);
-  await page.waitForFunction(() => window.fleetplan.playing);
-  await page.keyboard.press("Space");
-  return answer;
-}
 
 /** How far a robot is from the middle of the scene, pixels, and its radius there. */
 const fromMiddle = (page, id) =>

@@ -59,3 +59,47 @@ test("a fault of a goal is shown at its field", async () => {
     { allowed: /status of 422/ },
   );
 });
+
+test("a moving obstacle is added and led across by keys alone, and the plan keeps clear of it", async () => {
+  await onPage(async (page) => {
+    await paste(page, HALL);
+    const direct = (await pressPlan(page)).makespan;
+    await page.click("#tab-edit");
+    await page.focus("#obstacles summary");
+    await page.keyboard.press("Enter");
+    await page.focus("#add-obstacle");
+    await page.keyboard.press("Enter");
+    const type = async (entry, label, text) => {
+      await page
+        .locator("#obstacle-motion li")
+        .nth(entry)
+        .getByLabel(label, { exact: false })
+        .first()
+        .focus();
+      await page.keyboard.press("Control+a");
+      await page.keyboard.type(text);
+      await page.keyboard.press("Tab");
+    };
+    for (const [entry, x] of ["9.5", "0.5"].entries()) {
+      await type(entry, "x m", x);
+      await type(entry, "y m", "2.5");
+    }
+    const { obstacles } = await hook(page, "request");
+    assert.deepEqual(obstacles, [
+      {
+        id: "obstacle-1",
+        radius: 0.3,
+        motion: [
+          { t: 0, x: 9.5, y: 2.5 },
+          { t: 10, x: 0.5, y: 2.5 },
+        ],
+      },
+    ]);
+    const answer = await pressPlan(page);
+    assert.equal(answer.verified, true);
+    assert.ok(answer.makespan > direct, "it has to make way");
+    await page.focus("#delete-obstacle");
+    await page.keyboard.press("Enter");
+    assert.equal((await hook(page, "request")).obstacles, undefined);
+  });
+});

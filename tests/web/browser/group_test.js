@@ -3,18 +3,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { choose, pressPlan } from "../support/browser.js";
+import { choose, planned } from "../support/browser.js";
 import { hook, pagesFor } from "../support/on_page.js";
 
 const onPage = pagesFor();
-
-async function planned(page, example) {
-  await choose(page, example);
-  const answer = await pressPlan(page);
-  await page.waitForFunction(() => window.fleetplan.playing);
-  await page.keyboard.press("Space");
-  return answer;
-}
 
 const row = (id) => `.robot[data-robot="${id}"]`;
 

@@ -3,19 +3,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { choose, pressPlan, seek } from "../support/browser.js";
+import { choose, planned, seek } from "../support/browser.js";
 import { coloursAt, hasTime, hook, pagesFor } from "../support/on_page.js";
 
 const onPage = pagesFor();
 const PHONE = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true };
-
-async function planned(page, example) {
-  await choose(page, example);
-  const answer = await pressPlan(page);
-  await page.waitForFunction(() => window.fleetplan.playing);
-  await page.keyboard.press("Space");
-  return answer;
-}
 
 test("heat maps colour the places where robots wait, and where they pass", async () => {
   await onPage(async (page) => {

@@ -79,6 +79,15 @@ export async function pressPlan(page) {
   return page.evaluate(() => window.fleetplan.answer);
 }
 
+/** Chooses an example, plans it and pauses the plan, wherever it is by then; returns the answer. */
+export async function planned(page, example) {
+  await choose(page, example);
+  const answer = await pressPlan(page);
+  await page.waitForFunction(() => window.fleetplan.time > 0);
+  if (await page.evaluate(() => window.fleetplan.playing)) await page.click("#play");
+  return answer;
+}
+
 /** Moves the scrubber to a time as dragging it does. */
 export function seek(page, time) {
   return page.evaluate((value) => {
