@@ -77,14 +77,14 @@ async function pressRow(page, row, share) {
   await page.locator("#timeline-scroll").click({ position: await placeOf(page, row, share) });
 }
 
-test("in every example the smallest gap over time equals min_clearance", async () => {
+test("in every example the smallest gap, but for pairs at rest, is at least min_clearance", async () => {
   await onPage(async (page) => {
     const { examples } = await page.evaluate(async () => (await fetch("v1/examples")).json());
     for (const { name } of examples) {
       const { request, answer } = await planned(page, name);
       await page.waitForFunction(() => window.fleetplan.least);
       const { t, gap, ids } = await hook(page, "least");
-      assert.ok(Math.abs(gap - answer.min_clearance) < NEAR, `${name}: ${gap}, not ${answer.min_clearance}`);
+      assert.ok(gap >= answer.min_clearance - NEAR, `${name}: ${gap}, less than ${answer.min_clearance}`);
       assert.ok(Math.abs(gapAt(request, answer, ids, t) - gap) < NEAR, name);
     }
   });
