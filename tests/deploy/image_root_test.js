@@ -59,7 +59,7 @@ test("the page is a bundle", () => {
     a === "index.html" ? -1 : b === "index.html" ? 1 : a.localeCompare(b),
   );
   assert.equal(index, "index.html");
-  assert.ok(others.length >= 4 && others.length <= 10, others.join(" "));
+  assert.ok(others.length >= 4 && others.length <= 16, others.join(" "));
   for (const name of others) assert.match(name, /-[A-Z2-7]{8}\.\w+$/);
 });
 

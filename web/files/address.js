@@ -77,7 +77,10 @@ export class Address {
     clearTimeout(this.#timer);
     const { example } = this.#session;
     this.#isKept = example !== null;
-    if (opened) this.#isLarge = example === null && this.#session.text.length > MOST_TO_COMPRESS;
+    if (opened) {
+      const mayBeLarge = this.#session.text.length > MOST_TO_COMPRESS || location.hash.startsWith(KEPT);
+      this.#isLarge = example === null && mayBeLarge; // until it is known
+    }
     if (example !== null) {
       put(`#${example}`);
       return;
