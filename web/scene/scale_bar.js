@@ -6,7 +6,7 @@ const MOST = 110; // pixels
 const MARGIN = 14;
 const TICK = 6;
 const NARROW = 560; // pixels: the lower edge of such a scene has the line about the robot
-const BELOW_BUTTONS = 61;
+const BELOW_BUTTONS = 70;
 
 /** Shows the scale in the lower left corner of the scene, or the upper one if it is narrow. */
 export function showScale(stage) {

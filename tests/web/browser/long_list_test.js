@@ -3,19 +3,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
+import { hallWith } from "../support/hall.js";
 import { hook, pagesFor, paste } from "../support/on_page.js";
 
 const onPage = pagesFor();
 const ROBOTS = 1000;
 
-const HALL = {
-  map: { rows: Array(42).fill(".".repeat(52)) },
-  robot_defaults: { radius: 0.3, linear_speed: 1, angular_speed: 1 },
-  robots: Array.from({ length: ROBOTS }, (_, at) => {
-    const start = { x: 1.5 + (at % 50), y: 1.5 + 2 * Math.floor(at / 50) };
-    return { id: `robot-${at}`, start, goal: { ...start, y: start.y + 1 } };
-  }),
-};
+const HALL = hallWith(ROBOTS);
 
 async function opened(page) {
   await paste(page, HALL);

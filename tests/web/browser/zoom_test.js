@@ -3,19 +3,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
+import { hallWith } from "../support/hall.js";
 import { hook, pagesFor, paste } from "../support/on_page.js";
 
 const onPage = pagesFor();
 const ROBOTS = 300;
 
-const HALL = {
-  map: { rows: Array(42).fill(".".repeat(52)) },
-  robot_defaults: { radius: 0.3, linear_speed: 1, angular_speed: 1 },
-  robots: Array.from({ length: ROBOTS }, (_, at) => {
-    const start = { x: 1.5 + (at % 50), y: 1.5 + 2 * Math.floor(at / 50) };
-    return { id: `robot-${at}`, start, goal: { ...start, y: start.y + 1 } };
-  }),
-};
+const HALL = hallWith(ROBOTS);
 
 /** Counts the rings of goals that are painted from now on, in `window.rings`. */
 const countRings = (page) =>
@@ -53,8 +47,7 @@ test("while zooming, goals and paths are painted now and then, and again at rest
     });
     assert.ok(rings.frames >= 3, "it was zoomed");
     assert.ok(rings.whileZooming <= 2 * ROBOTS, `${rings.whileZooming} rings in ${rings.frames} frames`);
-    await page.evaluate(() => (window.rings = 0));
-    await page.waitForFunction(() => window.rings > 0); // the exact picture
+    await page.waitForFunction((before) => window.rings > before, rings.whileZooming); // the exact picture
     assert.equal((await hook(page, "request")).robots.length, ROBOTS);
   });
 });
