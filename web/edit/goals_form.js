@@ -2,8 +2,8 @@
 
 import { tidy } from "../model/cells.js";
 import { advanceGoal, appendGoal, removeGoalAt, setGoal } from "../model/edit_goals.js";
-import { robotsOf } from "../model/edit_request.js";
 import { goalsOf } from "../model/goals.js";
+import { robotsOf } from "../model/listed.js";
 import { byId, element } from "../ui/dom.js";
 import { NumberField } from "../ui/number_field.js";
 

@@ -5,11 +5,11 @@ import {
   appendEntry,
   deleteObstacle,
   motionOf,
-  obstaclesOf,
   removeEntry,
   setEntry,
   setObstacle,
 } from "../model/edit_obstacles.js";
+import { obstaclesOf } from "../model/listed.js";
 import { snapPoint } from "../model/placement.js";
 import { byId, element } from "../ui/dom.js";
 import { NumberField } from "../ui/number_field.js";

@@ -1,7 +1,8 @@
 // Actions on the selected robot by buttons and keys; each is one undo step and is announced.
 
-import { deleteRobot, duplicateRobot, nameOf, removeGoal, robotsOf, setPose } from "../model/edit_request.js";
+import { deleteRobot, duplicateRobot, nameOf, removeGoal, setPose } from "../model/edit_request.js";
 import { lastGoalOf } from "../model/goals.js";
+import { robotsOf } from "../model/listed.js";
 import { nearestFreePlace } from "../model/placement.js";
 import { degrees } from "../ui/format.js";
 

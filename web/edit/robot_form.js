@@ -2,8 +2,9 @@
 // robots.
 
 import { tidy } from "../model/cells.js";
-import { nameOf, robotsOf, setDefault, setRobot } from "../model/edit_request.js";
+import { nameOf, setDefault, setRobot } from "../model/edit_request.js";
 import { lastGoalOf, lastGoalPlace } from "../model/goals.js";
+import { robotsOf } from "../model/listed.js";
 import { robotIndexOf } from "../model/problem.js";
 import { byId, element, setText } from "../ui/dom.js";
 import { NumberField } from "../ui/number_field.js";

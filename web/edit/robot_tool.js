@@ -1,7 +1,8 @@
 // The tool that adds robots.
 
 import { centreOf } from "../model/cells.js";
-import { addRobot, nameOf, robotsOf } from "../model/edit_request.js";
+import { addRobot, nameOf } from "../model/edit_request.js";
+import { robotsOf } from "../model/listed.js";
 import { snapPoint } from "../model/placement.js";
 import { CellCursor } from "./cell_cursor.js";
 

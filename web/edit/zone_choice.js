@@ -1,6 +1,6 @@
 // Which zone is edited.
 
-import { zonesOf } from "../model/edit_zones.js";
+import { zonesOf } from "../model/listed.js";
 import { Signals } from "../model/signals.js";
 
 export class ZoneChoice {

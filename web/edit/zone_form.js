@@ -1,7 +1,8 @@
 // The form of the zones: the list to choose one from, its rule and its numbers.
 
 import { tidy } from "../model/cells.js";
-import { cornersOf, deleteZone, setZone, setZoneType, zonesOf, ZONE_RULES } from "../model/edit_zones.js";
+import { cornersOf, deleteZone, setZone, setZoneType, ZONE_RULES } from "../model/edit_zones.js";
+import { zonesOf } from "../model/listed.js";
 import { byId, element, setText } from "../ui/dom.js";
 import { count } from "../ui/format.js";
 import { NumberField } from "../ui/number_field.js";

@@ -9,8 +9,8 @@ import {
   moveCorner,
   moveZone,
   removeCorner,
-  zonesOf,
 } from "../model/edit_zones.js";
+import { zonesOf } from "../model/listed.js";
 import { snapPoint } from "../model/placement.js";
 import { drawPath, ring } from "../scene/marks.js";
 

@@ -1,6 +1,7 @@
 // The masks of zones, read as the service reads them, to draw them: images with one pixel for each cell of the map.
 
 import { rememberMask, maskOf } from "../model/drawn_map.js";
+import { zonesOf } from "../model/listed.js";
 import { FileError } from "../model/problem.js";
 import { readImage } from "./map_image.js";
 import { bytesOfBase64 } from "./request_map.js";
@@ -8,8 +9,9 @@ import { FREE_THRESH, OCCUPIED_THRESH, occupancyOf } from "./ros_map.js";
 
 /** Reads the masks of a request's zones. One that cannot be read is not drawn; the service reports its faults. */
 export async function prepareMasks(request) {
-  const zones = Array.isArray(request?.zones) ? request.zones : [];
-  const masks = zones.map((zone) => zone?.mask).filter((mask) => isObject(mask) && maskOf(mask) === null);
+  const masks = zonesOf(request)
+    .map((zone) => zone?.mask)
+    .filter((mask) => isObject(mask) && maskOf(mask) === null);
   await Promise.all(masks.map(prepareMask));
 }
 

@@ -1,8 +1,8 @@
 // The service's check (POST /v1/validate): of an opened or edited request, and its violations in words. No DOM; the service is passed in.
 
-import { robotsOf } from "./edit_request.js";
 import { goalsOf, lastGoalOf, lastGoalPlace } from "./goals.js";
 import { latestOnly } from "./latest.js";
+import { robotsOf } from "./listed.js";
 import { Follower } from "./motion.js";
 import { ProblemError } from "./problem.js";
 

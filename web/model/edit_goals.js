@@ -1,7 +1,8 @@
 // Edits of the goals of a robot, in the order of its visits; see edit_request.js and goals.js. Pure. Metres, seconds.
 
-import { objectOf, robotsOf, withMembers } from "./edit_request.js";
+import { objectOf, withMembers } from "./edit_request.js";
 import { goalsOf } from "./goals.js";
+import { robotsOf } from "./listed.js";
 
 /** The request with members of one of a robot's goals set, or removed if undefined. */
 export function setGoal(request, index, number, members) {

@@ -1,8 +1,9 @@
 // Edits of several robots at once, see edit_request.js. Robots are identified by their indices. Pure.
 
 import { tidy } from "./cells.js";
-import { objectOf, robotsOf, setPose, withMember } from "./edit_request.js";
+import { objectOf, setPose, withMember } from "./edit_request.js";
 import { lastGoalOf } from "./goals.js";
+import { robotsOf } from "./listed.js";
 
 /** The value that all of these robots have for a member; undefined if they differ or have none. */
 export function sharedValue(request, indices, name) {

@@ -2,15 +2,11 @@
 // seconds.
 
 import { tidy } from "./cells.js";
-import { objectOf, robotsOf, withMembers } from "./edit_request.js";
+import { objectOf, unusedId, withMembers } from "./edit_request.js";
+import { obstaclesOf, robotsOf } from "./listed.js";
 
 const LASTS = 10; // seconds, of the first motion
 const NEXT = 5; // seconds from the last entry to a new one
-
-/** The obstacles of the request, valid or not. */
-export function obstaclesOf(request) {
-  return Array.isArray(request?.obstacles) ? request.obstacles : [];
-}
 
 /** The entries of an obstacle's motion, valid or not. */
 export function motionOf(obstacle) {
@@ -23,14 +19,8 @@ export function addObstacle(request, { x, y }, radius) {
     { t: 0, x, y },
     { t: LASTS, x, y },
   ];
-  return withObstacles(request, [...obstaclesOf(request), { id: freshId(request), radius, motion }]);
-}
-
-function freshId(request) {
-  const taken = new Set([...obstaclesOf(request), ...robotsOf(request)].map((each) => each?.id));
-  let number = 1;
-  while (taken.has(`obstacle-${number}`)) number += 1;
-  return `obstacle-${number}`;
+  const id = unusedId([...obstaclesOf(request), ...robotsOf(request)], "obstacle-");
+  return withObstacles(request, [...obstaclesOf(request), { id, radius, motion }]);
 }
 
 /** The request with members of an obstacle set, or removed if undefined. */

@@ -5,6 +5,7 @@
 import { isFree, tidy } from "./cells.js";
 import { asRows } from "./drawn_map.js";
 import { lastGoalOf, withLastGoal, withoutGoals } from "./goals.js";
+import { robotsOf } from "./listed.js";
 import { readGrid } from "./scene.js";
 
 const FREE = ".";
@@ -126,11 +127,6 @@ function withMap(request, changes) {
   return { ...objectOf(request), map: withMembers(map, changes) };
 }
 
-/** The robots of the request, valid or not. */
-export function robotsOf(request) {
-  return Array.isArray(request?.robots) ? request.robots : [];
-}
-
 /** The name of the robot at an index: its id, or "#index". */
 export function nameOf(request, index) {
   const id = robotsOf(request)[index]?.id;
@@ -208,11 +204,17 @@ export function deleteRobot(request, index) {
  * robot-3.
  */
 export function freshId(request, like = undefined) {
-  const taken = new Set(robotsOf(request).map((robot) => robot?.id));
-  const ids = [...taken].filter((id) => typeof id === "string");
+  const all = new Set(robotsOf(request).map((robot) => robot?.id));
+  const ids = [...all].filter((id) => typeof id === "string");
   const pattern = numbered(like) ?? numbered(ids.findLast((id) => /\d$/.test(id)));
   const { stem, digits, number } = pattern ?? { stem: like ? `${like}-` : "robot-", digits: 1, number: 0 };
-  let next = number;
+  return unusedId(robotsOf(request), stem, number, digits);
+}
+
+/** The first id of a stem and a number greater than `after` that none of these has. */
+export function unusedId(identified, stem, after = 0, digits = 1) {
+  const taken = new Set(identified.map((each) => each?.id));
+  let next = after;
   let id;
   do {
     next += 1;

@@ -1,7 +1,8 @@
 // Edits of the zones of a request, see edit_request.js. Zones are identified by their index. Pure. Metres, radians.
 
 import { tidy } from "./cells.js";
-import { objectOf, withMembers } from "./edit_request.js";
+import { objectOf, unusedId, withMembers } from "./edit_request.js";
+import { zonesOf } from "./listed.js";
 
 const SPEED = 0.5; // m/s, of a new slow zone
 const HALF_ANGLE = 1.5708; // radians: a right angle
@@ -14,11 +15,6 @@ export const ZONE_RULES = {
     "With the centre inside, robots drive at most the half angle off the heading. They may wait and turn.",
 };
 
-/** The zones of the request, valid or not. */
-export function zonesOf(request) {
-  return Array.isArray(request?.zones) ? request.zones : [];
-}
-
 /** The corners of a zone; empty if it has none, as one with a mask. */
 export function cornersOf(zone) {
   return Array.isArray(zone?.polygon) ? zone.polygon : [];
@@ -27,15 +23,8 @@ export function cornersOf(zone) {
 /** The request with a blocked zone from corner to corner at the end. */
 export function addZone(request, a, b) {
   const polygon = [a, { x: b.x, y: a.y }, b, { x: a.x, y: b.y }].map(({ x, y }) => ({ x, y }));
-  const zone = { id: freshZoneId(request), type: "blocked", polygon };
+  const zone = { id: unusedId(zonesOf(request), "zone-"), type: "blocked", polygon };
   return { ...objectOf(request), zones: [...zonesOf(request), zone] };
-}
-
-function freshZoneId(request) {
-  const taken = new Set(zonesOf(request).map((zone) => zone?.id));
-  let number = 1;
-  while (taken.has(`zone-${number}`)) number += 1;
-  return `zone-${number}`;
 }
 
 /** The request with members of a zone set, or removed if undefined. */

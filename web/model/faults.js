@@ -1,7 +1,7 @@
 // The faults of a request, for people: each told once, and where in the scene it is. Pure. Metres.
 
-import { robotsOf } from "./edit_request.js";
 import { goalAt } from "./goals.js";
+import { robotsOf } from "./listed.js";
 import { mapRowOf, partsOf, robotIndexOf } from "./problem.js";
 
 /** @import {Fault, Position, Request, Scene} from "./types.js" */

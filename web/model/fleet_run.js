@@ -2,8 +2,8 @@
 // next one meanwhile (see docs/fleet_loop.md). Robots that have arrived go to their start and back. No DOM; the service
 // is passed in. Seconds.
 
-import { robotsOf } from "./edit_request.js";
 import { goalsOf, lastGoalOf } from "./goals.js";
+import { robotsOf } from "./listed.js";
 import { Signals } from "./signals.js";
 
 const SERVICE = 2; // seconds at the start before a robot goes back

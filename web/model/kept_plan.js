@@ -2,9 +2,9 @@
 // once; of the others, the service's check of the plan under the edited request decides (POST /v1/validate). Outdated
 // robots stand at their starts, until the request is planned again. No DOM; the service is passed in.
 
-import { robotsOf } from "./edit_request.js";
 import { goalsOf } from "./goals.js";
 import { latestOnly } from "./latest.js";
+import { robotsOf } from "./listed.js";
 import { ProblemError } from "./problem.js";
 
 const REST_MS = 350; // without a further edit

@@ -1,13 +1,14 @@
 // The obstacles of a request that move on their own: people, robots of others. Faulty ones are left out. Pure.
 // Seconds and metres.
 
+import { obstaclesOf } from "./listed.js";
+
 /** @import {MovingObstacle} from "./types.js" */
 
 /** @returns {MovingObstacle[]} */
 export function readObstacles(request) {
-  const listed = Array.isArray(request?.obstacles) ? request.obstacles : [];
   const obstacles = [];
-  for (const [index, obstacle] of listed.entries()) {
+  for (const [index, obstacle] of obstaclesOf(request).entries()) {
     const motion = Array.isArray(obstacle?.motion) ? obstacle.motion : [];
     const isPlaced = motion.every((entry) => [entry?.t, entry?.x, entry?.y].every(Number.isFinite));
     if (motion.length === 0 || !isPlaced || !(obstacle.radius > 0)) continue;

@@ -1,5 +1,6 @@
 // The differences between two plans of the same robots. Pure. Seconds and metres.
 
+import { robotsOf } from "./listed.js";
 import { pathOf } from "./timeline.js";
 
 /** @import {Action, Plan} from "./types.js" */
@@ -87,8 +88,7 @@ export function summed(rows) {
 
 /** The previous plans of a request as plans, or null if it has none. */
 export function previousPlans(request) {
-  const listed = Array.isArray(request?.robots) ? request.robots : [];
-  const plans = listed
+  const plans = robotsOf(request)
     .filter((robot) => Array.isArray(robot?.previous))
     .map(({ id, previous }) => ({ robot: id, cost: previous.at(-1)?.t_end ?? 0, actions: previous }));
   return plans.length > 0 ? plans : null;

@@ -1,5 +1,6 @@
 // Plan files: a request and its answer in one JSON document, as POST /v1/validate takes it.
 
+import { robotsOf } from "./listed.js";
 import { FileError, quoted } from "./problem.js";
 
 const TYPES = ["rotate", "translate", "wait"];
@@ -38,8 +39,7 @@ export function readDocument(document) {
 
 /** Whether every robot of the answer is one of the request. */
 export function belongsTo(answer, request) {
-  const listed = Array.isArray(request?.robots) ? request.robots : [];
-  const ids = new Set(listed.map((robot) => robot?.id));
+  const ids = new Set(robotsOf(request).map((robot) => robot?.id));
   return [...answer.plans, ...answer.unplanned].every(({ robot }) => ids.has(robot));
 }
 

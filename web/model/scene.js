@@ -4,6 +4,7 @@
 import { asRows } from "./drawn_map.js";
 import { goalsOf } from "./goals.js";
 import { preparedCells, readRows } from "./grid_cells.js";
+import { robotsOf } from "./listed.js";
 import { radiusAt } from "./motion.js";
 import { readObstacles } from "./moving_obstacles.js";
 import { doingAt, pathOf, poseAt } from "./timeline.js";
@@ -46,9 +47,8 @@ function readCells(lines, columns, previous) {
 
 /** @returns {Robot[]} */
 function readRobots(request) {
-  const listed = Array.isArray(request?.robots) ? request.robots : [];
   const robots = [];
-  listed.forEach((robot, index) => {
+  robotsOf(request).forEach((robot, index) => {
     const radius = robot?.radius ?? request.robot_defaults?.radius;
     const start = readPose(robot?.start);
     if (!start || !positive(radius)) return;

@@ -1,6 +1,6 @@
 // Which robots are hovered, selected and marked, and which one is edited. No DOM.
 
-import { robotsOf } from "./edit_request.js";
+import { robotsOf } from "./listed.js";
 
 export class Focus {
   hovered = null;

@@ -1,6 +1,7 @@
 // The zones of a request, as they are drawn. Faulty ones are left out. Pure. Metres.
 
 import { maskOf } from "./drawn_map.js";
+import { zonesOf } from "./listed.js";
 
 /** @import {Grid, Zone} from "./types.js" */
 
@@ -12,8 +13,7 @@ const TYPES = ["blocked", "speed", "one_way"];
  * @returns {Zone[]}
  */
 export function readZones(request, grid = null) {
-  const listed = Array.isArray(request?.zones) ? request.zones : [];
-  return listed
+  return zonesOf(request)
     .map((zone) => (isDrawable(zone) ? polygonZone(zone) : maskZone(zone, grid)))
     .filter((zone) => zone !== null);
 }
