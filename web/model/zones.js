@@ -35,13 +35,29 @@ function maskZone(zone, grid) {
   const mask = maskOf(zone?.mask);
   if (mask === null || mask.columns !== grid?.columns || mask.rows !== grid.rows) return null;
   const { bounds, resolution } = grid;
-  const cells = [...mask.percents.keys()].filter((at) => mask.percents[at] > 0);
-  const mean = (part) => cells.reduce((sum, at) => sum + part(at), 0) / Math.max(1, cells.length) + 0.5;
-  const middle = {
-    x: bounds.left + mean((at) => at % mask.columns) * resolution,
-    y: bounds.top - mean((at) => Math.floor(at / mask.columns)) * resolution,
-  };
+  const { column, row } = middleOfMask(mask);
+  const middle = { x: bounds.left + column * resolution, y: bounds.top - row * resolution };
   return { type: zone.type, polygon: [], mask, bounds, middle, heading: null, label: labelOf(zone) };
+}
+
+/** @type {WeakMap<import("./types.js").Mask, {column: number, row: number}>} */
+const middles = new WeakMap(); // of millions of cells, and asked for after every edit
+
+/** The mean of the centres of the cells that a mask covers, in cells from its upper left corner. */
+function middleOfMask(mask) {
+  const known = middles.get(mask);
+  if (known) return known;
+  let [count, columns, rows] = [0, 0, 0];
+  for (let at = 0; at < mask.percents.length; at += 1) {
+    if (mask.percents[at] === 0) continue;
+    count += 1;
+    columns += at % mask.columns;
+    rows += Math.floor(at / mask.columns);
+  }
+  const most = Math.max(1, count);
+  const middle = { column: columns / most + 0.5, row: rows / most + 0.5 };
+  middles.set(mask, middle);
+  return middle;
 }
 
 function isDrawable(zone) {
