@@ -1,13 +1,13 @@
 // The goals of the selected robot in the order of its visits: where, for how long, and not before when.
 
 import { tidy } from "../model/cells.js";
+import { degreesOf, radiansOf } from "../model/degrees.js";
 import { advanceGoal, appendGoal, removeGoalAt, setGoal } from "../model/edit_goals.js";
 import { goalsOf } from "../model/goals.js";
 import { robotsOf } from "../model/listed.js";
 import { byId, element } from "../ui/dom.js";
 import { NumberField } from "../ui/number_field.js";
 
-const DEGREE = Math.PI / 180;
 const FIELDS = {
   x: { label: "x", unit: "m", required: true },
   y: { label: "y", unit: "m", required: true },
@@ -69,7 +69,7 @@ export class GoalsForm {
     for (const [name, field] of Object.entries(fields)) {
       const value = goal?.[name];
       point(field.input, isLast && POSE.has(name) ? null : `${pointer}/${name}`);
-      field.show(name === "theta" && typeof value === "number" ? tidy(value / DEGREE) : value);
+      field.show(name === "theta" ? degreesOf(value) : value);
     }
   }
 
@@ -77,7 +77,7 @@ export class GoalsForm {
     const fields = Object.fromEntries(
       Object.entries(FIELDS).map(([name, described]) => {
         const accept = (value) => {
-          const inUnits = name === "theta" && value !== undefined ? tidy(value * DEGREE) : value;
+          const inUnits = name === "theta" ? radiansOf(value) : value;
           const gesture = `robot ${this.#choice.index} goal ${number} ${name}`;
           this.#edit((request, index) => setGoal(request, index, number, { [name]: inUnits }), gesture);
         };

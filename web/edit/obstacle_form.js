@@ -11,6 +11,7 @@ import {
 } from "../model/edit_obstacles.js";
 import { obstaclesOf } from "../model/listed.js";
 import { snapPoint } from "../model/placement.js";
+import { chosenIn, showChoices } from "../ui/choices.js";
 import { byId, element } from "../ui/dom.js";
 import { NumberField } from "../ui/number_field.js";
 
@@ -43,7 +44,7 @@ export class ObstacleForm {
     });
     byId("obstacle-numbers").append(this.#radius.element);
     this.#list.addEventListener("change", () => {
-      this.#index = this.#list.value === "" ? null : Number(this.#list.value);
+      this.#index = chosenIn(this.#list);
       this.#refresh();
     });
     this.#id.addEventListener("input", () => this.#set({ id: this.#id.value }, "id"));
@@ -100,13 +101,9 @@ export class ObstacleForm {
   }
 
   #showList(obstacles) {
-    const options = obstacles.map((obstacle, value) =>
-      element("option", { value, textContent: obstacle?.id || `#${value}` }),
-    );
-    const none = obstacles.length > 0 ? "None selected" : "No moving obstacles";
-    this.#list.replaceChildren(element("option", { value: "", textContent: none }), ...options);
-    this.#list.value = this.#index ?? "";
-    this.#list.disabled = obstacles.length === 0;
+    const names = obstacles.map((obstacle, at) => obstacle?.id || `#${at}`);
+    const none = names.length > 0 ? "None selected" : "No moving obstacles";
+    showChoices(this.#list, names, none, this.#index);
   }
 
   #showMotion(motion, pointer) {

@@ -1,11 +1,12 @@
 // The forms of robots: the list to select one from, the form of the selected robot, the defaults of all
 // robots.
 
-import { tidy } from "../model/cells.js";
+import { degreesOf } from "../model/degrees.js";
 import { nameOf, setDefault, setRobot } from "../model/edit_request.js";
 import { lastGoalOf, lastGoalPlace } from "../model/goals.js";
 import { robotsOf } from "../model/listed.js";
 import { robotIndexOf } from "../model/problem.js";
+import { chosenIn } from "../ui/choices.js";
 import { byId, element, setText } from "../ui/dom.js";
 import { NumberField } from "../ui/number_field.js";
 
@@ -111,16 +112,15 @@ export class RobotForm {
     fields.y.show(place?.y);
     const theta = place?.theta;
     const known = typeof theta === "number";
-    const degrees = known ? tidy((theta * 180) / Math.PI) : theta;
     const otherwise = pose === "goal" ? "any" : "0";
     const note = known ? `= ${Number(theta.toFixed(4))} rad` : "";
-    fields.theta.show(degrees, { placeholder: otherwise, note });
+    fields.theta.show(degreesOf(theta), { placeholder: otherwise, note });
   }
 }
 
 export function watchRobotPicker(session, choice) {
   const list = byId("edited-robot");
-  list.addEventListener("change", () => choice.choose(list.value === "" ? null : Number(list.value)));
+  list.addEventListener("change", () => choice.choose(chosenIn(list)));
   let listed = [];
   session.on("request problem", () => {
     const names = namesOf(session);

@@ -1,8 +1,10 @@
 // The form of the zones: the list to choose one from, its rule and its numbers.
 
 import { tidy } from "../model/cells.js";
+import { degreesOf, radiansOf } from "../model/degrees.js";
 import { cornersOf, deleteZone, setZone, setZoneType, ZONE_RULES } from "../model/edit_zones.js";
 import { zonesOf } from "../model/listed.js";
+import { chosenIn, showChoices } from "../ui/choices.js";
 import { byId, element, setText } from "../ui/dom.js";
 import { count } from "../ui/format.js";
 import { NumberField } from "../ui/number_field.js";
@@ -14,7 +16,6 @@ const NUMBERS = {
   heading: { label: "Heading", unit: "°", of: "one_way" },
   half_angle: { label: "Half angle", unit: "°", of: "one_way" },
 };
-const DEGREE = Math.PI / 180;
 
 export class ZoneForm {
   #session;
@@ -34,16 +35,12 @@ export class ZoneForm {
       ...Object.entries(TYPES).map(([value, textContent]) => element("option", { value, textContent })),
     );
     for (const [name, { label, unit }] of Object.entries(NUMBERS)) {
-      const factor = unit === "°" ? DEGREE : 1;
-      const accept = (value) =>
-        this.#set({ [name]: value === undefined ? value : tidy(value * factor) }, name);
+      const accept = (value) => this.#set({ [name]: unit === "°" ? radiansOf(value) : roundOf(value) }, name);
       const field = new NumberField({ label, unit, accept, settle: () => session.endGesture() });
       this.#numbers.set(name, field);
       byId("zone-numbers").append(field.element);
     }
-    this.#list.addEventListener("change", () =>
-      choice.choose(this.#list.value === "" ? null : Number(this.#list.value)),
-    );
+    this.#list.addEventListener("change", () => choice.choose(chosenIn(this.#list)));
     this.#id.addEventListener("input", () => this.#set({ id: this.#id.value }, "id"));
     this.#robots.addEventListener("change", () => this.#set({ robots: idsIn(this.#robots.value) }, "robots"));
     this.#type.addEventListener("change", () =>
@@ -82,19 +79,18 @@ export class ZoneForm {
       field.element.hidden = zone.type !== of || zone.mask !== undefined;
       field.input.dataset.pointer = `${pointer}/${name}`;
       const value = zone[name];
-      field.show(typeof value === "number" && unit === "°" ? tidy(value / DEGREE) : value);
+      field.show(unit === "°" ? degreesOf(value) : value);
     }
   }
 
   #showList() {
     const names = zonesOf(this.#session.request).map((zone, at) => zone?.id || `#${at}`);
-    const options = names.map((textContent, value) => element("option", { value, textContent }));
     const none = names.length > 0 ? "None selected" : "No zones yet";
-    this.#list.replaceChildren(element("option", { value: "", textContent: none }), ...options);
-    this.#list.value = this.#choice.index ?? "";
-    this.#list.disabled = names.length === 0;
+    showChoices(this.#list, names, none, this.#choice.index);
   }
 }
+
+const roundOf = (value) => (value === undefined ? value : tidy(value));
 
 /** The ids in a text, separated by commas; undefined for none, which means all robots. */
 function idsIn(text) {
