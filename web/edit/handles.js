@@ -10,12 +10,15 @@ const NAME = 28; // pixels above a disk that its name may occupy
 const KNOB = 6; // pixels, the radius of a handle
 const PICK = { mouse: 10, touch: 22 }; // pixels around a handle that pick it
 
+/** How far from a handle a pointer picks it, metres; `event` gives its type, a mouse for null. */
+export const reachOf = (event, scale) => (event?.pointerType === "touch" ? PICK.touch : PICK.mouse) / scale;
+
 /**
  * The part at a world point, or null; `event` gives the type of pointer; with Shift, goals come before
  * starts. A start is where the robot starts, wherever the robot is under way.
  */
 export function partAt(world, { session, stage, chosen, event }) {
-  const reach = (event?.pointerType === "touch" ? PICK.touch : PICK.mouse) / stage.scale;
+  const reach = reachOf(event, stage.scale);
   for (const pose of chosen ? posesOf(chosen) : []) {
     const { knob } = handleOf(chosen, pose, { scale: stage.scale, time: session.player.time });
     if (Math.hypot(knob.x - world.x, knob.y - world.y) > reach) continue;

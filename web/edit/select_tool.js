@@ -1,14 +1,8 @@
 // The tool that moves and rotates robots, by mouse, finger and keys.
 
-import { snapHeading, snapPoint, stepped, turned } from "../model/placement.js";
+import { ARROWS, snapHeading, snapPoint, stepped, turned } from "../model/placement.js";
 import { paintHandles, paintPart, partAt } from "./handles.js";
 
-const ARROWS = {
-  ArrowLeft: { right: -1, up: 0 },
-  ArrowRight: { right: 1, up: 0 },
-  ArrowUp: { right: 0, up: 1 },
-  ArrowDown: { right: 0, up: -1 },
-};
 const TURNS = { t: ["start", 1], T: ["start", -1], g: ["goal", 1], G: ["goal", -1] };
 
 let gestures = 0; // for unique names

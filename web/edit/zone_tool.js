@@ -11,13 +11,12 @@ import {
   removeCorner,
 } from "../model/edit_zones.js";
 import { zonesOf } from "../model/listed.js";
-import { snapPoint } from "../model/placement.js";
+import { ARROWS, snapPoint } from "../model/placement.js";
 import { drawPath, ring } from "../scene/marks.js";
+import { reachOf } from "./handles.js";
 
-const PICK = { mouse: 10, touch: 22 }; // pixels around a handle that pick it
 const CORNER = 5; // pixels, radii of the handles
 const MIDDLE = 3.5;
-const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 let gestures = 0; // for unique names
 
@@ -123,7 +122,7 @@ export class ZoneTool {
   }
 
   #step(event) {
-    const [right, up] = ARROWS[event.key];
+    const { right, up } = ARROWS[event.key];
     const size = this.#cell * (event.altKey ? 0.1 : 1);
     const by = { x: right * size, y: up * size };
     if (!event.repeat) gestures += 1;
@@ -186,7 +185,7 @@ export class ZoneTool {
   }
 
   #handleAt(world, event) {
-    const reach = (event?.pointerType === "touch" ? PICK.touch : PICK.mouse) / this.#stage.scale;
+    const reach = reachOf(event, this.#stage.scale);
     const near = this.#handles().filter(
       ({ place }) => Math.hypot(place.x - world.x, place.y - world.y) <= reach,
     );

@@ -1,16 +1,15 @@
 // A robot's actions in words and figures, and the cause of each wait. Pure. Seconds, metres, radians.
 
 import { firstOverlap, motionOf, radiusAt } from "./motion.js";
-import { turnBetween } from "./timeline.js";
+import { DOING, turnBetween } from "./timeline.js";
 
 const WHOLE_TURN = 2 * Math.PI;
-const SHARES = { translate: "moving", rotate: "turning", wait: "waiting" };
 
 /** The time of moving, turning and waiting, seconds, and the distance, metres. */
 export function totals(actions) {
   const sum = { moving: 0, turning: 0, waiting: 0, distance: 0 };
   for (const action of actions) {
-    sum[SHARES[action.type]] += action.t_end - action.t_start;
+    sum[DOING[action.type]] += action.t_end - action.t_start;
     if (action.type === "translate") sum.distance += lengthOf(action);
   }
   return sum;

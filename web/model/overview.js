@@ -1,6 +1,6 @@
 // What the robots of a plan do over time, all together. Pure. Seconds.
 
-const KINDS = { translate: "moving", rotate: "turning", wait: "waiting" };
+import { DOING } from "./timeline.js";
 
 /**
  * How many robots are moving, turning and waiting on average in each of so many equal parts of the plan: {moving,
@@ -16,7 +16,7 @@ export function overviewOf(tracks, duration, parts) {
   const part = duration / parts;
   for (const { actions } of tracks) {
     for (const { type, t_start, t_end } of actions) {
-      const sum = sums[KINDS[type]];
+      const sum = sums[DOING[type]];
       const last = Math.min(parts - 1, Math.floor(t_end / part));
       for (let at = Math.floor(t_start / part); at <= last; at += 1) {
         sum[at] += Math.max(0, Math.min(t_end, (at + 1) * part) - Math.max(t_start, at * part)) / part;

@@ -28,6 +28,14 @@ export function turned(theta, way) {
   return normalised(next * HEADING);
 }
 
+/** Where the arrow keys lead, in the directions of the map. */
+export const ARROWS = {
+  ArrowLeft: { right: -1, up: 0 },
+  ArrowRight: { right: 1, up: 0 },
+  ArrowUp: { right: 0, up: 1 },
+  ArrowDown: { right: 0, up: -1 },
+};
+
 /** A point moved by a cell, from centre to centre, or by a fraction of a cell if `fine`. */
 export function stepped(grid, point, { right, up }, fine) {
   const size = (grid?.resolution ?? 1) * (fine ? 0.1 : 1);

@@ -45,7 +45,8 @@ export function poseAt(actions, start, t) {
   return poseInAction(actions[actionIndexAt(actions, t)], t);
 }
 
-const DOING = { rotate: "turning", translate: "moving", wait: "waiting" };
+/** What a robot does during an action, by its type. */
+export const DOING = { rotate: "turning", translate: "moving", wait: "waiting" };
 
 /** The state of the robot at t: "turning", "moving", "waiting" or, after its last action, "arrived". */
 export function doingAt(actions, t) {

@@ -2,11 +2,11 @@
 // arrows move the end, a cell at a time or with Alt a tenth of one, and Enter puts the start to it.
 
 import { cellAt, centreOf } from "../model/cells.js";
+import { ARROWS } from "../model/placement.js";
 import { wayBetween } from "../model/scale.js";
 import { byId } from "../ui/dom.js";
 import { drawPath, drawTag, ring } from "./marks.js";
 
-const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const FINE = 0.1; // of a cell
 const HELP = "Ruler: drag from point to point, or use arrows and Enter; Escape ends it.";
 
@@ -102,7 +102,7 @@ export class Ruler {
     this.#from = this.#to = { x, y };
   }
 
-  #step([right, up], fine) {
+  #step({ right, up }, fine) {
     const cell = (this.#session.scene.grid?.resolution ?? 1) * (fine ? FINE : 1);
     this.#to = { x: this.#to.x + right * cell, y: this.#to.y + up * cell };
   }
