@@ -88,6 +88,7 @@ test("a violation shows its robots close up", async () => {
       .map(({ id }, at) => robot(id, [one, other][at][0], [one, other][at][1]));
     const plans = robots.map(({ id }, at) => ({ robot: id, actions: drive([one, other][at]) }));
     await paste(page, { ...HALL, robots, plans });
+    await page.waitForSelector(".violation");
     const before = await pairOn(page);
     await page.click(".violation");
     const { seen, radius } = await pairOn(page);
