@@ -268,7 +268,7 @@ void Refinement::add_corners(const Polygon& polygon) {
     const Position& corner = corners[k];
     const Position in = corner - corners[(k + corners.size() - 1) % corners.size()];
     const Position out = corners[(k + 1) % corners.size()] - corner;
-    const double turn = order * std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
+    const double turn = order * std::atan2(cross_product(in, out), in.dot(out));
     if (turn <= 0.0) continue;                                                         // a concave one
     const double first = std::atan2(in.y(), in.x()) - order * 0.5 * std::numbers::pi;  // away from its edge
     for (double angle = 0.5 * std::min(turn, kTurnAtCorner); angle < turn; angle += kTurnAtCorner) {

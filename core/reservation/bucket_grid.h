@@ -68,7 +68,7 @@ class BucketGrid {
       for (int column = column_of(x_min - margin); column <= column_of(x_max + margin); ++column) {
         const Position q = Position((column + 0.5) * size_, y) - a;
         const double along = q.dot(direction);
-        const double beside = q.x() * direction.y() - q.y() * direction.x();
+        const double beside = cross_product(q, direction);
         const double beyond = along < 0.0 ? along : std::max(0.0, along - length);
         if (beside * beside + beyond * beyond > margin * margin) continue;
         if (!moving) {
