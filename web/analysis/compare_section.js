@@ -113,7 +113,7 @@ export class CompareSection {
   #describe(rows) {
     const { robots, changed, flowtime, makespan } = summed(rows);
     const words = `${changed} of ${count(robots, "robot")} changed; flowtime ${signed(flowtime)}, makespan ${signed(makespan)}`;
-    const head = ["Robot", "Cost, s", "Other, s", "Difference", ""].map((textContent) =>
+    const head = ["Robot", "Cost, s", "Other, s", "Difference", "Change"].map((textContent) =>
       element("th", { scope: "col", textContent }),
     );
     const body = rows.slice(0, MOST).map(({ id, cost, other, difference, change }) => {

@@ -94,7 +94,7 @@ export class DependenciesSection {
     this.#arrows = [...this.#arrowsOf("waitsFor", waitsFor), ...this.#arrowsOf("heldFor", heldFor)];
     const words = actionInWords(this.#session.tracks.get(robot).actions[action]);
     this.#list.prepend(
-      element("h3", { textContent: `${robot}, action ${action}: ${words}` }),
+      element("h2", { textContent: `${robot}, action ${action}: ${words}` }),
       this.#sentences(waitsFor, "until", ({ gate }) => [
         `Passes ${percent(gate.progress)} after`,
         "has done",
@@ -131,7 +131,7 @@ export class DependenciesSection {
     return element(
       "div",
       {},
-      element("h3", { textContent: title }),
+      element("h2", { textContent: title }),
       element("ul", { class: "plain" }, ...items),
     );
   }

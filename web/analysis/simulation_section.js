@@ -214,5 +214,5 @@ function scaled(distribution, planned) {
 }
 
 function titled(title, ...content) {
-  return element("div", {}, element("h3", { textContent: title }), ...content);
+  return element("div", {}, element("h2", { textContent: title }), ...content);
 }

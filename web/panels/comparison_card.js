@@ -49,7 +49,7 @@ function tableOf(session, rows) {
   );
   return element(
     "div",
-    { class: "figures-table", tabIndex: 0, role: "region", "aria-labelledby": "chosen-title" },
+    { class: "figures-table", tabIndex: 0, role: "region", "aria-label": "Figures" },
     table,
   );
 }

@@ -12,7 +12,7 @@ import { REASONS } from "./unplanned_card.js";
 const EDITING = "tab-edit"; // whose form shows the robot instead
 const CROSS = "M5 5 15 15M15 5 5 15";
 const MARGIN = { top: 60, side: 12, bottom: 12 }; // pixels around the card: above are the view's buttons
-const COLUMNS = ["", "From, s", "To, s", "What"];
+const COLUMNS = ["From, s", "To, s", "What"];
 const NO_ACTIONS = {
   parked: "It has no goal and stays at its start.",
   planned: "It is already at its goal.",
@@ -149,7 +149,12 @@ export class Inspector {
       return row;
     });
     const heads = COLUMNS.map((textContent) => element("th", { scope: "col", textContent }));
-    const table = element("table", {}, element("thead", {}, element("tr", {}, ...heads)), body);
+    const table = element(
+      "table",
+      {},
+      element("thead", {}, element("tr", {}, element("td"), ...heads)),
+      body,
+    );
     return element("div", { class: "actions", tabIndex: 0, role: "region", "aria-label": "Actions" }, table);
   }
 

@@ -1,0 +1,20 @@
+// The rules of axe-core, run on a page.
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+
+const SOURCE = await readFile(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
+
+/** Fails with every element of the page that violates a rule of axe-core; `state` says what the page shows. */
+export async function assertAccessible(page, state) {
+  if (!(await page.evaluate(() => "axe" in window))) await page.evaluate(SOURCE);
+  const found = await page.evaluate(async () => {
+    const { violations, passes } = await /** @type {any} */ (window).axe.run();
+    const faults = violations.flatMap(({ id, nodes }) =>
+      nodes.map(({ target, failureSummary }) => `${id}: ${target.join(" ")}: ${failureSummary}`),
+    );
+    return { faults, passed: passes.length };
+  });
+  assert.ok(found.passed > 0, "rules were applied");
+  assert.deepEqual(found.faults, [], state);
+}
