@@ -52,7 +52,11 @@ const fleet = new FleetMotion(session, clearanceJob());
 const closest = new ClosestOverlay(session, stage, fleet);
 const tabs = new Tabs(byId("tabs"));
 const transport = new Transport(session);
-const show = (part) => (part === "problem" ? revealProblem() : tabs.choose(`tab-${part}`));
+const show = (part) => {
+  if (part === "problem") revealProblem();
+  else tabs.choose(part === "comparison" ? "tab-analyse" : `tab-${part}`);
+  if (part === "comparison") earlier.compare();
+};
 const opening = new Opening(session, service.fetchExample, show);
 const address = new Address(session, opening, new KeptRequests());
 const setup = new Setup(session, opening);

@@ -1,5 +1,5 @@
-// Comparing two plans of one request: the other one is drawn as ghosts in lockstep, and the differences are listed
-// robot by robot.
+// Comparing two plans of one request: the other one is played in lockstep, in a scene of its own or as ghosts, and the
+// differences are listed robot by robot.
 
 import { belongsTo, readDocument } from "../model/plan_file.js";
 import { differences, previousPlans, summed } from "../model/plan_difference.js";
@@ -12,6 +12,10 @@ import { button, choicePart } from "./fields.js";
 const NONE = { value: "", label: "nothing" };
 const PREVIOUS = { value: "previous", label: "the previous plans of the request" };
 const FILE = { value: "file", label: "the plan file" };
+const VIEWS = [
+  { value: "beside", label: "side by side" },
+  { value: "over", label: "as dashed rings over this plan" },
+];
 const MOST = 200; // rows
 const CHANGES = {
   same: "same",
@@ -25,10 +29,11 @@ export class CompareSection {
   #page;
   #session;
   #choice = choicePart("Compare the plan with", [NONE], "");
+  #view = choicePart("Show the other plan", VIEWS, "beside");
   #file = element("input", { type: "file", accept: ".json", hidden: true });
   #swap = button("Swap", () => this.#swapPlans(), {
     class: "quiet",
-    title: "Play the other plan, with this one as ghosts",
+    title: "Exchange the two plans",
   });
   #result = element("div", { class: "results" });
   /** @type {any} */
@@ -38,7 +43,7 @@ export class CompareSection {
 
   element;
 
-  /** `page`: see fillAnalysis, with ghosts and earlier, see EarlierPlans. */
+  /** `page`: see fillAnalysis, with ghosts, and other, see OtherScene. */
   constructor(page) {
     this.#page = page;
     this.#session = page.session;
@@ -48,13 +53,21 @@ export class CompareSection {
       { class: "simulation" },
       this.#choice.field,
       element("div", { class: "row" }, open, this.#swap, this.#file),
+      this.#view.field,
       this.#result,
     );
+    this.#view.input.addEventListener("change", () => this.#show());
     this.#choice.input.addEventListener("change", () => this.#compare());
     this.#file.addEventListener("change", () => this.#openFile());
     this.#session.on("request", ({ opened }) => opened && (this.#opened = null));
     this.#session.on("answer", () => this.#onAnswer());
     this.#onAnswer();
+  }
+
+  /** Compares with the plan before the present one. */
+  withPlanBefore() {
+    this.#choice.input.value = "before 0";
+    this.#compare();
   }
 
   /** What the plan can be compared with: [{value, label, answer, plans}]. */
@@ -98,16 +111,26 @@ export class CompareSection {
     const had = this.#other !== null;
     this.#other = this.#sources.find((source) => source.value === value) ?? null;
     this.#swap.disabled = !this.#other?.answer;
+    this.#view.field.hidden = this.#other === null;
     this.#result.replaceChildren();
-    if (this.#other === null) {
-      if (had) this.#page.ghosts.show(null);
-      return;
-    }
+    if (had || this.#other !== null) this.#show();
+    if (this.#other === null) return;
     const { plans } = this.#other;
     const { player, answer } = this.#session;
-    this.#page.ghosts.show(plans);
     player.duration = Math.max(player.duration, ...plans.map(({ cost }) => cost)); // so that both end
     this.#result.append(...this.#describe(differences(answer.plans, plans)));
+  }
+
+  /** Shows the other plan, if there is one, as chosen. */
+  #show() {
+    const { ghosts, other } = this.#page;
+    const isBeside = this.#view.input.value === "beside";
+    const { plans = null, answer = null, label } = this.#other ?? {};
+    ghosts.show(isBeside ? null : plans);
+    other.show(isBeside && plans !== null ? (answer ?? { plans, unplanned: [] }) : null, [
+      `this plan, flowtime ${seconds(this.#session.answer?.flowtime ?? 0)}`,
+      label,
+    ]);
   }
 
   #describe(rows) {
@@ -142,10 +165,14 @@ export class CompareSection {
       role: "region",
       "aria-label": "Differences of the plans",
     };
-    const note = "Dashed rings show the other plan at the same time.";
+    const changedIds = rows.filter(({ change }) => change !== "same").map(({ id }) => id);
+    const choose = button("Choose the changed robots", () => this.#session.highlight(changedIds), {
+      class: "quiet",
+      disabled: changed === 0,
+    });
     return [
       element("p", { class: "differences", textContent: words }),
-      element("p", { class: "facts", textContent: note }),
+      element("div", { class: "row" }, choose),
       element("div", region, table),
     ];
   }

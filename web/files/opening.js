@@ -2,6 +2,7 @@
 
 import { asRows } from "../model/drawn_map.js";
 import { prepareCells } from "../model/grid_cells.js";
+import { isSameTask } from "../model/earlier_plans.js";
 import { ConnectionLost, FileError, ProblemError } from "../model/problem.js";
 import { readLinkState } from "./address.js";
 import { Reader } from "./reader.js";
@@ -24,7 +25,7 @@ export class Opening {
 
   /**
    * `fetchExample(name)` resolves to an example's text. `show(part)` brings a part of
-   * the page into sight: "plan", "edit" or "problem".
+   * the page into sight: "plan", "comparison" (of the plan with the one before), "edit" or "problem".
    */
   constructor(session, fetchExample, show) {
     this.#session = session;
@@ -48,9 +49,12 @@ export class Opening {
     });
   }
 
-  /** Opens files (File) that belong together, after a dialog if there is a choice. */
-  files(files) {
-    return this.#choose(() => this.#reader.files(files));
+  /**
+   * Opens files (File) that belong together, after a dialog if there is a choice. A plan that was `dropped` onto another
+   * one of the same robots is compared with it.
+   */
+  files(files, dropped = false) {
+    return this.#choose(() => this.#reader.files(files), dropped);
   }
 
   text(name, text) {
@@ -74,7 +78,7 @@ export class Opening {
   }
 
   /** `read` resolves to what to open, see Reader, or to null if that was cancelled. */
-  async #choose(read) {
+  async #choose(read, dropped = false) {
     const turn = (this.#turn += 1);
     this.#reader.dismiss();
     try {
@@ -83,11 +87,11 @@ export class Opening {
       await prepareCells(asRows(opened?.request?.map)?.rows ?? [], nextTask);
       await nextTask(); // reading and showing are two
       if (turn !== this.#turn || opened === null) return false;
-      this.#open(opened);
+      this.#open(opened, dropped);
       return true;
     } catch (error) {
       if (turn !== this.#turn) return false;
-      const again = error instanceof ConnectionLost ? () => this.#choose(read) : null;
+      const again = error instanceof ConnectionLost ? () => this.#choose(read, dropped) : null;
       this.#session.fail(asProblem(error), again);
       this.#show("problem");
       return false;
@@ -102,8 +106,9 @@ export class Opening {
     if (!(await this.#session.validate())) this.#show("problem");
   }
 
-  #open({ answer, ...opened }) {
+  #open({ answer, ...opened }, dropped) {
     const session = this.#session;
+    const compares = dropped && session.hasPlan && isSameTask(session.request, opened.request);
     if (opened.request === session.request) {
       session.stopPlanning();
       session.setProblem(null);
@@ -112,7 +117,7 @@ export class Opening {
       session.open(opened, answer);
     }
     if (answer !== null) {
-      this.#show("plan"); // which shows the result of the check
+      this.#show(compares ? "comparison" : "plan"); // which shows the result of the check
       this.#check();
     }
     if (Array.isArray(opened.request.robots) && opened.request.robots.length === 0) {

@@ -4,6 +4,9 @@ import { byId, element, setText } from "../ui/dom.js";
 import { count } from "../ui/format.js";
 import { ACCEPT } from "./file_kinds.js";
 
+const DROP = "Drop requests, plans or maps to open them";
+const DROP_TO_COMPARE = "Drop another plan to compare it with this one, or requests and maps to open them";
+
 export class Setup {
   #session;
   #opening;
@@ -30,8 +33,9 @@ export class Setup {
     });
     this.#paste.addEventListener("click", () => this.#showForm(this.#form.hidden));
     this.#form.addEventListener("submit", (event) => this.#onPaste(event));
-    watchDrops((files) => opening.files(files));
+    watchDrops((files) => opening.files(files, true));
     session.on("request", () => this.#refresh());
+    session.on("answer", () => setText(byId("drop-hint"), session.hasPlan ? DROP_TO_COMPARE : DROP));
     session.on("problem", () => this.#showChosen()); // the chosen example may have failed to load
   }
 

@@ -53,8 +53,8 @@ export class Painter {
 
   /**
    * Paints the moment `time`; `marked` are the ids to bring out; `moving`: whether the camera is being moved. `overlays` are functions (context, view)
-   * where view has camera, viewport, time, marked, theme, scale (pixels per metre) and screen(point), all in
-   * CSS pixels.
+   * where view has camera, viewport, ratio, time, marked, moving, theme, scale (pixels per metre) and screen(point),
+   * all in CSS pixels.
    */
   paint({ camera, viewport, ratio, time, marked, moving, overlays }) {
     if (!this.#scene || viewport.width === 0) return;
@@ -77,8 +77,10 @@ export class Painter {
     const view = {
       camera,
       viewport,
+      ratio,
       time,
       marked,
+      moving,
       theme: this.#theme,
       scale: camera.scale,
       screen,

@@ -247,13 +247,34 @@ export class Stage {
     this.redraw();
   }
 
-  #gestures() {
+  /**
+   * Gestures on a canvas of the stage's size (see watchGestures) that move the camera and select robots; `robotAt(world)`
+   * returns the id of the one there, or null.
+   */
+  cameraGestures(canvas, robotAt) {
     const world = (pixel) => toWorld(this.#camera, this.#viewport, pixel);
     return {
       pan: (dx, dy) => this.#pan(dx, dy),
       zoom: (pixel, factor) => this.#zoom(pixel, factor),
-      hover: (pixel) => this.#hover(pixel && world(pixel)),
-      click: (pixel, event) => this.#click(this.robotAt(world(pixel)), event),
+      hover: (pixel) => {
+        const id = pixel && robotAt(world(pixel));
+        canvas.classList.toggle("on-robot", id !== null);
+        this.#session.hover(id);
+      },
+      click: (pixel, event) => this.#click(robotAt(world(pixel)), event),
+      press: () => false,
+    };
+  }
+
+  #gestures() {
+    const world = (pixel) => toWorld(this.#camera, this.#viewport, pixel);
+    const ofCamera = this.cameraGestures(this.#canvas, (point) => this.robotAt(point));
+    return {
+      ...ofCamera,
+      hover: (pixel) => {
+        this.#showHover(pixel && world(pixel));
+        ofCamera.hover(pixel);
+      },
       press: (pixel, event) => {
         const tools = [this.#tool, this.#baseTool];
         const taker = tools.find((tool) => tool.press?.(world(pixel), event) ?? false);
@@ -273,12 +294,9 @@ export class Stage {
     else if (id !== null) this.#session.toggleChosen(id);
   }
 
-  #hover(world) {
-    const id = world && this.robotAt(world);
-    this.#canvas.classList.toggle("on-robot", id !== null);
+  #showHover(world) {
     this.#canvas.style.cursor = (world && this.#tool.cursor?.(world)) ?? "";
     this.#tool.hover?.(world);
-    this.#session.hover(id);
   }
 
   #resize() {

@@ -5,7 +5,7 @@ import { test } from "node:test";
 
 import { choose, pressPlan, seek } from "../support/browser.js";
 import { drop } from "../support/map_files.js";
-import { countColour, hasTime, hook, pagesFor, themeColour } from "../support/on_page.js";
+import { coloursAt, countColour, hasTime, hook, pagesFor, themeColour } from "../support/on_page.js";
 
 const onPage = pagesFor();
 
@@ -31,43 +31,142 @@ function delayed(answer, at, by) {
   return { ...answer, plans, verified: undefined };
 }
 
-test("a plan dropped onto the first is compared with it, in lockstep, and the two are swapped", async () => {
-  await onPage(async (page) => {
-    await choose(page, "crossing");
-    const answer = await pressPlan(page);
-    await page.waitForFunction(() => window.fleetplan.playing);
-    await page.keyboard.press("Space");
-    const second = delayed(answer, 0, 30);
-    await drop(page, { "second.json": JSON.stringify(second) });
-    await page.waitForFunction(
-      (cost) => window.fleetplan.answer.plans[0].cost === cost,
-      second.plans[0].cost,
-    );
-    await openCompare(page);
-    await compareWith(page).selectOption("before 0");
-    const { length } = answer.plans;
-    assert.match(
-      await page.innerText(".differences"),
-      new RegExp(`^1 of ${length} robots changed; flowtime \\+30`),
-    );
-    const first = page.locator('#panel-analyse tbody tr[data-change="times"]');
-    assert.ok((await first.innerText()).includes(answer.plans[0].robot));
-    assert.equal(await page.locator('#panel-analyse tbody tr[data-change="same"]').count(), length - 1);
+const PHONE = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true };
 
-    await seek(page, answer.plans[0].cost);
-    await hasTime(page, answer.plans[0].cost);
-    const goal = answer.plans[0].actions.at(-1).to;
-    const place = await page.evaluate((point) => window.fleetplan.pointOf(point), goal);
+/** Plans an example and drops the same plan, in which the first robot is 30 s late: {answer, second}. */
+async function dropSecond(page) {
+  await choose(page, "crossing");
+  const answer = await pressPlan(page);
+  await page.waitForFunction(() => window.fleetplan.playing);
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press("Space");
+  const second = delayed(answer, 0, 30);
+  await drop(page, { "second.json": JSON.stringify(second) });
+  await page.waitForSelector(".differences");
+  assert.equal((await hook(page, "answer")).plans[0].cost, second.plans[0].cost);
+  return { answer, second };
+}
+
+/** Waits until there is one scene, which is painted over the whole frame. */
+const fillsFrame = (page) =>
+  page.waitForFunction(() => {
+    const [scene, frame] = ["scene", "scene-frame"].map((id) => document.getElementById(id));
+    const { width, height } = /** @type {HTMLCanvasElement} */ (scene);
+    const [across, down] = [frame.clientWidth, frame.clientHeight].map((size) => size * devicePixelRatio);
+    const isAlone = document.getElementById("other-scene") === null;
+    return isAlone && Math.abs(width - across) <= 1 && Math.abs(height - down) <= 1;
+  });
+
+/** Shows the end of a plan, and the colours of both scenes at its last pose. */
+async function coloursAtEnd(page, { cost, actions }) {
+  await seek(page, cost);
+  await hasTime(page, cost);
+  const place = await page.evaluate((point) => window.fleetplan.pointOf(point), actions.at(-1).to);
+  const beside = { x: place.x + 8, y: place.y + 8 }; // of the arrow, within the disk
+  const [first] = await coloursAt(page, [beside]);
+  const [other] = await coloursAt(page, [beside], "other-scene");
+  return { first, other };
+}
+
+for (const [size, options] of [
+  ["desktop", {}],
+  ["phone", PHONE],
+]) {
+  test(`a plan dropped onto the first is played beside it, and the two are swapped, ${size}`, async () => {
+    await onPage(
+      async (page) => {
+        const { answer, second } = await dropSecond(page);
+        const { length } = answer.plans;
+        assert.match(
+          await page.innerText(".differences"),
+          new RegExp(`^1 of ${length} robots changed; flowtime \\+30`),
+        );
+        const changed = page.locator('#panel-analyse tbody tr[data-change="times"]');
+        assert.ok((await changed.innerText()).includes(answer.plans[0].robot));
+        assert.equal(await page.locator('#panel-analyse tbody tr[data-change="same"]').count(), length - 1);
+        await page.getByRole("button", { name: "Choose the changed robots" }).click();
+        assert.deepEqual(await hook(page, "chosen"), [answer.plans[0].robot]);
+        await page.evaluate(() => scrollTo(0, 0));
+        await page.keyboard.press("Escape");
+
+        const boxes = await Promise.all(
+          ["#scene", "#other-scene"].map((id) => page.locator(id).boundingBox()),
+        );
+        const [one, two] = boxes;
+        assert.deepEqual([one.width, one.height], [two.width, two.height]);
+        const place = size === "phone" ? [one.x, one.y + one.height] : [one.x + one.width, one.y];
+        assert.deepEqual([two.x, two.y], place);
+
+        const before = await coloursAtEnd(page, answer.plans[0]);
+        assert.notEqual(before.first, before.other, "only in the other plan it is at its goal");
+        await page.getByRole("button", { name: "Swap" }).click();
+        assert.deepEqual((await hook(page, "answer")).plans, answer.plans);
+        assert.match(await page.innerText(".differences"), /flowtime −30/);
+        assert.equal(await hook(page, "duration"), second.plans[0].cost, "both end");
+        const swapped = await coloursAtEnd(page, answer.plans[0]);
+        assert.deepEqual(swapped, { first: before.other, other: before.first });
+        await compareWith(page).selectOption("");
+        await fillsFrame(page);
+      },
+      { options },
+    );
+  });
+}
+
+test("two plans side by side share the view, and robots are selected in either", async () => {
+  await onPage(async (page) => {
+    const { answer } = await dropSecond(page);
+    const { robot } = answer.plans[1];
+    const two = await page.locator("#other-scene").boundingBox();
+    const placeOf = () => page.evaluate((id) => window.fleetplan.screenOf(id), robot);
+    const before = await placeOf();
+    await page.mouse.move(two.x + before.x, two.y + before.y);
+    await page.mouse.wheel(0, -300);
+    await page.waitForFunction(({ id, radius }) => window.fleetplan.screenOf(id).radius > radius, {
+      id: robot,
+      radius: before.radius,
+    });
+    const { x, y, radius } = await placeOf();
+    const around = [0, 90, 180, 270].map((angle) => ({
+      x: x + radius * 0.7 * Math.cos((angle + 45) * (Math.PI / 180)),
+      y: y + radius * 0.7 * Math.sin((angle + 45) * (Math.PI / 180)),
+    }));
+    assert.deepEqual(
+      await coloursAt(page, around, "other-scene"),
+      await coloursAt(page, around),
+      "both show it in the same place",
+    );
+    await page.mouse.click(two.x + x, two.y + y);
+    assert.equal(await hook(page, "selected"), robot);
+  });
+});
+
+test("the other plan is drawn as rings over the first instead", async () => {
+  await onPage(async (page) => {
+    const { answer } = await dropSecond(page);
+    await page.getByLabel("Show the other plan").selectOption("over");
+    await fillsFrame(page);
+    const { cost, actions } = answer.plans[0];
+    await seek(page, cost);
+    await hasTime(page, cost);
     const ink = await themeColour(page, "--scene-ink");
-    const ghost = await countColour(page, ink, place, 60);
-    await page.getByRole("button", { name: "Swap" }).click();
-    assert.deepEqual((await hook(page, "answer")).plans, answer.plans);
-    assert.match(await page.innerText(".differences"), /flowtime −30/);
-    assert.equal(await hook(page, "duration"), second.plans[0].cost, "both end");
+    const place = () => page.evaluate((point) => window.fleetplan.pointOf(point), actions.at(-1).to);
+    const ghost = await countColour(page, ink, await place(), 60);
     await compareWith(page).selectOption("");
-    await seek(page, answer.plans[0].cost);
-    await hasTime(page, answer.plans[0].cost);
-    assert.ok(ghost > (await countColour(page, ink, place, 60)), "the ghost was at its goal");
+    assert.ok(ghost > (await countColour(page, ink, await place(), 60)), "the ghost was at its goal");
+  });
+});
+
+test("a plan of other robots that is dropped is opened, not compared", async () => {
+  await onPage(async (page) => {
+    const request = await choose(page, "corridor-swap");
+    const answer = await pressPlan(page);
+    await choose(page, "crossing");
+    await pressPlan(page);
+    await drop(page, { "other.plan.json": JSON.stringify({ ...request, ...answer }) });
+    await page.waitForFunction((id) => window.fleetplan.request.robots[0].id === id, request.robots[0].id);
+    await page.waitForSelector("#check:not([hidden])");
+    assert.equal(await page.getAttribute("#tab-plan", "aria-selected"), "true");
   });
 });
 

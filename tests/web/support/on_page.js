@@ -73,9 +73,9 @@ export const hook = (page, name) => page.evaluate((member) => window.fleetplan[m
 export const hasTime = (page, time) =>
   page.waitForFunction((t) => Math.abs(window.fleetplan.time - t) < 1e-9, time);
 
-/** The colours painted on the scene at canvas places ({x, y}, CSS pixels), each "r,g,b". */
-export async function coloursAt(page, places) {
-  const { pixels, width, scale } = await sceneOf(page);
+/** The colours painted on a scene, a canvas, at places of it ({x, y}, CSS pixels), each "r,g,b". */
+export async function coloursAt(page, places, canvas = "scene") {
+  const { pixels, width, scale } = await sceneOf(page, canvas);
   return places.map(({ x, y }) => {
     const at = (Math.round(y * scale) * width + Math.round(x * scale)) * 4;
     return [...pixels.subarray(at, at + 3)].join();
@@ -105,10 +105,10 @@ export function themeColour(page, name) {
 }
 
 /** The painted scene: {pixels (RGBA bytes), width (device pixels), scale (device pixels per CSS pixel)}. */
-async function sceneOf(page) {
+async function sceneOf(page, id = "scene") {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  const { text, width, scale } = await page.evaluate(() => {
-    const canvas = document.getElementById("scene");
+  const { text, width, scale } = await page.evaluate((name) => {
+    const canvas = document.getElementById(name);
     const copy = new OffscreenCanvas(canvas.width, canvas.height);
     const context = copy.getContext("2d", { willReadFrequently: true });
     context.drawImage(canvas, 0, 0);
@@ -117,6 +117,6 @@ async function sceneOf(page) {
     for (let at = 0; at < data.length; at += 8192)
       text += String.fromCharCode(...data.subarray(at, at + 8192));
     return { text: btoa(text), width: canvas.width, scale: canvas.width / canvas.clientWidth };
-  });
+  }, id);
   return { pixels: Buffer.from(text, "base64"), width, scale };
 }

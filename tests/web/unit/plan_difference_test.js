@@ -51,16 +51,31 @@ test("the previous plans of a request are plans", () => {
   ]);
 });
 
-test("the plans shown before are kept for the request, the latest first, each once", () => {
+test("the plans shown before are kept for the robots and their tasks, the latest first, each once", () => {
   const session = new Session({}, () => {});
   const earlier = new EarlierPlans(session);
-  const request = { map: { rows: ["."] }, robots: [] };
+  const robot = { id: "a", start: { x: 0.5, y: 0.5 } };
+  const request = { map: { rows: ["."] }, robots: [robot] };
   session.open({ name: "one", example: null, text: "", request });
   const answers = Array.from({ length: 8 }, (_, n) => ({ plans: [plan(`${n}`)], unplanned: [] }));
   for (const answer of answers) session.adopt(answer);
   assert.deepEqual(earlier.all, answers.slice(2, 7).reverse());
   session.adopt(answers[5]);
   assert.equal(earlier.all[0], answers[7]);
-  session.open({ name: "two", example: null, text: "", request: { ...request } });
+  const reopened = { map: { rows: ["."] }, robots: [{ ...robot, previous: [] }], options: { seed: 2 } };
+  session.open({ name: "two", example: null, text: "", request: reopened });
+  assert.equal(earlier.all[0], answers[5], "another seed and previous plans are of the same task");
+  const elsewhere = { ...reopened, robots: [{ ...robot, goal: { x: 0.5, y: 0.5 } }] };
+  session.open({ name: "three", example: null, text: "", request: elsewhere });
   assert.deepEqual(earlier.all, []);
+});
+
+test("who listens after a comparison was asked for is told at once", () => {
+  const earlier = new EarlierPlans(new Session({}, () => {}));
+  let told = 0;
+  earlier.compare();
+  earlier.onAsked(() => (told += 1));
+  assert.equal(told, 1);
+  earlier.compare();
+  assert.equal(told, 2);
 });
