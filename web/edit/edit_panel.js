@@ -2,6 +2,7 @@
 
 import { RobotChoice } from "../model/selection.js";
 import { byId, element, icon, setText } from "../ui/dom.js";
+import { CommittedForm } from "./committed_form.js";
 import { BoxTool, DrawTool } from "./draw_tools.js";
 import { GoalsForm } from "./goals_form.js";
 import { GroupForm } from "./group_form.js";
@@ -38,6 +39,7 @@ export class EditPanel {
     new RobotForm(session, this.choice, actions);
     new GroupForm(session);
     new GoalsForm(session, this.choice);
+    new CommittedForm(session, this.choice);
     watchDefaultsForm(session);
     new MapForm(session);
     watchNewMapForm(session, async (request) => {

@@ -106,6 +106,9 @@ const OF_ACTIONS = {
   to: isPose,
 };
 
+/** Whether a value has what actions have. */
+export const isAction = (value) => Object.entries(OF_ACTIONS).every(([key, check]) => check(value?.[key]));
+
 /** Throws FileError unless an answer's members can be shown. */
 export function checkAnswer(answer) {
   checkMembers(answer, Object.keys(answer), OF_ANSWERS, "");
