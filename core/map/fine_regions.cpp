@@ -1,13 +1,14 @@
 #include "core/map/fine_regions.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace fleetplan::core {
 namespace {
 
 /// Nodes; smaller blocks fit walls better, larger ones are fewer.
-constexpr int kLeastSide = 8;
+constexpr unsigned kLeastSide = 8;
 /// A node has a vertex within so many spacings, along steps between nodes.
 constexpr double kFarthest = 2.5;
 
@@ -23,11 +24,15 @@ FineRegions::FineRegions(const FineNodes& nodes, const Lattice& lattice, double 
       lattice_(lattice),
       radius_(radius),
       sight_(sight),
-      side_(std::max(kLeastSide, static_cast<int>(std::ceil(lattice.spacing() / nodes.pitch())) + 1)),
+      side_bits_(std::bit_width(
+          std::max(kLeastSide - 1, static_cast<unsigned>(std::ceil(lattice.spacing() / nodes.pitch()))))),
+      side_(1 << side_bits_),
       limit_(static_cast<int>(
           std::clamp(kFarthest * lattice.spacing() / nodes.pitch() * kAxis, 4.0 * kAxis, 30000.0))),
       block_columns_((nodes.columns() + side_ - 1) / side_),
       block_rows_((nodes.rows() + side_ - 1) / side_),
+      nearest_column_(nearest_in_blocks(nodes.columns(), lattice.columns())),
+      nearest_row_(nearest_in_blocks(nodes.rows(), lattice.rows())),
       blocks_(static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows_), kClosed),
       front_(static_cast<std::size_t>(limit_) + 1) {}
 
@@ -89,31 +94,38 @@ void FineRegions::classify(int block_column, int block_row) {
   searched_.insert(searched_.end(), found.begin(), found.end());
 }
 
+/// For every column of nodes, or row, the nearest column or row of the lattice among those within the same
+/// blocks; -1 if there is none.
+std::vector<int> FineRegions::nearest_in_blocks(int nodes, int vertices) const {
+  const auto along_axis = [&](int node) { return nodes_.position(node, node).x(); };
+  const double rounding = 1e-6 * nodes_.pitch();
+  std::vector<int> nearest(static_cast<std::size_t>(nodes), -1);
+  for (int node = 0; node < nodes; ++node) {
+    const int first = node / side_ * side_;
+    const int last = std::min(first + side_, nodes) - 1;
+    const double low = along_axis(first) - rounding;
+    const double high = along_axis(last) + rounding;
+    const int from = std::max(0, static_cast<int>(std::ceil(low / lattice_.spacing() - 0.5)));
+    const int to = std::min(vertices - 1, static_cast<int>(std::floor(high / lattice_.spacing() - 0.5)));
+    if (from > to) continue;
+    const int beside = static_cast<int>(std::floor(along_axis(node) / lattice_.spacing()));
+    nearest[static_cast<std::size_t>(node)] = std::clamp(beside, from, to);
+  }
+  return nearest;
+}
+
 /// The vertex of the lattice nearest to a node of an open block, if the block has one.
 std::optional<int> FineRegions::vertex_in_open_block(const Cell& node) const {
   if (!in_open_block(node)) return std::nullopt;
-  const Position here = nodes_.position(node.column, node.row);
-  const auto nearest = [&](double x, int cell, int end, int axis, int vertices) {
-    const int first = cell / side_ * side_;
-    const int last = std::min(first + side_, end) - 1;
-    const double low = axis == 0 ? nodes_.position(first, 0).x() : nodes_.position(0, first).y();
-    const double high = axis == 0 ? nodes_.position(last, 0).x() : nodes_.position(0, last).y();
-    const double rounding = 1e-6 * nodes_.pitch();
-    const int from = std::max(0, static_cast<int>(std::ceil((low - rounding) / lattice_.spacing() - 0.5)));
-    const int to =
-        std::min(vertices - 1, static_cast<int>(std::floor((high + rounding) / lattice_.spacing() - 0.5)));
-    if (from > to) return -1;
-    return std::clamp(static_cast<int>(std::floor(x / lattice_.spacing())), from, to);
-  };
-  const int column = nearest(here.x(), node.column, nodes_.columns(), 0, lattice_.columns());
-  const int row = nearest(here.y(), node.row, nodes_.rows(), 1, lattice_.rows());
+  const int column = nearest_column_[static_cast<std::size_t>(node.column)];
+  const int row = nearest_row_[static_cast<std::size_t>(node.row)];
   if (column < 0 || row < 0) return std::nullopt;
   return lattice_.vertex(column, row);
 }
 
 int FineRegions::length_to(const Cell& node, int vertex) const {
   const double metres = (nodes_.position(node.column, node.row) - position(vertex)).norm();
-  return static_cast<int>(std::lround(metres / nodes_.pitch() * kAxis));
+  return static_cast<int>(metres / nodes_.pitch() * kAxis + 0.5);
 }
 
 /// Begins at the vertices of the lattice in a block.

@@ -70,6 +70,7 @@ class FineRegions {
   void begin_at_open_blocks(int block);
   void put(const Cell& here, int vertex, int length, int step);
   void spread(bool only_unreached);
+  std::vector<int> nearest_in_blocks(int nodes, int vertices) const;
   bool may_step(const Cell& from, const Node& from_node, const Cell& to, const Node& to_node) const;
   int length_to(const Cell& node, int vertex) const;
 
@@ -77,17 +78,17 @@ class FineRegions {
     return node.column >= 0 && node.row >= 0 && node.column < nodes_.columns() && node.row < nodes_.rows();
   }
   std::size_t block_of(const Cell& node) const {
-    return static_cast<std::size_t>(node.row / side_) * static_cast<std::size_t>(block_columns_) +
-           static_cast<std::size_t>(node.column / side_);
+    return static_cast<std::size_t>(node.row >> side_bits_) * static_cast<std::size_t>(block_columns_) +
+           static_cast<std::size_t>(node.column >> side_bits_);
   }
   /// Null in open and closed blocks.
   Node* find_node(const Cell& node) { return const_cast<Node*>(std::as_const(*this).find_node(node)); }
   const Node* find_node(const Cell& node) const {
     const std::int32_t begin = blocks_[block_of(node)];
     if (begin < 0) return nullptr;
-    const auto in_block = static_cast<std::size_t>(node.row % side_) * static_cast<std::size_t>(side_) +
-                          static_cast<std::size_t>(node.column % side_);
-    return &searched_[static_cast<std::size_t>(begin) * static_cast<std::size_t>(side_ * side_) + in_block];
+    const int mask = side_ - 1;
+    const auto in_block = static_cast<std::size_t>(((node.row & mask) << side_bits_) + (node.column & mask));
+    return &searched_[(static_cast<std::size_t>(begin) << 2 * side_bits_) + in_block];
   }
   bool in_open_block(const Cell& node) const { return blocks_[block_of(node)] == kOpen; }
 
@@ -95,10 +96,13 @@ class FineRegions {
   const Lattice& lattice_;
   double radius_;
   const LineOfSight& sight_;
-  int side_;   // of a block, nodes
+  int side_bits_;
+  int side_;   // of a block, nodes: 2 to the power of side_bits_
   int limit_;  // length of the longest way to a vertex
   int block_columns_;
   int block_rows_;
+  std::vector<int> nearest_column_;   // of the lattice, for each column of nodes; see nearest_in_blocks
+  std::vector<int> nearest_row_;      // the same for each row
   std::vector<std::int32_t> blocks_;  // kClosed, kOpen, or its number in searched_
   std::vector<Cell> begin_of_block_;  // that is searched: its first node
   std::vector<Node> searched_;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <queue>
 #include <set>
+#include <span>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -154,12 +155,11 @@ std::vector<Refinement::Bridge> Refinement::find_bridges() {
 
 bool Refinement::is_one_move(int from, int to) {
   if (to >= lattice_.vertex_count()) return false;
-  const int columns = to % lattice_.columns() - from % lattice_.columns();
-  const int rows = to / lattice_.columns() - from / lattice_.columns();
-  for (std::size_t k = 0; k < lattice_.steps().size(); ++k) {
-    if (lattice_.steps()[k].columns == columns && lattice_.steps()[k].rows == rows) {
-      return (space_.steps_from(from) >> k & 1u) != 0;
-    }
+  const std::span<const Lattice::Step> steps = lattice_.steps();
+  const std::uint32_t free_steps = space_.steps_from(from);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const int next = from + steps[k].rows * lattice_.columns() + steps[k].columns;
+    if (next == to && (free_steps >> k & 1u) != 0) return true;
   }
   return false;
 }
