@@ -219,6 +219,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   if (anytime) {
     BeforeRound before_round;
     if (observer != nullptr) before_round = ImprovementReport(state, progress, current_plan);
+    if (!stop.is_over()) state.resume();
     lns = large_neighbourhood_search(state, those_that_may_change(state, movers), bounds, random, executor,
                                      stop, before_round);
   }

@@ -183,6 +183,7 @@ class PlanningAroundKept {
 
   /// Robots that gave way may have their first trajectories back where these are free again.
   void return_to_kept() {
+    state_.resume();
     return_together();
     for (const std::size_t robot : robots_that_gave_way()) {
       if (end_.met()) return;

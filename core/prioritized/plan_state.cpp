@@ -132,21 +132,31 @@ bool PlanState::is_reserved(std::size_t robot, const Reservations& among) const 
 
 void PlanState::restore(const Reservations& reservations) {
   const Reservations wanted = reservations;  // may be those of this state
+  if (!is_in_table_) forget_ways_closed_by_robots(instance_.size());  // by all: others may stay now
   for (std::size_t robot = 0; robot < instance_.size(); ++robot) {
-    if (is_reserved(robot, wanted)) continue;
+    if (is_in_table_ && is_reserved(robot, wanted)) continue;
     if (wanted.trajectories[robot]) {
       follow(robot, *wanted.trajectories[robot]);
     } else {
       reserve_start(robot, wanted.at_start_until[robot]);
     }
   }
+  is_in_table_ = true;
 }
 
 void PlanState::finish_with(const Reservations& reservations) {
   reservations_ = reservations;
-  planned_count_ = static_cast<std::size_t>(
-      std::count_if(reservations_.trajectories.begin(), reservations_.trajectories.end(),
-                    [](const auto& trajectory) { return trajectory.has_value(); }));
+  is_in_table_ = false;
+  planned_count_ = 0;
+  staying_count_ = 0;
+  for (std::size_t robot = 0; robot < instance_.size(); ++robot) {
+    if (trajectory(robot)) ++planned_count_;
+    if (stays(robot)) ++staying_count_;
+  }
+}
+
+void PlanState::resume() {
+  if (!is_in_table_) restore(reservations_);
 }
 
 template <class Result, class Compute>

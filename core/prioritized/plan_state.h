@@ -59,8 +59,11 @@ class PlanState {
   const Reservations& reservations() const { return reservations_; }
   /// Replaces all reservations.
   void restore(const Reservations& reservations);
-  /// Replaces the trajectories only, which takes no time; no search may follow.
+  /// Replaces them, but not in the table of the searches, which takes no time. Only resume() or restore() may
+  /// follow.
   void finish_with(const Reservations& reservations);
+  /// Makes searches possible again after finish_with().
+  void resume();
 
   /// None for a robot that does not follow a trajectory.
   const std::optional<Trajectory>& trajectory(std::size_t robot) const {
@@ -126,6 +129,7 @@ class PlanState {
   ReservationTable table_;
   AaSipp search_;
   Reservations reservations_;
+  bool is_in_table_ = true;  // what reservations_ has
   std::size_t planned_count_ = 0;
   SearchSpaces search_spaces_;
   std::size_t staying_count_ = 0;

@@ -153,6 +153,30 @@ TEST(PlanState, FollowsATrajectoryThatBeginsWithCommittedMotion) {
   EXPECT_TRUE(p.state.trajectory(1));
 }
 
+TEST(PlanState, SearchesAmongWhatItFinishedWithOnceItResumes) {
+  CommittedHall p;
+  const Trajectory across = through({{8.5, 2.5}, {8.5, 0.5}}, 4.0);
+  const Trajectory below = through({{0.5, 0.5}, {8.5, 0.5}}, 10.0);
+  p.state.follow(1, through({{4.5, 3.5}, {4.5, 0.5}, {8.5, 0.5}}));
+  const PlanState::Reservations following = p.state.reservations();
+  p.state.stay_at_start(1);
+  const PlanState::Reservations staying = p.state.reservations();
+  ASSERT_EQ(p.state.conflicting_robots(0, across), Robots{});
+
+  p.state.finish_with(following);
+  p.state.resume();
+  EXPECT_EQ(p.state.conflicting_robots(0, across), Robots{1});
+
+  p.state.finish_with(staying);
+  p.state.restore(following);
+  EXPECT_EQ(p.state.conflicting_robots(0, across), Robots{1});
+
+  p.state.finish_with(staying);
+  p.state.restore(staying);
+  EXPECT_EQ(p.state.conflicting_robots(0, across), Robots{});
+  EXPECT_EQ(p.state.conflicting_robots(0, below), Robots{1});
+}
+
 TEST(PlanState, FindsAGoalAtTheStartReachable) {
   Planning p(support::ascii_map({"##.##", "#####"}), {robot_at(2.5, 1.5).to(2.5, 1.5, 2.0)});
   EXPECT_FALSE(p.state.way_to_goal(0, 1000, p.never).none());
