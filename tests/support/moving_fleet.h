@@ -73,11 +73,13 @@ struct FleetRequest {
   std::vector<core::Robot> robots;
   std::vector<core::MovingObstacle> obstacles;
   core::PlanOptions options;
+  std::vector<core::Zone> zones = {};
 };
 
 inline std::optional<core::Problem> problem_of(const FleetRequest& request) {
   core::ProblemConditions conditions;
   conditions.obstacles = request.obstacles;
+  conditions.zones = request.zones;
   conditions.pair_overlap = std::max(0.0, request.options.start_overlap - 2.0 * request.options.inflation);
   conditions.wall_overlap = std::max(0.0, request.options.start_overlap - request.options.inflation);
   auto created =
