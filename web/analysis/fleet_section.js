@@ -4,7 +4,7 @@ import { FleetRun, throughput } from "../model/fleet_run.js";
 import { robotChip } from "../panels/robot_list.js";
 import { ring } from "../scene/marks.js";
 import { element, setText } from "../ui/dom.js";
-import { count, milliseconds } from "../ui/format.js";
+import { count, milliseconds, seconds } from "../ui/format.js";
 import { lineChart } from "./charts.js";
 import { button, numberPart } from "./fields.js";
 
@@ -73,8 +73,9 @@ export class FleetSection {
   #holdSelected() {
     if (!this.#held.input.reportValidity()) return;
     const { selected } = this.#session;
-    this.#run.hold(selected, this.#held.input.valueAsNumber);
-    this.#session.announce(`${selected} is held as soon as the next round is over.`);
+    const duration = this.#held.input.valueAsNumber;
+    this.#run.hold(selected, duration);
+    this.#session.announce(`${selected} is held for ${seconds(duration)}.`);
   }
 
   #refresh() {
@@ -88,7 +89,7 @@ export class FleetSection {
 
   #show() {
     this.#refresh();
-    const { rounds, holds, period } = this.#run;
+    const { rounds, holds } = this.#run;
     const last = rounds.at(-1);
     const unplanned = last?.unplanned ?? 0;
     const stuck = unplanned > 0 ? `, ${count(unplanned, "robot")} without a plan` : "";
@@ -108,9 +109,7 @@ export class FleetSection {
     if (last === undefined) return;
     const latencies = rounds.map(({ latency }) => latency).slice(-SHOWN);
     this.#charts.replaceChildren(
-      lineChart("Goals reached a minute", throughput(rounds, period).slice(-SHOWN), (value) =>
-        value.toFixed(0),
-      ),
+      lineChart("Goals reached a minute", throughput(rounds).slice(-SHOWN), (value) => value.toFixed(0)),
       lineChart("Time to plan a round", latencies, milliseconds),
     );
   }

@@ -1,6 +1,6 @@
 // A fleet that keeps running: rounds of playing a plan, advancing its request to the end of the round, and planning the
-// next one meanwhile (see docs/fleet_loop.md). Robots that have arrived go to their start and back. No DOM; the service
-// is passed in. Seconds.
+// next one meanwhile (see docs/fleet_loop.md). Robots that have arrived go to their start and back. A robot that is held or
+// released ends the round at once. No DOM; the service is passed in. Seconds.
 
 import { goalsOf, lastGoalOf } from "./goals.js";
 import { robotsOf } from "./listed.js";
@@ -49,11 +49,12 @@ export function placesOf(request) {
 }
 
 /** The goals reached a minute, after each round, in the last few rounds. */
-export function throughput(rounds, period) {
+export function throughput(rounds) {
   return rounds.map((_, at) => {
     const recent = rounds.slice(Math.max(0, at + 1 - SMOOTHED), at + 1);
-    const reached = recent.reduce((sum, round) => sum + round.reached, 0);
-    return (reached / (recent.length * period)) * 60;
+    const sumOf = (name) => recent.reduce((sum, round) => sum + round[name], 0);
+    const length = sumOf("length");
+    return length > 0 ? (sumOf("reached") / length) * 60 : 0;
   });
 }
 
@@ -65,13 +66,17 @@ export class FleetRun {
   #turn = 0; // counts starts and stops, so that late answers are dropped
   #places = new Map();
   #holds = new Map(); // id -> seconds from the start of the round
+  #present = /** @type {any} */ (null); // {request, answer} of the round
+  #end = 0; // of the round, seconds
   /** @type {Promise<any> | null} */
   #next = null; // of the request and answer of the next round
+  #planning = new AbortController(); // of the next round
   #isProceeding = false;
+  #plays = true; // after that
 
   running = false;
-  period = 2; // seconds of a round
-  /** @type {{reached: number, latency: number, unplanned: number}[]} */
+  period = 2; // seconds of a round that is not ended by a hold
+  /** @type {{length: number, reached: number, latency: number, unplanned: number}[]} */
   rounds = []; // that have ended
 
   /** `now()` is the wall clock in milliseconds. */
@@ -110,53 +115,73 @@ export class FleetRun {
     if (!this.running) return;
     this.running = false;
     this.#turn += 1;
+    this.#planning.abort();
     this.#next = null;
     this.#isProceeding = false;
     this.#session.pause();
     this.#signals.emit("change");
   }
 
-  /** Holds a robot for so many seconds from the round after the next one, which is planned already; 0 releases it. */
+  /** Holds a robot for so many seconds from now on; 0 releases it. */
   hold(robot, duration) {
-    if (duration > 0) this.#holds.set(robot, 2 * this.period + duration);
+    const { player } = this.#session;
+    if (duration > 0) this.#holds.set(robot, player.time + duration);
     else this.#holds.delete(robot);
     this.#signals.emit("change");
+    if (!this.running) return;
+    const plays = this.#isProceeding ? this.#plays : player.playing;
+    this.#session.pause(); // until there is the plan of a round that begins now
+    this.#turn += 1;
+    this.#planNext(player.time);
+    this.#proceed(plays);
   }
 
   /** Plans the next round while this one is played. */
-  #begin(request, answer) {
-    this.#next = this.#plan(request, answer);
-    this.#next.catch(() => {}); // it is awaited at the end of the round
+  #begin(request, answer, plays = true) {
+    this.#present = { request, answer };
+    this.#planNext(this.period);
     this.#signals.emit("change");
-    this.#session.play();
+    if (plays) this.#session.play();
     this.#watch();
   }
 
-  async #plan(request, { plans }) {
-    const at = this.period;
+  /** Plans the round that begins when this one, in its second `end`, has ended. */
+  #planNext(end) {
+    this.#end = end;
+    this.#planning.abort();
+    this.#planning = new AbortController();
+    this.#next = this.#plan(this.#present, end, this.#planning.signal);
+    this.#next.catch(() => {}); // it is awaited at the end of the round
+  }
+
+  async #plan({ request, answer: { plans } }, at, signal) {
     const holds = [...this.#holds]
       .filter(([, until]) => until > at)
       .map(([robot, until]) => ({ robot, until: until - at }));
     const goals = goalsAfter(plans, this.#places, at);
     const advanced = await this.#service.advance(
-      JSON.stringify({ request, plans, at, commit: at, goals, holds }),
+      JSON.stringify({ request, plans, at, commit: this.period, goals, holds }),
     );
+    signal.throwIfAborted();
     const asked = this.#now();
-    const answer = await this.#service.plan(JSON.stringify(advanced), undefined, NO_LISTENER);
+    const answer = await this.#service.plan(JSON.stringify(advanced), signal, NO_LISTENER);
     const latency = this.#now() - asked;
-    const figures = { reached: reachedBy(plans, at), latency, unplanned: answer.unplanned.length };
+    const reached = reachedBy(plans, at);
+    const figures = { length: at, reached, latency, unplanned: answer.unplanned.length };
     return { request: advanced, answer, figures };
   }
 
   /** Ends the round when it has been played. */
   #watch() {
     const { time, duration } = this.#session.player;
-    if (!this.running || this.#isProceeding || time < Math.min(this.period, duration)) return;
-    this.#isProceeding = true;
-    this.#proceed(this.#turn);
+    if (this.running && !this.#isProceeding && time >= Math.min(this.#end, duration)) this.#proceed(true);
   }
 
-  async #proceed(turn) {
+  /** Goes on with the next round as soon as it is planned. */
+  async #proceed(plays) {
+    const turn = this.#turn;
+    this.#isProceeding = true;
+    this.#plays = plays;
     let next;
     try {
       next = await this.#next;
@@ -167,15 +192,16 @@ export class FleetRun {
       return;
     }
     if (turn !== this.#turn) return;
-    const late = Math.max(0, this.#session.player.time - this.period);
+    const { time, playing } = this.#session.player;
+    const late = Math.max(0, time - this.#end);
     this.rounds = [...this.rounds, next.figures];
     for (const [robot, until] of this.#holds) {
-      if (until > this.period) this.#holds.set(robot, until - this.period);
+      if (until > this.#end) this.#holds.set(robot, until - this.#end);
       else this.#holds.delete(robot);
     }
     this.#session.proceed(next.request, next.answer);
     this.#session.seek(Math.min(late, this.period / 2));
     this.#isProceeding = false;
-    this.#begin(next.request, next.answer);
+    this.#begin(next.request, next.answer, plays || playing);
   }
 }

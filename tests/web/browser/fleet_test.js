@@ -53,7 +53,7 @@ for (const [size, options] of [
   });
 }
 
-test("a robot that is held by a click stands still, and the others go on", async () => {
+test("a robot that is held by a click stands still at once, and the others go on", async () => {
   await onPage(async (page) => {
     await openFleet(page, "hospital-ward");
     await page.getByLabel("Hold for").fill("60");
@@ -67,6 +67,7 @@ test("a robot that is held by a click stands still, and the others go on", async
     await page.keyboard.press("Space"); // paused, it is clicked where it is
     await page.waitForFunction(() => !window.fleetplan.playing);
     const { x, y } = await page.evaluate((robot) => window.fleetplan.screenOf(robot), id);
+    const clicked = await page.evaluate((robot) => window.fleetplan.poseOf(robot), id);
     const scene = await page.locator("#scene").boundingBox();
     await page.mouse.click(scene.x + x, scene.y + y);
     assert.equal(await hook(page, "selected"), id);
@@ -90,6 +91,8 @@ test("a robot that is held by a click stands still, and the others go on", async
         robots.map((robot) => robot.id),
       );
     const first = await poses();
+    const stands = first[robots.findIndex((robot) => robot.id === id)];
+    assert.ok(Math.hypot(stands.x - clicked.x, stands.y - clicked.y) < 1e-6, "where it was");
     const count = await page.evaluate(() => parseInt(/(\d+) round/.exec(document.body.innerText)[1], 10));
     await rounds(page, count + 2);
     const then = await poses();

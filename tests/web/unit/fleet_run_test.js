@@ -60,8 +60,14 @@ test("goals that are reached in a round count, services included", () => {
 });
 
 test("throughput is of the last few rounds", () => {
-  const rounds = [4, 0, 0, 0, 0, 5].map((reached) => ({ reached, latency: 1, unplanned: 0 }));
-  assert.deepEqual(throughput(rounds, 2), [120, 60, 40, 30, 24, 30]);
+  const round = (reached, length) => ({ length, reached, latency: 1, unplanned: 0 });
+  const rounds = [4, 0, 0, 0, 0, 5].map((reached) => round(reached, 2));
+  assert.deepEqual(throughput(rounds), [120, 60, 40, 30, 24, 30]);
+  assert.deepEqual(
+    throughput([round(0, 0), round(4, 2), round(1, 0.5)]),
+    [0, 120, 120],
+    "of cut rounds, too",
+  );
 });
 
 /** A session that plays the plan, and a run with a service that records what it is asked. */
@@ -111,13 +117,69 @@ test("rounds follow each other while the plan is played, and the selection stays
   assert.deepEqual([run.rounds.length, session.player.playing], [2, false]);
 });
 
-test("a held robot is held for its time, round by round", async () => {
-  const { run, asked, pass } = begin();
+test("a held robot stops at once, and is held for its time, round by round", async () => {
+  const { session, run, asked, pass } = begin();
   run.start(2);
+  await pass(1.5);
+  const { time } = session.player;
+  assert.ok(time > 0 && time < 2, "within the round");
   run.hold("a", 3);
-  await pass(9);
-  const held = asked.map(({ holds }) => holds);
-  assert.deepEqual(held.slice(0, 4), [[], [{ robot: "a", until: 3 }], [{ robot: "a", until: 1 }], []]);
+  await pass(6);
+  const sent = asked.map(({ at, commit, holds }) => ({ at, commit, holds }));
+  assert.deepEqual(sent.slice(0, 4), [
+    { at: 2, commit: 2, holds: [] },
+    { at: time, commit: 2, holds: [{ robot: "a", until: 3 }] },
+    { at: 2, commit: 2, holds: [{ robot: "a", until: 1 }] },
+    { at: 2, commit: 2, holds: [] },
+  ]);
+  assert.deepEqual(
+    run.rounds.slice(0, 2).map(({ length }) => length),
+    [time, 2],
+  );
+});
+
+test("the plan that a hold replaces is aborted, and its answer dropped", async () => {
+  const asked = [];
+  const plan = (text, signal) =>
+    new Promise((answer) => asked.push({ signal, answer: () => answer({ ...ANSWER, status: "solved" }) }));
+  const { session, run, pass } = begin({ plan });
+  run.start(2);
+  await pass(1);
+  run.hold("a", 3);
+  await pass(1);
+  assert.deepEqual(
+    asked.map(({ signal }) => signal.aborted),
+    [true, false],
+  );
+  asked[0].answer();
+  await pass(1);
+  assert.equal(run.rounds.length, 0);
+  assert.equal(session.player.playing, false, "nothing moves until the held robot is planned");
+  asked[1].answer();
+  await pass(1);
+  assert.equal(run.rounds.length, 1);
+  assert.equal(session.player.playing, true);
+});
+
+test("a robot that is held while the fleet is paused is planned at once, and the fleet stays paused", async () => {
+  const { session, run, asked, pass } = begin();
+  run.start(2);
+  await pass(1.5);
+  session.pause();
+  run.hold("b", 3);
+  run.hold("b", 0);
+  run.hold("a", 3);
+  await pass(1);
+  assert.equal(run.rounds.length, 1, "the last of them");
+  assert.deepEqual(run.holds, [{ robot: "a", left: 3 }]);
+  assert.equal(session.player.playing, false);
+  run.hold("a", 0);
+  await pass(1);
+  assert.deepEqual([run.holds, asked.at(-2).holds], [[], []]);
+  run.hold("a", 3);
+  session.play();
+  await pass(1);
+  assert.equal(session.player.playing, true, "unless it is played meanwhile");
 });
 
 test("a failure, or another request, stops the run", async () => {
