@@ -3,6 +3,7 @@
 import { EditPanel } from "./edit/edit_panel.js";
 import { Address } from "./files/address.js";
 import { KeptRequests } from "./files/kept_requests.js";
+import { mapTasks } from "./files/map_tasks.js";
 import { Opening } from "./files/opening.js";
 import { fileStem, watchSaving } from "./files/save.js";
 import { watchSharing } from "./files/sharing.js";
@@ -57,7 +58,7 @@ const show = (part) => {
   else tabs.choose(part === "comparison" ? "tab-analyse" : `tab-${part}`);
   if (part === "comparison") earlier.compare();
 };
-const opening = new Opening(session, service.fetchExample, show);
+const opening = new Opening(session, service.fetchExample, show, mapTasks());
 const address = new Address(session, opening, new KeptRequests());
 const setup = new Setup(session, opening);
 const planButton = new PlanButton(session, transport);

@@ -1,13 +1,10 @@
 // Opening what to plan: an example, files, a text, a link. The last choice wins.
 
-import { asRows } from "../model/drawn_map.js";
-import { prepareCells } from "../model/grid_cells.js";
 import { isSameTask } from "../model/earlier_plans.js";
 import { ConnectionLost, FileError, ProblemError } from "../model/problem.js";
 import { readLinkState } from "./address.js";
+import { prepareRequest } from "./prepare.js";
 import { Reader } from "./reader.js";
-import { prepareMap } from "./request_map.js";
-import { prepareMasks } from "./zone_masks.js";
 
 const NOT_KEPT =
   "This address is of a request that is too large for a link. It is kept only in the browser in which it was open, and " +
@@ -20,18 +17,21 @@ export class Opening {
   #session;
   #fetchExample;
   #show;
+  #work;
   #reader;
   #turn = 0; // counts choices, so that a late one does not replace a newer one
 
   /**
    * `fetchExample(name)` resolves to an example's text. `show(part)` brings a part of
-   * the page into sight: "plan", "comparison" (of the plan with the one before), "edit" or "problem".
+   * the page into sight: "plan", "comparison" (of the plan with the one before), "edit" or "problem". `work`: see
+   * MAP_WORK.
    */
-  constructor(session, fetchExample, show) {
+  constructor(session, fetchExample, show, work) {
     this.#session = session;
     this.#show = show;
     this.#fetchExample = fetchExample;
-    this.#reader = new Reader(session);
+    this.#work = work;
+    this.#reader = new Reader(session, work);
   }
 
   /** Whether anything was opened yet. */
@@ -83,8 +83,7 @@ export class Opening {
     this.#reader.dismiss();
     try {
       const opened = await read();
-      await Promise.all([prepareMap(opened?.request?.map), prepareMasks(opened?.request)]);
-      await prepareCells(asRows(opened?.request?.map)?.rows ?? [], nextTask);
+      await prepareRequest(opened?.request, this.#work, nextTask);
       await nextTask(); // reading and showing are two
       if (turn !== this.#turn || opened === null) return false;
       this.#open(opened, dropped);

@@ -5,10 +5,9 @@ import { asRows } from "../model/drawn_map.js";
 import { belongsTo, readDocument } from "../model/plan_file.js";
 import { FileError } from "../model/problem.js";
 import { HEAD_BYTES, imageNamed, sortFiles } from "./file_kinds.js";
-import { readImage } from "./map_image.js";
-import { checkMapOf, readMovingAiMap, readMovingAiScenario } from "./movingai.js";
+import { checkMapOf, readMovingAiScenario } from "./movingai.js";
 import { RosMapDialog } from "./ros_dialog.js";
-import { classifyPixels, readRosYaml } from "./ros_map.js";
+import { readRosYaml } from "./ros_map.js";
 import { ScenarioDialog } from "./scenario_dialog.js";
 
 /** @import {Answer, Request} from "../model/types.js" */
@@ -19,20 +18,26 @@ const INDOOR_RADIUS = 0.2; // metres, default radius on ROS maps
 
 export class Reader {
   #session;
+  #work;
   #dialogs;
+  #turn = 0; // counts dismissals, so that files that take long to read show no dialog after one
 
-  constructor(session) {
+  /** `work`: see MAP_WORK. */
+  constructor(session, work) {
     this.#session = session;
-    this.#dialogs = new ImportDialogs(session);
+    this.#work = work;
+    this.#dialogs = new ImportDialogs(session, work);
   }
 
-  /** Closes the dialog that is open, if one is. */
+  /** Closes the dialog that is open, if one is, and those of files that are still being read. */
   dismiss() {
+    this.#turn += 1;
     this.#dialogs.dismiss();
   }
 
   /** What files (File) contain together; null if their dialog is cancelled. Rejects with FileError. */
   async files(files) {
+    const turn = this.#turn;
     const heads = await Promise.all(files.map(headOf));
     /** @type {any} */
     const sorted = sortFiles(files.map((file, at) => ({ name: file.name, head: heads[at], file })));
@@ -42,11 +47,11 @@ export class Reader {
           await Promise.all(sorted.files.map(async ({ name, file }) => ({ name, text: await textOf(file) }))),
         );
       case "map":
-        return opened(sorted.map.name, withoutRobots(await readMap(sorted.map.file), CELL_SHARE));
+        return opened(sorted.map.name, withoutRobots(await this.#readMap(sorted.map.file), CELL_SHARE));
       case "scenario":
-        return this.#scenario(sorted);
+        return this.#scenario(sorted, turn);
       default:
-        return this.#rosMap(sorted);
+        return this.#rosMap(sorted, turn);
     }
   }
 
@@ -71,7 +76,7 @@ export class Reader {
     }
     if (!alone) {
       const { name, text, request, answer } = whole;
-      return { ...opened(name, request, answer), ...(answer === null ? { text } : {}) };
+      return answer === null ? opened(name, request, null, text) : opened(name, request, answer);
     }
     const { request } = whole ?? this.#session;
     if (!belongsTo(alone.answer, request)) {
@@ -85,11 +90,12 @@ export class Reader {
     return opened(whole?.name ?? this.#session.name, request, alone.answer);
   }
 
-  async #scenario({ scenario, map: drawn }) {
+  async #scenario({ scenario, map: drawn }, turn) {
     const text = await textOf(scenario.file);
     const entries = about(scenario, () => readMovingAiScenario(text));
-    const map = drawn ? await readMap(drawn.file) : this.#openMap(scenario.name, entries[0]);
+    const map = drawn ? await this.#readMap(drawn.file) : this.#openMap(scenario.name, entries[0]);
     about(scenario, () => checkMapOf(entries, map));
+    if (turn !== this.#turn) return null;
     const defaults = { radius: Number((CELL_SHARE * map.resolution).toPrecision(6)), ...SPEEDS };
     const request = await this.#dialogs.scenario(scenario.name, map, entries, defaults);
     return request && opened(scenario.name, request);
@@ -105,29 +111,29 @@ export class Reader {
     );
   }
 
-  async #rosMap({ yaml, images }) {
+  async #rosMap({ yaml, images }, turn) {
     const text = await textOf(yaml.file);
     const described = about(yaml, () => readRosYaml(text));
     const image = imageNamed(described.image, images, yaml.name);
     const bytes = await bytesOf(image.file);
-    const pixels = await about(image, () => readImage(bytes));
-    const grid = classifyPixels(described, pixels);
-    const map = await this.#dialogs.rosMap(yaml.name, grid, described.warnings);
+    const read = await about(image, () => this.#work.readRosImage(described, bytes));
+    if (turn !== this.#turn) return null;
+    const map = await this.#dialogs.rosMap(yaml.name, read, described.warnings);
     return map && opened(yaml.name, withoutRobots(map, INDOOR_RADIUS));
+  }
+
+  async #readMap(file) {
+    const text = await textOf(file);
+    return about(file, () => this.#work.readMovingAiMap(text));
   }
 }
 
-function opened(name, request, answer = null) {
-  return { name, example: null, text: JSON.stringify(request), request, answer };
+function opened(name, request, /** @type {Answer | null} */ answer = null, text = JSON.stringify(request)) {
+  return { name, example: null, text, request, answer };
 }
 
 function withoutRobots(map, radius) {
   return { map, robot_defaults: { radius, ...SPEEDS }, robots: [] };
-}
-
-async function readMap(file) {
-  const text = await textOf(file);
-  return about(file, () => readMovingAiMap(text));
 }
 
 function readJson(text) {
@@ -176,11 +182,13 @@ async function reading({ name }, read) {
 /** The dialogs about files with a choice; one at a time. */
 class ImportDialogs {
   #session;
+  #work;
   /** @type {RosMapDialog | ScenarioDialog | null} */
   #shown = null;
 
-  constructor(session) {
+  constructor(session, work) {
     this.#session = session;
+    this.#work = work;
   }
 
   /** Resolves to a request with robots of a scenario, or to null if it is cancelled. */
@@ -190,9 +198,9 @@ class ImportDialogs {
   }
 
   /** Resolves to the map of a request, or to null if it is cancelled. */
-  rosMap(name, grid, warnings) {
+  rosMap(name, read, warnings) {
     const most = this.#session.limits.max_cells ?? Infinity;
-    return this.#ask(new RosMapDialog(name, grid, warnings, most));
+    return this.#ask(new RosMapDialog(name, read, warnings, most, this.#work));
   }
 
   /** Cancels the current dialog. */

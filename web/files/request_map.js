@@ -1,7 +1,6 @@
 // The maps of a request that are not rows of letters, read as the service reads them, to draw and edit them; and an
-// imported map as one of a request.
+// imported map as one of a request. It takes long for large maps, see map_work.js.
 
-import { asRows, rememberRows } from "../model/drawn_map.js";
 import { FileError } from "../model/problem.js";
 import { readImage } from "./map_image.js";
 import { readMovingAiMap } from "./movingai.js";
@@ -23,10 +22,13 @@ GRAYS[FREE] = 254;
 GRAYS[OCCUPIED] = 0;
 GRAYS[UNKNOWN] = 205;
 
-/** A grid (see ros_map.js) as the map of a request: an image if it is large. Unknown cells are blocked or free. */
+/**
+ * A grid (see ros_map.js) as the map of a request: an image if it is large. Unknown cells are blocked or free. Resolves to
+ * {map, rows}, with the map as one of rows.
+ */
 export async function requestMapOf(grid, unknownFree) {
   const rows = mapOfGrid(grid, unknownFree);
-  if (grid.cells.length <= MOST_AS_ROWS) return rows;
+  if (grid.cells.length <= MOST_AS_ROWS) return { map: rows, rows };
   const { columns, resolution, origin } = grid;
   const png = await writePng(
     columns,
@@ -42,9 +44,7 @@ export async function requestMapOf(grid, unknownFree) {
     free_thresh: FREE_THRESH,
     mode: "trinary",
   };
-  const map = { image, ...(unknownFree ? { unknown: "free" } : {}) };
-  rememberRows(map, rows);
-  return map;
+  return { map: { image, ...(unknownFree ? { unknown: "free" } : {}) }, rows };
 }
 
 function base64Of(bytes) {
@@ -54,17 +54,15 @@ function base64Of(bytes) {
   return btoa(text);
 }
 
-/** Reads the map of a request. One that cannot be read is not drawn; the service reports its faults. */
-export async function prepareMap(map) {
-  if (map === null || typeof map !== "object" || asRows(map) !== null) return;
-  const rows = await rowsOf(map).catch((error) => {
+/** A map of another kind as {rows, resolution, origin}; null if it cannot be read: the service reports its faults. */
+export function readRequestMap(map) {
+  return rowsOf(map).catch((error) => {
     if (error instanceof FileError) return null;
     throw error;
   });
-  if (rows !== null) rememberRows(map, rows);
 }
 
-/** The map as {rows, resolution, origin}; null if it is of no kind that can be read. Rejects with FileError. */
+/** The same; null if it is of no kind that can be read. Rejects with FileError. */
 async function rowsOf(map) {
   if (typeof map.movingai === "string") return rowsOfMovingAi(map);
   const grid = isObject(map.image)

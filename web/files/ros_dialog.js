@@ -1,11 +1,11 @@
 // The dialog of a ROS map: its unknown cells, its margin, and how many cells are merged.
 
+import { rememberRows } from "../model/drawn_map.js";
 import { MapPreview } from "../scene/map_raster.js";
 import { element, setText } from "../ui/dom.js";
 import { FormDialog, numberField } from "../ui/form_dialog.js";
 import { metres } from "../ui/format.js";
-import { requestMapOf } from "./request_map.js";
-import { countCells, mergeCells, OCCUPIED, smallestFactor, trimUnknown, UNKNOWN } from "./ros_map.js";
+import { FREE, OCCUPIED, smallestFactor, UNKNOWN } from "./ros_map.js";
 
 const MOST_MERGED = 100; // cells per side that are merged into one
 
@@ -13,20 +13,26 @@ export class RosMapDialog {
   #whole;
   #trimmed;
   #most;
+  #work;
   #preview = new MapPreview();
   #status = element("p", { class: "dialog-status", role: "status" });
   #unknownFree = element("input", { type: "checkbox", id: "ros-unknown-free" });
   #trim = element("input", { type: "checkbox", id: "ros-trim", checked: true });
   #merge;
   #dialog;
+  #turn = 0; // counts changes of the fields
   /** @type {any} */
-  #made = null; // a grid for the current fields; null while one is invalid
+  #made = null; // {grid, counts} for the current fields; null while one is invalid, and until it is made
+  #failure = /** @type {any} */ (null);
 
-  /** `grid`: see classifyPixels; at most `most` cells; `warnings` are shown. */
-  constructor(name, grid, warnings, most) {
-    this.#whole = grid;
-    this.#trimmed = trimUnknown(grid);
+  /**
+   * `read`: see readRosImage of `work`, MAP_WORK; at most `most` cells; `warnings` are shown.
+   */
+  constructor(name, { whole, trimmed, counts }, warnings, most, work) {
+    this.#whole = whole;
+    this.#trimmed = trimmed;
     this.#most = most;
+    this.#work = work;
     this.#merge = numberField(
       "ros-merge",
       "Cells merged into one",
@@ -40,7 +46,7 @@ export class RosMapDialog {
       `Map of ${name}`,
       "Import",
       notes.length > 0 ? element("ul", { class: "warnings", "aria-label": "Warnings" }, ...notes) : null,
-      element("p", { textContent: inWords(grid) }),
+      element("p", { textContent: inWords(whole, counts) }),
       tick(this.#unknownFree, "Unknown cells are free (otherwise blocked)"),
       tick(this.#trim, "Crop the unknown margin"),
       this.#merge.field,
@@ -52,37 +58,54 @@ export class RosMapDialog {
     }
   }
 
-  /** Resolves to the map of a request, or to null if it was cancelled. */
+  /** Resolves to the map of a request, or to null if it was cancelled. Rejects with FileError. */
   async ask() {
     const sent = this.#dialog.ask();
     this.#refresh();
-    return (await sent) ? requestMapOf(this.#made, this.#unknownFree.checked) : null;
+    const isSent = await sent;
+    if (this.#failure !== null) throw this.#failure;
+    if (!isSent) return null;
+    const { map, rows } = await this.#work.requestMapOf(this.#made.grid, this.#unknownFree.checked);
+    rememberRows(map, rows);
+    return map;
   }
 
   cancel() {
     this.#dialog.cancel();
   }
 
-  #refresh() {
+  async #refresh() {
+    const turn = (this.#turn += 1);
     const { input } = this.#merge;
     const source = this.#trim.checked ? this.#trimmed : this.#whole;
-    const made = input.checkValidity() ? mergeCells(source, input.valueAsNumber) : null;
-    const fits = made !== null && made.cells.length <= this.#most;
+    this.#dialog.ready = false;
+    const made = input.checkValidity() ? await this.#merged(source, input.valueAsNumber) : null;
+    if (turn !== this.#turn || this.#failure !== null) return;
+    const fits = made !== null && made.grid.cells.length <= this.#most;
     this.#made = made;
     this.#dialog.ready = fits;
     this.#status.classList.toggle("wrong", !fits);
-    setText(this.#status, made ? this.#outcome(source) : `Merge 1 to ${MOST_MERGED} cells a side.`);
-    if (made) this.#paint(made);
+    setText(this.#status, made ? this.#outcome(source, made) : `Merge 1 to ${MOST_MERGED} cells a side.`);
+    if (made) this.#paint(made.grid);
   }
 
-  #outcome(source) {
-    const { columns, rows, cells, resolution, origin } = this.#made;
+  async #merged(source, factor) {
+    try {
+      return await this.#work.mergeCells(source, factor);
+    } catch (error) {
+      this.#failure = error;
+      this.#dialog.cancel();
+      return null;
+    }
+  }
+
+  #outcome(source, { grid, counts }) {
+    const { columns, rows, cells, resolution, origin } = grid;
     const total = cells.length.toLocaleString("en");
     const size = `${columns} × ${rows} = ${total} cells of ${metres(resolution)}`;
     const most = this.#most.toLocaleString("en");
     if (cells.length > this.#most)
       return `${size}: the service accepts at most ${most}. Merge at least ${smallestFactor(source, this.#most)}.`;
-    const counts = countCells(this.#made);
     const blocked = counts[OCCUPIED] + (this.#unknownFree.checked ? 0 : counts[UNKNOWN]);
     const limit = Number.isFinite(this.#most) ? ` (at most ${most})` : "";
     return (
@@ -91,15 +114,17 @@ export class RosMapDialog {
     );
   }
 
-  #paint(made) {
-    const layerOf = (kind, colour) => ({ cells: made.cells.map((cell) => (cell === kind ? 1 : 0)), colour });
-    const unknown = layerOf(UNKNOWN, this.#unknownFree.checked ? "void" : "wall");
-    this.#preview.paint(made, [layerOf(OCCUPIED, "wall"), unknown], "The map as imported");
+  #paint(grid) {
+    const colours = [];
+    colours[FREE] = null;
+    colours[OCCUPIED] = "wall";
+    colours[UNKNOWN] = this.#unknownFree.checked ? "void" : "wall";
+    this.#preview.paint(grid, colours, "The map as imported");
   }
 }
 
-function inWords(grid) {
-  const unknown = percent(countCells(grid)[UNKNOWN], grid.cells.length);
+function inWords(grid, counts) {
+  const unknown = percent(counts[UNKNOWN], grid.cells.length);
   return `${grid.columns} × ${grid.rows} pixels of ${metres(grid.resolution)}, ${unknown} unknown.`;
 }
 

@@ -1,5 +1,6 @@
 // The dialog of a scenario: the number of robots, their radius and speeds.
 
+import { readRows } from "../model/grid_cells.js";
 import { MapPreview } from "../scene/map_raster.js";
 import { robotColour } from "../scene/palette.js";
 import { element, setText } from "../ui/dom.js";
@@ -11,6 +12,7 @@ const FIRST_COUNT = 10; // robots at first, if there are as many
 
 export class ScenarioDialog {
   #map;
+  #grid; // for the preview
   #entries;
   #preview = new MapPreview();
   #status = element("p", { class: "dialog-status", role: "status" });
@@ -22,6 +24,9 @@ export class ScenarioDialog {
   /** `entries` on `map`: see readMovingAiScenario. At most `most` robots. `defaults`: initial values. */
   constructor(name, map, entries, defaults, most) {
     this.#map = map;
+    const [columns, rows] = [map.rows[0].length, map.rows.length];
+    this.#grid = { columns, rows, cells: new Uint8Array(columns * rows) };
+    readRows(map.rows, columns, this.#grid.cells, 0, rows);
     this.#entries = entries;
     const robots = Math.min(entries.length, most);
     const positive = { min: "0" };
@@ -86,12 +91,9 @@ export class ScenarioDialog {
   }
 
   #paint(robots, reach) {
-    const { rows } = this.#map;
-    const blocked = Uint8Array.from(rows.join(""), (letter) => (".G".includes(letter) ? 0 : 1));
-    const size = { columns: rows[0].length, rows: rows.length };
     this.#preview.paint(
-      size,
-      [{ cells: blocked, colour: "wall" }],
+      this.#grid,
+      [null, "wall"],
       `The map with the starts of ${count(robots, "robot")}`,
       (context, theme, place) => {
         this.#made?.cells.forEach(({ start, goal }, index) => {

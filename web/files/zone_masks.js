@@ -1,32 +1,25 @@
-// The masks of zones, read as the service reads them, to draw them: images with one pixel for each cell of the map.
+// The masks of zones, read as the service reads them, to draw them: images with one pixel for each cell of the map. It
+// takes long for large ones, see map_work.js.
 
-import { rememberMask, maskOf } from "../model/drawn_map.js";
-import { zonesOf } from "../model/listed.js";
 import { FileError } from "../model/problem.js";
 import { readImage } from "./map_image.js";
 import { bytesOfBase64 } from "./request_map.js";
 import { FREE_THRESH, OCCUPIED_THRESH, occupancyOf } from "./ros_map.js";
 
-/** Reads the masks of a request's zones. One that cannot be read is not drawn; the service reports its faults. */
-export async function prepareMasks(request) {
-  const masks = zonesOf(request)
-    .map((zone) => zone?.mask)
-    .filter((mask) => isObject(mask) && maskOf(mask) === null);
-  await Promise.all(masks.map(prepareMask));
-}
-
-async function prepareMask(mask) {
+/** What a mask looks like, see percentages; null if it cannot be read: the service reports its faults. */
+export async function readMask(mask) {
   const encoded = mask.png ?? mask.pgm;
-  if (typeof encoded !== "string") return;
+  if (typeof encoded !== "string") return null;
   try {
-    rememberMask(mask, percentages(mask, await readImage(bytesOfBase64(encoded))));
+    return percentages(mask, await readImage(bytesOfBase64(encoded)));
   } catch (error) {
-    if (!(error instanceof FileError)) throw error;
+    if (error instanceof FileError) return null;
+    throw error;
   }
 }
 
 /** The percentages of the pixels, row by row from the top, 0 for unknown ones: {columns, rows, percents}. */
-export function percentages(mask, { width, height, channels, largest, values }) {
+function percentages(mask, { width, height, channels, largest, values }) {
   const described = {
     negate: mask.negate === true || mask.negate === 1,
     occupiedThresh: mask.occupied_thresh ?? OCCUPIED_THRESH,
@@ -40,5 +33,3 @@ export function percentages(mask, { width, height, channels, largest, values }) 
   }
   return { columns: width, rows: height, percents };
 }
-
-const isObject = (value) => value !== null && typeof value === "object";

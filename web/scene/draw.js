@@ -42,7 +42,7 @@ export class Painter {
 
   /** What to paint from now on, and how: see Stage.look. */
   show(scene, tracks, theme, look) {
-    this.#map.show(scene.grid, theme.wall);
+    this.#map.show(scene.grid, [null, theme.wall]);
     this.#colours = scene.robots.map(({ index }) => robotColour(index, theme.robotLightness));
     this.#scene = scene;
     this.#tracks = tracks;

@@ -6,25 +6,27 @@ import { readTheme } from "./palette.js";
 const TILE = 2048; // cells per side: supported by the canvases of all browsers
 const MOST_CELLS = 2 ** 24; // larger previews would be slower than typing
 
-/** The map of a grid (see readScene) as tiles: blocked cells in the wall's colour, free ones clear. */
+/** A map as tiles: each cell in the colour of its value. */
 export class MapRaster {
   /** @type {any} */
   #grid = null;
-  #wallColour = null;
-  #wall = 0; // the colour as the bytes of a pixel
+  #colours = "";
+  #pixels = new Uint32Array(0); // the colours as the bytes of a pixel
   #tiles = []; // [{canvas, column, row, columns, rows}]
 
   /**
-   * What to draw from now on; `grid` may be null. Only the changed rows of an edited grid are painted again.
+   * What to draw from now on: a grid (see readScene), which may be null, in CSS colours by the values of its cells, null
+   * for clear. Only the changed rows of an edited grid are painted again.
    */
-  show(grid, wallColour) {
+  show(grid, colours) {
     const before = this.#grid;
-    if (grid === before && wallColour === this.#wallColour) return;
+    const named = colours.join();
+    if (grid === before && named === this.#colours) return;
     const alike = grid?.columns === before?.columns && grid?.rows === before?.rows;
     this.#grid = grid;
-    if (wallColour !== this.#wallColour || !alike) {
-      this.#wallColour = wallColour;
-      this.#wall = rgbaOf(wallColour);
+    if (named !== this.#colours || !alike) {
+      this.#colours = named;
+      this.#pixels = Uint32Array.from(colours, (colour) => (colour === null ? 0 : rgbaOf(colour)));
       this.#tiles = grid ? tilesOf(grid) : [];
       this.#paint(0, grid?.rows ?? 0);
     } else {
@@ -51,7 +53,7 @@ export class MapRaster {
     for (const tile of this.#tiles) {
       const from = Math.max(begin, tile.row);
       const to = Math.min(end, tile.row + tile.rows);
-      if (from < to) paintRows(tile, this.#grid, from, to, this.#wall);
+      if (from < to) paintRows(tile, this.#grid, from, to, this.#pixels);
     }
   }
 }
@@ -80,15 +82,16 @@ function changedRows(before, grid) {
   return [begin, end];
 }
 
-function paintRows({ canvas, column, row, columns }, grid, from, to, wall) {
+function paintRows({ canvas, column, row, columns }, grid, from, to, colours) {
   const context = contextOf(canvas);
   const image = context.createImageData(columns, to - from);
   const pixels = new Uint32Array(image.data.buffer);
+  const { blocked } = grid;
   for (let y = from; y < to; y += 1) {
     const first = y * grid.columns + column;
     const at = (y - from) * columns;
     for (let x = 0; x < columns; x += 1) {
-      if (grid.blocked[first + x]) pixels[at + x] = wall;
+      pixels[at + x] = colours[blocked[first + x]];
     }
   }
   context.putImageData(image, 0, from - row);
@@ -108,12 +111,11 @@ export class MapPreview {
   canvas = element("canvas", { class: "map-preview", role: "img" });
 
   /**
-   * Paints a map of this size. `layers` are the cells in each colour: [{cells, colour}], `cells` row by row
-   * from the top, 0 for none, `colour` a name in the theme. `label` describes it. `mark(context, theme,
-   * place)` may add to it, where place(column, row) is the middle of a cell {x, y} with `cell`, a cell's
+   * Paints a map of these cells, row by row from the top; `colours` are names in the theme by the values of cells, null
+   * for the floor. `label` describes it. `mark(context, theme, place)` may add to it, where place(column, row) is the middle of a cell {x, y} with `cell`, a cell's
    * side, in pixels.
    */
-  paint({ columns, rows }, layers, label, mark = /** @type {any} */ (null)) {
+  paint({ columns, rows, cells }, colours, label, mark = /** @type {any} */ (null)) {
     const { canvas } = this;
     const ratio = window.devicePixelRatio || 1;
     canvas.setAttribute("aria-label", label);
@@ -127,9 +129,12 @@ export class MapPreview {
     const top = (canvas.height - rows * cell) / 2;
     context.fillStyle = theme.floor;
     context.fillRect(left, top, columns * cell, rows * cell);
-    for (const { cells, colour } of columns * rows <= MOST_CELLS ? layers : []) {
+    if (columns * rows <= MOST_CELLS) {
       const raster = new MapRaster();
-      raster.show({ columns, rows, blocked: cells }, theme[colour]);
+      raster.show(
+        { columns, rows, blocked: cells },
+        colours.map((name) => name && theme[name]),
+      );
       raster.draw(context, left, top, cell);
     }
     mark?.(context, theme, (column, row) => ({

@@ -95,7 +95,7 @@ export class Minimap {
     const context = contextOf(this.#base);
     context.fillStyle = floor;
     context.fillRect(0, 0, width, height);
-    this.#raster.show(grid, wall);
+    this.#raster.show(grid, [null, wall]);
     this.#raster.draw(context, 0, 0, Math.min(width / grid.columns, height / grid.rows));
   }
 }

@@ -111,6 +111,7 @@ test("the mask of a zone is drawn on its cells, and planned around", async () =>
     const rows = HALL.map.rows.map((line, row) => [...line].map((_, column) => blocked(column, row)));
     const zone = { id: "keepout", type: "blocked", mask: { png: png(0, rows).toString("base64") } };
     await paste(page, { ...HALL, zones: [zone] });
+    await page.waitForFunction(() => window.fleetplan.request.zones?.[0].mask);
     const places = await page.evaluate(() =>
       [
         { x: 4.2, y: 1.2 },

@@ -6,9 +6,8 @@ import { after, test } from "node:test";
 
 import { readImage } from "../../../web/files/map_image.js";
 import { readMovingAiMap } from "../../../web/files/movingai.js";
-import { prepareMap } from "../../../web/files/request_map.js";
+import { readRequestMap } from "../../../web/files/request_map.js";
 import { classifyPixels, mapOfGrid, readRosYaml } from "../../../web/files/ros_map.js";
-import { asRows } from "../../../web/model/drawn_map.js";
 import { pgm, png } from "../support/map_files.js";
 import { startService } from "../support/service.js";
 
@@ -49,8 +48,8 @@ async function rowsOfService(map) {
 
 /** The rows that the page draws of the map of a request. */
 async function rowsOfPage(map) {
-  await prepareMap(map);
-  return asRows(map)?.rows.map((row) => row.replaceAll(/[@OTW]/g, "#").replaceAll("G", "."));
+  const read = await readRequestMap(map);
+  return read?.rows.map((row) => row.replaceAll(/[@OTW]/g, "#").replaceAll("G", "."));
 }
 
 async function assertAgree(map) {

@@ -1,7 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { prepareMap, requestMapOf } from "../../../web/files/request_map.js";
+import { MAP_WORK } from "../../../web/files/map_work.js";
+import { prepareRequest } from "../../../web/files/prepare.js";
+import { requestMapOf } from "../../../web/files/request_map.js";
 import { mapOfGrid } from "../../../web/files/ros_map.js";
 import { asRows } from "../../../web/model/drawn_map.js";
 import { setCells, setOrigin } from "../../../web/model/edit_request.js";
@@ -27,7 +29,7 @@ const GRID = {
 };
 
 async function drawn(map) {
-  await prepareMap(map);
+  await prepareRequest({ map }, MAP_WORK, async () => {});
   return asRows(map);
 }
 
@@ -77,7 +79,7 @@ test("a faulty map is not drawn", async () => {
 
 test("a map becomes rows when it is edited, and all else is kept", async () => {
   const request = { map: { image: IMAGE }, robots: [], zones: [{ id: "z" }], metadata: { site: 7 } };
-  await prepareMap(request.map);
+  await drawn(request.map);
   const { grid } = readScene(request);
   assert.deepEqual([grid.columns, grid.rows, grid.resolution], [3, 2, 0.5]);
   assert.deepEqual(grid.bounds, { left: 1, bottom: -2, right: 2.5, top: -1 });
@@ -93,12 +95,12 @@ test("a map becomes rows when it is edited, and all else is kept", async () => {
 test("a large imported map becomes an image, and a small one rows", async () => {
   const grid = { columns: 600, rows: 500, resolution: 0.05, origin: { x: 1, y: -2 } };
   const cells = Uint8Array.from({ length: 300_000 }, (_, at) => (at * 7) % 3); // free, occupied and unknown ones
-  const map = await requestMapOf({ ...grid, cells }, true);
+  const { map, rows } = await requestMapOf({ ...grid, cells }, true);
   assert.deepEqual(map.image.origin, [1, -2, 0]);
   assert.equal(map.unknown, "free");
-  assert.deepEqual(asRows(map), mapOfGrid({ ...grid, cells }, true));
-  assert.deepEqual(await drawn(structuredClone(map)), asRows(map), "as it is read again");
+  assert.deepEqual(rows, mapOfGrid({ ...grid, cells }, true));
+  assert.deepEqual(await drawn(map), rows, "as it is read again");
   assert.ok(map.image.png.length < 30_000);
   const small = { ...grid, columns: 3, rows: 1, cells: cells.subarray(0, 3) };
-  assert.deepEqual(await requestMapOf(small, false), mapOfGrid(small, false));
+  assert.deepEqual((await requestMapOf(small, false)).map, mapOfGrid(small, false));
 });

@@ -1,12 +1,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { prepareMasks } from "../../../web/files/zone_masks.js";
+import { MAP_WORK } from "../../../web/files/map_work.js";
+import { prepareRequest } from "../../../web/files/prepare.js";
 import { maskOf } from "../../../web/model/drawn_map.js";
 import { readScene } from "../../../web/model/scene.js";
 import { opacityOf } from "../../../web/scene/mask_raster.js";
 import { pgm, png } from "../support/map_files.js";
 
+const prepareMasks = (request) => prepareRequest(request, MAP_WORK, async () => {});
 const base64 = (bytes) => bytes.toString("base64");
 const maskZone = (type, mask) => ({ id: "lab", type, mask });
 
