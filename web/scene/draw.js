@@ -22,6 +22,7 @@ const OUTDATED = { width: 1.25, alpha: 0.5, dashes: [3, 4] };
 const FAINT = { width: 1.25, alpha: 0.34 };
 const MANY = 100; // robots: paths of more are fainter, or they would cover the map, and wait until the camera rests
 const FAINTEST = 0.05;
+const PART = 20; // robots that are painted on the backdrop in one go
 
 export class Painter {
   #canvas;
@@ -93,12 +94,13 @@ export class Painter {
     for (const overlay of overlays) overlay(context, view);
   }
 
-  #paintBackdrop(context, { camera, viewport, ratio, width, height }) {
+  /** Yields now and then, see Backdrop. */
+  *#paintBackdrop(context, { camera, viewport, ratio, width, height }) {
     context.fillStyle = this.#theme.void;
     context.fillRect(0, 0, width, height);
     if (this.#scene.grid) this.#paintMap(context, camera, viewport, ratio);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    this.#paintPlan(context, camera, viewport);
+    yield* this.#paintPlan(context, camera, viewport);
   }
 
   #paintMap(context, camera, viewport, ratio) {
@@ -120,7 +122,7 @@ export class Painter {
     context.strokeRect(x - line / 2, y - line / 2, width + line, height + line);
   }
 
-  #paintPlan(context, camera, viewport) {
+  *#paintPlan(context, camera, viewport) {
     const screen = (point) => toScreen(camera, viewport, point);
     this.#paintHeat(context, camera, screen);
     for (const zone of this.#scene.zones) drawZone(context, this.#theme, zone, screen, camera.scale);
@@ -129,7 +131,8 @@ export class Painter {
       if (shown) drawPath(context, motion.map(screen), this.#theme.ink, CROSSING);
     }
     const faint = pathLine(this.#scene.robots.length);
-    this.#scene.robots.forEach((robot, at) => {
+    for (const [at, robot] of this.#scene.robots.entries()) {
+      if (at % PART === 0) yield;
       const track = this.#tracks.get(robot.id);
       const radius = robot.radius * camera.scale;
       const colour = this.#colours[at];
@@ -140,7 +143,7 @@ export class Painter {
       if (shown) drawPath(context, robot.committed.map(screen), colour, COMMITTED);
       if (track.actions.length > 0) drawStart(context, screen(robot.start), radius, colour);
       this.#paintGoals(context, robot, radius, colour, screen);
-    });
+    }
   }
 
   #paintHeat(context, { scale }, screen) {
