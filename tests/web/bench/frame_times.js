@@ -1,102 +1,206 @@
-// How long a frame takes while 300 robots play: the CPU time of the page's main thread from one frame to the next, for
-// script, layout and drawing together, as reported by Chromium's tracing. Without a GPU, so that canvases are painted by
-// the CPU; other work on the machine does not count, but for what it costs caches.
+// Whether the page stays responsive with a thousand robots or four million cells: its longest task while these are
+// opened or planned, and the scripts and styles of a frame while the camera moves or the plan plays. CPU time of the
+// page's main thread, as reported by Chromium's tracing, without a GPU: "painted" has the painting of canvases, which a
+// GPU would do. Other work on the machine does not count, but for what it costs caches. Medians of some runs.
 //
-//   FLEETPLAN_BIN=… node bench/frame_times.js [robots] [seconds]
+//   FLEETPLAN_BIN=… node bench/frame_times.js [runs] [seconds of each movement]
 
-import { openPage, pressPlan, startBrowser } from "../support/browser.js";
+import { mkdtemp, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+import { openPage, startBrowser } from "../support/browser.js";
 import { startService } from "../support/service.js";
+import { buildingAsImage, buildingAsRows, buildingOfRos, warehouseOf } from "./requests.js";
+import { framesOf, longestTask, traced } from "./tracing.js";
 
-const ROBOTS = Number(process.argv[2] ?? 300);
-const SECONDS = Number(process.argv[3] ?? 10);
-const SIDE = 64; // cells
+const RUNS = Number(process.argv[2] ?? 3);
+const SECONDS = Number(process.argv[3] ?? 5);
+const AIM = { task: 100, frame: 8 }; // milliseconds
+const FLEETS = [500, 1000];
+const SETTLED_MS = 2500; // after what was waited for: checks, lists and pictures follow
+const EVERY_MS = 16;
+const PATIENT = { timeout: 60_000 };
 
-/** Numbers in [0, 1), the same each time (a linear congruential generator, constants of Numerical Recipes). */
-function sequence(seed) {
-  let state = seed;
-  return () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32;
+/** Opens files of the disk: contents that are passed to the page would take its time. */
+async function openFiles(page, files) {
+  const paths = Object.entries(files).map(([name, content]) => [join(folder, name), content]);
+  for (const [path, content] of paths) await writeFile(path, content);
+  await page.setInputFiles(
+    "#file",
+    paths.map(([path]) => path),
+  );
 }
 
-/** Robots between random cells of an empty hall, no two starts and no two goals on one cell. */
-function request() {
-  const random = sequence(1);
-  const cells = () => {
-    const taken = new Set();
-    while (taken.size < ROBOTS) taken.add(Math.floor(random() * SIDE * SIDE));
-    return [...taken].map((cell) => ({ x: (cell % SIDE) + 0.5, y: Math.floor(cell / SIDE) + 0.5 }));
+/** Opens a request by these steps. */
+async function opened(page, steps) {
+  const before = await page.evaluateHandle(() => window.fleetplan.request);
+  await steps();
+  await page.waitForFunction((request) => window.fleetplan.request !== request, before);
+}
+
+const hasCheck = (page) => page.waitForFunction(() => window.fleetplan.check !== null, null, PATIENT);
+
+/** Steps whose longest task counts: [name, prepare(page), steps(page)]. */
+function openings(request, plan) {
+  const robots = `${request.robots.length} robots`;
+  const none = async () => {};
+  const openRequest = (page) =>
+    opened(page, () => openFiles(page, { "warehouse.json": JSON.stringify(request) }));
+  const openBuilding = (request) => (page) =>
+    opened(page, () => openFiles(page, { "building.json": JSON.stringify(request) }));
+  const openRos = (page) =>
+    opened(page, async () => {
+      await openFiles(page, buildingOfRos());
+      await page.click("dialog[open] .primary");
+    });
+  const openPlan = async (page) => {
+    await openFiles(page, { "warehouse.plan.json": plan });
+    await hasCheck(page);
   };
-  const [starts, goals] = [cells(), cells()];
-  return {
-    map: { rows: Array(SIDE).fill(".".repeat(SIDE)) },
-    robot_defaults: { radius: 0.4, linear_speed: 1, angular_speed: 1.5 },
-    robots: starts.map((start, at) => ({ id: `robot-${at + 1}`, start, goal: goals[at] })),
-    options: { time_budget_ms: 60_000 },
+  const showRequest = async (page) => {
+    await openRequest(page);
+    await page.waitForTimeout(SETTLED_MS);
   };
+  const pressPlan = async (page) => {
+    await page.click("#plan");
+    await page.waitForFunction(() => window.fleetplan.answer !== null, null, PATIENT);
+  };
+  return [
+    ["open 4 M cells as rows", none, openBuilding(buildingAsRows())],
+    ["open 4 M cells as an image", none, openBuilding(buildingAsImage())],
+    ["open 4 M cells of ROS", none, openRos],
+    [`open ${robots}`, none, openRequest],
+    [`open a plan of ${robots}`, none, openPlan],
+    [`adopt a plan of ${robots}`, showRequest, pressPlan],
+  ];
 }
 
-async function trace(page, milliseconds) {
-  const client = await page.context().newCDPSession(page);
-  const events = [];
-  client.on("Tracing.dataCollected", ({ value }) => events.push(...value));
-  const complete = new Promise((resolve) => client.once("Tracing.tracingComplete", resolve));
-  const includedCategories = ["devtools.timeline", "disabled-by-default-devtools.timeline"];
-  await client.send("Tracing.start", { transferMode: "ReportEvents", traceConfig: { includedCategories } });
-  await page.waitForTimeout(milliseconds);
-  await client.send("Tracing.end");
-  await complete;
-  return events;
+async function movement(page, step) {
+  const end = Date.now() + SECONDS * 1000;
+  for (let at = 0; Date.now() < end; at += 1) {
+    await step(at);
+    await page.waitForTimeout(EVERY_MS);
+  }
 }
 
-const DRAWING = ["UpdateLayoutTree", "Layout", "PrePaint", "Paint", "Layerize", "Commit"];
-
-/**
- * CPU milliseconds of the page's main thread for each frame: [{script, drawn, all}], in scripts alone, with style,
- * layout and drawing, and with all that the browser does beside them.
- */
-function framesOf(events) {
-  const scripts = events.filter(({ name }) => name === "FireAnimationFrame");
-  const { pid, tid } = scripts[0];
-  const own = (name) =>
-    events
-      .filter(
-        (event) => event.name === name && event.pid === pid && event.tid === tid && event.tdur !== undefined,
-      )
-      .sort((a, b) => a.ts - b.ts);
-  const tasks = own("RunTask");
-  const drawn = [...scripts, ...DRAWING.flatMap(own)];
-  const begins = own("Commit").map(({ ts, dur }) => ts + dur); // a frame ends with its commit
-  const sum = (parts, from, to) =>
-    parts.reduce((total, { ts, tdur }) => total + (ts >= from && ts < to ? tdur : 0), 0) / 1000;
-  return begins.slice(1).map((end, at) => ({
-    script: sum(scripts, begins[at], end),
-    drawn: sum(drawn, begins[at], end),
-    all: sum(tasks, begins[at], end),
-  }));
-}
+/** Movements whose frames count: [name, steps(page)], of a plan that is open. */
+const MOVEMENTS = [
+  [
+    "zoom",
+    async (page, middle) => {
+      await page.mouse.move(...middle);
+      await movement(page, (at) => page.mouse.wheel(0, at % 60 < 30 ? -60 : 60));
+    },
+  ],
+  [
+    "pan",
+    async (page, [x, y]) => {
+      await page.focus("#scene");
+      for (let times = 0; times < 3; times += 1) await page.keyboard.press("+");
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+      await movement(page, (at) => page.mouse.move(x + 200 * Math.sin(at / 15), y + 100 * Math.cos(at / 15)));
+      await page.mouse.up();
+    },
+  ],
+  [
+    "play",
+    async (page) => {
+      await page.keyboard.press("f");
+      await page.click("#play");
+      await page.waitForTimeout(SECONDS * 1000);
+      await page.click("#play");
+    },
+  ],
+];
 
 function percentile(values, share) {
   const sorted = [...values].sort((a, b) => a - b);
   return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
 }
 
+const median = (values) => percentile(values, 0.5);
+
+/** The medians of the members of some objects. */
+const medians = (results) =>
+  Object.fromEntries(Object.keys(results[0]).map((key) => [key, median(results.map((each) => each[key]))]));
+
+async function repeated(measure) {
+  const results = [];
+  for (let run = 0; run < RUNS; run += 1) results.push(await measure());
+  return medians(results);
+}
+
+async function planOf(request) {
+  const headers = { "Content-Type": "application/json" };
+  const init = { method: "POST", headers, body: JSON.stringify(request) };
+  const answer = await (await fetch(`${service.url}v1/plan`, init)).json();
+  return JSON.stringify({ ...request, ...answer });
+}
+
+/** What `measure(page)` resolves to on a fresh page. */
+async function onPage(measure) {
+  const { page, close } = await openPage(browser, service.url);
+  try {
+    await page.waitForTimeout(SETTLED_MS);
+    return await measure(page);
+  } finally {
+    await close();
+  }
+}
+
+function taskOf(prepare, steps) {
+  return onPage(async (page) => {
+    await prepare(page);
+    const events = await traced(page, async () => {
+      await steps(page);
+      await page.waitForTimeout(SETTLED_MS);
+    });
+    return longestTask(events);
+  });
+}
+
+function frameOf(plan, steps) {
+  return onPage(async (page) => {
+    await openFiles(page, { "warehouse.plan.json": plan });
+    await hasCheck(page);
+    await page.waitForTimeout(SETTLED_MS);
+    const box = await page.locator("#scene").boundingBox();
+    const middle = [box.x + box.width / 2, box.y + box.height / 2];
+    const frames = framesOf(await traced(page, () => steps(page, middle)));
+    const p95 = (valueOf) => percentile(frames.map(valueOf), 0.95);
+    return {
+      both: p95(({ script, style }) => script + style),
+      painted: p95(({ all }) => all),
+      perSecond: frames.length / SECONDS,
+    };
+  });
+}
+
+const ms = (value) => value.toFixed(1).padStart(8);
+const verdict = (value, aim) => (value <= aim ? "" : `  above ${aim}`);
+
+const folder = await mkdtemp(join(tmpdir(), "fleetplan-"));
 const service = await startService();
 const browser = await startBrowser();
-const { page } = await openPage(browser, service.url);
-await page.click("#paste");
-await page.fill("#paste-text", JSON.stringify(request()));
-await page.click("#paste-form button");
-const answer = await pressPlan(page);
-await page.waitForFunction(() => window.fleetplan.time > 0.5);
-const frames = framesOf(await trace(page, SECONDS * 1000));
-if (!(await page.evaluate(() => window.fleetplan.playing))) throw new Error("the plan was too short");
+const plans = new Map();
+for (const robots of FLEETS) plans.set(robots, await planOf(warehouseOf(robots)));
+const most = Math.max(...FLEETS);
+
+console.log(`longest task, ms${" ".repeat(20)} CPU    wall`);
+for (const [name, prepare, steps] of openings(warehouseOf(most), plans.get(most))) {
+  const { cpu, wall } = await repeated(() => taskOf(prepare, steps));
+  console.log(`${name.padEnd(32)}${ms(cpu)}${ms(wall)}${verdict(cpu, AIM.task)}`);
+}
+console.log(`CPU of a frame, p95, ms      script+style painted  frames/s`);
+for (const robots of FLEETS) {
+  for (const [name, steps] of MOVEMENTS) {
+    const { both, painted, perSecond } = await repeated(() => frameOf(plans.get(robots), steps));
+    const what = `${name}, ${robots} robots`;
+    console.log(`${what.padEnd(32)}${ms(both)}${ms(painted)}${ms(perSecond)}${verdict(both, AIM.frame)}`);
+  }
+}
 await browser.close();
 await service.stop();
-
-console.log(
-  `${answer.plans.length} of ${ROBOTS} robots, ${frames.length} frames in ${SECONDS} s, 1440 × 900 pixels`,
-);
-for (const part of ["script", "drawn", "all"]) {
-  const times = frames.map((frame) => frame[part]);
-  const shown = [0.5, 0.95, 0.99].map((share) => `p${share * 100} ${percentile(times, share).toFixed(1)}`);
-  console.log(`${part.padEnd(6)} ${shown.join("  ")} ms`);
-}
+await rm(folder, { recursive: true });
