@@ -17,6 +17,12 @@ constexpr int kMaxFailuresOfRobot = 40;
 /// A quick search that takes more expansions than this, and than half of the vertices, has failed: most often
 /// there is no path. In the paper's crowds none takes 5,000.
 constexpr std::int64_t kMaxQuickExpansions = 20'000;
+/// After so many expansions in all, a fleet is so large that the time matters more than the last percents of
+/// its cost: a search that takes more than kFewExpansions is then made again with the greater weight. 1000
+/// robots on den520d take 0.7 of the time by it, for 1.02 of the flowtime.
+constexpr std::int64_t kManyExpansions = 400'000;
+constexpr std::int64_t kFewExpansions = 500;
+constexpr double kGreedyWeight = 4.0;
 /// The first search of a robot is incomplete: when it fails, others follow.
 SearchLimits quick_search(const Lattice& lattice) {
   SearchLimits limits;
@@ -61,7 +67,7 @@ class Repair {
       const std::size_t robot = pending_.begin()->second;
       pending_.erase(pending_.begin());
       state_.remove(robot);
-      SearchResult result = state_.plan(robot, quick_search_, stop_);
+      SearchResult result = plan_quickly(robot);
       if (result.trajectory) {
         state_.follow(robot, std::move(*result.trajectory));
         continue;
@@ -104,6 +110,17 @@ class Repair {
       conflicting = shuffle_ranks(robot, std::move(conflicting));
     }
     for (const std::size_t other : conflicting) postpone(other);
+  }
+
+  SearchResult plan_quickly(std::size_t robot) {
+    if (state_.expansions() < kManyExpansions) return state_.plan(robot, quick_search_, stop_);
+    SearchLimits limits = quick_search_;
+    limits.max_expansions = kFewExpansions;
+    SearchResult result = state_.plan(robot, limits, stop_);
+    if (result.trajectory || result.complete || result.expansions < kFewExpansions) return result;
+    limits = quick_search_;
+    limits.heuristic_weight = kGreedyWeight;
+    return state_.plan(robot, limits, stop_);
   }
 
   /// Whether a search ended without a trajectory, but not because the time or the memory is spent.
