@@ -16,7 +16,7 @@ export function fillAnalysis(panel, page) {
   panel.append(
     section("Simulate delays", new SimulationSection({ ...page, ghosts }).element, true),
     comparing,
-    section("Keep running", new FleetSection(page).element),
+    section("Continuous operation", new FleetSection(page).element),
     section("Dependencies", new DependenciesSection(page).element),
   );
   page.earlier.onAsked(() => {

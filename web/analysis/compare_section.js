@@ -10,7 +10,7 @@ import { count, seconds } from "../ui/format.js";
 import { button, choicePart } from "./fields.js";
 
 const NONE = { value: "", label: "nothing" };
-const PREVIOUS = { value: "previous", label: "the previous plans of the request" };
+const PREVIOUS = { value: "previous", label: "the request’s previous plans" };
 const FILE = { value: "file", label: "the plan file" };
 const VIEWS = [
   { value: "beside", label: "side by side" },
@@ -19,8 +19,8 @@ const VIEWS = [
 const MOST = 200; // rows
 const CHANGES = {
   same: "same",
-  times: "other times",
-  path: "other path",
+  times: "different times",
+  path: "different path",
   "only here": "no plan before",
   "only there": "no plan now",
 };
@@ -74,7 +74,7 @@ export class CompareSection {
   get #sources() {
     const { earlier } = this.#page;
     const before = earlier.all.map((answer, at) => {
-      const label = `${at === 0 ? "the plan before" : `the plan ${at + 1} before`}, flowtime ${seconds(answer.flowtime)}`;
+      const label = `${at === 0 ? "the preceding plan" : `${at + 1} plans earlier`}, flowtime ${seconds(answer.flowtime)}`;
       return { value: `before ${at}`, label, answer, plans: answer.plans };
     });
     const previous = previousPlans(this.#session.request);
@@ -166,7 +166,7 @@ export class CompareSection {
       "aria-label": "Differences of the plans",
     };
     const changedIds = rows.filter(({ change }) => change !== "same").map(({ id }) => id);
-    const choose = button("Choose the changed robots", () => this.#session.highlight(changedIds), {
+    const choose = button("Select the changed robots", () => this.#session.highlight(changedIds), {
       class: "quiet",
       disabled: changed === 0,
     });
@@ -191,7 +191,7 @@ export class CompareSection {
     if (!file) return;
     const problem = (detail) =>
       this.#session.fail(
-        new ProblemError({ title: "Cannot compare with this", detail: `${file.name}: ${detail}` }),
+        new ProblemError({ title: "Cannot compare the plans", detail: `${file.name}: ${detail}` }),
       );
     let read;
     try {
@@ -201,7 +201,7 @@ export class CompareSection {
       return;
     }
     if (read.answer === null || !belongsTo(read.answer, this.#session.request)) {
-      problem("It is no plan of these robots.");
+      problem("It is not a plan of these robots.");
       return;
     }
     this.#opened = read.answer;

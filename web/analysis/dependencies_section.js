@@ -44,7 +44,7 @@ export class DependenciesSection {
     this.#found = null;
     this.#show.hidden = false;
     this.#show.disabled = !this.#session.hasPlan;
-    setText(this.#status, "What robots must ask of each other to execute the plan at their own pace.");
+    setText(this.#status, "Which robot passes first, so that the plan can be executed at any pace.");
     this.#update();
   }
 
@@ -87,7 +87,7 @@ export class DependenciesSection {
     setText(this.#status, `${count(dependencies.length, "dependency", "dependencies")} in the plan.`);
     this.#list.append(this.#tight(tight));
     if (action < 0) {
-      this.#list.prepend(element("p", { textContent: "Select a robot that is under way." }));
+      this.#list.prepend(element("p", { textContent: "Select a moving robot." }));
       return;
     }
     const { waitsFor, heldFor } = dependenciesOfAction(dependencies, robot, action);
@@ -96,12 +96,12 @@ export class DependenciesSection {
     this.#list.prepend(
       element("h2", { textContent: `${robot}, action ${action}: ${words}` }),
       this.#sentences(waitsFor, "until", ({ gate }) => [
-        `Passes ${percent(gate.progress)} after`,
-        "has done",
+        `May pass ${percent(gate.progress)} after`,
+        "has completed",
       ]),
-      this.#sentences(heldFor, "gate", ({ until }) => [`At ${percent(until.progress)} lets`, "pass"]),
+      this.#sentences(heldFor, "gate", ({ until }) => [`At ${percent(until.progress)}, allows`, "to pass"]),
       waitsFor.length + heldFor.length === 0
-        ? element("p", { textContent: "No dependency: it need not ask." })
+        ? element("p", { textContent: "This action has no dependencies." })
         : "",
     );
   }
@@ -127,7 +127,7 @@ export class DependenciesSection {
       });
       return element("li", { class: "chips" }, ...robots.map((id) => robotChip(this.#session, id)), show);
     });
-    const title = `${count(tight.length, "pair")} too close in time for any delay`;
+    const title = `${count(tight.length, "pair")} too close in time to tolerate any delay`;
     return element(
       "div",
       {},

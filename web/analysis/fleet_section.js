@@ -14,9 +14,9 @@ const HELD = { width: 3, alpha: 1, dashes: [] };
 export class FleetSection {
   #session;
   #run;
-  #period = numberPart("Round", "s", 2, { min: 0.5, max: 60 });
+  #period = numberPart("Round length", "s", 2, { min: 0.5, max: 60 });
   #held = numberPart("Hold for", "s", 10, { min: 0.1, max: 10000 });
-  #start = button("Keep running", () => this.#toggle(), { class: "primary" });
+  #start = button("Run", () => this.#toggle(), { class: "primary" });
   #hold = button("Hold", () => this.#holdSelected());
   #byClick = element("input", { type: "checkbox" });
   #status = element("p", { class: "facts" });
@@ -36,11 +36,11 @@ export class FleetSection {
       element("p", {
         class: "facts",
         textContent:
-          "Robots that arrive go to their start and back, round after round. The plan of a round is made while the one before is played.",
+          "Robots shuttle between their goals and starts, round after round. Each round is planned while the previous one is played.",
       }),
       element("div", { class: "parts" }, this.#period.field, this.#held.field),
       element("div", { class: "row" }, this.#start, this.#hold),
-      element("label", { class: "choice" }, this.#byClick, "A click on a robot holds it"),
+      element("label", { class: "choice" }, this.#byClick, "Hold robots by clicking them"),
       this.#status,
       this.#holds,
       this.#charts,
@@ -81,7 +81,7 @@ export class FleetSection {
   #refresh() {
     const { running } = this.#run;
     const { selected, hasPlan } = this.#session;
-    setText(this.#start, running ? "Stop" : "Keep running");
+    setText(this.#start, running ? "Stop" : "Run");
     this.#start.disabled = !running && !hasPlan;
     this.#hold.disabled = !running || selected === null;
     setText(this.#hold, selected === null ? "Hold" : `Hold ${selected}`);
@@ -109,8 +109,8 @@ export class FleetSection {
     if (last === undefined) return;
     const latencies = rounds.map(({ latency }) => latency).slice(-SHOWN);
     this.#charts.replaceChildren(
-      lineChart("Goals reached a minute", throughput(rounds).slice(-SHOWN), (value) => value.toFixed(0)),
-      lineChart("Time to plan a round", latencies, milliseconds),
+      lineChart("Goals per minute", throughput(rounds).slice(-SHOWN), (value) => value.toFixed(0)),
+      lineChart("Planning time per round", latencies, milliseconds),
     );
   }
 }

@@ -19,12 +19,12 @@ const MOST_ROBOTS = 12; // in the chart of delays
 const MOST_LISTED = 8;
 const BEFORE = 2; // seconds before a collision at which its run is played
 const NUMBERS = {
-  slowest: ["Slowest speed", "%", { min: 0.1, max: 100 }],
+  slowest: ["Minimum speed", "%", { min: 0.1, max: 100 }],
   stops: ["Stops", "per hour", { min: 0, max: 36000 }],
-  stop: ["of", "s on average", { min: 0 }],
-  start: ["Before actions", "s at most", { min: 0 }],
-  sideways: ["Sideways", "mm", { min: 0 }],
-  maxDelay: ["Latest", "s", { min: 0 }],
+  stop: ["Mean stop", "s", { min: 0 }],
+  start: ["Start delay", "s, max", { min: 0 }],
+  sideways: ["Lateral error", "mm", { min: 0 }],
+  maxDelay: ["Max delay", "s", { min: 0 }],
   runs: ["Executions", "", { min: 1, max: 100000, step: 1 }],
   seed: ["Seed", "", { min: 0, step: 1 }],
 };
@@ -139,8 +139,8 @@ export class SimulationSection {
     this.#results.replaceChildren(
       shareBar(`of ${count(runs, "execution")} have a collision`, collision_share, percent(collision_share)),
       deadlock_share > 0 ? shareBar("end in a deadlock", deadlock_share, percent(deadlock_share)) : "",
-      rows.length > 0 ? quantileRows("Beyond the plan", rows, (value) => `+${percent(value)}`) : "",
-      delays.length > 0 ? quantileRows("Delays of robots", delays, seconds) : "",
+      rows.length > 0 ? quantileRows("Increase over the plan", rows, (value) => `+${percent(value)}`) : "",
+      delays.length > 0 ? quantileRows("Robot delays", delays, seconds) : "",
       this.#pairs(pairs),
       this.#collisions(plan, form, simulated.first_collisions),
       this.#player(plan, form, runs),
@@ -160,13 +160,13 @@ export class SimulationSection {
           ` ${percent(share)}`,
         ),
       );
-    return titled("Pairs that collide", element("ul", { class: "plain" }, ...items));
+    return titled("Colliding pairs", element("ul", { class: "plain" }, ...items));
   }
 
   #collisions(plan, form, collisions) {
     if (collisions.length === 0) return "";
     const items = collisions.slice(0, MOST_LISTED).map(({ run, robots, with: other, t }) => {
-      const words = `Run ${run}: ${robots.join(" and ")}${other === "wall" ? " and a wall" : ""} at ${seconds(t)}`;
+      const words = `Execution ${run}: ${robots.join(" and ")}${other === "wall" ? " and a wall" : ""} at ${seconds(t)}`;
       return element(
         "li",
         {},
@@ -177,15 +177,15 @@ export class SimulationSection {
   }
 
   #player(plan, form, runs) {
-    const number = numberPart("Run", "", 0, { min: 0, max: runs - 1, step: 1 });
+    const number = numberPart("Execution", "", 0, { min: 0, max: runs - 1, step: 1 });
     const play = button(
-      "Play it",
+      "Play",
       () => number.input.reportValidity() && this.#play(plan, form, number.input.valueAsNumber),
     );
     const back = button("Back to the plan", () => this.#session.adopt(plan));
     return titled(
-      "Play a run",
-      element("p", { class: "facts", textContent: "Dashed rings show where the plan has the robots." }),
+      "Play an execution",
+      element("p", { class: "facts", textContent: "Dashed rings show the planned positions." }),
       element("div", { class: "row" }, number.field, play, back),
     );
   }

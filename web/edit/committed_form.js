@@ -57,7 +57,7 @@ export class CommittedForm {
 
   #remove() {
     this.#commit([]);
-    this.#session.announce(`${this.#robot?.id} is committed to nothing.`);
+    this.#session.announce(`${this.#robot?.id} has no committed actions.`);
     this.#first.input.focus(); // as the button is disabled now
   }
 

@@ -96,7 +96,7 @@ export class DrawTool {
 
 /** Fills the rectangle between two corners with walls or, with Alt, with floor. */
 export class BoxTool {
-  help = "Drag from corner to corner to fill with wall.";
+  help = "Drag from corner to corner to fill a box with walls.";
   keys = "Alt: erase. Keyboard: arrows, and Enter at both corners.";
 
   #session;

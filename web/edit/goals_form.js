@@ -12,7 +12,7 @@ const FIELDS = {
   x: { label: "x", unit: "m", required: true },
   y: { label: "y", unit: "m", required: true },
   theta: { label: "Heading", unit: "°" },
-  service: { label: "Service", unit: "s" },
+  service: { label: "Service time", unit: "s" },
   not_before: { label: "Not before", unit: "s" },
   radius_after: { label: "Radius after", unit: "m" },
 };
@@ -84,7 +84,7 @@ export class GoalsForm {
         return [name, new NumberField({ ...described, accept, settle: () => this.#session.endGesture() })];
       }),
     );
-    const earlier = this.#button("Earlier", number, advanceGoal);
+    const earlier = this.#button("Move up", number, advanceGoal);
     earlier.disabled = number === 0;
     const remove = this.#button("Remove", number, removeGoalAt);
     const parts = Object.values(fields).map((field) => field.element);

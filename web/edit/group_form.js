@@ -57,7 +57,7 @@ export class GroupForm {
     const indices = this.#indices;
     this.#form.hidden = indices.length < 2;
     if (this.#form.hidden) return;
-    setText(byId("group-title"), `${count(indices.length, "robot")} chosen`);
+    setText(byId("group-title"), `${count(indices.length, "robot")} selected`);
     const { request } = this.#session;
     for (const [name, field] of this.#numbers) {
       const placeholder = differ(request, indices, name)

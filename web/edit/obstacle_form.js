@@ -132,7 +132,7 @@ export class ObstacleForm {
       }),
     );
     const remove = element("button", { type: "button", class: "quiet", textContent: "Remove" });
-    remove.setAttribute("aria-label", `Remove: entry ${number + 1}`);
+    remove.setAttribute("aria-label", `Remove: waypoint ${number + 1}`);
     remove.addEventListener("click", () => {
       this.#edit((request, index) => removeEntry(request, index, number));
       if (!remove.isConnected) byId("append-entry").focus(); // the focus would be lost

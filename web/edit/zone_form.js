@@ -9,7 +9,7 @@ import { byId, element, setText } from "../ui/dom.js";
 import { count } from "../ui/format.js";
 import { NumberField } from "../ui/number_field.js";
 
-const TYPES = { blocked: "Blocked", speed: "Slow", one_way: "One way" };
+const TYPES = { blocked: "Blocked", speed: "Slow", one_way: "One-way" };
 const NUMBERS = {
   linear_speed: { label: "Speed", unit: "m/s", of: "speed" },
   angular_speed: { label: "Turning", unit: "rad/s", of: "speed" },

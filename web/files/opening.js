@@ -7,8 +7,8 @@ import { prepareRequest } from "./prepare.js";
 import { Reader } from "./reader.js";
 
 const NOT_KEPT =
-  "This address is of a request that is too large for a link. It is kept only in the browser in which it was open, and " +
-  "not for ever. Open its file.";
+  "The request of this address is too large for a link. Only the browser in which it was open keeps it, for some time. " +
+  "Open its file instead.";
 
 /** Lets the browser paint and answer people before long work goes on. */
 const nextTask = () => new Promise((resolve) => setTimeout(resolve));

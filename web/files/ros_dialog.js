@@ -36,7 +36,7 @@ export class RosMapDialog {
     this.#merge = numberField(
       "ros-merge",
       "Cells merged into one",
-      "a side",
+      "per side",
       smallestFactor(this.#trimmed, most),
       { min: "1", max: String(MOST_MERGED), step: "1" },
       "A merged cell is blocked if any of its cells is.",
@@ -85,7 +85,7 @@ export class RosMapDialog {
     this.#made = made;
     this.#dialog.ready = fits;
     this.#status.classList.toggle("wrong", !fits);
-    setText(this.#status, made ? this.#outcome(source, made) : `Merge 1 to ${MOST_MERGED} cells a side.`);
+    setText(this.#status, made ? this.#outcome(source, made) : `Merge 1 to ${MOST_MERGED} cells per side.`);
     if (made) this.#paint(made.grid);
   }
 

@@ -30,13 +30,13 @@ export function readRosYaml(text) {
     throw new FileError('It names no image; a map.yaml of ROS has a line like "image: map.pgm".');
   const resolution = numberIn(given, "resolution");
   if (!(resolution > 0))
-    throw new FileError(`resolution is ${resolution}; it must be metres a pixel, above 0.`);
+    throw new FileError(`resolution is ${resolution}; it must be in metres per pixel and greater than 0.`);
   const origin = given.origin;
   if (!Array.isArray(origin) || origin.length < 2 || !origin.every(Number.isFinite))
     throw new FileError("origin must be a list of numbers: [x, y, yaw] of the lower-left pixel.");
   const yaw = origin[2] ?? 0;
   if (yaw !== 0)
-    warnings.push(`The map is turned by ${yaw} rad (origin's yaw) in ROS; here it is taken unturned.`);
+    warnings.push(`ROS rotates the map by ${yaw} rad (the yaw of its origin); the rotation is ignored here.`);
   const mode = given.mode ?? "trinary";
   if (!MODES.includes(mode)) throw new FileError(`mode is ${mode}; map_server knows ${MODES.join(", ")}.`);
   const described = {
@@ -63,7 +63,7 @@ function numberIn(given, key) {
 
 function thresholdIn(given, key, otherwise, warnings) {
   if (given[key] === undefined) {
-    warnings.push(`${key} is missing; ${otherwise} is taken, as in map_server's own files.`);
+    warnings.push(`${key} is missing; ${otherwise} is used, as in map_server's own files.`);
     return otherwise;
   }
   const threshold = numberIn(given, key);

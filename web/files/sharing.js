@@ -7,7 +7,7 @@ import { byId, setText } from "../ui/dom.js";
 import { saveBlob } from "./downloads.js";
 
 const FINE = 2; // pixels of the picture a pixel of the page, at least
-const FAILED = "This did not work here. Is the service reachable, and the browser recent?";
+const FAILED = "This failed. Is the service reachable and the browser up to date?";
 
 /** `load` has animation() and page(), which resolve to the modules; `stem()` is the name of files. */
 export function watchSharing(session, stage, load, stem) {

@@ -10,9 +10,9 @@ const HALF_ANGLE = 1.5708; // radians: a right angle
 /** What the types of zones ask of robots. */
 export const ZONE_RULES = {
   blocked: "No part of a robot may be inside. Contact with the border is allowed, as with a wall.",
-  speed: "While its centre is inside, a robot is at most this fast.",
+  speed: "A robot whose centre is inside drives at most this fast.",
   one_way:
-    "With the centre inside, robots drive at most the half angle off the heading. They may wait and turn.",
+    "A robot whose centre is inside drives within the half angle of the heading. It may wait and turn.",
 };
 
 /** The corners of a zone; empty if it has none, as one with a mask. */

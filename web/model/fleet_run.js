@@ -63,7 +63,7 @@ export class FleetRun {
   #service;
   #now;
   #signals = new Signals();
-  #turn = 0; // counts starts and stops, so that late answers are dropped
+  #turn = 0; // counts starts, stops and holds, so that late answers are dropped
   #places = new Map();
   #holds = new Map(); // id -> seconds from the start of the round
   #present = /** @type {any} */ (null); // {request, answer} of the round

@@ -4,7 +4,7 @@ import { objectiveOf, PlanRun } from "./plan_run.js";
 import { withNote } from "./problem.js";
 
 /** What is told when planning fails that has found a plan before. */
-const KEPT = "The best plan until then is shown; the service has checked it.";
+const KEPT = "The best plan found until then is shown; the service has verified it.";
 
 export class Planning {
   #session;
@@ -72,7 +72,7 @@ export class Planning {
   #onWaiting(run, seconds) {
     run.waiting = seconds;
     this.#session.emit("planning");
-    this.#session.announce(`The service is busy. Planning is tried again in ${seconds} s.`);
+    this.#session.announce(`The service is busy. Planning is retried in ${seconds} s.`);
   }
 
   #end() {

@@ -13,7 +13,7 @@ export class ProblemError extends Error {
 export class ConnectionLost extends ProblemError {
   constructor() {
     super({
-      title: "No answer from the service",
+      title: "No response from the service",
       detail: "The connection failed or was closed. Is the service running and reachable?",
     });
     this.name = "ConnectionLost";

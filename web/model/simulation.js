@@ -4,10 +4,10 @@
 import { planFile } from "./plan_file.js";
 
 export const POLICIES = [
-  { value: "dependencies", label: "Wait for each other (dependencies)" },
-  { value: "clock_stop", label: "Follow a shared clock that slows down" },
-  { value: "absorb_waits", label: "Waits end as planned" },
-  { value: "open_loop", label: "Everybody goes on, nobody looks" },
+  { value: "dependencies", label: "Dependencies: robots wait for each other" },
+  { value: "clock_stop", label: "Shared clock: all slow down for the latest" },
+  { value: "absorb_waits", label: "Planned waits absorb delays" },
+  { value: "open_loop", label: "Open loop: no coordination" },
 ];
 
 /** The values of a new form. */

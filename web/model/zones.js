@@ -77,7 +77,7 @@ function labelOf({ id, type, mask, linear_speed: linear, angular_speed: angular 
   const limits = [];
   if (Number.isFinite(linear)) limits.push(`${linear} m/s`);
   if (Number.isFinite(angular)) limits.push(`${angular} rad/s`);
-  const rules = { blocked: "blocked", one_way: "one way", speed: `at most ${limits.join(", ") || "?"}` };
+  const rules = { blocked: "blocked", one_way: "one-way", speed: `at most ${limits.join(", ") || "?"}` };
   if (mask !== undefined) rules.speed = "slower";
   return typeof id === "string" && id !== "" ? `${id}: ${rules[type]}` : rules[type];
 }

@@ -6,7 +6,7 @@ import { count, metres, seconds } from "../ui/format.js";
 import { robotChip } from "./robot_list.js";
 
 const MOST = 50; // robots whose nearest approach is computed at once
-const COLUMNS = ["Robot", "Cost, s", "Delay", "Drives", "Turns", "Waits", "Way, m"];
+const COLUMNS = ["Robot", "Cost, s", "Delay", "Drives", "Turns", "Waits", "Distance, m"];
 
 /** `fleet`: see FleetMotion. */
 export function watchChosen(session, fleet) {
@@ -26,7 +26,7 @@ export function watchChosen(session, fleet) {
 function contentOf(session, fleet, chosen) {
   const heading = element("h2", {
     id: "chosen-title",
-    textContent: `${count(chosen.length, "robot")} chosen`,
+    textContent: `${count(chosen.length, "robot")} selected`,
   });
   if (session.answer === null) return [heading, element("p", { class: "facts" }, "Plan to compare them.")];
   const table = tableOf(session, compareRobots(chosen, session.tracks));

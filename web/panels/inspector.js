@@ -12,7 +12,7 @@ import { REASONS } from "./unplanned_card.js";
 const EDITING = "tab-edit"; // whose form shows the robot instead
 const CROSS = "M5 5 15 15M15 5 5 15";
 const MARGIN = { top: 60, side: 12, bottom: 12 }; // pixels around the card: above are the view's buttons
-const COLUMNS = ["From, s", "To, s", "What"];
+const COLUMNS = ["From, s", "To, s", "Action"];
 const NO_ACTIONS = {
   parked: "It has no goal and stays at its start.",
   planned: "It is already at its goal.",
@@ -170,7 +170,7 @@ export class Inspector {
       class: "note",
       textContent: "for no robot",
       title:
-        "No robot would be hit without this wait: it is a pause before a move, or keeps a safety interval free",
+        "No robot would be hit without this wait: it is a pause before a move, or preserves a safety margin",
     });
     return [" ", note];
   }

@@ -111,7 +111,7 @@ export class PlanningStatus {
     const { progress, costs, objective, waiting } = this.#session.planning;
     if (waiting !== null) {
       this.#since = performance.now() + waiting * 1000;
-      setText(this.#soFar, `The service is busy. Trying again in ${count(waiting, "second")}.`);
+      setText(this.#soFar, `The service is busy. Retrying in ${count(waiting, "second")}.`);
       return;
     }
     setText(this.#soFar, describeProgress(progress, objective));

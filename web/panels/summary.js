@@ -9,7 +9,7 @@ const PART = "M4.5 10h11";
 
 const OUTCOMES = {
   solved: { text: "Solved", tone: "good", path: TICK },
-  partial: { text: "Partly solved", tone: "fair", path: PART },
+  partial: { text: "Partially solved", tone: "fair", path: PART },
   none: { text: "No robot planned", tone: "bad", path: CROSS },
 };
 

@@ -31,7 +31,7 @@ export class BoxSelection {
     const added = event.ctrlKey || event.metaKey ? this.#session.chosen : [];
     this.abort();
     this.#session.highlight([...new Set([...added, ...found])]);
-    this.#session.announce(`${this.#session.chosen.length} robots chosen.`);
+    this.#session.announce(`${this.#session.chosen.length} robots selected.`);
   }
 
   abort() {

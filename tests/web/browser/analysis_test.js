@@ -28,7 +28,7 @@ for (const [size, options] of [
         await openAnalysis(page);
         const asked = page.waitForRequest((request) => request.url().endsWith("/v1/simulate"));
         await page.getByLabel("Executions").fill("40");
-        await page.getByLabel("Slowest speed").fill("60");
+        await page.getByLabel("Minimum speed").fill("60");
         await page.getByRole("button", { name: "Simulate" }).focus();
         await page.keyboard.press("Enter");
         const body = JSON.parse((await asked).postData());
@@ -47,7 +47,7 @@ for (const [size, options] of [
         assert.match(await page.getAttribute(".quantiles >> nth=0", "aria-label"), /makespan \+/);
 
         const [first] = simulated.first_collisions;
-        await page.getByRole("button", { name: `Run ${first.run}: ` }).focus();
+        await page.getByRole("button", { name: `Execution ${first.run}: ` }).focus();
         await page.keyboard.press("Enter");
         await page.waitForFunction(() => /execution/.test(window.fleetplan.answer.warnings[0]));
         await page.waitForFunction(() => window.fleetplan.playing);

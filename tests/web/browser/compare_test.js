@@ -84,7 +84,7 @@ for (const [size, options] of [
         const changed = page.locator('#panel-analyse tbody tr[data-change="times"]');
         assert.ok((await changed.innerText()).includes(answer.plans[0].robot));
         assert.equal(await page.locator('#panel-analyse tbody tr[data-change="same"]').count(), length - 1);
-        await page.getByRole("button", { name: "Choose the changed robots" }).click();
+        await page.getByRole("button", { name: "Select the changed robots" }).click();
         assert.deepEqual(await hook(page, "chosen"), [answer.plans[0].robot]);
         await page.evaluate(() => scrollTo(0, 0));
         await page.keyboard.press("Escape");
@@ -170,7 +170,7 @@ test("a plan of other robots that is dropped is opened, not compared", async () 
   });
 });
 
-test("after a replan with other options, the plan before is compared by keys alone", async () => {
+test("after a replan with other options, the preceding plan is compared by keys alone", async () => {
   await onPage(async (page) => {
     await choose(page, "crossing");
     const first = await pressPlan(page);
@@ -218,6 +218,6 @@ test("a file that is no plan of these robots is told", async () => {
       buffer,
     });
     await page.waitForSelector("#problem:not([hidden])");
-    assert.match(await page.innerText("#problem"), /x\.json: It is no plan of these robots/);
+    assert.match(await page.innerText("#problem"), /x\.json: It is not a plan of these robots/);
   });
 });

@@ -46,7 +46,7 @@ test("what an action waits for is listed, and drawn in scene and timeline", asyn
     assert.ok((await countColour(page, danger, place, 12)) > before + 5, "an arrow ends at the gate");
     assert.ok((await timelineColour(page, danger)) > barsBefore, "and one is in the timeline");
     await seek(page, answer.makespan);
-    await page.getByText("Select a robot that is under way.").waitFor();
+    await page.getByText("Select a moving robot.").waitFor();
     assert.equal(await countColour(page, danger, place, 12), before);
   });
 });

@@ -193,7 +193,7 @@ test("a rotated ROS map is imported unrotated, with a warning", async () => {
   await onPage(async (page) => {
     await drop(page, { "lab.yaml": YAML.replace("0.0]", "0.5]"), "lab.pgm": pgm(GRAYS) });
     await page.waitForSelector("dialog[open]");
-    assert.match(await page.innerText("dialog .warnings"), /turned by 0.5 rad.*unturned/);
+    assert.match(await page.innerText("dialog .warnings"), /rotates the map by 0.5 rad.*ignored/);
   });
 });
 

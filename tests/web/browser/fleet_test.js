@@ -15,7 +15,7 @@ async function openFleet(page, example) {
   await page.selectOption("#speed", "4");
   await page.focus("#tab-plan");
   await page.keyboard.press("End");
-  await page.getByText("Keep running", { exact: true }).first().click();
+  await page.getByText("Continuous operation", { exact: true }).click();
 }
 
 const rounds = (page, least) =>
@@ -33,7 +33,7 @@ for (const [size, options] of [
       async (page) => {
         await openFleet(page, "hospital-ward");
         const before = await hook(page, "request");
-        await page.getByRole("button", { name: "Keep running" }).focus();
+        await page.getByRole("button", { name: "Run", exact: true }).focus();
         await page.keyboard.press("Enter");
         await rounds(page, 4);
         const request = await hook(page, "request");
@@ -41,7 +41,7 @@ for (const [size, options] of [
         assert.ok(request.robots.some(({ previous }) => previous?.length > 0));
         assert.equal(await hook(page, "playing"), true);
         assert.match(
-          await page.getAttribute('svg[aria-label^="Time to plan"]', "aria-label"),
+          await page.getAttribute('svg[aria-label^="Planning time"]', "aria-label"),
           /ms now|s now/,
         );
         await page.getByRole("button", { name: "Stop", exact: true }).focus();
@@ -57,8 +57,8 @@ test("a robot that is held by a click stands still at once, and the others go on
   await onPage(async (page) => {
     await openFleet(page, "hospital-ward");
     await page.getByLabel("Hold for").fill("60");
-    await page.getByLabel("A click on a robot holds it").check();
-    await page.getByRole("button", { name: "Keep running" }).click();
+    await page.getByLabel("Hold robots by clicking them").check();
+    await page.getByRole("button", { name: "Run", exact: true }).click();
     await rounds(page, 1);
     const { robots } = await hook(page, "request");
     const busy = robots.filter(({ previous }) => (previous?.at(-1)?.t_end ?? 0) > 8);

@@ -32,7 +32,7 @@ test("a goal is added, placed, served and moved earlier by keys alone, and the p
     await type("x", "2.5");
     await type("y", "4.5");
     await type("Service", "4");
-    await page.getByRole("button", { name: "Earlier: goal 2" }).focus();
+    await page.getByRole("button", { name: "Move up: goal 2" }).focus();
     await page.keyboard.press("Enter");
     const [{ goals, goal }] = (await hook(page, "request")).robots;
     assert.equal(goal, undefined);

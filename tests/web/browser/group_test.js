@@ -86,7 +86,7 @@ test("keys alone choose all robots of the list and edit them together", async ()
     );
     await page.focus("#tab-plan");
     await page.keyboard.press("ArrowRight");
-    assert.equal(await page.innerText("#group-title"), "10 robots chosen");
+    assert.equal(await page.innerText("#group-title"), "10 robots selected");
     assert.equal(await page.isVisible("#robot-form"), false);
     await page.focus("#group-numbers input >> nth=1");
     await page.keyboard.press("Control+a");

@@ -316,7 +316,7 @@ test("robots without a plan are listed with their reason", async () => {
       for (const part of [robot, detail, ...blocked_by]) assert.ok(shown.includes(part), part);
       assert.match(await text(page, `.robot[data-robot="${robot}"]`), /unplanned/);
     }
-    assert.match(await text(page, "#summary"), /Partly solved/);
+    assert.match(await text(page, "#summary"), /Partially solved/);
   });
 });
 
@@ -412,7 +412,7 @@ test("a stream that ends with a problem, or too early, is reported", async () =>
     };
     const progress = { elapsed_ms: 1, attempt: 1, planned: 0, robots: 1, best: null };
     const begin = `event: progress\ndata: ${JSON.stringify(progress)}\n\n`;
-    await end(begin, "No answer from the service");
+    await end(begin, "No response from the service");
     const problem = { title: "Internal Server Error", status: 500, detail: "A bug.", errors: [] };
     await end(`${begin}event: problem\ndata: ${JSON.stringify(problem)}\n\n`, "Internal Server Error");
   });
@@ -424,7 +424,7 @@ test("an unreachable service is reported", async () => {
       await page.route("**/v1/plan", (route) => route.abort());
       await page.click("#plan");
       await page.waitForSelector("#problem:not([hidden])");
-      assert.match(await text(page, "#problem"), /No answer from the service/);
+      assert.match(await text(page, "#problem"), /No response from the service/);
     },
     { allowed: /ERR_FAILED/ },
   );

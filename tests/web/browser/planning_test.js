@@ -85,7 +85,7 @@ test("the best plan is kept when the connection is lost", async () => {
     await page.waitForSelector("#problem:not([hidden])");
     assert.match(
       await page.innerText("#problem"),
-      /No answer from the service.*The best plan until then is shown/s,
+      /No response from the service.*The best plan found until then is shown/s,
     );
     assert.deepEqual(await hook(page, "answer"), better);
     assert.match(await page.innerText("#summary"), /Solved\s+Verified/);
@@ -135,7 +135,7 @@ test("planning waits for a busy service, and can be cancelled meanwhile", async 
       await page.click("#plan");
       const waits = () => /The service is busy/.test(document.getElementById("so-far").textContent);
       await page.waitForFunction(waits);
-      assert.match(await page.innerText("#announcer"), /is tried again in 1 s/);
+      assert.match(await page.innerText("#announcer"), /is retried in 1 s/);
       await page.click("#cancel");
       assert.equal(await hook(page, "answer"), null);
       await page.click("#plan");

@@ -210,7 +210,7 @@ test("arrow keys select robots and step through events, with announcements", asy
   });
 });
 
-test("rows are sorted by cost, start of movement, and delay if the bound is known", async () => {
+test("rows are sorted by cost, departure, and delay if the bound is known", async () => {
   await onPage(async (page) => {
     const { answer } = await planned(page, "warehouse");
     const first = async (by) => {

@@ -84,7 +84,7 @@ for (const [how, onPage] of [
   ["the bundle", onBundle],
   ["the sources", onSources],
 ]) {
-  test(`a page to send shows the plan without a server, made from ${how}`, async () => {
+  test(`a standalone page shows the plan without a server, made from ${how}`, async () => {
     await onPage(async (page) => {
       await choose(page, "hospital-ward");
       const answer = await pressPlan(page);

@@ -89,7 +89,7 @@ test("without JavaScript the page says that it needs it", async () => {
   await onNewPage(
     async (page) => {
       await page.goto(service.url);
-      assert.match(await page.innerText("noscript"), /needs JavaScript/);
+      assert.match(await page.innerText("noscript"), /requires JavaScript/);
       assert.equal(await page.isVisible("#not-loaded"), false);
     },
     { javaScriptEnabled: false },
@@ -118,7 +118,7 @@ test("examples and limits that do not load are loaded again on demand", async ()
       const found = await losing(page, part);
       await page.goto(service.url);
       await page.waitForSelector("#problem .again");
-      assert.match(await page.innerText("#problem"), /No answer from the service/);
+      assert.match(await page.innerText("#problem"), /No response from the service/);
       await found();
       await page.click("#problem .again");
       await begun(page);

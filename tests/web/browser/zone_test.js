@@ -59,7 +59,7 @@ test("a zone is drawn and reshaped with the mouse, and the plan goes around it",
     await page.selectOption("#zone-type", "one_way");
     const [zone] = await zones(page);
     assert.deepEqual([zone.type, zone.heading, zone.half_angle], ["one_way", 0, 1.5708]);
-    assert.match(await page.innerText("#zone-rule"), /at most the half angle off the heading/);
+    assert.match(await page.innerText("#zone-rule"), /within the half angle of the heading/);
   });
 });
 

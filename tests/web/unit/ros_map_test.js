@@ -63,7 +63,7 @@ test("a map.yaml is read, with trinary as the default mode", () => {
 test("a rotated map is imported unrotated, with a warning", () => {
   const described = readRosYaml(YAML.replace("0.0]", "0.5]"));
   assert.equal(described.yaw, 0.5);
-  assert.match(described.warnings.join(), /turned by 0.5 rad.*unturned/);
+  assert.match(described.warnings.join(), /rotates the map by 0.5 rad.*ignored/);
 });
 
 test("missing thresholds default to map_server's, with a warning", () => {

@@ -263,7 +263,7 @@ test("planning that fails keeps the best plan so far, and says so", async () => 
   session.open(OPENED);
   assert.equal(await session.plan(), true);
   assert.deepEqual(session.answer, ANSWER);
-  assert.match(session.problem.detail, /The connection failed.* The best plan until then is shown/);
+  assert.match(session.problem.detail, /The connection failed.* The best plan found until then is shown/);
   assert.equal(session.planning, null);
   assert.equal(heard.at(-1), "problem");
 });

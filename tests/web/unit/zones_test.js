@@ -20,7 +20,7 @@ test("zones are drawn with their rules as labels", () => {
   });
   assert.deepEqual(
     zones.map(({ label }) => label),
-    ["lab: blocked", "ward: at most 0.5 m/s, 1 rad/s", "east: one way"],
+    ["lab: blocked", "ward: at most 0.5 m/s, 1 rad/s", "east: one-way"],
   );
   assert.deepEqual(
     zones.map(({ heading }) => heading),
