@@ -10,9 +10,9 @@ const NAMES = ["this plan", "the other plan"];
 export class OtherScene {
   #session;
   #stage;
-  #frame = byId("scene-frame");
   #canvas = element("canvas", { id: "other-scene", role: "img" });
   #captions = NAMES.map(() => element("p", { class: "scene-caption" }));
+  #parts = element("div", { id: "comparison" }, this.#canvas, ...this.#captions);
   #painter = /** @type {Painter | null} */ (null); // while it is shown
   #painted = /** @type {any[]} */ ([]); // what the painter shows
   #tracks = new Map();
@@ -31,9 +31,8 @@ export class OtherScene {
   /** Shows an answer, {plans, unplanned}, beside what is played, each under its name; null: no longer. */
   show(answer, names = NAMES) {
     this.#painter = null;
-    this.#frame.classList.toggle("with-other", answer !== null);
     if (answer === null) {
-      for (const part of [this.#canvas, ...this.#captions]) part.remove();
+      this.#parts.remove();
       return;
     }
     this.#tracks = readTracks(this.#session.scene, answer);
@@ -41,7 +40,7 @@ export class OtherScene {
     this.#painted = [];
     this.#canvas.setAttribute("aria-label", names[1]);
     this.#captions.forEach((caption, at) => setText(caption, names[at]));
-    byId("scene").after(this.#canvas, ...this.#captions);
+    byId("scene").after(this.#parts);
     this.#stage.redraw();
   }
 

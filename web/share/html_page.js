@@ -3,7 +3,16 @@
 
 const VIEWER = new URL("viewer.js", import.meta.url);
 const IMPORT = /(\bfrom\s*|\bimport\s*)"(\.[^"]+)"/g;
-const DROPPED = ["#show-closest", "#follow", "#ruler", "#drop-hint", "#minimap", "#inspector", ".timeline"];
+const DROPPED = [
+  "#show-closest",
+  "#follow",
+  "#ruler",
+  "#drop-hint",
+  "#minimap",
+  "#inspector",
+  ".timeline",
+  "#comparison",
+];
 
 /**
  * The text of the file that shows `plan`, a plan file, under a name; `rows` is its map as rows if that is of another

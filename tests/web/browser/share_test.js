@@ -87,8 +87,12 @@ for (const [how, onPage] of [
   test(`a standalone page shows the plan without a server, made from ${how}`, async () => {
     await onPage(async (page) => {
       await choose(page, "hospital-ward");
-      const answer = await pressPlan(page);
+      await pressPlan(page);
       await page.waitForFunction(() => window.fleetplan.playing);
+      const answer = await pressPlan(page);
+      await page.click("#tab-analyse");
+      await page.getByText("Compare plans", { exact: true }).click();
+      await page.getByLabel("Compare the plan with").selectOption("before 0");
       const { name, path } = await saved(page, "#save-page");
       assert.equal(name, "hospital-ward.html");
       const away = await page.context().browser().newContext({ offline: true });
@@ -111,6 +115,13 @@ for (const [how, onPage] of [
           return new Set(new Uint32Array(data.buffer)).size;
         });
         assert.ok(colours > 20);
+        assert.equal(
+          await other.locator("canvas").count(),
+          1,
+          "of the plan, not of what it is compared with",
+        );
+        const [scene, frame] = ["#scene", "#scene-frame"].map((id) => other.locator(id).boundingBox());
+        assert.equal((await scene).width, (await frame).width);
         assert.match(await other.innerText("#facts"), /^10 robots, flowtime /);
         assert.deepEqual(complaints, []);
       } finally {
