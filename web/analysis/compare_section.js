@@ -5,7 +5,7 @@ import { belongsTo, readDocument } from "../model/plan_file.js";
 import { differences, previousPlans, summed } from "../model/plan_difference.js";
 import { ProblemError } from "../model/problem.js";
 import { robotChip } from "../panels/robot_list.js";
-import { element } from "../ui/dom.js";
+import { element, setText } from "../ui/dom.js";
 import { count, seconds } from "../ui/format.js";
 import { button, choicePart } from "./fields.js";
 
@@ -35,6 +35,7 @@ export class CompareSection {
     class: "quiet",
     title: "Exchange the two plans",
   });
+  #verdict = element("p", { class: "fault", role: "status" }); // on a plan that is not valid
   #result = element("div", { class: "results" });
   /** @type {any} */
   #opened = null; // the answer of a file
@@ -54,6 +55,7 @@ export class CompareSection {
       this.#choice.field,
       element("div", { class: "row" }, open, this.#swap, this.#file),
       this.#view.field,
+      this.#verdict,
       this.#result,
     );
     this.#view.input.addEventListener("change", () => this.#show());
@@ -61,6 +63,7 @@ export class CompareSection {
     this.#file.addEventListener("change", () => this.#openFile());
     this.#session.on("request", ({ opened }) => opened && (this.#opened = null));
     this.#session.on("answer", () => this.#onAnswer());
+    this.#session.on("check", () => this.#judge());
     this.#onAnswer();
   }
 
@@ -113,12 +116,22 @@ export class CompareSection {
     this.#swap.disabled = !this.#other?.answer;
     this.#view.field.hidden = this.#other === null;
     this.#result.replaceChildren();
+    this.#judge();
     if (had || this.#other !== null) this.#show();
     if (this.#other === null) return;
     const { plans } = this.#other;
     const { player, answer } = this.#session;
     player.duration = Math.max(player.duration, ...plans.map(({ cost }) => cost)); // so that both end
     this.#result.append(...this.#describe(differences(answer.plans, plans)));
+  }
+
+  /** Tells if the plan is not valid, as far as it was checked. */
+  #judge() {
+    const { valid = true, violations = [], violations_total = violations.length } = this.#session.check ?? {};
+    const isWrong = !valid && this.#other !== null;
+    const words = `This plan is not valid: ${count(violations_total, "violation")}, listed under Plan.`;
+    this.#verdict.hidden = !isWrong;
+    setText(this.#verdict, isWrong ? words : "");
   }
 
   /** Shows the other plan, if there is one, as chosen. */
