@@ -2,9 +2,10 @@
 
 import { EditPanel } from "./edit/edit_panel.js";
 import { Address } from "./files/address.js";
-import { KeptRequests } from "./files/kept_requests.js";
+import { keptPlans, keptRequests } from "./files/kept.js";
 import { mapTasks } from "./files/map_tasks.js";
 import { Opening } from "./files/opening.js";
+import { PlanKeeper } from "./files/plan_keeper.js";
 import { fileStem, watchSaving } from "./files/save.js";
 import { watchSharing } from "./files/sharing.js";
 import { Setup } from "./files/setup.js";
@@ -59,7 +60,8 @@ const show = (part) => {
   if (part === "comparison") earlier.compare();
 };
 const opening = new Opening(session, service.fetchExample, show, mapTasks());
-const address = new Address(session, opening, new KeptRequests());
+const address = new Address(session, opening, keptRequests());
+const keeper = new PlanKeeper(session, opening, keptPlans());
 const setup = new Setup(session, opening);
 const planButton = new PlanButton(session, transport);
 const edit = new EditPanel(session, stage, tabs, opening);
@@ -141,4 +143,4 @@ watchShortcuts({
 document.addEventListener("visibilitychange", () => session.player.skip());
 
 offerHook(session, stage, fleet);
-setup.begin(service, address);
+setup.begin(service, address, keeper);

@@ -3,6 +3,7 @@
 // the address identifies it here (#kept=…).
 
 import { FileError } from "../model/problem.js";
+import { freshId } from "./kept.js";
 
 const REST_MS = 400; // without a further edit
 const MOST_TO_COMPRESS = 2 ** 20; // characters: longer requests are not compressed after each edit
@@ -22,7 +23,7 @@ export class Address {
   #isLarge = false; // the request is too large for a link
   #isKept = true; // the address leads to the request as it is now
 
-  /** `opening`: see Opening; `kept`: see KeptRequests. */
+  /** `opening`: see Opening; `kept`: see keptRequests. */
   constructor(session, opening, kept) {
     this.#session = session;
     this.#opening = opening;
@@ -35,17 +36,23 @@ export class Address {
     addEventListener("hashchange", ({ newURL }) => this.#follow(new URL(newURL).hash));
   }
 
-  /** Opens what the address identifies, or else the first of the examples ([{name}]). */
+  /**
+   * Opens what the address identifies, or else the first of the examples ([{name}]); resolves to whether it is what the
+   * address identifies.
+   */
   async begin(examples) {
     this.#examples = examples;
-    if (this.#opening.begun) return;
+    if (this.#opening.begun) return false;
     let problem = null;
     if (isOwn(location.hash)) {
-      if (await this.#openOwn(location.hash)) return;
+      if (await this.#openOwn(location.hash)) return true;
       problem = this.#session.problem;
     }
-    const first = this.#named(location.hash) ?? examples[0];
-    if (first && (await this.#opening.example(first.name)) && problem) this.#session.setProblem(problem);
+    const named = this.#named(location.hash);
+    const first = named ?? examples[0];
+    if (first === undefined || !(await this.#opening.example(first.name))) return false;
+    if (problem) this.#session.setProblem(problem);
+    return named !== undefined;
   }
 
   /** An address that opens the session's request: {address, length}, with the length of the fragment. */
@@ -102,7 +109,7 @@ export class Address {
 
   /** Keeps a request; resolves to the fragment that leads to it, "" if the browser does not keep it. */
   async #keep(named) {
-    this.#keptId ??= `${Date.now().toString(36)}-${Math.random().toString(36).slice(2)}`;
+    this.#keptId ??= freshId();
     try {
       await this.#kept.put(this.#keptId, named);
       return KEPT + this.#keptId;
@@ -113,7 +120,7 @@ export class Address {
 }
 
 function put(fragment) {
-  history.replaceState(null, "", `${location.pathname}${location.search}${fragment}`);
+  history.replaceState(history.state, "", `${location.pathname}${location.search}${fragment}`);
 }
 
 export const LONGEST_LINK = 8000; // characters of the fragment; longer addresses are often truncated

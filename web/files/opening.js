@@ -1,6 +1,7 @@
 // Opening what to plan: an example, files, a text, a link. The last choice wins.
 
 import { isSameTask } from "../model/earlier_plans.js";
+import { isAlike } from "../model/kept_plan.js";
 import { ConnectionLost, FileError, ProblemError } from "../model/problem.js";
 import { readLinkState } from "./address.js";
 import { prepareRequest } from "./prepare.js";
@@ -75,6 +76,24 @@ export class Opening {
       if (found === null) throw new FileError(NOT_KEPT);
       return this.#reader.text(found.name, found.text);
     });
+  }
+
+  /**
+   * Opens the plan that this browser keeps of the present request, or of that before its edits: `load()` resolves to
+   * {request, answer}, the texts of both, or to null if there is none.
+   */
+  async keptPlan(load) {
+    const session = this.#session;
+    const { name, request: present } = session;
+    const isOpen = await this.#choose(async () => {
+      const found = await load().catch(() => null);
+      const isLate = session.request !== present || session.answer !== null || session.planning !== null;
+      if (found === null || isLate) return null;
+      const opened = this.#reader.pair(name, found.request, found.answer);
+      return isAlike(opened.request, present) ? { ...opened, request: present } : opened;
+    });
+    if (isOpen) session.edit(present);
+    return isOpen;
   }
 
   /** `read` resolves to what to open, see Reader, or to null if that was cancelled. */

@@ -60,6 +60,11 @@ export class Reader {
     return this.#documents([{ name, text }]);
   }
 
+  /** What the texts of a request and of its answer contain together. Throws FileError. */
+  pair(name, request, answer) {
+    return this.#documents([request, answer].map((text) => ({ name, text })));
+  }
+
   /** One document, or two of which one is the request and the other its answer: [{name, text}]. */
   #documents(documents) {
     const read = documents.map(({ name, text }) => ({

@@ -39,15 +39,16 @@ export class Setup {
     session.on("problem", () => this.#showChosen()); // the chosen example may have failed to load
   }
 
-  /** Lists the examples and opens what the address identifies. `address`: see Address. */
-  async begin(service, address) {
+  /** Lists the examples and opens what the address identifies, with its plan. See Address and PlanKeeper. */
+  async begin(service, address, keeper) {
     const examples = service.listExamples().then((listed) => this.#showExamples(listed));
     const limits = service.fetchLimits().then((known) => this.#session.setLimits(known));
     const loaded = Promise.allSettled([examples, limits]);
     await examples.catch(() => this.#showExamples([]));
-    await address.begin(this.#examples);
+    await keeper.restore(await address.begin(this.#examples));
     for (const each of await loaded) {
-      if (each.status === "rejected") this.#session.fail(each.reason, () => this.begin(service, address));
+      if (each.status === "rejected")
+        this.#session.fail(each.reason, () => this.begin(service, address, keeper));
     }
   }
 

@@ -36,6 +36,12 @@ export class Documents {
     return this.isEdited ? JSON.stringify(this.request) : this.#opened.text;
   }
 
+  /** The request that the answer is of, as JSON. */
+  get plannedText() {
+    const { planned } = this.present;
+    return planned === this.request ? this.text : JSON.stringify(planned);
+  }
+
   get canUndo() {
     return this.#history.canUndo;
   }

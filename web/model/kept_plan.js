@@ -20,7 +20,8 @@ export function changedRobots(answer, before, request) {
   return new Set(answered.map(({ robot }) => robot).filter((id) => !isSame(id)));
 }
 
-const isAlike = (one, other) => one === other || JSON.stringify(one) === JSON.stringify(other);
+/** Whether two parts of requests, or two requests, are the same. */
+export const isAlike = (one, other) => one === other || JSON.stringify(one) === JSON.stringify(other);
 
 /** The plan file with the plans that may hold: of the robots that are not outdated. */
 export function fileToCheck(request, answer, outdated) {

@@ -90,6 +90,11 @@ export class Session extends Marking {
     return this.#documents.text;
   }
 
+  /** The request that the answer is of, as JSON. */
+  get plannedText() {
+    return this.#documents.plannedText;
+  }
+
   get canUndo() {
     return this.#documents.canUndo;
   }
