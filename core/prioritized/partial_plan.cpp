@@ -109,6 +109,7 @@ class SafePlanner {
   }
 
   bool try_plan(std::size_t robot, const SearchLimits& limits) {
+    state_.relieve_memory();
     if (stop_.met()) {
       result_.cut_off = true;
       return false;

@@ -167,11 +167,17 @@ Result PlanState::within_memory(Result otherwise, const Compute& compute) {
   } catch (const std::bad_alloc&) {
     is_spent = true;
   }
-  if (is_spent || is_short_of_memory()) {
-    search_.release_memory();
-    search_spaces_.discard_all();
-  }
+  if (is_spent || is_short_of_memory()) release_memory();
   return otherwise;
+}
+
+void PlanState::release_memory() {
+  search_.release_memory();
+  search_spaces_.discard_all();
+}
+
+void PlanState::relieve_memory() {
+  if (is_short_of_memory()) release_memory();
 }
 
 /// Ends a search when robots that stay are found to close off the robot.

@@ -102,6 +102,9 @@ class PlanState {
   /// out.
   std::vector<std::size_t> robots_crossing_start(std::size_t robot) const;
 
+  /// Gives up what searches keep for later, if memory is short.
+  void relieve_memory();
+
   /// Of all searches among reservations.
   std::int64_t expansions() const { return expansions_; }
 
@@ -112,6 +115,7 @@ class PlanState {
   /// When memory is short, what searches keep for later is given up.
   template <class Result, class Compute>
   Result within_memory(Result otherwise, const Compute& compute);
+  void release_memory();
   SearchResult search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
   void find_way(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
   void find_leg(std::size_t robot, std::size_t goal, std::int64_t max_expansions, const StopCondition& stop);

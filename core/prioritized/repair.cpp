@@ -88,7 +88,10 @@ class Repair {
   }
 
  private:
-  bool goes_on() const { return !stop_.met() || (on_stop_ && on_stop_(unsolved(), result_.given_up)); }
+  bool goes_on() {
+    state_.relieve_memory();
+    return !stop_.met() || (on_stop_ && on_stop_(unsolved(), result_.given_up));
+  }
 
   /// By priority.
   std::vector<std::size_t> unsolved() const {
