@@ -1,7 +1,6 @@
 // What the Save menu offers for others to look at: a picture, an animation, a page of its own. The last two are loaded
 // when they are asked for.
 
-import { asRows } from "../model/drawn_map.js";
 import { planFile } from "../model/plan_file.js";
 import { byId, setText } from "../ui/dom.js";
 import { saveBlob } from "./downloads.js";
@@ -55,8 +54,7 @@ export function watchSharing(session, stage, load, stem) {
 }
 
 function pageOf({ sharedPage }, { name, request, answer }) {
-  const rows = Array.isArray(request.map?.rows) ? null : asRows(request.map);
-  return sharedPage(name, planFile(request, answer), rows);
+  return sharedPage(name, planFile(request, answer));
 }
 
 /** Saves the scene as it is seen, with at least twice the pixels of the page. */

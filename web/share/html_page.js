@@ -14,13 +14,10 @@ const DROPPED = [
   "#comparison",
 ];
 
-/**
- * The text of the file that shows `plan`, a plan file, under a name; `rows` is its map as rows if that is of another
- * kind, else null.
- */
-export async function sharedPage(name, plan, rows) {
+/** The text of the file that shows `plan`, a plan file, under a name. */
+export async function sharedPage(name, plan) {
   const { code, modules } = await gathered(VIEWER);
-  const data = JSON.stringify({ name, document: plan, rows });
+  const data = JSON.stringify({ name, document: plan });
   return assembled({ name, style: stylesOf(document), body: bodyOf(document), data, code, modules });
 }
 

@@ -1,7 +1,8 @@
 // The script of a shared HTML file: shows the request and plan that it contains.
 
 import { saveText } from "../files/downloads.js";
-import { rememberRows } from "../model/drawn_map.js";
+import { MAP_WORK } from "../files/map_work.js";
+import { prepareRequest } from "../files/prepare.js";
 import { readDocument } from "../model/plan_file.js";
 import { Session } from "../model/session.js";
 import { watchReadout, watchViewMenu } from "../panels/scene_bar.js";
@@ -15,9 +16,9 @@ import { byId, setText } from "../ui/dom.js";
 import { count, seconds } from "../ui/format.js";
 import { watchShortcuts } from "../ui/input.js";
 
-const { name, document: shared, rows } = JSON.parse(byId("shared").textContent);
+const { name, document: shared } = JSON.parse(byId("shared").textContent);
 const { request, answer } = /** @type {any} */ (readDocument(shared));
-if (rows !== null) rememberRows(request.map, rows);
+await prepareRequest(request, MAP_WORK, async () => {});
 
 const session = new Session({}, requestAnimationFrame.bind(window));
 const stage = new Stage(session, new RobotColours());

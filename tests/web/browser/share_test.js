@@ -8,7 +8,8 @@ import { test } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
 import { choose, pressPlan } from "../support/browser.js";
-import { hook, pagesFor, paste } from "../support/on_page.js";
+import { png } from "../support/map_files.js";
+import { coloursAt, countColour, hook, pagesFor, paste } from "../support/on_page.js";
 
 const onBundle = pagesFor();
 const onSources = pagesFor(["--web-root", fileURLToPath(new URL("../../../web", import.meta.url))]);
@@ -131,3 +132,43 @@ for (const [how, onPage] of [
     });
   });
 }
+
+/** A robot passes a wall and a zone, which leave the top row of their columns free. */
+const [WALL, ZONE] = [2, 6]; // columns
+const columnOf = (dark) =>
+  Array.from({ length: 5 }, (_, row) =>
+    Array.from({ length: 10 }, (__, column) => (column === dark && row > 0 ? 0 : 254)),
+  );
+const imageOf = (dark) => ({ png: png(0, columnOf(dark)).toString("base64") });
+const MASKED = {
+  map: { image: { ...imageOf(WALL), resolution: 1 } },
+  zones: [{ id: "keepout", type: "blocked", mask: imageOf(ZONE) }],
+  robots: [{ ...SHORT.robots[0], goal: { x: 9.5, y: 0.5 } }],
+};
+
+test("a page to send draws the image of a map and the mask of a zone", async () => {
+  await onBundle(async (page) => {
+    await paste(page, MASKED);
+    await page.waitForFunction(() => window.fleetplan.request.zones);
+    await pressPlan(page);
+    const places = await page.evaluate(
+      (columns) => columns.map((column) => window.fleetplan.pointOf({ x: column + 0.2, y: 1.2 })),
+      [WALL, ZONE],
+    );
+    const [wall, mask] = await coloursAt(page, places);
+    assert.notEqual(wall, mask);
+    const { path } = await saved(page, "#save-page");
+    const away = await page.context().browser().newContext({ offline: true });
+    try {
+      const other = await away.newPage();
+      await other.goto(pathToFileURL(path).href);
+      await other.waitForFunction(() => document.getElementById("facts").textContent.startsWith("1 robot"));
+      for (const [what, colour] of Object.entries({ wall, mask })) {
+        const pixels = await countColour(other, colour, { x: 0, y: 0 }, Infinity);
+        assert.ok(pixels > 1000, `${pixels} pixels of the ${what}`);
+      }
+    } finally {
+      await away.close();
+    }
+  });
+});
