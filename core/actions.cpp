@@ -50,6 +50,9 @@ class ActionList {
     append(Action::Type::translate, move.t_end, {move.path.to, pose_.theta}, {});
     actions_.back().reverse = reverse;
   }
+  void wait(double t_end, std::optional<std::size_t> goal) {
+    if (t_end - now_ > kNegligible) append(Action::Type::wait, t_end, pose_, goal);
+  }
   std::vector<Action> take() { return std::move(actions_); }
 
  private:
@@ -62,9 +65,6 @@ class ActionList {
     double rotated = now_ + rotation / speed;
     if (std::abs(t_end - rotated) <= rounding) rotated = t_end;
     append(Action::Type::rotate, rotated, {pose_.position, theta}, {});
-  }
-  void wait(double t_end, std::optional<std::size_t> goal) {
-    if (t_end - now_ > kNegligible) append(Action::Type::wait, t_end, pose_, goal);
   }
   void append(Action::Type type, double t_end, const Pose& to, std::optional<std::size_t> goal) {
     actions_.push_back({type, now_, t_end, pose_, to, goal});
@@ -111,7 +111,11 @@ std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory,
     list.translate(move, reverse);
   }
   for (; visit != trajectory.visits.end(); ++visit) list.visit(*visit);
-  if (robot.goal) list.visit_last(trajectory.cost);
+  if (trajectory.stops_at) {
+    list.wait(*trajectory.stops_at, {});
+  } else if (robot.goal) {
+    list.visit_last(trajectory.cost);
+  }
   return list.take();
 }
 

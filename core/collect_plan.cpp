@@ -29,7 +29,7 @@ RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
   const Robot& robot = state.instance().robot(index);
   if (!trajectory)
     return {index, robot.committed_until(), robot.committed, robot.committed_until()};  // parked
-  const double cost = trajectory->cost;
+  const double cost = trajectory->stops_at.value_or(trajectory->cost);
   if (trajectory->is_previous) {
     const std::vector<Action>& actions = previous_actions(robot);
     return {index, cost, actions, std::min(bound, cost), visits_of(robot, actions)};
@@ -38,7 +38,9 @@ RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
   std::vector<Action> actions = to_actions(robot, *trajectory, state.instance().drive_zones(index));
   std::vector<Visit> visits = visits_of(robot, actions);
   remove_wrong_goals(actions, visits, robot.committed.size());
-  return {index, cost, std::move(actions), std::min(bound, cost), std::move(visits)};
+  RobotPlan plan{index, cost, std::move(actions), std::min(bound, cost), std::move(visits)};
+  if (trajectory->stops_at) plan.estimated_cost = trajectory->cost;
+  return plan;
 }
 
 }  // namespace
@@ -62,12 +64,18 @@ Objectives objectives_of(const PlanState& state) {
 Plan collect_plan(const PlanState& state, const std::vector<std::optional<Unplanned>>& unplanned,
                   const TautPathBounds& bounds) {
   Plan plan;
+  const std::optional<double>& horizon = state.instance().options().horizon;
+  if (horizon) plan.estimated = Objectives();
   for (std::size_t i = 0; i < state.instance().size(); ++i) {
     if (unplanned[i]) {
       plan.unplanned.push_back(*unplanned[i]);
       continue;
     }
-    const RobotPlan& robot = plan.plans.emplace_back(robot_plan(state, i, bounds[i]));
+    // With a horizon, a plan may stop there, or where the committed actions end if that is later.
+    double bound = bounds[i];
+    if (horizon) bound = std::min(bound, std::max(*horizon, state.instance().itinerary(i).t_begin));
+    const RobotPlan& robot = plan.plans.emplace_back(robot_plan(state, i, bound));
+    if (horizon) plan.estimated = including(*plan.estimated, robot.estimated_cost.value_or(robot.cost));
     plan.objectives = including(plan.objectives, robot.cost);
     plan.lower_bound = including(plan.lower_bound, robot.lower_bound);
   }

@@ -76,6 +76,19 @@ bool is_final(const KeptPlans& previous, const Problem& problem, const PlanOptio
          });
 }
 
+/// The previous plans from which planning begins. With a horizon, robots that keep theirs would be in the way
+/// of others for good: nobody fails who could wait before them, and so nobody is raised above them. So either
+/// all robots keep their plans, or with PlanOptions::Replan::all none.
+KeptPlans plans_to_begin_with(const Problem& problem, const PlanOptions& options, const StopCondition& stop) {
+  KeptPlans previous = keep_previous_plans(problem, options, stop);
+  if (!options.horizon || options.replan == PlanOptions::Replan::where_needed) return previous;
+  for (std::size_t i = 0; i < problem.robots().size(); ++i) {
+    const Robot& robot = problem.robots()[i];
+    if (robot.goal && !robot.invalid && !previous.contains(i)) return {{}, previous.cut_off};
+  }
+  return previous;
+}
+
 /// The plans that are kept in every case; not known if the check takes too long.
 KeptPlans certain_plans(const KeptPlans& previous, const Instance& instance, const StopCondition& stop) {
   if (std::count(previous.kept.begin(), previous.kept.end(), true) == 0) return {};
@@ -194,7 +207,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   ProgressReport progress(state, observer);
   Random random(options.seed);
 
-  const KeptPlans previous = keep_previous_plans(problem, options, beyond_budget(stop, kMostForPrevious));
+  const KeptPlans previous = plans_to_begin_with(problem, options, beyond_budget(stop, kMostForPrevious));
   std::vector<std::optional<Unplanned>> unplanned = triage(state, stop, previous.kept);
   std::vector<std::size_t> movers = robots_to_plan(instance, unplanned);
   PrioritizedResult prioritized = first_plan(state, previous, movers, random, stop, progress);

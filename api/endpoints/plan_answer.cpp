@@ -69,9 +69,11 @@ core::Plan without_moves(const core::Plan& plan, const core::Problem& problem,
   left.deterministic = false;
   left.search = plan.search;
   left.unplanned = plan.unplanned;
+  if (plan.estimated) left.estimated = core::Objectives();
   for (const core::RobotPlan& robot : plan.plans) {
     if (!moves(robot, problem)) {
       left.plans.push_back(robot);
+      if (left.estimated) left.estimated->flowtime += robot.cost;
     } else {
       left.unplanned.push_back({robot.robot,
                                 core::Unplanned::Reason::budget_exhausted,
@@ -122,6 +124,7 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
     core::CheckRules rules{core::plan_tolerances(grid, robots, checked.plans)};
     rules.interval_margin = request.options.interval_margin;
     rules.start_overlap = request.options.start_overlap;
+    rules.horizon = request.options.horizon;
     rules.exact_commitments = true;
     rules.exempt = checked.unavoidable;
     return core::verify({grid, robots, request.problem.obstacles(), &request.problem.zones()}, checked.plans,

@@ -64,7 +64,7 @@ constexpr WordOption one_of_invalid_robots() {
           }};
 }
 
-constexpr std::array<OptionRow, 20> kTable{{
+constexpr std::array<OptionRow, 21> kTable{{
     {"time_budget_ms", "Time budget", "ms", ServiceOption{kBudget, &ReadOptions::budget_ms, 5000.0},
      "Milliseconds for the whole answer, counted from the last byte received. `GET /v1/limits` returns the "
      "default (`default_budget_ms`) and the maximum (`max_budget_ms`); a larger value is clamped, with a "
@@ -97,6 +97,11 @@ constexpr std::array<OptionRow, 20> kTable{{
     {"replan", "Previous plans", "", one_of<&PlanOptions::replan>(kReplans),
      "What becomes of `previous` plans that still hold. `all`: the search begins with them and improves "
      "them. `where_needed`: they are kept, unless a robot could not be planned otherwise."},
+    {"horizon", "Horizon", "s", ChosenOption{kHorizon, &PlanOptions::horizon},
+     "Seconds up to which conflicts are resolved. A plan may stop there before its goal, with `ends_at` "
+     "`horizon` and its `estimated_cost`, where the robot may rest for good; the next plan goes on from it. "
+     "By "
+     "default, whole ways are planned."},
     {"interval_margin", "Time margin", "s", RealOption{kDuration, &PlanOptions::interval_margin},
      "Seconds by which robots may be early or late without meeting: any two keep clear of each other at "
      "times that differ by up to so much. Not between committed motions, nor of robots that have not left "

@@ -16,11 +16,11 @@ namespace fleetplan::api {
 namespace {
 
 // The members of a request to validate, then those that an answer of /v1/plan adds, which are ignored.
-constexpr std::array<std::string_view, 25> kMembers{
+constexpr std::array<std::string_view, 26> kMembers{
     "map",       "robot_defaults", "robots",        "obstacles", "unavoidable", "options",  "plans",
     "tolerance", "status",         "request_id",    "unplanned", "flowtime",    "makespan", "lower_bound",
     "verified",  "min_clearance",  "deterministic", "search",    "timings_ms",  "warnings", "lattice_spacing",
-    "metadata",  "zones",          "dependencies",  "tight"};
+    "metadata",  "zones",          "dependencies",  "tight",     "estimated"};
 
 constexpr double kDefaultTolerance = core::kMostTolerance;  // metres, seconds, radians
 constexpr double kLargestTolerance = 1e9;
@@ -38,6 +38,7 @@ core::CheckRules rules_of(const core::PlanOptions& options, std::vector<core::Me
   core::CheckRules rules;
   rules.interval_margin = options.interval_margin;
   rules.start_overlap = options.start_overlap;
+  rules.horizon = options.horizon;
   rules.exempt = std::move(meetings);
   return rules;
 }

@@ -19,6 +19,7 @@ inline constexpr Range kCoordinate{-kFarthestCoordinate, kFarthestCoordinate, "m
 inline constexpr Range kLinearSpeed{1e-3, 1e3, "metres per second"};
 inline constexpr Range kAngularSpeed{1e-3, 1e6, "radians per second"};
 inline constexpr Range kDuration{0.0, kLongestTime, "seconds"};
+inline constexpr Range kHorizon{1e-3, kLongestTime, "seconds"};
 inline constexpr Range kSlackInTime{1e-3, kLongestTime, "seconds"};  // of dependencies
 inline constexpr Range kAnyAngle{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
                                  "radians"};

@@ -38,6 +38,7 @@ void write_plan(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPla
   const ReceivedRobot& received = verified.received[plan.robot];
   json.begin_object();
   json.member("robot", robot.id).member("cost", plan.cost).member("lower_bound", plan.lower_bound);
+  if (plan.estimated_cost) json.member("ends_at", "horizon").member("estimated_cost", *plan.estimated_cost);
   write_actions(json, plan.actions, robot, received, verified.origin);
   if (received.lists_visits) write_visits(json, plan.visits, received.goal_metadata);
   write_metadata(json, received.metadata);
@@ -93,6 +94,11 @@ void write_summary(JsonWriter& json, const VerifiedPlan& verified) {
   json.key("lower_bound").begin_object();
   json.member("flowtime", plan.lower_bound.flowtime).member("makespan", plan.lower_bound.makespan);
   json.end_object();
+  if (plan.estimated) {
+    json.key("estimated").begin_object();
+    json.member("flowtime", plan.estimated->flowtime).member("makespan", plan.estimated->makespan);
+    json.end_object();
+  }
   json.member("verified", verified.report.valid());
   json.member("min_clearance", reported_clearance(verified.report));
   json.member("deterministic", plan.deterministic);

@@ -22,6 +22,9 @@ struct RobotPlan {
   std::vector<Action> actions;
   double lower_bound = 0.0;        // seconds
   std::vector<Visit> visits = {};  // one for each goal, in their order; the last one has no end
+  /// Seconds, if the plan stops at the horizon (PlanOptions::horizon), where the robot may rest for good:
+  /// `cost` and the estimate of the static way that is left. Then the visits are those before the horizon.
+  std::optional<double> estimated_cost = {};
 };
 
 /// A robot without a plan. It executes its committed actions, if any, and stays at their end; the plans of
@@ -79,6 +82,7 @@ struct Plan {
   std::vector<Meeting> unavoidable = {};  // by time; at most kMostMeetingsOfRobot of a robot
   bool meetings_known = true;  // false if finding them was given up: then the plan cannot be checked
   Objectives objectives;
+  std::optional<Objectives> estimated = {};  // with a horizon: of estimated costs, where plans stop there
   Objectives lower_bound;
   bool deterministic = true;  // false if the clock or the load influenced the plan
   SearchStatistics search;

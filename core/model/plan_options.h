@@ -32,6 +32,9 @@ struct PlanOptions {
   double start_overlap = 0.0;
   /// Metres between the vertices of the lattice; nullopt: chosen by the map and the robots.
   std::optional<double> lattice_spacing = {};
+  /// Seconds, > 0: conflicts are resolved up to this time; then a robot may rest anywhere for good and has
+  /// its static way before it. nullopt: whole ways are planned.
+  std::optional<double> horizon = {};
   std::optional<std::int64_t> max_iterations;  // of `anytime`; nullopt: until the stop condition is met
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/geometry/segment.h"
@@ -20,6 +21,9 @@ struct Trajectory {
   double last_served = kForever;
   /// By move: goes on straight from the one before, at another speed; those that are missing do not.
   std::vector<bool> goes_on = {};
+  /// Seconds: the plan stops here, at or after the horizon, with goals left. `cost` is then an estimate: it
+  /// includes the static way that is left.
+  std::optional<double> stops_at = {};
   bool is_previous = false;  // the motion of Robot::previous: its actions are those received
 
   bool is_reverse(std::size_t move) const { return move < reverse.size() && reverse[move]; }

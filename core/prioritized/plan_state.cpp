@@ -131,7 +131,7 @@ bool PlanState::is_reserved(std::size_t robot, const Reservations& among) const 
 }
 
 void PlanState::restore(const Reservations& reservations) {
-  const Reservations wanted = reservations;  // may be those of this state
+  const Reservations wanted = reservations;                           // may be those of this state
   if (!is_in_table_) forget_ways_closed_by_robots(instance_.size());  // by all: others may stay now
   for (std::size_t robot = 0; robot < instance_.size(); ++robot) {
     if (is_in_table_ && is_reserved(robot, wanted)) continue;
@@ -194,7 +194,8 @@ class PlanState::EnclosureTest final : public NoPathTest {
 };
 
 SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
-  if (staying_count_ == 0) return search(robot, limits, stop);
+  // With a horizon, a robot that is closed off may come nearer to its goal all the same.
+  if (staying_count_ == 0 || instance_.options().horizon) return search(robot, limits, stop);
   EnclosureTest test(*this, robot);
   SearchLimits with_test = limits;
   with_test.no_path_test = &test;
@@ -202,7 +203,7 @@ SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, cons
 }
 
 SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
-  if (!goal_stays_free(robot)) return {};
+  if (!instance_.options().horizon && !goal_stays_free(robot)) return {};
   constexpr auto no_memory = [] { return SearchResult{std::nullopt, false, 0}; };
   const auto search_once = [&]() -> SearchResult {
     constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
@@ -212,6 +213,7 @@ SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, co
     SearchSpace& space = search_spaces_.of(robot);
     SearchLimits within = limits;
     within.bound = std::min(limits.bound, instance_.longest_plan(robot));
+    within.horizon = instance_.options().horizon.value_or(kForever);
     return search_.run(robot, space, within, stop);
   };
   const std::int64_t shortages = memory_shortages();
@@ -331,7 +333,7 @@ Trajectory PlanState::plan_alone(std::size_t robot, const StopCondition& stop) {
   SearchResult result = within_memory(SearchResult(), [&] {
     SearchSpace& space = search_spaces_.of(robot);
     AaSipp search(empty);
-    return search.run(robot, space, {}, stop);
+    return search.run(robot, space, {.horizon = instance_.options().horizon.value_or(kForever)}, stop);
   });
   return result.trajectory ? std::move(*result.trajectory) : staying(robot);
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/bounds/lower_bound.h"
+#include "core/model/served_goals.h"
 
 namespace fleetplan::core {
 namespace {
@@ -18,6 +19,11 @@ std::size_t permutations(std::size_t count, std::size_t limit) {
   std::size_t product = 1;
   for (std::size_t i = 2; i <= count && product < limit; ++i) product *= i;
   return std::min(product, limit);
+}
+
+/// Whether nothing is left to do for the robot when its committed actions end.
+bool has_arrived(const Robot& robot) {
+  return robot.via.empty() && robot.goal->service == 0.0 && is_in_pose(robot.committed_end(), *robot.goal);
 }
 
 }  // namespace
@@ -42,6 +48,10 @@ PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& op
     case PlanOptions::Priority::shortest_first:
       std::stable_sort(robots.begin(), robots.end(),
                        [&](auto a, auto b) { return weighted_distance(a) < weighted_distance(b); });
+      // With a horizon, no search fails that would raise a robot above one that is in its way for good.
+      if (options.horizon) {
+        std::stable_partition(robots.begin(), robots.end(), [&](auto i) { return !has_arrived(all[i]); });
+      }
       break;
     case PlanOptions::Priority::longest_first:
       std::stable_sort(robots.begin(), robots.end(),

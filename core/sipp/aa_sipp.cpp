@@ -17,6 +17,9 @@ constexpr int kStopStride = 32;
 constexpr double kRoundingOfTimes = 1e-9;
 /// Seconds; far more than the tolerances of times and headings with which a rest counts as a service.
 constexpr double kClearlyBefore = 1e-3;
+/// How much faster the accepted suboptimality grows for a path that stops at the horizon: that is tried again
+/// in the next round anyway.
+constexpr double kRestGrowth = 10.0;
 
 }  // namespace
 
@@ -25,10 +28,16 @@ Search::Outcome Search::run(Pass pass) {
   if (!begin(pass)) return Outcome::exhausted;
   label_start();
   for (int step = 1; state_.goal_label == LabelId::none; ++step) {
-    if (state_.open.empty()) return state_.incomplete ? Outcome::incomplete : Outcome::exhausted;
+    if (state_.open.empty()) {
+      if (finish_at_rest()) break;
+      return state_.incomplete ? Outcome::incomplete : Outcome::exhausted;
+    }
     if ((step % kStopStride == 0 || is_costly_) && stop_.met()) return Outcome::stopped;
     if (expansions_ >= pause_) {
-      if (expansions_ >= limits_.max_expansions) return Outcome::stopped;
+      if (expansions_ >= limits_.max_expansions) {
+        if (finish_at_rest()) break;
+        return Outcome::stopped;
+      }
       if (limits_.no_path_test->no_path(expansions_)) return Outcome::exhausted;
       pause_ = std::min(limits_.max_expansions, 2 * expansions_);
     }
@@ -36,6 +45,7 @@ Search::Outcome Search::run(Pass pass) {
       settle(state_.open[state_.best_goal_entry]);
       break;
     }
+    if (rest_suffices() && finish_at_rest()) break;
 
     // Pop the entry with the smallest f.
     const double f = state_.open.min_f();
@@ -149,6 +159,8 @@ bool Search::serve_with_other_intervals(LabelId id, const ServiceStop& stop) {
 void Search::offer_goal(LabelId from) {
   const PlaceId place = state_.labels[from].place;
   if (place == state_.goal || !state_.places[place].estimate.straight) return;
+  // A long move beyond the horizon would be in the way of others that rest there.
+  if (state_.labels[from].arrival + state_.places[place].estimate.seconds > limits_.horizon) return;
   offer_goal(from, false);
   if (motion_.may_reverse) offer_goal(from, true);
 }
@@ -159,6 +171,7 @@ void Search::offer_goal(LabelId from, bool reverse) {
     const PlaceId goal = goal_of(stage);
     return offer_from(add_edge(from, goal, false, reverse), state_.places[goal].first_interval);
   }
+  if (state_.places[state_.goal].never_safe()) return;
   const int last = state_.places[state_.goal].end_interval - 1;
   offer(add_edge(from, state_.goal, false, reverse), EdgeKind::local, last, false);
 }
@@ -220,8 +233,44 @@ LabelId Search::settle(const OpenEntry& entry) {
 /// Adds a label. If it is in the last safe interval of the goal, it is the result.
 LabelId Search::add_label(const Label& label) {
   const LabelId id = state_.labels.push_back(label);
-  if (is_final(label.place, label.interval)) state_.goal_label = id;
+  if (is_final(label.place, label.interval)) {
+    state_.goal_label = id;
+  } else if (has_horizon() && may_rest_at(label)) {
+    const double end = std::max(label.arrival, limits_.horizon);
+    const Evaluation evaluation = evaluate(label.place, label.interval, end, label.heading);
+    if (evaluation.f < state_.best_rest && evaluation.cost < limits_.bound) {
+      state_.best_rest = evaluation.f;
+      state_.rest_label = id;
+    }
+    // Its f is the smallest of all; what follows it lies beyond the horizon.
+    if (label.arrival >= limits_.horizon) state_.goal_label = state_.rest_label;
+  }
   return id;
+}
+
+/// Whether the robot may stay for good in this label. A rest in the pose of a goal at which the radius
+/// changes would serve it.
+bool Search::may_rest_at(const Label& label) const {
+  if (state_.intervals[label.interval].end != kForever) return false;
+  if (!changes_radius_) return true;
+  const Place& place = state_.places[label.place];
+  const Stage& stage = state_.stages[place.stage];
+  const Position goal = stage.vertices->position(stage.goal.vertex);
+  return !place.is_window && (place.position - goal).norm() > kContactTolerance;
+}
+
+/// Whether no entry promises much more than the best label to rest at. What is accepted relates to the time
+/// up to the horizon, as the way beyond it is the same for all.
+bool Search::rest_suffices() const {
+  if (state_.rest_label == LabelId::none) return false;
+  const double growth = kRestGrowth * limits_.suboptimality_growth * static_cast<double>(expansions_);
+  return state_.best_rest <= state_.open.min_f() + growth * limits_.horizon;
+}
+
+/// Ends the path at the best label to rest at, if there is one.
+bool Search::finish_at_rest() {
+  state_.goal_label = state_.rest_label;
+  return state_.goal_label != LabelId::none;
 }
 
 EdgeId Search::add_edge(LabelId via, PlaceId target, bool with_shortcut, bool reverse) {

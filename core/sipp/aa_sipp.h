@@ -39,6 +39,7 @@ namespace fleetplan::core {
 ///       else if the entry is dominated by now: continue
 ///       label <- settle (vertex, safe interval, heading) with g      ["High-level overview"]
 ///       if label is at the goal in its last safe interval: stop
+///       with a horizon: stop at the best label from there on in a safe interval without end
 ///       expand label:
 ///         if the goal is in sight (any-angle): offer the straight move to it
 ///         for each neighbour: offer the shortcut from the label's parent (any-angle), or else the local

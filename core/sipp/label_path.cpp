@@ -100,6 +100,15 @@ Trajectory trajectory_of(const SearchState& state, const SearchSpace& space) {
     }
   }
   const Label& last = state.labels[path.back()];
+  if (state.goal_label == state.rest_label) {
+    const Place& place = place_of(last);
+    const double left = place.any_heading
+                            ? place.estimate.seconds
+                            : place.estimate.with_rotation(last.heading, space.vertices().motion());
+    trajectory.stops_at = std::max(last.arrival, state.horizon);
+    trajectory.cost = *trajectory.stops_at + left;
+    return trajectory;
+  }
   trajectory.cost = state.stages.back().is_rest
                         ? trajectory.last_served
                         : std::max(service_stop(last, state.stages.back(), space).t_end, last.arrival);

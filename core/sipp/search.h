@@ -64,6 +64,10 @@ class Search {
   bool can_serve_all();
   void label_start();
   bool goal_entry_suffices() const;
+  bool has_horizon() const { return limits_.horizon != kForever; }
+  bool may_rest_at(const Label& label) const;
+  bool rest_suffices() const;
+  bool finish_at_rest();
   LabelId settle(const OpenEntry& entry);
   LabelId add_label(const Label& label);
   void expand(LabelId id);

@@ -30,6 +30,9 @@ struct SearchLimits {
   /// safe interval, or earlier by less than the time to translate by this many lattice spacings. 0: exact
   /// dominance.
   double dominance_slack = 0.5;
+  /// Seconds: a path may also end from this time on wherever the robot may rest for good, at the estimated
+  /// cost of its static way from there. kForever: only at the goal.
+  double horizon = kForever;
   double start_delay = 0.0;  // seconds, >= 0; the robot stays where it begins at least this long
   /// Search again with exact dominance if the quick search finds nothing. The quick search applies
   /// `dominance_slack`, and keeps only one label per safe interval while f is below the time from which the

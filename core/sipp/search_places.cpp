@@ -7,7 +7,7 @@
 namespace fleetplan::core {
 
 /// Prepares a pass. Returns false if the last goal has no safe interval without end, or another one has none
-/// that is long enough.
+/// that is long enough; with a horizon, the path may end elsewhere.
 bool Search::begin(Pass pass) {
   pass_ = pass;
   use_slack_ = pass == Pass::quick && limits_.dominance_slack > 0.0;
@@ -20,11 +20,13 @@ bool Search::begin(Pass pass) {
   state_.stages = stages_of(space_, stop_);
   state_.goal = goal_of(last_stage_);
   const Place& goal = state_.places[state_.goal];
-  if (goal.never_safe()) return false;
-  const SafeInterval& last = state_.intervals[goal.end_interval - 1];
-  set_releases(state_.stages, last.begin);
+  const bool stays_free = !goal.never_safe() && state_.intervals[goal.end_interval - 1].end == kForever;
+  if (!stays_free && !has_horizon()) return false;
+  const double free_from = stays_free ? state_.intervals[goal.end_interval - 1].begin : kForever;
+  state_.horizon = limits_.horizon;
+  set_releases(state_.stages, std::min(free_from, limits_.horizon));
   state_.release = state_.stages[0].release;
-  return last.end == kForever && can_serve_all();
+  return has_horizon() || can_serve_all();
 }
 
 /// Whether each goal before the last one is free for long enough, at some time.

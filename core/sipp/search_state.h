@@ -69,9 +69,12 @@ struct SearchState {
   OpenList open;
   DominanceTable dominance;
   PlaceId goal = PlaceId::none;             // the last one, in the last stage
+  double horizon = kForever;                // see SearchLimits
   double release = 0.0;                     // estimate: no path ends earlier; see Stage
   EntryId best_goal_entry = EntryId::none;  // the cheapest timed entry into the goal's last safe interval
   double best_goal_cost = kForever;
+  LabelId rest_label = LabelId::none;  // the best label to rest at beyond the horizon
+  double best_rest = kForever;         // its f
   LabelId goal_label = LabelId::none;
   bool incomplete = false;  // the quick pass discarded an arrival that the complete pass may keep
 
@@ -86,6 +89,8 @@ struct SearchState {
     goal = PlaceId::none;
     best_goal_entry = EntryId::none;
     best_goal_cost = kForever;
+    rest_label = LabelId::none;
+    best_rest = kForever;
     goal_label = LabelId::none;
     incomplete = false;
   }

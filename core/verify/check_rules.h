@@ -2,6 +2,8 @@
 
 // What is checked, and by which rules.
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/map/occupancy_grid.h"
@@ -21,6 +23,9 @@ struct CheckedFleet {
   const std::vector<Zone>* zones = nullptr;  // null: none
 };
 
+/// Whether a plan may end with goals left, because it ends at or after the horizon.
+enum class GoalsLeft : std::uint8_t { none, allowed };
+
 /// The rules beside those that hold for all plans. The default is the plainest check.
 struct CheckRules {
   std::vector<Tolerance> tolerances;  // by robot
@@ -30,6 +35,9 @@ struct CheckRules {
   double wait_before_move = 0.0;  // seconds: every translation follows a stand-still of this duration
   /// Metres: so much may robots overlap each other or a wall at their start, inflation included.
   double start_overlap = 0.0;
+  /// Seconds: a plan that ends at this time or later may end anywhere, with goals left. nullopt: all plans
+  /// lead to the goal.
+  std::optional<double> horizon = {};
   /// Committed actions must be repeated to the last digit. Otherwise the tolerances apply.
   bool exact_commitments = false;
   /// Collisions that are allowed: of exactly this pair, during the one uninterrupted overlap that contains

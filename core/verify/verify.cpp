@@ -99,9 +99,18 @@ class FleetCheck {
     // Committed actions that are those of the request are as good as the request.
     const std::size_t given = rules_.exact_commitments && !changed ? robot.committed.size() : 0;
     violations_.add(check_motion(robot, plan, given, tolerance, stop_));
-    for (Violation& wrong : check_endpoints(robot, plan, tolerance)) violations_.add(std::move(wrong));
-    for (Violation& wrong : check_visits(robot, plan, tolerance, stop_)) violations_.add(std::move(wrong));
+    const GoalsLeft goals_left =
+        may_leave_goals(robot, plan, tolerance) ? GoalsLeft::allowed : GoalsLeft::none;
+    for (Violation& wrong : check_endpoints(robot, plan, tolerance, goals_left))
+      violations_.add(std::move(wrong));
+    for (Violation& wrong : check_visits(robot, plan, tolerance, goals_left, stop_))
+      violations_.add(std::move(wrong));
     violations_.add(check_waits(robot, plan, rules_.wait_before_move, tolerance, stop_));
+  }
+
+  bool may_leave_goals(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance) const {
+    return rules_.horizon && robot.goal && !plan.actions.empty() &&
+           plan.actions.back().t_end >= *rules_.horizon - tolerance.seconds;
   }
 
   const CheckedFleet& request_;

@@ -71,7 +71,7 @@ inline void leave_visited_goals(core::Robot& robot, const core::RobotPlan& plan,
   for (std::size_t k = 0; k < plan.visits.size(); ++k) {
     const core::Visit& visit = plan.visits[k];
     const double begin = std::max(visit.t_arrive, goals[k].not_before);
-    const bool last = k + 1 == plan.visits.size();
+    const bool last = k + 1 == goals.size();  // a plan that stops at the horizon has fewer visits
     if (visit.t_arrive > t) break;
     const double done = std::clamp(t - begin, 0.0, goals[k].service);
     if (!last && visit.t_leave <= t) {
@@ -82,7 +82,7 @@ inline void leave_visited_goals(core::Robot& robot, const core::RobotPlan& plan,
     }
   }
   for (std::size_t k = 0; k < first; ++k) robot.radius = goals[k].radius_after.value_or(robot.radius);
-  if (!plan.visits.empty() && first + 1 == goals.size()) {
+  if (plan.visits.size() == goals.size() && first + 1 == goals.size()) {
     core::Goal& last = goals.back();
     const double begin = std::max(plan.visits.back().t_arrive, last.not_before);
     if (last.radius_after && last.service == 0.0 && begin <= t && plan.visits.back().t_arrive <= t) {

@@ -32,8 +32,8 @@ std::optional<Violation> check_pose(const Violation& blank, const Pose& pose, co
 
 }  // namespace
 
-std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan,
-                                       const Tolerance& tolerance) {
+std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance,
+                                       GoalsLeft goals_left) {
   std::vector<Violation> violations;
   const bool stays = plan.actions.empty();
   if (!stays) {
@@ -43,6 +43,7 @@ std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan
         check_pose(blank, plan.actions.front().from, start, tolerance, "the plan starts", "start");
     if (wrong) violations.push_back(*wrong);
   }
+  if (goals_left == GoalsLeft::allowed) return violations;
   const Violation blank{
       Violation::Kind::wrong_goal, {plan.robot}, stays ? 0.0 : plan.actions.back().t_end, 0.0, 0.0, "", {}};
   const Pose& rest = stays ? robot.start : plan.actions.back().to;

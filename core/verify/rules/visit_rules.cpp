@@ -42,8 +42,14 @@ std::string goal_name(std::size_t goal) { return "goals[" + std::to_string(goal)
 
 class VisitCheck {
  public:
-  VisitCheck(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance, const StopCondition& stop)
-      : robot_(robot), plan_(plan), tolerance_(tolerance), stop_(stop), rests_(rests_of(robot, plan)) {
+  VisitCheck(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance, GoalsLeft goals_left,
+             const StopCondition& stop)
+      : robot_(robot),
+        plan_(plan),
+        tolerance_(tolerance),
+        goals_left_(goals_left),
+        stop_(stop),
+        rests_(rests_of(robot, plan)) {
     // A pose that is as near as this is the goal.
     tolerance_.metres = std::max(tolerance_.metres, kContactTolerance);
     tolerance_.radians = std::max(tolerance_.radians, kContactTolerance);
@@ -90,6 +96,7 @@ class VisitCheck {
         now = end;
       }
     }
+    if (goals_left_ == GoalsLeft::allowed) return;
     if (served_.size() < last_goal()) {
       report_missing(served_.size());
     } else {
@@ -135,7 +142,8 @@ class VisitCheck {
 
   void check_claims() {
     if (plan_.visits.empty()) return;
-    if (plan_.visits.size() != robot_.goal_count()) {
+    const bool fewer = goals_left_ == GoalsLeft::allowed && plan_.visits.size() < robot_.goal_count();
+    if (plan_.visits.size() != robot_.goal_count() && !fewer) {
       report(0.0, static_cast<double>(plan_.visits.size()), static_cast<double>(robot_.goal_count()),
              "the plan lists " + std::to_string(plan_.visits.size()) + " visits, but the robot has " +
                  std::to_string(robot_.goal_count()) + " goals");
@@ -220,6 +228,7 @@ class VisitCheck {
   const Robot& robot_;
   const RobotPlan& plan_;
   Tolerance tolerance_;
+  const GoalsLeft goals_left_;
   const StopCondition& stop_;
   std::vector<Rest> rests_;
   std::vector<Service> served_;  // by goal, as early as possible
@@ -229,8 +238,8 @@ class VisitCheck {
 }  // namespace
 
 std::vector<Violation> check_visits(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance,
-                                    const StopCondition& stop) {
-  return VisitCheck(robot, plan, tolerance, stop).run();
+                                    GoalsLeft goals_left, const StopCondition& stop) {
+  return VisitCheck(robot, plan, tolerance, goals_left, stop).run();
 }
 
 }  // namespace fleetplan::core

@@ -14,8 +14,9 @@ namespace fleetplan::core {
 /// `not_before` on, for the whole service, the last one at the end of its plan. Rests are uninterrupted
 /// waits, the instants between two actions included. Reports the first goal that is not visited, and each
 /// visit, or `goal` of a wait that is not committed, that does not take place. Whether the robot ends at its
-/// last goal is not part of this (see check_endpoints).
+/// last goal is not part of this (see check_endpoints). With goals left, a plan may end before all are
+/// visited.
 std::vector<Violation> check_visits(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance,
-                                    const StopCondition& stop);
+                                    GoalsLeft goals_left, const StopCondition& stop);
 
 }  // namespace fleetplan::core

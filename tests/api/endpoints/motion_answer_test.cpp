@@ -146,5 +146,30 @@ TEST(MotionAnswer, IsCheckedAgainstMovingObstacles) {
   EXPECT_EQ(verdict_of(request, Json::object())["violations"], Json::array());
 }
 
+TEST(MotionAnswer, SaysWhereAPlanStopsAtTheHorizon) {
+  Json request = swap_request();
+  request["options"]["horizon"] = 3.0;
+  const Json answer = answer_of(request);
+  ASSERT_EQ(answer["status"], "solved") << answer.dump();
+  for (const Json& plan : answer["plans"]) {
+    EXPECT_EQ(plan["ends_at"], "horizon");
+    EXPECT_GE(plan["cost"], 3.0);
+    EXPECT_EQ(plan["cost"], plan["actions"].back()["t_end"]);
+    EXPECT_GT(plan["estimated_cost"], 8.0) << "the whole way";
+    EXPECT_LE(plan["lower_bound"], 3.0);
+  }
+  EXPECT_EQ(answer["estimated"]["flowtime"].get<double>(),
+            answer["plans"][0]["estimated_cost"].get<double>() +
+                answer["plans"][1]["estimated_cost"].get<double>());
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
+  request["options"]["horizon"] = 30.0;
+  EXPECT_EQ(verdict_of(request, answer)["violations"][0]["kind"], "wrong_goal");
+  const Json whole = answer_of(request);
+  for (const Json& plan : whole["plans"]) EXPECT_FALSE(plan.contains("ends_at"));
+  EXPECT_EQ(whole["estimated"]["flowtime"], whole["flowtime"]);
+  request["options"].erase("horizon");
+  EXPECT_FALSE(answer_of(request).contains("estimated"));
+}
+
 }  // namespace
 }  // namespace fleetplan::api

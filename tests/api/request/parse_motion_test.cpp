@@ -141,13 +141,15 @@ TEST(ParseMotion, ReadsTheOptionsOfFleetsInMotion) {
   const PlanRequest standard = parsed(swap_request());
   EXPECT_EQ(standard.options.replan, core::PlanOptions::Replan::all);
   EXPECT_EQ(standard.options.interval_margin, 0.0);
+  EXPECT_FALSE(standard.options.horizon);
   EXPECT_EQ(standard.options.start_overlap, 0.0);
   Json request = swap_request();
-  request["options"] =
-      Json::parse(R"({"replan": "where_needed", "interval_margin": 0.5, "start_overlap": 0.02})");
+  request["options"] = Json::parse(
+      R"({"replan": "where_needed", "interval_margin": 0.5, "start_overlap": 0.02, "horizon": 20})");
   const PlanRequest read = parsed(request);
   EXPECT_EQ(read.options.replan, core::PlanOptions::Replan::where_needed);
   EXPECT_EQ(read.options.interval_margin, 0.5);
+  EXPECT_EQ(read.options.horizon, 20.0);
   EXPECT_EQ(read.options.start_overlap, 0.02);
 }
 

@@ -18,6 +18,8 @@ using nlohmann::json;
 
 /// Seconds until planning is tried again when no robot has a plan.
 constexpr double kRetry = 1.0;
+/// The period of plans as a share of their horizon, unless a robot is free earlier.
+constexpr double kPeriodOfHorizon = 0.25;
 
 struct TimedReply {
   api::Reply reply;
@@ -103,7 +105,10 @@ class Simulation {
       if (vehicle.free_at != Vehicle::kNever) latest = std::max(latest, vehicle.free_at);
     }
     const double event = job_.strategy == Strategy::stop ? latest : earliest;
-    return earliest == Vehicle::kNever ? now_ + kRetry : event - lead();
+    const double next = earliest == Vehicle::kNever ? now_ + kRetry : event - lead();
+    if (!job_.planning.contains("horizon")) return next;
+    const double period = kPeriodOfHorizon * job_.planning.at("horizon").get<double>();
+    return std::min(next, planned_at_ + period);
   }
 
   void advance_to(double t) {
@@ -139,6 +144,7 @@ class Simulation {
     result_.latencies.push_back(seconds);
     result_.late += seconds * 1000.0 > job_.budget_ms ? 1 : 0;
     const double began = now_;
+    planned_at_ = began;
     if (goes_on()) {
       take(reply, began, began);
       const double overdue = seconds - job_.commit;
@@ -198,6 +204,8 @@ class Simulation {
       const double cost = plan->at("cost");
       vehicle.actions = shifted(actions_of(plan->at("actions")), t);
       vehicle.free_at = t + cost + (goes_on() ? 0.0 : job_.service);
+      // It stops at the horizon, and has its goal still ahead.
+      if (plan->contains("ends_at")) vehicle.free_at = Vehicle::kNever;
     }
     if (!had_plan || moving_time(left, 0.0, Vehicle::kNever) == 0.0) return;
     ++result_.under_way;
@@ -220,6 +228,7 @@ class Simulation {
   json map_;
   Fleet fleet_;
   double now_ = 0.0;
+  double planned_at_ = 0.0;  // the last plan was asked for then
   std::map<std::string, Actions> before_;  // what robots did that stand still now
   LifelongResult result_;
 };

@@ -37,6 +37,16 @@ LifelongResult run(const char* strategy) {
   return result;
 }
 
+TEST(Lifelong, ServesOverRoundsWithAHorizon) {
+  LifelongJob with_horizon = job("committed");
+  with_horizon.planning = {{"start_safe_interval", 0}, {"horizon", 8}};
+  const LifelongResult result = simulate(with_horizon);
+  EXPECT_EQ(result.fault, "");
+  EXPECT_EQ(result.unplanned, 0u);
+  EXPECT_GT(result.tasks, 6u);
+  EXPECT_LE(result.lone_seconds, result.robot_seconds);
+}
+
 TEST(Lifelong, ServesMoreWithSnapshotsThanWhenTheWorldStops) {
   const LifelongResult stopped = run("stop");
   const LifelongResult snapshots = run("snapshots");

@@ -25,6 +25,7 @@ STRATEGIES = {
     "snapshots, 1 s to stop and restart": {"strategy": "snapshots", "halt": 1.0,
                                            "options": {"start_safe_interval": 0}},
     "committed": {"strategy": "committed", "options": {"replan": "where_needed"}},
+    "committed, horizon": {"strategy": "committed", "options": {"horizon": 20}},
     "committed, improved": {"strategy": "committed", "options": {"mode": "anytime", "max_iterations": 40}},
 }
 NOTES = """\

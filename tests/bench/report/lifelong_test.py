@@ -48,7 +48,8 @@ class Lifelong(ProgramTest):
         self.assertEqual(json.loads(json.dumps(many)), many)
 
     def test_strategies_are_chosen_by_the_begin_of_their_name(self):
-        self.assertEqual(lifelong.strategies("stop; committed"), ["stop the world", "committed", "committed, improved"])
+        self.assertEqual(lifelong.strategies("stop; committed"), 
+                         ["stop the world", "committed", "committed, horizon", "committed, improved"])
         self.assertEqual(len(lifelong.strategies("snap")), 3)
         with contextlib.redirect_stderr(io.StringIO()), self.assertRaises(SystemExit):
             lifelong.parse(["--strategies", "luck"])

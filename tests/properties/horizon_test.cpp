@@ -1,0 +1,168 @@
+// Fleets that are planned up to a horizon, round after round: every plan is valid and can be executed as it
+// is, and in open maps everybody arrives in the end.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/planner.h"
+#include "core/verify/verify.h"
+#include "tests/support/expect_replanned.h"
+#include "tests/support/moments.h"
+#include "tests/support/moving_fleet.h"
+#include "tests/support/random_problem.h"
+#include "tests/support/summary.h"
+
+namespace fleetplan::core {
+namespace {
+
+using support::Dice;
+using support::FleetRequest;
+
+constexpr int kMostRounds = 120;
+
+/// Whether two plans are the same to the last digit.
+bool same_plans(const Plan& a, const Plan& b) {
+  return std::equal(a.plans.begin(), a.plans.end(), b.plans.begin(), b.plans.end(),
+                    [](const RobotPlan& one, const RobotPlan& other) {
+                      return one.cost == other.cost && one.estimated_cost == other.estimated_cost &&
+                             std::equal(one.actions.begin(), one.actions.end(), other.actions.begin(),
+                                        other.actions.end(), support::same);
+                    });
+}
+
+void expect_valid(const Problem& problem, const Plan& plan, const PlanOptions& options) {
+  CheckRules rules;
+  rules.tolerances = plan_tolerances(problem.grid(), problem.robots(), plan.plans);
+  rules.horizon = options.horizon;
+  rules.exempt = plan.unavoidable;
+  const CheckedFleet fleet{problem.grid(), problem.robots(), problem.obstacles(), &problem.zones()};
+  const auto report = verify(fleet, plan.plans, rules, StopCondition());
+  ASSERT_TRUE(report);
+  EXPECT_TRUE(report->valid()) << support::text(*report);
+  Objectives estimated;
+  for (const RobotPlan& robot : plan.plans) {
+    const double cost = robot.estimated_cost.value_or(robot.cost);
+    if (robot.estimated_cost) {
+      EXPECT_GE(robot.cost, *options.horizon);
+      EXPECT_GE(cost, robot.cost);
+    }
+    EXPECT_LE(robot.lower_bound, robot.cost);
+    estimated.flowtime += cost;
+    estimated.makespan = std::max(estimated.makespan, cost);
+  }
+  ASSERT_TRUE(plan.estimated);
+  EXPECT_EQ(plan.estimated->flowtime, estimated.flowtime);
+  EXPECT_EQ(plan.estimated->makespan, estimated.makespan);
+}
+
+/// The robots `t` seconds later, each committed for `commit` seconds.
+void advance(FleetRequest& request, const Plan& plan, double t, double commit) {
+  for (const RobotPlan& robot : plan.plans) {
+    request.robots[robot.robot] =
+        support::robot_at_moment(std::move(request.robots[robot.robot]), robot, t, commit);
+  }
+  for (const Unplanned& robot : plan.unplanned) {
+    request.robots[robot.robot] = support::robot_at_moment(std::move(request.robots[robot.robot]), t);
+  }
+}
+
+/// An open hall with robots of one size. Some visit a place before their goal.
+FleetRequest open_hall(Dice& dice, int count) {
+  FleetRequest request{OccupancyGrid(12 + dice.below(10), 12 + dice.below(10), 1.0), {}, {}, {}, {}};
+  const auto place = [&](auto&& is_taken) {
+    while (true) {
+      const Position p(dice.below(request.grid.columns()) + 0.5, dice.below(request.grid.rows()) + 0.5);
+      if (!is_taken(p)) return p;
+    }
+  };
+  for (int i = 0; i < count; ++i) {
+    Robot robot;
+    robot.id = std::to_string(i);
+    robot.radius = 0.4;
+    robot.linear_speed = 1.0;
+    robot.angular_speed = 2.0;
+    const auto is_start = [&](const Position& p) {
+      return std::any_of(request.robots.begin(), request.robots.end(),
+                         [&](const Robot& other) { return (other.start.position - p).norm() < 1.0; });
+    };
+    robot.start = {place(is_start), 0.0};
+    // Nobody has to visit the place where another robot rests.
+    std::vector<Position> goals;
+    for (const Robot& other : request.robots) {
+      for (std::size_t k = 0; k < other.goal_count(); ++k) goals.push_back(other.goal_at(k).position);
+    }
+    const auto is_goal = [&](const Position& p) {
+      return std::any_of(goals.begin(), goals.end(),
+                         [&](const Position& other) { return (other - p).norm() < 1.0; });
+    };
+    robot.goal = Goal{place(is_goal), std::nullopt, 1.0};
+    if (dice.chance(0.3)) robot.via = {Goal{place(is_goal), std::nullopt, dice.between(0.0, 3.0)}};
+    request.robots.push_back(std::move(robot));
+  }
+  return request;
+}
+
+class HorizonOfRandomFleet : public testing::TestWithParam<int> {};
+
+TEST_P(HorizonOfRandomFleet, LetsEverybodyArriveInTheEndInAnOpenHall) {
+  const int seed = GetParam();
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  Dice dice(static_cast<std::uint64_t>(seed));
+  FleetRequest request = open_hall(dice, 2 + dice.below(20));
+  request.options.horizon = dice.between(4.0, 12.0);
+  request.options.start_safe_interval = 0.0;
+  const double period = *request.options.horizon * dice.between(0.2, 0.6);
+  const bool keeps_previous = dice.chance(0.5);
+  bool all_arrived = false;
+  for (int round = 0; round < kMostRounds && !all_arrived; ++round) {
+    const auto problem = support::problem_of(request);
+    ASSERT_TRUE(problem) << "round " << round;
+    const Plan plan = core::plan(*problem, request.options, StopCondition());
+    expect_valid(*problem, plan, request.options);
+    if (testing::Test::HasFailure()) return;
+    EXPECT_TRUE(plan.unplanned.empty()) << "round " << round;
+    if (round == 0) {
+      EXPECT_TRUE(same_plans(plan, core::plan(*problem, request.options, StopCondition())));
+    }
+    all_arrived = std::all_of(plan.plans.begin(), plan.plans.end(), [&](const RobotPlan& robot) {
+      return !robot.estimated_cost && robot.cost <= period;
+    });
+    advance(request, plan, period, 0.3);
+    if (keeps_previous) continue;
+    for (Robot& robot : request.robots) robot.previous.reset();
+  }
+  EXPECT_TRUE(all_arrived);
+}
+
+TEST_P(HorizonOfRandomFleet, EveryPlanIsValidOnAnyMap) {
+  const int seed = GetParam();
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  Dice dice(static_cast<std::uint64_t>(seed) + 1000);
+  const Problem first = support::random_problem(dice, 1 + dice.below(14));
+  FleetRequest request{first.grid(), first.robots(), {}, support::random_options(dice, first), {}};
+  request.options.horizon = dice.between(0.5, 20.0);
+  if (dice.chance(0.4)) {
+    request.options.mode = PlanOptions::Mode::anytime;
+    request.options.max_iterations = 20;
+  }
+  for (int round = 0; round < 3; ++round) {
+    const auto problem = support::problem_of(request);
+    ASSERT_TRUE(problem) << "round " << round;
+    const StopCondition budget(StopCondition::Clock::now() + std::chrono::seconds(1));
+    const Plan plan = core::plan(*problem, request.options, budget);
+    expect_valid(*problem, plan, request.options);
+    if (testing::Test::HasFailure()) return;
+    advance(request, plan, 0.4 * *request.options.horizon, 0.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, HorizonOfRandomFleet, testing::Range(0, 60));
+
+}  // namespace
+}  // namespace fleetplan::core
