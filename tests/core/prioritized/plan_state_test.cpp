@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include "core/runtime/memory_account.h"
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
@@ -175,6 +178,25 @@ TEST(PlanState, SearchesAmongWhatItFinishedWithOnceItResumes) {
   p.state.restore(staying);
   EXPECT_EQ(p.state.conflicting_robots(0, across), Robots{});
   EXPECT_EQ(p.state.conflicting_robots(0, below), Robots{1});
+}
+
+TEST(PlanState, GivesUpWhatSearchesKeepWhenMemoryIsShort) {
+  constexpr std::size_t kLimit = std::size_t{64} << 20;
+  MemoryAccount account(kLimit);
+  const MemoryScope scope(&account);
+  OccupancyGrid hall(120, 120, 1.0);
+  for (int row = 0; row < 110; ++row) hall.block({60, row});
+  Planning p(std::move(hall), {robot_at(0.5, 0.5).to(119.5, 0.5)});
+  ASSERT_TRUE(p.state.plan(0, {}, p.never).trajectory);
+  const std::int64_t with_caches = account.used();
+
+  p.state.relieve_memory();
+  EXPECT_EQ(account.used(), with_caches) << "memory is not short";
+
+  const std::vector<char> others(kLimit * 3 / 4 - static_cast<std::size_t>(with_caches) + 100'000);
+  ASSERT_TRUE(account.is_short());
+  p.state.relieve_memory();
+  EXPECT_FALSE(account.is_short());
 }
 
 TEST(PlanState, FindsAGoalAtTheStartReachable) {
