@@ -25,8 +25,8 @@ FleetRequest request_with_zones(Dice& dice) {
     FleetRequest request = support::random_request(dice);
     const std::optional<Problem> plain = support::problem_of(request);
     if (!plain) continue;
-    request.zones = support::random_zones(dice, *plain,
-                                          {Zone::Type::blocked, Zone::Type::one_way, Zone::Type::speed});
+    request.zones =
+        support::random_zones(dice, *plain, {Zone::Type::blocked, Zone::Type::one_way, Zone::Type::speed});
     if (support::problem_of(request)) return request;
   }
 }

@@ -228,7 +228,7 @@ class Simulation {
   json map_;
   Fleet fleet_;
   double now_ = 0.0;
-  double planned_at_ = 0.0;  // the last plan was asked for then
+  double planned_at_ = 0.0;                // the last plan was asked for then
   std::map<std::string, Actions> before_;  // what robots did that stand still now
   LifelongResult result_;
 };
