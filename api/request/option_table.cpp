@@ -81,7 +81,8 @@ constexpr std::array<OptionRow, 21> kTable{{
     {"start_safe_interval", "Start safe interval", "s",
      RealOption{kDuration, &PlanOptions::start_safe_interval},
      "Seconds for which the starts of robots that are not planned yet, or the ends of their committed "
-     "actions, are kept free. If any robot has `committed` or `previous`, the default is 0."},
+     "actions, are kept free. If any robot has `committed` or `previous`, the default is 0, or 1 with a "
+     "`horizon`."},
     {"inflation", "Inflation", "m", RealOption{kLengthOrZero, &PlanOptions::inflation},
      "Metres added to every radius during planning. A robot that is too near to others at its start may "
      "leave, "

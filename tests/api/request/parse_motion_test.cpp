@@ -156,6 +156,9 @@ TEST(ParseMotion, ReadsTheOptionsOfFleetsInMotion) {
 TEST(ParseMotion, KeepsNoStartFreeByDefaultIfAnyRobotIsInMotion) {
   EXPECT_EQ(parsed(swap_request()).options.start_safe_interval, 3.0);
   EXPECT_EQ(parsed(moving_request()).options.start_safe_interval, 0.0);
+  Json with_horizon = moving_request();
+  with_horizon["options"]["horizon"] = 20;
+  EXPECT_EQ(parsed(with_horizon).options.start_safe_interval, 1.0);
   Json request = swap_request();
   request["robots"][1]["previous"] = Json::array();
   EXPECT_EQ(parsed(request).options.start_safe_interval, 0.0);
