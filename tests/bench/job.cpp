@@ -27,7 +27,7 @@ Job parse_job(const std::string& line) {
     }
     job.robots = document.at("robots").get<std::vector<std::size_t>>();
     job.planning = document.at("options");
-    job.measure = {document.at("budget"), document.at("repeats")};
+    job.measure = {document.at("budget"), document.at("repeats"), document.value("alone", false)};
     return job;
   } catch (const json::exception& error) {
     throw std::runtime_error("not a job: " + line + " (" + error.what() + ")");

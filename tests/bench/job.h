@@ -34,7 +34,8 @@ struct Job {
 ///   "repeats": 1}
 ///   {"name": "b", "workload": {"hall": "rects", "side": 64, "seed": 1, "robots": 300}, "robots": [], ...}
 ///
-/// `budget` is in seconds. Throws std::runtime_error for anything else.
+/// `budget` is in seconds; `"alone": true` also plans each robot alone. Throws std::runtime_error for
+/// anything else.
 Job parse_job(const std::string& line);
 
 /// The instance of a job; throws std::runtime_error if it cannot be read.

@@ -16,7 +16,8 @@ using testing::ElementsAre;
 json workload_job() {
   return {{"name", "rects/5"},  {"workload", {{"hall", "rects"}, {"side", 64}, {"seed", 5}, {"robots", 20}}},
           {"robots", {10, 15}}, {"options", {{"mode", "anytime"}}},
-          {"budget", 2.5},      {"repeats", 3}};
+          {"budget", 2.5},      {"repeats", 3},
+          {"alone", true}};
 }
 
 TEST(Job, ReadsItsMembers) {
@@ -26,6 +27,7 @@ TEST(Job, ReadsItsMembers) {
   EXPECT_EQ(job.planning, json({{"mode", "anytime"}}));
   EXPECT_EQ(job.measure.budget, 2.5);
   EXPECT_EQ(job.measure.repeats, 3);
+  EXPECT_TRUE(job.measure.alone);
 }
 
 TEST(Job, LoadsAGeneratedWorkload) {

@@ -4,11 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <vector>
 
 #include "api/endpoints/plan_endpoint.h"
 #include "api/endpoints/validate_endpoint.h"
+#include "tests/bench/alone.h"
+#include "tests/bench/median.h"
 #include "tests/bench/process.h"
 
 namespace fleetplan::bench {
@@ -38,11 +39,6 @@ std::string fault_of(const std::string& body, const json& answer, const MeasureO
   return report.at("violations").at(0).at("detail");
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return std::midpoint(values[(values.size() - 1) / 2], values[values.size() / 2]);
-}
-
 Measurement read_answer(const std::string& name, std::size_t robots, const json& answer) {
   Measurement made;
   made.file = name;
@@ -63,6 +59,7 @@ Measurement read_answer(const std::string& name, std::size_t robots, const json&
     made.flowtime = answer.at("flowtime").get<double>();
     made.makespan = answer.at("makespan").get<double>();
     made.lower_bound = answer.at("lower_bound").at("flowtime").get<double>();
+    made.makespan_lower_bound = answer.at("lower_bound").at("makespan").get<double>();
   }
   return made;
 }
@@ -89,6 +86,7 @@ Measurement measure(const std::string& name, std::size_t robots, const std::stri
   if (reply.status == 200) {
     made = read_answer(name, robots, answer);
     made.fault = fault_of(body, answer, options);
+    if (options.alone) made.alone = plan_alone(body, context(options).limits, options.repeats);
   } else {
     made.file = name;
     made.robots = robots;

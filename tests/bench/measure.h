@@ -11,6 +11,7 @@ namespace fleetplan::bench {
 struct MeasureOptions {
   double budget = 60.0;  // seconds; the paper's limit
   int repeats = 1;
+  bool alone = false;  // also plan each robot alone
 };
 
 /// Runs a body of POST /v1/plan in this thread as a worker of the service does (parse, plan, verify, write)

@@ -1,6 +1,5 @@
 #include "tests/bench/workload.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -15,16 +14,6 @@ namespace {
 using core::Cell;
 using core::Position;
 using core::Random;
-
-struct RobotType {
-  double radius;        // metres
-  double linear_speed;  // metres per second
-};
-
-/// Small and fast, middling, large and slow. The paper counts in cells and time units: here a cell is 1 m and
-/// a unit 1 s.
-constexpr std::array<RobotType, 3> kTypes{{{0.3, 1.5}, {0.5, 1.0}, {1.0, 0.5}}};
-constexpr double kAngularSpeed = std::numbers::pi;  // half a turn a second
 
 void add_rectangle(core::OccupancyGrid& grid, Random& random) {
   int columns = kRectangleLength;
@@ -92,8 +81,18 @@ Recipe hall_with_rectangles() {
   return recipe;
 }
 
+Recipe crowd() {
+  Recipe recipe;
+  recipe.name = "crowd";
+  recipe.side = 32;
+  recipe.robots = 512;  // half the cells
+  recipe.types = {{0.5, 1.0, 1000.0}};
+  recipe.goal_headings = false;
+  return recipe;
+}
+
 Recipe hall(const std::string& name, int side, std::size_t robots) {
-  for (Recipe recipe : {empty_hall(), hall_with_rectangles()}) {
+  for (Recipe recipe : {empty_hall(), hall_with_rectangles(), crowd()}) {
     if (recipe.name != name) continue;
     const double area = std::pow(static_cast<double>(side) / recipe.side, 2);
     recipe.side = side;
@@ -136,14 +135,14 @@ Workload generate(const Recipe& recipe, std::uint64_t seed) {
   for (int i = 0; i < recipe.rectangles; ++i) add_rectangle(workload.grid, random);
 
   std::vector<Room> rooms;
-  rooms.reserve(kTypes.size());
-  for (const RobotType& type : kTypes) rooms.emplace_back(workload.grid, type.radius);
+  rooms.reserve(recipe.types.size());
+  for (const RobotType& type : recipe.types) rooms.emplace_back(workload.grid, type.radius);
   Disks starts;
   Disks goals;
   while (workload.robots.size() < recipe.robots) {
     const std::size_t number = workload.robots.size();
-    const RobotType& type = kTypes[number % kTypes.size()];
-    Room& room = rooms[number % kTypes.size()];
+    const RobotType& type = recipe.types[number % recipe.types.size()];
+    Room& room = rooms[number % recipe.types.size()];
     const auto start = room.draw(starts, random);
     const auto goal = room.draw(goals, random);
     if (!start || !goal) break;
@@ -152,8 +151,10 @@ Workload generate(const Recipe& recipe, std::uint64_t seed) {
     std::string id = std::to_string(number);
     id.insert(id.begin(), 'r');
     const double start_heading = heading(random);
-    workload.robots.push_back({std::move(id), type.radius, type.linear_speed, kAngularSpeed,
-                               core::Pose{*start, start_heading}, core::Goal{*goal, heading(random)}});
+    core::Goal to{*goal, {}};
+    if (recipe.goal_headings) to.theta = heading(random);
+    workload.robots.push_back({std::move(id), type.radius, type.linear_speed, type.angular_speed,
+                               core::Pose{*start, start_heading}, to});
   }
   return workload;
 }

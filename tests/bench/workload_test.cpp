@@ -86,6 +86,23 @@ TEST(Hall, HasAsManyRectanglesPerCellAtAnotherSize) {
   EXPECT_EQ(hall("empty", 128, 15).rectangles, 0);
 }
 
+TEST(Workload, OfACrowdHasDistinctCellsForDisksAsWideAsOne) {
+  const Workload workload = generate(hall("crowd", 32, 320), 1);
+  ASSERT_EQ(workload.robots.size(), 320u);
+  std::set<std::pair<double, double>> starts;
+  std::set<std::pair<double, double>> goals;
+  for (const core::Robot& robot : workload.robots) {
+    EXPECT_EQ(robot.radius, 0.5);
+    EXPECT_EQ(robot.angular_speed, 1000.0);
+    EXPECT_FALSE(robot.goal->theta);
+    starts.emplace(robot.start.position.x(), robot.start.position.y());
+    goals.emplace(robot.goal->position.x(), robot.goal->position.y());
+  }
+  EXPECT_EQ(starts.size(), 320u);
+  EXPECT_EQ(goals.size(), 320u);
+  EXPECT_TRUE(std::holds_alternative<core::Problem>(core::Problem::create(workload.grid, workload.robots)));
+}
+
 TEST(Workload, HasThePapersMapAndThreeTypesInTurn) {
   for_each_workload([](const Workload& workload, const Recipe&) {
     EXPECT_EQ(workload.grid.columns(), 64);

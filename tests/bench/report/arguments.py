@@ -8,7 +8,8 @@ import re
 
 import paper
 from building_scaling import SIDES
-from jobs import HALLS
+from comparison import SHORTEST_REFERENCE_S
+from jobs import HALLS, SIZES
 
 QUICK_SEEDS = "1-3"
 QUICK_ROBOTS = "60-300:60"
@@ -41,8 +42,8 @@ def robot_counts(text):
 
 def halls(text):
     chosen = text.split(",")
-    if not set(chosen) <= set(HALLS):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a choice of {', '.join(HALLS)}")
+    if not set(chosen) <= set(SIZES):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a choice of {', '.join(SIZES)}")
     return chosen
 
 
@@ -78,19 +79,26 @@ def make_parser():
     add("--buildings", action="store_true", help="only those of generated buildings")
     add("--sides", type=numbers, default=SIDES, metavar="LIST",
         help="sides of the buildings in cells; default " + ",".join(map(str, SIDES)))
-    add("--binary", metavar="FILE", help="also measure the buildings with the fleetplan_bench of another commit")
-    add("--halls", type=halls, default=HALLS, metavar="HALLS", help="halls of the paper: empty, rects, or empty,rects")
+    add("--binary", metavar="FILE",
+        help="also measure with the fleetplan_bench of another commit, in turn, and report both")
+    add("--halls", type=halls, default=HALLS, metavar="HALLS",
+        help="halls of the paper, empty and rects, and crowd: up to 512 disks on 32 x 32 cells; default empty,rects")
     add("--seeds", type=numbers, metavar="LIST", help=f"seeds of the workloads, such as 1-3,7; default {QUICK_SEEDS}")
     add("--robots", type=robot_counts, metavar="LIST",
         help=f"numbers of robots, such as 60,100-300:50; only the first ones are planned; default {QUICK_ROBOTS}, "
              "and all of a file")
     add("--budget", type=between(0.001, 86_400.0, float), default=60.0, metavar="SECONDS",
         help="time budget of a plan; default 60")
+    add("--reference-budget", action="store_true",
+        help="the budget of each plan is what the reference took, on the instances that it solved in "
+             f"{SHORTEST_REFERENCE_S} s or more")
     add("--mode", choices=["first", "anytime"], help="first solution, or improve it until the budget is spent")
     add("--options", type=json_object, default={}, metavar="JSON",
         help='more options of the requests, such as {"connectivity": 4}')
     add("--repeat", type=between(1, 1000, int), default=1, metavar="N",
         help="plan each instance N times and report the median time")
+    add("--alone", action="store_true",
+        help="also plan each robot alone on the static map, and report the ratio of the times")
     add("--output", metavar="FOLDER", default=".", help="folder for the CSV file and the chart")
     add("--csv", metavar="FILE", help="write every run to this file instead")
     add("--chart", action="store_true", help="draw the paper's workloads to an SVG file beside the CSV file")
@@ -103,10 +111,10 @@ def make_parser():
     return parser
 
 
-def request_options(arguments):
-    """The planning options of every request."""
+def request_options(arguments, budget):
+    """The planning options of a request with this budget, in seconds."""
     mode = {"mode": arguments.mode} if arguments.mode else {}
-    return {**arguments.options, "time_budget_ms": math.ceil(1000 * arguments.budget), **mode}
+    return {**arguments.options, "time_budget_ms": math.ceil(1000 * budget), **mode}
 
 
 def measures_scaling(arguments):
@@ -136,10 +144,11 @@ def parse(words):
         if not own_workloads:
             parser.error("only the paper's workloads have a chart")
         arguments.svg = arguments.svg or str(pathlib.Path(arguments.output, "paper.svg"))
-    if arguments.binary:
-        if not measures_scaling(arguments) or arguments.reference:
-            parser.error("--binary is for --scaling and --buildings, without --reference")
-        arguments.reference = str(pathlib.Path(arguments.output, "binary.csv"))
+    if arguments.binary and arguments.read:
+        parser.error("--binary measures, and --read does not")
+    if arguments.reference_budget and (not arguments.reference or measures_scaling(arguments)):
+        parser.error("--reference-budget is for the instances of a --reference")
+    arguments.binary_csv = str(pathlib.Path(arguments.output, "binary.csv"))
     if arguments.csv is None:
         arguments.csv = str(pathlib.Path(arguments.output, workload_name(arguments) + ".csv"))
     if arguments.reference and arguments.root is None:

@@ -24,7 +24,7 @@ class Arguments(unittest.TestCase):
         self.assertEqual(arguments.halls, ["empty", "rects"])
         self.assertEqual(arguments.seeds, [1, 2, 3])
         self.assertEqual(arguments.robots, [60, 120, 180, 240, 300])
-        self.assertEqual(request_options(arguments), {"time_budget_ms": 60_000})
+        self.assertEqual(request_options(arguments, arguments.budget), {"time_budget_ms": 60_000})
         self.assertIsNone(arguments.svg)
 
     def test_full_is_the_whole_protocol_of_the_paper(self):
@@ -38,7 +38,7 @@ class Arguments(unittest.TestCase):
 
     def test_options_go_into_the_requests(self):
         arguments = parse(["--budget", "2.5", "--mode", "anytime", "--options", '{"connectivity": 4}'])
-        self.assertEqual(request_options(arguments), {"time_budget_ms": 2500, "mode": "anytime", "connectivity": 4})
+        self.assertEqual(request_options(arguments, 2.5), {"time_budget_ms": 2500, "mode": "anytime", "connectivity": 4})
 
     def test_files_to_write_are_named_after_what_is_measured(self):
         for words, csv in [([], "to/paper.csv"), (["--scaling"], "to/scaling.csv"), (["--buildings"], "to/buildings.csv"),
@@ -65,12 +65,23 @@ class Arguments(unittest.TestCase):
         with contextlib.redirect_stderr(io.StringIO()), self.assertRaises(SystemExit):
             parse(["--chart", "--scaling"])
 
-    def test_another_binary_is_for_buildings_and_makes_the_reference(self):
-        self.assertEqual(parse(["--output", "to", "--buildings", "--binary", "old"]).reference, "to/binary.csv")
-        for words in [["--binary", "old"], ["--scaling", "--binary", "old", "--reference", "r.csv"]]:
+    def test_another_binary_is_only_for_measurements(self):
+        for words in [[], ["--buildings"], ["--reference", "r.csv"]]:
+            arguments = parse(["--output", "to", "--binary", "old", *words])
+            self.assertEqual((arguments.binary, arguments.binary_csv), ("old", "to/binary.csv"))
+        with contextlib.redirect_stderr(io.StringIO()) as message, self.assertRaises(SystemExit):
+            parse(["--binary", "old", "--read", "paper.csv"])
+        self.assertIn("--binary", message.getvalue())
+
+    def test_budgets_of_a_reference_need_one(self):
+        self.assertTrue(parse(["--reference", "r.csv", "--reference-budget"]).reference_budget)
+        for words in [["--reference-budget"], ["--buildings", "--reference", "r.csv", "--reference-budget"]]:
             with contextlib.redirect_stderr(io.StringIO()) as message, self.assertRaises(SystemExit):
                 parse(words)
-            self.assertIn("--binary", message.getvalue())
+            self.assertIn("--reference-budget", message.getvalue())
+
+    def test_a_crowd_is_a_hall_on_request(self):
+        self.assertEqual(parse(["--halls", "crowd,rects"]).halls, ["crowd", "rects"])
 
     def test_help_is_not_a_mistake(self):
         with contextlib.redirect_stdout(io.StringIO()) as text, self.assertRaises(SystemExit) as exit_:

@@ -55,13 +55,23 @@ class Bench(ProgramTest):
         self.assertEqual(status, 1)
         self.assertIn("only the paper's workloads have a chart", text)
 
-    def test_runs_are_compared_with_the_reference(self):
+    def write_reference(self):
         self.write_request("a.json")
         reference = self.folder / "reference.csv"
         reference.write_text("file,robots,solved,attempts,seconds,flowtime,makespan\na.json,7,1,1,1.5,100,20\n")
-        status, text = self.run_bench("--reference", str(reference))
+        return str(reference)
+
+    def test_budgets_can_be_those_of_the_reference(self):
+        self.program.write_text(PROGRAM.replace("{job['name']},{robots},1,1,0.5",
+                                                "{job['name']},{robots},1,1,{job['options']['time_budget_ms'] / 1000}"))
+        status, text = self.run_bench("--reference", self.write_reference(), "--reference-budget")
         self.assertEqual(status, 0)
-        self.assertRegex(text, r"\| a\.json \| +7 \| +1\.50 \| 0\.500 \| +3\.00 x \| +100\.0 \| +120\.0 \| 1\.200 \|")
+        self.assertRegex(text, r"\| a\.json \| +7 \| +1\.50 \| +1\.50 \|")
+
+    def test_runs_are_compared_with_the_reference(self):
+        status, text = self.run_bench("--reference", self.write_reference())
+        self.assertEqual(status, 0)
+        self.assertRegex(text, r"\| a\.json \| +7 \| +1\.50 \| 0\.500 \| +3\.00 x \| +100\.0 \| +120\.0 \| 1\.200 \| +1\.200 \|")
 
     def test_scaling_has_three_tables_of_halls_and_one_of_buildings(self):
         status, text = self.run_bench("--scaling", "--seeds", "1", "--sides", "500")
@@ -70,13 +80,34 @@ class Bench(ProgramTest):
         self.assertEqual(text.count("| 500 x 500 |"), 3)
 
     def test_buildings_are_measured_beside_another_binary(self):
-        other = self.folder / "other"
-        other.write_text(PROGRAM.replace("0.5,120", "4.5,100"))
-        other.chmod(0o755)
-        status, text = self.run_bench("--buildings", "--seeds", "1", "--sides", "500", "--binary", str(other))
+        status, text = self.run_bench("--buildings", "--seeds", "1", "--sides", "500", "--binary", self.other_program())
         self.assertEqual(status, 0)
         self.assertEqual(len(re.findall(r"\| +0\.500 \|.*\| +1 of 1 \| +4\.50 \| +1\.200 \|$", text, re.M)), 3)
         self.assertTrue((self.folder / "out/binary.csv").exists())
+
+    def other_program(self):
+        other = self.folder / "other"
+        other.write_text(PROGRAM.replace("0.5,120", "4.5,100"))
+        other.chmod(0o755)
+        return str(other)
+
+    def test_all_workloads_can_be_measured_beside_another_binary(self):
+        status, text = self.run_bench("--seeds", "1-2", "--robots", "15,30", "--binary", self.other_program())
+        self.assertEqual(status, 0)
+        for name in [r"empty +\| +15", r"rects +\| +30"]:
+            self.assertRegex(text, rf"\| {name} \| +2 of 2 \| +2 of 2 \| +0\.500 \| +4\.50 \| +9\.00 x "
+                                   r"\| +1\.200 \| +1\.000 \| +1\.2000 \|")
+        self.assertRegex(text, r"\| all +\| +\| +8 of 8 \|")
+        self.assertEqual(len((self.folder / "out/binary.csv").read_text().splitlines()), 1 + 8)
+        self.assertEqual(len((self.folder / "out/paper.csv").read_text().splitlines()), 1 + 8)
+
+    def test_both_binaries_are_compared_with_the_reference(self):
+        status, text = self.run_bench("--reference", self.write_reference(), "--binary", self.other_program())
+        self.assertEqual(status, 0)
+        self.assertIn("flowtime ratio: mean 1.200,", text)
+        self.assertIn("The other program against the reference:", text)
+        self.assertIn("flowtime ratio: mean 1.000,", text)
+        self.assertRegex(text, r"\| a\.json +\| +7 \| 1 of 1 \|")
 
     def test_an_invalid_answer_makes_the_exit_status_1(self):
         status, text = self.run_bench(self.write_request("bad.json"))

@@ -1,10 +1,9 @@
 """Runs beside the results of a reference on the same instances."""
 
 import dataclasses
-import statistics
 
 from results import Result
-from summary import mean
+from summary import geometric_mean, mean
 
 # Speed-ups count only where the reference took at least this long (seconds): below it, process start and the
 # resolution of the clock matter too much.
@@ -45,7 +44,7 @@ class Comparison:
         speedups = [pair.speedup for pair in solved if pair.reference.seconds >= SHORTEST_REFERENCE_S]
         self.counted = len(speedups)
         self.smallest_speedup = min(speedups, default=None)
-        self.mean_speedup = statistics.geometric_mean(speedups) if speedups else None
+        self.mean_speedup = geometric_mean(speedups)
         ratios = [pair.flowtime_ratio for pair in solved]
         self.mean_flowtime_ratio = mean(ratios)
         self.largest_flowtime_ratio = max(ratios, default=None)

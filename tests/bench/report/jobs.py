@@ -5,9 +5,13 @@ import os
 import pathlib
 import re
 
+from comparison import SHORTEST_REFERENCE_S
+
 HALLS = ["empty", "rects"]
 PAPER_SIDE = 64  # cells
 PAPER_ROBOTS = 300
+# Of each hall: cells of a side, and robots of which an instance has the first ones.
+SIZES = {**{hall: (PAPER_SIDE, PAPER_ROBOTS) for hall in HALLS}, "crowd": (32, 512)}
 
 
 def workload(name, hall, side, seed, robots, counts=()):
@@ -16,15 +20,16 @@ def workload(name, hall, side, seed, robots, counts=()):
 
 
 def named_workload(name, counts):
-    """The job of the paper's workload with a name such as "empty/1"; None for any other name."""
-    found = re.fullmatch(f"({'|'.join(HALLS)})/([0-9]+)", name)
+    """The job of the workload with a name such as "empty/1"; None for any other name."""
+    found = re.fullmatch(f"({'|'.join(SIZES)})/([0-9]+)", name)
     if not found:
         return None
-    return workload(name, found[1], PAPER_SIDE, int(found[2]), PAPER_ROBOTS, counts)
+    side, robots = SIZES[found[1]]
+    return workload(name, found[1], side, int(found[2]), robots, counts)
 
 
 def hall_jobs(halls, seeds, counts):
-    """The paper's halls, seed by seed."""
+    """The halls, seed by seed."""
     return [named_workload(f"{hall}/{seed}", counts) for seed in seeds for hall in halls]
 
 
@@ -79,3 +84,17 @@ def reference_job(name, file, counts):
     if job is None:
         raise ValueError(f"{file}, which the reference names, does not exist")
     return job
+
+
+def single_jobs(jobs):
+    """The same with a job for each number of robots."""
+    return [{**job, "robots": counts} for job in jobs for counts in ([[n] for n in job["robots"]] or [[]])]
+
+
+def within_reference_times(jobs, reference):
+    """A job for each row of the reference that it solved and that took it long enough, with its seconds as the
+    budget."""
+    seconds = {(result.file, result.robots): result.seconds
+               for result in reversed(reference) if result.solved and result.seconds >= SHORTEST_REFERENCE_S}
+    return [{**job, "budget": seconds[job["name"], *job["robots"]]} for job in single_jobs(jobs)
+            if (job["name"], *job["robots"]) in seconds]

@@ -3,7 +3,8 @@ import pathlib
 import tempfile
 import unittest
 
-from jobs import file_jobs, hall_jobs, named_workload, reference_jobs, request_files
+from jobs import (file_jobs, hall_jobs, named_workload, reference_jobs, request_files, single_jobs,
+                  within_reference_times)
 from support import result
 
 REQUEST = json.dumps({"map": {}, "robots": []})
@@ -49,8 +50,23 @@ class Workloads(unittest.TestCase):
 
     def test_they_are_known_by_their_names(self):
         self.assertEqual(named_workload("rects/12", [])["workload"]["seed"], 12)
+        self.assertEqual(named_workload("crowd/2", [256])["workload"],
+                         {"hall": "crowd", "side": 32, "seed": 2, "robots": 512})
         for name in ["rects/", "rects/1-2", "maps/1"]:
             self.assertIsNone(named_workload(name, []), name)
+
+
+    def test_they_can_have_a_job_for_each_number_of_robots(self):
+        jobs = [{"name": "a", "robots": [15, 30]}, {"name": "b", "robots": []}]
+        self.assertEqual(single_jobs(jobs), [{"name": "a", "robots": [15]}, {"name": "a", "robots": [30]},
+                                             {"name": "b", "robots": []}])
+
+    def test_the_reference_gives_budgets_where_it_took_long_enough(self):
+        jobs = [{"name": "a", "robots": [15, 30, 45, 60]}]
+        reference = [result("a", 15, 0.19, 1.0), result("a", 30, 0.2, 1.0), result("a", 45, 60.0),
+                     result("a", 60, 2.5, 1.0)]
+        self.assertEqual(within_reference_times(jobs, reference),
+                         [{"name": "a", "robots": [30], "budget": 0.2}, {"name": "a", "robots": [60], "budget": 2.5}])
 
 
 class ReferenceJobs(WithFolder):

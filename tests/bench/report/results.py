@@ -36,13 +36,24 @@ class Run(Result):
     plan_seconds: float | None = None
     verify_seconds: float | None = None
     write_seconds: float | None = None
+    makespan_lower_bound: float | None = None
+    # None unless every robot was also planned alone.
+    alone_seconds: float | None = None
+    floor_share: float | None = None  # of the disks
 
     @property
     def flowtime_by_bound(self):
         """Flowtime over its lower bound; None without either."""
-        if self.flowtime is None or not self.lower_bound:
-            return None
-        return self.flowtime / self.lower_bound
+        return ratio(self.flowtime, self.lower_bound)
+
+    @property
+    def makespan_by_bound(self):
+        """Makespan over its lower bound; None without either."""
+        return ratio(self.makespan, self.makespan_lower_bound)
+
+
+def ratio(value, of):
+    return None if value is None or not of else value / of
 
 
 def parse_bool(text):

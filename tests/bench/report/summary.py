@@ -3,6 +3,7 @@
 import collections
 import dataclasses
 import math
+import re
 import statistics
 
 
@@ -21,6 +22,11 @@ def mean(values):
     return statistics.fmean(values) if values else None
 
 
+def geometric_mean(values):
+    """Of positive values; None without any."""
+    return statistics.geometric_mean(values) if values else None
+
+
 @dataclasses.dataclass(frozen=True)
 class Summary:
     robots: int
@@ -35,6 +41,7 @@ class Summary:
     flowtime: float | None
     makespan: float | None
     flowtime_by_bound: float | None
+    makespan_by_bound: float | None
 
     @property
     def success_rate(self):
@@ -50,7 +57,18 @@ def summarise(runs):
         percentile_90_seconds=percentile(seconds, 0.9), longest_seconds=max(seconds),
         peak_memory=max(run.peak_memory for run in runs), flowtime=mean([run.flowtime for run in solved]),
         makespan=mean([run.makespan for run in solved]),
-        flowtime_by_bound=mean([run.flowtime_by_bound for run in solved if run.flowtime_by_bound is not None]))
+        flowtime_by_bound=mean([run.flowtime_by_bound for run in solved if run.flowtime_by_bound is not None]),
+        makespan_by_bound=mean([run.makespan_by_bound for run in solved if run.makespan_by_bound is not None]))
+
+
+def grouped(runs):
+    """The runs by their instances and numbers of robots: of generated ones named HALL/SEED by the hall, of others by
+    the file."""
+    groups = collections.defaultdict(list)
+    for run in runs:
+        generated = re.fullmatch(r"([a-z0-9-]+)/[0-9]+", run.file)
+        groups[generated[1] if generated else run.file, run.robots].append(run)
+    return groups
 
 
 def summarise_by_robots(runs):

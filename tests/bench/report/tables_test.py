@@ -21,10 +21,17 @@ class Tables(unittest.TestCase):
         self.assertIn("| 300           |    0 % | < 10 % |", report)
         self.assertIn("The paper's claims", report)
 
+    def test_the_makespan_is_also_over_its_bound(self):
+        report = hall_report(summarise_halls([run(15, 1.0, 110.0), run(15, 1.0, 130.0)]))
+        self.assertRegex(report, r"\| +1\.200 \| +12\.0 \| +1\.200 \| +0 \|")
+
+    def test_other_halls_are_without_the_papers_claims(self):
+        self.assertNotIn("The paper's claims", hall_report(summarise_halls([run(256, 1.0, 110.0, "crowd/1")])))
+
     def test_runs_have_a_row_each(self):
         report = run_report([run(15, 1.0, 125.0, "a.json", planned=15), run(15, 60.0, file="b.json", planned=14)])
-        self.assertRegex(report, r"\| a\.json +\| +15 \| +15 \| 1\.00 \|.*\| +125\.0 \| +1\.250 \| +12\.5 \|")
-        self.assertRegex(report, r"\| b\.json +\| +15 \| +14 \| 60\.0 \|.*\| +- \| +- \| +- \|")
+        self.assertRegex(report, r"\| a\.json +\| +15 \| +15 \| 1\.00 \|.*\| +125\.0 \| +1\.250 \| +12\.5 \| +1\.250 \|")
+        self.assertRegex(report, r"\| b\.json +\| +15 \| +14 \| 60\.0 \|.*\| +- \| +- \| +- \| +- \|")
 
     def test_comparisons_show_failures_and_totals(self):
         report = comparison_report(Comparison([run(9, 1.0, 90.0, "a"), run(9, 60.0, None, "b")],
@@ -33,6 +40,7 @@ class Tables(unittest.TestCase):
         self.assertIn("solved: 1 of 2, the reference 2, only the reference 1", report)
         self.assertIn("0.2 s or more (1 rows): geometric mean 4.00 x, smallest 4.00 x", report)
         self.assertIn("flowtime ratio: mean 0.900, largest 0.900", report)
+        self.assertIn("flowtime / bound: mean 0.900, largest 0.900", report)
 
     def test_the_last_lines_count_faults_and_report_a_busy_machine(self):
         idle = run(15, 1.0, 100.0, cpu_seconds=0.99, peak_memory=5 << 20)
