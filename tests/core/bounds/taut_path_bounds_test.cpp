@@ -74,6 +74,25 @@ TEST(TautPathBounds, GoAroundAWallOnArcsOfTheRadius) {
   EXPECT_NEAR(bound_of(turned), length / 2.0 + (2.0 * rise + kPi) / 0.5, kReduction);
 }
 
+TEST(TautPathBounds, AreApproachedOnFinerLattices) {
+  const OccupancyGrid rooms = ascii_map({".....#.....",  //
+                                         "...........",  //
+                                         ".....#.....",  //
+                                         "##.#####.##",  //
+                                         ".....#.....",  //
+                                         ".....#.....",  //
+                                         "..........."});
+  const Problem problem = make_problem(rooms, {robot_at(0.5, 6.5, 1.0).to(10.5, 2.5, -1.0)});
+  const auto cost_by_bound = [&](double spacing) {
+    PlanOptions options;
+    options.lattice_spacing = spacing;
+    return cost_alone(problem, options).value() / bound_of(problem, options);
+  };
+  EXPECT_GT(cost_by_bound(1.0), 1.05);
+  EXPECT_LT(cost_by_bound(1.0 / 9.0), 1.03);
+  EXPECT_LT(cost_by_bound(1.0 / 27.0), 1.01);
+}
+
 TEST(TautPathBounds, AddAWaitForEachTranslationThatEveryPathNeeds) {
   const auto waits = [](const OccupancyGrid& grid, const Robot& robot) {
     const Problem problem = make_problem(grid, {robot});
