@@ -125,7 +125,8 @@ std::optional<int> FineRegions::vertex_in_open_block(const Cell& node) const {
 
 int FineRegions::length_to(const Cell& node, int vertex) const {
   const double metres = (nodes_.position(node.column, node.row) - position(vertex)).norm();
-  return static_cast<int>(metres / nodes_.pitch() * kAxis + 0.5);
+  const double up_to_next = metres / nodes_.pitch() * kAxis + 0.5;
+  return static_cast<int>(up_to_next);
 }
 
 /// Begins at the vertices of the lattice in a block.

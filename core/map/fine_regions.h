@@ -87,8 +87,9 @@ class FineRegions {
     const std::int32_t begin = blocks_[block_of(node)];
     if (begin < 0) return nullptr;
     const int mask = side_ - 1;
-    const auto in_block = static_cast<std::size_t>(((node.row & mask) << side_bits_) + (node.column & mask));
-    return &searched_[(static_cast<std::size_t>(begin) << 2 * side_bits_) + in_block];
+    const int in_block = ((node.row & mask) << side_bits_) + (node.column & mask);
+    return &searched_[(static_cast<std::size_t>(begin) << 2 * side_bits_) +
+                      static_cast<std::size_t>(in_block)];
   }
   bool in_open_block(const Cell& node) const { return blocks_[block_of(node)] == kOpen; }
 

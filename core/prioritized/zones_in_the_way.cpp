@@ -98,9 +98,9 @@ class ZonesInTheWay {
 };
 
 bool may_be_because_of_zones(const Unplanned& robot) {
-  using Reason = Unplanned::Reason;
-  const bool is_geometry = robot.reason == Reason::start_blocked || robot.reason == Reason::goal_blocked ||
-                           robot.reason == Reason::goal_unreachable;
+  const bool is_geometry = robot.reason == Unplanned::Reason::start_blocked ||
+                           robot.reason == Unplanned::Reason::goal_blocked ||
+                           robot.reason == Unplanned::Reason::goal_unreachable;
   return is_geometry && robot.blocked_by.empty();
 }
 
