@@ -39,6 +39,10 @@ std::string fault_of(const std::string& body, const json& answer, const MeasureO
   return report.at("violations").at(0).at("detail");
 }
 
+double seconds_of(const json& answer, const char* step) {
+  return answer.at("timings_ms").at(step).get<double>() / 1000.0;
+}
+
 Measurement read_answer(const std::string& name, std::size_t robots, const json& answer) {
   Measurement made;
   made.file = name;
@@ -49,12 +53,9 @@ Measurement read_answer(const std::string& name, std::size_t robots, const json&
   made.expansions = answer.at("search").at("expansions");
   made.improvements = answer.at("search").at("improvements");
   made.deterministic = answer.at("deterministic");
-  const json& timings = answer.at("timings_ms");
-  const auto step = [&](const char* step_name) { return timings.at(step_name).get<double>() / 1000.0; };
-  made.parse_seconds = step("parse");
-  made.plan_seconds = step("plan");
-  made.verify_seconds = step("verify");
-  made.write_seconds = step("serialize");
+  made.parse_seconds = seconds_of(answer, "parse");
+  made.verify_seconds = seconds_of(answer, "verify");
+  made.write_seconds = seconds_of(answer, "serialize");
   if (made.solved) {
     made.flowtime = answer.at("flowtime").get<double>();
     made.makespan = answer.at("makespan").get<double>();
@@ -70,8 +71,10 @@ Measurement measure(const std::string& name, std::size_t robots, const std::stri
                     const MeasureOptions& options) {
   std::vector<double> seconds;
   std::vector<double> cpu_seconds_used;
+  std::vector<double> plan_seconds;
   std::size_t memory = 0;
   api::Reply reply;
+  json answer;
   for (int run = 0; run < options.repeats; ++run) {
     forget_peak_memory();
     const double cpu_began = thread_cpu_seconds();
@@ -80,11 +83,13 @@ Measurement measure(const std::string& name, std::size_t robots, const std::stri
     seconds.push_back(std::chrono::duration<double>(Clock::now() - began).count());
     cpu_seconds_used.push_back(thread_cpu_seconds() - cpu_began);
     memory = std::max(memory, peak_memory());
+    answer = json::parse(reply.body);
+    if (reply.status == 200) plan_seconds.push_back(seconds_of(answer, "plan"));
   }
-  const json answer = json::parse(reply.body);
   Measurement made;
   if (reply.status == 200) {
     made = read_answer(name, robots, answer);
+    made.plan_seconds = median(plan_seconds);
     made.fault = fault_of(body, answer, options);
     if (options.alone) made.alone = plan_alone(body, context(options).limits, options.repeats);
   } else {

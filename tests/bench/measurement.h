@@ -26,7 +26,7 @@ struct Measurement {
   std::int64_t expansions = 0;
   std::int64_t improvements = 0;
   bool deterministic = false;
-  /// Seconds of the steps of the last run; 0 if it failed.
+  /// Seconds of the steps of the last run, but of planning the median; 0 if it failed.
   double parse_seconds = 0.0;
   double plan_seconds = 0.0;
   double verify_seconds = 0.0;
