@@ -282,8 +282,8 @@ std::vector<std::size_t> ReservationTable::robots_hit(std::size_t robot,
           const double t_begin = mine.t_start + enter * duration - margin;
           const double t_end = (moving ? mine.t_start + exit * duration : mine.t_end) + margin;
           return index_->visit(robot, bucket, t_begin, t_end, [&](const Occupant& other) {
-            if (other.robot != robot && meet(mine, other.disk, collision_distance(other), margin))
-              hit.push_back(other.robot);
+            const double reach = std::max(0.0, collision_distance(other) - kSearchSlack);  // rounding
+            if (other.robot != robot && meet(mine, other.disk, reach, margin)) hit.push_back(other.robot);
             return true;
           });
         });

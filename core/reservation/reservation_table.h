@@ -53,7 +53,8 @@ class ReservationTable {
                                            double t_min, double t_max, double narrower = 0.0) const;
 
   /// The robots whose reservations come nearer to these segments of `robot` than they are kept apart,
-  /// ascending. Committed motion is left out. The segments follow the robot's commitment.
+  /// ascending; those that they only touch, up to rounding, are left out, as departures are delayed until
+  /// then. Committed motion is left out. The segments follow the robot's commitment.
   std::vector<std::size_t> robots_hit(std::size_t robot, const std::vector<TimedSegment>& segments) const;
   /// Likewise those whose committed motion does.
   std::vector<std::size_t> robots_certainly_hit(std::size_t robot,

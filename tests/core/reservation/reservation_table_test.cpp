@@ -91,6 +91,24 @@ TEST(ReservationTable, ReturnsRobotsHitByTrajectory) {
   EXPECT_TRUE(table.robots_hit(2, stand({10, 9.9})).empty()) << "a robot does not hit itself";
 }
 
+TEST(ReservationTable, DoesNotReportRobotsThatAreOnlyTouched) {
+  ReservationTable table = table_of(2);
+  table.commit(1, drive({2.1, 3.3}, {17.9, 16.7}, 1.0, 25.7));
+  int delayed = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Segment path{{10.0 + 0.017 * k, 2.0}, {9.3 - 0.013 * k, 18.0}};
+    const auto departure = table.earliest_departure(0, path, 16.3, 0.05 * k, kForever);
+    ASSERT_TRUE(departure);
+    if (*departure == 0.05 * k) continue;
+    ++delayed;
+    const std::vector<TimedSegment> move{{path, *departure, *departure + 16.3}};
+    ASSERT_EQ(table.robots_hit(0, move), Robots{}) << k;
+    const std::vector<TimedSegment> sooner{{path, *departure - 1e-6, *departure + 16.3 - 1e-6}};
+    ASSERT_EQ(table.robots_hit(0, sooner), Robots{1}) << k;
+  }
+  EXPECT_GT(delayed, 50);
+}
+
 TEST(ReservationTable, RemoveUndoesCommit) {
   ReservationTable table = table_of(3);
   table.commit(1, drive({0.5, 5}, {19.5, 5}, 2.0, 21.0));
