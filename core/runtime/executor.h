@@ -21,17 +21,19 @@ class Executor {
   /// Calls task(0) ... task(count - 1), in any order and perhaps at the same time on several threads, and
   /// returns when all of them have returned. If one throws, calls that have not begun may be skipped;
   /// the first exception is rethrown here once no call is running.
-  virtual void run(std::size_t count, const Task& task) = 0;
+  void run(std::size_t count, const Task& task) { run_on(count, count, task); }
+  /// Likewise, begins the calls in their order, at most so many at a time (at least one).
+  virtual void run_on(std::size_t threads, std::size_t count, const Task& task) = 0;
 
-  /// Whether the planner may go on improving the plan that it has. It asks before every round; the answer may
-  /// take until `stop` is met, while others compute.
+  /// Whether the planner may go on improving the plan that it has. It asks again and again, in the thread of
+  /// the caller of run_on(); the answer may take until `stop` is met, while others compute.
   virtual bool may_improve(const StopCondition& /*stop*/) { return true; }
 };
 
 /// Runs all tasks in the thread of the caller.
 class CallerThread : public Executor {
  public:
-  void run(std::size_t count, const Task& task) override {
+  void run_on(std::size_t /*threads*/, std::size_t count, const Task& task) override {
     for (std::size_t k = 0; k < count; ++k) task(k);
   }
 };

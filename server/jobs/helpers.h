@@ -26,15 +26,15 @@ class Helpers {
   void set_computing(std::size_t jobs);
 
   /// For jobs whose turn it is: the caller runs the tasks, and idle workers help. It never waits for a task
-  /// that has not begun, so no worker has to be idle. See Executor::run.
-  void run(std::size_t count, const Task& task);
+  /// that has not begun, so no worker has to be idle. See Executor::run_on.
+  void run(std::size_t threads, std::size_t count, const Task& task);
 
  private:
   struct Tasks;
 
   void help();
   bool may_help() const;
-  Tasks* tasks_to_do() const;
+  Tasks* tasks_to_help() const;
   static void do_next(Tasks& tasks, std::unique_lock<std::mutex>& lock);
 
   const std::size_t workers_;

@@ -58,7 +58,9 @@ class Workers::Job final : public core::Executor {
   bool await_turn(const core::StopCondition& stop);
 
   /// By this thread and by idle workers.
-  void run(std::size_t count, const Task& task) override { workers_.helpers_.run(count, task); }
+  void run_on(std::size_t threads, std::size_t count, const Task& task) override {
+    workers_.helpers_.run(threads, count, task);
+  }
 
   /// Gives the turn away while others wait for their first plans.
   bool may_improve(const core::StopCondition& stop) override;

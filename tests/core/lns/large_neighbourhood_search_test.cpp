@@ -142,7 +142,9 @@ class LnsRandomFleets : public testing::TestWithParam<Objective> {};
 class Rounds final : public Executor {
  public:
   explicit Rounds(int count) : left_(count) {}
-  void run(std::size_t count, const Task& task) override { caller_.run(count, task); }
+  void run_on(std::size_t threads, std::size_t count, const Task& task) override {
+    caller_.run_on(threads, count, task);
+  }
   bool may_improve(const StopCondition& /*stop*/) override { return left_-- > 0; }
 
  private:

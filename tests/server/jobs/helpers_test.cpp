@@ -114,6 +114,25 @@ TEST(Helpers, RunOnAWorkerThatBecomesIdle) {
   sharing.join();
 }
 
+TEST(Helpers, RunOnNoMoreThreadsThanAskedFor) {
+  Workers workers({4, 0});
+  std::atomic<int> running{0};
+  std::atomic<int> most{0};
+  do_job(workers, [&](Workers::Job& own) {
+    Meeting both(2);
+    own.run_on(2, 200, [&](std::size_t k) {
+      const int now = ++running;
+      for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) {
+      }
+      if (k < 2) {
+        EXPECT_TRUE(both.attend());
+      }
+      --running;
+    });
+  });
+  EXPECT_EQ(most, 2);
+}
+
 TEST(Helpers, DoNotDelayAJobsTurn) {
   Workers workers({2, 0});
   std::atomic<int> begun{0};
