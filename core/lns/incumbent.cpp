@@ -23,7 +23,7 @@ std::size_t Incumbent::last_to_arrive() const {
 
 void Incumbent::replace(std::size_t robot, Trajectory trajectory) {
   trajectories_[robot] = std::move(trajectory);
-  ++versions_[robot];
+  versions_[robot] = ++version_;
 }
 
 }  // namespace fleetplan::core

@@ -15,6 +15,8 @@ class Incumbent {
   /// The trajectories in `state`; only those of the robots of `planned` may be replaced.
   Incumbent(const PlanState& state, std::vector<std::size_t> planned);
 
+  /// Robots with and without a trajectory.
+  std::size_t robot_count() const { return trajectories_.size(); }
   const std::vector<std::size_t>& planned() const { return planned_; }
   /// All robots with a trajectory, ascending.
   const std::vector<std::size_t>& followers() const { return followers_; }
@@ -22,7 +24,10 @@ class Incumbent {
   double cost(std::size_t robot) const { return trajectories_[robot].cost; }
   /// The robot of the highest cost; there is at least one.
   std::size_t last_to_arrive() const;
-  /// The number of times that the robot's trajectory has been replaced.
+  double makespan() const { return cost(last_to_arrive()); }
+  /// Grows with each replacement, 0 at first.
+  std::int64_t version() const { return version_; }
+  /// The version of the plan since which it has the robot's trajectory.
   std::int64_t version(std::size_t robot) const { return versions_[robot]; }
   void replace(std::size_t robot, Trajectory trajectory);
 
@@ -30,7 +35,8 @@ class Incumbent {
   std::vector<std::size_t> planned_;
   std::vector<std::size_t> followers_;
   std::vector<Trajectory> trajectories_;  // by robot
-  std::vector<std::int64_t> versions_;    // by robot
+  std::int64_t version_ = 0;
+  std::vector<std::int64_t> versions_;  // by robot
 };
 
 }  // namespace fleetplan::core

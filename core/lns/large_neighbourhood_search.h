@@ -35,14 +35,15 @@ using BeforeRound = std::function<void(const LnsResult& so_far)>;
 /// Success is measured per expansion, not per second. Ends when `stop` is met, after the options'
 /// max_iterations, or when nothing is left to try: when the objective is equal to its lower bound, or no
 /// delayed robot has a cheaper path even if it is alone with the robots that stay. That is tested, robot by
-/// robot, while rounds bring nothing. Replans those of
-/// `movers` that have a trajectory, and `bounds` has their lower bounds. All other robots keep their
-/// trajectories, or stay at their starts.
+/// robot, while iterations bring nothing (see exhaustion.h). Replans those of `movers` that have a
+/// trajectory, and `bounds` has their lower bounds. All other robots keep their trajectories, or stay at
+/// their starts.
 ///
-/// Works in rounds of a fixed number of iterations, which all start from the same incumbent and may run on
-/// several threads of the executor. Their changes are accepted in order, except those that conflict with a
-/// change accepted earlier in the round. So the number of threads changes only the speed. The executor may
-/// make a round wait, which changes nothing either, or end the search (see Executor::may_improve).
+/// A few iterations overlap (see pipeline.h), on any number of threads of the executor: each begins with the
+/// incumbent after the iteration a fixed number before it. Changes are accepted in order, except those that
+/// conflict with a change accepted meanwhile. So the number of threads changes only the speed. The executor
+/// may make the search wait, which changes nothing either, or end it (see Executor::may_improve). Rounds are
+/// a fixed number of iterations; at the end of one, threads wait for each other.
 LnsResult large_neighbourhood_search(PlanState& state, const std::vector<std::size_t>& movers,
                                      const TautPathBounds& bounds, Random& random, Executor& executor,
                                      const StopCondition& stop, const BeforeRound& before_round = nullptr);

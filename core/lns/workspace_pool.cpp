@@ -50,15 +50,10 @@ std::unique_ptr<Workspace> WorkspacePool::take() {
   std::unique_ptr<Workspace> workspace = take_idle();
   try {
     if (!workspace) workspace = std::make_unique<Workspace>(instance_, incumbent_, stop_);
-    workspace->update();
-    return workspace;
   } catch (const std::bad_alloc&) {  // not granted to the job
-    if (workspace) {
-      workspace->invalidate();
-      give_back(std::move(workspace));
-    }
     return nullptr;
   }
+  return workspace;
 }
 
 std::unique_ptr<Workspace> WorkspacePool::take_idle() {
@@ -74,8 +69,10 @@ void WorkspacePool::give_back(std::unique_ptr<Workspace> workspace) {
   idle_.push_back(std::move(workspace));
 }
 
-void WorkspacePool::update_all() {
-  for (const auto& workspace : idle_) workspace->update();
+void WorkspacePool::update_callers_state() {
+  for (const auto& workspace : idle_) {
+    if (!workspace->has_own_state()) workspace->update();
+  }
 }
 
 bool WorkspacePool::release_others() {

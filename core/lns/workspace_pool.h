@@ -40,17 +40,18 @@ class Workspace {
   NeighbourhoodSelection neighbourhoods_;
 };
 
-/// As many workspaces as threads use at the same time. Thread-safe while the incumbent does not change.
+/// As many workspaces as threads use at the same time. Thread-safe, also while the incumbent changes.
 class WorkspacePool {
  public:
   /// The first workspace uses `state`, which follows the incumbent.
   WorkspacePool(PlanState& state, const Incumbent& incumbent, const StopCondition& stop);
 
-  /// An updated workspace for the exclusive use of the caller; null if the job has no memory for it.
+  /// A workspace for the exclusive use of the caller, to be updated; null if the job has no memory for it.
   std::unique_ptr<Workspace> take();
   void give_back(std::unique_ptr<Workspace> workspace);
-  /// Updates all workspaces, and with them the caller's state; all have been given back.
-  void update_all();
+  /// Updates the workspace with the caller's state; all have been given back, and the incumbent does not
+  /// change.
+  void update_callers_state();
   /// Frees all workspaces but that with the caller's state; returns false if there was no other.
   bool release_others();
 

@@ -138,10 +138,10 @@ TEST(LargeNeighbourhoodSearch, ChangesNothingWhenStopped) {
 
 class LnsRandomFleets : public testing::TestWithParam<Objective> {};
 
-/// Allows so many rounds.
-class Rounds final : public Executor {
+/// Allows so many steps.
+class Steps final : public Executor {
  public:
-  explicit Rounds(int count) : left_(count) {}
+  explicit Steps(int count) : left_(count) {}
   void run_on(std::size_t threads, std::size_t count, const Task& task) override {
     caller_.run_on(threads, count, task);
   }
@@ -152,15 +152,16 @@ class Rounds final : public Executor {
   int left_;
 };
 
-TEST(LargeNeighbourhoodSearch, AsksBeforeEveryRoundWhetherToGoOn) {
-  const auto improved = [](int rounds) {
+TEST(LargeNeighbourhoodSearch, AsksBeforeEveryStepOfTheCallerWhetherToGoOn) {
+  const auto improved = [](int steps) {
     Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(8));
     const auto movers = plan_first_solution(p);
-    Rounds executor(rounds);
+    Steps executor(steps);
     return large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, executor, p.never);
   };
-  EXPECT_FALSE(improved(2).cut_off) << "eight iterations are two rounds";
-  EXPECT_TRUE(improved(1).cut_off);
+  EXPECT_FALSE(improved(9).cut_off) << "eight iterations, and one step that finds none";
+  EXPECT_TRUE(improved(7).cut_off);
+  EXPECT_GT(improved(7).expansions, 0) << "results so far count";
   EXPECT_EQ(improved(0).expansions, 0);
 }
 

@@ -1,0 +1,87 @@
+#include "core/lns/iterations.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace fleetplan::core {
+namespace {
+
+/// The share of its delay that the first robot has to gain in most iterations: the higher, the sooner a
+/// search fails. Small gains count too, so one iteration in kIterationsPerAnyGain accepts any gain.
+constexpr double kMinGainShare = 0.15;
+constexpr std::size_t kIterationsPerAnyGain = 4;
+
+}  // namespace
+
+Iteration Iterations::choose() {
+  Iteration iteration;
+  iteration.version = incumbent_.version();
+  iteration.parameters = parameters_.choose(random_);
+  iteration.options.min_gain_share = random_.below(kIterationsPerAnyGain) == 0 ? 0.0 : kMinGainShare;
+  iteration.options.limits = iteration.parameters.search_limits();
+  iteration.seed = random_.seed();
+  if (for_makespan_) iteration.options.cost_limit = incumbent_.makespan();
+  if (for_makespan_ && random_.below(2) == 0) {
+    iteration.options.gain = ReplanOptions::Gain::first;
+    iteration.first = incumbent_.last_to_arrive();
+  } else {
+    iteration.first = choose_delayed();
+  }
+  return iteration;
+}
+
+std::size_t Iterations::choose_delayed() {
+  std::vector<double> delays;
+  delays.reserve(incumbent_.planned().size());
+  for (const std::size_t robot : incumbent_.planned()) delays.push_back(exhaustion_.delay(robot));
+  return first_robots_.choose(incumbent_.planned(), delays, random_);
+}
+
+void Iterations::run(Iteration& iteration, Workspace& workspace) const {
+  Random random(iteration.seed);
+  const AdaptiveParameters::Choice& parameters = iteration.parameters;
+  const auto robots = workspace.neighbourhoods().select(iteration.first, parameters.neighbourhood(),
+                                                        parameters.robots(), random);
+  iteration.result = replan(workspace.state(), robots, bounds_, iteration.options, stop_);
+}
+
+bool Iterations::accept(Iteration& iteration, Workspace& workspace) {
+  std::optional<Change>& change = iteration.result.change;
+  const bool accepted = change && !is_outdated(iteration, workspace);
+  learn(iteration);
+  if (!accepted) return false;
+  for (Change::Part& part : change->parts) incumbent_.replace(part.robot, std::move(part.trajectory));
+  return true;
+}
+
+void Iterations::learn(const Iteration& iteration) {
+  const ReplanResult& result = iteration.result;
+  const double gain = result.change ? result.change->gain : 0.0;
+  parameters_.learn(iteration.parameters, gain, result.searches, result.expansions);
+  first_robots_.learn(iteration.first, result.change.has_value());
+}
+
+/// Whether the change is no longer acceptable, as other trajectories have been replaced since.
+bool Iterations::is_outdated(const Iteration& iteration, Workspace& workspace) const {
+  if (incumbent_.version() == iteration.version) return false;
+  const std::vector<Change::Part>& parts = iteration.result.change->parts;
+  const auto is_replaced = [&](const Change::Part& part) {
+    return incumbent_.version(part.robot) > iteration.version;
+  };
+  if (std::any_of(parts.begin(), parts.end(), is_replaced)) return true;
+  const auto is_part = [&](std::size_t robot) {
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const Change::Part& part) { return part.robot == robot; });
+  };
+  const double makespan = incumbent_.makespan();
+  workspace.update();
+  return std::any_of(parts.begin(), parts.end(), [&](const Change::Part& part) {
+    if (for_makespan_ && part.trajectory.cost > makespan) return true;
+    const auto conflicting = workspace.state().conflicting_robots(part.robot, part.trajectory);
+    return !std::all_of(conflicting.begin(), conflicting.end(), is_part);
+  });
+}
+
+}  // namespace fleetplan::core
