@@ -66,6 +66,12 @@ PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& op
   return robots;
 }
 
+bool differ_in_size(const Instance& instance, const PriorityOrder& order) {
+  return std::any_of(order.begin(), order.end(), [&](std::size_t robot) {
+    return instance.motion(robot).pair_radius != instance.motion(order.front()).pair_radius;
+  });
+}
+
 double random_start_delay(const Instance& instance, const PriorityOrder& order, Random& random) {
   const std::size_t other = order[random.below(order.size())];
   return random.unit() * lower_bound(instance.robot(other), instance.motion(other));

@@ -20,6 +20,9 @@ PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> r
 PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& options,
                             std::vector<std::size_t> robots, Random& random);
 
+/// Whether the robots of the order differ in size, inflation and vicinity included.
+bool differ_in_size(const Instance& instance, const PriorityOrder& order);
+
 /// A start delay that may give other robots time to get out of the way, seconds: uniform up to the lower
 /// bound of a random robot of the order.
 double random_start_delay(const Instance& instance, const PriorityOrder& order, Random& random);

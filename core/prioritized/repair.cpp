@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/prioritized/ejection_search.h"
+
 namespace fleetplan::core {
 namespace {
 
@@ -14,6 +16,14 @@ constexpr int kFailuresBeforeShuffle = 3;
 /// A robot that fails more often than this is given up. In the paper's halls with 300 robots none failed
 /// more than 5 times.
 constexpr int kMaxFailuresOfRobot = 40;
+/// From this failure on the fleet counts as a dense crowd, in which robots are ejected. Robots of one size in
+/// the paper's crowds are planned sooner so. Where sizes differ, planning starts again with larger robots
+/// first before that (repair_or_restart.cpp); then no fleet in the paper's halls fails so often.
+constexpr std::int64_t kFirstEjection = 3;
+constexpr std::int64_t kFirstEjectionOfSizes = 20;
+/// For a robot that fails more often than this, others are no longer ejected: it may be in a cycle that only
+/// a start delay breaks. In crowds that fill two fifths of the floor hardly any robot fails so often.
+constexpr int kMaxEjectionsForRobot = 10;
 /// A quick search that takes more expansions than this, and than half of the vertices, has failed: most often
 /// there is no path. In the paper's crowds none takes 5,000.
 constexpr std::int64_t kMaxQuickExpansions = 20'000;
@@ -23,6 +33,8 @@ constexpr std::int64_t kMaxQuickExpansions = 20'000;
 constexpr std::int64_t kManyExpansions = 400'000;
 constexpr std::int64_t kFewExpansions = 500;
 constexpr double kGreedyWeight = 4.0;
+/// The weight in a dense crowd, where most robots are planned several times.
+constexpr double kCrowdWeight = 2.0;
 /// The first search of a robot is incomplete: when it fails, others follow.
 SearchLimits quick_search(const Lattice& lattice) {
   SearchLimits limits;
@@ -45,8 +57,10 @@ class Repair {
         progress_(progress),
         on_stop_(on_stop),
         quick_search_(quick_search(state.instance().lattice())),
+        first_ejection_(differ_in_size(state.instance(), order_) ? kFirstEjectionOfSizes : kFirstEjection),
         rank_(state.instance().size(), 0),
-        failures_(state.instance().size(), 0) {
+        failures_(state.instance().size(), 0),
+        ejection_(state, random, stop) {
     for (std::size_t k = 0; k < order_.size(); ++k) rank_[order_[k]] = static_cast<std::int64_t>(k);
   }
 
@@ -72,7 +86,7 @@ class Repair {
         state_.follow(robot, std::move(*result.trajectory));
         continue;
       }
-      if (has_failed(result)) result = plan_among_fewer(robot);
+      if (has_failed(result)) result = plan_failed(robot);
       if (result.trajectory) {
         follow_and_postpone_conflicting(robot, std::move(*result.trajectory));
       } else if (result.complete) {
@@ -109,13 +123,24 @@ class Repair {
     std::vector<std::size_t> conflicting = state_.conflicting_robots(robot, trajectory);
     state_.follow(robot, std::move(trajectory));
     std::erase_if(conflicting, [&](std::size_t other) { return !state_.trajectory(other); });
-    if (!conflicting.empty() && failures_[robot] > kFailuresBeforeShuffle) {
+    if (ejects(robot)) {  // those are planned next
+      for (const std::size_t other : conflicting) rank_[other] = --highest_rank_;
+    } else if (!conflicting.empty() && failures_[robot] > kFailuresBeforeShuffle) {
       conflicting = shuffle_ranks(robot, std::move(conflicting));
     }
     for (const std::size_t other : conflicting) postpone(other);
   }
 
+  /// Whether others are ejected for this robot, which failed.
+  bool ejects(std::size_t robot) const { return is_crowded() && failures_[robot] <= kMaxEjectionsForRobot; }
+  bool is_crowded() const { return result_.attempts > first_ejection_; }
+
   SearchResult plan_quickly(std::size_t robot) {
+    if (is_crowded()) {
+      SearchLimits limits = quick_search_;
+      limits.heuristic_weight = kCrowdWeight;
+      return state_.plan(robot, limits, stop_);
+    }
     if (state_.expansions() < kManyExpansions) return state_.plan(robot, quick_search_, stop_);
     SearchLimits limits = quick_search_;
     limits.max_expansions = kFewExpansions;
@@ -131,12 +156,17 @@ class Repair {
     return !result.trajectory && (result.complete || result.expansions >= quick_search_.max_expansions);
   }
 
-  /// Steps 1 and 2 for a robot that failed among all others. Smaller robots are ignored before larger ones,
-  /// as they find another path more easily.
-  SearchResult plan_among_fewer(std::size_t robot) {
+  /// For a robot that failed among all others.
+  SearchResult plan_failed(std::size_t robot) {
     ++result_.attempts;
     progress_.next_attempt();
     if (++failures_[robot] > kMaxFailuresOfRobot) return {};
+    if (!ejects(robot)) return plan_among_fewer(robot);
+    return ejection_.plan(robot, planned_robots([](std::size_t) { return true; }), failures_);
+  }
+
+  /// Steps 1 and 2. Smaller robots are ignored before larger ones, as they find another path more easily.
+  SearchResult plan_among_fewer(std::size_t robot) {
     const double radius = state_.instance().motion(robot).pair_radius;
     const auto is_lower = [&](std::size_t other) { return rank_[other] > rank_[robot]; };
     const auto lower = planned_robots(is_lower);
@@ -203,9 +233,11 @@ class Repair {
   ProgressReport& progress_;
   const OnStop& on_stop_;
   const SearchLimits quick_search_;
+  const std::int64_t first_ejection_;
   std::vector<std::int64_t> rank_;  // by robot; a smaller rank is a higher priority
   std::int64_t highest_rank_ = 0;
-  std::vector<int> failures_;                               // by robot
+  std::vector<int> failures_;  // by robot
+  EjectionSearch ejection_;
   std::set<std::pair<std::int64_t, std::size_t>> pending_;  // rank, robot
   OrderingResult result_;
 };

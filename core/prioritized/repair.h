@@ -20,6 +20,9 @@ namespace fleetplan::core {
 ///    and are at least as large, and if that fails, among only those that stay at their starts.
 /// 3. The trajectories that conflict with its own are removed, and their robots are planned again.
 ///
+/// After several failures the fleet counts as a dense crowd: then a failed robot is not raised, but planned
+/// so that it conflicts with few others (EjectionSearch), and those are planned next.
+///
 /// If robots raise each other again and again, the priorities of those involved are shuffled, and a start
 /// delay is tried. A robot that fails at step 2, or too often, is given up: it stays at its start. Returns
 /// none as soon as `max_failures` attempts have failed. When `stop` is met, `on_stop` decides, if there is

@@ -14,12 +14,6 @@ namespace {
 constexpr std::int64_t kMaxFailures = 15;
 constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
 
-bool differ_in_size(const Instance& instance, const PriorityOrder& order) {
-  return std::any_of(order.begin(), order.end(), [&](std::size_t robot) {
-    return instance.motion(robot).pair_radius != instance.motion(order.front()).pair_radius;
-  });
-}
-
 PriorityOrder larger_first(const Instance& instance, PriorityOrder order) {
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return instance.motion(a).pair_radius > instance.motion(b).pair_radius;

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "core/prioritized/repair_or_restart.h"
 #include "tests/core/support/planning.h"
+#include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
 namespace {
@@ -93,6 +96,37 @@ TEST(Repair, StartsAgainWithLargerRobotsFirstAfterManyFailures) {
   EXPECT_NEAR(p.state.trajectory(3)->cost, 4.0, 1e-9);
   EXPECT_GT(p.state.trajectory(2)->cost, 6.1) << "planned later, although listed before";
   expect_safe(p.state);
+}
+
+/// Robots of one size that start and end in random cells of an empty hall.
+std::vector<Robot> crowd(int columns, int rows, int count, std::uint64_t seed) {
+  support::Dice dice(seed);
+  const auto random_cells = [&] {
+    std::vector<Position> cells;
+    for (int k = 0; k < columns * rows; ++k) cells.emplace_back(k % columns + 0.5, k / columns + 0.5);
+    for (int k = 0; k < count; ++k) std::swap(cells[k], cells[k + dice.below(columns * rows - k)]);
+    return cells;
+  };
+  const std::vector<Position> starts = random_cells();
+  const std::vector<Position> goals = random_cells();
+  std::vector<Robot> robots;
+  for (int k = 0; k < count; ++k) {
+    robots.push_back(robot_at(starts[k].x(), starts[k].y()).to(goals[k].x(), goals[k].y()));
+  }
+  return robots;
+}
+
+TEST(Repair, PlansACrowdThatFillsTwoFifthsOfTheFloor) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Planning p(OccupancyGrid(12, 12, 1.0), crowd(12, 12, 58, seed));
+    Random random(7);
+    const OrderingResult result = repair_or_restart(p.state, p.movers(), random, p.never, p.progress);
+    EXPECT_TRUE(result.unsolved.empty()) << "seed " << seed;
+    EXPECT_TRUE(result.given_up.empty()) << "seed " << seed;
+    EXPECT_EQ(p.state.planned_count(), 58u) << "seed " << seed;
+    EXPECT_GT(result.attempts, 5) << "seed " << seed << " is no crowd";
+    expect_safe(p.state);
+  }
 }
 
 TEST(Repair, ReturnsUnsolvedRobotsByPriorityWhenStopped) {
