@@ -9,7 +9,8 @@
 
 namespace fleetplan::core {
 
-/// The best plan so far: a trajectory for each planned robot.
+/// The plan that iterations begin with: a trajectory for each planned robot. See best_plan.h for the best
+/// one.
 class Incumbent {
  public:
   /// The trajectories in `state`; only those of the robots of `planned` may be replaced.

@@ -12,6 +12,9 @@ namespace {
 /// search fails. Small gains count too, so one iteration in kIterationsPerAnyGain accepts any gain.
 constexpr double kMinGainShare = 0.15;
 constexpr std::size_t kIterationsPerAnyGain = 4;
+/// A change may make the flowtime longer by this share of the mean delay of the robots, which leads out of
+/// local optima (threshold accepting; Dueck and Scheuer, 1990).
+constexpr double kMostLossShare = 0.2;
 
 }  // namespace
 
@@ -29,7 +32,15 @@ Iteration Iterations::choose() {
   } else {
     iteration.first = choose_delayed();
   }
+  if (!for_makespan_) iteration.options.most_loss = most_loss();
   return iteration;
+}
+
+double Iterations::most_loss() const {
+  const auto count = static_cast<double>(incumbent_.planned().size());
+  double delays = 0.0;
+  for (const std::size_t robot : incumbent_.planned()) delays += exhaustion_.delay(robot);
+  return kMostLossShare * delays / count;
 }
 
 std::size_t Iterations::choose_delayed() {
@@ -52,13 +63,13 @@ bool Iterations::accept(Iteration& iteration, Workspace& workspace) {
   const bool accepted = change && !is_outdated(iteration, workspace);
   learn(iteration);
   if (!accepted) return false;
-  for (Change::Part& part : change->parts) incumbent_.replace(part.robot, std::move(part.trajectory));
-  return true;
+  for (Change::Part& part : change->parts) best_.replace(part.robot, std::move(part.trajectory));
+  return best_.changed(change->gain);
 }
 
 void Iterations::learn(const Iteration& iteration) {
   const ReplanResult& result = iteration.result;
-  const double gain = result.change ? result.change->gain : 0.0;
+  const double gain = result.change ? std::max(0.0, result.change->gain) : 0.0;
   parameters_.learn(iteration.parameters, gain, result.searches, result.expansions);
   first_robots_.learn(iteration.first, result.change.has_value());
 }

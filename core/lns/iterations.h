@@ -5,6 +5,7 @@
 
 #include "core/bounds/taut_path_bounds.h"
 #include "core/lns/adaptive_parameters.h"
+#include "core/lns/best_plan.h"
 #include "core/lns/delayed_choice.h"
 #include "core/lns/exhaustion.h"
 #include "core/lns/incumbent.h"
@@ -37,17 +38,21 @@ class Iterations {
         random_(random),
         stop_(stop),
         for_makespan_(for_makespan),
+        best_(incumbent),
         first_robots_(incumbent.robot_count()) {}
 
   /// Chooses what to try next, by recent success.
   Iteration choose();
   /// Destroys and repairs, in a workspace with the incumbent at the time of choose(). On any thread.
   void run(Iteration& iteration, Workspace& workspace) const;
-  /// Learns from the result and returns whether its change has been made to the incumbent. Changes made since
-  /// choose() may stand against it. The workspace may be updated.
+  /// Learns from the result and makes its change to the incumbent, unless changes made since choose() stand
+  /// against it. Returns whether that is the best plan so far. The workspace may be updated.
   bool accept(Iteration& iteration, Workspace& workspace);
 
+  BestPlan& best() { return best_; }
+
  private:
+  double most_loss() const;
   std::size_t choose_delayed();
   void learn(const Iteration& iteration);
   bool is_outdated(const Iteration& iteration, Workspace& workspace) const;
@@ -58,6 +63,7 @@ class Iterations {
   Random& random_;
   const StopCondition& stop_;
   const bool for_makespan_;
+  BestPlan best_;
   AdaptiveParameters parameters_;
   DelayedChoice first_robots_;
 };

@@ -67,7 +67,8 @@ class LargeNeighbourhoodSearch {
       result_.cut_off = true;
     }
     if (is_short_of_memory()) workspaces_.release_others();
-    workspaces_.update_callers_state();
+    iterations_.best().restore();
+    workspaces_.update_callers_state({});
     return result_;
   }
 
@@ -76,7 +77,7 @@ class LargeNeighbourhoodSearch {
     result_.exhausted = exhaustion_.nothing_left();
     while (iterations_left_ > 0 && !result_.exhausted && !result_.cut_off) {
       if (before_round && !stop_.met()) {
-        workspaces_.update_callers_state();
+        workspaces_.update_callers_state(iterations_.best().differences());
         before_round(result_);
       }
       run_round(before_round ? kReportedRound : kRound);

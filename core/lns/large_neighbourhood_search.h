@@ -20,7 +20,7 @@ struct LnsResult {
   bool exhausted = false;         // nothing is left to try: no robot can become cheaper
 };
 
-/// Called by the caller's thread before every round, with the state updated to the incumbent.
+/// Called by the caller's thread before every round, with the state updated to the best plan.
 using BeforeRound = std::function<void(const LnsResult& so_far)>;
 
 /// Improves the plan by adaptive large neighbourhood search (Li et al., MAPF-LNS, IJCAI 2021; Ropke and
@@ -30,7 +30,8 @@ using BeforeRound = std::function<void(const LnsResult& so_far)>;
 /// 2. destroys: selects the neighbourhood (see neighbourhood.h),
 /// 3. repairs: plans its robots again (see replan.h), and
 /// 4. accepts the change if the objective falls: the flowtime; or the makespan, or the flowtime without a
-///    longer makespan.
+///    longer makespan. The flowtime may also rise a little, which leads out of local optima (threshold
+///    accepting; Dueck and Scheuer, 1990). The best plan is kept (see best_plan.h).
 ///
 /// Success is measured per expansion, not per second. Ends when `stop` is met, after the options'
 /// max_iterations, or when nothing is left to try: when the objective is equal to its lower bound, or no

@@ -44,7 +44,7 @@ class Replanning {
       change_.parts.push_back({robot, std::move(*result.trajectory)});
       if (k + 1 < queue_.size()) follow_for_now(change_.parts.back());
     }
-    return change_.gain > kLeastGain;
+    return change_.gain > kLeastGain - options_.most_loss;
   }
 
   /// Plans the robot at this position of the queue. At first only the robots in the queue are ignored.
@@ -79,7 +79,7 @@ class Replanning {
     for (std::size_t k = position + 1; k < queue_.size(); ++k) {
       possible_gain += std::max(0.0, cost(queue_[k]) - bounds_[queue_[k]]);
     }
-    return now + change_.gain + possible_gain - kLeastGain;
+    return now + change_.gain + possible_gain + options_.most_loss - kLeastGain;
   }
 
   void enqueue_conflicting(std::size_t robot, const Trajectory& trajectory) {

@@ -28,6 +28,7 @@ struct ReplanOptions {
     first,  // the cost of the first robot has to fall, whatever the others' become
   };
   Gain gain = Gain::sum;
+  double most_loss = 0.0;        // seconds, >= 0; by how much the sum may rise
   double cost_limit = kForever;  // seconds; all costs have to be below it
   double min_gain_share = 0.0;   // [0, 1); share of the first robot's delay that it has to gain at least
   SearchLimits limits;           // of every search; the bound follows from the rest

@@ -39,6 +39,15 @@ void Workspace::update() {
   }
 }
 
+void Workspace::update(const std::map<std::size_t, Trajectory>& others) {
+  update();
+  for (const auto& [robot, trajectory] : others) {
+    state_->remove(robot);
+    versions_[robot] = -1;
+  }
+  for (const auto& [robot, trajectory] : others) state_->follow(robot, trajectory);
+}
+
 void Workspace::invalidate() { std::fill(versions_.begin(), versions_.end(), -1); }
 
 WorkspacePool::WorkspacePool(PlanState& state, const Incumbent& incumbent, const StopCondition& stop)
@@ -69,9 +78,9 @@ void WorkspacePool::give_back(std::unique_ptr<Workspace> workspace) {
   idle_.push_back(std::move(workspace));
 }
 
-void WorkspacePool::update_callers_state() {
+void WorkspacePool::update_callers_state(const std::map<std::size_t, Trajectory>& others) {
   for (const auto& workspace : idle_) {
-    if (!workspace->has_own_state()) workspace->update();
+    if (!workspace->has_own_state()) workspace->update(others);
   }
 }
 

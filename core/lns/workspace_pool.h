@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "core/instance.h"
 #include "core/lns/incumbent.h"
 #include "core/lns/neighbourhood.h"
+#include "core/model/trajectory.h"
 #include "core/prioritized/plan_state.h"
 #include "core/runtime/stop_condition.h"
 
@@ -28,6 +30,8 @@ class Workspace {
   NeighbourhoodSelection& neighbourhoods() { return neighbourhoods_; }
   /// Adopts the trajectories that have been replaced in the incumbent since the last call.
   void update();
+  /// The same, with other trajectories for some robots, until the next update.
+  void update(const std::map<std::size_t, Trajectory>& others);
   /// The trajectories of the state may be others than those of the last update, or missing.
   void invalidate();
 
@@ -49,9 +53,9 @@ class WorkspacePool {
   /// A workspace for the exclusive use of the caller, to be updated; null if the job has no memory for it.
   std::unique_ptr<Workspace> take();
   void give_back(std::unique_ptr<Workspace> workspace);
-  /// Updates the workspace with the caller's state; all have been given back, and the incumbent does not
-  /// change.
-  void update_callers_state();
+  /// Updates the workspace with the caller's state, with other trajectories for some robots; all have been
+  /// given back, and the incumbent does not change.
+  void update_callers_state(const std::map<std::size_t, Trajectory>& others);
   /// Frees all workspaces but that with the caller's state; returns false if there was no other.
   bool release_others();
 

@@ -83,6 +83,31 @@ TEST(Replan, RejectsAGainBelowTheRequiredShare) {
   EXPECT_FALSE(p.replan_all({0}, options).change);
 }
 
+TEST(Replan, AcceptsALossUpToTheLimit) {
+  // Where corridors cross, the slow robot loses little behind the fast one, which would lose much behind it.
+  Planning p(support::ascii_map({"####.####",  //
+                                 "####.####",  //
+                                 "####.####",  //
+                                 "####.####",  //
+                                 ".........",  //
+                                 "####.####",  //
+                                 "####.####",  //
+                                 "####.####",  //
+                                 "####.####"}),
+             {robot_at(3.2, 4.5).speeds(0.25, 1.5).to(8.5, 4.5), robot_at(4.5, 0.5, kUp).to(4.5, 8.5)});
+  const TautPathBounds bounds(p.instance, p.movers(), std::vector<double>(2, kForever), p.never);
+  p.state.follow(1, p.state.plan_alone(1, p.never));
+  p.state.follow(0, *p.state.plan(0, kExact, p.never).trajectory);
+  ReplanOptions options;
+  options.min_gain_share = 0.9;
+  EXPECT_FALSE(replan(p.state, {0, 1}, bounds, options, p.never).change);
+  options.most_loss = 10.0;
+  const ReplanResult result = replan(p.state, {0, 1}, bounds, options, p.never);
+  ASSERT_TRUE(result.change);
+  EXPECT_LT(result.change->gain, 0.0);
+  EXPECT_GT(result.change->gain, -10.0);
+}
+
 TEST(Replan, KeepsAllCostsBelowTheLimit) {
   Crossing p;
   ReplanOptions options;
