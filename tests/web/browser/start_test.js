@@ -67,6 +67,8 @@ test("a page that loads shows no such notice meanwhile", async () => {
     });
     await page.goto(service.url, { waitUntil: "commit" });
     await page.waitForSelector("#example");
+    const isStyled = () => getComputedStyle(document.getElementById("not-loaded")).position === "fixed";
+    await page.waitForFunction(isStyled);
     assert.equal(await page.isVisible("#not-loaded"), false);
     release();
     await begun(page);

@@ -69,6 +69,7 @@ test("keys alone draw a zone, place it, set its speed, and delete it", async () 
     await page.focus("#scene");
     await page.keyboard.press("z");
     await page.keyboard.press("Enter");
+    await page.waitForFunction(() => window.fleetplan.request.zones);
     const [before] = await zones(page);
     await page.keyboard.press("ArrowRight");
     await page.keyboard.press("Shift+ArrowUp");
