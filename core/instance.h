@@ -25,10 +25,10 @@ namespace fleetplan::core {
 class Instance {
  public:
   /// If the stop condition is met while obstacles and committed motion are indexed, nothing can be planned.
-  Instance(const Problem& problem, const PlanOptions& options, const StopCondition& stop = {});
+  Instance(const Problem& problem, const PlanOptions& options, const StopCondition& stop);
   /// With the fixed reservations of another instance of the same problem and options.
   Instance(const Problem& problem, const PlanOptions& options,
-           std::shared_ptr<const FixedReservations> fixed_reservations, const StopCondition& stop = {});
+           std::shared_ptr<const FixedReservations> fixed_reservations, const StopCondition& stop);
 
   std::size_t size() const { return problem_.robots().size(); }
   const Problem& problem() const { return problem_; }

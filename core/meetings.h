@@ -22,6 +22,6 @@ struct UnavoidableMeetings {
 /// `planned` (by robot) at their committed end. Committed motion against committed motion is left out, as it
 /// is clear in a valid problem. The effort is nearly linear in the request.
 UnavoidableMeetings unavoidable_meetings(const Problem& problem, const std::vector<bool>& planned,
-                                         const StopCondition& stop = {});
+                                         const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -49,8 +49,8 @@ StopCondition beyond_budget(const StopCondition& stop, std::chrono::milliseconds
   using Clock = StopCondition::Clock;
   if (stop.deadline() == Clock::time_point::max() && !stop.cancelled()) return stop;
   const auto now = Clock::now();
-  if (stop.cancelled()) return StopCondition(now + most).despite_memory();
-  return StopCondition(std::max(stop.deadline(), now) + most, stop.stop_token()).despite_memory();
+  if (stop.cancelled()) return StopCondition::even_if_cancelled(now + most).despite_memory();
+  return stop.until(std::max(stop.deadline(), now) + most).despite_memory();
 }
 
 /// Robots without a plan are in the way of others, so a budget that is spent would cost plans that hold. A
@@ -59,7 +59,7 @@ StopCondition with_least_time(const StopCondition& stop) {
   using Clock = StopCondition::Clock;
   constexpr std::chrono::milliseconds kLeastTime{40};
   if (stop.cancelled() || stop.deadline() >= Clock::now() + kLeastTime) return stop;
-  return StopCondition(Clock::now() + kLeastTime, stop.stop_token());
+  return stop.until(Clock::now() + kLeastTime);
 }
 
 /// Whether all robots keep their previous plans, and no search can change that. A robot that has a goal and

@@ -141,7 +141,7 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
 
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
-                                  ParseStop& stop) {
+                                  core::Work& stop) {
   std::vector<core::Robot> next;
   next.reserve(robots.size());
   for (std::size_t k = 0; k < robots.size(); ++k) next.push_back(advanced(robots[k], executions[k], moment));

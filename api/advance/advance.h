@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "api/json/parse_stop.h"
 #include "core/model/action.h"
 #include "core/model/moving_obstacle.h"
 #include "core/model/robot.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
 
@@ -40,7 +40,7 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
 /// of its commitment: see clear_commitments.
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
-                                  ParseStop& stop);
+                                  core::Work& stop);
 
 /// What is left of an obstacle; nothing if it has left.
 std::optional<core::MovingObstacle> advanced(const core::MovingObstacle& obstacle, double at);

@@ -81,7 +81,7 @@ std::optional<Meeting> overlap_by_growth(const Piece& a, const Piece& b, double 
 
 class Clearing {
  public:
-  Clearing(std::vector<core::Robot>& robots, double inflation, ParseStop& stop)
+  Clearing(std::vector<core::Robot>& robots, double inflation, core::Work& stop)
       : robots_(robots), inflation_(inflation), stop_(stop), waits_(robots.size(), true) {
     for (const core::Robot& robot : robots) {
       waiting_.push_back(pieces_.size());
@@ -188,7 +188,7 @@ class Clearing {
 
   std::vector<core::Robot>& robots_;
   const double inflation_;
-  ParseStop& stop_;
+  core::Work& stop_;
   std::vector<std::vector<Piece>> pieces_;
   std::vector<double> reach_;  // from the start, the disk included; of the commitment as it was
   std::vector<bool> waits_;    // for its comparison with all others
@@ -197,7 +197,7 @@ class Clearing {
 
 }  // namespace
 
-void clear_commitments(std::vector<core::Robot>& robots, double inflation, ParseStop& stop) {
+void clear_commitments(std::vector<core::Robot>& robots, double inflation, core::Work& stop) {
   Clearing(robots, inflation, stop).run();
 }
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "api/json/parse_stop.h"
 #include "core/model/robot.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
 
@@ -12,6 +12,6 @@ namespace fleetplan::api {
 /// nobody then drives into a robot that stands. Robots are only stopped while they drive; a wait stays
 /// committed. `inflation`: metres that planning adds to the radii, besides their vicinity. Ends early when
 /// the stop is met.
-void clear_commitments(std::vector<core::Robot>& robots, double inflation, ParseStop& stop);
+void clear_commitments(std::vector<core::Robot>& robots, double inflation, core::Work& stop);
 
 }  // namespace fleetplan::api

@@ -73,7 +73,7 @@ void parse_events(const JsonReader& root, const RobotNames& names, const Limits&
 }  // namespace
 
 std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
-                                                    ParseStop& stop) {
+                                                    core::Work& stop) {
   AdvanceRequest read;
   read.request = root.require("request").object(kRequestMembers);
   const Fleet fleet = parse_fleet(read.request, limits, [&](const ReadOptions& options) {

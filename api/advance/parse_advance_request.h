@@ -22,6 +22,6 @@ struct AdvanceRequest {
 
 /// Reads the root of the document. Nothing if it has faults, or if its stop is met.
 std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
-                                                    ParseStop& stop);
+                                                    core::Work& stop);
 
 }  // namespace fleetplan::api

@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 8> kMembers{"request", "plans", "at",    
 }  // namespace
 
 Reply advance_endpoint(std::string_view body, const RequestContext& context) {
-  const auto next_request = [&](const JsonReader& root, ParseStop& stop) -> std::optional<std::string> {
+  const auto next_request = [&](const JsonReader& root, core::Work& stop) -> std::optional<std::string> {
     const auto request = parse_advance_request(root, context.limits, stop);
     if (!request) return std::nullopt;
     const auto robots = advanced(request->robots, request->executions, request->moment, stop);

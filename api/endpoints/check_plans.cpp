@@ -1,7 +1,7 @@
 #include "api/endpoints/check_plans.h"
 
+#include "api/endpoints/bounded_work.h"
 #include "api/endpoints/unfinished_reply.h"
-#include "api/endpoints/within_memory.h"
 #include "api/response/error.h"
 
 namespace fleetplan::api {
@@ -13,10 +13,10 @@ bool takes_turn(Turn& turn, const ValidateRequest& request, const core::StopCond
   return turn.request({TurnNeed::Kind::check, stop, stop.deadline(), work, true}) && turn.await();
 }
 
-Reply check(std::string_view body, const RequestContext& context, const AfterCheck& after) {
-  const auto request = parse_validate_request(body, context.limits, context.parse_stop());
+Reply check(std::string_view body, const RequestContext& context, core::Work& work, const AfterCheck& after) {
+  const auto request = parse_validate_request(body, context.limits, work);
   if (!request) return problem_reply(request.failure(), context.request_id);
-  const core::StopCondition stop(context.received_at + request->budget, context.stop);
+  const core::StopCondition stop = work.before_end();
   const auto unfinished = [&] {
     return unfinished_reply("The plans could not be checked", request->budget, stop, context);
   };
@@ -32,7 +32,7 @@ Reply check(std::string_view body, const RequestContext& context, const AfterChe
 }  // namespace
 
 Reply check_plans(std::string_view body, const RequestContext& context, const AfterCheck& after) {
-  return within_memory(context, [&] { return check(body, context, after); });
+  return bounded_work(context, [&](core::Work& work) { return check(body, context, work, after); });
 }
 
 }  // namespace fleetplan::api

@@ -22,9 +22,9 @@ struct Entry {
 };
 
 /// Reads an embedded file, which the tests check; null if it is not JSON.
-JsonDocument read_embedded(std::string_view text) {
-  auto document = read_json(text, Limits{}.max_depth);
-  return document ? std::move(*document) : std::move(*read_json("null", 1));
+JsonDocument read_embedded(std::string_view text, core::Work& work) {
+  auto document = read_json(text, Limits{}.max_depth, work);
+  return document ? std::move(*document) : std::move(*read_json("null", 1, work));
 }
 
 std::string string_member(const JsonValue& object, std::string_view key) {
@@ -42,9 +42,9 @@ const Example* find_example(std::string_view name) {
 }
 
 /// All examples: first those of the index, in its order, then the rest.
-std::vector<Entry> entries() {
+std::vector<Entry> entries(core::Work& work) {
   std::vector<Entry> listed;
-  const JsonDocument index = read_embedded(embedded_index());
+  const JsonDocument index = read_embedded(embedded_index(), work);
   for (const JsonValue item : index.root().children()) {
     const Example* example = find_example(string_member(item, "name"));
     if (example == nullptr) continue;
@@ -63,10 +63,11 @@ std::vector<Entry> entries() {
 std::span<const Example> examples() { return embedded_examples(); }
 
 Reply examples_endpoint() {
+  core::Work work = core::Work::unbounded();  // the examples are part of the program
   JsonWriter json;
   json.begin_object().key("examples").begin_array();
-  for (const Entry& entry : entries()) {
-    JsonDocument document = read_embedded(entry.example->body);
+  for (const Entry& entry : entries(work)) {
+    JsonDocument document = read_embedded(entry.example->body, work);
     const JsonValue request = document.root();
     const auto map = parse_map(JsonReader(document).find("map"), Limits{}.max_cells);
     json.begin_object();

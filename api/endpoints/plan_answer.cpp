@@ -34,16 +34,18 @@ Reply rejected(PlanOutcome outcome, const core::VerifyReport& report, const std:
 core::StopCondition last_stop(const Stages& stages) {
   constexpr Stages::Clock::duration kLeast = std::chrono::milliseconds(200);
   const auto patience = std::max(kLeast, stages.parsed - stages.received);
-  return core::StopCondition(Stages::Clock::now() + patience).despite_memory();
+  return core::StopCondition::even_if_cancelled(Stages::Clock::now() + patience).despite_memory();
 }
 
 /// When to give up the check. A plan that was cancelled, as the service drains, may still be checked quickly.
 core::StopCondition check_stop(const core::StopCondition& planning) {
   using Clock = core::StopCondition::Clock;
   constexpr std::chrono::milliseconds kMostAfterPlanning{90};
-  if (planning.cancelled()) return core::StopCondition(Clock::now() + kMostAfterPlanning / 2);
+  if (planning.cancelled()) {
+    return core::StopCondition::even_if_cancelled(Clock::now() + kMostAfterPlanning / 2);
+  }
   if (planning.deadline() == Clock::time_point::max()) return planning;
-  return core::StopCondition(planning.deadline() + kMostAfterPlanning, planning.stop_token());
+  return planning.until(planning.deadline() + kMostAfterPlanning);
 }
 
 /// The 422 for a request whose moving obstacles take too long to compare with the robots.
@@ -103,7 +105,7 @@ std::optional<PlanDependencies> asked_dependencies(const core::Plan& plan, const
                                                    const Stages& stages,
                                                    const core::StopCondition& planning) {
   if (!request.dependencies.wanted) return std::nullopt;
-  const core::StopCondition stop(stages.received + request.budget, planning.stop_token());
+  const core::StopCondition stop = planning.until(stages.received + request.budget);
   return plan_dependencies(request.problem.robots(), plan.plans, request.dependencies, core::kMostTolerance,
                            !request.problem.obstacles().empty(), stop);
 }

@@ -6,9 +6,9 @@
 #include <new>
 #include <optional>
 
+#include "api/endpoints/bounded_work.h"
 #include "api/endpoints/plan_answer.h"
 #include "api/endpoints/progress_reporter.h"
-#include "api/endpoints/within_memory.h"
 #include "api/request/parse_request.h"
 #include "api/response/error.h"
 #include "core/replan/plan_without_search.h"
@@ -29,18 +29,17 @@ Clock::duration for_dependencies(const PlanRequest& request) {
   return std::min<Clock::duration>(request.budget / 4, robots * kForARobot);
 }
 
-/// When planning has to end so that there is time left to check the plan and write the answer: a twentieth of
-/// the budget, but at most what a thousand robots need; or a quarter of what reading the request took, which
-/// tells how large it is and how busy the machine. The meetings of robots and moving obstacles, and
-/// their check, take up to half as long as reading them.
-Clock::time_point planning_deadline(const RequestContext& context, const PlanRequest& request,
-                                    Clock::duration reading) {
+/// The part of the budget after planning, to check the plan and write the answer: a twentieth of the budget,
+/// but at most what a thousand robots need; or a quarter of what reading the request took, which tells how
+/// large it is and how busy the machine. The meetings of robots and moving obstacles, and their check, take
+/// up to half as long as reading them.
+Clock::duration kept_for_answer(const PlanRequest& request, Clock::duration reading) {
   constexpr Clock::duration kMostForTheAnswer = std::chrono::milliseconds(25);
   const std::chrono::nanoseconds budget = request.budget;
   const bool has_obstacles = !request.problem.obstacles().empty();
   const auto for_the_check = has_obstacles ? std::min<Clock::duration>(budget / 2, reading / 2)
                                            : std::min<Clock::duration>(budget / 4, reading / 4);
-  return context.received_at + budget - for_dependencies(request) -
+  return for_dependencies(request) +
          std::max(std::min<Clock::duration>(budget / 20, kMostForTheAnswer), for_the_check);
 }
 
@@ -63,7 +62,7 @@ constexpr std::chrono::milliseconds kMostForPrevious{500};
 /// The end of planning, after which the answer is checked; later if there are previous plans.
 core::StopCondition end_of_planning(const core::StopCondition& stop, const PlanRequest& request) {
   if (!core::have_previous_plans(request.problem.robots())) return stop;
-  return core::StopCondition(std::max(stop.deadline(), Clock::now()) + kMostForPrevious, stop.stop_token());
+  return stop.until(std::max(stop.deadline(), Clock::now()) + kMostForPrevious);
 }
 
 /// The planner's plan, or one that needs no search if the memory does not suffice for any other.
@@ -72,20 +71,22 @@ core::Plan plan_or_none(const Planner& planner, const PlanRequest& request, cons
   try {
     return planner(request.problem, request.options, stop, observer);
   } catch (const std::bad_alloc&) {
-    const core::StopCondition patience(std::max(stop.deadline(), Clock::now()) + kMostForPrevious);
+    const auto patience =
+        core::StopCondition::even_if_cancelled(std::max(stop.deadline(), Clock::now()) + kMostForPrevious);
     return core::plan_without_search(request.problem, request.options, core::kMemorySpent,
                                      patience.despite_memory());
   }
 }
 
-Reply planned(const Planner& planner, std::string_view body, const RequestContext& context) {
+Reply planned(const Planner& planner, std::string_view body, const RequestContext& context,
+              core::Work& work) {
   Stages stages{context.received_at, {}, {}, {}, {}};
   const auto begin = Clock::now();
-  const auto request = parse_request(body, context.limits, context.parse_stop(), context.maps);
+  const auto request = parse_request(body, context.limits, work, context.maps);
   if (!request) return problem_reply(request.failure(), context.request_id);
   stages.parsed = Clock::now();
 
-  const core::StopCondition stop(planning_deadline(context, *request, stages.parsed - begin), context.stop);
+  const core::StopCondition stop = work.before_end(kept_for_answer(*request, stages.parsed - begin));
   const auto answer = [&](const core::Plan& plan) {
     return plan_answer(plan, *request, context.request_id, stages, end_of_planning(stop, *request));
   };
@@ -105,7 +106,7 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   if (!has_come) return too_busy(context.request_id);
   // Previous plans that hold are kept whatever the budget.
   if (stop.met() && !core::have_previous_plans(request->problem.robots())) {
-    const core::StopCondition patience(Clock::now() + kMostForPrevious);
+    const auto patience = core::StopCondition::even_if_cancelled(Clock::now() + kMostForPrevious);
     Reply reply =
         answer(core::plan_without_search(request->problem, request->options,
                                          "The time budget was spent before planning could begin.", patience));
@@ -129,7 +130,7 @@ Reply plan_endpoint(std::string_view body, const RequestContext& context) {
 }
 
 Reply plan_with(const Planner& planner, std::string_view body, const RequestContext& context) {
-  return within_memory(context, [&] { return planned(planner, body, context); });
+  return bounded_work(context, [&](core::Work& work) { return planned(planner, body, context, work); });
 }
 
 }  // namespace fleetplan::api

@@ -6,10 +6,10 @@
 
 #include "api/endpoints/plan_events.h"
 #include "api/endpoints/turn.h"
-#include "api/json/parse_stop.h"
 #include "api/request/limits.h"
 #include "core/map/map_cache.h"
 #include "core/runtime/executor.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
 
@@ -25,10 +25,7 @@ struct RequestContext {
   PlanEvents* events = nullptr;        // receives the progress of a plan; may be null
   Turn* turn = nullptr;                // to compute; null: at once
   core::MapCache* maps = nullptr;      // that earlier requests had; null: none
-
-  /// When to give up reading the body.
-  ParseStop parse_stop() const { return ParseStop(stop, received_at, cpu_clock); }
-  ParseStop::CpuClock cpu_clock = ParseStop::thread_cpu_time;
+  core::Work::CpuClock cpu_clock = core::Work::thread_cpu_time;
 };
 
 }  // namespace fleetplan::api

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "api/endpoints/bounded_work.h"
 #include "api/endpoints/unfinished_reply.h"
-#include "api/endpoints/within_memory.h"
 #include "api/request/parse_simulate_request.h"
 #include "api/response/error.h"
 #include "api/response/write_simulation.h"
@@ -20,10 +20,10 @@ namespace {
 using Clock = RequestContext::Clock;
 
 /// When no further run is made: a part of the budget is for the answer.
-core::StopCondition end_of_runs(const RequestContext& context, const SimulateRequest& request) {
+core::StopCondition end_of_runs(const core::Work& work, const SimulateRequest& request) {
   constexpr std::chrono::milliseconds kAnswerTime{50};
   const auto answer = std::min<std::chrono::nanoseconds>(request.budget / 10, kAnswerTime);
-  return core::StopCondition(context.received_at + request.budget - answer, context.stop);
+  return work.before_end(answer);
 }
 
 bool takes_turn(Turn& turn, const SimulateRequest& request, const core::StopCondition& stop) {
@@ -72,10 +72,10 @@ core::SimulationReport run_all(const core::SimulatedFleet& fleet, const Simulate
                         });
 }
 
-Reply simulated(std::string_view body, const RequestContext& context) {
-  auto request = parse_simulate_request(body, context.limits, context.parse_stop());
+Reply simulated(std::string_view body, const RequestContext& context, core::Work& work) {
+  auto request = parse_simulate_request(body, context.limits, work);
   if (!request) return problem_reply(request.failure(), context.request_id);
-  const core::StopCondition stop = end_of_runs(context, *request);
+  const core::StopCondition stop = end_of_runs(work, *request);
   const auto unfinished = [&] {
     return unfinished_reply("Not a single run was finished", request->budget, stop, context);
   };
@@ -98,7 +98,7 @@ Reply simulated(std::string_view body, const RequestContext& context) {
   }
   std::optional<core::Simulator::Trace> trace;
   if (request->trace) {
-    trace = core::Simulator(fleet, request->settings).trace(*request->trace, core::StopCondition());
+    trace = core::Simulator(fleet, request->settings).trace(*request->trace, stop);
   }
   return {200, kJson, write_simulation(report, *request, trace, context.request_id)};
 }
@@ -106,7 +106,7 @@ Reply simulated(std::string_view body, const RequestContext& context) {
 }  // namespace
 
 Reply simulate_endpoint(std::string_view body, const RequestContext& context) {
-  return within_memory(context, [&] { return simulated(body, context); });
+  return bounded_work(context, [&](core::Work& work) { return simulated(body, context, work); });
 }
 
 }  // namespace fleetplan::api

@@ -15,7 +15,7 @@ struct TurnNeed {
   enum class Kind { plan, check, simulation };
 
   Kind kind = Kind::plan;
-  core::StopCondition stop = core::StopCondition();  // of the computation
+  core::StopCondition stop;  // of the computation
   core::StopCondition::Clock::time_point answer_by = core::StopCondition::Clock::time_point::max();
   double work = 1.0;      // proportional to the expected time, for the kind
   bool is_short = false;  // takes milliseconds at most, as far as can be told

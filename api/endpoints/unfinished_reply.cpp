@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "api/endpoints/within_memory.h"
+#include "api/endpoints/bounded_work.h"
 #include "api/json/fault_text.h"
 #include "api/response/error.h"
 #include "core/runtime/memory_account.h"

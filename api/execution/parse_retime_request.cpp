@@ -99,7 +99,7 @@ class StateReader {
 }  // namespace
 
 std::optional<RetimeRequest> parse_retime_request(const JsonReader& root, const Limits& limits,
-                                                  ParseStop& stop) {
+                                                  core::Work& stop) {
   RetimeRequest request;
   request.rules.wait_before_move = parse_options(root.find("options")).plan.wait_before_move;
   UniqueIds ids;

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "api/json/json_reader.h"
-#include "api/json/parse_stop.h"
 #include "api/request/limits.h"
 #include "core/execution/dependency.h"
 #include "core/execution/retime.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
 
@@ -24,6 +24,6 @@ struct RetimeRequest {
 
 /// Reads the root of the document. Nothing if it has faults, or if its stop is met.
 std::optional<RetimeRequest> parse_retime_request(const JsonReader& root, const Limits& limits,
-                                                  ParseStop& stop);
+                                                  core::Work& stop);
 
 }  // namespace fleetplan::api

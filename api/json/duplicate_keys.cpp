@@ -26,7 +26,7 @@ class DuplicateKeys {
 
   void report() {
     for (std::uint32_t node = 0; node < document_.tape.size(); ++node) {
-      if (document_.stop.met_after(1)) return;
+      if (document_.work->met_after(1)) return;
       const JsonValue value = document_.tape.value(node);
       if (value.is_object()) check(value);
     }
@@ -45,13 +45,13 @@ class DuplicateKeys {
     std::vector<Member> members;
     members.reserve(object.size());
     for (const JsonValue value : object.children()) {
-      if (document_.stop.met_after(1)) return;
+      if (document_.work->met_after(1)) return;
       const auto hash = static_cast<std::uint32_t>(std::hash<std::string_view>()(value.key()));
       members.push_back({hash, value.node()});
     }
     if (!sort(members)) return;
     for (std::size_t index = 1; index < members.size(); ++index) {
-      if (document_.stop.met_after(1)) return;
+      if (document_.work->met_after(1)) return;
       if (members[index - 1].hash != members[index].hash) continue;
       if (key(members[index - 1]) == key(members[index])) add(document_.tape.value(members[index].node));
     }
@@ -76,12 +76,12 @@ class DuplicateKeys {
       return members.begin() + static_cast<std::ptrdiff_t>(std::min(index, members.size()));
     };
     for (std::size_t begin = 0; begin < members.size(); begin += kChunk) {
-      if (document_.stop.met_after(kChunk)) return false;
+      if (document_.work->met_after(kChunk)) return false;
       std::sort(at(begin), at(begin + kChunk), before);
     }
     for (std::size_t width = kChunk; width < members.size(); width *= 2) {
       for (std::size_t begin = 0; begin < members.size(); begin += 2 * width) {
-        if (document_.stop.met_after(2 * width)) return false;
+        if (document_.work->met_after(2 * width)) return false;
         std::inplace_merge(at(begin), at(begin + width), at(begin + 2 * width), before);
       }
     }

@@ -68,7 +68,7 @@ JsonReader JsonReader::object(std::span<const std::string_view> known) const {
   for (const JsonValue member : value_->children()) {
     const std::string_view key = member.key();
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    if (document_->stop.met_after(known.size())) break;
+    if (document_->work->met_after(known.size())) break;
     at(member).fault(fault::kUnknownKey, [&] {
       const std::string meant = suggestion(key, known);
       return in_quotes(key) + " is not a known member" +

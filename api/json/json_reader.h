@@ -91,7 +91,7 @@ class JsonReader {
     return {pointer(), code, std::move(detail)};
   }
   /// When to end reading the document, which must be there.
-  ParseStop& stop() const { return document_->stop; }
+  core::Work& stop() const { return *document_->work; }
   /// Counts faults of the document that are not described.
   void count_more_faults(std::size_t faults) const { document_->faults.count_more(faults); }
   /// Faults of the document so far.
@@ -123,7 +123,7 @@ class JsonReader::Items {
     }
     /// Also true when the reading is stopped; to be compared with the end only.
     bool operator==(const Iterator& end) const {
-      return !end.at_ || *at_ == *end.at_ || document_->stop.met_after(kWorkOfAValue);
+      return !end.at_ || *at_ == *end.at_ || document_->work->met_after(kWorkOfAValue);
     }
 
    private:

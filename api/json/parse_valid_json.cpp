@@ -20,7 +20,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 /// not for this parser.
 class Parser {
  public:
-  Parser(std::string_view text, std::size_t max_depth, std::size_t max_values, ParseStop& stop)
+  Parser(std::string_view text, std::size_t max_depth, std::size_t max_values, core::Work& stop)
       : text_(text),
         at_(text.data()),
         end_(at_ + text.size()),
@@ -53,9 +53,9 @@ class Parser {
 
   /// Reports what was read, a stride at a time.
   bool pause() {
-    for (; static_cast<std::size_t>(at_ - looked_at_) > ParseStop::kStride;
-         looked_at_ += ParseStop::kStride) {
-      if (stop_.met_after(ParseStop::kStride)) return true;
+    for (; static_cast<std::size_t>(at_ - looked_at_) > core::Work::kStride;
+         looked_at_ += core::Work::kStride) {
+      if (stop_.met_after(core::Work::kStride)) return true;
     }
     return false;
   }
@@ -187,7 +187,7 @@ class Parser {
   const char* looked_at_ = text_.data();
   std::size_t max_depth_;
   std::size_t max_values_;
-  ParseStop& stop_;
+  core::Work& stop_;
   JsonTape tape_;
   std::vector<Frame> frames_;
   std::size_t values_ = 0;
@@ -196,7 +196,7 @@ class Parser {
 }  // namespace
 
 std::optional<JsonTape> parse_valid_json(std::string_view text, std::size_t max_depth, std::size_t max_values,
-                                         ParseStop& stop) {
+                                         core::Work& stop) {
   return Parser(text, max_depth, max_values, stop).run();
 }
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "api/json/json_value.h"
-#include "api/json/parse_stop.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
 
@@ -14,6 +14,6 @@ namespace fleetplan::api {
 /// `max_values` values or a number beyond the range of doubles or of 18 digits, or if the stop is met: then
 /// the general parser has the answer, and says what is wrong.
 std::optional<JsonTape> parse_valid_json(std::string_view text, std::size_t max_depth, std::size_t max_values,
-                                         ParseStop& stop);
+                                         core::Work& stop);
 
 }  // namespace fleetplan::api

@@ -48,7 +48,7 @@ class Input {
     Input* input_;  // all iterators are at its position; null: the end
   };
 
-  Input(std::string_view text, ParseStop& stop)
+  Input(std::string_view text, core::Work& stop)
       : begin_(text.data()), at_(begin_), pause_(begin_), end_(begin_ + text.size()), stop_(stop) {
     pause();
   }
@@ -59,7 +59,7 @@ class Input {
 
  private:
   void pause() {
-    const std::size_t step = std::min(ParseStop::kStride, static_cast<std::size_t>(end_ - at_));
+    const std::size_t step = std::min(core::Work::kStride, static_cast<std::size_t>(end_ - at_));
     if (stop_.met_after(step)) {
       end_ = at_;
     } else {
@@ -71,7 +71,7 @@ class Input {
   const char* at_;
   const char* pause_;
   const char* end_;
-  ParseStop& stop_;
+  core::Work& stop_;
 };
 
 /// Puts on the tape what the parser meets.
@@ -208,7 +208,7 @@ struct Tamed {
 
 /// The parser stops at a number that is too large; to report it together with all other faults, a body that
 /// has one is read a second time without them.
-Tamed tame_overflowing(std::string_view body, ParseStop& stop) {
+Tamed tame_overflowing(std::string_view body, core::Work& stop) {
   Tamed tamed{std::string(body), {}};
   std::string& text = tamed.body;
   std::size_t numbers = 0;
@@ -243,7 +243,7 @@ JsonError error_of(const Builder& builder, std::string_view body, int max_depth)
 
 }  // namespace
 
-Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, ParseStop stop) {
+Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, core::Work& stop) {
   if (body.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     return JsonError{JsonError::Kind::malformed, "The body is empty; send the request as a JSON object."};
   }
@@ -256,9 +256,9 @@ Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, 
   }
   const JsonError unfinished{JsonError::Kind::unfinished, ""};
   const auto finished = [&](JsonTape tape) -> Result<JsonDocument, JsonError> {
-    JsonDocument document{std::move(tape), {}, std::move(stop)};
+    JsonDocument document{std::move(tape), {}, &stop};
     report_duplicate_keys(document);
-    if (document.stop.met()) return unfinished;
+    if (stop.met()) return unfinished;
     return document;
   };
   if (auto tape = parse_valid_json(body, static_cast<std::size_t>(max_depth), kMostValues, stop)) {

@@ -7,8 +7,8 @@
 
 #include "api/json/fault_list.h"
 #include "api/json/json_value.h"
-#include "api/json/parse_stop.h"
 #include "api/json/result.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
 
@@ -17,7 +17,7 @@ namespace fleetplan::api {
 struct JsonDocument {
   JsonTape tape;
   FaultList faults;
-  ParseStop stop;
+  core::Work* work;  // that is done when the document is read
 
   JsonValue root() const { return tape.root(); }
 };
@@ -36,6 +36,6 @@ struct JsonError {
 
 /// Reads a body; arrays and objects may nest up to `max_depth` deep. Of two members with the same key the
 /// first counts, and the later is a fault. Uses no stack that grows with the body.
-Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, ParseStop stop = {});
+Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, core::Work& work);
 
 }  // namespace fleetplan::api

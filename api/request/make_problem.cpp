@@ -20,7 +20,7 @@ bool is_of_a_pair(const core::ProblemFault& found) {
 /// Makes the problem, if need be again and again with more robots that are invalid.
 class ProblemMaker {
  public:
-  ProblemMaker(Fleet& fleet, const JsonReader& root, ParseStop& stop, core::MapCache* maps)
+  ProblemMaker(Fleet& fleet, const JsonReader& root, core::Work& stop, core::MapCache* maps)
       : fleet_(fleet),
         root_(root),
         stop_(stop),
@@ -39,8 +39,8 @@ class ProblemMaker {
 
   std::optional<MadeProblem> run() {
     while (true) {
-      auto made = core::Problem::create(map_, reports_ ? robots_ : std::move(robots_), conditions(),
-                                        stop_.condition());
+      auto made =
+          core::Problem::create(map_, reports_ ? robots_ : std::move(robots_), conditions(), stop_.reading());
       if (auto* problem = std::get_if<core::Problem>(&made)) {
         return MadeProblem{std::move(*problem), std::move(errors_)};
       }
@@ -127,7 +127,7 @@ class ProblemMaker {
 
   Fleet& fleet_;
   const JsonReader& root_;
-  ParseStop& stop_;
+  core::Work& stop_;
   std::shared_ptr<const core::StaticMap> map_;
   bool reports_;
   std::vector<core::Robot> robots_;   // that are placed
@@ -137,7 +137,7 @@ class ProblemMaker {
 
 }  // namespace
 
-std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, ParseStop& stop,
+std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, core::Work& stop,
                                         core::MapCache* maps) {
   return ProblemMaker(fleet, root, stop, maps).run();
 }

@@ -22,7 +22,7 @@ struct MadeProblem {
 /// there is no problem, nor if the stop is met. If invalid robots are to be reported, there is one: these
 /// robots are in it as invalid ones, which stand at their starts. `maps` has those of earlier requests; may
 /// be null.
-std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, ParseStop& stop,
+std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, core::Work& stop,
                                         core::MapCache* maps);
 
 }  // namespace fleetplan::api

@@ -73,7 +73,7 @@ RequestError request_error(const FaultList& faults) {
   return error;
 }
 
-RequestError request_error(const JsonError& error, const ParseStop& stop) {
+RequestError request_error(const JsonError& error, const core::Work& stop) {
   if (error.kind == JsonError::Kind::unfinished) return unfinished(stop);
   RequestError request{code_of(error.kind), error.detail, {}, 0};
   if (request.code == ErrorCode::invalid_request) {
@@ -83,7 +83,7 @@ RequestError request_error(const JsonError& error, const ParseStop& stop) {
   return request;
 }
 
-RequestError unfinished(const ParseStop& stop) {
+RequestError unfinished(const core::Work& stop) {
   if (stop.cancelled()) {
     return {ErrorCode::draining, kDrainingDetail, {}, 0};
   }

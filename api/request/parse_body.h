@@ -40,24 +40,24 @@ RequestedDependencies requested_dependencies(const Fleet& fleet);
 Fleet parse_fleet(const JsonReader& root, const Limits& limits,
                   const std::function<void(const ReadOptions&)>& set_budget);
 
-RequestError request_error(const JsonError& error, const ParseStop& stop);
+RequestError request_error(const JsonError& error, const core::Work& stop);
 /// The error with the faults that are listed, and the number of all. There must be one.
 RequestError request_error(const FaultList& faults);
 
 /// The error of a request whose reading was stopped.
-RequestError unfinished(const ParseStop& stop);
+RequestError unfinished(const core::Work& stop);
 
 /// Reads a body whose root has these members. `parse` gets a reader of the root and the stop, which it may
 /// give the budget, and returns an optional request, which is empty only when it reported faults or when the
 /// stop was met. Returns the request if the document has no fault at all.
 template <typename Request, typename Parse>
-Result<Request, RequestError> parse_body(std::string_view body, const Limits& limits, const ParseStop& stop,
+Result<Request, RequestError> parse_body(std::string_view body, const Limits& limits, core::Work& stop,
                                          std::span<const std::string_view> members, const Parse& parse) {
   auto document = read_json(body, limits.max_depth, stop);
   if (!document) return request_error(document.failure(), stop);
-  std::optional<Request> request = parse(JsonReader(*document).object(members), document->stop);
+  std::optional<Request> request = parse(JsonReader(*document).object(members), stop);
   const bool ended = !request && document->faults.empty();
-  if (ended || document->stop.met()) return unfinished(document->stop);
+  if (ended || stop.met()) return unfinished(stop);
   if (!document->faults.empty()) return request_error(document->faults);
   return std::move(*request);
 }

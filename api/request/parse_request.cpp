@@ -31,9 +31,9 @@ std::vector<ReceivedRobot> received(std::vector<ReadRobot>& robots, std::vector<
 
 }  // namespace
 
-Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits,
-                                                const ParseStop& stop, core::MapCache* maps) {
-  const auto parse = [&](const JsonReader& root, ParseStop& reading) -> std::optional<PlanRequest> {
+Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits, core::Work& stop,
+                                                core::MapCache* maps) {
+  const auto parse = [&](const JsonReader& root, core::Work& reading) -> std::optional<PlanRequest> {
     Fleet fleet = parse_fleet(root, limits, [&](const ReadOptions& options) {
       reading.set_budget(effective_budget(options, limits));
     });

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "api/json/parse_stop.h"
 #include "api/json/result.h"
 #include "api/request/limits.h"
 #include "api/request/received_robot.h"
@@ -15,6 +14,7 @@
 #include "core/map/map_cache.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
 
@@ -32,7 +32,7 @@ struct PlanRequest {
 
 /// Reads a body of POST /v1/plan; ends with `parse_unfinished` or `draining` when the stop is met. `maps` has
 /// those of earlier requests; may be null.
-Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits,
-                                                const ParseStop& stop = {}, core::MapCache* maps = nullptr);
+Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits, core::Work& stop,
+                                                core::MapCache* maps = nullptr);
 
 }  // namespace fleetplan::api

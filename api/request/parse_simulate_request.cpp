@@ -129,8 +129,8 @@ void take_fleet(Fleet& fleet, const Limits& limits, SimulateRequest& request) {
 }  // namespace
 
 Result<SimulateRequest, RequestError> parse_simulate_request(std::string_view body, const Limits& limits,
-                                                             const ParseStop& stop) {
-  const auto parse = [&](const JsonReader& root, ParseStop& reading) -> std::optional<SimulateRequest> {
+                                                             core::Work& stop) {
+  const auto parse = [&](const JsonReader& root, core::Work& reading) -> std::optional<SimulateRequest> {
     Fleet fleet = parse_fleet(root, limits, [&](const ReadOptions& options) {
       reading.set_budget(effective_budget(options, limits));
     });

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "api/json/parse_stop.h"
 #include "api/json/result.h"
 #include "api/request/limits.h"
 #include "api/request/world_frame.h"
@@ -16,6 +15,7 @@
 #include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
 
@@ -42,6 +42,6 @@ struct SimulateRequest {
 
 /// Reads a body of POST /v1/simulate; ends with `parse_unfinished` or `draining` when the stop is met.
 Result<SimulateRequest, RequestError> parse_simulate_request(std::string_view body, const Limits& limits,
-                                                             const ParseStop& stop = {});
+                                                             core::Work& stop);
 
 }  // namespace fleetplan::api

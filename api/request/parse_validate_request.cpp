@@ -46,8 +46,8 @@ core::CheckRules rules_of(const core::PlanOptions& options, std::vector<core::Me
 }  // namespace
 
 Result<ValidateRequest, RequestError> parse_validate_request(std::string_view body, const Limits& limits,
-                                                             const ParseStop& stop) {
-  const auto parse = [&](const JsonReader& root, ParseStop& reading) -> std::optional<ValidateRequest> {
+                                                             core::Work& stop) {
+  const auto parse = [&](const JsonReader& root, core::Work& reading) -> std::optional<ValidateRequest> {
     Fleet fleet = parse_fleet(
         root, limits, [&](const ReadOptions& options) { reading.set_budget(check_budget(options, limits)); });
     const double tolerance = root.find("tolerance").number(kTolerance).value_or(kDefaultTolerance);

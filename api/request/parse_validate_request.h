@@ -4,7 +4,6 @@
 #include <string_view>
 #include <vector>
 
-#include "api/json/parse_stop.h"
 #include "api/json/result.h"
 #include "api/request/limits.h"
 #include "api/request/requested_dependencies.h"
@@ -14,6 +13,7 @@
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/model/zone.h"
+#include "core/runtime/work.h"
 #include "core/verify/check_rules.h"
 
 namespace fleetplan::api {
@@ -33,6 +33,6 @@ struct ValidateRequest {
 
 /// Reads a body of POST /v1/validate; ends with `parse_unfinished` or `draining` when the stop is met.
 Result<ValidateRequest, RequestError> parse_validate_request(std::string_view body, const Limits& limits,
-                                                             const ParseStop& stop = {});
+                                                             core::Work& stop);
 
 }  // namespace fleetplan::api

@@ -141,7 +141,7 @@ std::vector<Route> routes_of(const VdaRequest& request, const std::vector<core::
 }  // namespace
 
 std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Limits& limits,
-                                                ParseStop& stop) {
+                                                core::Work& stop) {
   VdaRequest request;
   request.header = read_header(root);
   const double wait_before_move = parse_options(root.find("options")).plan.wait_before_move;

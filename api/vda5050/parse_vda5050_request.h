@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "api/json/json_reader.h"
-#include "api/json/parse_stop.h"
 #include "api/request/limits.h"
 #include "api/vda5050/order.h"
 #include "core/execution/dependency.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
 
@@ -43,6 +43,6 @@ inline constexpr std::array<std::string_view, 13> kVdaMembers{
 
 /// Reads the root of the document. Nothing if it has faults, or if its stop is met.
 std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Limits& limits,
-                                                ParseStop& stop);
+                                                core::Work& stop);
 
 }  // namespace fleetplan::api

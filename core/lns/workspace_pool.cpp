@@ -13,8 +13,8 @@ Workspace::Workspace(PlanState& state, const Incumbent& incumbent, const StopCon
       neighbourhoods_(state, incumbent.planned(), stop) {}
 
 Workspace::Workspace(const Instance& instance, const Incumbent& incumbent, const StopCondition& stop)
-    : own_instance_(
-          std::make_unique<Instance>(instance.problem(), instance.options(), instance.fixed_reservations())),
+    : own_instance_(std::make_unique<Instance>(instance.problem(), instance.options(),
+                                               instance.fixed_reservations(), stop.despite_memory())),
       own_state_(std::make_unique<PlanState>(*own_instance_)),
       state_(own_state_.get()),
       incumbent_(incumbent),

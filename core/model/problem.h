@@ -67,7 +67,7 @@ class Problem {
  public:
   /// The problem, or its faults. `robots` have positive finite radii and speeds.
   static std::variant<Problem, ProblemFaults> create(OccupancyGrid grid, std::vector<Robot> robots,
-                                                     const StopCondition& stop = {}) {
+                                                     const StopCondition& stop) {
     return create(std::move(grid), std::move(robots), {}, stop);
   }
   static std::variant<Problem, ProblemFaults> create(OccupancyGrid grid, std::vector<Robot> robots,

@@ -24,14 +24,18 @@ struct StepClock {
 extern constinit thread_local StepClock step_clock;
 
 /// When to stop: at a deadline, when a stop is requested, or while the job of the calling thread is short of
-/// memory (see MemoryAccount). Cheap enough to test in every search loop. By default it is never met.
+/// memory (see MemoryAccount). Cheap enough to test in every search loop.
+///
+/// The service gets one from the Work of a request, or from another one by until() and even_if_cancelled();
+/// tests/architecture rejects any other in the sources, so that no loop of a request is without its bounds.
 class StopCondition {
  public:
   using Clock = std::chrono::steady_clock;
 
-  StopCondition() = default;
   explicit StopCondition(Clock::time_point deadline, std::stop_token stop = {})
       : is_bounded_(true), deadline_(deadline), stop_(std::move(stop)) {}
+  /// Is never met: for tests and benchmarks.
+  static StopCondition never() { return StopCondition(); }
 
   bool met() const {
     if (!is_bounded_) return false;
@@ -45,6 +49,10 @@ class StopCondition {
     without.heeds_memory_ = false;
     return without;
   }
+  /// Met at another time, or when a stop is requested.
+  StopCondition until(Clock::time_point deadline) const { return StopCondition(deadline, stop_); }
+  /// Met at this time only: for the little that is done once a stop was requested.
+  static StopCondition even_if_cancelled(Clock::time_point deadline) { return StopCondition(deadline); }
   bool cancelled() const { return stop_.stop_requested(); }
   /// Whether the time is over: cancelled, or after the deadline, whatever else the condition is met for.
   bool is_over() const { return cancelled() || Clock::now() >= deadline_; }
@@ -52,6 +60,8 @@ class StopCondition {
   const std::stop_token& stop_token() const { return stop_; }
 
  private:
+  StopCondition() = default;
+
   bool is_bounded_ = false;
   bool heeds_memory_ = true;
   Clock::time_point deadline_ = Clock::time_point::max();

@@ -12,7 +12,7 @@ inline StopCondition after_share(const StopCondition& stop, double share) {
   if (stop.deadline() == Clock::time_point::max()) return stop;
   const auto now = Clock::now();
   const auto remaining = std::chrono::duration_cast<Clock::duration>((stop.deadline() - now) * share);
-  return StopCondition(now + remaining, stop.stop_token());
+  return stop.until(now + remaining);
 }
 
 }  // namespace fleetplan::core

@@ -125,7 +125,7 @@ class FleetCheck {
 
 VerifyReport verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                     const std::vector<RobotPlan>& plans, double tolerance) {
-  return *verify(grid, robots, plans, tolerance, StopCondition());
+  return *verify(grid, robots, plans, tolerance, StopCondition::never());
 }
 
 std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <exception>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -55,7 +56,7 @@ class ExchangeTurn final : public api::Turn {
   }
 
   bool await() override {
-    exchange_.had_turn = job_.await_turn(stop_);
+    exchange_.had_turn = job_.await_turn(*stop_);
     exchange_.queue_ms = seconds_since(since_) * 1000.0;
     return exchange_.had_turn;
   }
@@ -66,7 +67,7 @@ class ExchangeTurn final : public api::Turn {
   Workers::Job& job_;
   ParseSlots::Slot& slot_;
   Exchange& exchange_;
-  core::StopCondition stop_;
+  std::optional<core::StopCondition> stop_;  // once the turn is requested
   Clock::time_point since_ = Clock::time_point::max();
   Clock::time_point answer_by_ = Clock::time_point::max();
 };

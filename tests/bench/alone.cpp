@@ -9,6 +9,7 @@
 #include "core/instance.h"
 #include "core/prioritized/plan_state.h"
 #include "tests/bench/median.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::bench {
 namespace {
@@ -25,7 +26,7 @@ double floor_share(const core::Problem& problem) {
 }
 
 void plan_each_robot(const api::PlanRequest& request) {
-  const core::StopCondition never;
+  const auto never = core::StopCondition::never();
   const core::Instance instance(request.problem, request.options, never);
   core::PlanState state(instance);  // without reservations
   for (std::size_t robot = 0; robot < instance.size(); ++robot) {
@@ -37,7 +38,7 @@ void plan_each_robot(const api::PlanRequest& request) {
 
 Alone plan_alone(const std::string& body, const api::Limits& limits, int repeats) {
   using Clock = std::chrono::steady_clock;
-  const auto request = api::parse_request(body, limits);
+  const auto request = api::parse_request(body, limits, unbounded_work());
   std::vector<double> seconds;
   for (int run = 0; run < repeats; ++run) {
     const auto began = Clock::now();

@@ -100,7 +100,8 @@ TEST(Workload, OfACrowdHasDistinctCellsForDisksAsWideAsOne) {
   }
   EXPECT_EQ(starts.size(), 320u);
   EXPECT_EQ(goals.size(), 320u);
-  EXPECT_TRUE(std::holds_alternative<core::Problem>(core::Problem::create(workload.grid, workload.robots)));
+  EXPECT_TRUE(std::holds_alternative<core::Problem>(
+      core::Problem::create(workload.grid, workload.robots, core::StopCondition::never())));
 }
 
 TEST(Workload, HasThePapersMapAndThreeTypesInTurn) {
@@ -123,7 +124,7 @@ TEST(Workload, HasThePapersMapAndThreeTypesInTurn) {
 
 TEST(Workload, MakesAValidProblem) {
   for_each_workload([](const Workload& workload, const Recipe&) {
-    const auto problem = core::Problem::create(workload.grid, workload.robots);
+    const auto problem = core::Problem::create(workload.grid, workload.robots, core::StopCondition::never());
     EXPECT_TRUE(std::holds_alternative<core::Problem>(problem));
   });
 }
@@ -215,7 +216,8 @@ TEST(Workload, EndsWhereTheMapIsFull) {
   const Workload workload = generate(recipe, 1);
   EXPECT_GT(workload.robots.size(), 5u);
   EXPECT_LT(workload.robots.size(), 36u);
-  EXPECT_TRUE(std::holds_alternative<core::Problem>(core::Problem::create(workload.grid, workload.robots)));
+  EXPECT_TRUE(std::holds_alternative<core::Problem>(
+      core::Problem::create(workload.grid, workload.robots, core::StopCondition::never())));
 }
 
 TEST(LargestRoom, IsConnectedAndExcludesSmallerRooms) {

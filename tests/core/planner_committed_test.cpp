@@ -33,13 +33,14 @@ void expect_valid(const Problem& problem, const Plan& plan) {
   rules.tolerances = plan_tolerances(problem.grid(), problem.robots(), plan.plans);
   rules.exact_commitments = true;
   rules.exempt = plan.unavoidable;
-  const auto report =
-      verify({problem.grid(), problem.robots(), problem.obstacles()}, plan.plans, rules, StopCondition());
+  const auto report = verify({problem.grid(), problem.robots(), problem.obstacles()}, plan.plans, rules,
+                             StopCondition::never());
   ASSERT_TRUE(report);
   EXPECT_TRUE(report->valid()) << support::text(*report);
 }
 
-Plan checked_plan(const Problem& problem, const PlanOptions& options = {}, const StopCondition& stop = {}) {
+Plan checked_plan(const Problem& problem, const PlanOptions& options = {},
+                  const StopCondition& stop = StopCondition::never()) {
   Plan plan = core::plan(problem, options, stop);
   EXPECT_EQ(plan.plans.size() + plan.unplanned.size(), problem.robots().size());
   expect_valid(problem, plan);
@@ -239,13 +240,13 @@ TEST_P(CommittedFleet, OfAPlanCutAnywhereIsPlannedAndAccepted) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   support::Dice dice(seed);
   const Problem first = support::random_problem(dice, 12);
-  const Plan before = core::plan(first, in_motion(), {});
+  const Plan before = core::plan(first, in_motion(), StopCondition::never());
   std::vector<Robot> robots = first.robots();
   const double t = dice.between(0.0, before.objectives.makespan + 1.0);
   for (const RobotPlan& plan : before.plans) {
     robots[plan.robot].committed = committed_at(plan, dice.chance(0.3) ? 0.5 * t : t);
   }
-  auto made = Problem::create(first.grid(), robots);
+  auto made = Problem::create(first.grid(), robots, StopCondition::never());
   const auto* problem = std::get_if<Problem>(&made);
   if (problem == nullptr) return;  // cut at different times, commitments may meet
   const Plan plan = checked_plan(*problem, in_motion());

@@ -118,7 +118,7 @@ TEST(PlannerLoads, LastGoalsDoNotOverlapWithTheLastRadii) {
   Robot robot = robot_at(1.5, 1.5).to(5.0, 1.5);
   const Robot other = robot_at(1.5, 3.5).to(6.5, 1.5);
   const auto faults = [&](const Robot& first) {
-    auto made = Problem::create(OccupancyGrid(10, 6, 1.0), {first, other});
+    auto made = Problem::create(OccupancyGrid(10, 6, 1.0), {first, other}, StopCondition::never());
     const auto* found = std::get_if<ProblemFaults>(&made);
     return found != nullptr ? found->listed : std::vector<ProblemFault>{};
   };
@@ -133,7 +133,8 @@ TEST(PlannerLoads, CommittedMotionThatContainsAServiceChangesTheRadius) {
   Robot robot = robot_at(1.5, 4.5).drives(4.5, 4.5).waits(5.0).drives(7.5, 4.5).to(18.5, 4.5);
   robot = with_load(robot, 4.5, 4.5, 1.2, 2.0);
   // There is room for the bare robot, but not for the load.
-  const auto made = Problem::create(OccupancyGrid(20, 9, 1.0), {robot, robot_at(6.5, 5.7)});
+  const auto made =
+      Problem::create(OccupancyGrid(20, 9, 1.0), {robot, robot_at(6.5, 5.7)}, StopCondition::never());
   const auto* found = std::get_if<ProblemFaults>(&made);
   ASSERT_NE(found, nullptr);
   EXPECT_EQ(found->listed.at(0).kind, ProblemFault::Kind::committed_collision);

@@ -25,7 +25,8 @@ using Robots = std::vector<std::size_t>;
 constexpr double kPi = std::numbers::pi;
 
 /// The plan, after the checker accepted it, with every robot in it once.
-Plan checked_plan(const Problem& problem, const PlanOptions& options = {}, const StopCondition& stop = {}) {
+Plan checked_plan(const Problem& problem, const PlanOptions& options = {},
+                  const StopCondition& stop = StopCondition::never()) {
   Plan plan = core::plan(problem, options, stop);
   expect_safe(problem, plan, options.inflation);
   EXPECT_EQ(plan.plans.size() + plan.unplanned.size(), problem.robots().size());

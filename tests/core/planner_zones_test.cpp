@@ -227,7 +227,8 @@ TEST(ProblemFaults, NameTheBlockedZone) {
   const auto faults_of = [](const Robot& robot, Zone zone) {
     ProblemConditions conditions;
     conditions.zones = {std::move(zone)};
-    auto made = Problem::create(OccupancyGrid(11, 11, 1.0), {robot}, std::move(conditions), {});
+    auto made =
+        Problem::create(OccupancyGrid(11, 11, 1.0), {robot}, std::move(conditions), StopCondition::never());
     return std::get<ProblemFaults>(made).listed;
   };
   const auto start = faults_of(robot_at(3.8, 5.5).to(10.5, 5.5), blocked_box({4, 3}, {7, 9}));

@@ -11,6 +11,7 @@
 #include "tests/fuzz/require.h"
 #include "tests/fuzz/small_limits.h"
 #include "tests/fuzz/target.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::fuzz {
 
@@ -20,7 +21,7 @@ using Json = nlohmann::json;
 
 /// Plans from anywhere may leave a robot anywhere and jump, so that the request may have faults.
 void require_readable(const std::string& request, const api::Limits& limits) {
-  const auto parsed = api::parse_request(request, limits);
+  const auto parsed = api::parse_request(request, limits, unbounded_work());
   require(parsed || parsed.failure().code == api::ErrorCode::invalid_request, "the request is not readable",
           request);
 }

@@ -11,6 +11,7 @@
 #include "tests/fuzz/small_limits.h"
 #include "tests/fuzz/target.h"
 #include "tests/support/base64.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::fuzz {
 
@@ -74,7 +75,7 @@ void try_map(std::uint8_t form, const std::string& file) {
                         {"start", {{"x", 0.05}, {"y", 0.05}}}}}}};
   const std::string body = request.dump(-1, ' ', false, Json::error_handler_t::replace);
   const api::Limits limits = small_limits();
-  const auto parsed = api::parse_request(body, limits);
+  const auto parsed = api::parse_request(body, limits, unbounded_work());
   if (!parsed) return require_proper_refusal(body, api::problem_reply(parsed.failure(), "id"));
   const auto& grid = parsed->problem.grid();
   require(grid.columns() >= 1 && grid.rows() >= 1 && grid.cell_count() <= limits.max_cells,

@@ -10,6 +10,7 @@
 #include "tests/fuzz/require.h"
 #include "tests/fuzz/small_limits.h"
 #include "tests/fuzz/target.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::fuzz {
 
@@ -28,7 +29,7 @@ void require_within(const api::PlanRequest& request, const api::Limits& limits) 
 
 /// Returns whether the body is JSON. If not, the same reader rejects it for the other endpoint, too.
 bool try_plan_request(std::string_view body, const api::Limits& limits) {
-  const auto parsed = api::parse_request(body, limits);
+  const auto parsed = api::parse_request(body, limits, unbounded_work());
   if (!parsed) {
     require_proper_refusal(body, api::problem_reply(parsed.failure(), "id"));
     return parsed.failure().code == api::ErrorCode::invalid_request;

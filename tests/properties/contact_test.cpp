@@ -40,13 +40,14 @@ StopCondition generous_budget() {
 Plan planned(const Problem& problem, const PlanOptions& options) {
   Plan plan = core::plan(problem, options, generous_budget());
   const auto tolerances = plan_tolerances(problem.grid(), problem.robots(), plan.plans);
-  const auto report = verify(problem.grid(), problem.robots(), plan.plans, tolerances, StopCondition());
+  const auto report =
+      verify(problem.grid(), problem.robots(), plan.plans, tolerances, StopCondition::never());
   EXPECT_TRUE(report->valid()) << support::text(*report);
   return plan;
 }
 
 std::optional<Problem> problem_of(const OccupancyGrid& grid, std::vector<Robot> robots) {
-  auto created = Problem::create(grid, std::move(robots));
+  auto created = Problem::create(grid, std::move(robots), StopCondition::never());
   auto* valid = std::get_if<Problem>(&created);
   return valid != nullptr ? std::optional<Problem>(std::move(*valid)) : std::nullopt;
 }
@@ -278,7 +279,7 @@ double least_distance(const std::vector<Leg>& a, const std::vector<Leg>& b, doub
     return rest;
   };
   const std::vector<double> point{0.0, 0.0};
-  return *fleet_clearance({later(a), later(b)}, {point, point}, {0.0, 0.0}, 0, StopCondition())->least;
+  return *fleet_clearance({later(a), later(b)}, {point, point}, {0.0, 0.0}, 0, StopCondition::never())->least;
 }
 
 /// When a robot has made its first translation.

@@ -70,7 +70,7 @@ class OwnPaceOfRandomPlans {
     for (std::size_t k = 0; k < problem->robots().size(); ++k) {
       rules.margins.push_back(has_margins ? request.options.inflation * dice_.between(0.0, 1.0) : 0.0);
     }
-    const auto made = make_dependencies(problem->robots(), plan.plans, rules, StopCondition());
+    const auto made = make_dependencies(problem->robots(), plan.plans, rules, StopCondition::never());
     ASSERT_TRUE(made);
     expect_ordered(*made, executed_actions(problem->robots(), plan.plans));
     tally.dependencies += static_cast<int>(made->list.size());

@@ -42,7 +42,7 @@ void expect_valid(const Problem& problem, const Plan& plan, const PlanOptions& o
   rules.horizon = options.horizon;
   rules.exempt = plan.unavoidable;
   const CheckedFleet fleet{problem.grid(), problem.robots(), problem.obstacles(), &problem.zones()};
-  const auto report = verify(fleet, plan.plans, rules, StopCondition());
+  const auto report = verify(fleet, plan.plans, rules, StopCondition::never());
   ASSERT_TRUE(report);
   EXPECT_TRUE(report->valid()) << support::text(*report);
   Objectives estimated;
@@ -123,12 +123,12 @@ TEST_P(HorizonOfRandomFleet, LetsEverybodyArriveInTheEndInAnOpenHall) {
   for (int round = 0; round < kMostRounds && !all_arrived; ++round) {
     const auto problem = support::problem_of(request);
     ASSERT_TRUE(problem) << "round " << round;
-    const Plan plan = core::plan(*problem, request.options, StopCondition());
+    const Plan plan = core::plan(*problem, request.options, StopCondition::never());
     expect_valid(*problem, plan, request.options);
     if (testing::Test::HasFailure()) return;
     EXPECT_TRUE(plan.unplanned.empty()) << "round " << round;
     if (round == 0) {
-      EXPECT_TRUE(same_plans(plan, core::plan(*problem, request.options, StopCondition())));
+      EXPECT_TRUE(same_plans(plan, core::plan(*problem, request.options, StopCondition::never())));
     }
     all_arrived = std::all_of(plan.plans.begin(), plan.plans.end(), [&](const RobotPlan& robot) {
       return !robot.estimated_cost && robot.cost <= period;

@@ -80,7 +80,7 @@ bool follows_previous(const Robot& robot, const RobotPlan& plan) {
 /// Robots that can follow their plans whatever the others do are planned. With enough time, a plan that holds
 /// has changed only if it would collide with the plans of the answer.
 void expect_kept(const Problem& problem, const PlanOptions& options, const Plan& plan, bool has_time) {
-  const KeptPlans kept = keep_previous_plans(problem, options, StopCondition());
+  const KeptPlans kept = keep_previous_plans(problem, options, StopCondition::never());
   if (kept.kept.empty()) return;
   const std::vector<bool> certain = certain_robots(problem, options, kept.kept);
   for (std::size_t i = 0; i < problem.robots().size(); ++i) {
@@ -205,7 +205,8 @@ Problem reported_problem(FleetRequest& request) {
     ProblemConditions conditions;
     conditions.obstacles = request.obstacles;
     conditions.list_faults_of_every_robot = true;
-    auto created = Problem::create(request.grid, request.robots, std::move(conditions), StopCondition());
+    auto created =
+        Problem::create(request.grid, request.robots, std::move(conditions), StopCondition::never());
     if (auto* valid = std::get_if<Problem>(&created)) return std::move(*valid);
     const auto& faults = std::get<ProblemFaults>(created).listed;
     bool any = false;

@@ -72,7 +72,7 @@ TEST(FleetWithoutZones, BreaksTheirRules) {
     for (int seed = 0; seed < 40; ++seed) {
       support::Dice dice(static_cast<std::uint64_t>(seed));
       const Problem problem = support::random_problem_with_zones(dice, 4, types);
-      auto plain = Problem::create(problem.map(), problem.robots(), {}, {});
+      auto plain = Problem::create(problem.map(), problem.robots(), {}, StopCondition::never());
       const Plan plan = core::plan(std::get<Problem>(plain), {}, generous_budget());
       if (!support::safety_report(problem, plan.plans).valid()) ++broken;
     }

@@ -109,7 +109,7 @@ inline void expect_real_meetings(const core::Problem& problem, const core::Plan&
   core::CheckRules rules;
   rules.tolerances.assign(problem.robots().size(), core::Tolerance::of_all(core::kContactTolerance));
   const auto report = core::verify({problem.grid(), problem.robots(), problem.obstacles(), &problem.zones()},
-                                   plan.plans, rules, core::StopCondition());
+                                   plan.plans, rules, core::StopCondition::never());
   for (const core::Violation& violation : report->violations) {
     if (violation.kind == core::Violation::Kind::robot_collision)
       pairs.insert({violation.robots[0], violation.robots[1]});

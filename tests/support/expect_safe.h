@@ -42,7 +42,7 @@ inline core::VerifyReport safety_report(const core::Problem& problem,
   rules.tolerances = safe_tolerances(problem, plans);
   rules.exact_commitments = true;
   return *core::verify({problem.grid(), problem.robots(), problem.obstacles(), &problem.zones()}, plans,
-                       rules, core::StopCondition());
+                       rules, core::StopCondition::never());
 }
 
 /// Expects that planned robots collide with no other robot, planned or not, no moving obstacle and not with

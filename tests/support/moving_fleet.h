@@ -82,8 +82,8 @@ inline std::optional<core::Problem> problem_of(const FleetRequest& request) {
   conditions.zones = request.zones;
   conditions.pair_overlap = std::max(0.0, request.options.start_overlap - 2.0 * request.options.inflation);
   conditions.wall_overlap = std::max(0.0, request.options.start_overlap - request.options.inflation);
-  auto created =
-      core::Problem::create(request.grid, request.robots, std::move(conditions), core::StopCondition());
+  auto created = core::Problem::create(request.grid, request.robots, std::move(conditions),
+                                       core::StopCondition::never());
   auto* valid = std::get_if<core::Problem>(&created);
   return valid != nullptr ? std::optional<core::Problem>(std::move(*valid)) : std::nullopt;
 }

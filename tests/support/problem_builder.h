@@ -75,7 +75,8 @@ inline RobotBuilder robot_at(double x, double y, double theta = 0.0) { return {x
 inline core::Problem make_problem(core::OccupancyGrid grid, std::vector<core::Robot> robots,
                                   core::ProblemConditions conditions = {}) {
   for (std::size_t i = 0; i < robots.size(); ++i) robots[i].id = std::to_string(i);
-  auto problem = core::Problem::create(std::move(grid), std::move(robots), std::move(conditions), {});
+  auto problem = core::Problem::create(std::move(grid), std::move(robots), std::move(conditions),
+                                       core::StopCondition::never());
   if (auto* valid = std::get_if<core::Problem>(&problem)) return std::move(*valid);
   throw std::invalid_argument("the robots and the map are not a valid problem");
 }

@@ -91,7 +91,7 @@ inline core::Problem random_problem(Dice& dice, int count) {
     core::OccupancyGrid grid = random_map(dice);
     std::vector<core::Robot> robots = random_robots(dice, grid, count);
     if (robots.empty()) continue;
-    auto problem = core::Problem::create(std::move(grid), std::move(robots));
+    auto problem = core::Problem::create(std::move(grid), std::move(robots), core::StopCondition::never());
     if (auto* valid = std::get_if<core::Problem>(&problem)) return std::move(*valid);
   }
 }

@@ -72,7 +72,8 @@ inline core::Problem random_problem_with_zones(Dice& dice, int count,
     const core::Problem plain = random_problem(dice, count);
     core::ProblemConditions conditions;
     conditions.zones = random_zones(dice, plain, types);
-    auto problem = core::Problem::create(plain.map(), plain.robots(), std::move(conditions), {});
+    auto problem = core::Problem::create(plain.map(), plain.robots(), std::move(conditions),
+                                         core::StopCondition::never());
     if (auto* valid = std::get_if<core::Problem>(&problem)) return std::move(*valid);
   }
 }

@@ -39,7 +39,7 @@ std::string_view character_at(std::string_view text, std::size_t offset) {
   return text.substr(offset, end - offset);
 }
 
-core::OccupancyGrid draw(const std::vector<std::string_view>& rows, double resolution, ParseStop& stop) {
+core::OccupancyGrid draw(const std::vector<std::string_view>& rows, double resolution, core::Work& stop) {
   const int columns = static_cast<int>(rows.front().size());
   const int height = static_cast<int>(rows.size());
   core::OccupancyGrid grid(columns, height, resolution);

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "api/json/parse_stop.h"
 #include "core/map/occupancy_grid.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
 
@@ -21,6 +21,6 @@ std::optional<std::size_t> first_other_letter(std::string_view row, CellLetters 
 std::string_view character_at(std::string_view text, std::size_t offset);
 
 /// The grid of valid rows of one length, the top one first. Ends early when the stop is met.
-core::OccupancyGrid draw(const std::vector<std::string_view>& rows, double resolution, ParseStop& stop);
+core::OccupancyGrid draw(const std::vector<std::string_view>& rows, double resolution, core::Work& stop);
 
 }  // namespace fleetplan::api

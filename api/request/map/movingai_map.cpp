@@ -118,7 +118,7 @@ bool is_blank(std::string_view line) { return std::all_of(line.begin(), line.end
 
 /// The rows after the header. Blank lines may follow.
 Result<std::vector<std::string_view>, std::string> read_rows(Lines& lines, std::uint64_t width,
-                                                             std::uint64_t height, ParseStop& stop) {
+                                                             std::uint64_t height, core::Work& stop) {
   std::vector<std::string_view> rows;
   while (!lines.at_end() && !stop.met_after(width)) {
     const std::string_view row = lines.next();

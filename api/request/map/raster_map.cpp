@@ -25,7 +25,7 @@ constexpr std::size_t kOriginLength = 3;
 /// Whether unknown cells are free.
 bool parse_unknown(const JsonReader& member) { return member.word(kUnknown).value_or(0) == 1; }
 
-core::OccupancyGrid draw(const Raster& raster, double resolution, bool unknown_is_free, ParseStop& stop) {
+core::OccupancyGrid draw(const Raster& raster, double resolution, bool unknown_is_free, core::Work& stop) {
   const auto blocked = [&](std::int8_t percent) {
     return percent >= kLeastBlocked || (!unknown_is_free && (percent > kMostFree || percent < 0));
   };

@@ -53,7 +53,8 @@ MaskPart part(const Run& run, int first_row, int last_row, double resolution) {
 
 /// Joins equal runs of rows above each other.
 template <class Value>
-std::vector<MaskPart> parts_of(const Raster& raster, double resolution, ParseStop& stop, const Value& value) {
+std::vector<MaskPart> parts_of(const Raster& raster, double resolution, core::Work& stop,
+                               const Value& value) {
   std::vector<MaskPart> parts;
   std::map<Run, int> open;  // and the rows where they begin
   for (int row = 0; row <= raster.rows && !stop.met_after(static_cast<std::size_t>(raster.columns)); ++row) {

@@ -54,7 +54,7 @@ class Sides {
 
   /// Two sides that meet elsewhere than at their common corner, the earlier one first; none also if the
   /// reading is stopped.
-  std::optional<std::pair<std::size_t, std::size_t>> that_meet(ParseStop& stop) const {
+  std::optional<std::pair<std::size_t, std::size_t>> that_meet(core::Work& stop) const {
     std::vector<std::size_t> order(corners_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return left(i) < left(j); });

@@ -226,7 +226,7 @@ struct Convoy {
   }
 
   std::vector<core::Robot> advance(double at) {
-    ParseStop stop;
+    core::Work stop = core::Work::unbounded();
     return advanced(robots, executions, moment(at, 1.0), stop);
   }
 };
@@ -295,7 +295,7 @@ struct Crossing {
   std::vector<core::Robot> advance(double at, std::optional<double> commit = {}, double inflation = 0.0) {
     Moment then = moment(at, commit);
     then.inflation = inflation;
-    ParseStop stop;
+    core::Work stop = core::Work::unbounded();
     return advanced(robots, executions, then, stop);
   }
 };

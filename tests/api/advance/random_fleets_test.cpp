@@ -68,13 +68,13 @@ class Fleet {
       const auto& goal = problem_.robots()[k].goal;
       if (goal && dice_.chance(0.2)) execution.goals = {*goal};
     }
-    ParseStop stop;
+    core::Work stop = core::Work::unbounded();
     return advanced(problem_.robots(), executions, moment, stop);
   }
 
   /// Returns whether the fleet is one that can be planned for: a late robot may be where another one is.
   bool go_on(std::vector<core::Robot> robots) {
-    auto created = core::Problem::create(problem_.grid(), std::move(robots));
+    auto created = core::Problem::create(problem_.grid(), std::move(robots), core::StopCondition::never());
     if (const auto* faults = std::get_if<core::ProblemFaults>(&created)) {
       for (const core::ProblemFault& fault : faults->listed) {
         EXPECT_NE(fault.kind, core::ProblemFault::Kind::committed_collision)
@@ -95,15 +95,16 @@ class Fleet {
     if (dice.chance(0.3)) {
       for (core::Robot& robot : robots) robot.vicinity = problem.grid().resolution() * dice.between(0.0, 0.5);
     }
-    return std::get<core::Problem>(core::Problem::create(problem.grid(), std::move(robots)));
+    return std::get<core::Problem>(
+        core::Problem::create(problem.grid(), std::move(robots), core::StopCondition::never()));
   }
 
   void expect_safe(const core::Plan& plan) const {
     core::CheckRules rules;
     rules.tolerances = core::plan_tolerances(problem_.grid(), problem_.robots(), plan.plans);
     rules.wait_before_move = options_.wait_before_move;
-    const auto report =
-        core::verify({problem_.grid(), problem_.robots(), {}}, plan.plans, rules, core::StopCondition());
+    const auto report = core::verify({problem_.grid(), problem_.robots(), {}}, plan.plans, rules,
+                                     core::StopCondition::never());
     EXPECT_TRUE(report->valid()) << support::text(*report);
   }
 
@@ -134,7 +135,7 @@ void expect_that_all_may_stop(const core::Problem& problem) {
   }
   core::CheckRules rules;
   rules.tolerances.assign(robots.size(), core::Tolerance::of_all(core::kContactTolerance));
-  const auto report = core::verify({problem.grid(), robots, {}}, stops, rules, core::StopCondition());
+  const auto report = core::verify({problem.grid(), robots, {}}, stops, rules, core::StopCondition::never());
   EXPECT_TRUE(report->valid()) << support::text(*report);
 }
 

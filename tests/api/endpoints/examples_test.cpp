@@ -10,6 +10,7 @@
 
 #include "api/request/parse_request.h"
 #include "tests/api/support/requests.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 TEST(Examples, AreValidRequestsSortedByName) {
   ASSERT_FALSE(examples().empty());
   for (const Example& example : examples()) {
-    EXPECT_TRUE(parse_request(example.body, {})) << example.name;
+    EXPECT_TRUE(parse_request(example.body, {}, unbounded_work())) << example.name;
   }
   EXPECT_TRUE(std::is_sorted(examples().begin(), examples().end(),
                              [](const Example& a, const Example& b) { return a.name < b.name; }));

@@ -253,8 +253,8 @@ TEST(PlanEndpoint, WaitsForItsTurnUntilThePlanningDeadline) {
   TestTurn turn;
   busy.turn = &turn;
   EXPECT_EQ(json_of(plan_endpoint(request.dump(), busy))["status"], "solved");
-  EXPECT_EQ(turn.need.stop.deadline(), busy.received_at + std::chrono::milliseconds(60'000 - 25));
-  EXPECT_EQ(turn.need.answer_by, busy.received_at + std::chrono::milliseconds(60'000));
+  EXPECT_EQ(turn.need->stop.deadline(), busy.received_at + std::chrono::milliseconds(60'000 - 25));
+  EXPECT_EQ(turn.need->answer_by, busy.received_at + std::chrono::milliseconds(60'000));
 }
 
 TEST(PlanEndpoint, ReportsDrainingWhenTheServiceStopsBeforePlanning) {
@@ -302,13 +302,13 @@ TEST(PlanEndpoint, CallsAFewRobotsOnASmallMapShort) {
   waiting.turn = &turn;
   Json request = swap_request();
   plan_endpoint(request.dump(), waiting);
-  EXPECT_EQ(turn.need.kind, TurnNeed::Kind::plan);
-  EXPECT_EQ(turn.need.work, 2.0) << "robots with goals";
-  EXPECT_TRUE(turn.need.is_short);
+  EXPECT_EQ(turn.need->kind, TurnNeed::Kind::plan);
+  EXPECT_EQ(turn.need->work, 2.0) << "robots with goals";
+  EXPECT_TRUE(turn.need->is_short);
   request["map"]["rows"] = std::vector<std::string>(400, std::string(400, '.'));
   request["options"] = {{"time_budget_ms", 10}};
   plan_endpoint(request.dump(), waiting);
-  EXPECT_FALSE(turn.need.is_short);
+  EXPECT_FALSE(turn.need->is_short);
 }
 
 TEST(PlanEndpoint, ReportsFaultsWithoutWaitingForATurn) {
@@ -397,7 +397,7 @@ TEST(PlanEndpoint, KeepsIdsInAnyLanguage) {
 TEST(PlanEndpoint, PlansNobodyWhenThePlanCannotBeCheckedInTime) {
   const auto late = [](const core::Problem& problem, const core::PlanOptions& options,
                        const core::StopCondition& stop, core::Observer*) {
-    core::Plan plan = core::plan(problem, options, core::StopCondition());
+    core::Plan plan = core::plan(problem, options, core::StopCondition::never());
     while (core::StopCondition::Clock::now() < stop.deadline() + std::chrono::milliseconds(200)) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }

@@ -88,10 +88,10 @@ TEST(ValidateEndpoint, CountsItsWaitAgainstItsBudget) {
   RequestContext context;
   context.turn = &turn;
   EXPECT_EQ(validate_endpoint(request.dump(), context).status, 200);
-  EXPECT_EQ(turn.need.kind, TurnNeed::Kind::check);
-  EXPECT_EQ(turn.need.stop.deadline(), context.received_at + std::chrono::milliseconds(60'000));
-  EXPECT_EQ(turn.need.work, 3.0) << "two robots and an action";
-  EXPECT_TRUE(turn.need.is_short);
+  EXPECT_EQ(turn.need->kind, TurnNeed::Kind::check);
+  EXPECT_EQ(turn.need->stop.deadline(), context.received_at + std::chrono::milliseconds(60'000));
+  EXPECT_EQ(turn.need->work, 3.0) << "two robots and an action";
+  EXPECT_TRUE(turn.need->is_short);
 }
 
 TEST(ValidateEndpoint, IsOverloadedWithoutATurn) {

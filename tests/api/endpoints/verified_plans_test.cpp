@@ -13,6 +13,7 @@
 #include "core/verify/tolerances.h"
 #include "tests/api/support/requests.h"
 #include "tests/support/random_problem.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 namespace {
@@ -93,7 +94,7 @@ TEST(Tolerances, DoNotDependOnTheSpeedOfOtherRobots) {
     "robot_defaults": {"radius": 0.4, "linear_speed": 0.001, "angular_speed": 1e6},
     "robots": [{"id": "slow", "start": {"x": 0.5, "y": 0.5}, "goal": {"x": 5.5, "y": 0.5}},
                {"id": "fast", "linear_speed": 1000, "start": {"x": 1.5, "y": 1.5}, "goal": {"x": 4.5, "y": 1.5}}]})");
-  const core::Problem problem = std::move(parse_request(request.dump(), {})->problem);
+  const core::Problem problem = std::move(parse_request(request.dump(), {}, unbounded_work())->problem);
   std::vector<core::RobotPlan> plans{{0, 5000.0, {}, 0.0}, {1, 5000.0, {}, 0.0}};
   for (const core::Tolerance& tolerance : core::plan_tolerances(problem.grid(), problem.robots(), plans)) {
     EXPECT_LE(tolerance.metres, core::kMostTolerance);

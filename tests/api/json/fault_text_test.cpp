@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "api/json/read_json.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 namespace {
@@ -37,7 +38,9 @@ TEST(Quotes, CutLongTextAtACharacter) {
 }
 
 TEST(Descriptions, NameTypesAndValues) {
-  const auto description_of = [](std::string_view text) { return described(read_json(text, 9)->root()); };
+  const auto description_of = [](std::string_view text) {
+    return described(read_json(text, 9, unbounded_work())->root());
+  };
   EXPECT_EQ(description_of("null"), "null");
   EXPECT_EQ(description_of("true"), "true");
   EXPECT_EQ(description_of("-1.5"), "-1.5");

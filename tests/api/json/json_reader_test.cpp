@@ -5,6 +5,7 @@
 #include <array>
 
 #include "tests/api/support/requests.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 namespace {
@@ -13,7 +14,7 @@ constexpr Range kUnit{0.0, 1.0, "metres"};
 constexpr std::array<std::string_view, 2> kMembers{"a", "b"};
 
 JsonDocument document(std::string_view body) {
-  auto read = read_json(body, 32);
+  auto read = read_json(body, 32, unbounded_work());
   return std::move(*read);
 }
 

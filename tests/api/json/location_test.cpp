@@ -3,12 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "api/json/read_json.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 namespace {
 
 JsonDocument document(std::string_view body) {
-  auto read = read_json(body, 32);
+  auto read = read_json(body, 32, unbounded_work());
   return std::move(*read);
 }
 

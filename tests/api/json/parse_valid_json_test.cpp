@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::json;
 
 std::optional<JsonTape> parse(std::string_view text) {
-  ParseStop stop;
+  core::Work stop = core::Work::unbounded();
   return parse_valid_json(text, 6, 1000, stop);
 }
 
@@ -133,9 +133,9 @@ TEST(ValidJson, LeavesToTheGeneralParserWhatIsRare) {
 TEST(ValidJson, EndsWhenItIsStopped) {
   std::stop_source source;
   source.request_stop();
-  ParseStop stop(source.get_token(), ParseStop::Clock::now());
+  core::Work stop({.stop = source.get_token()});
   std::string text = "[0";
-  while (text.size() < 3 * ParseStop::kStride) text += ",0";
+  while (text.size() < 3 * core::Work::kStride) text += ",0";
   EXPECT_FALSE(parse_valid_json(text + "]", 6, text.size(), stop));
   EXPECT_TRUE(stop.met());
 }

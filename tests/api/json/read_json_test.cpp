@@ -7,6 +7,7 @@
 
 #include "api/response/error.h"
 #include "tests/api/support/requests.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 namespace {
@@ -17,15 +18,15 @@ using testing::Not;
 constexpr int kDepth = 32;
 
 JsonError error_of(std::string_view body) {
-  const auto read = read_json(body, kDepth);
+  const auto read = read_json(body, kDepth, unbounded_work());
   EXPECT_FALSE(read) << "accepted";
   return read ? JsonError{} : read.failure();
 }
 
-bool accepted(std::string_view body) { return static_cast<bool>(read_json(body, kDepth)); }
+bool accepted(std::string_view body) { return static_cast<bool>(read_json(body, kDepth, unbounded_work())); }
 
 JsonDocument document(std::string_view body) {
-  auto read = read_json(body, kDepth);
+  auto read = read_json(body, kDepth, unbounded_work());
   return std::move(*read);
 }
 
@@ -177,9 +178,9 @@ TEST(ReadJson, TakesLittleTimeForManyKeysWithEqualBeginnings) {
   for (int key = 0; key < 300'000; ++key)
     body.append("\"").append(std::to_string(1'000'000 + key)).append("\":0,");
   body += "\"1000001\":0}";
-  const auto begin = ParseStop::thread_cpu_time();
+  const auto begin = core::Work::thread_cpu_time();
   const JsonDocument read = document(body);
-  EXPECT_LT(ParseStop::thread_cpu_time() - begin, std::chrono::seconds(5)) << "minutes if it were quadratic";
+  EXPECT_LT(core::Work::thread_cpu_time() - begin, std::chrono::seconds(5)) << "minutes if it were quadratic";
   EXPECT_EQ(brief(read.faults.listed()), (Faults{{"/1000001", "duplicate"}}));
 }
 

@@ -8,6 +8,7 @@
 #include "api/response/write_dependencies.h"
 #include "tests/api/support/requests.h"
 #include "tests/support/plan_builder.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 namespace {
@@ -21,7 +22,7 @@ core::Robot robot(const std::string& id, double y) {
 class ParseDependencies : public testing::Test {
  protected:
   std::vector<core::Dependency> parse(const std::string& body) {
-    auto document = read_json(body, 32);
+    auto document = read_json(body, 32, unbounded_work());
     auto dependencies = parse_dependencies(JsonReader(*document), robots_, plans_);
     faults_ = document->faults.listed();
     return dependencies;

@@ -5,6 +5,7 @@
 
 #include "api/request/parse_request.h"
 #include "tests/api/support/motion_requests.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 namespace {
@@ -15,7 +16,7 @@ using core::Position;
 using testing::IsEmpty;
 
 PlanRequest parsed(const Json& request, const Limits& limits = {}) {
-  auto result = parse_request(request.dump(), limits);
+  auto result = parse_request(request.dump(), limits, unbounded_work());
   return std::move(*result);
 }
 

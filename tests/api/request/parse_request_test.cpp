@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "tests/api/support/requests.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 namespace {
@@ -19,7 +20,7 @@ using testing::IsEmpty;
 constexpr double kPi = std::numbers::pi;
 
 PlanRequest parsed(const Json& request, const Limits& limits = {}) {
-  auto result = parse_request(request.dump(), limits);
+  auto result = parse_request(request.dump(), limits, unbounded_work());
   return std::move(*result);
 }
 

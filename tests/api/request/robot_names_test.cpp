@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "tests/support/unbounded_work.h"
+
 namespace fleetplan::api {
 namespace {
 
@@ -16,7 +18,7 @@ class RobotNamesTest : public testing::Test {
   }
 
   std::optional<std::size_t> find(const RobotNames& names, const std::string& body) {
-    auto document = read_json(body, 32);
+    auto document = read_json(body, 32, unbounded_work());
     const auto found = names.find(JsonReader(*document));
     faults_ = document->faults.listed();
     return found;

@@ -6,6 +6,7 @@
 #include "tests/api/support/fault_case.h"
 #include "tests/api/support/motion_requests.h"
 #include "tests/support/base64.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 namespace {
@@ -45,7 +46,7 @@ TEST(Zones, AreReadInTheFrameOfTheMap) {
     }
   }
   the_zone(request)["robots"] = {"b"};
-  const auto read = parse_request(request.dump(), {});
+  const auto read = parse_request(request.dump(), {}, unbounded_work());
   ASSERT_TRUE(read);
   ASSERT_EQ(read->problem.zones().size(), 1U);
   const core::Zone& zone = read->problem.zones()[0];
@@ -204,7 +205,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Zones, AreTheOccupiedCellsOfAMask) {
   Json request = request_with_zone();
   make_mask(request);
-  const auto read = parse_request(request.dump(), {});
+  const auto read = parse_request(request.dump(), {}, unbounded_work());
   ASSERT_TRUE(read);
   const auto& zones = read->problem.zones();
   ASSERT_EQ(zones.size(), 2U);  // two cells below each other are one part
@@ -220,7 +221,7 @@ TEST(Zones, LimitEachRobotToThePercentageOfASpeedMask) {
   the_zone(request)["type"] = "speed";
   the_zone(request)["mask"]["mode"] = "raw";
   robot(request, 1)["linear_speed"] = 2.0;
-  const auto read = parse_request(request.dump(), {});
+  const auto read = parse_request(request.dump(), {}, unbounded_work());
   ASSERT_TRUE(read);
   const auto& zones = read->problem.zones();
   ASSERT_EQ(zones.size(), 2U);  // black is 0 %, and white unknown

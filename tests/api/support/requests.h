@@ -9,6 +9,7 @@
 
 #include "api/request/parse_request.h"
 #include "api/response/reply.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 
@@ -29,7 +30,7 @@ using Faults = std::vector<std::pair<std::string, std::string>>;  // pointer and
 
 /// The faults of a body that is JSON.
 inline std::vector<Fault> faults_of(const std::string& body, const Limits& limits = {}) {
-  const auto parsed = parse_request(body, limits);
+  const auto parsed = parse_request(body, limits, unbounded_work());
   return parsed ? std::vector<Fault>{} : parsed.failure().faults;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "api/endpoints/turn.h"
 
@@ -16,13 +17,13 @@ class TestTurn final : public Turn {
   }
   bool await() override {
     on_await();
-    return comes && !need.stop.cancelled();
+    return comes && !need->stop.cancelled();
   }
 
   bool refuses = false;
   bool comes = true;
   std::function<void()> on_await = [] {};
-  TurnNeed need;
+  std::optional<TurnNeed> need;  // of the last request
   int requests = 0;
 };
 

@@ -30,21 +30,21 @@ constexpr double kReduction = 1e-5;
 
 /// `cost`: that of a known plan.
 double bound_of(const Problem& problem, const PlanOptions& options = {}, double cost = kForever) {
-  const Instance instance(problem, options);
-  const TautPathBounds bounds(instance, {0}, {cost}, StopCondition());
+  const Instance instance(problem, options, StopCondition::never());
+  const TautPathBounds bounds(instance, {0}, {cost}, StopCondition::never());
   EXPECT_FALSE(bounds.cut_off());
   return bounds[0];
 }
 
 double straight_bound_of(const Problem& problem) {
-  const Instance instance(problem, {});
+  const Instance instance(problem, {}, StopCondition::never());
   return lower_bound(instance.robot(0), instance.motion(0));
 }
 
 std::optional<double> cost_alone(const Problem& problem, const PlanOptions& options = {}) {
-  const Instance instance(problem, options);
+  const Instance instance(problem, options, StopCondition::never());
   PlanState state(instance);
-  const auto found = state.plan(0, {kForever, 0.0}, StopCondition()).trajectory;
+  const auto found = state.plan(0, {kForever, 0.0}, StopCondition::never()).trajectory;
   return found ? std::optional(found->cost) : std::nullopt;
 }
 
@@ -224,7 +224,7 @@ std::optional<Problem> snug_problem(support::Dice& dice) {
   };
   robots[0].start.position = snap(robots[0].start.position);
   robots[0].goal->position = snap(robots[0].goal->position);
-  auto problem = Problem::create(std::move(grid), std::move(robots));
+  auto problem = Problem::create(std::move(grid), std::move(robots), StopCondition::never());
   if (auto* valid = std::get_if<Problem>(&problem)) return std::move(*valid);
   return std::nullopt;
 }
@@ -245,7 +245,7 @@ TEST_P(TautPathBoundsOfRandomProblems, AreBetweenTheStraightLineAndTheCostOfTheR
     const auto cost = cost_alone(*problem, options);
     if (!cost) continue;
     const double bound = bound_of(*problem, options);
-    const Instance instance(*problem, options);
+    const Instance instance(*problem, options, StopCondition::never());
     const double straight = lower_bound(instance.robot(0), instance.motion(0));
     ASSERT_LE(bound, *cost * (1.0 + 1e-12) + 1e-9);
     ASSERT_GE(bound, straight);
@@ -298,7 +298,7 @@ TEST(TautPathBounds, DoNotIncreaseWhereObstaclesAreRemoved) {
     if (!problem.robots()[0].goal) continue;
     const PlanOptions options = support::random_options(dice, problem);
     if (!cost_alone(problem, options)) continue;  // without a path the bound is the straight line
-    if (!Instance(problem, options).fits_at_start(0)) continue;  // likewise
+    if (!Instance(problem, options, StopCondition::never()).fits_at_start(0)) continue;  // likewise
     const OccupancyGrid& grid = problem.grid();
     OccupancyGrid fewer(grid.columns(), grid.rows(), grid.resolution());
     for (int row = 0; row < grid.rows(); ++row) {
@@ -317,7 +317,7 @@ TEST(TautPathBounds, DoNotIncreaseWhereObstaclesAreRemoved) {
 TEST(TautPathBounds, AreStraightLinesAndReportedAsCutOffWhenStopped) {
   const Problem problem =
       make_problem(wall(), {robot_at(1.5, 1.5).to(5.5, 1.5), robot_at(0.5, 3.5).to(5.5, 3.5)});
-  const Instance instance(problem, {});
+  const Instance instance(problem, {}, StopCondition::never());
   const TautPathBounds bounds(instance, {0, 1}, {kForever, kForever}, met());
   EXPECT_TRUE(bounds.cut_off());
   EXPECT_EQ(bounds[0], lower_bound(instance.robot(0), instance.motion(0)));
@@ -327,8 +327,8 @@ TEST(TautPathBounds, AreStraightLinesAndReportedAsCutOffWhenStopped) {
 
 TEST(TautPathBounds, AreZeroForRobotsThatWereNotRequested) {
   const Problem problem = make_problem(wall(), {robot_at(1.5, 1.5).to(5.5, 1.5), robot_at(0.5, 3.5)});
-  const Instance instance(problem, {});
-  EXPECT_EQ(TautPathBounds(instance, {0}, {kForever, kForever}, StopCondition())[1], 0.0);
+  const Instance instance(problem, {}, StopCondition::never());
+  EXPECT_EQ(TautPathBounds(instance, {0}, {kForever, kForever}, StopCondition::never())[1], 0.0);
 }
 
 TEST(TautPathBounds, TakeLimitedWorkForManyRobotsOnALargeMapWithManyCorners) {
@@ -345,17 +345,18 @@ TEST(TautPathBounds, TakeLimitedWorkForManyRobotsOnALargeMapWithManyCorners) {
     robots.push_back(robot_at(a.x(), a.y()).to(b.x(), b.y()).radius(0.3 + 1e-3 * row / 10));
   }
   const Problem problem = make_problem(grid, robots);
-  const Instance instance(problem, {});
+  const Instance instance(problem, {}, StopCondition::never());
   std::vector<std::size_t> all(instance.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const TautPathBounds bounds(instance, all, std::vector<double>(instance.size(), kForever), StopCondition());
+  const TautPathBounds bounds(instance, all, std::vector<double>(instance.size(), kForever),
+                              StopCondition::never());
   EXPECT_FALSE(bounds.cut_off());
   CornerVisibility corners(grid, 0.3, 0.4);
   for (const std::size_t robot : {std::size_t{0}, all.back()}) {
     TautPathSearch search(corners, instance.sight(), instance.motion(robot).radius);
     const double whole = search
                              .run(legs_of(instance.itinerary(robot))[0], instance.motion(robot), kForever,
-                                  1'000'000'000, StopCondition())
+                                  1'000'000'000, StopCondition::never())
                              .seconds;
     EXPECT_LT(bounds[robot], whole - 1e-3);
     EXPECT_GE(bounds[robot], lower_bound(instance.robot(robot), instance.motion(robot)));
@@ -390,14 +391,14 @@ TEST(TautPathBounds, BeginAfterTheCommittedActions) {
 
 TEST(TautPathSearch, ReturnsHigherBoundsAfterMoreWork) {
   const Problem problem = make_problem(maze(), {robot_at(1.5, 0.5).to(1.5, 8.5)});
-  const Instance instance(problem, {});
+  const Instance instance(problem, {}, StopCondition::never());
   double before = lower_bound(instance.robot(0), instance.motion(0));
   const double first = before;
   for (const std::int64_t work : {0, 400, 1200, 1000000}) {
     CornerVisibility corners(problem.grid(), instance.motion(0).radius, instance.motion(0).radius);
     TautPathSearch search(corners, instance.sight(), instance.motion(0).radius);
-    const TautPathResult result =
-        search.run(legs_of(instance.itinerary(0))[0], instance.motion(0), kForever, work, StopCondition());
+    const TautPathResult result = search.run(legs_of(instance.itinerary(0))[0], instance.motion(0), kForever,
+                                             work, StopCondition::never());
     EXPECT_FALSE(result.cut_off);
     EXPECT_GT(result.seconds, before);
     before = result.seconds;
@@ -412,12 +413,13 @@ TEST(TautPathSearch, NeedsLessWorkWhereAPlanIsKnown) {
     for (int column = 2; column < 30; column += 3) pillars.block({column, row});
   }
   const Problem problem = make_problem(pillars, {robot_at(13.5, 14.5).to(19.5, 14.5)});
-  const Instance instance(problem, {});
+  const Instance instance(problem, {}, StopCondition::never());
   const double radius = instance.motion(0).radius;
   const auto work = [&](double at_most) {
     CornerVisibility corners(problem.grid(), radius, radius);
     TautPathSearch search(corners, instance.sight(), radius);
-    search.run(legs_of(instance.itinerary(0))[0], instance.motion(0), at_most, 1'000'000, StopCondition());
+    search.run(legs_of(instance.itinerary(0))[0], instance.motion(0), at_most, 1'000'000,
+               StopCondition::never());
     return search.work();
   };
   EXPECT_LT(work(*cost_alone(problem)), 0.8 * static_cast<double>(work(kForever)));

@@ -25,7 +25,7 @@ DependencyRules rules(std::size_t robots, double margin = 0.0) {
 
 Dependencies made(const std::vector<Robot>& robots, const std::vector<RobotPlan>& plans,
                   const DependencyRules& rules) {
-  return *make_dependencies(robots, plans, rules, StopCondition());
+  return *make_dependencies(robots, plans, rules, StopCondition::never());
 }
 
 /// `a` drives along x through the origin, `b` along y, so much later.

@@ -25,11 +25,12 @@ class Retime : public testing::Test {
   void plan(double wait) {
     plans_ = {PlanBuilder(0, robots_[0]).translate_to(5, 0).build(),
               PlanBuilder(1, robots_[1]).wait(wait).translate_to(0, 5).build()};
-    dependencies_ = make_dependencies(robots_, plans_, {{0.0, 0.0}, 0.1, 0.0}, StopCondition())->list;
+    dependencies_ = make_dependencies(robots_, plans_, {{0.0, 0.0}, 0.1, 0.0}, StopCondition::never())->list;
   }
 
   std::vector<RetimedRobot> times(const std::vector<ObservedState>& states, const RetimeRules& rules) {
-    return *retime(robots_, executed_actions(robots_, plans_), dependencies_, states, rules, StopCondition());
+    return *retime(robots_, executed_actions(robots_, plans_), dependencies_, states, rules,
+                   StopCondition::never());
   }
 
   std::vector<Robot> robots_;

@@ -36,7 +36,7 @@ std::vector<std::size_t> plan_first_solution(Planning& p) {
   const auto given_up = triage(p.state, p.never);
   std::vector<std::size_t> movers = p.movers();
   std::erase_if(movers, [&](std::size_t robot) { return given_up[robot].has_value(); });
-  plan_prioritized(p.state, movers, p.random, PlanningTime{}, p.progress);
+  plan_prioritized(p.state, movers, p.random, PlanningTime::until(StopCondition::never()), p.progress);
   return movers;
 }
 

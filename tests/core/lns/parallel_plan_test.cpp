@@ -51,12 +51,12 @@ class PlanInParallel : public testing::TestWithParam<Objective> {};
 TEST_P(PlanInParallel, ReturnsTheSamePlanForAnyNumberOfThreads) {
   const Problem problem = roundabout();
   const PlanOptions options = anytime(200, GetParam());
-  const Plan alone = plan(problem, options, {});
+  const Plan alone = plan(problem, options, StopCondition::never());
   EXPECT_GT(alone.search.improvements, 0);
   support::expect_safe(problem, alone);
   for (const std::size_t threads : {1, 2, 8}) {
     support::ThreadedExecutor executor(threads);
-    const Plan together = plan(problem, options, {}, executor);
+    const Plan together = plan(problem, options, StopCondition::never(), executor);
     EXPECT_TRUE(together.deterministic);
     EXPECT_EQ(support::exact_text(together), support::exact_text(alone)) << threads << " threads";
     EXPECT_EQ(together.search.improvements, alone.search.improvements);
@@ -71,8 +71,8 @@ TEST_P(PlanInParallel, ReturnsTheSamePlanForRandomFleets) {
     const Problem problem = support::random_problem(dice, 10);
     const PlanOptions options = anytime(40, GetParam());
     support::ThreadedExecutor executor(4);
-    ASSERT_EQ(support::exact_text(plan(problem, options, {}, executor)),
-              support::exact_text(plan(problem, options, {})));
+    ASSERT_EQ(support::exact_text(plan(problem, options, StopCondition::never(), executor)),
+              support::exact_text(plan(problem, options, StopCondition::never())));
   }
 }
 
@@ -81,13 +81,13 @@ TEST_P(PlanInParallel, ReturnsTheSamePlanWithAnObserver) {
   const PlanOptions options = anytime(200, GetParam());
   support::Recorder by_one;
   CallerThread callers_thread;
-  const Plan alone = plan(problem, options, {}, callers_thread, &by_one);
-  EXPECT_EQ(support::exact_text(alone), support::exact_text(plan(problem, options, {})));
+  const Plan alone = plan(problem, options, StopCondition::never(), callers_thread, &by_one);
+  EXPECT_EQ(support::exact_text(alone), support::exact_text(plan(problem, options, StopCondition::never())));
   ASSERT_GT(by_one.shown.size(), 1u);
   for (const std::size_t threads : {2, 8}) {
     support::ThreadedExecutor executor(threads);
     support::Recorder by_many;
-    const Plan together = plan(problem, options, {}, executor, &by_many);
+    const Plan together = plan(problem, options, StopCondition::never(), executor, &by_many);
     EXPECT_EQ(support::exact_text(together), support::exact_text(alone)) << threads << " threads";
     EXPECT_EQ(by_many.reported.size(), by_one.reported.size());
     ASSERT_EQ(by_many.shown.size(), by_one.shown.size());

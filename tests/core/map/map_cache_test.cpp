@@ -69,10 +69,11 @@ TEST(MapCache, CountsWhatIsDerivedLater) {
   const auto map = cache.map_of(hall(14));
   const std::size_t before = cache.stats().bytes;
   const Lattice lattice(map->grid(), 8, 0.25);
-  EXPECT_GT(map->finer_vertices(lattice, 0.3, {})->count(), 0);
+  EXPECT_GT(map->finer_vertices(lattice, 0.3, StopCondition::never())->count(), 0);
   EXPECT_GT(cache.stats().bytes, before);
   const Lattice again(map->grid(), 8, 0.25);
-  EXPECT_EQ(map->finer_vertices(again, 0.3, {}), map->finer_vertices(lattice, 0.3, {}));
+  EXPECT_EQ(map->finer_vertices(again, 0.3, StopCondition::never()),
+            map->finer_vertices(lattice, 0.3, StopCondition::never()));
 }
 
 TEST(MapCache, WithoutMemoryKeepsNothing) {
@@ -127,7 +128,7 @@ TEST(MapCache, ThreadsShareIt) {
   std::array<std::vector<FinerVertices::Link>, kMaps> expected;
   const Lattice lattice(hall(14), 8, 0.25);
   for (int k = 0; k < kMaps; ++k) {
-    const auto finer = StaticMap(hall(13 + k)).finer_vertices(lattice, kRadius, {});
+    const auto finer = StaticMap(hall(13 + k)).finer_vertices(lattice, kRadius, StopCondition::never());
     const auto links = finer->links();
     expected[static_cast<std::size_t>(k)] = {links.begin(), links.end()};
   }
@@ -139,7 +140,7 @@ TEST(MapCache, ThreadsShareIt) {
         for (std::size_t round = 0; round < 12; ++round) {
           const std::size_t k = (thread + round * round) % kMaps;
           const auto map = cache.map_of(hall(13 + static_cast<int>(k)));
-          const auto finer = map->finer_vertices(lattice, kRadius, {});
+          const auto finer = map->finer_vertices(lattice, kRadius, StopCondition::never());
           const auto links = finer->links();
           if (!std::equal(links.begin(), links.end(), expected[k].begin(), expected[k].end()))
             ++wrong[thread];

@@ -85,7 +85,7 @@ TEST(Refinement, ConnectsWhatTheLatticeOfTheCellsConnects) {
     const double radius = dice.between(0.1, 0.45);
     const double spacing = 0.05 * (2 * (1 + dice.below(5)) + 1);
     const Lattice lattice(grid, 4 << dice.below(4), spacing);
-    const auto finer = refine(grid, sight, lattice, radius, {});
+    const auto finer = refine(grid, sight, lattice, radius, StopCondition::never());
     ASSERT_TRUE(finer);
     refined += finer->count() > 0 ? 1 : 0;
     const Lattice cells(grid, 8);
@@ -124,18 +124,19 @@ TEST(Refinement, FindsTheMiddleOfAGapBetweenCells) {
                                                 0.5);
   const StaticMap map(grid);
   const Lattice lattice(grid, 8);
-  const auto finer = map.finer_vertices(lattice, 0.3, {});
+  const auto finer = map.finer_vertices(lattice, 0.3, StopCondition::never());
   ASSERT_GT(finer->count(), 0);
   Components all = components(lattice, map.sight(), 0.3, *finer);
   EXPECT_EQ(all.of(lattice.vertex(1, 2)), all.of(lattice.vertex(7, 3)));
-  EXPECT_EQ(map.finer_vertices(lattice, 0.3, {}), finer) << "computed once";
-  EXPECT_EQ(map.finer_vertices(lattice, 0.25, {})->count(), 0) << "follows the centres of the cells";
+  EXPECT_EQ(map.finer_vertices(lattice, 0.3, StopCondition::never()), finer) << "computed once";
+  EXPECT_EQ(map.finer_vertices(lattice, 0.25, StopCondition::never())->count(), 0)
+      << "follows the centres of the cells";
 }
 
 TEST(Refinement, AddsNothingWhereTheLatticeHasAWayNearby) {
   const StaticMap map(OccupancyGrid(40, 40, 0.05));
   const Lattice lattice(map.grid(), 8, 0.25);
-  const auto finer = map.finer_vertices(lattice, 0.3, {});
+  const auto finer = map.finer_vertices(lattice, 0.3, StopCondition::never());
   EXPECT_EQ(finer->count(), 0);
   EXPECT_TRUE(finer->links().empty());
 }
@@ -147,7 +148,7 @@ TEST(Refinement, LeavesOutGapsWithoutPlay) {
                                                  "...#..."});
   const StaticMap map(grid);
   const Lattice lattice(grid, 8);
-  EXPECT_TRUE(map.finer_vertices(lattice, 1.0, {})->links().empty());
+  EXPECT_TRUE(map.finer_vertices(lattice, 1.0, StopCondition::never())->links().empty());
 }
 
 TEST(Refinement, EndsWhenItIsStopped) {
@@ -155,7 +156,8 @@ TEST(Refinement, EndsWhenItIsStopped) {
   const StaticMap map(support::ascii_map({"...#...", ".......", ".......", "...#..."}, 0.5));
   const Lattice lattice(map.grid(), 8);
   EXPECT_EQ(map.finer_vertices(lattice, 0.3, StopCondition(past))->count(), 0);
-  EXPECT_GT(map.finer_vertices(lattice, 0.3, {})->count(), 0) << "what was not finished is not kept";
+  EXPECT_GT(map.finer_vertices(lattice, 0.3, StopCondition::never())->count(), 0)
+      << "what was not finished is not kept";
 }
 
 }  // namespace

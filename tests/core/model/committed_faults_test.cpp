@@ -28,7 +28,7 @@ OccupancyGrid hall() {
 }
 
 std::vector<ProblemFault> faults_of(std::vector<Robot> robots, ProblemConditions conditions = {}) {
-  auto made = Problem::create(hall(), std::move(robots), std::move(conditions), {});
+  auto made = Problem::create(hall(), std::move(robots), std::move(conditions), StopCondition::never());
   if (auto* faults = std::get_if<ProblemFaults>(&made)) return faults->listed;
   return {};
 }

@@ -18,7 +18,8 @@ OccupancyGrid room() {
                              "......."});
 }
 
-ProblemFaults all_faults_of(OccupancyGrid grid, std::vector<Robot> robots, const StopCondition& stop = {}) {
+ProblemFaults all_faults_of(OccupancyGrid grid, std::vector<Robot> robots,
+                            const StopCondition& stop = StopCondition::never()) {
   auto problem = Problem::create(std::move(grid), std::move(robots), stop);
   if (auto* faults = std::get_if<ProblemFaults>(&problem)) return *faults;
   return {};
@@ -36,7 +37,8 @@ void expect_fault(const ProblemFault& fault, Kind kind, std::size_t robot, std::
 }
 
 TEST(Problem, KeepsTheMapAndTheRobots) {
-  auto created = Problem::create(room(), {robot_at(1, 1, 0.5).to(5, 1), robot_at(6, 3).radius(0.2)});
+  auto created = Problem::create(room(), {robot_at(1, 1, 0.5).to(5, 1), robot_at(6, 3).radius(0.2)},
+                                 StopCondition::never());
   const auto* problem = std::get_if<Problem>(&created);
   ASSERT_NE(problem, nullptr);
   EXPECT_EQ(problem->grid().columns(), 7);

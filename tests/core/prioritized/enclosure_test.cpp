@@ -77,11 +77,11 @@ TEST(Enclosure, NeverClosesOffARobotThatHasAPath) {
     for (int k = 0; k < 8; ++k) {
       robots.push_back(robot_at(10 * random.unit(), 8 * random.unit()).radius(0.1 + 0.5 * random.unit()));
     }
-    auto problem = Problem::create(grid, robots);
+    auto problem = Problem::create(grid, robots, StopCondition::never());
     while (robots.size() > 1 && !std::holds_alternative<Problem>(problem)) {
       robots.erase(robots.begin() +
                    static_cast<std::ptrdiff_t>(std::get<ProblemFaults>(problem).listed.front().robot));
-      problem = Problem::create(grid, robots);
+      problem = Problem::create(grid, robots, StopCondition::never());
       if (robots.empty() || !robots.front().goal) break;
     }
     if (!std::holds_alternative<Problem>(problem) || !robots.front().goal) continue;

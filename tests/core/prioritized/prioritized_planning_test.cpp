@@ -40,7 +40,8 @@ Robots robots_of(const PrioritizedResult& result) {
 }
 
 PrioritizedResult run(Planning& p) {
-  return plan_prioritized(p.state, p.movers(), p.random, PlanningTime{}, p.progress);
+  return plan_prioritized(p.state, p.movers(), p.random, PlanningTime::until(StopCondition::never()),
+                          p.progress);
 }
 
 TEST(Prioritized, NeedsOneAttemptWhereTheFirstOrderWorks) {
@@ -101,7 +102,8 @@ TEST(Prioritized, PlansTheOtherRobotsWhenOneIsBlockedByAParkedRobot) {
 
 TEST(Prioritized, PlansNothingWithoutMovers) {
   Planning p(OccupancyGrid(4, 4, 1.0), {robot_at(1, 1)});
-  const auto result = plan_prioritized(p.state, {}, p.random, PlanningTime{}, p.progress);
+  const auto result =
+      plan_prioritized(p.state, {}, p.random, PlanningTime::until(StopCondition::never()), p.progress);
   EXPECT_TRUE(result.unplanned.empty());
   EXPECT_FALSE(result.cut_off);
 }
@@ -109,7 +111,8 @@ TEST(Prioritized, PlansNothingWithoutMovers) {
 TEST(Prioritized, CompletesAPartialPlanAfterTheTimeForAttempts) {
   Planning p(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5), robot_at(0.5, 1.5).to(0.5, 8.5)});
   const auto result =
-      plan_prioritized(p.state, p.movers(), p.random, PlanningTime{met(), {}, {}}, p.progress);
+      plan_prioritized(p.state, p.movers(), p.random,
+                       PlanningTime{met(), StopCondition::never(), StopCondition::never()}, p.progress);
   EXPECT_TRUE(result.unplanned.empty()) << "there is time left to complete";
   EXPECT_TRUE(result.cut_off);
   expect_safe(p.state);
@@ -128,8 +131,8 @@ TEST(Prioritized, LeavesAllRobotsUnplannedAfterStop) {
 
 TEST(Prioritized, GoesOnAfterKeepingASafePlan) {
   Planning p(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5), robot_at(0.5, 1.5).to(0.5, 8.5)});
-  const auto result =
-      plan_prioritized(p.state, p.movers(), p.random, PlanningTime{met(), met(), {}}, p.progress);
+  const auto result = plan_prioritized(p.state, p.movers(), p.random,
+                                       PlanningTime{met(), met(), StopCondition::never()}, p.progress);
   EXPECT_TRUE(result.unplanned.empty()) << "the time for the safe plan was over, but not all of it";
   EXPECT_TRUE(result.cut_off);
   expect_safe(p.state);

@@ -51,11 +51,12 @@ std::vector<Robot> crossing(double later) {
 
 TEST(KeptPlans, AreNoneWithoutPreviousPlans) {
   const Problem problem = make_problem(hall(), {robot_at(1.5, 1.5).to(1.5, 1.5)});
-  EXPECT_THAT(keep_previous_plans(problem, {}, {}).kept, IsEmpty());
+  EXPECT_THAT(keep_previous_plans(problem, {}, StopCondition::never()).kept, IsEmpty());
 }
 
 TEST(KeptPlans, AreAllIfTheyHoldTogether) {
-  const KeptPlans previous = keep_previous_plans(make_problem(hall(), crossing(2.0)), {}, {});
+  const KeptPlans previous =
+      keep_previous_plans(make_problem(hall(), crossing(2.0)), {}, StopCondition::never());
   EXPECT_THAT(previous.kept, ElementsAre(true, true));
   EXPECT_FALSE(previous.cut_off);
 }
@@ -64,52 +65,58 @@ TEST(KeptPlans, AreThoseOfHigherPriorityWherePlansConflict) {
   const Problem problem = make_problem(hall(), crossing(0.1));
   PlanOptions options;
   options.priority = PlanOptions::Priority::as_listed;
-  EXPECT_THAT(keep_previous_plans(problem, options, {}).kept, ElementsAre(true, false));
+  EXPECT_THAT(keep_previous_plans(problem, options, StopCondition::never()).kept, ElementsAre(true, false));
   std::vector<Robot> robots = problem.robots();
   robots[0].start.position.x() = 0.5;  // a longer way
   robots[0].previous = straight(robots[0], 0.0);
-  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, {}).kept, ElementsAre(false, true));
+  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, StopCondition::never()).kept,
+              ElementsAre(false, true));
 }
 
 TEST(KeptPlans, HoldUnderTheInflationOfTheRequest) {
   const Problem problem = make_problem(hall(), crossing(1.3));
   PlanOptions options;
-  EXPECT_THAT(keep_previous_plans(problem, options, {}).kept, ElementsAre(true, true));
+  EXPECT_THAT(keep_previous_plans(problem, options, StopCondition::never()).kept, ElementsAre(true, true));
   options.inflation = 0.1;
-  EXPECT_THAT(keep_previous_plans(problem, options, {}).kept, ElementsAre(true, false));
+  EXPECT_THAT(keep_previous_plans(problem, options, StopCondition::never()).kept, ElementsAre(true, false));
 }
 
 TEST(KeptPlans, LeaveOutPlansThatEndElsewhere) {
   std::vector<Robot> robots = crossing(2.0);
   robots[0].goal->position.x() = 7.5;
-  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, {}).kept, ElementsAre(false, true));
+  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, StopCondition::never()).kept,
+              ElementsAre(false, true));
 }
 
 TEST(KeptPlans, LeaveOutPlansThroughParkedRobots) {
   std::vector<Robot> robots = crossing(2.0);
   robots.push_back(robot_at(7.5, 5.5));
-  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, {}).kept,
+  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, StopCondition::never()).kept,
               ElementsAre(false, true, false));
 }
 
 TEST(KeptPlans, LeaveOutPlansThroughWalls) {
   OccupancyGrid grid = hall();
   grid.block({7, 5});
-  EXPECT_THAT(keep_previous_plans(make_problem(grid, crossing(2.0)), {}, {}).kept, ElementsAre(false, true));
+  EXPECT_THAT(keep_previous_plans(make_problem(grid, crossing(2.0)), {}, StopCondition::never()).kept,
+              ElementsAre(false, true));
 }
 
 TEST(KeptPlans, DoNotCareWhatARobotWithoutOneWillDo) {
   std::vector<Robot> robots = crossing(2.0);
   robots.push_back(robot_at(7.5, 5.5).to(7.5, 7.5));
-  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, {}).kept, ElementsAre(true, true, false));
+  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, StopCondition::never()).kept,
+              ElementsAre(true, true, false));
 }
 
 TEST(KeptPlans, IncludeARobotThatRestsAtItsGoal) {
   std::vector<Robot> robots = crossing(2.0);
   robots.push_back(robot_at(1.5, 1.5).to(1.5, 1.5));
-  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, {}).kept, ElementsAre(true, true, true));
+  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, StopCondition::never()).kept,
+              ElementsAre(true, true, true));
   robots.back().previous = std::vector<Action>{};
-  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, {}).kept, ElementsAre(true, true, true));
+  EXPECT_THAT(keep_previous_plans(make_problem(hall(), robots), {}, StopCondition::never()).kept,
+              ElementsAre(true, true, true));
 }
 
 TEST(KeptPlans, AreNoneIfTheCheckIsNotFinished) {
@@ -124,7 +131,7 @@ TEST(KeptPlans, AreSafeAmongRobotsThatStay) {
   robots.push_back(driving(robot_at(1.5, 8.5, -M_PI / 2).to(1.5, 1.5), 3.0));
   const Problem problem = make_problem(hall(), robots);
   // The first robot cannot pass the third one; the last one cannot pass the first one then.
-  EXPECT_THAT(keep_previous_plans(problem, {}, {}, LeftOut::stay).kept,
+  EXPECT_THAT(keep_previous_plans(problem, StopCondition::never(), {}, LeftOut::stay).kept,
               ElementsAre(false, true, false, false));
 }
 
@@ -132,7 +139,7 @@ TEST(PlanWithoutSearch, PlansRobotsWithSafePreviousPlans) {
   std::vector<Robot> robots = crossing(2.0);
   robots.push_back(robot_at(7.5, 5.5).to(7.5, 7.5));
   const Problem problem = make_problem(hall(), robots);
-  const Plan plan = plan_without_search(problem, {}, "No time.", {});
+  const Plan plan = plan_without_search(problem, {}, "No time.", StopCondition::never());
   support::expect_safe(problem, plan);
   ASSERT_EQ(plan.plans.size(), 1u);
   EXPECT_EQ(plan.plans[0].robot, 1u);
@@ -158,8 +165,8 @@ TEST(PlanWithoutSearch, NamesInvalidRobotsAndCollisionsThatNobodyCanAvoid) {
   invalid.id = "invalid";
   invalid.invalid = true;
   const MovingObstacle person{"person", 0.3, {{1.0, {7.5, 0.5}}, {5.0, {7.5, 4.5}}}};
-  auto problem = Problem::create(hall(), {parked, invalid}, {{person}}, StopCondition());
-  const Plan plan = plan_without_search(std::get<Problem>(problem), {}, "No time.", {});
+  auto problem = Problem::create(hall(), {parked, invalid}, {{person}}, StopCondition::never());
+  const Plan plan = plan_without_search(std::get<Problem>(problem), {}, "No time.", StopCondition::never());
   ASSERT_EQ(plan.unplanned.size(), 1u);
   EXPECT_EQ(plan.unplanned[0].reason, Unplanned::Reason::invalid);
   ASSERT_EQ(plan.unavoidable.size(), 1u);

@@ -21,7 +21,7 @@ constexpr std::size_t kRobots = 20;
 /// A crowd with plans that hold.
 Problem crowd_under_way(std::uint64_t seed, const PlanOptions& options = {}) {
   const Problem problem = crowd(kRobots, seed);
-  const Plan plan = core::plan(problem, options, {});
+  const Plan plan = core::plan(problem, options, StopCondition::never());
   EXPECT_TRUE(plan.unplanned.empty());
   return make_problem(problem.grid(), with_previous(problem, plan));
 }
@@ -32,7 +32,7 @@ StopCondition after_milliseconds(int milliseconds) {
 
 TEST(Replanning, ReturnsPreviousPlansThatHoldToTheLastDigit) {
   const Problem problem = crowd_under_way(1);
-  const Plan plan = core::plan(problem, {}, {});
+  const Plan plan = core::plan(problem, {}, StopCondition::never());
   EXPECT_TRUE(plan.unplanned.empty());
   EXPECT_TRUE(plan.deterministic);
   EXPECT_EQ(count_followed(problem, plan), kRobots);
@@ -72,7 +72,7 @@ TEST(Replanning, DoesNotKeepAPlanThroughARobotThatStaysAsItsGoalIsBlocked) {
 
 TEST(Replanning, NamesTheVisitsOfPreviousPlans) {
   const Problem problem = crowd_under_way(3);
-  const Plan plan = core::plan(problem, {}, {});
+  const Plan plan = core::plan(problem, {}, StopCondition::never());
   for (const RobotPlan& robot : plan.plans) {
     ASSERT_EQ(robot.visits.size(), 1u);
     EXPECT_EQ(robot.visits[0].goal, 0u);
@@ -86,10 +86,10 @@ TEST(Replanning, ImprovesPreviousPlansInModeAnytime) {
     const Problem problem = crowd_under_way(4);
     PlanOptions options;
     options.objective = objective;
-    const Plan before = core::plan(problem, options, {});
+    const Plan before = core::plan(problem, options, StopCondition::never());
     options.mode = Mode::anytime;
     options.max_iterations = 200;
-    const Plan after = core::plan(problem, options, {});
+    const Plan after = core::plan(problem, options, StopCondition::never());
     support::expect_safe(problem, after);
     EXPECT_TRUE(after.unplanned.empty());
     if (objective == PlanOptions::Objective::flowtime) {
@@ -107,7 +107,7 @@ TEST(Replanning, WhereNeededLeavesPlansThatHoldAlone) {
   options.mode = Mode::anytime;
   options.replan = Replan::where_needed;
   options.max_iterations = 200;
-  const Plan plan = core::plan(problem, options, {});
+  const Plan plan = core::plan(problem, options, StopCondition::never());
   EXPECT_EQ(count_followed(problem, plan), kRobots);
   EXPECT_TRUE(plan.search.exhausted);
 }
@@ -137,7 +137,7 @@ TEST(Replanning, PlansARobotWithANewGoalAroundTheOthers) {
       options.mode = mode;
       options.replan = Replan::where_needed;
       options.max_iterations = 50;
-      const Plan plan = core::plan(problem, options, {});
+      const Plan plan = core::plan(problem, options, StopCondition::never());
       EXPECT_TRUE(plan.unplanned.empty());
       EXPECT_EQ(count_followed(problem, plan), kRobots - 1) << "seed " << seed;
       support::expect_safe(problem, plan);
@@ -177,7 +177,7 @@ TEST(Replanning, PlansAroundALateRobot) {
     PlanOptions options;
     options.replan = Replan::where_needed;
     options.start_safe_interval = 0.0;
-    const Plan plan = core::plan(problem, options, {});
+    const Plan plan = core::plan(problem, options, StopCondition::never());
     EXPECT_TRUE(plan.unplanned.empty());
     EXPECT_GE(count_followed(problem, plan), kRobots - 4) << "seed " << seed;
     support::expect_safe(problem, plan);
@@ -191,10 +191,10 @@ TEST(Replanning, KeepsSequencesOfGoalsWithServices) {
   robots[1].goal->service = 2.5;
   const OccupancyGrid grid(10, 4, 1.0);
   const Problem before = make_problem(grid, robots);
-  const Plan first = core::plan(before, {}, {});
+  const Plan first = core::plan(before, {}, StopCondition::never());
   ASSERT_TRUE(first.unplanned.empty());
   const Problem problem = make_problem(grid, with_previous(before, first));
-  for (const auto& stop : {StopCondition(), after_milliseconds(-1)}) {
+  for (const auto& stop : {StopCondition::never(), after_milliseconds(-1)}) {
     const Plan plan = core::plan(problem, {}, stop);
     ASSERT_EQ(count_followed(problem, plan), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -213,18 +213,18 @@ TEST(Replanning, KeepsPlansMadeWithInflationMarginAndAddedWaits) {
   options.wait_before_move = 0.5;
   options.interval_margin = 0.5;
   const Problem problem = crowd_under_way(5, options);
-  EXPECT_EQ(count_followed(problem, core::plan(problem, options, {})), kRobots);
+  EXPECT_EQ(count_followed(problem, core::plan(problem, options, StopCondition::never())), kRobots);
 }
 
 TEST(Replanning, LeavesOutAPlanThroughAMovingObstacle) {
   std::vector<Robot> robots{robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(0.5, 3.5).to(8.5, 3.5)};
   const OccupancyGrid grid(9, 5, 1.0);
   const Problem before = make_problem(grid, robots);
-  robots = with_previous(before, core::plan(before, {}, {}));
+  robots = with_previous(before, core::plan(before, {}, StopCondition::never()));
   MovingObstacle person{"person", 0.3, {{3.0, Position(4.5, 0.5)}, {6.0, Position(4.5, 1.5)}}};
-  auto problem = Problem::create(grid, robots, ProblemConditions{{person}}, {});
+  auto problem = Problem::create(grid, robots, ProblemConditions{{person}}, StopCondition::never());
   ASSERT_TRUE(std::holds_alternative<Problem>(problem));
-  const Plan plan = core::plan(std::get<Problem>(problem), {}, {});
+  const Plan plan = core::plan(std::get<Problem>(problem), {}, StopCondition::never());
   EXPECT_EQ(plan.plans.size(), 2u);
   EXPECT_EQ(count_followed(std::get<Problem>(problem), plan), 1u);
 }
@@ -239,7 +239,7 @@ TEST(Replanning, MovesARobotThatIsInTheWayOfAnother) {
                                        robots);
   PlanOptions options;
   options.replan = Replan::where_needed;
-  const Plan plan = core::plan(problem, options, {});
+  const Plan plan = core::plan(problem, options, StopCondition::never());
   EXPECT_TRUE(plan.unplanned.empty());
   ASSERT_EQ(plan.plans.size(), 2u);
   EXPECT_FALSE(plan.plans[1].actions.empty()) << "it enters the bay and comes back";
@@ -251,10 +251,11 @@ TEST(Replanning, KeepsWhatHoldsWhenAnotherRobotHasNoWay) {
   const auto map = support::ascii_map({"........#",  //
                                        "########.",  //
                                        "........."});
-  robots[1].previous = core::plan(make_problem(map, {robots[1]}), {}, {}).plans.at(0).actions;
+  robots[1].previous =
+      core::plan(make_problem(map, {robots[1]}), {}, StopCondition::never()).plans.at(0).actions;
   robots[0].goal->position = Position(8.5, 1.5);
   const Problem problem = make_problem(map, robots);
-  const Plan plan = core::plan(problem, {}, {});
+  const Plan plan = core::plan(problem, {}, StopCondition::never());
   ASSERT_EQ(plan.plans.size(), 1u);
   EXPECT_EQ(count_followed(problem, plan), 1u);
   EXPECT_EQ(plan.unplanned.at(0).robot, 0u);
@@ -266,9 +267,10 @@ TEST(Replanning, ChangesAPlanThroughARobotThatHasNoWay) {
                                        ".........",  //
                                        "........."});
   std::vector<Robot> robots{robot_at(0.5, 0.5).to(8.5, 0.5), robot_at(4.5, 0.5).to(4.5, 3.5)};
-  robots[0].previous = core::plan(make_problem(map, {robots[0]}), {}, {}).plans.at(0).actions;
+  robots[0].previous =
+      core::plan(make_problem(map, {robots[0]}), {}, StopCondition::never()).plans.at(0).actions;
   const Problem problem = make_problem(map, robots);
-  const Plan plan = core::plan(problem, {}, {});
+  const Plan plan = core::plan(problem, {}, StopCondition::never());
   ASSERT_EQ(plan.plans.size(), 1u);
   EXPECT_EQ(count_followed(problem, plan), 0u) << "it drives around robot 1";
   support::expect_safe(problem, plan);

@@ -46,7 +46,7 @@ class RandomFixed : public testing::TestWithParam<int> {
     std::vector<FixedReservations::Robot> robots{{0.4, {1, 1}, {1, 1}, 0.0, {}}};
     for (int i = 1; i <= 5; ++i) robots.push_back(robot(i <= 3));
     fixed = std::make_unique<FixedReservations>(kSize, kSize, kInflation, robots, obstacles(), nullptr,
-                                                StopCondition());
+                                                StopCondition::never());
     std::vector<double> radii;
     for (const auto& each : robots) radii.push_back(each.radius + kInflation);
     table = std::make_unique<ReservationTable>(kSize, kSize, 0.5, radii, nullptr, fixed.get(), margin);

@@ -38,7 +38,7 @@ struct Scene {
   Scene(std::vector<FixedReservations::Robot> robots, const std::vector<MovingObstacle>& obstacles,
         double margin = 0.0, double inflation = 0.0)
       : count(robots.size()),
-        fixed(kSize, kSize, inflation, std::move(robots), obstacles, nullptr, {}),
+        fixed(kSize, kSize, inflation, std::move(robots), obstacles, nullptr, StopCondition::never()),
         table(kSize, kSize, 1.0, std::vector<double>(count, 0.5 + inflation), nullptr, &fixed, margin) {}
 
   std::size_t count;
@@ -47,7 +47,7 @@ struct Scene {
 };
 
 TEST(FixedReservations, AreEmptyWithoutObstaclesAndCommitments) {
-  const FixedReservations none(kSize, kSize, 0.0, {idle({1, 1})}, {}, nullptr, {});
+  const FixedReservations none(kSize, kSize, 0.0, {idle({1, 1})}, {}, nullptr, StopCondition::never());
   EXPECT_TRUE(none.empty());
   EXPECT_TRUE(none.known());
   EXPECT_FALSE(Scene({committed({1, 1}, {2, 1}, 1)}, {}).fixed.empty());

@@ -134,7 +134,7 @@ TEST(StopCondition, IsMetWhileTheJobIsShortOfMemory) {
   EXPECT_FALSE(stop.met());
   auto most = block(7 * kMiB);
   EXPECT_TRUE(stop.met());
-  EXPECT_FALSE(StopCondition().met()) << "what has to be completed uses it";
+  EXPECT_FALSE(StopCondition::never().met()) << "what has to be completed uses it";
   EXPECT_FALSE(stop.cancelled());
   most.reset();
   EXPECT_FALSE(stop.met());

@@ -23,7 +23,7 @@ using support::robot_at;
 using Reordering = PlanOptions::Reordering;
 
 Plan observed_plan(const Problem& problem, const PlanOptions& options, Recorder& recorder,
-                   const StopCondition& stop = {}) {
+                   const StopCondition& stop = StopCondition::never()) {
   CallerThread executor;
   return plan(problem, options, stop, executor, &recorder);
 }
@@ -180,7 +180,7 @@ TEST(Progress, DoesNotChangeThePlan) {
     PlanOptions options = support::random_options(dice, problem);
     options.max_iterations = 20;
     Recorder recorder;
-    const Plan alone = plan(problem, options, {});
+    const Plan alone = plan(problem, options, StopCondition::never());
     const Plan observed = observed_plan(problem, options, recorder);
     ASSERT_EQ(support::exact_text(observed), support::exact_text(alone));
     EXPECT_EQ(observed.deterministic, alone.deterministic);

@@ -8,9 +8,9 @@ namespace {
 using Clock = StopCondition::Clock;
 
 TEST(StopCondition, IsNeverMetByDefault) {
-  EXPECT_FALSE(StopCondition().met());
-  EXPECT_FALSE(StopCondition().cancelled());
-  EXPECT_EQ(StopCondition().deadline(), Clock::time_point::max());
+  EXPECT_FALSE(StopCondition::never().met());
+  EXPECT_FALSE(StopCondition::never().cancelled());
+  EXPECT_EQ(StopCondition::never().deadline(), Clock::time_point::max());
 }
 
 TEST(StopCondition, IsMetOnceItsDeadlineHasPassed) {
@@ -34,7 +34,7 @@ TEST(StopCondition, IsMetAfterTheStepsOfATest) {
   EXPECT_FALSE(stop.met());
   EXPECT_FALSE(stop.met());
   EXPECT_TRUE(stop.met());
-  EXPECT_FALSE(StopCondition().met());
+  EXPECT_FALSE(StopCondition::never().met());
   EXPECT_EQ(step_clock.steps, 3);
   step_clock = {};
   EXPECT_FALSE(stop.met());

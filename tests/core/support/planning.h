@@ -25,7 +25,10 @@ inline constexpr SearchLimits kExact{
 
 struct Planning {
   explicit Planning(Problem given, const PlanOptions& options = {})
-      : problem(std::move(given)), instance(problem, options), state(instance), random(options.seed) {}
+      : problem(std::move(given)),
+        instance(problem, options, StopCondition::never()),
+        state(instance),
+        random(options.seed) {}
   Planning(OccupancyGrid grid, std::vector<Robot> robots, const PlanOptions& options = {})
       : Planning(support::make_problem(std::move(grid), std::move(robots)), options) {}
   Planning(const Planning&) = delete;
@@ -44,7 +47,7 @@ struct Planning {
   Instance instance;
   PlanState state;
   Random random;
-  StopCondition never;
+  StopCondition never = StopCondition::never();
   CallerThread callers_thread;
   ProgressReport progress{state, nullptr};  // no observer
 };

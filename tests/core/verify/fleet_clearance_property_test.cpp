@@ -30,7 +30,7 @@ FleetClearance clearance_of(const RandomFleet& fleet, double tolerance) {
     radii.push_back(fleet.robots[k].radius);
   }
   return *fleet_clearance(legs, {radii, radii}, std::vector(radii.size(), tolerance), kMostCollisions,
-                          StopCondition());
+                          StopCondition::never());
 }
 
 /// The number of overlaps at `t`, each extended by `margin` seconds on both sides.

@@ -157,8 +157,9 @@ TEST_P(RandomObstacles, AreMetWhereSamplesMeetThem) {
     obstacles.push_back(legs_of(obstacle));
     radii.push_back(obstacle.radius);
   }
-  const Exemptions none({}, executed, 0.0, obstacles, radii, StopCondition());
-  const auto overlaps = *overlaps_with_obstacles(executed, obstacles, radii, none, 10'000, StopCondition());
+  const Exemptions none({}, executed, 0.0, obstacles, radii, StopCondition::never());
+  const auto overlaps =
+      *overlaps_with_obstacles(executed, obstacles, radii, none, 10'000, StopCondition::never());
 
   const auto overlap_at = [&](std::size_t robot, std::size_t obstacle, double t) {
     return std::any_of(overlaps.begin(), overlaps.end(), [&](const Overlap& overlap) {

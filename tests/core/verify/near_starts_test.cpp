@@ -80,7 +80,7 @@ TEST(Inflation, KeepsRobotsAndWallsApart) {
   scene.stand(robot_at(8, 11.1));
   EXPECT_THAT(scene.violations(rules_of(0.05, 0)), IsEmpty());
   EXPECT_THAT(kinds_of(scene.violations(rules_of(0.06, 0))), ElementsAre(Kind::robot_collision));
-  EXPECT_NEAR(*scene.check(rules_of(0.06, 0), StopCondition())->min_clearance, 0.1, 1e-12);
+  EXPECT_NEAR(*scene.check(rules_of(0.06, 0), StopCondition::never())->min_clearance, 0.1, 1e-12);
   Scene wall;
   wall.add(robot_at(2, 10, kPi), [](PlanBuilder& plan) { plan.translate_to(0.55, 10); });
   EXPECT_THAT(wall.violations(rules_of(0.05, 0)), IsEmpty());

@@ -89,7 +89,7 @@ class Scene {
     return verify({grid_, robots_, obstacles_}, plans_, rules, stop);
   }
   std::vector<Violation> violations(const CheckRules& rules) const {
-    return check(rules, StopCondition())->violations;
+    return check(rules, StopCondition::never())->violations;
   }
 
  private:

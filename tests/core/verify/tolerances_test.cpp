@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 std::vector<Violation> violations(Scene& scene, const std::vector<Tolerance>& tolerances) {
-  return verify(open_map(), scene.robots(), scene.plans(), tolerances, StopCondition())->violations;
+  return verify(open_map(), scene.robots(), scene.plans(), tolerances, StopCondition::never())->violations;
 }
 
 TEST(PlanTolerances, AreContactAndRoundingForOrdinaryFleets) {

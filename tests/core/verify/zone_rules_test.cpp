@@ -36,7 +36,7 @@ std::vector<Violation> violations(const std::vector<Zone>& zones, const Robot& r
   const std::vector<MovingObstacle> none;
   CheckRules rules;
   rules.tolerances.assign(1, Tolerance::of_all(kTolerance));
-  return verify({grid, robots, none, &zones}, plans, rules, StopCondition())->violations;
+  return verify({grid, robots, none, &zones}, plans, rules, StopCondition::never())->violations;
 }
 
 TEST(ZoneRules, ADiskMayTouchABlockedZone) {

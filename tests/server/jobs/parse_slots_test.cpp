@@ -14,7 +14,7 @@ using Slot = ParseSlots::Slot;
 
 constexpr std::size_t kLarge = 10 * ParseSlots::kSmall;
 
-const core::StopCondition kForever;
+const core::StopCondition kForever = core::StopCondition::never();
 const core::StopCondition kNow(core::StopCondition::Clock::time_point::min());
 
 TEST(ParseSlots, BoundHowManyBodiesAreParsed) {

@@ -66,8 +66,8 @@ api::Reply StubService::answer(std::string_view body, const api::RequestContext&
 }
 
 bool has_turn(const api::RequestContext& context) {
-  api::TurnNeed need;
-  need.stop = core::StopCondition(core::StopCondition::Clock::time_point::max(), context.stop);
+  const api::TurnNeed need{
+      .stop = core::StopCondition(core::StopCondition::Clock::time_point::max(), context.stop)};
   return context.turn->request(need) && context.turn->await();
 }
 

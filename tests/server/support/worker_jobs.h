@@ -12,7 +12,7 @@
 
 namespace fleetplan::server {
 
-inline const core::StopCondition kForever;
+inline const core::StopCondition kForever = core::StopCondition::never();
 
 inline core::StopCondition within(std::chrono::milliseconds time) {
   return core::StopCondition(Workers::Clock::now() + time);

@@ -41,7 +41,7 @@ std::string letter_fault(std::string_view text, std::size_t from) {
 
 }  // namespace
 
-Result<Bytes, std::string> decode_base64(std::string_view text, ParseStop& stop) {
+Result<Bytes, std::string> decode_base64(std::string_view text, core::Work& stop) {
   if (text.size() % 4 != 0) {
     return "has " + std::to_string(text.size()) +
            " characters of base64, not a multiple of 4; is it cut off?";
@@ -51,8 +51,8 @@ Result<Bytes, std::string> decode_base64(std::string_view text, ParseStop& stop)
   const std::size_t whole = letters / 4 * 4;
   Bytes bytes(letters / 4 * 3 + (padding == 0 ? 0 : 3 - padding));
   std::uint8_t* target = bytes.data();
-  for (std::size_t begin = 0; begin < whole; begin += ParseStop::kStride) {
-    const std::size_t end = std::min(whole, begin + ParseStop::kStride);
+  for (std::size_t begin = 0; begin < whole; begin += core::Work::kStride) {
+    const std::size_t end = std::min(whole, begin + core::Work::kStride);
     std::uint32_t seen = 0;
     for (std::size_t at = begin; at < end; at += 4) {
       const std::uint32_t a = value_of(text[at]);

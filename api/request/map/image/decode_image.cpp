@@ -56,7 +56,7 @@ JsonReader parse_file(const JsonReader& image) {
 }
 
 /// Decodes rows from the top until the stop is met.
-Result<Raster, std::string> decode(ImageReader& reader, const ShadeRule& rule, ParseStop& stop) {
+Result<Raster, std::string> decode(ImageReader& reader, const ShadeRule& rule, core::Work& stop) {
   const ImageHeader& header = reader.header();
   const OccupancyOfPixels occupancy(rule, header);
   const auto columns = static_cast<std::size_t>(header.columns);
@@ -81,7 +81,7 @@ std::optional<Raster> decode_image(const JsonReader& image, std::int64_t most) {
   const auto rule = parse_rule(image);
   const JsonReader file = parse_file(image);
   if (!rule || !file) return std::nullopt;
-  ParseStop& stop = file.stop();
+  core::Work& stop = file.stop();
   const bool is_png = file.value().key() == "png";
   const auto damaged = [&](const std::string& detail) {
     if (!stop.met()) file.fault(fault::kBadImage, "The image cannot be read. " + detail);

@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "api/json/parse_stop.h"
 #include "api/json/result.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
 
@@ -57,6 +57,6 @@ OpenedImage open_pgm(std::span<const std::uint8_t> bytes, std::int64_t most);
 
 /// A PNG of at most `most` pixels. Palettes, grays of fewer than 8 bits and transparent colours are expanded.
 /// `stop` ends the reading of an interlaced image.
-OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t most, ParseStop& stop);
+OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t most, core::Work& stop);
 
 }  // namespace fleetplan::api

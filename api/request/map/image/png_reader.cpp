@@ -117,7 +117,7 @@ class Handle {
 
 class PngReader final : public ImageReader {
  public:
-  PngReader(std::unique_ptr<Handle> handle, const ImageHeader& header, ParseStop& stop)
+  PngReader(std::unique_ptr<Handle> handle, const ImageHeader& header, core::Work& stop)
       : ImageReader(header),
         handle_(std::move(handle)),
         stop_(stop),
@@ -163,7 +163,7 @@ class PngReader final : public ImageReader {
   }
 
   std::unique_ptr<Handle> handle_;
-  ParseStop& stop_;
+  core::Work& stop_;
   bool wide_;  // channels of 16 bits
   bool interlaced_;
   std::size_t row_bytes_;
@@ -179,7 +179,7 @@ std::uint32_t big_endian(const std::uint8_t* bytes) {
 
 }  // namespace
 
-OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t most, ParseStop& stop) {
+OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t most, core::Work& stop) {
   const bool is_png =
       bytes.size() >= kSignature.size() && std::equal(kSignature.begin(), kSignature.end(), bytes.begin());
   if (!is_png) return ImageFault{"It does not begin as a PNG image."};

@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string decoded(std::string_view text) {
-  ParseStop stop;
+  core::Work stop = core::Work::unbounded();
   const auto bytes = decode_base64(text, stop);
   return bytes ? std::string(bytes->begin(), bytes->end()) : "fault: " + bytes.failure();
 }
@@ -53,8 +53,8 @@ TEST(Base64, OfAnotherFormIsAFault) {
 TEST(Base64, IsDecodedNoFurtherWhenStopped) {
   std::stop_source source;
   source.request_stop();
-  ParseStop stop(source.get_token(), ParseStop::Clock::now());
-  const std::string text(4 * ParseStop::kStride, 'A');
+  core::Work stop({.stop = source.get_token()});
+  const std::string text(4 * core::Work::kStride, 'A');
   EXPECT_TRUE(decode_base64(text, stop));
   EXPECT_TRUE(stop.met());
 }

@@ -46,7 +46,7 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) {
 Read read_pgm(const std::string& text) { return read_all(open_pgm(bytes_of(text), kMost)); }
 
 Read read_png(const std::string& text) {
-  ParseStop stop;
+  core::Work stop = core::Work::unbounded();
   return read_all(open_png(bytes_of(text), kMost, stop));
 }
 

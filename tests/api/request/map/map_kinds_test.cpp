@@ -8,6 +8,7 @@
 
 #include "api/endpoints/plan_endpoint.h"
 #include "tests/api/support/maps.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 namespace {
@@ -26,7 +27,7 @@ Json request_with(const Json& map) {
 
 /// The cells of the map as they are planned with, and where it lies; or its faults.
 Picture drawn(const Json& map) {
-  const auto parsed = parse_request(request_with(map).dump(), Limits{});
+  const auto parsed = parse_request(request_with(map).dump(), Limits{}, unbounded_work());
   Picture picture;
   if (!parsed) {
     for (const Fault& fault : parsed.failure().faults) picture.push_back(fault.pointer + ": " + fault.detail);
@@ -99,7 +100,7 @@ std::string of_percents(const Json& percents, const char* unknown) {
   Json request = request_with(map);
   request["robots"][0]["start"] = {{"x", kLeft + kCell / 2}, {"y", kBottom + kCell / 2}};
   request["robots"][0].erase("goal");
-  const auto parsed = parse_request(request.dump(), Limits{});
+  const auto parsed = parse_request(request.dump(), Limits{}, unbounded_work());
   if (!parsed) return parsed.failure().detail;
   std::string row;
   for (int column = 0; column < static_cast<int>(percents.size()); ++column) {

@@ -26,7 +26,7 @@ struct LongPlan {
   }
 
   DisturbedActions draw(const Disturbance& disturbance, std::uint64_t seed = 1, std::uint64_t run = 0) const {
-    return draw_disturbances(plans, disturbance, seed, run, StopCondition())->front();
+    return draw_disturbances(plans, disturbance, seed, run, StopCondition::never())->front();
   }
 };
 

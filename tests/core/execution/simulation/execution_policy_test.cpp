@@ -25,7 +25,7 @@ DisturbedActions slowed(const RobotPlan& plan, double factor) {
 
 std::vector<double> ends_of(const PlannedExecution& planned, const std::vector<DisturbedActions>& disturbed) {
   std::vector<double> ends;
-  const auto executed = execute_plans(planned, disturbed, StopCondition());
+  const auto executed = execute_plans(planned, disturbed, StopCondition::never());
   for (const ExecutedProgress& progress : *executed) {
     ends.push_back(progress.arrived ? progress.end() : -1.0);
   }
@@ -96,7 +96,8 @@ struct TwoDrivers {
   std::vector<ExecutedProgress> execute(std::vector<Dependency> dependencies, double first_factor) {
     PlannedExecution planned = simulated(grid, robots, plans, ExecutionPolicy::dependencies).execution;
     planned.dependencies = std::move(dependencies);
-    return *execute_plans(planned, {slowed(plans[0], first_factor), slowed(plans[1], 1.0)}, StopCondition());
+    return *execute_plans(planned, {slowed(plans[0], first_factor), slowed(plans[1], 1.0)},
+                          StopCondition::never());
   }
 };
 
@@ -142,7 +143,7 @@ TEST(ClockStop, LetsALateRobotCatchUpWhileOthersStand) {
   std::vector<DisturbedActions> disturbed{slowed(scene.plans[0], 1.0), slowed(scene.plans[1], 1.0)};
   disturbed[0].all_halts = {{2.0, 8.0}};
   disturbed[0].actions[0].halts = {0, 1};
-  const auto executed = *execute_plans(planned, disturbed, StopCondition());
+  const auto executed = *execute_plans(planned, disturbed, StopCondition::never());
   EXPECT_NEAR(executed[0].end(), 18.0, 1e-9);
   EXPECT_NEAR(executed[1].end(), 15.0, 1e-9);
   EXPECT_NEAR(knot_at(executed[1], 5.0).fraction, 0.5, 1e-9);
@@ -156,8 +157,8 @@ TEST(ClockStop, GoesAsSlowlyAsARobotThatIsAsLateAsAllowed) {
   PlannedExecution planned =
       simulated(scene.grid, scene.robots, scene.plans, ExecutionPolicy::clock_stop).execution;
   planned.max_delay = 2.0;
-  const auto executed =
-      *execute_plans(planned, {slowed(scene.plans[0], 2.0), slowed(scene.plans[1], 1.0)}, StopCondition());
+  const auto executed = *execute_plans(planned, {slowed(scene.plans[0], 2.0), slowed(scene.plans[1], 1.0)},
+                                       StopCondition::never());
   EXPECT_NEAR(executed[0].end(), 20.0, 1e-9);
   EXPECT_NEAR(executed[1].end(), 4.0 + (10.0 - 4.0) * 2.0, 1e-9);
 }
@@ -178,8 +179,8 @@ TEST(ClockStop, KeepsRandomRobotsWithinTheDelayOfEachOther) {
     PlannedExecution planned =
         simulated(grid, fleet.robots, fleet.plans, ExecutionPolicy::clock_stop).execution;
     planned.max_delay = kMaxDelay;
-    const auto disturbed = *draw_disturbances(fleet.plans, rough(), seed, 0, StopCondition());
-    const auto executed = *execute_plans(planned, disturbed, StopCondition());
+    const auto disturbed = *draw_disturbances(fleet.plans, rough(), seed, 0, StopCondition::never());
+    const auto executed = *execute_plans(planned, disturbed, StopCondition::never());
     double longest = 0.0;
     for (const ExecutedProgress& progress : executed) longest = std::max(longest, progress.end());
     for (double t = 0.05; t < longest; t += 0.05) {

@@ -18,7 +18,7 @@ using support::PlanBuilder;
 SimulationReport simulated_by(std::size_t threads, const SimulatedFleet& fleet,
                               const SimulationSettings& settings) {
   support::ThreadedExecutor executor(threads);
-  return simulate(fleet, settings, StopCondition(), executor);
+  return simulate(fleet, settings, StopCondition::never(), executor);
 }
 
 TEST(Simulation, OfAnUndisturbedPlanIsThePlan) {
@@ -31,7 +31,7 @@ TEST(Simulation, OfAnUndisturbedPlanIsThePlan) {
          {ExecutionPolicy::open_loop, ExecutionPolicy::absorb_waits, ExecutionPolicy::clock_stop}) {
       const SimulatedFleet study = simulated(grid, fleet.robots, fleet.plans, policy);
       const Simulator simulator(study, {{}, 1, 0});
-      const auto trace = simulator.trace(0, StopCondition());
+      const auto trace = simulator.trace(0, StopCondition::never());
       for (std::size_t k = 0; k < fleet.plans.size(); ++k) {
         const Position rest = fleet.robots[fleet.plans[k].robot].start.position;
         for (double t = 0.0; t < fleet.makespan + 1.0; t += 0.1) {
@@ -39,7 +39,7 @@ TEST(Simulation, OfAnUndisturbedPlanIsThePlan) {
           ASSERT_NEAR((sampled(trace->actions[k], rest, t) - planned).norm(), 0.0, 1e-6) << t;
         }
       }
-      const auto run = simulator.run(0, StopCondition());
+      const auto run = simulator.run(0, StopCondition::never());
       for (std::size_t k = 0; k < fleet.plans.size(); ++k) {
         EXPECT_NEAR(run->ends[k], fleet.plans[k].cost, 1e-6);
       }
@@ -79,9 +79,9 @@ TEST(Simulation, FindsTheCollisionsThatSamplesOfTheTraceFind) {
     SimulationSettings settings{rough(), 1, seed};
     settings.disturbance.cross_track = {0.1, 0.5};
     const Simulator simulator(study, settings);
-    const auto run = simulator.run(seed, StopCondition());
+    const auto run = simulator.run(seed, StopCondition::never());
     const double end = *std::max_element(run->ends.begin(), run->ends.end());
-    const double gap = sampled_gap(*simulator.trace(seed, StopCondition()), fleet, end);
+    const double gap = sampled_gap(*simulator.trace(seed, StopCondition::never()), fleet, end);
     const bool collides = !run->collisions.pairs.empty();
     if (gap < -2e-6) {
       EXPECT_TRUE(collides) << gap;
@@ -102,7 +102,7 @@ TEST(Simulation, TracesAreContiguous) {
   SimulationSettings settings{rough(), 1, 3};
   settings.disturbance.cross_track = {0.05, 0.3};
   const SimulatedFleet study = simulated(grid, fleet.robots, fleet.plans, ExecutionPolicy::clock_stop);
-  const auto trace = Simulator(study, settings).trace(0, StopCondition());
+  const auto trace = Simulator(study, settings).trace(0, StopCondition::never());
   for (const std::vector<Action>& actions : trace->actions) {
     ASSERT_FALSE(actions.empty());
     EXPECT_EQ(actions.front().t_start, 0.0);
@@ -201,11 +201,11 @@ TEST(Simulation, ReportsTheRunsThatWereFinished) {
   CallerThread executor;
   const SimulationSettings settings{rough(), 1000, 4};
   const SimulationReport part =
-      simulate(study, settings, StopCondition(), executor,
+      simulate(study, settings, StopCondition::never(), executor,
                [](const SimulationProgress& progress) { return progress.done < 100; });
   EXPECT_GE(part.totals.done, 100U);
   EXPECT_LT(part.totals.done, 1000U);
-  const SimulationReport all = simulate(study, settings, StopCondition(), executor);
+  const SimulationReport all = simulate(study, settings, StopCondition::never(), executor);
   EXPECT_EQ(all.totals.done, 1000U);
   EXPECT_TRUE(std::equal(part.flowtimes.begin(), part.flowtimes.end(), all.flowtimes.begin()));
   const StopCondition met(StopCondition::Clock::now());

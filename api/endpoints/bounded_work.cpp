@@ -1,4 +1,4 @@
-#include "api/endpoints/within_memory.h"
+#include "api/endpoints/bounded_work.h"
 
 #include <cstdint>
 #include <memory>
@@ -17,12 +17,12 @@ constexpr std::int64_t kMuch = 4 << 20;
 
 }  // namespace
 
-Reply within_memory(const RequestContext& context, const std::function<Reply()>& work) {
-  const auto account = std::make_shared<core::MemoryAccount>(context.limits.max_plan_memory);
+Reply bounded_work(const RequestContext& context, const std::function<Reply(core::Work&)>& endpoint) {
+  core::Work work({context.stop, context.received_at, context.limits.max_plan_memory, context.cpu_clock});
   try {
-    const core::MemoryScope scope(account.get());
-    Reply reply = work();
-    if (account->used() > kMuch) reply.leftovers = account;
+    const core::MemoryScope scope(work.memory().get());
+    Reply reply = endpoint(work);
+    if (work.memory()->used() > kMuch) reply.leftovers = work.memory();
     return reply;
   } catch (const std::bad_alloc&) {
     return memory_exceeded(context);

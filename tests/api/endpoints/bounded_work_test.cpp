@@ -1,4 +1,4 @@
-#include "api/endpoints/within_memory.h"
+#include "api/endpoints/bounded_work.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,8 +25,8 @@ RequestContext context_with(std::size_t mebibytes) {
 
 std::vector<char> block(std::size_t mebibytes) { return std::vector<char>(mebibytes << 20); }
 
-TEST(WithinMemory, RejectsWorkThatNeedsMoreThanItsLimit) {
-  const Reply reply = within_memory(context_with(8), [] {
+TEST(BoundedWork, RejectsWorkThatNeedsMoreThanItsLimit) {
+  const Reply reply = bounded_work(context_with(8), [](core::Work& /*work*/) {
     block(9);
     return Reply{};
   });
@@ -36,20 +36,20 @@ TEST(WithinMemory, RejectsWorkThatNeedsMoreThanItsLimit) {
   EXPECT_THAT(json_of(reply)["detail"].get<std::string>(), HasSubstr("8 MiB"));
 }
 
-TEST(WithinMemory, LeavesMuchMemoryToBeFreedAfterTheAnswer) {
-  const Reply large = within_memory(context_with(64), [] {
+TEST(BoundedWork, LeavesMuchMemoryToBeFreedAfterTheAnswer) {
+  const Reply large = bounded_work(context_with(64), [](core::Work& /*work*/) {
     core::keep_for_later(std::make_shared<std::vector<char>>(block(16)));
     return Reply{};
   });
   EXPECT_TRUE(large.leftovers);
-  const Reply small = within_memory(context_with(64), [] {
+  const Reply small = bounded_work(context_with(64), [](core::Work& /*work*/) {
     core::keep_for_later(std::make_shared<std::vector<char>>(block(1)));
     return Reply{};
   });
   EXPECT_FALSE(small.leftovers);
 }
 
-TEST(WithinMemory, IsForTheBodiesOfBothEndpoints) {
+TEST(BoundedWork, IsForTheBodiesOfBothEndpoints) {
   Json request = swap_request();
   request["map"]["rows"] = Json::array();
   for (int row = 0; row < 2000; ++row) request["map"]["rows"].push_back(std::string(1000, '.'));
@@ -59,7 +59,7 @@ TEST(WithinMemory, IsForTheBodiesOfBothEndpoints) {
   EXPECT_EQ(json_of(plan_endpoint(request.dump(), context_with(1)))["code"], "memory_exceeded");
 }
 
-TEST(WithinMemory, AnswersWithoutAPlanWhenThePlannerNeedsMore) {
+TEST(BoundedWork, AnswersWithoutAPlanWhenThePlannerNeedsMore) {
   const Planner greedy = [](const auto&, const auto&, const auto&, auto*) -> core::Plan {
     block(64);
     return {};
@@ -74,7 +74,7 @@ TEST(WithinMemory, AnswersWithoutAPlanWhenThePlannerNeedsMore) {
 }
 
 /// The planner has used its memory, but still holds a plan to be checked.
-TEST(WithinMemory, ChecksThePlanOfAJobThatIsShortOfMemory) {
+TEST(BoundedWork, ChecksThePlanOfAJobThatIsShortOfMemory) {
   const Planner hoarder = [](const core::Problem& problem, const auto& options, const auto& stop, auto*) {
     core::Plan plan = core::plan(problem, options, stop);
     core::MemoryScope::current()->keep(std::make_shared<std::vector<char>>(block(25)));

@@ -1,5 +1,3 @@
-#include "api/json/parse_stop.h"
-
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -10,13 +8,15 @@
 #include "api/json/read_json.h"
 #include "api/request/parse_request.h"
 #include "api/request/parse_validate_request.h"
+#include "core/runtime/work.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
 namespace {
 
+using core::Work;
 using std::chrono::milliseconds;
-using Clock = ParseStop::Clock;
+using Clock = Work::Clock;
 
 /// A clock that is `step` later each time that it is looked at.
 struct CountingClock {
@@ -33,10 +33,11 @@ Limits large() {
 
 /// The error of a body whose reading takes a second of CPU time after half of its text.
 RequestError error_halfway(const std::string& body) {
-  const auto looks = static_cast<std::int64_t>(body.size() / ParseStop::kStride / 2);
+  const auto looks = static_cast<std::int64_t>(body.size() / Work::kStride / 2);
   const CountingClock clock{std::chrono::nanoseconds(std::chrono::seconds(1)) /
                             std::max<std::int64_t>(1, looks)};
-  const auto parsed = parse_request(body, large(), ParseStop({}, Clock::now(), clock));
+  Work work({.cpu_clock = clock});
+  const auto parsed = parse_request(body, large(), work);
   return parsed ? RequestError{ErrorCode::internal_error, "It was read.", {}, 0} : parsed.failure();
 }
 
@@ -47,36 +48,36 @@ std::string repeated(const std::string& before, const std::string& item, std::si
   return text + after;
 }
 
-TEST(ParseStop, LooksAtTheClockOnceInAStride) {
+TEST(ReadingStops, LooksAtTheClockOnceInAStride) {
   const CountingClock clock;
-  ParseStop stop({}, Clock::now(), clock);
+  Work stop({.cpu_clock = clock});
   const int before = *clock.looks;
-  for (std::size_t byte = 0; byte < 10 * ParseStop::kStride; ++byte) EXPECT_FALSE(stop.met_after(1));
+  for (std::size_t byte = 0; byte < 10 * Work::kStride; ++byte) EXPECT_FALSE(stop.met_after(1));
   EXPECT_EQ(*clock.looks, before + 10);
 }
 
-TEST(ParseStop, IsMetAfterASecondOfCpuTimeAsLongAsTheBudgetIsUnknown) {
+TEST(ReadingStops, IsMetAfterASecondOfCpuTimeAsLongAsTheBudgetIsUnknown) {
   std::chrono::nanoseconds now{7};
-  ParseStop stop({}, Clock::now(), [&now] { return now; });
+  Work stop({.cpu_clock = [&now] { return now; }});
+  Work with_budget({.cpu_clock = [&now] { return now; }});
   now += milliseconds(999);
   EXPECT_FALSE(stop.look());
-  ParseStop with_budget = stop;
   with_budget.set_budget(std::chrono::hours(1));
   now += milliseconds(1);
   EXPECT_TRUE(stop.look());
   EXPECT_FALSE(with_budget.look());
 }
 
-TEST(ParseStop, IsMetAtTheEndOfTheBudgetAndItsGrace) {
-  ParseStop stop({}, Clock::now() - std::chrono::hours(1));
+TEST(ReadingStops, IsMetAtTheEndOfTheBudgetAndItsGrace) {
+  Work stop({.received_at = Clock::now() - std::chrono::hours(1)});
   stop.set_budget(milliseconds(10));
   EXPECT_FALSE(stop.look()) << "a request that waited too long is still read";
-  EXPECT_LE(stop.condition().deadline(), Clock::now() + ParseStop::kGrace);
+  EXPECT_LE(stop.reading().deadline(), Clock::now() + Work::kGrace);
 }
 
-TEST(ParseStop, IsMetWhenTheClientHasLeftAndStaysMet) {
+TEST(ReadingStops, IsMetWhenTheClientHasLeftAndStaysMet) {
   std::stop_source source;
-  ParseStop stop(source.get_token(), Clock::now());
+  Work stop({.stop = source.get_token()});
   EXPECT_FALSE(stop.look());
   source.request_stop();
   EXPECT_TRUE(stop.look());
@@ -84,13 +85,13 @@ TEST(ParseStop, IsMetWhenTheClientHasLeftAndStaysMet) {
   EXPECT_TRUE(stop.cancelled());
 }
 
-TEST(ParseStop, IsNeverMetByDefault) {
-  ParseStop stop;
+TEST(ReadingStops, IsNeverMetByDefault) {
+  Work stop = Work::unbounded();
   stop.set_budget(milliseconds(0));
   EXPECT_FALSE(stop.met_after(1'000'000'000));
 }
 
-TEST(ParseStop, EndsTheReadingOfEveryLargeText) {
+TEST(ReadingStops, EndsTheReadingOfEveryLargeText) {
   const std::size_t count = 400'000;
   for (const auto& [name, body] : std::vector<std::pair<std::string, std::string>>{
            {"string", repeated("\"", "a", 2'000'000, "\"")},
@@ -106,38 +107,42 @@ TEST(ParseStop, EndsTheReadingOfEveryLargeText) {
   }
 }
 
-TEST(ParseStop, EndsTheReadingWhenTheClientHasLeft) {
+TEST(ReadingStops, EndsTheReadingWhenTheClientHasLeft) {
   std::stop_source source;
   source.request_stop();
   const std::string body = repeated("[", "{},", 100'000, "{}]");
-  const ParseStop stop(source.get_token(), Clock::now());
+  Work stop({.stop = source.get_token()});
   EXPECT_EQ(parse_request(body, {}, stop).failure().code, ErrorCode::draining);
   EXPECT_EQ(parse_validate_request(body, {}, stop).failure().code, ErrorCode::draining);
 }
 
-TEST(ParseStop, CountsUnknownMembersAsWork) {
+TEST(ReadingStops, CountsUnknownMembersAsWork) {
   const CountingClock reading;
   const CountingClock parsing;
   const std::string body = repeated("{\"options\": {\"mode\": 1", ",\"unknown\":0", 100'000, "}}");
-  EXPECT_TRUE(read_json(body, 32, ParseStop({}, Clock::now(), reading)));
-  EXPECT_FALSE(parse_request(body, {}, ParseStop({}, Clock::now(), parsing)));
+  Work read({.cpu_clock = reading});
+  Work parsed({.cpu_clock = parsing});
+  EXPECT_TRUE(read_json(body, 32, read));
+  EXPECT_FALSE(parse_request(body, {}, parsed));
   EXPECT_GT(*parsing.looks, *reading.looks);
 }
 
-TEST(ParseStop, EndsLoopsOverItems) {
+TEST(ReadingStops, EndsLoopsOverItems) {
   std::stop_source source;
   const std::string body = repeated("[", "0,", 100'000, "0]");
-  auto document = read_json(body, 32, ParseStop(source.get_token(), Clock::now()));
+  Work work({.stop = source.get_token()});
+  auto document = read_json(body, 32, work);
   source.request_stop();
   std::size_t items = 0;
   for (const JsonReader item : JsonReader(*document).array().items()) items += item.is_number() ? 1 : 0;
   EXPECT_LT(items, 2'000U);
-  EXPECT_TRUE(document->stop.met());
+  EXPECT_TRUE(work.met());
 }
 
-TEST(ParseStop, LeavesAShortRequestAlone) {
+TEST(ReadingStops, LeavesAShortRequestAlone) {
   const CountingClock clock{std::chrono::seconds(100)};
-  EXPECT_TRUE(parse_request(swap_request().dump(), {}, ParseStop({}, Clock::now(), clock)));
+  Work work({.cpu_clock = clock});
+  EXPECT_TRUE(parse_request(swap_request().dump(), {}, work));
 }
 
 }  // namespace

@@ -1,0 +1,40 @@
+#include "core/runtime/work.h"
+
+#include <algorithm>
+#include <ctime>
+#include <utility>
+
+namespace fleetplan::core {
+
+Work::Work(Bounds bounds)
+    : bounds_(std::move(bounds)),
+      memory_(std::make_shared<MemoryAccount>(bounds_.memory)),
+      is_bounded_(true),
+      cpu_end_(bounds_.cpu_clock() + kMostCpu) {}
+
+void Work::set_budget(std::chrono::nanoseconds budget) {
+  if (!is_bounded_) return;
+  budget_ = budget;
+  cpu_end_.reset();
+  deadline_ = std::max(bounds_.received_at + budget, Clock::now()) + kGrace;
+}
+
+bool Work::look() {
+  amount_ = 0;
+  if (!is_bounded_) return false;
+  met_ = met_ || step_clock.tick() || cancelled() || (cpu_end_ && bounds_.cpu_clock() >= *cpu_end_) ||
+         Clock::now() >= deadline_;
+  return met_;
+}
+
+StopCondition Work::before_end(std::chrono::nanoseconds kept) const {
+  return until(budget_ ? bounds_.received_at + *budget_ - kept : Clock::time_point::max());
+}
+
+std::chrono::nanoseconds Work::thread_cpu_time() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+
+#include "core/runtime/memory_account.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// What one request may cost: time, CPU seconds and memory, and whether anybody still waits for the answer.
+/// There is one object for a request. Reading the body asks it directly; computations ask a StopCondition,
+/// which only a Work makes, or another StopCondition. So nothing that takes one as a parameter can be called
+/// without the bounds of a request.
+///
+/// Reading ends when the client has left or the service drains; until the budget is known, after kMostCpu;
+/// from then on, when the budget is spent.
+class Work {
+ public:
+  using Clock = StopCondition::Clock;
+  using CpuClock = std::function<std::chrono::nanoseconds()>;
+
+  static constexpr std::chrono::seconds kMostCpu{1};
+  /// A request is read for so much longer than its budget, counted from when the budget is known if that is
+  /// later: so one that waited too long still gets the answer of a valid request.
+  static constexpr std::chrono::milliseconds kGrace{50};
+  /// Bytes or values between two looks at the clock, about a millisecond of work.
+  static constexpr std::size_t kStride = 64 * 1024;
+
+  struct Bounds {
+    std::stop_token stop = {};                     // the client has left, or the service drains
+    Clock::time_point received_at = Clock::now();  // when the budget begins
+    std::size_t memory = kUnlimitedMemory;         // bytes
+    CpuClock cpu_clock = thread_cpu_time;          // CPU time of the thread that reads
+  };
+  static constexpr std::size_t kUnlimitedMemory = std::size_t{1} << 62;
+
+  explicit Work(Bounds bounds);
+  /// Without any bounds: for what the service itself has written, and for tests.
+  static Work unbounded() { return Work(); }
+  Work(const Work&) = delete;
+  Work& operator=(const Work&) = delete;
+
+  /// Counts bytes or values that are read, and looks at the clock once in a while. True when reading has to
+  /// end; stays so.
+  bool met_after(std::size_t amount) {
+    amount_ += amount;
+    return amount_ < kStride ? met_ : look();
+  }
+  /// Looks at the clock.
+  bool look();
+  bool met() const { return met_; }
+  bool cancelled() const { return bounds_.stop.stop_requested(); }
+
+  /// The budget of the request, once it is read.
+  void set_budget(std::chrono::nanoseconds budget);
+  bool has_budget() const { return budget_.has_value(); }
+
+  /// For computations while the request is read. They end with an exception if the memory does not suffice.
+  StopCondition reading() const { return until(deadline_).despite_memory(); }
+  /// The end of the budget, less what is kept for later. Without a budget it is never met.
+  StopCondition before_end(std::chrono::nanoseconds kept = {}) const;
+  /// Met at this time, or when nobody waits for the answer.
+  StopCondition until(Clock::time_point time) const { return StopCondition(time, bounds_.stop); }
+
+  /// What the threads that work on the request have allocated; see MemoryScope.
+  const std::shared_ptr<MemoryAccount>& memory() const { return memory_; }
+
+  static std::chrono::nanoseconds thread_cpu_time();
+
+ private:
+  Work() = default;
+
+  Bounds bounds_ = {};
+  std::shared_ptr<MemoryAccount> memory_ = std::make_shared<MemoryAccount>(kUnlimitedMemory);
+  bool is_bounded_ = false;
+  std::optional<std::chrono::nanoseconds> cpu_end_;
+  std::optional<std::chrono::nanoseconds> budget_;
+  Clock::time_point deadline_ = Clock::time_point::max();  // of reading
+  std::size_t amount_ = 0;                                 // since the last look
+  bool met_ = false;
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "core/runtime/work.h"
+
+namespace fleetplan {
+
+/// Work without bounds. It outlives the documents that tests read with it.
+inline core::Work& unbounded_work() {
+  thread_local core::Work work = core::Work::unbounded();
+  return work;
+}
+
+}  // namespace fleetplan
