@@ -22,7 +22,7 @@ Planning three_robots() {
 }
 
 void search_back(SearchSpaces& spaces, std::size_t robot) {
-  SearchSpace& space = spaces.of(robot);
+  SearchSpace& space = *spaces.of(robot, StopCondition());
   space.cost_to_go(0).from(space.vertices().start(), {});
   ASSERT_GT(space.expansions(), 0);
 }
@@ -31,7 +31,8 @@ TEST(SearchSpaces, AreKeptFromSearchToSearch) {
   const Planning p = three_robots();
   SearchSpaces spaces(p.instance);
   for (std::size_t robot = 0; robot < 3; ++robot) search_back(spaces, robot);
-  for (std::size_t robot = 0; robot < 3; ++robot) EXPECT_GT(spaces.of(robot).expansions(), 0);
+  for (std::size_t robot = 0; robot < 3; ++robot)
+    EXPECT_GT(spaces.of(robot, StopCondition())->expansions(), 0);
 }
 
 TEST(SearchSpaces, DiscardTheLeastRecentlyUsedWithoutMemory) {
@@ -41,11 +42,11 @@ TEST(SearchSpaces, DiscardTheLeastRecentlyUsedWithoutMemory) {
   SearchSpaces spaces(p.instance);
   search_back(spaces, 0);
   search_back(spaces, 1);
-  spaces.of(0);
+  spaces.of(0, StopCondition());
   account.count(account.limit() * 5 / 8);
-  spaces.of(2);
-  EXPECT_GT(spaces.of(0).expansions(), 0);
-  EXPECT_EQ(spaces.of(1).expansions(), 0);
+  spaces.of(2, StopCondition());
+  EXPECT_GT(spaces.of(0, StopCondition())->expansions(), 0);
+  EXPECT_EQ(spaces.of(1, StopCondition())->expansions(), 0);
 }
 
 TEST(SearchSpaces, AreAllDiscarded) {
@@ -53,7 +54,7 @@ TEST(SearchSpaces, AreAllDiscarded) {
   SearchSpaces spaces(p.instance);
   search_back(spaces, 0);
   spaces.discard_all();
-  EXPECT_EQ(spaces.of(0).expansions(), 0);
+  EXPECT_EQ(spaces.of(0, StopCondition())->expansions(), 0);
 }
 
 }  // namespace
