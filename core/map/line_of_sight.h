@@ -64,6 +64,8 @@ class LineOfSight {
 
     DistanceTransform distances;
     std::vector<std::uint64_t> blocked;  // a bit for each of 64 rows; by band of rows, then column
+    /// Whether any cell is blocked in a square of 64 x 64; by band of rows, then square.
+    std::vector<std::uint8_t> blocked_squares;
   };
   /// The distance of a point from the nearest blocked cell, in cells.
   struct Bounds {
@@ -77,6 +79,8 @@ class LineOfSight {
   Bounds distance_from_cells(const Position& point) const;
   /// Whether a cell of a column is blocked; rows inclusive and inside the map.
   bool is_blocked(int column, int row_min, int row_max) const;
+  /// Whether the squares of these rows in the 64 columns from `column` on, a multiple of 64, are free.
+  bool squares_free(int column, int row_min, int row_max) const;
 
   int columns_;
   int rows_;
