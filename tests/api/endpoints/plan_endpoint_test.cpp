@@ -498,5 +498,31 @@ TEST(PlanEndpoint, NamesTheMotionThatTakesTooLongToCheckIfThereIsAny) {
   EXPECT_EQ(unfinished, 1);
 }
 
+/// The budget ends after each number of questions to the stop condition: what is not finished by then is
+/// never taken for a result.
+TEST(PlanEndpoint, NeverCallsAGoalOutOfReachBecauseTheBudgetEnds) {
+  Json request = stacked_robots(1);
+  for (int k = 0; k < 150; ++k) {
+    request["robots"][0]["goals"].push_back({{"x", 1.03 + 0.1 * k}, {"y", 3.02 + 0.05 * (k % 40)}});
+  }
+  request["robots"][0].erase("goal");
+  const std::string body = request.dump();
+  core::step_clock = {};
+  EXPECT_EQ(json_of(plan_endpoint(body, context()))["status"], "solved");
+  const std::int64_t steps = core::step_clock.steps;
+  for (std::int64_t end = 0; end < steps; end += 1 + steps / 150) {
+    core::step_clock = {0, end};
+    const Reply reply = plan_endpoint(body, context());
+    if (reply.status != 200) {
+      EXPECT_EQ(reply.status, 422) << reply.body;
+      continue;
+    }
+    for (const Json& robot : json_of(reply)["unplanned"]) {
+      EXPECT_EQ(robot["reason"], "budget_exhausted") << end << " of " << steps << robot;
+    }
+  }
+  core::step_clock = {};
+}
+
 }  // namespace
 }  // namespace fleetplan::api

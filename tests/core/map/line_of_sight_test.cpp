@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tests/core/map/distances.h"
 #include "tests/support/ascii_map.h"
@@ -169,6 +171,41 @@ TEST(LineOfSight, AgreesWithDistanceOnFineMaps) {
   }
   EXPECT_GT(seen, 500);
   EXPECT_GT(blocked, 500);
+}
+
+/// Disks so large that squares of cells are looked at first, and the distance transform does not tell.
+TEST(LineOfSight, AgreesWithDistanceForHugeDisks) {
+  support::Dice dice(23);
+  int seen = 0;
+  int blocked = 0;
+  for (int map = 0; map < 6; ++map) {
+    OccupancyGrid grid(700 + dice.below(200), 700 + dice.below(200), 1.0);
+    std::vector<Cell> cells;
+    for (int k = 0; k < 6; ++k) {
+      cells.push_back({dice.below(grid.columns()), dice.below(grid.rows())});
+      grid.block(cells.back());
+    }
+    const LineOfSight sight(grid);
+    for (int k = 0; k < 300; ++k) {
+      const Position from(dice.between(0, grid.width()), dice.between(0, grid.height()));
+      const Position to =
+          dice.chance(0.5) ? from : Position(from + Position(dice.between(0, 90), dice.between(-90, 90)));
+      double distance = std::min({from.x(), from.y(), grid.width() - from.x(), grid.height() - from.y(),
+                                  to.x(), to.y(), grid.width() - to.x(), grid.height() - to.y()});
+      for (const Cell& cell : cells) {
+        const Position low(cell.column, cell.row);
+        distance = std::min(distance, segment_to_rectangle(from, to, low, low + Position(1, 1)));
+      }
+      const double radius = dice.chance(0.5) ? distance + dice.between(-1, 1) : dice.between(129, 330);
+      if (radius < 129.0 || std::abs(distance - radius) < 1e-8) continue;
+      ASSERT_EQ(sight.may_sweep(from, to, radius), distance > radius)
+          << "map " << map << " from " << from.transpose() << " to " << to.transpose() << ", radius "
+          << radius;
+      ++(distance > radius ? seen : blocked);
+    }
+  }
+  EXPECT_GT(seen, 50);
+  EXPECT_GT(blocked, 50);
 }
 
 INSTANTIATE_TEST_SUITE_P(Resolutions, LineOfSightOnRandomMaps, testing::Values(0.05, 0.5, 1.0, 2.0));

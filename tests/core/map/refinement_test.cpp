@@ -4,13 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdint>
+#include <memory>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/map/free_space.h"
 #include "core/map/static_map.h"
+#include "core/runtime/stop_condition.h"
 #include "tests/support/ascii_map.h"
 #include "tests/support/random_problem.h"
 
@@ -156,6 +160,48 @@ TEST(Refinement, EndsWhenItIsStopped) {
   const Lattice lattice(map.grid(), 8);
   EXPECT_EQ(map.finer_vertices(lattice, 0.3, StopCondition(past))->count(), 0);
   EXPECT_GT(map.finer_vertices(lattice, 0.3, {})->count(), 0) << "what was not finished is not kept";
+}
+
+/// How often it asks the stop condition, which is met after `end` questions, and whether it is finished.
+std::pair<std::int64_t, bool> questions(const StaticMap& map, const Lattice& lattice, double radius,
+                                        std::int64_t end) {
+  const StopCondition far(StopCondition::Clock::now() + std::chrono::hours(1));
+  step_clock = {0, end};
+  const bool finished = refine(map.grid(), map.sight(), lattice, radius, far).has_value();
+  const std::int64_t steps = step_clock.steps;
+  step_clock = {};
+  return {steps, finished};
+}
+
+void expect_to_end_at_every_question(const StaticMap& map, const Lattice& lattice, double radius,
+                                     std::int64_t least) {
+  const auto [all, finished] = questions(map, lattice, radius, StepClock::kNever);
+  EXPECT_TRUE(finished);
+  EXPECT_GE(all, least);
+  for (std::int64_t end = 0; end < all; end += 1 + all / 50) {
+    EXPECT_EQ(questions(map, lattice, radius, end), std::pair(end + 1, false)) << "of " << all;
+  }
+}
+
+TEST(Refinement, EndsWhenTheStopConditionIsMet) {
+  support::Dice dice(5);
+  const StaticMap map(building(dice));
+  for (const double spacing : {1.0, 4.0}) {
+    const Lattice lattice(map.grid(), 16, spacing * map.grid().resolution());
+    expect_to_end_at_every_question(map, lattice, 0.06, 10);
+  }
+}
+
+/// Each node is compared with many cells: hundreds of nodes between two questions would take too long.
+TEST(Refinement, AsksMoreOftenForLargeDisks) {
+  const StaticMap map(OccupancyGrid(400, 400, 1.0));
+  expect_to_end_at_every_question(map, Lattice(map.grid(), 16), 170.0, 800 * 800 / 4);
+}
+
+TEST(Refinement, AsksMoreOftenAmongPolygons) {
+  const auto walls = std::make_shared<StaticMap>(OccupancyGrid(60, 60, 1.0));
+  const StaticMap map(walls, {Polygon({{20.2, 20.3}, {40.1, 22.7}, {30.3, 41.9}})});
+  expect_to_end_at_every_question(map, Lattice(map.grid(), 16), 0.4, 120 * 120 / 4);
 }
 
 }  // namespace

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "core/runtime/memory_account.h"
+#include "core/runtime/stop_condition.h"
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
@@ -55,6 +58,24 @@ TEST(SearchSpaces, AreAllDiscarded) {
   search_back(spaces, 0);
   spaces.discard_all();
   EXPECT_EQ(spaces.of(0, StopCondition())->expansions(), 0);
+}
+
+/// A robot with so many goals off the lattice that comparing them with each other takes long.
+TEST(SearchSpaces, AreNotMadeIfTheStopConditionIsMet) {
+  Robot robot = robot_at(0.5, 0.5).to(4.5, 0.5).radius(0.1);
+  for (int k = 0; k < 300; ++k) robot.via.push_back({Position(1.03 + 0.01 * k, 1.02), {}});
+  const Planning p(support::ascii_map({".......", ".......", "......."}), {robot});
+  const StopCondition far(StopCondition::Clock::now() + std::chrono::hours(1));
+  SearchSpaces spaces(p.instance);
+  step_clock = {0, 0};
+  EXPECT_EQ(spaces.of(0, far), nullptr);
+  EXPECT_EQ(step_clock.steps, 1);
+  step_clock = {};
+  SearchSpace* made = spaces.of(0, far);
+  ASSERT_NE(made, nullptr);
+  EXPECT_TRUE(made->finished());
+  EXPECT_GT(step_clock.steps, 5);
+  step_clock = {};
 }
 
 }  // namespace

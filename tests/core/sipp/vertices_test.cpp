@@ -48,7 +48,7 @@ TEST(Vertices, SharesOneVertexForEqualStartAndGoal) {
 
 TEST(Vertices, HasNoGoalForParkedRobot) {
   const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.2, 2.7)});
-  EXPECT_EQ(Vertices(p.instance, 0).goal(), -1);
+  EXPECT_EQ(Vertices(p.instance, 0, 0, StopCondition()).goal(), -1);
 }
 
 PlanOptions inflated(double metres) {
