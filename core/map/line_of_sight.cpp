@@ -74,12 +74,14 @@ class UpperBoundary {
 
 }  // namespace
 
-LineOfSight::Cells::Cells(const OccupancyGrid& grid)
-    : distances(grid),
+LineOfSight::Cells::Cells(const OccupancyGrid& grid, const StopCondition& stop)
+    : distances(grid, stop),
       blocked(static_cast<std::size_t>(bands(grid.rows())) * static_cast<std::size_t>(grid.columns())),
       blocked_squares(static_cast<std::size_t>(bands(grid.rows())) *
                       static_cast<std::size_t>(bands(grid.columns()))) {
+  if (!distances.finished()) return;
   for (int row = 0; row < grid.rows(); ++row) {
+    if (row % kBand == 0 && stop.met()) return;
     std::uint64_t* band =
         &blocked[static_cast<std::size_t>(row / kBand) * static_cast<std::size_t>(grid.columns())];
     for (int column = 0; column < grid.columns(); ++column) {
@@ -94,13 +96,14 @@ LineOfSight::Cells::Cells(const OccupancyGrid& grid)
           std::any_of(band + column, band + end, [](std::uint64_t rows) { return rows != 0; });
     }
   }
+  finished = true;
 }
 
-LineOfSight::LineOfSight(const OccupancyGrid& grid)
+LineOfSight::LineOfSight(const OccupancyGrid& grid, const StopCondition& stop)
     : columns_(grid.columns()),
       rows_(grid.rows()),
       cells_per_metre_(1.0 / grid.resolution()),
-      cells_(std::make_shared<const Cells>(grid)) {}
+      cells_(std::make_shared<const Cells>(grid, stop)) {}
 
 LineOfSight::LineOfSight(const LineOfSight& walls, BlockedPolygons polygons)
     : columns_(walls.columns_),

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
@@ -7,7 +9,7 @@ namespace fleetplan::core {
 /// Asks a stop condition once in so many steps of a computation. Stays met once it is.
 class StopStride {
  public:
-  StopStride(const StopCondition& stop, int stride) : stop_(stop), stride_(stride), left_(stride) {}
+  StopStride(StopCondition stop, int stride) : stop_(std::move(stop)), stride_(stride), left_(stride) {}
 
   /// To be called at every step.
   bool met_at_step() {
@@ -20,8 +22,8 @@ class StopStride {
   bool met() const { return met_; }
 
  private:
-  const StopCondition& stop_;
-  const int stride_;
+  StopCondition stop_;
+  int stride_;
   int left_;  // steps until it asks
   bool met_ = false;
 };

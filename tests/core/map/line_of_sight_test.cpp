@@ -17,7 +17,7 @@ constexpr double kOverlap = 1e-6;  // metres; more than contact
 
 /// Tests both directions, which must agree.
 bool sees(const OccupancyGrid& grid, const Position& from, const Position& to, double radius) {
-  const LineOfSight sight(grid);
+  const LineOfSight sight(grid, StopCondition());
   const bool there = sight.may_sweep(from, to, radius);
   EXPECT_EQ(sight.may_sweep(to, from, radius), there);
   return there;
@@ -37,7 +37,8 @@ TEST(LineOfSight, AllowsDiskThatJustFitsGap) {
 TEST(LineOfSight, FindsTheLargestDiskThatFits) {
   const LineOfSight sight(support::ascii_map({".....",  //
                                               "....#",  //
-                                              "....."}));
+                                              "....."}),
+                          StopCondition());
   EXPECT_EQ(sight.fitting_radius({1.5, 1.5}, 0.1, 1.0), 1.0);
   EXPECT_NEAR(sight.fitting_radius({1.0, 1.5}, 0.5, 1.5), 1.0, 1e-9) << "the edge of the map";
   EXPECT_NEAR(sight.fitting_radius({3.2, 1.5}, 0.5, 1.5), 0.8, 1e-9);
@@ -82,7 +83,7 @@ TEST(LineOfSight, TestsStandingDisk) {
   const OccupancyGrid grid = support::ascii_map({"...",  //
                                                  "..#",  //
                                                  "..."});
-  const LineOfSight sight(grid);
+  const LineOfSight sight(grid, StopCondition());
   EXPECT_TRUE(sight.disk_fits({1.0, 1.5}, 1.0));
   EXPECT_FALSE(sight.disk_fits({1.0 + kOverlap, 1.5}, 1.0));
   EXPECT_TRUE(sight.disk_fits({1.5, 2.5}, 0.5));
@@ -103,7 +104,7 @@ TEST_P(LineOfSightOnRandomMaps, AgreesWithDistanceToBlockedCells) {
     for (int i = 0; i < grid.columns() * grid.rows(); ++i) {
       if (dice.chance(density)) grid.block({i % grid.columns(), i / grid.columns()});
     }
-    const LineOfSight sight(grid);
+    const LineOfSight sight(grid, StopCondition());
     const auto place = [&] {
       Position p(dice.between(0, grid.width()), dice.between(0, grid.height()));
       if (dice.chance(0.3)) p = grid.center(grid.cell_at(p));
@@ -145,7 +146,7 @@ TEST(LineOfSight, AgreesWithDistanceOnFineMaps) {
         for (int column = low.column; column < high.column; ++column) grid.block({column, row});
       }
     }
-    const LineOfSight sight(grid);
+    const LineOfSight sight(grid, StopCondition());
     const auto place = [&] {
       return Position(dice.between(0, grid.width()), dice.between(0, grid.height()));
     };
@@ -185,7 +186,7 @@ TEST(LineOfSight, AgreesWithDistanceForHugeDisks) {
       cells.push_back({dice.below(grid.columns()), dice.below(grid.rows())});
       grid.block(cells.back());
     }
-    const LineOfSight sight(grid);
+    const LineOfSight sight(grid, StopCondition());
     for (int k = 0; k < 300; ++k) {
       const Position from(dice.between(0, grid.width()), dice.between(0, grid.height()));
       const Position to =

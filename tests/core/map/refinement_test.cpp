@@ -85,7 +85,7 @@ TEST(Refinement, ConnectsWhatTheLatticeOfTheCellsConnects) {
   for (int map = 0; map < 60; ++map) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << map);
     const OccupancyGrid grid = building(dice);
-    const LineOfSight sight(grid);
+    const LineOfSight sight(grid, StopCondition());
     const double radius = dice.between(0.1, 0.45);
     const double spacing = 0.05 * (2 * (1 + dice.below(5)) + 1);
     const Lattice lattice(grid, 4 << dice.below(4), spacing);
@@ -126,7 +126,7 @@ TEST(Refinement, FindsTheMiddleOfAGapBetweenCells) {
                                                  "....#....",  //
                                                  "....#...."},
                                                 0.5);
-  const StaticMap map(grid);
+  const StaticMap map(grid, StopCondition());
   const Lattice lattice(grid, 8);
   const auto finer = map.finer_vertices(lattice, 0.3, {});
   ASSERT_GT(finer->count(), 0);
@@ -137,7 +137,7 @@ TEST(Refinement, FindsTheMiddleOfAGapBetweenCells) {
 }
 
 TEST(Refinement, AddsNothingWhereTheLatticeHasAWayNearby) {
-  const StaticMap map(OccupancyGrid(40, 40, 0.05));
+  const StaticMap map(OccupancyGrid(40, 40, 0.05), StopCondition());
   const Lattice lattice(map.grid(), 8, 0.25);
   const auto finer = map.finer_vertices(lattice, 0.3, {});
   EXPECT_EQ(finer->count(), 0);
@@ -149,14 +149,14 @@ TEST(Refinement, LeavesOutGapsWithoutPlay) {
                                                  ".......",  //
                                                  ".......",  //
                                                  "...#..."});
-  const StaticMap map(grid);
+  const StaticMap map(grid, StopCondition());
   const Lattice lattice(grid, 8);
   EXPECT_TRUE(map.finer_vertices(lattice, 1.0, {})->links().empty());
 }
 
 TEST(Refinement, EndsWhenItIsStopped) {
   StopCondition::Clock::time_point past{};
-  const StaticMap map(support::ascii_map({"...#...", ".......", ".......", "...#..."}, 0.5));
+  const StaticMap map(support::ascii_map({"...#...", ".......", ".......", "...#..."}, 0.5), StopCondition());
   const Lattice lattice(map.grid(), 8);
   EXPECT_EQ(map.finer_vertices(lattice, 0.3, StopCondition(past))->count(), 0);
   EXPECT_GT(map.finer_vertices(lattice, 0.3, {})->count(), 0) << "what was not finished is not kept";
@@ -185,7 +185,7 @@ void expect_to_end_at_every_question(const StaticMap& map, const Lattice& lattic
 
 TEST(Refinement, EndsWhenTheStopConditionIsMet) {
   support::Dice dice(5);
-  const StaticMap map(building(dice));
+  const StaticMap map(building(dice), StopCondition());
   for (const double spacing : {1.0, 4.0}) {
     const Lattice lattice(map.grid(), 16, spacing * map.grid().resolution());
     expect_to_end_at_every_question(map, lattice, 0.06, 10);
@@ -194,12 +194,12 @@ TEST(Refinement, EndsWhenTheStopConditionIsMet) {
 
 /// Each node is compared with many cells: hundreds of nodes between two questions would take too long.
 TEST(Refinement, AsksMoreOftenForLargeDisks) {
-  const StaticMap map(OccupancyGrid(400, 400, 1.0));
+  const StaticMap map(OccupancyGrid(400, 400, 1.0), StopCondition());
   expect_to_end_at_every_question(map, Lattice(map.grid(), 16), 170.0, 800 * 800 / 4);
 }
 
 TEST(Refinement, AsksMoreOftenAmongPolygons) {
-  const auto walls = std::make_shared<StaticMap>(OccupancyGrid(60, 60, 1.0));
+  const auto walls = std::make_shared<StaticMap>(OccupancyGrid(60, 60, 1.0), StopCondition());
   const StaticMap map(walls, {Polygon({{20.2, 20.3}, {40.1, 22.7}, {30.3, 41.9}})});
   expect_to_end_at_every_question(map, Lattice(map.grid(), 16), 0.4, 120 * 120 / 4);
 }
