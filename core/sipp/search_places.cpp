@@ -120,8 +120,12 @@ void Search::append_windows(const Place& place) {
   const Stage& at = state_.stages[place.stage];
   const Stage& next = state_.stages[place.stage + 1];
   const std::vector<SafeInterval> after = table_.safe_intervals(robot_, place.position, next.narrower);
+  auto begin = after.begin();
+  // Bounded: the intervals, which are ascending: each is left behind once, or overlaps another one.
   for (const SafeInterval& before : table_.safe_intervals(robot_, place.position, at.narrower)) {
-    for (const SafeInterval& then : after) {
+    while (begin != after.end() && begin->end < before.begin) ++begin;
+    for (auto later = begin; later != after.end() && later->begin <= before.end; ++later) {
+      const SafeInterval& then = *later;
       if (next.is_rest && then.end != kForever) continue;
       double first = before.begin;
       if (at.service_end(first) < then.begin) first = std::max(first, then.begin - at.service);

@@ -56,7 +56,7 @@ class ClearanceSweep {
   /// Far more than the rounding of boxes and gaps, so that skipped pairs never influence the result.
   double rounding_of_boxes() const {
     double largest = 0.0;
-    // Bounded: the legs of the robots, which were made from them one by one.
+    // Bounded: the legs that there are, each once.
     for (const std::vector<Leg>& legs : legs_) {
       for (const Leg& leg : legs) {
         largest = std::max({largest, leg.from.lpNorm<Eigen::Infinity>(), leg.to.lpNorm<Eigen::Infinity>()});
