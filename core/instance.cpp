@@ -100,8 +100,9 @@ Instance::Instance(const Problem& problem, const PlanOptions& options,
     const std::vector<double> radii = radii_of(robot);
     const auto first = radii.begin() + static_cast<std::ptrdiff_t>(itinerary.first_goal);
     const bool is_one = std::all_of(first, radii.end(), [&](double radius) { return radius == *first; });
+    const double largest = largest_radius(robot);
     for (auto radius = first; radius != (is_one ? first + 1 : radii.end()); ++radius) {
-      add_disk(i, *radius, largest_radius(robot), stop);
+      add_disk(i, *radius, largest, stop);
     }
   }
 }

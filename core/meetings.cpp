@@ -162,6 +162,7 @@ class MeetingSearch {
  private:
   void add_robots() {
     const auto& robots = problem_.robots();
+    // Bounded: the committed actions, each once.
     for (std::size_t i = 0; i < robots.size(); ++i) {
       const Itinerary itinerary = itinerary_of(robots[i]);
       const Position& place = itinerary.pose.position;
@@ -182,6 +183,7 @@ class MeetingSearch {
   /// Ascending, and at last for ever.
   std::vector<double> ends_of_parts() const {
     std::vector<double> begins;
+    // Bounded: the pieces that there are, each once.
     for (const Passer& passer : passers_) {
       for (const MovingDisk& piece : passer.pieces) begins.push_back(piece.t_start);
     }

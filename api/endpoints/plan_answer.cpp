@@ -29,14 +29,6 @@ Reply rejected(PlanOutcome outcome, const core::VerifyReport& report, const std:
   return reply;
 }
 
-/// When to give up the check of an answer in which nobody moves, if there is no other. Reading the request
-/// tells how large it is and how busy the machine.
-core::StopCondition last_stop(const Stages& stages) {
-  constexpr Stages::Clock::duration kLeast = std::chrono::milliseconds(200);
-  const auto patience = std::max(kLeast, stages.parsed - stages.received);
-  return core::StopCondition::even_if_cancelled(Stages::Clock::now() + patience).despite_memory();
-}
-
 /// When to give up the check. A plan that was cancelled, as the service drains, may still be checked quickly.
 core::StopCondition check_stop(const core::StopCondition& planning) {
   using Clock = core::StopCondition::Clock;
@@ -48,12 +40,25 @@ core::StopCondition check_stop(const core::StopCondition& planning) {
   return planning.until(planning.deadline() + kMostAfterPlanning);
 }
 
-/// The 422 for a request whose moving obstacles take too long to compare with the robots.
-Reply unchecked(PlanOutcome outcome, const std::string& request_id) {
-  Reply reply = problem_reply(ErrorCode::check_unfinished,
-                              "The check of what robots and moving obstacles do was given up after the time "
-                              "budget: send fewer entries of `motion`, or smaller obstacles.",
-                              request_id);
+/// When to give up the check of an answer in which nobody moves, if there is no other: with the budget, and
+/// not too soon after it. Reading the request tells how large it is and how busy the machine.
+core::StopCondition last_stop(const Stages& stages, const core::StopCondition& planning) {
+  constexpr Stages::Clock::duration kLeast = std::chrono::milliseconds(200);
+  const auto patience = Stages::Clock::now() + std::max(kLeast, stages.parsed - stages.received);
+  if (planning.cancelled()) return core::StopCondition::even_if_cancelled(patience).despite_memory();
+  const core::StopCondition check = check_stop(planning);
+  return planning.until(std::max(patience, check.deadline())).despite_memory();
+}
+
+/// The 422 for a request whose robots and moving obstacles take too long to compare with each other.
+Reply unchecked(PlanOutcome outcome, bool has_obstacles, const std::string& request_id) {
+  std::string detail =
+      "The check that robots keep their distance was given up after the time budget. It takes longest where "
+      "many robots start near each other, as `vicinity`, `inflation` and `start_overlap` allow";
+  if (has_obstacles) detail += ", and with many entries of `motion` of obstacles";
+  detail += ". Increase options.time_budget_ms, or send fewer robots that start so";
+  detail += has_obstacles ? ", fewer entries of `motion`, or smaller obstacles." : ".";
+  Reply reply = problem_reply(ErrorCode::check_unfinished, detail, request_id);
   outcome.status = PlanOutcome::Status::refused;
   reply.outcome = outcome;
   return reply;
@@ -139,13 +144,14 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   if (any_moves && plan.meetings_known) report = check(plan, check_stop(stop).despite_memory());
   core::Plan less;
   const bool is_whole = report || !any_moves;
-  const core::StopCondition last = last_stop(stages);
+  const core::StopCondition last = last_stop(stages, stop);
   if (!is_whole) less = without_moves(plan, request.problem, last);
   const core::Plan& answered = is_whole ? plan : less;
   if (!report && answered.meetings_known) report = check(answered, last);
   const PlanOutcome outcome =
       outcome_of(answered, std::chrono::duration<double>(stages.planned - stages.started).count());
-  if (!report) return unchecked(outcome, request_id);
+  if (!report && stop.cancelled()) return problem_reply(ErrorCode::draining, kDrainingDetail, request_id);
+  if (!report) return unchecked(outcome, !request.problem.obstacles().empty(), request_id);
   if (!report->valid()) return rejected(outcome, *report, request_id);
   const auto dependencies = asked_dependencies(answered, request, stages, stop);
   const std::vector<std::string> warnings =

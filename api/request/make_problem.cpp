@@ -11,6 +11,9 @@ namespace fleetplan::api {
 
 namespace {
 
+/// What it costs to look up a robot of a zone, in bytes of text.
+constexpr std::size_t kWorkOfAZoneRobot = 4;
+
 bool is_of_a_pair(const core::ProblemFault& found) {
   using Kind = core::ProblemFault::Kind;
   return found.kind != Kind::start_in_obstacle && found.kind != Kind::goal_in_obstacle &&
@@ -24,8 +27,8 @@ class ProblemMaker {
       : fleet_(fleet),
         root_(root),
         stop_(stop),
-        map_(maps != nullptr ? maps->map_of(std::move(fleet.map->grid))
-                             : std::make_shared<core::StaticMap>(std::move(fleet.map->grid))),
+        map_(maps != nullptr ? maps->map_of(std::move(fleet.map->grid), stop.reading())
+                             : core::static_map(std::move(fleet.map->grid), stop.reading())),
         reports_(reports()) {
     // What could not be read may be what would make committed motion valid.
     const bool poses_only = root.fault_count() > 0;
@@ -38,9 +41,12 @@ class ProblemMaker {
   }
 
   std::optional<MadeProblem> run() {
-    while (true) {
-      auto made =
-          core::Problem::create(map_, reports_ ? robots_ : std::move(robots_), conditions(), stop_.reading());
+    if (!map_) stop_.look();
+    while (map_) {
+      core::ProblemConditions made_of = conditions();
+      if (stop_.met()) break;
+      auto made = core::Problem::create(map_, reports_ ? robots_ : std::move(robots_), std::move(made_of),
+                                        stop_.reading());
       if (auto* problem = std::get_if<core::Problem>(&made)) {
         return MadeProblem{std::move(*problem), std::move(errors_)};
       }
@@ -54,6 +60,7 @@ class ProblemMaker {
       root_.count_more_faults(faults.total - faults.listed.size());
       return std::nullopt;
     }
+    return std::nullopt;
   }
 
  private:
@@ -86,6 +93,7 @@ class ProblemMaker {
   std::vector<core::Zone> zones() const {
     std::vector<core::Zone> zones = fleet_.zones;
     for (core::Zone& zone : zones) {
+      if (stop_.met_after(kWorkOfAZoneRobot * zone.robots.size())) break;
       if (zone.robots.empty()) continue;
       std::vector<std::size_t> placed;
       for (const std::size_t robot : zone.robots) {

@@ -27,6 +27,9 @@ constexpr double kWidthMargin = 0.99;
 /// The work of following a sector through a row; measured.
 constexpr int kSectorWork = 2;
 
+/// Rows, or corners, between two checks of the stop condition.
+constexpr int kStopStride = 16;
+
 /// The corner at a grid point with one blocked cell around it.
 Corner convex_corner(const OccupancyGrid& grid, int x, int line) {
   const bool is_left = grid.blocked({x - 1, line - 1}) || grid.blocked({x - 1, line});
@@ -53,7 +56,7 @@ void for_each_equal(const std::vector<std::uint8_t>& bytes, int value, Visit&& v
 /// Finds the corners visible from one point, row by row. Directions that no cell hides so far form sectors.
 class CornerVisibility::View {
  public:
-  View(const CornerVisibility& corners, double x, double y) : corners_(corners), x_(x), y_(y) {}
+  View(CornerVisibility& corners, double x, double y) : corners_(corners), x_(x), y_(y) {}
 
   /// All that are visible, or all to which tangents lead from bends around this corner (at the viewpoint).
   std::vector<int> find(const Corner* bend) {
@@ -83,6 +86,7 @@ class CornerVisibility::View {
     sectors_ = {{-kSteepest, kSteepest}};
     int row = static_cast<int>(up ? std::floor(y_) : std::ceil(y_) - 1.0);
     for (; row >= 0 && row < corners_.grid_.rows() && !sectors_.empty(); row += step) {
+      if (corners_.stopped_at_step()) return;
       const double near = std::max(0.0, up ? row - y_ : y_ - (row + 1));
       const double far = up ? row + 1 - y_ : y_ - row;
       if (side != 0 && far > diameter) restrict_to_side(side, diameter / far);
@@ -109,6 +113,7 @@ class CornerVisibility::View {
     next_sectors_.clear();
     const auto last = corners_.runs_.begin() + corners_.first_run_[row + 1];
     auto first = corners_.runs_.begin() + corners_.first_run_[row];
+    // Bounded: the sectors, and the runs of a row, which are between them.
     for (const Sector& sector : sectors_) {
       double open = sector.left;
       const double leftmost = x_ + std::min(sector.left * near, sector.left * far) - kRounding;
@@ -148,6 +153,7 @@ class CornerVisibility::View {
   void find_on_line(int line, double distance) {
     const int last = corners_.first_corner(0, line + 1);
     int next = 0;
+    // Bounded: the sectors, and the corners of a line.
     for (const Sector& sector : sectors_) {
       const double leftmost = std::ceil(x_ + sector.left * distance - kRounding);
       if (leftmost > corners_.grid_.columns()) return;
@@ -171,7 +177,7 @@ class CornerVisibility::View {
     for (int column = static_cast<int>(std::ceil(x_)) - 1; open(column); --column) add_corner(column);
   }
 
-  const CornerVisibility& corners_;
+  CornerVisibility& corners_;
   double x_;  // in cells
   double y_;
   std::vector<Sector> sectors_;
@@ -180,12 +186,15 @@ class CornerVisibility::View {
   std::int64_t sectors_followed_ = 0;
 };
 
-CornerVisibility::CornerVisibility(const OccupancyGrid& grid, double least_radius, double most_radius)
+CornerVisibility::CornerVisibility(const OccupancyGrid& grid, double least_radius, double most_radius,
+                                   const StopCondition& stop)
     : grid_(grid),
       least_radius_(least_radius / grid.resolution()),
-      most_radius_(most_radius / grid.resolution()) {
+      most_radius_(most_radius / grid.resolution()),
+      stop_(stop, kStopStride) {
   find_corners();
   find_blocked_runs();
+  if (stopped()) return;
   bends_from_.resize(corners_.size());
 }
 
@@ -195,7 +204,7 @@ void CornerVisibility::find_corners() {
   std::vector<std::uint8_t> below(columns + 2, 1);
   std::vector<std::uint8_t> above(columns + 2, 1);
   std::vector<std::uint8_t> blocked(columns + 1);  // of the four cells around each grid point of the line
-  for (int line = 0; line <= grid_.rows(); ++line) {
+  for (int line = 0; line <= grid_.rows() && !stopped_at_step(); ++line) {
     std::swap(below, above);
     if (line < grid_.rows()) {
       const auto row = grid_.row(line);
@@ -213,7 +222,7 @@ void CornerVisibility::find_corners() {
 }
 
 void CornerVisibility::find_blocked_runs() {
-  for (int row = 0; row < grid_.rows(); ++row) {
+  for (int row = 0; row < grid_.rows() && !stopped_at_step(); ++row) {
     first_run_.push_back(runs_.next_index());
     runs_.push_back({-kFar, 0});
     for (int column = 0; column < grid_.columns(); ++column) {

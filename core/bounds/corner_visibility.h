@@ -6,7 +6,9 @@
 
 #include "core/geometry/position.h"
 #include "core/map/occupancy_grid.h"
+#include "core/map/stop_stride.h"
 #include "core/runtime/indexed_vector.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 
@@ -31,7 +33,13 @@ struct Corner {
 class CornerVisibility {
  public:
   /// For disks of radii from `least_radius` to `most_radius` (metres, >= 0).
-  CornerVisibility(const OccupancyGrid& grid, double least_radius, double most_radius);
+  CornerVisibility(const OccupancyGrid& grid, double least_radius, double most_radius,
+                   const StopCondition& stop);
+
+  /// Whether the stop condition was met: corners and what is visible may be incomplete from then on.
+  bool stopped() const { return stop_.met(); }
+  /// The same, to be asked in loops over corners; asks the stop condition once in a while.
+  bool stopped_at_step() { return stop_.met_at_step(); }
 
   const OccupancyGrid& grid() const { return grid_; }
   int count() const { return corners_.next_index(); }
@@ -71,6 +79,7 @@ class CornerVisibility {
   IndexedVector<int> first_run_;      // by row, and the number of runs at the end
   IndexedVector<std::optional<std::vector<int>>> bends_from_;  // by corner
   std::int64_t work_ = 0;
+  StopStride stop_;
 };
 
 }  // namespace fleetplan::core

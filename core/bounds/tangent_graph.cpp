@@ -70,6 +70,7 @@ TangentGraph::Links TangentGraph::link(const Bend& bend) {
   const std::vector<int>& corners = corners_.bends_from(bend.corner);
   work_ += static_cast<std::int64_t>(corners.size()) / kRejectionsPerStep;
   for (const int corner : corners) {
+    if (corners_.stopped_at_step()) break;
     const Position d = corners_.position(corner) - here.center;
     if (!is_heading_of(here, d, tangent_slack(d, 2.0 * radius_))) continue;
     for (const bool left : {false, true}) {

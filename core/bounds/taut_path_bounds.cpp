@@ -19,6 +19,8 @@ namespace {
 constexpr std::int64_t kMaxWork = 30'000'000;
 /// One robot may use the remaining work divided by this, since the first ones also compute what others share.
 constexpr std::int64_t kWorkDivisor = 64;
+/// Legs between two checks of the stop condition while it is found out which ones are straight.
+constexpr std::int64_t kLegsBetweenStops = 64;
 
 /// Whether the robot's disk is clear of obstacles at both ends of a leg. Elsewhere it always is.
 bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) {
@@ -85,11 +87,13 @@ void TautPathBounds::bound(const Instance& instance, const std::vector<std::size
                            const std::vector<double>& costs, const StopCondition& stop) {
   LegsByRadius out_of_sight;  // to share tangents
   std::vector<Way> ways;
+  std::int64_t tested = 0;
   for (const std::size_t robot : robots) {
     const Motion& motion = instance.motion(robot);
     const Way& way = ways.emplace_back(instance.itinerary(robot), motion);
     seconds_[robot] = end_after(instance.itinerary(robot), way.seconds);
-    for (std::size_t leg = 0; leg < way.legs.size(); ++leg) {
+    for (std::size_t leg = 0; leg < way.legs.size() && !cut_off_; ++leg) {
+      if (++tested % kLegsBetweenStops == 0) cut_off_ = stop.met();
       const double radius = instance.motion(robot, leg).radius;
       const double reduced = radius - 2.0 * TangentGraph::kRadiusReduction;
       if (reduced <= 0.0) continue;
@@ -97,7 +101,7 @@ void TautPathBounds::bound(const Instance& instance, const std::vector<std::size
       out_of_sight[radius].push_back({robot, ways.size() - 1, leg});
     }
   }
-  if (out_of_sight.empty()) return;
+  if (out_of_sight.empty() || cut_off_) return;
   cut_off_ = stop.met();
   if (!cut_off_) improve(instance, out_of_sight, ways, costs, stop);
 }
@@ -107,12 +111,14 @@ void TautPathBounds::improve(const Instance& instance, const LegsByRadius& out_o
                              const StopCondition& stop) {
   std::int64_t work = kMaxWork;
   CornerVisibility corners(instance.problem().grid(), out_of_sight.begin()->first,
-                           out_of_sight.rbegin()->first);
+                           out_of_sight.rbegin()->first, stop);
+  cut_off_ = corners.stopped();
+  if (cut_off_) return;
   for (const auto& [radius, group] : out_of_sight) {
     TautPathSearch search(corners, instance.sight(), radius, stops_at_cell_centers(instance));
     work -= corners.count();  // for the memory that the search allocates
     for (const LegIndex& index : group) {
-      if (stop.met()) {
+      if (corners.stopped() || stop.met()) {
         cut_off_ = true;
         return;
       }

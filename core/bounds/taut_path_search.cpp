@@ -31,6 +31,7 @@ TautPathResult TautPathSearch::run(const GoalLeg& leg, const Motion& motion, dou
     goal_visible_[corner] = 1;
   }
   expand_start();
+  if (corners_.stopped()) return {straight, true};
   TautPathResult result{straight, false};
   for (int expansion = 1; !open_.empty(); ++expansion) {
     const Open best = open_.front();
@@ -44,6 +45,10 @@ TautPathResult TautPathSearch::run(const GoalLeg& leg, const Motion& motion, dou
     std::pop_heap(open_.begin(), open_.end(), std::greater<>());
     open_.pop_back();
     expand(best.arrival);
+    if (corners_.stopped()) {  // ways may be missing
+      result.cut_off = true;
+      return result;
+    }
   }
   return {straight, false};
 }
@@ -60,6 +65,7 @@ void TautPathSearch::reset() {
 
 void TautPathSearch::expand_start() {
   for (const int corner : corners_.visible_from(leg_->from)) {
+    if (corners_.stopped_at_step()) return;
     for (const bool left : {false, true}) {
       const Bend bend{corner, left};
       const auto tangent = graph_.from_point(leg_->from, bend);

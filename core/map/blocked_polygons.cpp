@@ -32,6 +32,7 @@ BlockedPolygons::BlockedPolygons(std::vector<Polygon> polygons, double width, do
 template <class Visit>
 void BlockedPolygons::for_each_square(const Polygon& polygon, const Visit& visit) const {
   const Squares box = squares(polygon.low(), polygon.high());
+  // Bounded: all squares, kSide * kSide.
   for (int row = box.first_row; row <= box.last_row; ++row) {
     for (int column = box.first_column; column <= box.last_column; ++column) {
       visit(static_cast<std::size_t>(row) * kSide + static_cast<std::size_t>(column));
@@ -56,6 +57,7 @@ bool BlockedPolygons::come_near(const Position& from, const Position& to, double
     return std::any_of(polygons_.begin(), polygons_.end(),
                        [&](const Polygon& polygon) { return polygon.comes_near(from, to, distance); });
   }
+  // Bounded: kMostSquares squares, and the corners of all polygons, of which a request may have so many.
   for (int row = box.first_row; row <= box.last_row; ++row) {
     for (int column = box.first_column; column <= box.last_column; ++column) {
       const auto square = static_cast<std::size_t>(row) * kSide + static_cast<std::size_t>(column);

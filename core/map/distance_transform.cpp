@@ -7,6 +7,8 @@ namespace fleetplan::core {
 namespace {
 
 constexpr std::uint16_t kMost = 255;
+/// Rows between two checks of the stop condition.
+constexpr int kStopStride = 16;
 
 /// The lower envelope of the parabolas of one row. Places are columns + 1, so that 0 and the last are outside
 /// the map.
@@ -22,6 +24,7 @@ class Envelope {
     for (int place = 1; place < last; ++place) height(place) = std::int64_t{row[place - 1]} * row[place - 1];
     int top = 0;
     parabola(0) = {0, 0};
+    // Bounded: the columns of a row; each enters and leaves the envelope once.
     for (int place = 1; place <= last; ++place) {
       while (top >= 0 && at(parabola(top).begin, parabola(top).place) > at(parabola(top).begin, place)) --top;
       const std::int64_t begin = top < 0 ? 0 : 1 + crossing(parabola(top).place, place);
@@ -59,19 +62,19 @@ class Envelope {
 
 }  // namespace
 
-DistanceTransform::DistanceTransform(const OccupancyGrid& grid)
+DistanceTransform::DistanceTransform(const OccupancyGrid& grid, const StopCondition& stop)
     : columns_(grid.columns()),
       rows_(grid.rows()),
       stride_((static_cast<std::size_t>(columns_) + kTileColumns - 1) / kTileColumns * kTileColumns),
       squared_((static_cast<std::size_t>(rows_) + kTileRows - 1) / kTileRows * kTileRows * stride_) {
-  scan_columns(grid);
-  scan_rows();
-  make_tiles();
+  StopStride stops(stop, kStopStride);
+  finished_ = scan_columns(grid, stops) && scan_rows(stops) && make_tiles(stops);
 }
 
 /// The distance to the nearest blocked cell of the same column.
-void DistanceTransform::scan_columns(const OccupancyGrid& grid) {
+bool DistanceTransform::scan_columns(const OccupancyGrid& grid, StopStride& stop) {
   for (int row = 0; row < rows_; ++row) {
+    if (stop.met_at_step()) return false;
     std::uint16_t* cell = squared_.data() + static_cast<std::size_t>(row) * stride_;
     for (int column = 0; column < columns_; ++column, ++cell) {
       const int below = row > 0 ? *(cell - stride_) : 0;
@@ -79,25 +82,30 @@ void DistanceTransform::scan_columns(const OccupancyGrid& grid) {
     }
   }
   for (int row = rows_ - 1; row >= 0; --row) {
+    if (stop.met_at_step()) return false;
     std::uint16_t* cell = squared_.data() + static_cast<std::size_t>(row) * stride_;
     for (int column = 0; column < columns_; ++column, ++cell) {
       const int above = row + 1 < rows_ ? *(cell + stride_) : 0;
       *cell = std::min<std::uint16_t>(*cell, static_cast<std::uint16_t>(above + 1));
     }
   }
+  return true;
 }
 
-void DistanceTransform::scan_rows() {
+bool DistanceTransform::scan_rows(StopStride& stop) {
   Envelope envelope(columns_);
   for (int row = 0; row < rows_; ++row) {
+    if (stop.met_at_step()) return false;
     envelope.transform(squared_.data() + static_cast<std::size_t>(row) * stride_);
   }
+  return true;
 }
 
 /// From row by row to tiles.
-void DistanceTransform::make_tiles() {
+bool DistanceTransform::make_tiles(StopStride& stop) {
   std::vector<std::uint16_t> rows(kTileRows * stride_);
   for (std::size_t begin = 0; begin < squared_.size(); begin += rows.size()) {
+    if (stop.met_at_step()) return false;
     std::copy_n(squared_.data() + begin, rows.size(), rows.data());
     for (std::size_t row = 0; row < kTileRows; ++row) {
       for (std::size_t column = 0; column < stride_; ++column) {
@@ -105,6 +113,7 @@ void DistanceTransform::make_tiles() {
       }
     }
   }
+  return true;
 }
 
 }  // namespace fleetplan::core

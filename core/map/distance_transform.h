@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "core/map/occupancy_grid.h"
+#include "core/map/stop_stride.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 
@@ -15,7 +17,10 @@ class DistanceTransform {
   /// Longer distances are cut off: 255 cells.
   static constexpr std::uint16_t kMostSquared = 255 * 255;
 
-  explicit DistanceTransform(const OccupancyGrid& grid);
+  /// Not finished(), and not to be used, if `stop` is met first.
+  DistanceTransform(const OccupancyGrid& grid, const StopCondition& stop);
+
+  bool finished() const { return finished_; }
 
   /// Of the centres, in cells, at most kMostSquared; 0 for a blocked cell. `cell` is inside the map.
   std::uint16_t squared(Cell cell) const {
@@ -36,14 +41,15 @@ class DistanceTransform {
            column % kTileColumns;
   }
 
-  void scan_columns(const OccupancyGrid& grid);
-  void scan_rows();
-  void make_tiles();
+  bool scan_columns(const OccupancyGrid& grid, StopStride& stop);
+  bool scan_rows(StopStride& stop);
+  bool make_tiles(StopStride& stop);
 
   int columns_;
   int rows_;
   std::size_t stride_;                  // columns, rounded up to tiles
   std::vector<std::uint16_t> squared_;  // by rows of tiles, tile, and row in it
+  bool finished_ = false;
 };
 
 }  // namespace fleetplan::core

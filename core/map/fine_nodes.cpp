@@ -52,6 +52,7 @@ FineNodes::Limits FineNodes::limits(double x, double y, double radius, double am
   const double most = std::sqrt(static_cast<double>(DistanceTransform::kMostSquared)) - 2.0;
   if (ample > most) return {std::numeric_limits<int>::max(), 0, std::numeric_limits<int>::max()};
   const int reach = static_cast<int>(std::ceil(ample)) + 2;
+  // Bounded: the cells within the longest distance of the transform, a quarter of a million.
   for (int row = -reach; row <= reach; ++row) {
     for (int column = -reach; column <= reach; ++column) {
       const double dx = std::max(std::abs(column - x) - 0.5, 0.0);
@@ -71,6 +72,7 @@ std::vector<Cell> FineNodes::cells_between(const Position& from, const Position&
   std::vector<Cell> between;
   const Segment way{from, to};
   const int reach = static_cast<int>(std::ceil(radius)) + 2;
+  // Bounded: the cells around a disk of at most kLargestDisk.
   for (int row = -reach; row <= reach; ++row) {
     for (int column = -reach; column <= reach; ++column) {
       const Position low(column - 0.5, row - 0.5);

@@ -32,6 +32,8 @@ class FineNodes {
   bool fits(int column, int row) const;
   /// Whether the disk fits at all places within half the longest step, too. True only where that is obvious.
   bool is_ample(int column, int row) const;
+  /// Whether tests take up to thousands of times as long as usual: of large disks, or among polygons.
+  bool are_costly() const { return !between_known_ || !sight_.polygons().empty(); }
   /// Whether the disk, which fits at two neighbouring nodes, may sweep the step between them.
   bool may_step(const Cell& from, const Cell& to) const;
 

@@ -11,6 +11,9 @@ namespace {
 constexpr unsigned kLeastSide = 8;
 /// A node has a vertex within so many spacings, along steps between nodes.
 constexpr double kFarthest = 2.5;
+/// Nodes between two checks of the stop condition; fewer where each of them takes long.
+constexpr int kStopStride = 1024;
+constexpr int kCostlyStopStride = 4;
 
 }  // namespace
 
@@ -42,33 +45,35 @@ Position FineRegions::position(int vertex) const {
              : added_[static_cast<std::size_t>(vertex - lattice_.vertex_count())];
 }
 
-bool FineRegions::find(const StopCondition& stop) {
-  for (int row = 0; row < block_rows_; ++row) {
-    if (stop.met()) return false;
-    for (int column = 0; column < block_columns_; ++column) classify(column, row);
+bool FineRegions::find(const StopCondition& condition) {
+  StopStride stop(condition, nodes_.are_costly() ? kCostlyStopStride : kStopStride);
+  for (int row = 0; row < block_rows_ && !stop.met(); ++row) {
+    for (int column = 0; column < block_columns_ && !stop.met(); ++column) classify(column, row, stop);
   }
   const auto count = static_cast<int>(begin_of_block_.size());
-  for (int block = 0; block < count; ++block) begin_at_vertices(block);
-  for (int block = 0; block < count; ++block) begin_at_open_blocks(block);
-  spread(false);
-  for (int block = 0; block < count; ++block) {
-    if (block % 64 == 0 && stop.met()) return false;
-    const Cell begin = begin_of_block_[static_cast<std::size_t>(block)];
-    for (int k = 0; k < side_ * side_; ++k) {
-      const Cell here{begin.column + k % side_, begin.row + k / side_};
-      if (!inside(here)) continue;
-      const Node* node = find_node(here);
-      if (!node->fits || node->vertex >= 0) continue;
-      added_.push_back(nodes_.position(here.column, here.row));
-      put(here, lattice_.vertex_count() + static_cast<int>(added_.size()) - 1, 0, -1);
-      spread(true);
-    }
+  for (int block = 0; block < count && !stop.met(); ++block) begin_at_vertices(block, stop);
+  for (int block = 0; block < count && !stop.met(); ++block) begin_at_open_blocks(block, stop);
+  spread(false, stop);
+  for (int block = 0; block < count && !stop.met(); ++block) add_vertices(block, stop);
+  return !stop.met();
+}
+
+/// Adds vertices to a block where the disk fits but nothing leads to a vertex.
+void FineRegions::add_vertices(int block, StopStride& stop) {
+  const Cell begin = begin_of_block_[static_cast<std::size_t>(block)];
+  for (int k = 0; k < side_ * side_ && !stop.met_at_step(); ++k) {
+    const Cell here{begin.column + k % side_, begin.row + k / side_};
+    if (!inside(here)) continue;
+    const Node* node = find_node(here);
+    if (!node->fits || node->vertex >= 0) continue;
+    added_.push_back(nodes_.position(here.column, here.row));
+    put(here, lattice_.vertex_count() + static_cast<int>(added_.size()) - 1, 0, -1);
+    spread(true, stop);
   }
-  return true;
 }
 
 /// Finds out where the disk fits in a block.
-void FineRegions::classify(int block_column, int block_row) {
+void FineRegions::classify(int block_column, int block_row, StopStride& stop) {
   const Cell begin{block_column * side_, block_row * side_};
   const int columns = std::min(side_, nodes_.columns() - begin.column);
   const int rows = std::min(side_, nodes_.rows() - begin.row);
@@ -77,6 +82,7 @@ void FineRegions::classify(int block_column, int block_row) {
   bool closed = true;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
+      if (stop.met_at_step()) return;
       Node& node = found[static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) +
                          static_cast<std::size_t>(column)];
       node.ample = nodes_.is_ample(begin.column + column, begin.row + row);
@@ -130,7 +136,7 @@ int FineRegions::length_to(const Cell& node, int vertex) const {
 }
 
 /// Begins at the vertices of the lattice in a block.
-void FineRegions::begin_at_vertices(int block) {
+void FineRegions::begin_at_vertices(int block, StopStride& stop) {
   const Cell begin = begin_of_block_[static_cast<std::size_t>(block)];
   const Position low = nodes_.position(begin.column, begin.row);
   const double margin = 0.51 * nodes_.pitch();
@@ -144,6 +150,7 @@ void FineRegions::begin_at_vertices(int block) {
   };
   for (int row = first(low.y()); row <= last(low.y(), lattice_.rows()); ++row) {
     for (int column = first(low.x()); column <= last(low.x(), lattice_.columns()); ++column) {
+      if (stop.met_at_step()) return;
       const int vertex = lattice_.vertex(column, row);
       const Cell node = nodes_.nearest(lattice_.position(vertex));
       if (!inside(node) || blocks_[block_of(node)] != block || !find_node(node)->fits) continue;
@@ -155,12 +162,13 @@ void FineRegions::begin_at_vertices(int block) {
 }
 
 /// Begins at the nodes of a block beside open blocks.
-void FineRegions::begin_at_open_blocks(int block) {
+void FineRegions::begin_at_open_blocks(int block, StopStride& stop) {
   const Cell begin = begin_of_block_[static_cast<std::size_t>(block)];
   for (int k = 0; k < side_ * side_; ++k) {
     const Cell here{begin.column + k % side_, begin.row + k / side_};
     const bool inner = k % side_ > 0 && k % side_ < side_ - 1 && k / side_ > 0 && k / side_ < side_ - 1;
     if (inner || !inside(here) || !find_node(here)->fits) continue;
+    if (stop.met_at_step()) return;
     for (int step = 0; step < 8; ++step) {
       const Cell next{here.column + kSteps[step].columns, here.row + kSteps[step].rows};
       if (!inside(next)) continue;
@@ -186,10 +194,11 @@ bool FineRegions::may_step(const Cell& from, const Node& from_node, const Cell& 
   return (from_node.ample && to_node.ample) || nodes_.may_step(from, to);
 }
 
-void FineRegions::spread(bool only_unreached) {
+void FineRegions::spread(bool only_unreached, StopStride& stop) {
   for (int length = 0; length <= limit_; ++length) {
     auto& front = front_[static_cast<std::size_t>(length)];
     for (std::size_t k = 0; k < front.size(); ++k) {
+      if (stop.met_at_step()) return;
       const Cell here = front[k];
       const Node node = *find_node(here);
       if (node.length != length) continue;

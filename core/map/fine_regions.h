@@ -9,6 +9,7 @@
 
 #include "core/map/fine_nodes.h"
 #include "core/map/lattice.h"
+#include "core/map/stop_stride.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
@@ -41,10 +42,10 @@ class FineRegions {
   /// Of a vertex of the lattice or an additional one.
   Position position(int vertex) const;
 
-  /// Calls visit(touch) for all places where regions touch. Whether the step between them is free is not
-  /// tested.
+  /// Calls visit(touch) for all places where regions touch, until the stop condition is met. Whether the step
+  /// between them is free is not tested.
   template <class Visit>
-  void for_each_touch(Visit&& visit) const;
+  void for_each_touch(StopStride& stop, Visit&& visit) const;
 
   /// The nodes from one to its vertex, both included.
   std::vector<Position> way_from(Cell here) const;
@@ -64,12 +65,13 @@ class FineRegions {
 
   enum : std::int32_t { kClosed = -1, kOpen = -2 };
 
-  void classify(int block_column, int block_row);
+  void classify(int block_column, int block_row, StopStride& stop);
   std::optional<int> vertex_in_open_block(const Cell& node) const;
-  void begin_at_vertices(int block);
-  void begin_at_open_blocks(int block);
+  void begin_at_vertices(int block, StopStride& stop);
+  void begin_at_open_blocks(int block, StopStride& stop);
+  void add_vertices(int block, StopStride& stop);
   void put(const Cell& here, int vertex, int length, int step);
-  void spread(bool only_unreached);
+  void spread(bool only_unreached, StopStride& stop);
   std::vector<int> nearest_in_blocks(int nodes, int vertices) const;
   bool may_step(const Cell& from, const Node& from_node, const Cell& to, const Node& to_node) const;
   int length_to(const Cell& node, int vertex) const;
@@ -112,9 +114,10 @@ class FineRegions {
 };
 
 template <class Visit>
-void FineRegions::for_each_touch(Visit&& visit) const {
+void FineRegions::for_each_touch(StopStride& stop, Visit&& visit) const {
   for (const Cell& begin : begin_of_block_) {
     for (int row = begin.row; row < std::min(begin.row + side_, nodes_.rows()); ++row) {
+      if (stop.met_at_step()) return;
       for (int column = begin.column; column < std::min(begin.column + side_, nodes_.columns()); ++column) {
         const Cell here{column, row};
         const Node& node = *find_node(here);

@@ -15,6 +15,7 @@ constexpr int kMaxTableSize = 96;
 /// The moves in angular order; each doubling inserts the sum of every two neighbours.
 std::vector<Lattice::Step> neighbourhood(int connectivity) {
   std::vector<Lattice::Step> steps{{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+  // Bounded: the connectivity, which is small.
   while (static_cast<int>(steps.size()) < connectivity) {
     std::vector<Lattice::Step> finer;
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -46,6 +47,7 @@ Lattice::Lattice(const OccupancyGrid& grid, int connectivity, double spacing)
       table_columns_(std::min(columns_, kMaxTableSize)),
       table_rows_(std::min(rows_, kMaxTableSize)) {
   first_quadrant_.reserve(static_cast<std::size_t>(table_columns_) * static_cast<std::size_t>(table_rows_));
+  // Bounded: kMaxTableSize * kMaxTableSize.
   for (int row = 0; row < table_rows_; ++row) {
     for (int column = 0; column < table_columns_; ++column) {
       first_quadrant_.push_back(displacement(column, row));
@@ -82,6 +84,7 @@ std::vector<int> Lattice::vertices_near(const Position& position, double distanc
   const int row_min = std::max(0, static_cast<int>(std::ceil(index(position.y() - distance))));
   const int row_max = std::min(rows_ - 1, static_cast<int>(std::floor(index(position.y() + distance))));
   std::vector<int> near;
+  // Bounded: callers ask for vertices within a few spacings.
   for (int row = row_min; row <= row_max; ++row) {
     for (int column = column_min; column <= column_max; ++column) {
       const int candidate = vertex(column, row);

@@ -11,6 +11,10 @@ namespace fleetplan::core {
 namespace {
 
 constexpr int kBand = 64;  // rows
+/// Cells: for a larger disk, squares of kBand x kBand cells are looked at before cells.
+constexpr double kLargeDisk = 128.0;
+
+int bands(int cells) { return (cells + kBand - 1) / kBand; }
 /// Cells; far above the rounding of positions. Closer cases are left to the exact test.
 constexpr double kBoundsRounding = 1e-7;
 /// Cells: shorter steps along a move are not worth their cost, and so far the exact test looks then.
@@ -70,24 +74,36 @@ class UpperBoundary {
 
 }  // namespace
 
-LineOfSight::Cells::Cells(const OccupancyGrid& grid)
-    : distances(grid),
-      blocked(static_cast<std::size_t>((grid.rows() + kBand - 1) / kBand) *
-              static_cast<std::size_t>(grid.columns())) {
+LineOfSight::Cells::Cells(const OccupancyGrid& grid, const StopCondition& stop)
+    : distances(grid, stop),
+      blocked(static_cast<std::size_t>(bands(grid.rows())) * static_cast<std::size_t>(grid.columns())),
+      blocked_squares(static_cast<std::size_t>(bands(grid.rows())) *
+                      static_cast<std::size_t>(bands(grid.columns()))) {
+  if (!distances.finished()) return;
   for (int row = 0; row < grid.rows(); ++row) {
+    if (row % kBand == 0 && stop.met()) return;
     std::uint64_t* band =
         &blocked[static_cast<std::size_t>(row / kBand) * static_cast<std::size_t>(grid.columns())];
     for (int column = 0; column < grid.columns(); ++column) {
       band[column] |= std::uint64_t{grid.blocked({column, row})} << static_cast<unsigned>(row % kBand);
     }
   }
+  std::size_t square = 0;
+  for (auto band = blocked.begin(); band != blocked.end(); band += grid.columns()) {
+    for (int column = 0; column < grid.columns(); column += kBand) {
+      const int end = std::min(column + kBand, grid.columns());
+      blocked_squares[square++] =
+          std::any_of(band + column, band + end, [](std::uint64_t rows) { return rows != 0; });
+    }
+  }
+  finished = true;
 }
 
-LineOfSight::LineOfSight(const OccupancyGrid& grid)
+LineOfSight::LineOfSight(const OccupancyGrid& grid, const StopCondition& stop)
     : columns_(grid.columns()),
       rows_(grid.rows()),
       cells_per_metre_(1.0 / grid.resolution()),
-      cells_(std::make_shared<const Cells>(grid)) {}
+      cells_(std::make_shared<const Cells>(grid, stop)) {}
 
 LineOfSight::LineOfSight(const LineOfSight& walls, BlockedPolygons polygons)
     : columns_(walls.columns_),
@@ -97,7 +113,8 @@ LineOfSight::LineOfSight(const LineOfSight& walls, BlockedPolygons polygons)
       polygons_(std::move(polygons)) {}
 
 std::size_t LineOfSight::bytes() const {
-  return cells_->distances.bytes() + cells_->blocked.capacity() * sizeof(std::uint64_t);
+  return cells_->distances.bytes() + cells_->blocked.capacity() * sizeof(std::uint64_t) +
+         cells_->blocked_squares.capacity();
 }
 
 bool LineOfSight::clears_polygons(const Position& from, const Position& to, double radius) const {
@@ -118,6 +135,14 @@ bool LineOfSight::is_blocked(int column, int row_min, int row_max) const {
     }
   }
   return false;
+}
+
+bool LineOfSight::squares_free(int column, int row_min, int row_max) const {
+  for (int band = row_min / kBand; band <= row_max / kBand; ++band) {
+    const int square = band * bands(columns_) + column / kBand;
+    if (cells_->blocked_squares[static_cast<std::size_t>(square)] != 0) return false;
+  }
+  return true;
 }
 
 bool LineOfSight::may_sweep(const Position& from, const Position& to, double radius) const {
@@ -230,13 +255,23 @@ bool LineOfSight::columns_free(const Capsule& capsule) const {
   const double lowest_at = b.y() >= a.y() ? a.x() : b.x();
   const UpperBoundary above(a, b, r);
   const UpperBoundary below({a.x(), -a.y()}, {b.x(), -b.y()}, r);
-  for (int column = column_min; column <= column_max; ++column) {
+  // The first and the last row that the capsule overlaps in so many columns.
+  const auto rows_of = [&](int column, int columns) {
     const double x_min = std::max<double>(column, left);
-    const double x_max = std::min<double>(column + 1, right);
+    const double x_max = std::min<double>(column + columns, right);
     const double top = above.at(std::clamp(highest_at, x_min, x_max));
     const double bottom = -below.at(std::clamp(lowest_at, x_min, x_max));
-    const int row_min = std::max(0, floor_int(bottom));
-    const int row_max = std::min(rows_ - 1, last_cell(top));
+    return std::pair(std::max(0, floor_int(bottom)), std::min(rows_ - 1, last_cell(top)));
+  };
+  for (int column = column_min; column <= column_max; ++column) {
+    if (r > kLargeDisk && column % kBand == 0) {
+      const auto [first, last] = rows_of(column, kBand);
+      if (squares_free(column, first, last)) {
+        column += kBand - 1;
+        continue;
+      }
+    }
+    const auto [row_min, row_max] = rows_of(column, 1);
     if (row_min <= row_max && is_blocked(column, row_min, row_max)) return false;
   }
   return true;

@@ -9,6 +9,7 @@
 #include "core/map/blocked_polygons.h"
 #include "core/map/distance_transform.h"
 #include "core/map/occupancy_grid.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 
@@ -23,9 +24,12 @@ namespace fleetplan::core {
 /// highest, clamped to the column.
 class LineOfSight {
  public:
-  explicit LineOfSight(const OccupancyGrid& grid);
+  /// Not finished(), and not to be used, if `stop` is met first.
+  LineOfSight(const OccupancyGrid& grid, const StopCondition& stop);
   /// With polygons that are blocked, too. What is derived from the grid is shared.
   LineOfSight(const LineOfSight& walls, BlockedPolygons polygons);
+
+  bool finished() const { return cells_->finished; }
 
   /// Returns whether a disk may stand at `center`. Contact with an obstacle (to within kSearchSlack) is
   /// allowed.
@@ -60,10 +64,13 @@ class LineOfSight {
     double radius;
   };
   struct Cells {
-    explicit Cells(const OccupancyGrid& grid);
+    Cells(const OccupancyGrid& grid, const StopCondition& stop);
 
     DistanceTransform distances;
     std::vector<std::uint64_t> blocked;  // a bit for each of 64 rows; by band of rows, then column
+    /// Whether any cell is blocked in a square of 64 x 64; by band of rows, then square.
+    std::vector<std::uint8_t> blocked_squares;
+    bool finished = false;
   };
   /// The distance of a point from the nearest blocked cell, in cells.
   struct Bounds {
@@ -77,6 +84,8 @@ class LineOfSight {
   Bounds distance_from_cells(const Position& point) const;
   /// Whether a cell of a column is blocked; rows inclusive and inside the map.
   bool is_blocked(int column, int row_min, int row_max) const;
+  /// Whether the squares of these rows in the 64 columns from `column` on, a multiple of 64, are free.
+  bool squares_free(int column, int row_min, int row_max) const;
 
   int columns_;
   int rows_;

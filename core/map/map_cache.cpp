@@ -99,8 +99,8 @@ class MapCache::Shelf {
 MapCache::MapCache(std::size_t most_bytes)
     : shelf_(most_bytes > 0 ? std::make_shared<Shelf>(most_bytes) : nullptr) {}
 
-std::shared_ptr<const StaticMap> MapCache::map_of(OccupancyGrid grid) {
-  if (!shelf_) return std::make_shared<const StaticMap>(std::move(grid));
+std::shared_ptr<const StaticMap> MapCache::map_of(OccupancyGrid grid, const StopCondition& stop) {
+  if (!shelf_) return static_map(std::move(grid), stop);
   const auto in_use = [this](const Shelf::Map& map) {
     return Shelf::Map(map.get(), [shelf = shelf_](const StaticMap* used) { shelf->give_back(used); });
   };
@@ -108,7 +108,8 @@ std::shared_ptr<const StaticMap> MapCache::map_of(OccupancyGrid grid) {
   Shelf::Map kept = shelf_->take(hash, grid);
   Shelf::Map made;
   if (!kept) {
-    made = std::make_shared<const StaticMap>(std::move(grid));
+    made = static_map(std::move(grid), stop);
+    if (!made) return nullptr;
     kept = shelf_->put(hash, made);
   }
   Shelf::Map map = in_use(kept);

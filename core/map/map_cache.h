@@ -25,9 +25,9 @@ class MapCache {
   /// 0 bytes: keeps no map and counts nothing.
   explicit MapCache(std::size_t most_bytes);
 
-  /// The map of a grid; never null. It may outlive the cache. Throws std::bad_alloc if the job of this thread
-  /// is not granted the memory.
-  std::shared_ptr<const StaticMap> map_of(OccupancyGrid grid);
+  /// The map of a grid; null if `stop` is met before it is made. It may outlive the cache. Throws
+  /// std::bad_alloc if the job of this thread is not granted the memory.
+  std::shared_ptr<const StaticMap> map_of(OccupancyGrid grid, const StopCondition& stop);
 
   Stats stats() const;
 

@@ -23,6 +23,7 @@ double obstacle_distance(const OccupancyGrid& grid, const Position& position, do
   const Cell centre = grid.cell_at(position);
   // Row after row away from the position, and in each row cell after cell, as long as they can be nearer.
   const auto look_along_row = [&](int row, double dy) {
+    // Bounded: the cells of a row nearer than `limit`; a request has few faults whose distance is wanted.
     for (const int step : {1, -1}) {
       for (int column = centre.column; column >= 0 && column < grid.columns(); column += step) {
         const double dx = distance_to_cell(position.x(), column, resolution);
@@ -33,6 +34,7 @@ double obstacle_distance(const OccupancyGrid& grid, const Position& position, do
       }
     }
   };
+  // Bounded: the rows nearer than `limit`.
   for (const int step : {1, -1}) {
     for (int row = centre.row; row >= 0 && row < grid.rows(); row += step) {
       const double dy = distance_to_cell(position.y(), row, resolution);

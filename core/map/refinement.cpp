@@ -19,6 +19,7 @@
 #include "core/map/fine_nodes.h"
 #include "core/map/fine_regions.h"
 #include "core/map/free_space.h"
+#include "core/map/stop_stride.h"
 
 namespace fleetplan::core {
 namespace {
@@ -42,8 +43,9 @@ constexpr double kLinkDistance = 1.5;
 constexpr double kTurnAtCorner = 0.25 * std::numbers::pi;
 /// Of several vertices at corners that lie in one square of this size, in radii, one suffices.
 constexpr double kCornerSize = 0.35;
-/// Places where regions touch between two checks of the stop condition.
+/// Nodes, corners, links or bridges between two checks of the stop condition; fewer where each takes long.
 constexpr int kStopStride = 64;
+constexpr int kCostlyStopStride = 2;
 
 bool is_coarse(const OccupancyGrid& grid, const Lattice& lattice) {
   return lattice.spacing() > kCoarseCells * grid.resolution();
@@ -59,7 +61,8 @@ bool may_have_tight_gaps(const OccupancyGrid& grid, double radius) {
 class Refinement {
  public:
   Refinement(const FineNodes& nodes, const FineRegions& regions, const LineOfSight& sight,
-             const Lattice& lattice, double radius, double needed, double way_round)
+             const Lattice& lattice, double radius, double needed, double way_round,
+             const StopCondition& stop)
       : nodes_(nodes),
         regions_(regions),
         sight_(sight),
@@ -67,6 +70,7 @@ class Refinement {
         needed_(needed),
         way_round_(way_round),
         space_(lattice, sight, radius),
+        stop_(stop, nodes.are_costly() ? kCostlyStopStride : kStopStride),
         added_(regions.added()) {}
 
   /// Adds vertices around the convex corners of obstacles, where the shortest paths bend.
@@ -74,16 +78,17 @@ class Refinement {
   /// The same around those of polygons.
   void add_corners(const Polygon& polygon);
 
-  std::optional<FinerVertices> run(const StopCondition& stop) {
-    std::vector<Bridge> bridges = find_bridges();
-    int count = 0;
+  /// None if the stop condition was met.
+  std::optional<FinerVertices> run() {
+    const std::vector<Bridge> bridges = find_bridges();
     for (const Bridge& bridge : bridges) {
-      if (++count % kStopStride == 0 && stop.met()) return std::nullopt;
+      if (stop_.met_at_step()) break;
       const double length = bridge.length * nodes_.pitch() / FineRegions::kAxis;
       const double limit = kLongWay * length + way_round_ * lattice_.spacing();
       if (!are_joined(bridge.from, bridge.to, limit)) build(bridge);
     }
     link_to_lattice();
+    if (stop_.met()) return std::nullopt;
     return FinerVertices(lattice_.vertex_count(), std::move(added_), std::move(links_));
   }
 
@@ -119,6 +124,7 @@ class Refinement {
   double needed_;  // radius on the way over nodes
   double way_round_;
   FreeSpace space_;
+  StopStride stop_;
   std::vector<Position> added_;
   std::vector<FinerVertices::Link> links_;
   std::set<std::pair<int, int>> squares_with_corners_;
@@ -128,7 +134,8 @@ class Refinement {
 /// The shortest bridge between every two vertices that have one but no move between them, shorter ones first.
 std::vector<Refinement::Bridge> Refinement::find_bridges() {
   std::unordered_map<std::uint64_t, Bridge> shortest;
-  regions_.for_each_touch([&](const FineRegions::Touch& touch) {
+  regions_.for_each_touch(stop_, [&](const FineRegions::Touch& touch) {
+    if (stop_.met_at_step()) return;
     const bool in_order = touch.one_vertex < touch.other_vertex;
     if (is_one_move(in_order ? touch.one_vertex : touch.other_vertex,
                     in_order ? touch.other_vertex : touch.one_vertex)) {
@@ -216,10 +223,10 @@ void Refinement::build(const Bridge& bridge) {
   for (const Position& place : regions_.way_from(bridge.near_to)) way.push_back(place);
   int last = bridge.from;
   std::size_t at = 0;
-  while (at + 1 < way.size()) {
+  while (at + 1 < way.size() && !stop_.met()) {
     std::size_t next = way.size() - 1;
     const double most = next - at > 1 ? 2.0 * lattice_.spacing() : kForever;
-    while (next > at + 1 &&
+    while (next > at + 1 && !stop_.met_at_step() &&
            ((way[next] - way[at]).norm() > most || !sight_.may_sweep(way[at], way[next], needed_))) {
       --next;
     }
@@ -242,11 +249,12 @@ void Refinement::link(int from, int to) {
 
 void Refinement::add_corners(const OccupancyGrid& grid) {
   const double away = needed_ / std::cos(0.5 * kTurnAtCorner);
-  for (int row = 1; row < grid.rows(); ++row) {
+  for (int row = 1; row < grid.rows() && !stop_.met_at_step(); ++row) {
     for (int column = 1; column < grid.columns(); ++column) {
       const bool left = grid.blocked({column - 1, row - 1}) != grid.blocked({column - 1, row});
       const bool right = grid.blocked({column, row - 1}) != grid.blocked({column, row});
       if (left == right) continue;  // no corner, or two that touch
+      if (stop_.met_at_step()) return;
       const int behind = left ? column - 1 : column;
       const int beside = left ? column : column - 1;
       if (grid.blocked({beside, row})) continue;  // a concave one
@@ -264,7 +272,7 @@ void Refinement::add_corners(const Polygon& polygon) {
   const double away = needed_ / std::cos(0.5 * kTurnAtCorner);
   const std::vector<Position>& corners = polygon.corners();
   const double order = polygon.twice_signed_area() > 0.0 ? 1.0 : -1.0;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
+  for (std::size_t k = 0; k < corners.size() && !stop_.met_at_step(); ++k) {
     const Position& corner = corners[k];
     const Position in = corner - corners[(k + corners.size() - 1) % corners.size()];
     const Position out = corners[(k + 1) % corners.size()] - corner;
@@ -283,6 +291,7 @@ void Refinement::add_corners(const Polygon& polygon) {
 void Refinement::add_corner(const Position& wanted) {
   const Cell nearest = nodes_.nearest(wanted);
   std::optional<Position> best;
+  // Bounded: the nodes around one place.
   for (int row = nearest.row - 1; row <= nearest.row + 1; ++row) {
     for (int column = nearest.column - 1; column <= nearest.column + 1; ++column) {
       if (column < 0 || row < 0 || column >= nodes_.columns() || row >= nodes_.rows()) continue;
@@ -306,7 +315,7 @@ void Refinement::add_corner(const Position& wanted) {
 void Refinement::link_to_lattice() {
   const auto count = static_cast<int>(added_.size());
   const FinerVertices all(lattice_.vertex_count(), added_, {});
-  for (int k = 0; k < count; ++k) {
+  for (int k = 0; k < count && !stop_.met_at_step(); ++k) {
     const Position& here = added_[static_cast<std::size_t>(k)];
     for (const int vertex : lattice_.vertices_near(here, kLinkDistance * lattice_.spacing())) {
       const Position there = lattice_.position(vertex);
@@ -315,6 +324,7 @@ void Refinement::link_to_lattice() {
     }
     for (const int other : all.near(here, kLinkDistance * lattice_.spacing())) {
       if (other <= lattice_.vertex_count() + k) continue;
+      if (stop_.met_at_step()) return;
       if (sight_.may_sweep(here, all.position(other), needed_)) {
         links_.emplace_back(lattice_.vertex_count() + k, other);
       }
@@ -344,10 +354,11 @@ std::optional<FinerVertices> refine(const OccupancyGrid& grid, const LineOfSight
   const FineNodes nodes(grid, sight, needed, half);
   FineRegions regions(nodes, lattice, needed, sight);
   if (!regions.find(stop)) return std::nullopt;
-  Refinement refinement(nodes, regions, sight, lattice, radius, needed, half ? kWayRoundCells : kWayRound);
+  Refinement refinement(nodes, regions, sight, lattice, radius, needed, half ? kWayRoundCells : kWayRound,
+                        stop);
   if (!half) refinement.add_corners(grid);
   for (const Polygon& polygon : sight.polygons().polygons()) refinement.add_corners(polygon);
-  return refinement.run(stop);
+  return refinement.run();
 }
 
 }  // namespace fleetplan::core

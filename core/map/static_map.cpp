@@ -6,9 +6,9 @@
 
 namespace fleetplan::core {
 
-StaticMap::StaticMap(OccupancyGrid grid)
+StaticMap::StaticMap(OccupancyGrid grid, const StopCondition& stop)
     : grid_(std::make_shared<OccupancyGrid>(std::move(grid))),
-      sight_(*grid_),
+      sight_(*grid_, stop),
       own_bytes_(sizeof(StaticMap) + static_cast<std::size_t>(grid_->cell_count()) + sight_.bytes()) {}
 
 StaticMap::StaticMap(std::shared_ptr<const StaticMap> walls, std::vector<Polygon> polygons)
@@ -20,6 +20,11 @@ std::shared_ptr<const FinerVertices> StaticMap::known(const Kind& kind) const {
   const std::lock_guard lock(mutex_);
   const auto found = finer_.find(kind);
   return found != finer_.end() ? found->second : nullptr;
+}
+
+std::shared_ptr<const StaticMap> static_map(OccupancyGrid grid, const StopCondition& stop) {
+  auto map = std::make_shared<const StaticMap>(std::move(grid), stop);
+  return map->finished() ? map : nullptr;
 }
 
 /// Computed without the lock, so that no request waits for another one.

@@ -20,10 +20,12 @@ namespace fleetplan::core {
 /// share it. What only some requests need is computed on first use.
 class StaticMap {
  public:
-  explicit StaticMap(OccupancyGrid grid);
+  /// Not finished(), and not to be used, if `stop` is met first.
+  StaticMap(OccupancyGrid grid, const StopCondition& stop);
   /// Another map (not null) with polygons that are blocked, too.
   StaticMap(std::shared_ptr<const StaticMap> walls, std::vector<Polygon> polygons);
 
+  bool finished() const { return sight_.finished(); }
   const OccupancyGrid& grid() const { return *grid_; }
   const LineOfSight& sight() const { return sight_; }
 
@@ -49,5 +51,8 @@ class StaticMap {
   mutable std::map<Kind, std::shared_ptr<const FinerVertices>> finer_;
   mutable std::atomic<std::size_t> finer_bytes_{0};
 };
+
+/// The map of a grid; null if `stop` is met first.
+std::shared_ptr<const StaticMap> static_map(OccupancyGrid grid, const StopCondition& stop);
 
 }  // namespace fleetplan::core

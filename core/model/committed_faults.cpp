@@ -119,6 +119,7 @@ class CommittedFaults {
     double own = robot.radius;
     for (const Action& action : robot.committed) {
       if (action.type != Action::Type::translate) continue;
+      if (stop_.met()) return;
       for (; step != steps.end() && step->t <= action.t_start; ++step) {
         own = step->radius;
         full = own - kContactTolerance + kSearchSlack;
@@ -145,12 +146,13 @@ class CommittedFaults {
     const bool meets_wall = !maps_.map()->sight().may_sweep(action.from.position, at(blocked), radius);
     const auto zone =
         meets_wall ? std::nullopt : nearest_blocked_zone(conditions_.zones, index, at(blocked), kForever);
+    const Zone* const in_zone = zone ? &conditions_.zones[zone->index] : nullptr;
     double gap = 0.0;
-    for (int k = 0; k <= kMeasured; ++k) {
+    for (int k = 0; k <= kMeasured && !stop_.met(); ++k) {
       const Position place = at(blocked + (1.0 - blocked) * k / kMeasured);
-      gap = std::min(gap, (zone ? distance_to_zone(conditions_.zones[zone->index], place)
-                                : obstacle_distance(maps_.map()->grid(), place, own)) -
-                              own);
+      const double distance = in_zone != nullptr ? distance_to_zone(*in_zone, place)
+                                                 : obstacle_distance(maps_.map()->grid(), place, own);
+      gap = std::min(gap, distance - own);
     }
     const double t = action.t_start + blocked * (action.t_end - action.t_start);
     ProblemFault fault{ProblemFault::Kind::committed_collision, index, index, gap, 0, t};
@@ -163,6 +165,7 @@ class CommittedFaults {
     const DriveZones zones(conditions_.zones, index, robots_[index]);
     if (zones.empty()) return;
     for (const Action& action : robots_[index].committed) {
+      if (stop_.met()) return;
       const auto zone = zones.broken_by(action);
       if (!zone) continue;
       ProblemFault fault{ProblemFault::Kind::committed_in_zone, index, index, 0.0, 0, action.t_start};

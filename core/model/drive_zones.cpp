@@ -104,6 +104,7 @@ std::optional<std::size_t> DriveZones::broken_by(const Action& action) const {
   }
   if (action.type != Action::Type::translate || from == to) return std::nullopt;
   const double length = (to - from).norm();
+  // Bounded: the sides of all zones, each once.
   for (const SpeedZone& zone : speed_) {
     for (const Polygon::Span& span : zone.polygon.spans_inside(from, to)) {
       const double share = span.last - span.first;
@@ -120,6 +121,7 @@ std::vector<DriveZones::Piece> DriveZones::pieces(const Position& from, const Po
   };
   std::vector<Slow> slow;
   std::vector<double> ends{1.0};
+  // Bounded: the sides of all zones, each once.
   for (const SpeedZone& zone : speed_) {
     if (zone.linear_speed >= linear_speed_) continue;
     for (const Polygon::Span& span : zone.polygon.spans_inside(from, to)) {
@@ -130,15 +132,26 @@ std::vector<DriveZones::Piece> DriveZones::pieces(const Position& from, const Po
   }
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::sort(slow.begin(), slow.end(),
+            [](const Slow& a, const Slow& b) { return a.span.first < b.span.first; });
+  const auto is_faster = [](const Slow& a, const Slow& b) { return a.speed > b.speed; };
+  std::vector<Slow> entered;  // a heap, the slowest at its front
+  auto next = slow.begin();
   std::vector<Part> parts;
   double first = 0.0;
+  // Bounded: each span is entered and left once.
   for (const double last : ends) {
     const double middle = 0.5 * (first + last);
     Part part{last, linear_speed_};
-    for (const Slow& zone : slow) {
-      if (zone.span.first <= middle && middle <= zone.span.last)
-        part.speed = std::min(part.speed, zone.speed);
+    for (; next != slow.end() && next->span.first <= middle; ++next) {
+      entered.push_back(*next);
+      std::push_heap(entered.begin(), entered.end(), is_faster);
     }
+    while (!entered.empty() && entered.front().span.last < middle) {
+      std::pop_heap(entered.begin(), entered.end(), is_faster);
+      entered.pop_back();
+    }
+    if (!entered.empty()) part.speed = std::min(part.speed, entered.front().speed);
     parts.push_back(part);
     first = last;
   }

@@ -14,6 +14,8 @@ namespace {
 
 /// However much a start may overlap a wall, this fraction of the disk keeps clear of it.
 constexpr double kClearOfWalls = 1e-3;
+/// Goals of a robot between two checks of the stop condition.
+constexpr std::size_t kGoalsBetweenStops = 16;
 
 /// Finds the faults of robot after robot. Exact distances are computed only for faults that are listed.
 class FaultSearch {
@@ -29,7 +31,7 @@ class FaultSearch {
     const std::vector<ProblemFault> committed = committed_faults(maps_, robots_, conditions_, stop_);
     auto next = committed.begin();
     for (std::size_t i = 0; i < robots_.size(); ++i) {
-      if (stop_.met()) {
+      if (!faults_.finished || stop_.met()) {
         faults_.finished = false;
         break;
       }
@@ -85,6 +87,10 @@ class FaultSearch {
           {ProblemFault::Kind::start_in_obstacle, index, 0, 0.0, 0, 0.0, robot.radius});
     double arrives = robot.radius;
     for (std::size_t k = 0; k < robot.goal_count(); ++k) {
+      if (k % kGoalsBetweenStops == kGoalsBetweenStops - 1 && stop_.met()) {
+        faults_.finished = false;
+        return;
+      }
       const double leaves = robot.goal_at(k).radius_after.value_or(arrives);
       const double larger = std::max(arrives, leaves);
       check(robot.goal_at(k).position, clear(larger),
@@ -121,6 +127,12 @@ class FaultSearch {
   ProblemFaults faults_;
 };
 
+ProblemFaults unfinished() {
+  ProblemFaults faults;
+  faults.finished = false;
+  return faults;
+}
+
 }  // namespace
 
 Problem::Problem(ZoneMaps maps, std::vector<Robot> robots, std::vector<MovingObstacle> obstacles,
@@ -133,13 +145,16 @@ Problem::Problem(ZoneMaps maps, std::vector<Robot> robots, std::vector<MovingObs
 std::variant<Problem, ProblemFaults> Problem::create(OccupancyGrid grid, std::vector<Robot> robots,
                                                      ProblemConditions conditions,
                                                      const StopCondition& stop) {
-  return create(std::make_shared<StaticMap>(std::move(grid)), std::move(robots), std::move(conditions), stop);
+  auto map = static_map(std::move(grid), stop);
+  if (!map) return unfinished();
+  return create(std::move(map), std::move(robots), std::move(conditions), stop);
 }
 
 std::variant<Problem, ProblemFaults> Problem::create(std::shared_ptr<const StaticMap> map,
                                                      std::vector<Robot> robots, ProblemConditions conditions,
                                                      const StopCondition& stop) {
-  ZoneMaps maps(std::move(map), conditions.zones, robots.size());
+  ZoneMaps maps(std::move(map), conditions.zones, robots.size(), stop);
+  if (!maps.finished()) return unfinished();
   ProblemFaults faults = FaultSearch(maps, robots, conditions, stop).run();
   if (faults.total > 0 || !faults.finished) return faults;
   return Problem(std::move(maps), std::move(robots), std::move(conditions.obstacles),

@@ -28,13 +28,18 @@ std::shared_ptr<const StaticMap> with_zones(const std::shared_ptr<const StaticMa
 
 }  // namespace
 
-ZoneMaps::ZoneMaps(std::shared_ptr<const StaticMap> map, const std::vector<Zone>& zones, std::size_t robots)
+ZoneMaps::ZoneMaps(std::shared_ptr<const StaticMap> map, const std::vector<Zone>& zones, std::size_t robots,
+                   const StopCondition& stop)
     : maps_{std::move(map)} {
   const bool any = std::any_of(zones.begin(), zones.end(),
                                [](const Zone& zone) { return zone.type == Zone::Type::blocked; });
   if (!any) return;
   std::map<Zones, std::size_t> known{{{}, 0}};
   for (std::size_t robot = 0; robot < robots; ++robot) {
+    if (stop.met()) {
+      finished_ = false;
+      return;
+    }
     const Zones blocked = blocked_for(robot, zones);
     const auto [found, is_new] = known.emplace(blocked, maps_.size());
     if (is_new) maps_.push_back(with_zones(maps_.front(), blocked, zones));

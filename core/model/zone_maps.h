@@ -7,6 +7,7 @@
 
 #include "core/map/static_map.h"
 #include "core/model/zone.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 
@@ -14,8 +15,11 @@ namespace fleetplan::core {
 /// Robots with the same zones share theirs.
 class ZoneMaps {
  public:
-  /// `map` is not null.
-  ZoneMaps(std::shared_ptr<const StaticMap> map, const std::vector<Zone>& zones, std::size_t robots);
+  /// `map` is not null. Not finished(), and not to be used, if `stop` is met first.
+  ZoneMaps(std::shared_ptr<const StaticMap> map, const std::vector<Zone>& zones, std::size_t robots,
+           const StopCondition& stop);
+
+  bool finished() const { return finished_; }
 
   /// Without zones. Never null.
   const std::shared_ptr<const StaticMap>& map() const { return maps_.front(); }
@@ -26,6 +30,7 @@ class ZoneMaps {
  private:
   std::vector<std::shared_ptr<const StaticMap>> maps_;  // the first one has no zones
   std::vector<std::size_t> map_of_;                     // by robot; empty if no zone is blocked
+  bool finished_ = true;
 };
 
 /// How far a position is from a zone, metres; 0 inside.

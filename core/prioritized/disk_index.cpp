@@ -33,6 +33,7 @@ void DiskIndex::add(std::size_t robot, const Position& center) {
 std::vector<std::size_t> DiskIndex::overlapping(std::size_t robot, At at, const Position& center) const {
   std::vector<std::size_t> found;
   const double mine = radius(robot, at);
+  // Bounded: the robots, each at most once.
   for (std::int64_t column = bucket(center.x()) - 1; column <= bucket(center.x()) + 1; ++column) {
     for (std::int64_t row = bucket(center.y()) - 1; row <= bucket(center.y()) + 1; ++row) {
       const auto disks = buckets_.find(key(column, row));

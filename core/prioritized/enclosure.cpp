@@ -77,6 +77,7 @@ Enclosure::Result Enclosure::find(std::int64_t max_steps) {
   Flood last = flood(max_steps);
   if (last.answer != Answer::closed) return {last.answer, {}};
   std::vector<Disk*> removed;
+  // Bounded: each robot is removed once, and each flood ends after max_steps.
   while (last.answer == Answer::closed) {
     const std::vector<Disk*>& closing = last.closing[last.closed_side];
     if (closing.empty()) return {Answer::closed, {}};
@@ -128,6 +129,7 @@ Enclosure::Flood Enclosure::flood(std::int64_t max_steps) {
     flood.cells[side].push_back(begins[side]);
   }
   if (begins[0] == begins[1]) flood.answer = Answer::open;
+  // Bounded: max_steps.
   while (flood.answer == Answer::unknown && steps_ <= max_steps) {
     for (std::size_t side = 0; side < Flood::kSides.size() && flood.answer == Answer::unknown; ++side) {
       expand(flood, side);
@@ -221,6 +223,7 @@ std::pair<Cell, Cell> Enclosure::cells_near(const Border& border) {
 
 void Enclosure::cover_by_obstacles(const Border& border) {
   const auto [low, high] = cells_near(border);
+  // Bounded: the cells near one border; they count as steps.
   for (int row = low.row; row <= high.row; ++row) {
     for (int column = low.column; column <= high.column; ++column) {
       if (!grid_.blocked({column, row})) continue;  // cells outside the map are

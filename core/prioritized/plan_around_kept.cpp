@@ -75,6 +75,7 @@ class PlanningAroundKept {
     }
     std::vector<std::size_t> staying = others_;
     for (const std::size_t robot : staying) stays[robot] = true;
+    // Bounded: each robot begins to stay once.
     for (std::size_t k = 0; k < staying.size(); ++k) {  // staying grows
       for (const std::size_t crossing : state_.robots_crossing_start(staying[k])) {
         if (stays[crossing] || !state_.trajectory(crossing)) continue;

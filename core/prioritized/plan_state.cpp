@@ -18,6 +18,8 @@ constexpr std::int64_t kOffLatticeSteps = 50'000;
 constexpr double kWidestCells = 3.0;
 /// Expansions of a search on the map before Enclosure is asked.
 constexpr std::int64_t kFirstExpansions = 16'384;
+/// Goals of a robot between two checks of the stop condition.
+constexpr std::size_t kGoalsBetweenStops = 16;
 
 std::vector<double> radii(const Instance& instance) {
   std::vector<double> radii;
@@ -210,11 +212,12 @@ SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, co
     const Way& way = way_to_goal(robot, kAnyNumber, stop);
     if (way.kind == Way::Kind::unknown) return no_memory();
     if (way.none()) return {};
-    SearchSpace& space = search_spaces_.of(robot);
+    SearchSpace* space = search_spaces_.of(robot, stop);
+    if (space == nullptr) return no_memory();
     SearchLimits within = limits;
     within.bound = std::min(limits.bound, instance_.longest_plan(robot));
     within.horizon = instance_.options().horizon.value_or(kForever);
-    return search_.run(robot, space, within, stop);
+    return search_.run(robot, *space, within, stop);
   };
   const std::int64_t shortages = memory_shortages();
   SearchResult result = within_memory(no_memory(), search_once);
@@ -243,9 +246,11 @@ SearchResult PlanState::plan_ignoring(const std::vector<std::size_t>& ignored, s
   return result;
 }
 
-bool PlanState::can_leave_start(std::size_t robot) {
+bool PlanState::can_leave_start(std::size_t robot, const StopCondition& stop) {
   return within_memory(true, [&] {
-    const Vertices& vertices = search_spaces_.of(robot).vertices();
+    SearchSpace* space = search_spaces_.of(robot, stop);
+    if (space == nullptr) return true;
+    const Vertices& vertices = space->vertices();
     bool can_leave = false;
     vertices.for_each_neighbour(vertices.start(), [&](int) { can_leave = true; });
     return can_leave;
@@ -263,30 +268,33 @@ const Way& PlanState::way_to_goal(std::size_t robot, std::int64_t max_expansions
 }
 
 void PlanState::find_way(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop) {
-  SearchSpace& space = search_spaces_.of(robot);
-  const std::int64_t before = space.expansions();
-  for (std::size_t goal = 0; goal < space.goal_count(); ++goal) {
+  SearchSpace* space = search_spaces_.of(robot, stop);
+  if (space == nullptr) return;
+  std::int64_t left = max_expansions;
+  for (std::size_t goal = 0; goal < space->goal_count(); ++goal) {
     ways_[robot] = {};
-    find_leg(robot, goal, max_expansions - (space.expansions() - before), stop);
+    if (goal % kGoalsBetweenStops == kGoalsBetweenStops - 1 && stop.met()) break;
+    left -= find_leg(robot, *space, goal, left, stop);
     if (ways_[robot].kind != Way::Kind::on_lattice) break;
   }
-  map_expansions_ += space.expansions() - before;
+  map_expansions_ += max_expansions - left;
 }
 
-/// The way to a goal from the one before, or from where the plan begins.
-void PlanState::find_leg(std::size_t robot, std::size_t goal, std::int64_t max_expansions,
-                         const StopCondition& stop) {
+/// The way to a goal from the one before, or from where the plan begins. Returns the expansions.
+std::int64_t PlanState::find_leg(std::size_t robot, SearchSpace& space, std::size_t goal,
+                                 std::int64_t max_expansions, const StopCondition& stop) {
   Way& way = ways_[robot];
-  SearchSpace& space = search_spaces_.of(robot);
   const int from = space.begin_of(goal);
   if (from == space.goal(goal).vertex) {
     way.kind = Way::Kind::on_lattice;
-    return;
+    return 0;
   }
+  CostToGo& costs = space.cost_to_go(goal);
+  const std::int64_t before = costs.expansions();
   std::int64_t last = 0;
   for (std::int64_t next = kFirstExpansions; way.kind == Way::Kind::unknown && last < max_expansions;) {
     const std::int64_t count = std::min(next, max_expansions) - last;
-    const auto reaches = space.cost_to_go(goal).reaches(from, count, stop);
+    const auto reaches = costs.reaches(from, count, stop);
     last += count;
     next *= 2;
     if (reaches && *reaches) way.kind = Way::Kind::on_lattice;
@@ -296,6 +304,7 @@ void PlanState::find_leg(std::size_t robot, std::size_t goal, std::int64_t max_e
     if (reaches || stop.met()) break;
     test_enclosure(robot, kEnclosureSteps * last);
   }
+  return costs.expansions() - before;
 }
 
 /// For a robot without a way on the lattice: whether obstacles close off its goal on any lattice.
@@ -321,8 +330,8 @@ bool PlanState::test_enclosure(std::size_t robot, std::int64_t max_steps) {
 
 bool PlanState::takes_too_long(std::size_t robot, const StopCondition& stop) {
   return within_memory(false, [&] {
-    SearchSpace& space = search_spaces_.of(robot);
-    return estimated_end(space, stop) >= instance_.longest_plan(robot);
+    SearchSpace* space = search_spaces_.of(robot, stop);
+    return space != nullptr && estimated_end(*space, stop) >= instance_.longest_plan(robot);
   });
 }
 
@@ -330,10 +339,11 @@ Trajectory PlanState::plan_alone(std::size_t robot, const StopCondition& stop) {
   const OccupancyGrid& grid = instance_.problem().grid();
   const double cell_size = grid.width();  // coarse, as the table stays empty
   const ReservationTable empty(grid.width(), grid.height(), cell_size, radii(instance_));
-  SearchResult result = within_memory(SearchResult(), [&] {
-    SearchSpace& space = search_spaces_.of(robot);
+  SearchResult result = within_memory(SearchResult(), [&]() -> SearchResult {
+    SearchSpace* space = search_spaces_.of(robot, stop);
+    if (space == nullptr) return {};
     AaSipp search(empty);
-    return search.run(robot, space, {.horizon = instance_.options().horizon.value_or(kForever)}, stop);
+    return search.run(robot, *space, {.horizon = instance_.options().horizon.value_or(kForever)}, stop);
   });
   return result.trajectory ? std::move(*result.trajectory) : staying(robot);
 }

@@ -79,8 +79,8 @@ class PlanState {
   SearchResult plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,
                              const SearchLimits& limits, const StopCondition& stop);
 
-  /// Whether obstacles allow the robot a move from its start.
-  bool can_leave_start(std::size_t robot);
+  /// Whether obstacles allow the robot a move from its start; true if `stop` is met first.
+  bool can_leave_start(std::size_t robot, const StopCondition& stop);
   /// Whether the robot has a way to its goal past obstacles and the robots that stay; unknown if `stop` is
   /// met first, or if that takes more than `max_expansions` expansions of a search on the map.
   const Way& way_to_goal(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
@@ -118,7 +118,8 @@ class PlanState {
   void release_memory();
   SearchResult search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
   void find_way(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
-  void find_leg(std::size_t robot, std::size_t goal, std::int64_t max_expansions, const StopCondition& stop);
+  std::int64_t find_leg(std::size_t robot, SearchSpace& space, std::size_t goal, std::int64_t max_expansions,
+                        const StopCondition& stop);
   bool is_reserved(std::size_t robot, const Reservations& among) const;
   bool stays(std::size_t robot) const { return reservations_.at_start_until[robot] == kForever; }
   void forget_ways_closed_by_robots(std::size_t except);

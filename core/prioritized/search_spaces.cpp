@@ -1,6 +1,7 @@
 #include "core/prioritized/search_spaces.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/runtime/memory_account.h"
 
@@ -20,13 +21,15 @@ bool is_too_much(std::size_t bytes) {
 
 SearchSpaces::SearchSpaces(const Instance& instance) : instance_(instance), entries_(instance.size()) {}
 
-SearchSpace& SearchSpaces::of(std::size_t robot) {
+SearchSpace* SearchSpaces::of(std::size_t robot, const StopCondition& stop) {
   if (!entries_[robot].space) {
     make_room();
-    entries_[robot].space = std::make_unique<SearchSpace>(instance_, robot);
+    auto made = std::make_unique<SearchSpace>(instance_, robot, stop);
+    if (!made->finished()) return nullptr;
+    entries_[robot].space = std::move(made);
   }
   entries_[robot].last_use = ++calls_;
-  return *entries_[robot].space;
+  return entries_[robot].space.get();
 }
 
 void SearchSpaces::discard_all() {

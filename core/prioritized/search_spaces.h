@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/instance.h"
+#include "core/runtime/stop_condition.h"
 #include "core/sipp/search_space.h"
 
 namespace fleetplan::core {
@@ -17,8 +18,8 @@ class SearchSpaces {
   /// `instance` outlives this object.
   explicit SearchSpaces(const Instance& instance);
 
-  /// Valid until the next call for another robot.
-  SearchSpace& of(std::size_t robot);
+  /// Valid until the next call for another robot; null if `stop` is met before it is made.
+  SearchSpace* of(std::size_t robot, const StopCondition& stop);
   void discard_all();
 
  private:

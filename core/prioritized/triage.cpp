@@ -76,7 +76,7 @@ class Triage {
   }
 
   void check_start(std::size_t i) {
-    if (!instance_.fits_at_start(i) && !state_.can_leave_start(i)) {
+    if (!instance_.fits_at_start(i) && !state_.can_leave_start(i, stop_)) {
       return give_up(
           i, Reason::start_blocked,
           "The inflated robot does not fit between the obstacles at its start, and no straight move "

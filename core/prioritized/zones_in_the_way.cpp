@@ -85,7 +85,7 @@ class ZonesInTheWay {
     if (alone == nullptr) return true;
     const Instance instance(*alone, options_, stop_);
     PlanState state(instance);
-    if (!instance.fits_at_start(0) && !state.can_leave_start(0)) return false;
+    if (!instance.fits_at_start(0) && !state.can_leave_start(0, stop_)) return false;
     return instance.fits_at_goal(0) && !state.way_to_goal(0, kMostWayExpansions, stop_).none();
   }
 

@@ -62,6 +62,7 @@ class BucketGrid {
     const Position direction = moving ? Position(disk.velocity / speed) : Position(1.0, 0.0);
     const double length = moving ? (b - a).norm() : 0.0;
     const auto [y_min, y_max] = std::minmax(a.y(), b.y());
+    // Bounded: the buckets along one move.
     for (int row = row_of(y_min - margin); row <= row_of(y_max + margin); ++row) {
       const double y = (row + 0.5) * size_;
       const auto [x_min, x_max] = span_near(a, b, y, margin);

@@ -76,6 +76,7 @@ void SegmentIndex::enter(Layer& layer, DiskId id) {
 }
 
 void SegmentIndex::add(std::size_t robot, const std::vector<TimedSegment>& segments) {
+  // Bounded: the segments of one trajectory, and a few layers.
   for (const TimedSegment& segment : segments) {
     const DiskId id = store(robot, segment);
     held_[robot].push_back(id);
@@ -84,6 +85,7 @@ void SegmentIndex::add(std::size_t robot, const std::vector<TimedSegment>& segme
 }
 
 void SegmentIndex::remove(std::size_t robot) {
+  // Bounded: the segments of one trajectory, and a few layers.
   for (const DiskId id : held_[robot]) {
     const Occupant& occupant = occupants_[id];
     for (Layer& layer : layers_) {

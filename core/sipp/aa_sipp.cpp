@@ -25,7 +25,7 @@ constexpr double kRestGrowth = 10.0;
 
 /// The main loop; see the pseudo-code in the header.
 Search::Outcome Search::run(Pass pass) {
-  if (!begin(pass)) return Outcome::exhausted;
+  if (!begin(pass)) return stopped_ ? Outcome::stopped : Outcome::exhausted;
   label_start();
   for (int step = 1; state_.goal_label == LabelId::none; ++step) {
     if (state_.open.empty()) {

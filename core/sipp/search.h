@@ -122,6 +122,7 @@ class Search {
   const bool is_costly_ = table_.is_costly();
   Pass pass_ = Pass::quick;
   bool use_slack_ = false;
+  bool stopped_ = false;         // while a pass was prepared
   std::int64_t expansions_ = 0;  // of all passes
   std::int64_t pause_;           // expansions after which the limits are looked at
   SearchState state_;

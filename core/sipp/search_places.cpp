@@ -5,9 +5,15 @@
 #include "core/sipp/search.h"
 
 namespace fleetplan::core {
+namespace {
 
-/// Prepares a pass. Returns false if the last goal has no safe interval without end, or another one has none
-/// that is long enough; with a horizon, the path may end elsewhere.
+/// Goals between two checks of the stop condition.
+constexpr int kGoalsBetweenStops = 64;
+
+}  // namespace
+
+/// Prepares a pass. Returns false if the stop condition is met, or if the last goal has no safe interval
+/// without end, or another one has none that is long enough; with a horizon, the path may end elsewhere.
 bool Search::begin(Pass pass) {
   pass_ = pass;
   use_slack_ = pass == Pass::quick && limits_.dominance_slack > 0.0;
@@ -18,6 +24,8 @@ bool Search::begin(Pass pass) {
   const double slack = use_slack_ ? limits_.dominance_slack * vertices_.spacing() : 0.0;
   state_.dominance.reset(vertices_.slowest_motion(), motion_.translation_time(slack));
   state_.stages = stages_of(space_, stop_);
+  stopped_ = state_.stages.empty();
+  if (stopped_) return false;
   state_.goal = goal_of(last_stage_);
   const Place& goal = state_.places[state_.goal];
   const bool stays_free = !goal.never_safe() && state_.intervals[goal.end_interval - 1].end == kForever;
@@ -32,6 +40,8 @@ bool Search::begin(Pass pass) {
 /// Whether each goal before the last one is free for long enough, at some time.
 bool Search::can_serve_all() {
   for (int k = 0; k < last_stage_; ++k) {
+    stopped_ = k % kGoalsBetweenStops == kGoalsBetweenStops - 1 && stop_.met();
+    if (stopped_) return false;
     const Place goal = state_.places[goal_of(k)];
     const double done = k == 0 ? space_.itinerary().service_done : 0.0;
     bool can_serve = false;
@@ -110,8 +120,12 @@ void Search::append_windows(const Place& place) {
   const Stage& at = state_.stages[place.stage];
   const Stage& next = state_.stages[place.stage + 1];
   const std::vector<SafeInterval> after = table_.safe_intervals(robot_, place.position, next.narrower);
+  auto begin = after.begin();
+  // Bounded: the intervals, which are ascending: each is left behind once, or overlaps another one.
   for (const SafeInterval& before : table_.safe_intervals(robot_, place.position, at.narrower)) {
-    for (const SafeInterval& then : after) {
+    while (begin != after.end() && begin->end < before.begin) ++begin;
+    for (auto later = begin; later != after.end() && later->begin <= before.end; ++later) {
+      const SafeInterval& then = *later;
       if (next.is_rest && then.end != kForever) continue;
       double first = before.begin;
       if (at.service_end(first) < then.begin) first = std::max(first, then.begin - at.service);

@@ -16,7 +16,10 @@ namespace fleetplan::core {
 /// view of the static map, and the costs to go to each of its goals.
 class SearchSpace {
  public:
-  SearchSpace(const Instance& instance, std::size_t robot);
+  /// Not finished(), and not to be used, if `stop` is met first.
+  SearchSpace(const Instance& instance, std::size_t robot, const StopCondition& stop);
+
+  bool finished() const { return layers_.back().vertices->finished(); }
 
   const Itinerary& itinerary() const { return itinerary_; }
   /// In its first stage: on the way to the first goal that is left.
@@ -63,7 +66,8 @@ class SearchSpace {
   const Layer& layer(std::size_t stage) const {
     return layers_[layer_of_stage_.empty() ? 0 : layer_of_stage_[stage]];
   }
-  void add_layers();
+  void add_layers(const StopCondition& stop);
+  void find_equal_goals();
 
   const Instance& instance_;
   const std::size_t robot_;

@@ -6,6 +6,9 @@
 namespace fleetplan::core {
 namespace {
 
+/// Ways that are estimated between two checks of the stop condition.
+constexpr int kStopStride = 16;
+
 /// Estimates the way from one goal to the next one, seconds. A heading that is free is the best one.
 double estimated_leg(SearchSpace& space, std::size_t from, const StopCondition& stop) {
   const Motion& motion = space.vertices().motion();
@@ -25,6 +28,7 @@ IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
   IndexedVector<Stage> stages(goals.size());
   const int last = static_cast<int>(goals.size()) - 1;
   for (int k = last; k >= 0; --k) {
+    if ((last - k) % kStopStride == kStopStride - 1 && stop.met()) return {};
     const auto index = static_cast<std::size_t>(k);
     const Goal& goal = goals[index];
     stages[k] = {space.goal(index), goal.service, goal.not_before, goal.service, 0.0};
@@ -47,6 +51,7 @@ IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
 
 double estimated_end(SearchSpace& space, const StopCondition& stop) {
   IndexedVector<Stage> stages = stages_of(space, stop);
+  if (stages.empty()) return 0.0;
   set_releases(stages, 0.0);
   const Stage& first = stages[0];
   const int start = space.vertices().start();

@@ -31,9 +31,10 @@ struct Stage {
   double service_end(double t_rest) const { return std::max(t_rest, not_before) + service; }
 };
 
-/// The stages of a robot with a goal, without the releases.
+/// The stages of a robot with a goal, without the releases; none if `stop` is met first.
 IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop);
-/// Estimates when a robot ends its last service if it is alone on the static map; seconds.
+/// Estimates when a robot ends its last service if it is alone on the static map; seconds. 0 if `stop` is met
+/// first.
 double estimated_end(SearchSpace& space, const StopCondition& stop);
 /// `last_free_from`: when the last goal becomes free for good.
 void set_releases(IndexedVector<Stage>& stages, double last_free_from);

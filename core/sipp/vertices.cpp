@@ -16,10 +16,12 @@ namespace {
 constexpr double kLinkDistance = 2.0;
 /// The same for a start that is too near to others, farther if the robot is clear of them only there.
 constexpr double kLongestLink = 12.0;
+/// Comparisons of own vertices and links between two checks of the stop condition.
+constexpr std::size_t kStopStride = 16 * 1024;
 
 }  // namespace
 
-Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stage)
+Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop)
     : stage_(stage),
       motion_(instance.motion(robot, stage)),
       zones_(instance.drive_zones(robot)),
@@ -36,7 +38,16 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stag
   // Committed actions that end in contact with the goal end there: a service goes on, without a move.
   double same = instance.robot(robot).committed.empty() ? kSamePosition : kContactTolerance;
   const std::vector<Goal>& goals = instance.itinerary(robot).goals;
+  std::size_t work = 0;  // since the last check
   for (std::size_t k = 0; k < goals.size(); ++k) {
+    work += 1 + 2 * own_.size() + (own_.empty() ? 0 : own_.back().links.size());
+    if (work >= kStopStride) {
+      work = 0;
+      if (stop.met()) {
+        finished_ = false;
+        return;
+      }
+    }
     const Goal& goal = goals[k];
     const bool is_here = instance.motion(robot, k).radius == motion_.radius ||
                          instance.motion(robot, k + 1).radius == motion_.radius;

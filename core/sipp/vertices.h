@@ -10,6 +10,7 @@
 #include "core/map/lattice.h"
 #include "core/model/drive_zones.h"
 #include "core/motion.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 
@@ -29,7 +30,10 @@ class Vertices {
  public:
   /// With the radius that the robot has in a stage: on the way to one of the goals that are left, or at rest
   /// at the last one. See Instance::motion.
-  Vertices(const Instance& instance, std::size_t robot, std::size_t stage = 0);
+  /// Not finished(), and not to be used, if `stop` is met first.
+  Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop);
+
+  bool finished() const { return finished_; }
 
   const Motion& motion() const { return motion_; }
   /// The zones that limit how the robot drives; null if there are none.
@@ -154,6 +158,7 @@ class Vertices {
   std::vector<OwnVertex> own_;
   int start_ = -1;
   std::vector<GoalPose> goals_;
+  bool finished_ = true;
 };
 
 }  // namespace fleetplan::core

@@ -46,6 +46,7 @@ class Brushfire {
       return static_cast<int>(std::floor((x - nodes_.first) / nodes_.pitch));
     };
     const int reach = static_cast<int>(kFirstNodes);
+    // Bounded: the nodes around one place.
     for (int row = index(from_.y()) - reach; row <= index(from_.y()) + reach + 1; ++row) {
       for (int column = index(from_.x()) - reach; column <= index(from_.x()) + reach + 1; ++column) {
         reach_node(column, row, -1);
@@ -55,6 +56,7 @@ class Brushfire {
 
   void expand(int node) {
     const Reached here = reached_[static_cast<std::size_t>(node)];
+    // Bounded: the neighbours of a node.
     for (int row = here.row - 1; row <= here.row + 1; ++row) {
       for (int column = here.column - 1; column <= here.column + 1; ++column) reach_node(column, row, node);
     }

@@ -104,7 +104,7 @@ Recipe hall(const std::string& name, int side, std::size_t robots) {
 }
 
 std::vector<Cell> largest_room(const core::OccupancyGrid& grid, double radius) {
-  const core::LineOfSight sight(grid);
+  const core::LineOfSight sight(grid, core::StopCondition::never());
   std::vector<char> seen(static_cast<std::size_t>(grid.cell_count()), 0);
   const auto is_new = [&](Cell cell) {
     if (!grid.inside(cell) || seen[grid.index(cell)] != 0) return false;

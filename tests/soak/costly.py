@@ -1,6 +1,7 @@
 """Valid and invalid requests that cost a server much more than they cost the client: each gets the right answer within its
 time and its memory. `measure` sends each of them to a server of its own."""
 
+import base64
 import dataclasses
 import gzip
 import json
@@ -139,6 +140,63 @@ def long_plan(legs):
             "plans": [{"robot": "a", "cost": times[-1], "actions": actions}]}
 
 
+def robots_that_start_near_each_other(defaults, options, spacing):
+    """2000 robots; goals far enough apart for any of them."""
+    robots = [{"id": f"r{i}", "start": start, "goal": goal}
+              for i, (start, goal) in enumerate(zip(grid(50, 2000, spacing), grid(50, 2000, 11.0)))]
+    return {"map": {"rows": ["." * 560] * 450}, "robots": robots, "robot_defaults": {**ROBOT, **defaults},
+            "options": {"time_budget_ms": 20_000, **options}}
+
+
+def huge_disk():
+    """One robot of nearly half the size of 4000 x 4000 cells."""
+    return {"map": {"rows": ["." * 4000] * 4000}, "robot_defaults": {**ROBOT, "radius": 1900.0},
+            "robots": [{"id": "a", "start": {"x": 1950.0, "y": 2000.0}, "goal": {"x": 2050.0, "y": 2000.0}}],
+            "options": {"time_budget_ms": 1000}}
+
+
+def blocked_stars(outer):
+    """1000 blocked stars of 20 corners on 2000 x 2000 cells; near the middle if they are large."""
+    def star(k):
+        spread = 950 if outer < 100 else 50
+        x, y = 1000 + spread * math.sin(7.0 * k), 1000 + spread * math.sin(11.0 * k + 1.0)
+        radii = [outer if i % 2 else 5.0 for i in range(20)]
+        return [{"x": round(x + r * math.cos(0.1 * math.pi * i + k), 3), "y": round(y + r * math.sin(0.1 * math.pi * i + k), 3)}
+                for i, r in enumerate(radii)]
+    zones = [{"id": f"z{k}", "type": "blocked", "polygon": star(k)} for k in range(1000)]
+    return {"map": {"rows": ["." * 2000] * 2000}, "robot_defaults": ROBOT, "zones": zones,
+            "robots": [{"id": "a", "start": {"x": 1.0, "y": 1.0}, "goal": {"x": 1998.0, "y": 1998.0}}],
+            "options": {"time_budget_ms": 1000}}
+
+
+def isolated_dots(radius, far):
+    """A blocked cell in every second column and row of 2000 x 2000."""
+    rows = ["#." * 1000 if row % 2 == 0 else "." * 2000 for row in range(2000)]
+    return {"map": {"rows": rows}, "robot_defaults": {**ROBOT, "radius": radius},
+            "robots": [{"id": "a", "start": {"x": 1.5, "y": 0.5}, "goal": {"x": 1.5 + far, "y": 0.5 + far}}],
+            "options": {"time_budget_ms": 300}}
+
+
+def many_goals(places):
+    """One robot with 20,000 goals; `places`: of each."""
+    goals = [{"x": x, "y": y} for x, y in map(places, range(20_000))]
+    return {"map": {"rows": ["." * 100] * 100}, "robot_defaults": ROBOT,
+            "robots": [{"id": "a", "start": {"x": 0.5, "y": 0.5}, "goals": goals}], "options": {"time_budget_ms": 100}}
+
+
+def mask_of_many_parts():
+    """A mask for 2000 robots with a speed each, on 2000 x 2000 cells, and `/v1/advance`."""
+    pixels = b"".join(bytes(255 * ((column // 29 + row // 29) % 2) for column in range(2000)) for row in (0, 29))
+    rows = b"".join(pixels[2000 * (row // 29 % 2):][:2000] for row in range(2000))
+    pgm = base64.b64encode(b"P5 2000 2000 255\n" + rows).decode()
+    robots = [{"id": f"r{i}", "start": place, "linear_speed": 1.0 + i / 1000} for i, place in enumerate(grid(45, 2000, 44.0))]
+    request_of_fleet = {"map": {"rows": ["." * 2000] * 2000}, "robots": robots, "robot_defaults": ROBOT,
+                        "zones": [{"id": "m", "type": "speed", "mask": {"pgm": pgm, "mode": "scale"}}],
+                        "options": {"time_budget_ms": 500}}
+    plans = [{"robot": robot["id"], "cost": 0.0, "actions": []} for robot in robots]
+    return {"request": request_of_fleet, "plans": plans, "at": 0.5}
+
+
 def costly_requests():
     empty_objects = b'{"robots": [' + b",".join([b"{}"] * (14 * MIB // 3)) + b"]}"
     empty_strings = b'{"robots": [' + b",".join([b'""'] * (14 * MIB // 3)) + b"]}"
@@ -164,6 +222,22 @@ def costly_requests():
         *(Costly(f"2000 robots, 4 M cells, {budget_ms} ms", posted(crowd_on_a_large_map(budget_ms)), budget_ms / 1000,
                  600, planned(["solved", "partial", "none"], ["budget_exhausted", "blocked_by_robots"]))
           for budget_ms in (500, 1000, 3000)),
+        Costly("2000 near starts, vicinity", posted(robots_that_start_near_each_other({"vicinity": 5.0}, {}, 0.62)), 3.0,
+               300, planned(["none"], ["start_blocked"])),
+        Costly("2000 near starts, overlap", posted(robots_that_start_near_each_other({}, {"start_overlap": 1.0}, 0.01)),
+               3.0, 300, planned(["none"], ["start_blocked"])),
+        Costly("a disk of 1900 cells", posted(huge_disk()), 1.0, 300, planned(["none", "solved"], ["budget_exhausted"])),
+        *(Costly(f"1000 blocked stars of {outer} m", posted(blocked_stars(outer)), 1.0, 300,
+                 planned(["none", "solved"], ["budget_exhausted"])) for outer in (30.0, 900.0)),
+        *(Costly(f"isolated dots, radius {radius}", posted(isolated_dots(radius, far)), 0.3, 300,
+                 planned(["none", "solved"], ["budget_exhausted", "goal_unreachable"]))
+          for radius, far in ((0.3, 1996), (0.45, 10))),
+        Costly("20,000 goals", posted(many_goals(lambda k: (0.5 + 37 * k % 100, 0.5 + 61 * k % 97))), 0.1, 300,
+               planned(["none"], ["budget_exhausted"])),
+        Costly("20,000 goals off the lattice", posted(many_goals(lambda k: (2 + 0.0041 * k, 2 + k * 0.618 % 90))), 0.1,
+               300, planned(["none"], ["budget_exhausted"])),
+        Costly("a mask of many parts", posted(mask_of_many_parts(), "/v1/advance"), 0.5, 300,
+               refused("invalid_request", "parse_unfinished", "memory_exceeded")),
     ]
 
 

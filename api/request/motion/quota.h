@@ -30,6 +30,9 @@ class Quota {
     return true;
   }
 
+  /// So many more fit.
+  std::size_t left() const { return exceeded_ ? 0 : left_; }
+
  private:
   std::size_t left_;
   std::size_t most_;

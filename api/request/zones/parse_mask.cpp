@@ -51,13 +51,14 @@ MaskPart part(const Run& run, int first_row, int last_row, double resolution) {
   return {run.percent, {low, {high.x(), low.y()}, high, {low.x(), high.y()}}};
 }
 
-/// Joins equal runs of rows above each other.
+/// Joins equal runs of rows above each other. Ends soon after there are more than `most` parts.
 template <class Value>
-std::vector<MaskPart> parts_of(const Raster& raster, double resolution, core::Work& stop,
+std::vector<MaskPart> parts_of(const Raster& raster, double resolution, std::size_t most, core::Work& stop,
                                const Value& value) {
   std::vector<MaskPart> parts;
   std::map<Run, int> open;  // and the rows where they begin
-  for (int row = 0; row <= raster.rows && !stop.met_after(static_cast<std::size_t>(raster.columns)); ++row) {
+  for (int row = 0; row <= raster.rows && parts.size() <= most; ++row) {
+    if (stop.met_after(static_cast<std::size_t>(raster.columns))) break;
     std::map<Run, int> next;
     if (row < raster.rows) {
       for (const Run& run :
@@ -89,12 +90,12 @@ std::vector<MaskPart> parse_mask(const JsonReader& member, const core::Occupancy
                                         " cells; a mask has one pixel for each cell of the map.");
   }
   if (member.fault_count() != faults) return {};
-  std::vector<MaskPart> parts =
-      parts_of(*raster, map.resolution(), member.stop(), [&](std::int8_t percent) -> std::int8_t {
-        if (by_percent) return percent > 0 ? percent : std::int8_t{0};
-        return percent >= kLeastOccupied ? kWhole : std::int8_t{0};
-      });
   constexpr std::size_t kCorners = 4;
+  std::vector<MaskPart> parts = parts_of(*raster, map.resolution(), corners.left() / kCorners, member.stop(),
+                                         [&](std::int8_t percent) -> std::int8_t {
+                                           if (by_percent) return percent > 0 ? percent : std::int8_t{0};
+                                           return percent >= kLeastOccupied ? kWhole : std::int8_t{0};
+                                         });
   return corners.take(kCorners * parts.size(), member) ? parts : std::vector<MaskPart>{};
 }
 

@@ -27,6 +27,8 @@ using Type = core::Zone::Type;
 constexpr std::array<std::string_view, 3> kTypes{"blocked", "speed", "one_way"};  // as in core::Zone::Type
 constexpr std::array<std::string_view, 9> kMembers{
     "id", "type", "polygon", "mask", "robots", "linear_speed", "angular_speed", "heading", "half_angle"};
+/// What it costs to make a zone of a part of a mask, in bytes of text.
+constexpr std::size_t kWorkOfAPart = 64;
 constexpr Range kHalfAngle{1e-3, std::numbers::pi, "radians"};
 
 class ZoneReader {
@@ -75,28 +77,37 @@ class ZoneReader {
     }
     if (map_ == nullptr) return {};
     std::vector<core::Zone> zones;
+    const RobotsBySpeed by_speed = zone.type == Type::speed ? robots_by_speed(zone) : RobotsBySpeed();
     for (const MaskPart& part : parse_mask(mask, map_->grid, zone.type == Type::speed, corners_)) {
+      if (mask.stop().met_after(kWorkOfAPart * (1 + by_speed.size()))) return {};
       core::Zone cells = zone;
       cells.polygon = part.polygon;
       if (zone.type == Type::blocked) {
         zones.push_back(std::move(cells));
       } else {
-        add_slow_cells(part.percent / 100.0, cells, zones);
+        add_slow_cells(part.percent / 100.0, cells, by_speed, zones);
       }
     }
     return zones;
   }
 
-  /// Adds a zone for the robots of each speed.
-  void add_slow_cells(double share, const core::Zone& cells, std::vector<core::Zone>& zones) const {
-    std::map<double, std::vector<std::size_t>> by_speed;
+  using RobotsBySpeed = std::map<double, std::vector<std::size_t>>;
+
+  RobotsBySpeed robots_by_speed(const core::Zone& zone) const {
+    RobotsBySpeed by_speed;
     for (std::size_t robot = 0; robot < all_.size(); ++robot) {
-      if (cells.is_for(robot)) by_speed[all_[robot].robot.linear_speed].push_back(robot);
+      if (zone.is_for(robot)) by_speed[all_[robot].robot.linear_speed].push_back(robot);
     }
-    for (auto& [speed, robots] : by_speed) {
+    return by_speed;
+  }
+
+  /// Adds a zone for the robots of each speed.
+  static void add_slow_cells(double share, const core::Zone& cells, const RobotsBySpeed& by_speed,
+                             std::vector<core::Zone>& zones) {
+    for (const auto& [speed, robots] : by_speed) {
       core::Zone& zone = zones.emplace_back(cells);
       zone.linear_speed = share * speed;
-      if (by_speed.size() > 1) zone.robots = std::move(robots);
+      if (by_speed.size() > 1) zone.robots = robots;
     }
   }
 

@@ -14,6 +14,7 @@ constexpr std::size_t kMostWindows = 4096;
 constexpr std::size_t kWindowsPerLeg = 2;
 
 void add_leg_end_times(const std::vector<std::vector<Leg>>& legs_by_body, std::vector<double>& times) {
+  // Bounded: the legs that there are, each once.
   for (const std::vector<Leg>& legs : legs_by_body) {
     for (const Leg& leg : legs) {
       if (std::isfinite(leg.t_end)) times.push_back(leg.t_end);

@@ -76,7 +76,8 @@ class PairCheck {
         static_cast<std::size_t>(std::count(fleet_.invalid.begin(), fleet_.invalid.end(), true));
     const std::size_t more = (near_starts ? fleet_.size() : 0) + invalid + rules_.exempt.size();
     const auto clearance = fleet_clearance(fleet_.legs, {fleet_.radii, planned}, fleet_.tolerances,
-                                           kMostCollisions + kNearStartsPerRobot * more, stop_);
+                                           kMostCollisions + kNearStartsPerRobot * more, stop_,
+                                           [this](const Overlap& overlap) { return may_rest(overlap); });
     if (!clearance) return false;
     const bool is_pair = !fleet_.robots.empty() && fleet_.robots.front() != fleet_.robots.back();
     if (is_pair) report_.min_clearance = clearance->least;
@@ -89,10 +90,20 @@ class PairCheck {
     return true;
   }
 
-  bool is_allowed(const Overlap& overlap) {
+  bool is_exempt(const Overlap& overlap) const {
     const auto [first, second] = Pair(overlap.first, overlap.second);
     if (fleet_.invalid[first] && fleet_.invalid[second]) return true;
-    if (exemptions_.allow_robots(first, second, overlap.t_begin)) return true;
+    return exemptions_.allow_robots(first, second, overlap.t_begin);
+  }
+
+  /// Of two robots that never move. The interval margin leaves them out.
+  bool may_rest(const Overlap& overlap) const {
+    return is_exempt(overlap) || leaves_overlap(fleet_, overlap, rules_).has_value();
+  }
+
+  bool is_allowed(const Overlap& overlap) {
+    if (is_exempt(overlap)) return true;
+    const auto [first, second] = Pair(overlap.first, overlap.second);
     const auto until = leaves_overlap(fleet_, overlap, rules_);
     if (!until) return false;
     double& left = left_at_[{first, second}];

@@ -21,7 +21,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 class ClearanceSweep {
  public:
   ClearanceSweep(const std::vector<std::vector<Leg>>& legs_by_robot, const DiskRadii& radii,
-                 const std::vector<double>& tolerances, std::size_t max_overlaps, const StopCondition& stop)
+                 const std::vector<double>& tolerances, std::size_t max_overlaps, const StopCondition& stop,
+                 const LeftOutAtRest& left_out)
       : legs_(legs_by_robot),
         bodies_(radii.body),
         radii_(radii.kept_apart),
@@ -29,7 +30,10 @@ class ClearanceSweep {
         boxes_(legs_by_robot, radii.kept_apart),
         overlaps_(max_overlaps),
         stop_(stop),
-        slack_(rounding_of_boxes()) {}
+        left_out_(left_out),
+        slack_(rounding_of_boxes()) {
+    for (const std::vector<Leg>& legs : legs_by_robot) rests_.push_back(rests_for_ever(legs));
+  }
 
   std::optional<FleetClearance> run() {
     if (radii_.size() < 2) return FleetClearance{};
@@ -44,9 +48,15 @@ class ClearanceSweep {
   }
 
  private:
+  static bool rests_for_ever(const std::vector<Leg>& legs) {
+    return legs.size() == 1 && legs.front().from == legs.front().to && legs.front().t_begin <= 0.0 &&
+           std::isinf(legs.front().t_end);
+  }
+
   /// Far more than the rounding of boxes and gaps, so that skipped pairs never influence the result.
   double rounding_of_boxes() const {
     double largest = 0.0;
+    // Bounded: the legs that there are, each once.
     for (const std::vector<Leg>& legs : legs_) {
       for (const Leg& leg : legs) {
         largest = std::max({largest, leg.from.lpNorm<Eigen::Infinity>(), leg.to.lpNorm<Eigen::Infinity>()});
@@ -75,15 +85,36 @@ class ClearanceSweep {
         const double limit = interesting_gap();
         if (b.left - a.right > limit) break;
         if (std::max(b.bottom - a.top, a.bottom - b.top) > limit) continue;
+        if (rests_[a.body] && rests_[b.body]) {
+          if (window.begin <= 0.0) compare_at_rest(std::min(a.body, b.body), std::max(a.body, b.body));
+          continue;
+        }
         compare(std::min(a.body, b.body), std::max(a.body, b.body), window);
       }
     }
   }
 
+  /// Two robots may not be nearer to each other, metres.
+  double allowed_distance(std::size_t first, std::size_t second) const {
+    return radii_[first] + radii_[second] - std::max(tolerances_[first], tolerances_[second]);
+  }
+
+  /// Compares two robots that rest for ever, once for all windows.
+  void compare_at_rest(std::size_t first, std::size_t second) {
+    poll();
+    const Position between = legs_[second].front().from - legs_[first].front().from;
+    const double allowed = allowed_distance(first, second);
+    const double squared = between.squaredNorm();
+    const double distance = std::sqrt(squared);
+    least_ = std::min(least_, distance - (bodies_[first] + bodies_[second]));
+    if (allowed <= 0.0 || squared >= allowed * allowed) return;
+    if (left_out_ && left_out_({first, second, 0.0, kInfinity, 0.0, distance})) return;
+    overlaps_.add(first, second, {0.0, kInfinity, between, between}, allowed);
+  }
+
   /// Compares two robots leg by leg through the window.
   void compare(std::size_t first, std::size_t second, const TimeSpan& window) {
-    const double contact = radii_[first] + radii_[second];
-    const double allowed = contact - std::max(tolerances_[first], tolerances_[second]);
+    const double allowed = allowed_distance(first, second);
     double least_squared = kInfinity;
     visit_common_pieces(boxes_.legs(first), boxes_.legs(second), window, false,
                         [&](const RelativeMotion& motion) {
@@ -104,6 +135,8 @@ class ClearanceSweep {
   MovingBoxes boxes_;
   OverlapList overlaps_;
   const StopCondition& stop_;
+  const LeftOutAtRest& left_out_;
+  std::vector<bool> rests_;  // by robot: it never moves
   std::size_t steps_ = 0;
   bool stopped_ = false;  // then a window may be incomplete
   double slack_;
@@ -115,8 +148,9 @@ class ClearanceSweep {
 
 std::optional<FleetClearance> fleet_clearance(const std::vector<std::vector<Leg>>& legs_by_robot,
                                               const DiskRadii& radii, const std::vector<double>& tolerances,
-                                              std::size_t max_overlaps, const StopCondition& stop) {
-  return ClearanceSweep(legs_by_robot, radii, tolerances, max_overlaps, stop).run();
+                                              std::size_t max_overlaps, const StopCondition& stop,
+                                              const LeftOutAtRest& left_out) {
+  return ClearanceSweep(legs_by_robot, radii, tolerances, max_overlaps, stop, left_out).run();
 }
 
 }  // namespace fleetplan::core

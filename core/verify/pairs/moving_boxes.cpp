@@ -29,6 +29,7 @@ MovingBoxes::MovingBoxes(const std::vector<std::vector<Leg>>& legs, std::vector<
 
 std::vector<MovingBox> MovingBoxes::in(const TimeSpan& window) {
   std::vector<MovingBox> boxes;
+  // Bounded: the bodies, and the legs of this window.
   for (std::size_t body = 0; body < legs_.size(); ++body) {
     const std::vector<Leg>& legs = legs_[body];
     std::size_t& current = current_[body];

@@ -53,6 +53,7 @@ class ObstacleSweep {
     const std::size_t stride = 1 + legs / kMostSamples;
     std::vector<double> ends;
     std::size_t k = 0;
+    // Bounded: the legs that there are, each once.
     for (const std::vector<Leg>& all : obstacles_) {
       for (const Leg& leg : all) {
         if (k++ % stride == 0 && std::isfinite(leg.t_end)) ends.push_back(leg.t_end);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <new>
 #include <numbers>
 #include <stop_token>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "api/response/error.h"
+#include "core/runtime/stop_condition.h"
 #include "tests/api/support/requests.h"
 #include "tests/api/support/test_turn.h"
 
@@ -21,6 +23,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 RequestContext context() {
   RequestContext context;
@@ -430,6 +433,95 @@ TEST(PlanEndpoint, ListsTwentyOfTheRobotsThatBlockAnother) {
   EXPECT_EQ(answer["unplanned"][0]["blocked_by"].size(), 20U);
   EXPECT_EQ(answer["unplanned"][0]["blocked_by_total"], robots - 1);
   EXPECT_LT(reply.body.size(), 20 * request.dump().size());
+}
+
+/// Robots that all start in one place, as `start_overlap` allows.
+Json stacked_robots(int count) {
+  Json request = Json::parse(R"({
+    "map": {"rows": []}, "options": {"start_overlap": 1, "time_budget_ms": 20000}, "robots": [],
+    "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 2.0}})");
+  for (int row = 0; row < 20; ++row) request["map"]["rows"].push_back(std::string(20, '.'));
+  for (int i = 0; i < count; ++i) {
+    Json robot = {{"id", "r" + std::to_string(i)}};
+    robot["start"] = {{"x", 5.0 + 1e-3 * i}, {"y", 5.0}};
+    robot["goal"] = {{"x", 0.5 + i % 20}, {"y", 10.5 + i / 20}};
+    request["robots"].push_back(robot);
+  }
+  return request;
+}
+
+TEST(PlanEndpoint, ChecksManyRobotsThatStartInOnePlace) {
+  const Json answer = planned(stacked_robots(150));
+  EXPECT_EQ(answer["status"], "none");
+  EXPECT_EQ(answer["verified"], true);
+  EXPECT_EQ(answer["unplanned"].size(), 150u);
+}
+
+/// The budget ends after each number of questions to the stop condition, up to the last one.
+TEST(PlanEndpoint, NamesTheStartsThatTakeTooLongToCheck) {
+  const Json request = stacked_robots(100);
+  core::step_clock = {};
+  const std::string body = request.dump();
+  plan_endpoint(body, context());
+  const std::int64_t steps = core::step_clock.steps;
+  int unfinished = 0;
+  for (std::int64_t end = 0; end < steps; ++end) {
+    core::step_clock = {0, end};
+    const Reply reply = plan_endpoint(body, context());
+    const Json answer = json_of(reply);
+    if (reply.status == 200 || answer["code"] == "parse_unfinished") continue;
+    ++unfinished;
+    EXPECT_EQ(answer["code"], "check_unfinished") << answer;
+    EXPECT_THAT(answer["detail"].get<std::string>(), HasSubstr("near each other"));
+    EXPECT_THAT(answer["detail"].get<std::string>(), Not(HasSubstr("`motion`")));
+  }
+  core::step_clock = {};
+  EXPECT_GT(unfinished, 0);
+}
+
+TEST(PlanEndpoint, NamesTheMotionThatTakesTooLongToCheckIfThereIsAny) {
+  Json request = stacked_robots(1);
+  request["obstacles"] =
+      Json::parse(R"([{"id": "o", "radius": 0.3, "motion": [{"t": 0, "x": 15, "y": 5}]}])");
+  const std::string body = request.dump();
+  core::step_clock = {};
+  plan_endpoint(body, context());
+  int unfinished = 0;
+  for (std::int64_t end = core::step_clock.steps - 1; end > 0 && unfinished == 0; --end) {
+    core::step_clock = {0, end};
+    const Json answer = json_of(plan_endpoint(body, context()));
+    if (answer.value("code", "") != "check_unfinished") continue;
+    ++unfinished;
+    EXPECT_THAT(answer["detail"].get<std::string>(), HasSubstr("`motion`"));
+  }
+  core::step_clock = {};
+  EXPECT_EQ(unfinished, 1);
+}
+
+/// The budget ends after each number of questions to the stop condition: what is not finished by then is
+/// never taken for a result.
+TEST(PlanEndpoint, NeverCallsAGoalOutOfReachBecauseTheBudgetEnds) {
+  Json request = stacked_robots(1);
+  for (int k = 0; k < 150; ++k) {
+    request["robots"][0]["goals"].push_back({{"x", 1.03 + 0.1 * k}, {"y", 3.02 + 0.05 * (k % 40)}});
+  }
+  request["robots"][0].erase("goal");
+  const std::string body = request.dump();
+  core::step_clock = {};
+  EXPECT_EQ(json_of(plan_endpoint(body, context()))["status"], "solved");
+  const std::int64_t steps = core::step_clock.steps;
+  for (std::int64_t end = 0; end < steps; end += 1 + steps / 150) {
+    core::step_clock = {0, end};
+    const Reply reply = plan_endpoint(body, context());
+    if (reply.status != 200) {
+      EXPECT_EQ(reply.status, 422) << reply.body;
+      continue;
+    }
+    for (const Json& robot : json_of(reply)["unplanned"]) {
+      EXPECT_EQ(robot["reason"], "budget_exhausted") << end << " of " << steps << robot;
+    }
+  }
+  core::step_clock = {};
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ std::vector<Segment> random_segments(const core::OccupancyGrid& grid, int cells)
 /// Whether a disk may sweep a segment between cells up to this many apart, among the paper's rectangles.
 void BM_LineOfSight(benchmark::State& state) {
   const core::OccupancyGrid grid = generate(hall_with_rectangles(), 1).grid;
-  const core::LineOfSight sight(grid);
+  const core::LineOfSight sight(grid, core::StopCondition::never());
   const auto segments = random_segments(grid, static_cast<int>(state.range(0)));
   std::size_t next = 0;
   for (auto _ : state) {

@@ -24,7 +24,7 @@ TEST(Warehouse, MayBeLarger) {
 }
 
 TEST(Warehouse, HasPlacesInFrontOfEveryShelfWhereARobotFits) {
-  const core::LineOfSight sight(warehouse_map({}));
+  const core::LineOfSight sight(warehouse_map({}), core::StopCondition::never());
   for (const double radius : {0.2, 0.3}) {
     const auto places = shelf_places({}, radius);
     EXPECT_EQ(places.size(), 3u * 8u * 16u * 2u);

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -39,7 +41,7 @@ TEST(CornerVisibility, HasTheConvexCornersOnly) {
                                         "..#..",  //
                                         "....."},
                                        0.5);
-  CornerVisibility sight(grid, 0.0, 0.0);
+  CornerVisibility sight(grid, 0.0, 0.0, StopCondition::never());
   EXPECT_THAT(places(sight, all(sight)),
               ElementsAre(std::pair(1.0, 0.5), std::pair(1.5, 0.5), std::pair(2.0, 1.0), std::pair(0.5, 1.5),
                           std::pair(1.0, 1.5), std::pair(2.0, 1.5)));
@@ -51,7 +53,7 @@ TEST(CornerVisibility, HasNoCornersAtTheEdgeOrWhereCellsTouchDiagonally) {
   const OccupancyGrid grid = ascii_map({".#.",  //
                                         "#..",  //
                                         "..."});
-  CornerVisibility sight(grid, 0.0, 0.0);
+  CornerVisibility sight(grid, 0.0, 0.0, StopCondition::never());
   EXPECT_THAT(places(sight, all(sight)), ElementsAre(std::pair(1.0, 1.0), std::pair(2.0, 2.0)));
 }
 
@@ -59,7 +61,7 @@ TEST(CornerVisibility, SeesAlongWallsAndNotThroughThem) {
   const OccupancyGrid grid = ascii_map({".......",  //
                                         ".##.##.",  //
                                         "......."});
-  CornerVisibility sight(grid, 0.0, 0.0);
+  CornerVisibility sight(grid, 0.0, 0.0, StopCondition::never());
   EXPECT_THAT(places(sight, sight.visible_from({0.5, 0.5})),
               ElementsAre(std::pair(1.0, 1.0), std::pair(3.0, 1.0), std::pair(4.0, 1.0), std::pair(6.0, 1.0),
                           std::pair(1.0, 2.0)));
@@ -71,7 +73,7 @@ TEST(CornerVisibility, SeesAlongWallsAndNotThroughThem) {
 
 TEST(CornerVisibility, IsEmptyOnAFreeMap) {
   const OccupancyGrid grid(4, 3, 1.0);
-  CornerVisibility sight(grid, 0.0, 0.0);
+  CornerVisibility sight(grid, 0.0, 0.0, StopCondition::never());
   EXPECT_EQ(sight.count(), 0);
   EXPECT_THAT(sight.visible_from({2.0, 1.5}), IsEmpty());
 }
@@ -115,7 +117,7 @@ TEST(CornerVisibility, SeesEveryCornerThatAThinStripReachesAndNoneBehindACell) {
   for (int k = 0; k < 120; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << k);
     const OccupancyGrid grid = support::random_map(dice);
-    CornerVisibility sight(grid, 0.0, 0.0);
+    CornerVisibility sight(grid, 0.0, 0.0, StopCondition::never());
     if (sight.count() == 0) continue;
     for (int view = 0; view < 6; ++view) {
       const int from_corner = dice.below(sight.count());
@@ -146,6 +148,27 @@ TEST(CornerVisibility, SeesEveryCornerThatAThinStripReachesAndNoneBehindACell) {
   EXPECT_GT(seen, 1000);
   EXPECT_GT(hidden, 1000);
   EXPECT_GT(excluded, 100);
+}
+
+TEST(CornerVisibility, StopsSoonAfterTheStopConditionIsMet) {
+  OccupancyGrid grid(200, 200, 1.0);
+  for (int k = 0; k < 200 * 200; k += 7) grid.block({k % 200, k / 200});
+  const StopCondition far(StopCondition::Clock::now() + std::chrono::hours(1));
+  const auto look_around = [&] {
+    CornerVisibility sight(grid, 0.0, 0.0, far);
+    for (int corner = 0; corner < 20 && !sight.stopped(); ++corner) sight.bends_from(corner);
+    return sight.stopped();
+  };
+  step_clock = {};
+  EXPECT_FALSE(look_around());
+  const std::int64_t all = step_clock.steps;
+  EXPECT_GT(all, 30);
+  for (std::int64_t end = 0; end < all; end += 3) {
+    step_clock = {0, end};
+    EXPECT_TRUE(look_around());
+    EXPECT_EQ(step_clock.steps, end + 1);
+  }
+  step_clock = {};
 }
 
 }  // namespace

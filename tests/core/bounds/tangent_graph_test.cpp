@@ -26,7 +26,10 @@ struct World {
   World(OccupancyGrid map, double radius) : World(std::move(map), radius, radius, radius) {}
   /// `least` and `most`: the range of radii for the visibility of corners.
   World(OccupancyGrid map, double radius, double least, double most)
-      : grid(std::move(map)), sight(grid), corners(grid, least, most), tangents(corners, sight, radius) {}
+      : grid(std::move(map)),
+        sight(grid, StopCondition::never()),
+        corners(grid, least, most, StopCondition::never()),
+        tangents(corners, sight, radius) {}
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 

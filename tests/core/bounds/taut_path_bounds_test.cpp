@@ -351,7 +351,7 @@ TEST(TautPathBounds, TakeLimitedWorkForManyRobotsOnALargeMapWithManyCorners) {
   const TautPathBounds bounds(instance, all, std::vector<double>(instance.size(), kForever),
                               StopCondition::never());
   EXPECT_FALSE(bounds.cut_off());
-  CornerVisibility corners(grid, 0.3, 0.4);
+  CornerVisibility corners(grid, 0.3, 0.4, StopCondition::never());
   for (const std::size_t robot : {std::size_t{0}, all.back()}) {
     TautPathSearch search(corners, instance.sight(), instance.motion(robot).radius);
     const double whole = search
@@ -395,7 +395,8 @@ TEST(TautPathSearch, ReturnsHigherBoundsAfterMoreWork) {
   double before = lower_bound(instance.robot(0), instance.motion(0));
   const double first = before;
   for (const std::int64_t work : {0, 400, 1200, 1000000}) {
-    CornerVisibility corners(problem.grid(), instance.motion(0).radius, instance.motion(0).radius);
+    CornerVisibility corners(problem.grid(), instance.motion(0).radius, instance.motion(0).radius,
+                             StopCondition::never());
     TautPathSearch search(corners, instance.sight(), instance.motion(0).radius);
     const TautPathResult result = search.run(legs_of(instance.itinerary(0))[0], instance.motion(0), kForever,
                                              work, StopCondition::never());
@@ -416,7 +417,7 @@ TEST(TautPathSearch, NeedsLessWorkWhereAPlanIsKnown) {
   const Instance instance(problem, {}, StopCondition::never());
   const double radius = instance.motion(0).radius;
   const auto work = [&](double at_most) {
-    CornerVisibility corners(problem.grid(), radius, radius);
+    CornerVisibility corners(problem.grid(), radius, radius, StopCondition::never());
     TautPathSearch search(corners, instance.sight(), radius);
     search.run(legs_of(instance.itinerary(0))[0], instance.motion(0), at_most, 1'000'000,
                StopCondition::never());

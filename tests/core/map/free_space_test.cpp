@@ -18,7 +18,7 @@ TEST(FreeSpace, AllowStepsThatDiskMaySweep) {
   for (int map = 0; map < 24; ++map) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << map);
     const OccupancyGrid grid = support::random_map(dice);
-    const LineOfSight sight(grid);
+    const LineOfSight sight(grid, StopCondition::never());
     const Lattice lattice(grid, 4 << (map % 4));
     const double radius = grid.resolution() * dice.between(0.05, 1.5);
     FreeSpace space(lattice, sight, radius);
@@ -41,7 +41,7 @@ TEST(FreeSpace, AllowStepsThatDiskMaySweep) {
 TEST(FreeSpace, DoNotCutCorners) {
   const OccupancyGrid grid = support::ascii_map({"..",  //
                                                  ".#"});
-  const LineOfSight sight(grid);
+  const LineOfSight sight(grid, StopCondition::never());
   const Lattice lattice(grid, 8);
   FreeSpace space(lattice, sight, 0.3);
   const int bottom_left = lattice.vertex(0, 0);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tests/core/map/distances.h"
 #include "tests/support/ascii_map.h"
@@ -15,7 +17,7 @@ constexpr double kOverlap = 1e-6;  // metres; more than contact
 
 /// Tests both directions, which must agree.
 bool sees(const OccupancyGrid& grid, const Position& from, const Position& to, double radius) {
-  const LineOfSight sight(grid);
+  const LineOfSight sight(grid, StopCondition::never());
   const bool there = sight.may_sweep(from, to, radius);
   EXPECT_EQ(sight.may_sweep(to, from, radius), there);
   return there;
@@ -35,7 +37,8 @@ TEST(LineOfSight, AllowsDiskThatJustFitsGap) {
 TEST(LineOfSight, FindsTheLargestDiskThatFits) {
   const LineOfSight sight(support::ascii_map({".....",  //
                                               "....#",  //
-                                              "....."}));
+                                              "....."}),
+                          StopCondition::never());
   EXPECT_EQ(sight.fitting_radius({1.5, 1.5}, 0.1, 1.0), 1.0);
   EXPECT_NEAR(sight.fitting_radius({1.0, 1.5}, 0.5, 1.5), 1.0, 1e-9) << "the edge of the map";
   EXPECT_NEAR(sight.fitting_radius({3.2, 1.5}, 0.5, 1.5), 0.8, 1e-9);
@@ -80,7 +83,7 @@ TEST(LineOfSight, TestsStandingDisk) {
   const OccupancyGrid grid = support::ascii_map({"...",  //
                                                  "..#",  //
                                                  "..."});
-  const LineOfSight sight(grid);
+  const LineOfSight sight(grid, StopCondition::never());
   EXPECT_TRUE(sight.disk_fits({1.0, 1.5}, 1.0));
   EXPECT_FALSE(sight.disk_fits({1.0 + kOverlap, 1.5}, 1.0));
   EXPECT_TRUE(sight.disk_fits({1.5, 2.5}, 0.5));
@@ -101,7 +104,7 @@ TEST_P(LineOfSightOnRandomMaps, AgreesWithDistanceToBlockedCells) {
     for (int i = 0; i < grid.columns() * grid.rows(); ++i) {
       if (dice.chance(density)) grid.block({i % grid.columns(), i / grid.columns()});
     }
-    const LineOfSight sight(grid);
+    const LineOfSight sight(grid, StopCondition::never());
     const auto place = [&] {
       Position p(dice.between(0, grid.width()), dice.between(0, grid.height()));
       if (dice.chance(0.3)) p = grid.center(grid.cell_at(p));
@@ -143,7 +146,7 @@ TEST(LineOfSight, AgreesWithDistanceOnFineMaps) {
         for (int column = low.column; column < high.column; ++column) grid.block({column, row});
       }
     }
-    const LineOfSight sight(grid);
+    const LineOfSight sight(grid, StopCondition::never());
     const auto place = [&] {
       return Position(dice.between(0, grid.width()), dice.between(0, grid.height()));
     };
@@ -169,6 +172,41 @@ TEST(LineOfSight, AgreesWithDistanceOnFineMaps) {
   }
   EXPECT_GT(seen, 500);
   EXPECT_GT(blocked, 500);
+}
+
+/// Disks so large that squares of cells are looked at first, and the distance transform does not tell.
+TEST(LineOfSight, AgreesWithDistanceForHugeDisks) {
+  support::Dice dice(23);
+  int seen = 0;
+  int blocked = 0;
+  for (int map = 0; map < 6; ++map) {
+    OccupancyGrid grid(700 + dice.below(200), 700 + dice.below(200), 1.0);
+    std::vector<Cell> cells;
+    for (int k = 0; k < 6; ++k) {
+      cells.push_back({dice.below(grid.columns()), dice.below(grid.rows())});
+      grid.block(cells.back());
+    }
+    const LineOfSight sight(grid, StopCondition::never());
+    for (int k = 0; k < 300; ++k) {
+      const Position from(dice.between(0, grid.width()), dice.between(0, grid.height()));
+      const Position to =
+          dice.chance(0.5) ? from : Position(from + Position(dice.between(0, 90), dice.between(-90, 90)));
+      double distance = std::min({from.x(), from.y(), grid.width() - from.x(), grid.height() - from.y(),
+                                  to.x(), to.y(), grid.width() - to.x(), grid.height() - to.y()});
+      for (const Cell& cell : cells) {
+        const Position low(cell.column, cell.row);
+        distance = std::min(distance, segment_to_rectangle(from, to, low, low + Position(1, 1)));
+      }
+      const double radius = dice.chance(0.5) ? distance + dice.between(-1, 1) : dice.between(129, 330);
+      if (radius < 129.0 || std::abs(distance - radius) < 1e-8) continue;
+      ASSERT_EQ(sight.may_sweep(from, to, radius), distance > radius)
+          << "map " << map << " from " << from.transpose() << " to " << to.transpose() << ", radius "
+          << radius;
+      ++(distance > radius ? seen : blocked);
+    }
+  }
+  EXPECT_GT(seen, 50);
+  EXPECT_GT(blocked, 50);
 }
 
 INSTANTIATE_TEST_SUITE_P(Resolutions, LineOfSightOnRandomMaps, testing::Values(0.05, 0.5, 1.0, 2.0));

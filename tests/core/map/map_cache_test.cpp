@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -27,16 +28,16 @@ OccupancyGrid hall(int door, double resolution = 0.05) {
   return grid;
 }
 
-std::size_t bytes_of(const OccupancyGrid& grid) { return StaticMap(grid).bytes(); }
+std::size_t bytes_of(const OccupancyGrid& grid) { return StaticMap(grid, StopCondition::never()).bytes(); }
 
 TEST(MapCache, KeepsMapsForEqualGrids) {
   MapCache cache(kPlenty);
-  const auto first = cache.map_of(hall(14));
-  EXPECT_EQ(cache.map_of(hall(14)), first);
-  EXPECT_NE(cache.map_of(hall(15)), first) << "one cell differs";
-  EXPECT_NE(cache.map_of(hall(14, 0.1)), first);
+  const auto first = cache.map_of(hall(14), StopCondition::never());
+  EXPECT_EQ(cache.map_of(hall(14), StopCondition::never()), first);
+  EXPECT_NE(cache.map_of(hall(15), StopCondition::never()), first) << "one cell differs";
+  EXPECT_NE(cache.map_of(hall(14, 0.1), StopCondition::never()), first);
   OccupancyGrid turned(100, 200, 0.05);
-  EXPECT_NE(cache.map_of(turned), first);
+  EXPECT_NE(cache.map_of(turned, StopCondition::never()), first);
   EXPECT_EQ(first->grid(), hall(14));
   EXPECT_EQ(cache.stats().hits, 1u);
   EXPECT_EQ(cache.stats().misses, 4u);
@@ -45,19 +46,19 @@ TEST(MapCache, KeepsMapsForEqualGrids) {
 
 TEST(MapCache, DropsTheMapsUsedLeastRecently) {
   MapCache cache(2 * bytes_of(hall(1)) + bytes_of(hall(1)) / 2);  // two maps
-  for (const int door : {1, 2, 1, 3}) cache.map_of(hall(door));
+  for (const int door : {1, 2, 1, 3}) cache.map_of(hall(door), StopCondition::never());
   EXPECT_EQ(cache.stats().hits, 1u);
   EXPECT_EQ(cache.stats().maps, 2u);
-  cache.map_of(hall(1));
+  cache.map_of(hall(1), StopCondition::never());
   EXPECT_EQ(cache.stats().hits, 2u) << "1 was used after 2";
-  cache.map_of(hall(2));
+  cache.map_of(hall(2), StopCondition::never());
   EXPECT_EQ(cache.stats().misses, 4u);
 }
 
 TEST(MapCache, ItsLimitIsForMapsThatNobodyUses) {
   MapCache cache(bytes_of(hall(1)) / 2);
-  auto used = cache.map_of(hall(1));
-  EXPECT_EQ(cache.map_of(hall(1)), used);
+  auto used = cache.map_of(hall(1), StopCondition::never());
+  EXPECT_EQ(cache.map_of(hall(1), StopCondition::never()), used);
   EXPECT_EQ(cache.stats().maps, 1u);
   EXPECT_EQ(cache.stats().bytes, used->bytes());
   used.reset();
@@ -66,7 +67,7 @@ TEST(MapCache, ItsLimitIsForMapsThatNobodyUses) {
 
 TEST(MapCache, CountsWhatIsDerivedLater) {
   MapCache cache(kPlenty);
-  const auto map = cache.map_of(hall(14));
+  const auto map = cache.map_of(hall(14), StopCondition::never());
   const std::size_t before = cache.stats().bytes;
   const Lattice lattice(map->grid(), 8, 0.25);
   EXPECT_GT(map->finer_vertices(lattice, 0.3, StopCondition::never())->count(), 0);
@@ -78,8 +79,8 @@ TEST(MapCache, CountsWhatIsDerivedLater) {
 
 TEST(MapCache, WithoutMemoryKeepsNothing) {
   MapCache cache(0);
-  const auto first = cache.map_of(hall(14));
-  EXPECT_NE(cache.map_of(hall(14)), first);
+  const auto first = cache.map_of(hall(14), StopCondition::never());
+  EXPECT_NE(cache.map_of(hall(14), StopCondition::never()), first);
   EXPECT_EQ(cache.stats().misses, 0u);
   EXPECT_EQ(cache.stats().bytes, 0u);
 }
@@ -88,34 +89,34 @@ TEST(MapCache, MapsMayOutliveIt) {
   std::shared_ptr<const StaticMap> map;
   {
     MapCache cache(kPlenty);
-    map = cache.map_of(hall(14));
+    map = cache.map_of(hall(14), StopCondition::never());
   }
   EXPECT_EQ(map->grid(), hall(14));
 }
 
 TEST(MapCache, CountsAMapOnEveryJobThatUsesIt) {
   MapCache cache(kPlenty);
-  const std::size_t bytes = cache.map_of(hall(14))->bytes();
+  const std::size_t bytes = cache.map_of(hall(14), StopCondition::never())->bytes();
   MemoryAccount job(4 * bytes);
   {
     const MemoryScope scope(&job);
-    const auto map = cache.map_of(hall(14));
+    const auto map = cache.map_of(hall(14), StopCondition::never());
     EXPECT_GE(job.used(), static_cast<std::int64_t>(bytes));
   }
   MemoryAccount small(bytes - 1);
   const MemoryScope scope(&small);
-  EXPECT_THROW(cache.map_of(hall(14)), std::bad_alloc);
+  EXPECT_THROW(cache.map_of(hall(14), StopCondition::never()), std::bad_alloc);
   EXPECT_EQ(cache.stats().hits, 2u);
 }
 
 /// Otherwise that job could use as much memory in addition.
 TEST(MapCache, MapsThatItDropsAreNotSubtractedFromAJob) {
   MapCache cache(bytes_of(hall(14)) * 3 / 2);
-  cache.map_of(hall(14));
+  cache.map_of(hall(14), StopCondition::never());
   MemoryAccount job(kPlenty);
   {
     const MemoryScope scope(&job);
-    cache.map_of(hall(15));
+    cache.map_of(hall(15), StopCondition::never());
   }
   EXPECT_EQ(cache.stats().maps, 1u);
   EXPECT_GE(job.used(), 0);
@@ -128,7 +129,7 @@ TEST(MapCache, ThreadsShareIt) {
   std::array<std::vector<FinerVertices::Link>, kMaps> expected;
   const Lattice lattice(hall(14), 8, 0.25);
   for (int k = 0; k < kMaps; ++k) {
-    const auto finer = StaticMap(hall(13 + k)).finer_vertices(lattice, kRadius, StopCondition::never());
+    const auto finer = StaticMap(hall(13 + k), StopCondition::never()).finer_vertices(lattice, kRadius, {});
     const auto links = finer->links();
     expected[static_cast<std::size_t>(k)] = {links.begin(), links.end()};
   }
@@ -139,8 +140,8 @@ TEST(MapCache, ThreadsShareIt) {
       threads.emplace_back([&, thread] {
         for (std::size_t round = 0; round < 12; ++round) {
           const std::size_t k = (thread + round * round) % kMaps;
-          const auto map = cache.map_of(hall(13 + static_cast<int>(k)));
-          const auto finer = map->finer_vertices(lattice, kRadius, StopCondition::never());
+          const auto map = cache.map_of(hall(13 + static_cast<int>(k)), StopCondition::never());
+          const auto finer = map->finer_vertices(lattice, kRadius, {});
           const auto links = finer->links();
           if (!std::equal(links.begin(), links.end(), expected[k].begin(), expected[k].end()))
             ++wrong[thread];
@@ -152,6 +153,17 @@ TEST(MapCache, ThreadsShareIt) {
   for (const int count : wrong) EXPECT_EQ(count, 0);
   EXPECT_GT(cache.stats().hits, 0u);
   EXPECT_LE(cache.stats().bytes, 2 * bytes_of(hall(14)));
+}
+
+TEST(MapCache, KeepsNoMapThatIsNotFinished) {
+  MapCache cache(std::size_t{1} << 20);
+  const StopCondition far(StopCondition::Clock::now() + std::chrono::hours(1));
+  step_clock = {0, 0};
+  EXPECT_EQ(cache.map_of(OccupancyGrid(100, 100, 1.0), far), nullptr);
+  step_clock = {};
+  EXPECT_EQ(cache.stats().maps, 0u);
+  EXPECT_NE(cache.map_of(OccupancyGrid(100, 100, 1.0), far), nullptr);
+  step_clock = {};
 }
 
 }  // namespace

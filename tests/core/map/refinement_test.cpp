@@ -4,13 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdint>
+#include <memory>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/map/free_space.h"
 #include "core/map/static_map.h"
+#include "core/runtime/stop_condition.h"
 #include "tests/support/ascii_map.h"
 #include "tests/support/random_problem.h"
 
@@ -81,7 +85,7 @@ TEST(Refinement, ConnectsWhatTheLatticeOfTheCellsConnects) {
   for (int map = 0; map < 60; ++map) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", map " << map);
     const OccupancyGrid grid = building(dice);
-    const LineOfSight sight(grid);
+    const LineOfSight sight(grid, StopCondition::never());
     const double radius = dice.between(0.1, 0.45);
     const double spacing = 0.05 * (2 * (1 + dice.below(5)) + 1);
     const Lattice lattice(grid, 4 << dice.below(4), spacing);
@@ -122,7 +126,7 @@ TEST(Refinement, FindsTheMiddleOfAGapBetweenCells) {
                                                  "....#....",  //
                                                  "....#...."},
                                                 0.5);
-  const StaticMap map(grid);
+  const StaticMap map(grid, StopCondition::never());
   const Lattice lattice(grid, 8);
   const auto finer = map.finer_vertices(lattice, 0.3, StopCondition::never());
   ASSERT_GT(finer->count(), 0);
@@ -134,7 +138,7 @@ TEST(Refinement, FindsTheMiddleOfAGapBetweenCells) {
 }
 
 TEST(Refinement, AddsNothingWhereTheLatticeHasAWayNearby) {
-  const StaticMap map(OccupancyGrid(40, 40, 0.05));
+  const StaticMap map(OccupancyGrid(40, 40, 0.05), StopCondition::never());
   const Lattice lattice(map.grid(), 8, 0.25);
   const auto finer = map.finer_vertices(lattice, 0.3, StopCondition::never());
   EXPECT_EQ(finer->count(), 0);
@@ -146,18 +150,61 @@ TEST(Refinement, LeavesOutGapsWithoutPlay) {
                                                  ".......",  //
                                                  ".......",  //
                                                  "...#..."});
-  const StaticMap map(grid);
+  const StaticMap map(grid, StopCondition::never());
   const Lattice lattice(grid, 8);
   EXPECT_TRUE(map.finer_vertices(lattice, 1.0, StopCondition::never())->links().empty());
 }
 
 TEST(Refinement, EndsWhenItIsStopped) {
   StopCondition::Clock::time_point past{};
-  const StaticMap map(support::ascii_map({"...#...", ".......", ".......", "...#..."}, 0.5));
+  const StaticMap map(support::ascii_map({"...#...", ".......", ".......", "...#..."}, 0.5),
+                      StopCondition::never());
   const Lattice lattice(map.grid(), 8);
   EXPECT_EQ(map.finer_vertices(lattice, 0.3, StopCondition(past))->count(), 0);
   EXPECT_GT(map.finer_vertices(lattice, 0.3, StopCondition::never())->count(), 0)
       << "what was not finished is not kept";
+}
+
+/// How often it asks the stop condition, which is met after `end` questions, and whether it is finished.
+std::pair<std::int64_t, bool> questions(const StaticMap& map, const Lattice& lattice, double radius,
+                                        std::int64_t end) {
+  const StopCondition far(StopCondition::Clock::now() + std::chrono::hours(1));
+  step_clock = {0, end};
+  const bool finished = refine(map.grid(), map.sight(), lattice, radius, far).has_value();
+  const std::int64_t steps = step_clock.steps;
+  step_clock = {};
+  return {steps, finished};
+}
+
+void expect_to_end_at_every_question(const StaticMap& map, const Lattice& lattice, double radius,
+                                     std::int64_t least) {
+  const auto [all, finished] = questions(map, lattice, radius, StepClock::kNever);
+  EXPECT_TRUE(finished);
+  EXPECT_GE(all, least);
+  for (std::int64_t end = 0; end < all; end += 1 + all / 50) {
+    EXPECT_EQ(questions(map, lattice, radius, end), std::pair(end + 1, false)) << "of " << all;
+  }
+}
+
+TEST(Refinement, EndsWhenTheStopConditionIsMet) {
+  support::Dice dice(5);
+  const StaticMap map(building(dice), StopCondition::never());
+  for (const double spacing : {1.0, 4.0}) {
+    const Lattice lattice(map.grid(), 16, spacing * map.grid().resolution());
+    expect_to_end_at_every_question(map, lattice, 0.06, 10);
+  }
+}
+
+/// Each node is compared with many cells: hundreds of nodes between two questions would take too long.
+TEST(Refinement, AsksMoreOftenForLargeDisks) {
+  const StaticMap map(OccupancyGrid(400, 400, 1.0), StopCondition::never());
+  expect_to_end_at_every_question(map, Lattice(map.grid(), 16), 170.0, 800 * 800 / 4);
+}
+
+TEST(Refinement, AsksMoreOftenAmongPolygons) {
+  const auto walls = std::make_shared<StaticMap>(OccupancyGrid(60, 60, 1.0), StopCondition::never());
+  const StaticMap map(walls, {Polygon({{20.2, 20.3}, {40.1, 22.7}, {30.3, 41.9}})});
+  expect_to_end_at_every_question(map, Lattice(map.grid(), 16), 0.4, 120 * 120 / 4);
 }
 
 }  // namespace

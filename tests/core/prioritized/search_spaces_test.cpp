@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "core/runtime/memory_account.h"
+#include "core/runtime/stop_condition.h"
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
@@ -22,8 +25,8 @@ Planning three_robots() {
 }
 
 void search_back(SearchSpaces& spaces, std::size_t robot) {
-  SearchSpace& space = spaces.of(robot);
-  space.cost_to_go(0).from(space.vertices().start(), StopCondition::never());
+  SearchSpace& space = *spaces.of(robot, StopCondition::never());
+  space.cost_to_go(0).from(space.vertices().start(), {});
   ASSERT_GT(space.expansions(), 0);
 }
 
@@ -31,7 +34,8 @@ TEST(SearchSpaces, AreKeptFromSearchToSearch) {
   const Planning p = three_robots();
   SearchSpaces spaces(p.instance);
   for (std::size_t robot = 0; robot < 3; ++robot) search_back(spaces, robot);
-  for (std::size_t robot = 0; robot < 3; ++robot) EXPECT_GT(spaces.of(robot).expansions(), 0);
+  for (std::size_t robot = 0; robot < 3; ++robot)
+    EXPECT_GT(spaces.of(robot, StopCondition::never())->expansions(), 0);
 }
 
 TEST(SearchSpaces, DiscardTheLeastRecentlyUsedWithoutMemory) {
@@ -41,11 +45,11 @@ TEST(SearchSpaces, DiscardTheLeastRecentlyUsedWithoutMemory) {
   SearchSpaces spaces(p.instance);
   search_back(spaces, 0);
   search_back(spaces, 1);
-  spaces.of(0);
+  spaces.of(0, StopCondition::never());
   account.count(account.limit() * 5 / 8);
-  spaces.of(2);
-  EXPECT_GT(spaces.of(0).expansions(), 0);
-  EXPECT_EQ(spaces.of(1).expansions(), 0);
+  spaces.of(2, StopCondition::never());
+  EXPECT_GT(spaces.of(0, StopCondition::never())->expansions(), 0);
+  EXPECT_EQ(spaces.of(1, StopCondition::never())->expansions(), 0);
 }
 
 TEST(SearchSpaces, AreAllDiscarded) {
@@ -53,7 +57,25 @@ TEST(SearchSpaces, AreAllDiscarded) {
   SearchSpaces spaces(p.instance);
   search_back(spaces, 0);
   spaces.discard_all();
-  EXPECT_EQ(spaces.of(0).expansions(), 0);
+  EXPECT_EQ(spaces.of(0, StopCondition::never())->expansions(), 0);
+}
+
+/// A robot with so many goals off the lattice that comparing them with each other takes long.
+TEST(SearchSpaces, AreNotMadeIfTheStopConditionIsMet) {
+  Robot robot = robot_at(0.5, 0.5).to(4.5, 0.5).radius(0.1);
+  for (int k = 0; k < 300; ++k) robot.via.push_back({Position(1.03 + 0.01 * k, 1.02), {}});
+  const Planning p(support::ascii_map({".......", ".......", "......."}), {robot});
+  const StopCondition far(StopCondition::Clock::now() + std::chrono::hours(1));
+  SearchSpaces spaces(p.instance);
+  step_clock = {0, 0};
+  EXPECT_EQ(spaces.of(0, far), nullptr);
+  EXPECT_EQ(step_clock.steps, 1);
+  step_clock = {};
+  SearchSpace* made = spaces.of(0, far);
+  ASSERT_NE(made, nullptr);
+  EXPECT_TRUE(made->finished());
+  EXPECT_GT(step_clock.steps, 5);
+  step_clock = {};
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ using support::robot_at;
 constexpr double kPi = std::numbers::pi;
 
 /// The estimate for robot 0 from its start.
-CostToGo::Estimate from_start(Planning& p, const StopCondition& stop = StopCondition::never()) {
-  const Vertices vertices(p.instance, 0);
+CostToGo::Estimate from_start(Planning& p, const StopCondition& stop = {}) {
+  const Vertices vertices(p.instance, 0, 0, StopCondition::never());
   CostToGo cost_to_go(vertices);
   return cost_to_go.from(vertices.start(), stop);
 }
@@ -82,7 +82,7 @@ TEST(CostToGo, EqualsStraightLineWhenStopped) {
 
 TEST(CostToGo, DoesNotDependOnOrderOfQueries) {
   Planning p(maze(), {robot_at(0.5, 0.5).to(27.5, 8.5)});
-  const Vertices vertices(p.instance, 0);
+  const Vertices vertices(p.instance, 0, 0, StopCondition::never());
   CostToGo queried_once(vertices);
   const auto last = queried_once.from(vertices.start(), p.never);
   CostToGo queried_often(vertices);

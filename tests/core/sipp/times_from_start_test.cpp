@@ -50,7 +50,7 @@ std::vector<double> times_from(const Vertices& vertices, int start) {
 
 TEST(TimesFromStart, FollowTheWayAroundAWall) {
   Planning p(two_rooms(), {robot_at(1.5, 0.5).to(3.5, 0.5).radius(0.5)});
-  const Vertices vertices(p.instance, 0);
+  const Vertices vertices(p.instance, 0, 0, StopCondition::never());
   TimesFromStart times(vertices, vertices.start(), vertices.goal());
   EXPECT_EQ(times.at_least(vertices.goal()), 0.0) << "not yet searched";
   ASSERT_TRUE(times.reach_goal(kUnlimited, p.never).value());
@@ -64,7 +64,7 @@ TEST(TimesFromStart, PreferTheFastWayAroundASlowZone) {
   slow.angular_speed = 1.0;
   Planning p(
       support::make_problem(OccupancyGrid(5, 3, 1.0), {robot_at(0.5, 0.5).to(4.5, 0.5)}, {.zones = {slow}}));
-  const Vertices vertices(p.instance, 0);
+  const Vertices vertices(p.instance, 0, 0, StopCondition::never());
   TimesFromStart times(vertices, vertices.start(), vertices.goal());
   ASSERT_TRUE(times.reach_goal(kUnlimited, p.never).value());
   EXPECT_NEAR(times.at_least(vertices.goal()), 2.0 + 2.0 * std::sqrt(2.0), kRounding)
@@ -73,7 +73,7 @@ TEST(TimesFromStart, PreferTheFastWayAroundASlowZone) {
 
 TEST(TimesFromStart, TellThatNoWayLeadsToTheGoal) {
   Planning p(two_rooms(), {robot_at(1.0, 1.0).to(4.0, 1.0).radius(0.6)});
-  const Vertices vertices(p.instance, 0);
+  const Vertices vertices(p.instance, 0, 0, StopCondition::never());
   TimesFromStart times(vertices, vertices.start(), vertices.goal());
   EXPECT_FALSE(times.reach_goal(kUnlimited, p.never).value()) << "too wide for the gap above the wall";
   EXPECT_EQ(times.at_least(vertices.goal()), 0.0);
@@ -81,7 +81,7 @@ TEST(TimesFromStart, TellThatNoWayLeadsToTheGoal) {
 
 TEST(TimesFromStart, GoOnAfterTheLimit) {
   Planning p(two_rooms(), {robot_at(1.5, 0.5).to(3.5, 0.5).radius(0.5)});
-  const Vertices vertices(p.instance, 0);
+  const Vertices vertices(p.instance, 0, 0, StopCondition::never());
   TimesFromStart times(vertices, vertices.start(), vertices.goal());
   EXPECT_FALSE(times.reach_goal(2, p.never).has_value());
   EXPECT_EQ(times.expansions(), 2);
@@ -96,7 +96,7 @@ TEST(TimesFromStart, AreLowerBoundsAndExactAtTheGoalOnRandomMaps) {
   for (int round = 0; round < 60; ++round) {
     Planning p(support::random_problem(dice, 2));
     if (p.movers().empty()) continue;
-    const Vertices vertices(p.instance, p.movers().front());
+    const Vertices vertices(p.instance, p.movers().front(), 0, StopCondition::never());
     const std::vector<double> exact = times_from(vertices, vertices.start());
     TimesFromStart times(vertices, vertices.start(), vertices.goal());
     const double to_goal = exact[static_cast<std::size_t>(vertices.goal())];

@@ -22,7 +22,7 @@ std::vector<int> neighbours(const Vertices& vertices, int vertex) {
 
 TEST(Vertices, AddsNoneIfStartAndGoalAreOnLattice) {
   const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.5, 2.5).to(6.5, 4.5)});
-  const Vertices vertices(p.instance, 0);
+  const Vertices vertices(p.instance, 0, 0, StopCondition::never());
   EXPECT_EQ(vertices.count(), 48);
   EXPECT_EQ(vertices.start(), 17);
   EXPECT_EQ(vertices.goal(), 38);
@@ -31,7 +31,7 @@ TEST(Vertices, AddsNoneIfStartAndGoalAreOnLattice) {
 
 TEST(Vertices, AddsStartAndGoalOffLattice) {
   const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.2, 2.7).to(6.51, 4.5)});
-  const Vertices vertices(p.instance, 0);
+  const Vertices vertices(p.instance, 0, 0, StopCondition::never());
   EXPECT_EQ(vertices.count(), 50);
   EXPECT_EQ(vertices.start(), 48);
   EXPECT_EQ(vertices.goal(), 49);
@@ -41,14 +41,14 @@ TEST(Vertices, AddsStartAndGoalOffLattice) {
 
 TEST(Vertices, SharesOneVertexForEqualStartAndGoal) {
   const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.2, 2.7).to(1.2, 2.7, 1.0)});
-  const Vertices vertices(p.instance, 0);
+  const Vertices vertices(p.instance, 0, 0, StopCondition::never());
   EXPECT_EQ(vertices.start(), vertices.goal());
   EXPECT_EQ(vertices.count(), 49);
 }
 
 TEST(Vertices, HasNoGoalForParkedRobot) {
   const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.2, 2.7)});
-  EXPECT_EQ(Vertices(p.instance, 0).goal(), -1);
+  EXPECT_EQ(Vertices(p.instance, 0, 0, StopCondition::never()).goal(), -1);
 }
 
 PlanOptions inflated(double metres) {
@@ -59,7 +59,7 @@ PlanOptions inflated(double metres) {
 
 TEST(Vertices, AddsAStartOnTheLatticeThatIsTooNearToAWall) {
   const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(0.5, 2.5).to(6.5, 4.5)}, inflated(0.2));
-  const Vertices vertices(p.instance, 0);
+  const Vertices vertices(p.instance, 0, 0, StopCondition::never());
   EXPECT_EQ(vertices.start(), 48);
   EXPECT_EQ(vertices.position(48), Position(0.5, 2.5));
   const auto from_start = neighbours(vertices, vertices.start());
@@ -76,7 +76,7 @@ TEST(Vertices, LinksAStartThatIsTooNearFarEnoughToBeClear) {
   options.lattice_spacing = 0.1;
   const Planning p(OccupancyGrid(80, 80, 0.1), {robot_at(4.05, 4.05).to(7.5, 7.5), robot_at(4.9, 4.05)},
                    options);
-  const Vertices vertices(p.instance, 0);
+  const Vertices vertices(p.instance, 0, 0, StopCondition::never());
   ASSERT_GE(vertices.start(), 6400);
   double farthest = 0.0;
   for (const int vertex : neighbours(vertices, vertices.start())) {
@@ -87,7 +87,7 @@ TEST(Vertices, LinksAStartThatIsTooNearFarEnoughToBeClear) {
 
 TEST(Vertices, LinksNearbyStartAndGoalDirectly) {
   const Planning p(OccupancyGrid(8, 6, 1.0), {robot_at(1.2, 2.7).to(2.3, 3.1)});
-  const Vertices vertices(p.instance, 0);
+  const Vertices vertices(p.instance, 0, 0, StopCondition::never());
   const auto from_start = neighbours(vertices, vertices.start());
   EXPECT_TRUE(std::binary_search(from_start.begin(), from_start.end(), vertices.goal()));
   const auto from_goal = neighbours(vertices, vertices.goal());
@@ -99,7 +99,7 @@ TEST(Vertices, DoesNotLinkStartAndGoalOutOfSight) {
                                        "###",  //
                                        "..."}),
                    {robot_at(1.2, 0.5).radius(0.3).to(1.2, 2.5)});
-  const Vertices vertices(p.instance, 0);
+  const Vertices vertices(p.instance, 0, 0, StopCondition::never());
   EXPECT_EQ(neighbours(vertices, vertices.start()), (std::vector<int>{0, 1, 2}));
 }
 
@@ -109,7 +109,7 @@ TEST(Vertices, LinksOwnVerticesBothWaysWithLatticeInSightWithinTwoCells) {
   for (int k = 0; k < 60; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", problem " << k);
     const Planning p(support::random_problem(dice, 1));
-    const Vertices vertices(p.instance, 0);
+    const Vertices vertices(p.instance, 0, 0, StopCondition::never());
     const int start = vertices.start();
     if (start < p.instance.lattice().vertex_count()) continue;
     std::vector<int> expected;

@@ -60,6 +60,17 @@ TEST(StartOverlap, OfRobotsThatStayIsAllowed) {
   EXPECT_THAT(scene.violations(rules_of(0, 0.2)), IsEmpty());
 }
 
+TEST(StartOverlap, OfManyRobotsThatStayHidesNoCollision) {
+  Scene scene(open_map(40, 20));
+  constexpr int kStacked = 300;  // all pairs are more than the checker lists
+  for (int i = 0; i < kStacked; ++i) scene.stand(robot_at(2.0 + 1e-3 * i, 10));
+  scene.add(robot_at(10, 10), [](PlanBuilder& plan) { plan.translate_to(20, 10); });
+  scene.stand(robot_at(20.5, 10));
+  const auto violations = scene.violations(rules_of(0, 1.0));
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::robot_collision));
+  EXPECT_THAT(violations[0].robots, ElementsAre(kStacked, kStacked + 1));
+}
+
 TEST(StartOverlap, WithAWallIsLeft) {
   Scene scene;
   scene.add(robot_at(0.4, 10), [](PlanBuilder& plan) { plan.translate_to(4, 10); });
