@@ -62,8 +62,8 @@ core::SimulatedFleet fleet_of(const SimulateRequest& request) {
 std::optional<std::string> asked_trace(const core::SimulatedFleet& fleet, SimulateRequest& request,
                                        const Limits& limits, const core::StopCondition& stop) {
   // A small request may have a million stops and bends; its answer is in proportion to its plans.
-  constexpr std::size_t kActionsOfAny = 10'000;
-  constexpr std::size_t kActionsOfOne = 4;
+  constexpr std::size_t kActionsOfAny = 20'000;
+  constexpr std::size_t kActionsOfOne = 50;
   if (!request.trace) return std::nullopt;
   std::size_t planned = 0;
   for (const core::RobotPlan& plan : request.plans) planned += plan.actions.size();
