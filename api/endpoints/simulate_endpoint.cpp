@@ -57,13 +57,13 @@ core::SimulatedFleet fleet_of(const SimulateRequest& request) {
   return {request.grid, request.robots, request.body_radii, std::move(execution)};
 }
 
-/// The text of the trace that is asked for. None, with a warning, if it has too many actions for an answer, or
-/// is not made in half of the time: the rest is for the runs.
+/// The text of the trace that is asked for. None, with a warning, if it has too many actions for an answer,
+/// or is not made in half of the time: the rest is for the runs.
 std::optional<std::string> asked_trace(const core::SimulatedFleet& fleet, SimulateRequest& request,
                                        const Limits& limits, const core::StopCondition& stop) {
   // A small request may have a million stops and bends; its answer is in proportion to its plans.
   constexpr std::size_t kActionsOfAny = 20'000;
-  constexpr std::size_t kActionsOfOne = 50;
+  constexpr std::size_t kActionsOfOne = 200;
   if (!request.trace) return std::nullopt;
   std::size_t planned = 0;
   for (const core::RobotPlan& plan : request.plans) planned += plan.actions.size();
