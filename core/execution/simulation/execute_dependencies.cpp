@@ -58,7 +58,7 @@ class DependentExecution {
     std::vector<std::size_t> ready(robots_.size());
     for (std::size_t k = 0; k < ready.size(); ++k) ready[k] = k;
     while (!ready.empty()) {
-      if (stops_after(1)) return std::nullopt;
+      if (stop_.met()) return std::nullopt;
       const std::size_t robot = ready.back();
       ready.pop_back();
       if (!advance(robot)) robots_[robots_[robot].blocked_by].waiting.push_back(robot);
