@@ -10,7 +10,7 @@ namespace fleetplan::core {
 
 namespace {
 
-constexpr std::size_t kLooksBetweenPolls = 256;
+constexpr std::size_t kLooksBetweenPolls = 1024;
 /// To bound memory on huge maps.
 constexpr double kMostBuckets = 2.5e5;
 
@@ -62,9 +62,8 @@ bool NearStretches::find_near(std::size_t robot, std::size_t stretch,
   const PlannedStretch& mine = by_robot_[robot][stretch];
   ++asked_;
   const auto look_into = [&](std::size_t bucket, double, double) {
-    if (stops(stop)) return;
+    if (stops_after(1 + buckets_[bucket].size(), stop)) return;
     for (const std::uint32_t id : buckets_[bucket]) {
-      if (stops(stop)) return;
       Entry& entry = entries_[id];
       if (entry.asked == asked_) continue;
       entry.asked = asked_;
@@ -87,16 +86,18 @@ bool NearStretches::add(std::size_t robot, const StopCondition& stop) {
     entries_.push_back({robot, index});
     const bool added = grid_.walk(path.from, path.to, [&](std::size_t bucket, double, double) {
       buckets_[bucket].push_back(id);
-      return !stops(stop);
+      return !stops_after(1, stop);
     });
     if (!added) return false;
   }
   return true;
 }
 
-bool NearStretches::stops(const StopCondition& stop) {
-  if (++looks_ % kLooksBetweenPolls == 0) stopped_ = stopped_ || stop.met();
-  return stopped_;
+bool NearStretches::stops_after(std::size_t looks, const StopCondition& stop) {
+  looks_ += looks;
+  if (looks_ < kLooksBetweenPolls) return stopped_;
+  looks_ = 0;
+  return stopped_ = stopped_ || stop.met();
 }
 
 }  // namespace fleetplan::core

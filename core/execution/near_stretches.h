@@ -39,8 +39,8 @@ class NearStretches {
   bool find_near(std::size_t robot, std::size_t stretch, std::vector<std::vector<NearPair>>& by_other,
                  const StopCondition& stop);
 
-  /// Looks at the stop condition once in many calls; stays true once it is met.
-  bool stops(const StopCondition& stop);
+  /// Looks at the stop condition once in many entries; stays true once it is met.
+  bool stops_after(std::size_t looks, const StopCondition& stop);
 
   struct Entry {
     std::size_t robot = 0;
@@ -54,7 +54,7 @@ class NearStretches {
   std::vector<std::vector<std::uint32_t>> buckets_;  // entries
   std::vector<Entry> entries_;
   std::uint64_t asked_ = 0;
-  std::size_t looks_ = 0;
+  std::size_t looks_ = 0;  // at entries, since the last look at the stop condition
   bool stopped_ = false;
 };
 
