@@ -25,7 +25,7 @@ struct DependencyRules {
 /// most so many in all. Robots that follow each other closely and slowly would have millions.
 inline constexpr std::size_t kDependenciesOfAny = 10'000;
 inline constexpr std::size_t kDependenciesOfAnAction = 100;
-inline constexpr std::size_t kMostDependencies = 400'000;
+inline constexpr std::size_t kMostDependencies = 250'000;
 /// Those that others imply included.
 inline constexpr std::size_t kMostFound = 1'000'000;
 
