@@ -178,7 +178,8 @@ def neighbours(legs, length, as_committed=False, **options):
         plans.append({"robot": name, "actions": actions})
         if as_committed:
             robots[-1]["committed"] = actions
-    body = {"map": {"rows": ["." * (length + 3)] * 4}, "robots": robots, "robot_defaults": ROBOT, "options": options}
+    body = {"map": {"rows": ["." * (length + 3)] * 4}, "robots": robots, "robot_defaults": ROBOT,
+            "options": options}
     return body if as_committed else {**body, "plans": plans}
 
 
@@ -221,8 +222,8 @@ def costly_requests():
                300, answered_or_unfinished("runs")),
         Costly("simulation of 20,000 legs", posted(simulated_long_plan(20_000), "/v1/simulate"), 0.5, 300,
                answered_or_unfinished("runs")),
-        Costly("dependencies of 60,000 legs", posted(neighbours(30_000, 8, execution_margin=0.1), "/v1/dependencies"), 5.0, 300,
-               answered_or_unfinished("dependencies")),
+        Costly("dependencies of 60,000 legs", posted(neighbours(30_000, 8, execution_margin=0.1), "/v1/dependencies"), 5.0,
+               300, answered_or_unfinished("dependencies")),
         Costly("dependencies of near legs", posted(neighbours(3000, 8, execution_margin=0.5), "/v1/dependencies"), 5.0, 300,
                answered_or_unfinished("dependencies")),
         Costly("a plan with dependencies",
