@@ -144,7 +144,12 @@ std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   core::Work& stop) {
   std::vector<core::Robot> next;
   next.reserve(robots.size());
-  for (std::size_t k = 0; k < robots.size(); ++k) next.push_back(advanced(robots[k], executions[k], moment));
+  // An action is copied several times, which is as much work as reading some text.
+  constexpr std::size_t kWorkOfAnAction = 256;
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    if (stop.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return next;
+    next.push_back(advanced(robots[k], executions[k], moment));
+  }
   clear_commitments(next, moment.inflation, stop);
   return next;
 }

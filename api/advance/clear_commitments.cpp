@@ -31,6 +31,9 @@ constexpr double kBeforeService = 1e-3;
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
+/// Copying a piece is as much work as reading so many bytes.
+constexpr std::size_t kWorkOfAPiece = 64;
+
 /// A piece of straight motion or rest.
 struct Piece {
   double begin;
@@ -96,7 +99,7 @@ class Clearing {
       waiting_.pop_back();
       waits_[robot] = false;
       for (std::size_t other = 0; other < robots_.size(); ++other) {
-        if (stop_.met_after(1)) return;
+        if (stop_.met_after(kWorkOfAPiece)) return;
         if (other != robot) part(robot, other);
       }
     }
@@ -163,7 +166,7 @@ class Clearing {
     const std::vector<Piece>& theirs = pieces_[other];
     std::size_t i = 0;
     for (std::size_t k = 0; k < mine.size() && i + 1 < theirs.size();) {
-      if (stop_.met_after(1)) return std::nullopt;
+      if (stop_.met_after(kWorkOfAPiece)) return std::nullopt;
       const double distance = mine[k].radius + theirs[i].radius - kTouch;
       if (const auto grown = overlap_by_growth(mine[k], theirs[i], distance)) return grown;
       if (const auto t = first_overlap(mine[k], theirs[i], distance)) {
@@ -176,6 +179,7 @@ class Clearing {
 
   void cut(std::size_t index, double t) {
     core::Robot& robot = robots_[index];
+    stop_.met_after(kWorkOfAPiece * pieces_[index].size());
     if (t < kNothing) t = 0.0;
     if (t >= robot.committed_until() - kSameEnd) return;
     robot.committed = actions_until(robot.committed, t);

@@ -95,11 +95,14 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
     read.executions[plan.robot].planned = true;
   }
   if (!read.request || root.fault_count() > 0 || stop.met()) return std::nullopt;
+  std::size_t corners = fleet.zones.size();
+  for (const core::Zone& zone : fleet.zones) corners += zone.polygon.size();
   UniqueIds unique_ids;
   auto robots = parse_robots(read.request.find("robots"), read.request.find("robot_defaults"), WorldFrame{},
                              limits, unique_ids);
   for (ReadRobot& robot : robots) {
     const std::size_t index = read.robots.size();
+    if (stop.met_after(corners)) return std::nullopt;
     if (!read.executions[index].goals) read.goal_metadata[index] = std::move(robot.goal_metadata);
     // A robot that is off its path turns back as slowly as it has to anywhere.
     const core::DriveZones zones(fleet.zones, index, robot.robot);

@@ -30,8 +30,8 @@ PlanDependencies plan_dependencies(const std::vector<core::Robot>& robots,
   dependencies.made = made_in_memory(robots, plans, rules, stop);
   if (!dependencies.made) {
     dependencies.warnings.emplace_back(
-        "The dependencies could not be made with the time and memory of this request: increase "
-        "time_budget_ms or dependency_slack.");
+        "The dependencies could not be made with the time and memory of this request, or are too many: "
+        "increase time_budget_ms or dependency_slack.");
   } else if (has_obstacles) {
     dependencies.warnings.emplace_back(
         "The dependencies are between robots only: moving obstacles follow the clock.");

@@ -24,7 +24,7 @@ Reply retime_endpoint(std::string_view body, const RequestContext& context) {
     const auto times = core::retime(request->robots, core::executed_actions(request->robots, request->plans),
                                     request->dependencies, request->states, request->rules, stop.reading());
     if (!times) return std::nullopt;
-    return write_retimed(*request, *times);
+    return write_retimed(*request, *times, stop);
   };
   return pure_endpoint(body, context, kRetimeMembers, retimed);
 }

@@ -12,6 +12,7 @@
 #include "api/request/parse_simulate_request.h"
 #include "api/response/error.h"
 #include "api/response/write_simulation.h"
+#include "core/runtime/time_share.h"
 
 namespace fleetplan::api {
 
@@ -57,6 +58,27 @@ core::SimulatedFleet fleet_of(const SimulateRequest& request) {
   return {request.grid, request.robots, request.body_radii, std::move(execution)};
 }
 
+/// The text of the trace that is asked for. None, with a warning, if it has too many actions for an answer,
+/// or is not made in half of the time: the rest is for the runs.
+std::optional<std::string> asked_trace(const core::SimulatedFleet& fleet, SimulateRequest& request,
+                                       const Limits& limits, const core::StopCondition& stop) {
+  // A small request may have a million stops and bends; its answer is in proportion to its plans.
+  constexpr std::size_t kActionsOfAny = 20'000;
+  constexpr std::size_t kActionsOfOne = 200;
+  if (!request.trace) return std::nullopt;
+  std::size_t planned = 0;
+  for (const core::RobotPlan& plan : request.plans) planned += plan.actions.size();
+  const std::size_t most = std::min(limits.max_actions, kActionsOfAny + kActionsOfOne * planned);
+  const core::StopCondition half = core::after_share(stop, 0.5);
+  const auto trace = core::trace_run(fleet, request.settings, *request.trace, most, half);
+  auto text = trace ? write_trace(*trace, request, half) : std::nullopt;
+  if (!text) {
+    request.warnings.push_back("The trace is left out: it has more than " + std::to_string(most) +
+                               " actions, or takes more than half of the time budget or too much memory.");
+  }
+  return text;
+}
+
 /// The runs in the caller's thread and, if they are idle, in others. From the second round on, it lets others
 /// have their first plans before.
 core::SimulationReport run_all(const core::SimulatedFleet& fleet, const SimulateRequest& request,
@@ -89,16 +111,13 @@ Reply simulated(std::string_view body, const RequestContext& context, core::Work
     return stop.cancelled() ? unfinished() : too_busy(context.request_id);
   }
   const core::SimulatedFleet fleet = fleet_of(*request);
+  const auto trace = asked_trace(fleet, *request, context.limits, stop);
   const core::SimulationReport report = run_all(fleet, *request, stop, context);
   if (report.totals.done == 0) return unfinished();
   if (report.totals.done < report.totals.runs) {
     request->warnings.push_back("Only the first " + std::to_string(report.totals.done) + " of " +
                                 std::to_string(report.totals.runs) +
                                 " runs were finished within the time budget.");
-  }
-  std::optional<core::Simulator::Trace> trace;
-  if (request->trace) {
-    trace = core::Simulator(fleet, request->settings).trace(*request->trace, stop);
   }
   return {200, kJson, write_simulation(report, *request, trace, context.request_id)};
 }

@@ -56,12 +56,16 @@ void write_visits_left(JsonWriter& json, const core::Robot& robot, core::Actions
 
 }  // namespace
 
-std::string write_retimed(const RetimeRequest& request, const std::vector<core::RetimedRobot>& retimed) {
+std::optional<std::string> write_retimed(const RetimeRequest& request,
+                                         const std::vector<core::RetimedRobot>& retimed, core::Work& stop) {
+  // An action is as much work as reading so many bytes.
+  constexpr std::size_t kWorkOfAnAction = 256;
   const auto actions = core::executed_actions(request.robots, request.plans);
   const auto id = [&](const std::optional<std::size_t>& robot) { return request.robots[*robot].id; };
   JsonWriter json;
   json.begin_object().key("robots").begin_array();
   for (std::size_t k = 0; k < retimed.size(); ++k) {
+    if (stop.met_after(kWorkOfAnAction * (1 + actions[k].size()))) return std::nullopt;
     json.begin_object().member("robot", request.robots[k].id);
     json.member("t_end", retimed[k].ends.empty() ? retimed[k].begin : retimed[k].ends.back());
     json.member("delay", retimed[k].delay);

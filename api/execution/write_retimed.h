@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,8 @@
 
 namespace fleetplan::api {
 
-/// The answer of POST /v1/retime. `retimed`: by robot.
-std::string write_retimed(const RetimeRequest& request, const std::vector<core::RetimedRobot>& retimed);
+/// The answer of POST /v1/retime. `retimed`: by robot. Nothing if the stop is met.
+std::optional<std::string> write_retimed(const RetimeRequest& request,
+                                         const std::vector<core::RetimedRobot>& retimed, core::Work& stop);
 
 }  // namespace fleetplan::api

@@ -29,14 +29,20 @@ std::size_t characters_of(std::string_view text) {
 
 }  // namespace
 
-JsonReader::Items::Items(const JsonReader& array)
-    : begin_(array.document_, std::nullopt), end_(array.document_, std::nullopt) {
-  if (!array || !array.value_->is_array()) return;
-  begin_ = {array.document_, array.value_->children().begin()};
-  end_ = {array.document_, array.value_->children().end()};
+JsonReader::Items::Items(const JsonReader& container)
+    : begin_(container.document_, std::nullopt), end_(container.document_, std::nullopt) {
+  if (!container) return;
+  begin_ = {container.document_, container.value_->children().begin()};
+  end_ = {container.document_, container.value_->children().end()};
 }
 
-JsonReader::Items JsonReader::items() const { return Items(*this); }
+JsonReader::Items JsonReader::items() const {
+  return Items(value_ && value_->is_array() ? *this : JsonReader());
+}
+
+JsonReader::Items JsonReader::members() const {
+  return Items(value_ && value_->is_object() ? *this : JsonReader());
+}
 
 std::string JsonReader::pointer() const { return locate(document_->root(), *value_).pointer; }
 

@@ -54,6 +54,9 @@ class JsonReader {
   /// All items of the array, for a range-based loop; ends early when the reading of the document is stopped.
   class Items;
   Items items() const;
+  /// All members of the object, likewise; their keys are value().key(). For objects of many: `find` looks at
+  /// all members that come before.
+  Items members() const;
 
   std::optional<double> number(const Range& range) const;
   /// A whole number from 0 to `most`.
@@ -131,7 +134,7 @@ class JsonReader::Items {
     std::optional<JsonValue::Children::Iterator> at_;  // none: of an absent array
   };
 
-  explicit Items(const JsonReader& array);
+  explicit Items(const JsonReader& container);
   Iterator begin() const { return begin_; }
   Iterator end() const { return end_; }
 

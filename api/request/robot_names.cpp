@@ -15,11 +15,15 @@ RobotNames::RobotNames(const std::vector<ReadRobot>& robots, std::string_view pl
 std::optional<std::size_t> RobotNames::find(const JsonReader& id) const {
   const auto name = id.name();
   if (!name) return std::nullopt;
-  const auto found = robots_.find(*name);
-  if (found != robots_.end()) return found->second;
+  if (const auto index = index_of(*name)) return index;
   id.fault(fault::kUnknownRobot,
            [&] { return "There is no robot " + in_quotes(*name) + " in " + place_ + "."; });
   return std::nullopt;
+}
+
+std::optional<std::size_t> RobotNames::index_of(std::string_view id) const {
+  const auto found = robots_.find(std::string(id));
+  return found != robots_.end() ? std::optional(found->second) : std::nullopt;
 }
 
 }  // namespace fleetplan::api

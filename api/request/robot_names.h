@@ -22,6 +22,8 @@ class RobotNames {
 
   /// The index of the robot whose id the value is. Anything else is a fault.
   std::optional<std::size_t> find(const JsonReader& id) const;
+  /// The index of the robot of this id, if there is one.
+  std::optional<std::size_t> index_of(std::string_view id) const;
 
  private:
   std::string place_;

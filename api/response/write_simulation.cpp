@@ -33,10 +33,13 @@ void write_distribution(JsonWriter& json, std::string_view name, std::vector<dou
   const auto count = static_cast<double>(values.size());
   json.begin_object();
   json.member("mean", std::accumulate(values.begin(), values.end(), 0.0) / count);
-  std::sort(values.begin(), values.end());
+  auto sorted_until = values.begin();
   for (const Quantile& quantile : kQuantiles) {
     const double rank = std::max(1.0, std::ceil(quantile.share * count));
-    json.member(quantile.name, values[static_cast<std::size_t>(rank) - 1]);
+    const auto place = values.begin() + (static_cast<std::ptrdiff_t>(rank) - 1);
+    std::nth_element(sorted_until, place, values.end());
+    json.member(quantile.name, *place);
+    sorted_until = place;
   }
   json.end_object();
 }
@@ -50,7 +53,7 @@ class SimulationWriter {
   SimulationWriter(const core::SimulationReport& report, const SimulateRequest& request)
       : report_(report), request_(request) {}
 
-  std::string write(const std::optional<core::Simulator::Trace>& trace, const std::string& request_id) {
+  std::string write(const std::optional<std::string>& trace, const std::string& request_id) {
     const core::SimulationProgress& totals = report_.totals;
     json_.begin_object();
     json_.member("request_id", request_id).member("runs", totals.done);
@@ -63,7 +66,7 @@ class SimulationWriter {
     write_collisions();
     write_pairs();
     write_deadlocks();
-    if (trace) write_trace(*trace);
+    if (trace) json_.key("trace").json(*trace);
     json_.key("warnings").begin_array();
     for (const std::string& warning : request_.warnings) json_.value(std::string_view(warning));
     json_.end_array().end_object();
@@ -133,19 +136,6 @@ class SimulationWriter {
     json_.end_array();
   }
 
-  void write_trace(const core::Simulator::Trace& trace) {
-    json_.key("trace").begin_object().member("run", *request_.trace);
-    json_.key("plans").begin_array();
-    for (std::size_t k = 0; k < request_.plans.size(); ++k) {
-      const std::vector<core::Action>& actions = trace.actions[k];
-      json_.begin_object().member("robot", id(request_.plans[k].robot));
-      json_.member("cost", actions.empty() ? 0.0 : actions.back().t_end);
-      write_actions(json_, actions, request_.robots[request_.plans[k].robot], {}, request_.frame.origin);
-      json_.end_object();
-    }
-    json_.end_array().end_object();
-  }
-
   const core::SimulationReport& report_;
   const SimulateRequest& request_;
   JsonWriter json_;
@@ -153,9 +143,25 @@ class SimulationWriter {
 
 }  // namespace
 
+std::optional<std::string> write_trace(const core::SimulationTrace& trace, const SimulateRequest& request,
+                                       const core::StopCondition& stop) {
+  JsonWriter json;
+  json.begin_object().member("run", *request.trace).key("plans").begin_array();
+  for (std::size_t k = 0; k < request.plans.size(); ++k) {
+    if (stop.met()) return std::nullopt;
+    const core::Robot& robot = request.robots[request.plans[k].robot];
+    const std::vector<core::Action>& actions = trace.actions[k];
+    json.begin_object().member("robot", robot.id);
+    json.member("cost", actions.empty() ? 0.0 : actions.back().t_end);
+    write_actions(json, actions, robot, {}, request.frame.origin);
+    json.end_object();
+  }
+  json.end_array().end_object();
+  return json.take();
+}
+
 std::string write_simulation(const core::SimulationReport& report, const SimulateRequest& request,
-                             const std::optional<core::Simulator::Trace>& trace,
-                             const std::string& request_id) {
+                             const std::optional<std::string>& trace, const std::string& request_id) {
   return SimulationWriter(report, request).write(trace, request_id);
 }
 

@@ -8,9 +8,12 @@
 
 namespace fleetplan::api {
 
-/// The answer of POST /v1/simulate.
+/// The `trace` of the answer. Returns none if `stop` is met first.
+std::optional<std::string> write_trace(const core::SimulationTrace& trace, const SimulateRequest& request,
+                                       const core::StopCondition& stop);
+
+/// The answer of POST /v1/simulate. `trace`: its text, if there is one.
 std::string write_simulation(const core::SimulationReport& report, const SimulateRequest& request,
-                             const std::optional<core::Simulator::Trace>& trace,
-                             const std::string& request_id);
+                             const std::optional<std::string>& trace, const std::string& request_id);
 
 }  // namespace fleetplan::api

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "api/json/fault_text.h"
 #include "api/request/motion/parse_dependencies.h"
 #include "api/request/parse_options.h"
 #include "api/request/parse_plans.h"
@@ -52,15 +53,17 @@ OrderHeader read_header(const JsonReader& root) {
 std::vector<std::string> read_serial_numbers(const JsonReader& member,
                                              const std::vector<core::Robot>& robots) {
   std::vector<std::string> serials;
-  std::vector<std::string_view> known;
-  for (const core::Robot& robot : robots) {
-    serials.push_back(robot.id);
-    known.push_back(robot.id);
-  }
-  const JsonReader json = member.object(known);
-  if (!json) return serials;
-  for (std::size_t k = 0; k < robots.size(); ++k) {
-    if (const auto serial = json.find(robots[k].id).name()) serials[k] = *serial;
+  serials.reserve(robots.size());
+  for (const core::Robot& robot : robots) serials.push_back(robot.id);
+  if (member && !member.value().is_object()) member.must_be(fault::kWrongType, "an object");
+  const RobotNames names(robots);
+  for (const JsonReader serial : member.members()) {
+    const std::string_view id = serial.value().key();
+    if (const auto robot = names.index_of(id)) {
+      if (const auto name = serial.name()) serials[*robot] = *name;
+    } else {
+      serial.fault(fault::kUnknownKey, [&] { return "There is no robot " + in_quotes(id) + " in robots."; });
+    }
   }
   return serials;
 }
@@ -127,12 +130,16 @@ class ProgressReader {
   std::vector<bool> seen_;
 };
 
+/// Ends early when the stop is met.
 std::vector<Route> routes_of(const VdaRequest& request, const std::vector<core::Actions>& actions,
-                             double wait_before_move) {
+                             double wait_before_move, core::Work& stop) {
+  // A node is as much work as reading so many bytes.
+  constexpr std::size_t kWorkOfANode = 256;
   const auto points = points_of(request.dependencies, request.robots.size());
   std::vector<Route> routes;
   routes.reserve(request.robots.size());
   for (std::size_t k = 0; k < request.robots.size(); ++k) {
+    if (stop.met_after(kWorkOfANode * (1 + actions[k].size() + points[k].size()))) break;
     routes.push_back(route_of(request.robots[k], actions[k], points[k], wait_before_move));
   }
   return routes;
@@ -158,7 +165,8 @@ std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Li
       request.robots, request.plans);
   request.serial_numbers = read_serial_numbers(root.find("serial_numbers"), request.robots);
   const auto actions = core::executed_actions(request.robots, request.plans);
-  request.routes = routes_of(request, actions, wait_before_move);
+  request.routes = routes_of(request, actions, wait_before_move, stop);
+  if (stop.met()) return std::nullopt;
   request.progress = ProgressReader(request.robots, actions, request.routes).read(root.find("progress"));
   if (root.fault_count() > 0 || stop.met()) return std::nullopt;
   return request;

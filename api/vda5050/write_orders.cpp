@@ -42,7 +42,9 @@ void write_progress(JsonWriter& json, const Route& route, std::size_t first) {
 
 }  // namespace
 
-std::string write_orders(const VdaRequest& request) {
+std::optional<std::string> write_orders(const VdaRequest& request, core::Work& stop) {
+  // The text of a node and its edge.
+  constexpr std::size_t kWorkOfANode = 1024;
   const std::vector<Route>& routes = request.routes;
   std::vector<core::ActionPlace> reached;
   for (const OrderProgress& progress : request.progress) reached.push_back(progress.at);
@@ -52,6 +54,7 @@ std::string write_orders(const VdaRequest& request) {
   json.begin_object().key("orders").begin_array();
   for (std::size_t k = 0; k < routes.size(); ++k) {
     if (routes[k].nodes.empty()) continue;
+    if (stop.met_after(kWorkOfANode * routes[k].nodes.size())) return std::nullopt;
     all_released = all_released && released[k] == routes[k].nodes.size();
     const auto order = next_order(request, k, released[k]);
     if (!order) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "api/vda5050/parse_vda5050_request.h"
@@ -8,6 +9,7 @@ namespace fleetplan::api {
 
 /// The answer of POST /v1/export/vda5050: an order for each robot with actions that has none, and an update
 /// for each one of whose order more nodes can be released. With each, what its nodes mean for the plan.
-std::string write_orders(const VdaRequest& request);
+/// Nothing if the stop is met.
+std::optional<std::string> write_orders(const VdaRequest& request, core::Work& stop);
 
 }  // namespace fleetplan::api

@@ -8,6 +8,9 @@ namespace fleetplan::core {
 
 namespace {
 
+/// Each takes two searches in a sorted list.
+constexpr std::size_t kComparisonsBetweenPolls = 256;
+
 /// The dependencies of one robot on another: a range of the list.
 struct PairRange {
   std::size_t waits = 0;
@@ -84,12 +87,17 @@ class Implications {
 std::optional<std::vector<WholeDependency>> without_implied(std::vector<WholeDependency> all,
                                                             const StopCondition& stop) {
   std::vector<WholeDependency> kept;
+  std::size_t comparisons = 0;
   const Implications implications(std::move(all));
   for (const PairRange& pair : implications.pairs()) {
-    if (stop.met()) return std::nullopt;
     const auto neighbours = implications.waiting(pair.waits);
     for (std::size_t k = pair.begin; k < pair.end; ++k) {
       const WholeDependency& one = implications.all()[k];
+      comparisons += 1 + neighbours.second - neighbours.first;
+      if (comparisons >= kComparisonsBetweenPolls) {
+        if (stop.met()) return std::nullopt;
+        comparisons = 0;
+      }
       if (!implications.is_implied(one, neighbours)) kept.push_back(one);
     }
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
 #include <tuple>
 #include <utility>
 
@@ -20,43 +19,54 @@ class DependencyMaker {
  public:
   DependencyMaker(const std::vector<Robot>& robots, const std::vector<RobotPlan>& plans,
                   const DependencyRules& rules, const StopCondition& stop)
-      : rules_(rules), stop_(stop), actions_(executed_actions(robots, plans)) {
-    for (std::size_t k = 0; k < robots.size(); ++k) {
-      stretches_.push_back(stretches_of(robots[k], actions_[k], rules.margins[k]));
-      paces_.emplace_back(actions_[k]);
-    }
-  }
+      : robots_(robots), rules_(rules), stop_(stop), actions_(executed_actions(robots, plans)) {}
 
   std::optional<Dependencies> run() {
+    if (!find_stretches()) return std::nullopt;
     NearStretches index(stretches_);
     for (std::size_t robot = 0; robot < stretches_.size(); ++robot) {
-      if (stop_.met() || !compare(robot, index.near(robot))) return std::nullopt;
-      index.add(robot);
+      const auto near = index.near(robot, stop_);
+      if (!near || !compare(robot, *near) || !index.add(robot, stop_)) return std::nullopt;
     }
     const auto kept = without_implied(std::move(found_), stop_);
-    if (!kept) return std::nullopt;
-    for (const WholeDependency& one : *kept) dependencies_.list.push_back(written(one));
-    sort();
+    if (!kept || kept->size() + dependencies_.tight.size() > most()) return std::nullopt;
+    write(*kept);
+    if (stop_.met()) return std::nullopt;
     return std::move(dependencies_);
   }
 
  private:
-  /// A robot with those that are near it somewhere. False if the stop condition is met.
-  bool compare(std::size_t robot, const std::vector<NearPair>& near) {
-    for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
-      const std::size_t other = near[begin].other;
-      while (end < near.size() && near[end].other == other) ++end;
-      const auto pair = pair_dependencies(
-          {stretches_[other], paces_[other]}, {stretches_[robot], paces_[robot]},
-          std::span(near).subspan(begin, end - begin), rules_.tolerance, rules_.slack, stop_);
+  bool find_stretches() {
+    for (std::size_t k = 0; k < robots_.size(); ++k) {
+      if (stop_.met()) return false;
+      stretches_.push_back(stretches_of(robots_[k], actions_[k], rules_.margins[k]));
+      paces_.emplace_back(actions_[k]);
+    }
+    return true;
+  }
+
+  /// A robot with those that are near it somewhere. False if the stop condition is met, or if too many are
+  /// found.
+  bool compare(std::size_t robot, const std::vector<NearRobot>& near) {
+    for (const auto& [other, pairs] : near) {
+      const auto pair =
+          pair_dependencies({stretches_[other], paces_[other]}, {stretches_[robot], paces_[robot]}, pairs,
+                            rules_.tolerance, rules_.slack, stop_);
       if (!pair) return false;
       for (const Step& step : pair->for_second) keep(robot, other, step);
       for (const Step& step : pair->for_first) keep(other, robot, step);
       for (const Tightness& tight : pair->tight) {
         dependencies_.tight.push_back({other, robot, tight.t, tight.slack});
       }
+      if (found_.size() + dependencies_.tight.size() > kMostFound) return false;
     }
     return true;
+  }
+
+  std::size_t most() const {
+    std::size_t actions = 0;
+    for (const Actions& of_robot : actions_) actions += of_robot.size();
+    return std::min(kMostDependencies, kDependenciesOfAny + kDependenciesOfAnAction * actions);
   }
 
   void keep(std::size_t waits, std::size_t leads, const Step& step) {
@@ -73,18 +83,27 @@ class DependencyMaker {
     return planned_time(actions_[progress.robot], progress.action, progress.fraction);
   }
 
-  void sort() {
-    const auto key = [&](const Dependency& one) {
-      return std::tuple(time_of(one.gate), one.gate.robot, one.until.robot);
-    };
-    std::sort(dependencies_.list.begin(), dependencies_.list.end(),
-              [&](const Dependency& a, const Dependency& b) { return key(a) < key(b); });
+  /// By the planned times of the gates.
+  void write(const std::vector<WholeDependency>& kept) {
+    std::vector<std::pair<double, Dependency>> timed;
+    timed.reserve(kept.size());
+    for (const WholeDependency& one : kept) {
+      const Dependency dependency = written(one);
+      timed.emplace_back(time_of(dependency.gate), dependency);
+    }
+    std::sort(timed.begin(), timed.end(), [](const auto& a, const auto& b) {
+      return std::tie(a.first, a.second.gate.robot, a.second.until.robot) <
+             std::tie(b.first, b.second.gate.robot, b.second.until.robot);
+    });
+    dependencies_.list.reserve(timed.size());
+    for (const auto& one : timed) dependencies_.list.push_back(one.second);
     std::sort(dependencies_.tight.begin(), dependencies_.tight.end(),
               [](const TightPair& a, const TightPair& b) {
                 return std::tie(a.t, a.first, a.second) < std::tie(b.t, b.first, b.second);
               });
   }
 
+  const std::vector<Robot>& robots_;
   const DependencyRules& rules_;
   const StopCondition& stop_;
   std::vector<Actions> actions_;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "core/geometry/disk_motion.h"
@@ -30,32 +33,21 @@ NearestInTime nearest_in_time(const MovingDisk& first, const MovingDisk& second)
 /// Metres, as a share: a region whose border the plan touches lies beside the plan despite rounding.
 constexpr double kJustLess = 1.0 - 1e-9;
 
+/// Seconds: stretches so far apart in time are in that order, whatever the rounding of their ends.
+constexpr double kSurely = 1e-3;
+constexpr std::size_t kPairsBetweenPolls = 256;
+
+/// The regions of two robots, without those that matter no more. One through which the first robot goes first
+/// says: while I have not left this stretch, do not enter that one of yours. Another one of a later stretch
+/// of the first robot and an earlier one of the second robot says more at all times.
 class PairRegions {
  public:
   PairRegions(const PacedRobot& first, const PacedRobot& second, double tolerance)
       : first_(first), second_(second), tolerance_(tolerance) {}
 
-  void add(const NearPair& near) {
-    const PlannedStretch& a = first_.stretches[near.other_stretch];
-    const PlannedStretch& b = second_.stretches[near.stretch];
-    double distance = a.radius + b.radius - tolerance_;
-    const NearestInTime planned = nearest_in_time(MovingDisk(a.planned), MovingDisk(b.planned));
-    if (planned.distance < distance) {
-      too_near_.push_back({planned.t, 0.0});
-      distance = planned.distance * kJustLess;
-    }
-    if (!a.separates || !b.separates) return;
-    const NearestShares nearest = nearest_shares(a.planned.path, b.planned.path);
-    if (nearest.distance >= distance) return;
-    const double u = a.begin + nearest.at.first * a.length;
-    const double v = b.begin + nearest.at.second * b.length;
-    if (first_.pace.time_at(u) < second_.pace.time_at(v)) {
-      first_goes_.push_back(
-          {{a.planned.path, b.planned.path, distance}, a.begin, a.length, b.begin, b.length});
-    } else {
-      second_goes_.push_back(
-          {{b.planned.path, a.planned.path, distance}, b.begin, b.length, a.begin, a.length});
-    }
+  /// False if the stop condition is met.
+  bool add(std::span<const NearPair> near, const StopCondition& stop) {
+    return add_first_goes(near, stop) && add_second_goes(near, stop);
   }
 
   const std::vector<PassedRegion>& first_goes() const { return first_goes_; }
@@ -65,6 +57,86 @@ class PairRegions {
   const std::vector<Tightness>& too_near() const { return too_near_; }
 
  private:
+  /// By ascending stretches of the second robot.
+  bool add_first_goes(std::span<const NearPair> near, const StopCondition& stop) {
+    std::uint32_t stretch = 0;
+    std::uint32_t reached = 0;  // the last stretch of the first robot in a region with an earlier one
+    std::uint32_t reached_here = 0;
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      if (k % kPairsBetweenPolls == 0 && stop.met()) return false;
+      const NearPair& pair = near[k];
+      if (pair.stretch != stretch) reached = std::max(reached, reached_here);
+      stretch = pair.stretch;
+      if (pair.other_stretch < reached) continue;
+      const PlannedStretch& a = first_.stretches[pair.other_stretch];
+      const PlannedStretch& b = second_.stretches[pair.stretch];
+      if (is_surely_before(b, a)) continue;
+      const double kept_apart = distance(a, b, &too_near_);
+      const auto nearest = crossing(a, b, kept_apart);
+      if (!nearest || !first_is_first(a, b, *nearest)) continue;
+      first_goes_.push_back(region(a, b, kept_apart));
+      if (first_goes_.back().is_open()) reached_here = std::max(reached_here, pair.other_stretch);
+    }
+    return true;
+  }
+
+  /// By descending stretches of the second robot.
+  bool add_second_goes(std::span<const NearPair> near, const StopCondition& stop) {
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t stretch = kNone;
+    std::uint32_t entered = kNone;  // the first stretch of the first robot in a region with a later one
+    std::uint32_t entered_here = kNone;
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      if (k % kPairsBetweenPolls == 0 && stop.met()) return false;
+      const NearPair& pair = near[near.size() - 1 - k];
+      if (pair.stretch != stretch) entered = std::min(entered, entered_here);
+      stretch = pair.stretch;
+      if (pair.other_stretch > entered) continue;
+      const PlannedStretch& a = first_.stretches[pair.other_stretch];
+      const PlannedStretch& b = second_.stretches[pair.stretch];
+      if (is_surely_before(a, b)) continue;
+      const double kept_apart = distance(a, b, nullptr);
+      const auto nearest = crossing(a, b, kept_apart);
+      if (!nearest || first_is_first(a, b, *nearest)) continue;
+      second_goes_.push_back(region(b, a, kept_apart));
+      if (second_goes_.back().is_open()) entered_here = std::min(entered_here, pair.other_stretch);
+    }
+    return true;
+  }
+
+  static bool is_surely_before(const PlannedStretch& a, const PlannedStretch& b) {
+    return a.planned.t_end + kSurely < b.planned.t_start;
+  }
+
+  /// What the two have to keep, as far as the plan does. `too_near`: where to note that it does not.
+  double distance(const PlannedStretch& a, const PlannedStretch& b, std::vector<Tightness>* too_near) const {
+    const double wanted = a.radius + b.radius - tolerance_;
+    const NearestInTime planned = nearest_in_time(MovingDisk(a.planned), MovingDisk(b.planned));
+    if (planned.distance >= wanted) return wanted;
+    if (too_near != nullptr) too_near->push_back({planned.t, 0.0});
+    return planned.distance * kJustLess;
+  }
+
+  /// Where they are nearest, if that is within the distance.
+  static std::optional<NearestShares> crossing(const PlannedStretch& a, const PlannedStretch& b,
+                                               double distance) {
+    if (!a.separates || !b.separates) return std::nullopt;
+    const NearestShares nearest = nearest_shares(a.planned.path, b.planned.path);
+    return nearest.distance < distance ? std::optional(nearest) : std::nullopt;
+  }
+
+  bool first_is_first(const PlannedStretch& a, const PlannedStretch& b, const NearestShares& nearest) const {
+    if (is_surely_before(a, b)) return true;
+    if (is_surely_before(b, a)) return false;
+    const double u = a.begin + nearest.at.first * a.length;
+    const double v = b.begin + nearest.at.second * b.length;
+    return first_.pace.time_at(u) < second_.pace.time_at(v);
+  }
+
+  static PassedRegion region(const PlannedStretch& a, const PlannedStretch& b, double distance) {
+    return {{a.planned.path, b.planned.path, distance}, {a.begin, a.length}, {b.begin, b.length}};
+  }
+
   const PacedRobot& first_;
   const PacedRobot& second_;
   double tolerance_;
@@ -96,10 +168,7 @@ std::optional<PairDependencies> pair_dependencies(const PacedRobot& first, const
                                                   std::span<const NearPair> near, double tolerance,
                                                   double slack, const StopCondition& stop) {
   PairRegions regions(first, second, tolerance);
-  for (const NearPair& one : near) {
-    if (stop.met()) return std::nullopt;
-    regions.add(one);
-  }
+  if (!regions.add(near, stop)) return std::nullopt;
   auto for_second = staircase_of(regions.first_goes(), first.pace, second.pace, slack, stop);
   auto for_first = staircase_of(regions.second_goes(), second.pace, first.pace, slack, stop);
   if (!for_second || !for_first) return std::nullopt;

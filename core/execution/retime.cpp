@@ -80,7 +80,7 @@ class Forward {
   }
 
   std::optional<std::vector<RetimedRobot>> run(const StopCondition& stop) {
-    begin();
+    if (!begin(stop)) return std::nullopt;
     while (!arrivals_.empty()) {
       if (stop.met()) return std::nullopt;
       const auto [t, robot] = arrivals_.top();
@@ -103,8 +103,10 @@ class Forward {
     if (planned < rules_.now - kOnTime) one.because_of = state.robot;
   }
 
-  void begin() {
+  /// False if the stop condition is met.
+  bool begin(const StopCondition& stop) {
     for (Traveller& one : travellers_) {
+      if (stop.met()) return false;
       const auto first = std::min(static_cast<std::size_t>(one.at), one.actions.size());
       retimed_.push_back({first, std::vector<double>(one.actions.size() - first, rules_.now), rules_.now});
       // A gate that it has passed already does not call it back.
@@ -112,6 +114,7 @@ class Forward {
     }
     for (std::size_t k = 0; k < travellers_.size(); ++k) tell(k, rules_.now);
     for (std::size_t k = 0; k < travellers_.size(); ++k) go_on(k, rules_.now);
+    return true;
   }
 
   /// Goes on to the next action, gate or place that somebody waits for, unless it has to wait itself.

@@ -11,17 +11,35 @@ namespace fleetplan::core {
 
 /// A region of whole progress (u, v) through which the robot of u goes first: one robot passes it before
 /// another one enters.
-struct PassedRegion {
-  ConflictRegion shares;
-  double first_begin = 0.0;  // whole progress u of share 0
-  double first_length = 1.0;
-  double second_begin = 0.0;
-  double second_length = 1.0;
+class PassedRegion {
+ public:
+  /// Where a stretch begins in whole progress, and its length.
+  struct Part {
+    double begin = 0.0;
+    double length = 1.0;
+  };
+
+  PassedRegion(const ConflictRegion& shares, const Part& first, const Part& second);
 
   /// The least v of points with more than this u; infinity if there are none.
   double second_after(double first) const;
   /// The greatest u of points with at most this v; minus infinity if there are none.
   double first_before(double second) const;
+
+  /// Bounds that rounding respects: second_after is never less than `least_second`, and infinite from
+  /// `most_first` on; first_before is never more than `most_first`, and infinite up to `least_second`.
+  double least_second() const { return least_second_; }
+  double most_first() const { return most_first_; }
+  /// Whether there are points for all u up to its begin, and for all v from its end on.
+  bool is_open() const { return is_open_; }
+
+ private:
+  ConflictRegion shares_;
+  Part first_;
+  Part second_;
+  double least_second_ = 0.0;
+  double most_first_ = 0.0;
+  bool is_open_ = false;
 };
 
 /// One step: v may not pass `gate` until u is at least `until`.

@@ -70,6 +70,18 @@ def valid_or_unfinished(answer):
     return None if answer.status == 422 and answer.json()["code"] == "check_unfinished" else valid(answer)
 
 
+def answered_or_unfinished(member):
+    """An answer with this member, or a refusal after the time budget; and no long answer to a short request."""
+    def fault(answer):
+        content = answer.json()
+        if answer.status == 422 and content["code"] in ("check_unfinished", "memory_exceeded"):
+            return None
+        if answer.status != 200 or member not in content:
+            return f"{answer.status} {answer.body[:200]}"
+        return f"an answer of {len(answer.body)} bytes" if len(answer.body) > 16 * MIB else None
+    return fault
+
+
 # ---------------------------------------------------------------- requests
 
 def posted(body, path="/v1/plan"):
@@ -197,6 +209,46 @@ def mask_of_many_parts():
     return {"request": request_of_fleet, "plans": plans, "at": 0.5}
 
 
+def rough_way(**more):
+    """One action with 300,000 bends and 30,000 stops."""
+    here, there = {"x": 5, "y": 5, "theta": 0}, {"x": 3005, "y": 5, "theta": 0}
+    action = {"type": "translate", "t_start": 0, "t_end": 3000, "from": here, "to": there}
+    return {"map": {"rows": ["." * 310], "resolution": 10}, "robots": [{"id": "a", "start": here}], "robot_defaults": ROBOT,
+            "plans": [{"robot": "a", "actions": [action]}], "policy": "open_loop", "runs": 1,
+            "disturbance": {"stops": {"rate_per_hour": 36000, "mean_s": 0.001},
+                            "cross_track": {"sigma": 0.01, "correlation_length": 0.01}}, **more}
+
+
+def simulated_long_plan(legs):
+    """`long_plan`, executed."""
+    return {**long_plan(legs), "policy": "open_loop", "runs": 10, "options": {"time_budget_ms": 500},
+            "disturbance": {"speed": {"min": 0.8, "max": 1}}}
+
+
+def neighbours(legs, length, as_committed=False, **options):
+    """Two robots that go to and fro beside each other."""
+    robots, plans = [], []
+    for name, y in (("a", 1.0), ("b", 2.0)):
+        ends = [{"x": 1.0, "y": y, "theta": 0}, {"x": 1.0 + length, "y": y, "theta": 0}]
+        actions = [{"type": "translate", "t_start": 1.01 * length * k, "t_end": 1.01 * length * (k + 1), "from": ends[k % 2],
+                    "to": ends[1 - k % 2], "reverse": k % 2 == 1} for k in range(legs)]
+        robots.append({"id": name, "start": ends[0], "may_reverse": True})
+        plans.append({"robot": name, "actions": actions})
+        if as_committed:
+            robots[-1]["committed"] = actions
+    body = {"map": {"rows": ["." * (length + 3)] * 4}, "robots": robots, "robot_defaults": ROBOT,
+            "options": options}
+    return body if as_committed else {**body, "plans": plans}
+
+
+def many_serial_numbers(members):
+    """Serial numbers of robots that do not exist, for 2000 that do."""
+    return {"version": "2.1.0", "map": {"rows": ["..."]}, "robot_defaults": ROBOT, "plans": [], "dependencies": [],
+            "robots": [{"id": f"r{i}", "start": {"x": i + 0.5, "y": 0.5}} for i in range(2000)],
+            "manufacturer": "m", "timestamp": "2026-01-31T12:00:00.000Z",
+            "serial_numbers": {f"u{i}": "x" for i in range(members)}}
+
+
 def costly_requests():
     empty_objects = b'{"robots": [' + b",".join([b"{}"] * (14 * MIB // 3)) + b"]}"
     empty_strings = b'{"robots": [' + b",".join([b'""'] * (14 * MIB // 3)) + b"]}"
@@ -237,6 +289,21 @@ def costly_requests():
         Costly("20,000 goals off the lattice", posted(many_goals(lambda k: (2 + 0.0041 * k, 2 + k * 0.618 % 90))), 0.1,
                300, planned(["none"], ["budget_exhausted"])),
         Costly("a mask of many parts", posted(mask_of_many_parts(), "/v1/advance"), 0.5, 300,
+                refused("invalid_request", "parse_unfinished", "memory_exceeded")),
+        Costly("300,000 bends, 30,000 stops", posted(rough_way(options={"time_budget_ms": 500}), "/v1/simulate"), 0.5, 300,
+               answered_or_unfinished("runs")),
+        Costly("a trace of 300,000 bends", posted(rough_way(options={"time_budget_ms": 3600}, trace=0), "/v1/simulate"), 3.6,
+               300, answered_or_unfinished("runs")),
+        Costly("simulation of 20,000 legs", posted(simulated_long_plan(20_000), "/v1/simulate"), 0.5, 300,
+               answered_or_unfinished("runs")),
+        Costly("dependencies of 60,000 legs", posted(neighbours(30_000, 8, execution_margin=0.1), "/v1/dependencies"), 5.0,
+               300, answered_or_unfinished("dependencies")),
+        Costly("dependencies of near legs", posted(neighbours(3000, 8, execution_margin=0.5), "/v1/dependencies"), 5.0, 300,
+               answered_or_unfinished("dependencies")),
+        Costly("a plan with dependencies",
+               posted(neighbours(600, 2000, True, execution_margin=0.1, dependencies=True, time_budget_ms=150)), 0.15, 300,
+               answered_or_unfinished("dependencies")),
+        Costly("1,200,000 serial numbers", posted(many_serial_numbers(1_200_000), "/v1/export/vda5050"), 1.5, 300,
                refused("invalid_request", "parse_unfinished", "memory_exceeded")),
     ]
 

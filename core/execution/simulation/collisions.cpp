@@ -12,6 +12,9 @@ namespace {
 /// The overlaps of one execution that are told apart: many robots in one place have millions of them.
 constexpr std::size_t kMostOverlaps = 10'000;
 
+/// A leg takes as long as there are blocked cells near it.
+constexpr std::size_t kLegsBetweenPolls = 8;
+
 bool is_earlier(const ExecutedCollision& a, const ExecutedCollision& b) {
   return a.t != b.t ? a.t < b.t : a.first < b.first;
 }
@@ -23,10 +26,13 @@ Position position_of(const std::vector<Leg>& legs, double t) {
 }  // namespace
 
 std::optional<ExecutedCollision> find_wall(const ObstacleField& field, std::size_t robot,
-                                           const std::vector<Leg>& legs, double radius, double tolerance) {
+                                           const std::vector<Leg>& legs, double radius, double tolerance,
+                                           const StopCondition& stop) {
   const double reach = radius - tolerance;
   if (reach <= 0.0) return std::nullopt;
-  for (const Leg& leg : legs) {
+  for (std::size_t k = 0; k < legs.size(); ++k) {
+    if (k % kLegsBetweenPolls == 0 && stop.met()) break;
+    const Leg& leg = legs[k];
     const auto nearest = field.nearest(leg.from, leg.to, reach);
     if (!nearest) continue;
     const double fraction = nearest->point.fraction;
@@ -49,7 +55,7 @@ std::optional<ExecutionCollisions> find_collisions(const std::vector<std::vector
   const auto consider = [&](const ExecutedCollision& collision) {
     if (!found.first || is_earlier(collision, *found.first)) found.first = collision;
   };
-  for (const Overlap& overlap : clearance->overlaps) {
+  for (const Overlap& overlap : clearance->overlaps) {  // at most kMostOverlaps
     found.pairs.emplace_back(overlap.first, overlap.second);
     const double t = overlap.t_begin;
     const Position a = position_of(legs[overlap.first], t);
@@ -60,10 +66,10 @@ std::optional<ExecutionCollisions> find_collisions(const std::vector<std::vector
   std::sort(found.pairs.begin(), found.pairs.end());
   found.pairs.erase(std::unique(found.pairs.begin(), found.pairs.end()), found.pairs.end());
   for (const std::size_t robot : near_walls) {
-    if (stop.met()) return std::nullopt;
-    const auto wall = find_wall(field, robot, legs[robot], radii[robot], tolerance);
+    const auto wall = find_wall(field, robot, legs[robot], radii[robot], tolerance, stop);
     if (wall) consider(*wall);
   }
+  if (stop.met()) return std::nullopt;
   return found;
 }
 

@@ -36,8 +36,9 @@ std::optional<ExecutionCollisions> find_collisions(const std::vector<std::vector
                                                    const std::vector<std::size_t>& near_walls,
                                                    const StopCondition& stop);
 
-/// The first overlap of one robot and a wall, by legs.
+/// The first overlap of one robot and a wall, by legs. Ends early, with none, if `stop` is met.
 std::optional<ExecutedCollision> find_wall(const ObstacleField& field, std::size_t robot,
-                                           const std::vector<Leg>& legs, double radius, double tolerance);
+                                           const std::vector<Leg>& legs, double radius, double tolerance,
+                                           const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -3,9 +3,11 @@
 // What a robot has to do, as far as its policy may not change it.
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/execution/simulation/disturbance.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 
@@ -16,7 +18,9 @@ struct Phase {
   double to_fraction = 0.0;
 };
 
-/// The phases of a rotation or translation, after its start delay: it moves and halts in turn.
-std::vector<Phase> moving_phases(const DisturbedActions& disturbed, std::size_t action);
+/// The phases of a rotation or translation, after its start delay: it moves and halts in turn. Returns none
+/// if `stop` is met first.
+std::optional<std::vector<Phase>> moving_phases(const DisturbedActions& disturbed, std::size_t action,
+                                                const StopCondition& stop);
 
 }  // namespace fleetplan::core

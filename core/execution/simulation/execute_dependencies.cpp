@@ -7,6 +7,8 @@
 namespace fleetplan::core {
 namespace {
 
+constexpr std::size_t kStepsBetweenPolls = 256;
+
 /// A robot may pass `place` once another one has reached its own.
 struct Gate {
   ActionPlace place;
@@ -60,8 +62,10 @@ class DependentExecution {
       const std::size_t robot = ready.back();
       ready.pop_back();
       if (!advance(robot)) robots_[robots_[robot].blocked_by].waiting.push_back(robot);
+      if (stopped_) return std::nullopt;
       // Those that still wait for this robot after another look wait again.
       const std::vector<std::size_t> waiting = std::exchange(robots_[robot].waiting, {});
+      if (stops_after(waiting.size())) return std::nullopt;
       for (const std::size_t other : waiting) {
         const Robot& waits = robots_[other];
         const bool may_go =
@@ -92,21 +96,31 @@ class DependentExecution {
     std::vector<std::size_t> waiting = {};  // for this robot
   };
 
-  /// Goes on until the end of the plan, or until a gate of which it is not known when it opens: then false.
+  /// Looks at the stop condition once in many steps; stays true once it is met.
+  bool stops_after(std::size_t steps) {
+    steps_ += steps;
+    if (steps_ < kStepsBetweenPolls) return stopped_;
+    steps_ = 0;
+    return stopped_ = stopped_ || stop_.met();
+  }
+
+  /// Goes on until the end of the plan, or until a gate of which it is not known when it opens: then false,
+  /// as when the stop condition is met.
   bool advance(std::size_t index) {
     Robot& robot = robots_[index];
     const std::size_t actions = planned_.plans[index].actions.size();
     while (robot.action < actions) {
+      if (stops_after(1)) return false;
       if (!robot.begun) {
         robot.builder.begin_action(robot.action);
         robot.begun = true;
       }
       if (robot.phases.empty()) {
         if (!pass_gates(robot, 0.0)) return false;
-        prepare(index, robot);
+        if (!prepare(index, robot)) return false;
       }
       for (; robot.phase < robot.phases.size(); ++robot.phase) {
-        if (!advance_phase(robot)) return false;
+        if (stops_after(1) || !advance_phase(robot)) return false;
       }
       robot.phases.clear();
       robot.begun = false;
@@ -115,24 +129,28 @@ class DependentExecution {
     return true;
   }
 
-  /// The phases of an action, now that it may begin.
-  void prepare(std::size_t index, Robot& robot) {
+  /// The phases of an action, now that it may begin. False if the stop condition is met.
+  bool prepare(std::size_t index, Robot& robot) {
     const DisturbedActions& disturbed = disturbed_[index];
     robot.builder.stand_for(disturbed.actions[robot.action].start_delay);
     robot.phase = 0;
     if (planned_.plans[index].actions[robot.action].type != Action::Type::wait) {
-      robot.phases = moving_phases(disturbed, robot.action);
-      return;
+      auto phases = moving_phases(disturbed, robot.action, stop_);
+      stopped_ = stopped_ || !phases;
+      if (phases) robot.phases = std::move(*phases);
+      return !stopped_;
     }
     const WaitPurpose& purpose = planned_.purposes[index][robot.action];
     robot.builder.stand_until(purpose.not_before);
     robot.phases = {{purpose.least, 1.0}};
+    return true;
   }
 
   /// False: stopped at a gate; what remains of the phase is kept.
   bool advance_phase(Robot& robot) {
     Phase& phase = robot.phases[robot.phase];
     while (robot.gate < robot.gates.size()) {
+      if (stops_after(1)) return false;
       const ActionPlace& place = robot.gates[robot.gate].place;
       if (place.action != robot.action || place.fraction >= phase.to_fraction) break;
       const double from = robot.builder.fraction();
@@ -151,6 +169,7 @@ class DependentExecution {
   bool pass_gates(Robot& robot, double fraction) {
     const ActionPlace here{robot.action, fraction};
     for (; robot.gate < robot.gates.size() && !(here < robot.gates[robot.gate].place); ++robot.gate) {
+      if (stops_after(1)) return false;
       const Gate& gate = robot.gates[robot.gate];
       const auto opens = time_reached(robots_[gate.other].builder.progress(), gate.until);
       if (!opens) {
@@ -165,6 +184,8 @@ class DependentExecution {
   const PlannedExecution& planned_;
   const std::vector<DisturbedActions>& disturbed_;
   const StopCondition& stop_;
+  std::size_t steps_ = 0;  // since the last look at the stop condition
+  bool stopped_ = false;
   std::vector<Robot> robots_;
 };
 

@@ -14,7 +14,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// far below what a robot could notice.
 constexpr double kSameMoment = 1e-9;
 constexpr double kSameShare = 1e-14;
-constexpr std::size_t kEventsBetweenPolls = 64;
+constexpr std::size_t kActionsBetweenPolls = 256;
+constexpr std::size_t kStepsBetweenPolls = 1024;
 
 /// A part of a robot's plan: from `from` to `to` in planned time.
 struct ClockPhase {
@@ -37,13 +38,15 @@ struct ClockPhase {
   }
 };
 
-/// The phases of a robot's whole plan.
-std::vector<ClockPhase> clock_phases(const std::vector<Action>& actions,
-                                     const std::vector<WaitPurpose>& purposes,
-                                     const DisturbedActions& disturbed) {
+/// The phases of a robot's whole plan. Returns none if `stop` is met first.
+std::optional<std::vector<ClockPhase>> clock_phases(const std::vector<Action>& actions,
+                                                    const std::vector<WaitPurpose>& purposes,
+                                                    const DisturbedActions& disturbed,
+                                                    const StopCondition& stop) {
   using Kind = ClockPhase::Kind;
   std::vector<ClockPhase> phases;
   for (std::size_t k = 0; k < actions.size(); ++k) {
+    if (k % kActionsBetweenPolls == 0 && stop.met()) return std::nullopt;
     const Action& action = actions[k];
     const double begin = action.t_start;
     phases.push_back({Kind::awaits, k, 0.0, begin, begin, 0.0});
@@ -55,7 +58,9 @@ std::vector<ClockPhase> clock_phases(const std::vector<Action>& actions,
       continue;
     }
     double fraction = 0.0;
-    for (const Phase& phase : moving_phases(disturbed, k)) {
+    const auto moving = moving_phases(disturbed, k, stop);
+    if (!moving) return std::nullopt;
+    for (const Phase& phase : *moving) {
       const double planned = action.t_end - begin;
       const Kind kind = phase.to_fraction > fraction ? Kind::moves : Kind::stands;
       phases.push_back({kind, k, phase.to_fraction, begin + fraction * planned,
@@ -72,20 +77,17 @@ class ClockedExecution {
  public:
   ClockedExecution(const PlannedExecution& planned, const std::vector<DisturbedActions>& disturbed,
                    const StopCondition& stop)
-      : max_delay_(planned.max_delay), stop_(stop), robots_(planned.plans.size()) {
-    for (std::size_t k = 0; k < robots_.size(); ++k) {
-      const std::vector<Action>& actions = planned.plans[k].actions;
-      robots_[k].phases = clock_phases(actions, planned.purposes[k], disturbed[k]);
-      if (!actions.empty()) {
-        same_moment_ = std::max(same_moment_, kSameMoment + kSameShare * actions.back().t_end);
-      }
-    }
-  }
+      : planned_(planned),
+        disturbed_(disturbed),
+        max_delay_(planned.max_delay),
+        stop_(stop),
+        robots_(planned.plans.size()) {}
 
   std::optional<std::vector<ExecutedProgress>> run() {
-    for (std::size_t event = 0;; ++event) {
-      if (event % kEventsBetweenPolls == 0 && stop_.met()) return std::nullopt;
+    if (!prepare()) return std::nullopt;
+    while (true) {
       finish_phases();
+      if (stopped_) return std::nullopt;
       if (std::all_of(robots_.begin(), robots_.end(), [](const Robot& robot) { return robot.done(); })) break;
       step();
     }
@@ -108,6 +110,26 @@ class ClockedExecution {
     bool done() const { return phase == phases.size(); }
     const ClockPhase& now() const { return phases[phase]; }
   };
+
+  /// False if the stop condition is met.
+  bool prepare() {
+    for (std::size_t k = 0; k < robots_.size(); ++k) {
+      const std::vector<Action>& actions = planned_.plans[k].actions;
+      auto phases = clock_phases(actions, planned_.purposes[k], disturbed_[k], stop_);
+      if (!phases) return false;
+      robots_[k].phases = std::move(*phases);
+      if (!actions.empty()) {
+        same_moment_ = std::max(same_moment_, kSameMoment + kSameShare * actions.back().t_end);
+      }
+    }
+    return true;
+  }
+
+  /// Counts what is done; looks at the stop condition once in a while, and stays true once it is met.
+  bool stops() {
+    if (++steps_ % kStepsBetweenPolls == 0) stopped_ = stopped_ || stop_.met();
+    return stopped_;
+  }
 
   double delay(const Robot& robot) const { return clock_ - robot.at; }
 
@@ -132,7 +154,9 @@ class ClockedExecution {
 
   void finish_phases() {
     for (Robot& robot : robots_) {
+      if (stops()) return;
       while (!robot.done()) {
+        if (stops()) return;
         const ClockPhase& phase = robot.now();
         if (!robot.begun) begin(robot, phase);
         if (!is_over(robot)) break;
@@ -210,8 +234,12 @@ class ClockedExecution {
     add_knot(robot, {now_, phase.action, begin + part * (phase.to_fraction - begin)});
   }
 
+  const PlannedExecution& planned_;
+  const std::vector<DisturbedActions>& disturbed_;
   const double max_delay_;
   const StopCondition& stop_;
+  std::size_t steps_ = 0;
+  bool stopped_ = false;
   double same_moment_ = kSameMoment;
   double now_ = 0.0;    // seconds
   double clock_ = 0.0;  // planned time

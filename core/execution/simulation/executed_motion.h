@@ -3,11 +3,13 @@
 // What a robot did in one execution of its plan.
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/execution/simulation/disturbance.h"
 #include "core/model/action.h"
 #include "core/model/robot.h"
+#include "core/runtime/stop_condition.h"
 #include "core/verify/execution/execution.h"
 
 namespace fleetplan::core {
@@ -29,12 +31,17 @@ struct ExecutedProgress {
 };
 
 /// Where the robot is from t = 0 on, as legs like those of `execute`; stand-stills in one place are one leg.
-std::vector<Leg> executed_legs(const Robot& robot, const std::vector<Action>& planned,
-                               const DisturbedActions& disturbed, const ExecutedProgress& progress);
+/// Returns none if `stop` is met first.
+std::optional<std::vector<Leg>> executed_legs(const Robot& robot, const std::vector<Action>& planned,
+                                              const DisturbedActions& disturbed,
+                                              const ExecutedProgress& progress, const StopCondition& stop);
 
 /// The same as actions, contiguous in time and space: planned actions at their executed times, cut where the
-/// robot halts, or where the offset from its path changes. Headings are those of the plan.
-std::vector<Action> disturbed_actions(const std::vector<Action>& planned, const DisturbedActions& disturbed,
-                                      const ExecutedProgress& progress);
+/// robot halts, or where the offset from its path changes. Headings are those of the plan. Returns none if
+/// there are more than `most`, or if `stop` is met first.
+std::optional<std::vector<Action>> disturbed_actions(const std::vector<Action>& planned,
+                                                     const DisturbedActions& disturbed,
+                                                     const ExecutedProgress& progress, std::size_t most,
+                                                     const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -5,17 +5,25 @@
 #include "core/execution/simulation/progress_builder.h"
 
 namespace fleetplan::core {
+namespace {
 
-ExecutedProgress execute_alone(const PlannedExecution& planned, std::size_t plan,
-                               const DisturbedActions& disturbed) {
+constexpr std::size_t kActionsBetweenPolls = 256;
+
+}  // namespace
+
+std::optional<ExecutedProgress> execute_alone(const PlannedExecution& planned, std::size_t plan,
+                                              const DisturbedActions& disturbed, const StopCondition& stop) {
   const std::vector<Action>& actions = planned.plans[plan].actions;
   ProgressBuilder builder;
   for (std::size_t k = 0; k < actions.size(); ++k) {
+    if (k % kActionsBetweenPolls == 0 && stop.met()) return std::nullopt;
     const Action& action = actions[k];
     builder.begin_action(k);
     builder.stand_for(disturbed.actions[k].start_delay);
     if (action.type != Action::Type::wait) {
-      for (const Phase& phase : moving_phases(disturbed, k)) builder.go_on(phase.seconds, phase.to_fraction);
+      const auto phases = moving_phases(disturbed, k, stop);
+      if (!phases) return std::nullopt;
+      for (const Phase& phase : *phases) builder.go_on(phase.seconds, phase.to_fraction);
     } else if (planned.policy == ExecutionPolicy::open_loop) {
       builder.go_on(action.t_end - action.t_start, 1.0);
     } else {
@@ -42,8 +50,9 @@ std::optional<std::vector<ExecutedProgress>> execute_plans(const PlannedExecutio
   std::vector<ExecutedProgress> executed;
   executed.reserve(disturbed.size());
   for (std::size_t plan = 0; plan < disturbed.size(); ++plan) {
-    if (stop.met()) return std::nullopt;
-    executed.push_back(execute_alone(planned, plan, disturbed[plan]));
+    auto progress = execute_alone(planned, plan, disturbed[plan], stop);
+    if (!progress) return std::nullopt;
+    executed.push_back(std::move(*progress));
   }
   return executed;
 }

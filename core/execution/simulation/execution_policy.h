@@ -36,9 +36,9 @@ struct PlannedExecution {
   double max_delay = 0.0;                     // of clock_stop: seconds, >= 0
 };
 
-/// Policies without a word between robots.
-ExecutedProgress execute_alone(const PlannedExecution& planned, std::size_t plan,
-                               const DisturbedActions& disturbed);
+/// Policies without a word between robots. Returns none if `stop` is met first.
+std::optional<ExecutedProgress> execute_alone(const PlannedExecution& planned, std::size_t plan,
+                                              const DisturbedActions& disturbed, const StopCondition& stop);
 
 /// The policy `dependencies`. Robots that wait for each other for ever do not arrive. Returns none if `stop`
 /// is met first.

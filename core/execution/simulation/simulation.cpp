@@ -46,17 +46,21 @@ class Study {
   }
 
   SimulationReport take() {
-    for (const auto& [pair, runs] : pairs_) report_.pairs.push_back({pair.first, pair.second, runs});
-    std::stable_sort(
-        report_.pairs.begin(), report_.pairs.end(),
-        [](const SimulationReport::Pair& a, const SimulationReport::Pair& b) { return a.runs > b.runs; });
-    if (report_.pairs.size() > SimulationReport::kMostListed) {
-      report_.pairs.resize(SimulationReport::kMostListed);
-    }
+    for (const auto& [pair, runs] : pairs_) list(SimulationReport::Pair{pair.first, pair.second, runs});
     return std::move(report_);
   }
 
  private:
+  /// Lists the pair if it collides in more runs than one that is listed. To be called by ascending robots.
+  void list(const SimulationReport::Pair& pair) {
+    std::vector<SimulationReport::Pair>& listed = report_.pairs;
+    const auto place = std::upper_bound(
+        listed.begin(), listed.end(), pair,
+        [](const SimulationReport::Pair& a, const SimulationReport::Pair& b) { return a.runs > b.runs; });
+    listed.insert(place, pair);
+    if (listed.size() > SimulationReport::kMostListed) listed.pop_back();
+  }
+
   void add_times(const Simulator::Run& run) {
     double flowtime = 0.0;
     double makespan = 0.0;
@@ -80,43 +84,58 @@ class Study {
   SimulationReport report_;
 };
 
+struct ExecutedRun {
+  std::vector<DisturbedActions> disturbed;  // by plan
+  std::vector<ExecutedProgress> progress;
+};
+
+std::optional<ExecutedRun> execute_run(const SimulatedFleet& fleet, const SimulationSettings& settings,
+                                       std::uint64_t number, const StopCondition& stop) {
+  auto disturbed =
+      draw_disturbances(fleet.execution.plans, settings.disturbance, settings.seed, number, stop);
+  if (!disturbed) return std::nullopt;
+  auto progress = execute_plans(fleet.execution, *disturbed, stop);
+  if (!progress) return std::nullopt;
+  return ExecutedRun{std::move(*disturbed), std::move(*progress)};
+}
+
 }  // namespace
 
 Simulator::Simulator(const SimulatedFleet& fleet, const SimulationSettings& settings)
-    : fleet_(fleet), settings_(settings), field_(fleet.grid), resting_(fleet.robots.size()) {
+    : fleet_(fleet), settings_(settings), field_(fleet.grid), resting_(fleet.robots.size()) {}
+
+std::optional<Simulator> Simulator::make(const SimulatedFleet& fleet, const SimulationSettings& settings,
+                                         const StopCondition& stop) {
+  if (stop.met()) return std::nullopt;
+  Simulator simulator(fleet, settings);
   std::vector<const RobotPlan*> plans(fleet.robots.size(), nullptr);
   for (const RobotPlan& plan : fleet.execution.plans) plans[plan.robot] = &plan;
   for (std::size_t robot = 0; robot < plans.size(); ++robot) {
     const std::vector<Leg> legs = core::execute(fleet.robots[robot], plans[robot]);
-    if (plans[robot] == nullptr) resting_[robot] = legs;
+    if (plans[robot] == nullptr) simulator.resting_[robot] = legs;
     const bool leaves_path = plans[robot] != nullptr && settings.disturbance.leaves_paths();
     // On the planned path, it meets a wall whenever the plan does.
-    if (leaves_path || find_wall(field_, robot, legs, fleet.body_radii[robot], kTolerance)) {
-      near_walls_.push_back(robot);
+    if (leaves_path || find_wall(simulator.field_, robot, legs, fleet.body_radii[robot], kTolerance, stop)) {
+      simulator.near_walls_.push_back(robot);
     }
+    if (stop.met()) return std::nullopt;
   }
-}
-
-std::optional<Simulator::Executed> Simulator::execute(std::uint64_t number, const StopCondition& stop) const {
-  const std::vector<RobotPlan>& plans = fleet_.execution.plans;
-  auto disturbed = draw_disturbances(plans, settings_.disturbance, settings_.seed, number, stop);
-  if (!disturbed) return std::nullopt;
-  auto progress = execute_plans(fleet_.execution, *disturbed, stop);
-  if (!progress) return std::nullopt;
-  return Executed{std::move(*disturbed), std::move(*progress)};
+  return simulator;
 }
 
 std::optional<Simulator::Run> Simulator::run(std::uint64_t number, const StopCondition& stop) const {
   const std::vector<RobotPlan>& plans = fleet_.execution.plans;
-  const auto executed = execute(number, stop);
+  const auto executed = execute_run(fleet_, settings_, number, stop);
   if (!executed) return std::nullopt;
   Run run;
   std::vector<std::vector<Leg>> legs = resting_;
   for (std::size_t plan = 0; plan < plans.size(); ++plan) {
     const ExecutedProgress& progress = executed->progress[plan];
     const std::size_t robot = plans[plan].robot;
-    legs[robot] =
-        executed_legs(fleet_.robots[robot], plans[plan].actions, executed->disturbed[plan], progress);
+    auto driven =
+        executed_legs(fleet_.robots[robot], plans[plan].actions, executed->disturbed[plan], progress, stop);
+    if (!driven) return std::nullopt;
+    legs[robot] = std::move(*driven);
     run.ends.push_back(progress.end());
     if (!progress.arrived) run.stuck.push_back(plan);
   }
@@ -126,14 +145,18 @@ std::optional<Simulator::Run> Simulator::run(std::uint64_t number, const StopCon
   return run;
 }
 
-std::optional<Simulator::Trace> Simulator::trace(std::uint64_t number, const StopCondition& stop) const {
-  const auto executed = execute(number, stop);
+std::optional<SimulationTrace> trace_run(const SimulatedFleet& fleet, const SimulationSettings& settings,
+                                         std::uint64_t number, std::size_t most, const StopCondition& stop) {
+  const auto executed = execute_run(fleet, settings, number, stop);
   if (!executed) return std::nullopt;
-  Trace trace;
-  const std::vector<RobotPlan>& plans = fleet_.execution.plans;
+  SimulationTrace trace;
+  const std::vector<RobotPlan>& plans = fleet.execution.plans;
   for (std::size_t plan = 0; plan < plans.size(); ++plan) {
-    trace.actions.push_back(
-        disturbed_actions(plans[plan].actions, executed->disturbed[plan], executed->progress[plan]));
+    auto actions = disturbed_actions(plans[plan].actions, executed->disturbed[plan], executed->progress[plan],
+                                     most, stop);
+    if (!actions) return std::nullopt;
+    most -= actions->size();
+    trace.actions.push_back(std::move(*actions));
   }
   return trace;
 }
@@ -141,8 +164,9 @@ std::optional<Simulator::Trace> Simulator::trace(std::uint64_t number, const Sto
 SimulationReport simulate(const SimulatedFleet& fleet, const SimulationSettings& settings,
                           const StopCondition& stop, Executor& executor,
                           const std::function<bool(const SimulationProgress&)>& go_on) {
-  const Simulator simulator(fleet, settings);
   Study study(fleet, settings.runs);
+  const auto simulator = Simulator::make(fleet, settings, stop);
+  if (!simulator) return study.take();
   MemoryAccount* account = MemoryScope::current();
   while (study.totals().done < settings.runs && !stop.met()) {
     if (go_on && !go_on(study.totals())) break;
@@ -152,10 +176,12 @@ SimulationReport simulate(const SimulatedFleet& fleet, const SimulationSettings&
     executor.run((count + kRunsOfATask - 1) / kRunsOfATask, [&](std::size_t task) {
       const MemoryScope scope(account);
       const std::size_t end = std::min(count, (task + 1) * kRunsOfATask);
-      for (std::size_t k = task * kRunsOfATask; k < end; ++k) runs[k] = simulator.run(first + k, stop);
+      for (std::size_t k = task * kRunsOfATask; k < end; ++k) runs[k] = simulator->run(first + k, stop);
     });
     for (const auto& run : runs) {
-      if (!run) return study.take();
+      // Adding up many collisions takes time as well.
+      const bool ends = study.totals().done > 0 && stop.met();
+      if (!run || ends) return study.take();
       study.add(*run);
     }
   }

@@ -45,31 +45,31 @@ class Simulator {
     std::vector<std::size_t> stuck;  // plans whose robots wait for ever, ascending
     ExecutionCollisions collisions;
   };
-  /// One run in detail.
-  struct Trace {
-    std::vector<std::vector<Action>> actions;  // by plan
-  };
-
-  /// The fleet has to outlive it.
-  Simulator(const SimulatedFleet& fleet, const SimulationSettings& settings);
+  /// Compares the planned paths with the walls; none if `stop` is met first. The fleet has to outlive it.
+  static std::optional<Simulator> make(const SimulatedFleet& fleet, const SimulationSettings& settings,
+                                       const StopCondition& stop);
 
   /// None if `stop` is met first.
   std::optional<Run> run(std::uint64_t number, const StopCondition& stop) const;
-  std::optional<Trace> trace(std::uint64_t number, const StopCondition& stop) const;
 
  private:
-  struct Executed {
-    std::vector<DisturbedActions> disturbed;  // by plan
-    std::vector<ExecutedProgress> progress;
-  };
-  std::optional<Executed> execute(std::uint64_t number, const StopCondition& stop) const;
+  Simulator(const SimulatedFleet& fleet, const SimulationSettings& settings);
 
   const SimulatedFleet& fleet_;
-  const SimulationSettings settings_;
+  SimulationSettings settings_;
   ObstacleField field_;
   std::vector<std::vector<Leg>> resting_;  // by robot: of those without a plan; empty for others
   std::vector<std::size_t> near_walls_;    // robots that may meet a wall
 };
+
+/// One run in detail: the actions that were executed, by plan.
+struct SimulationTrace {
+  std::vector<std::vector<Action>> actions;
+};
+
+/// None if it has more than `most` actions, or if `stop` is met first.
+std::optional<SimulationTrace> trace_run(const SimulatedFleet& fleet, const SimulationSettings& settings,
+                                         std::uint64_t number, std::size_t most, const StopCondition& stop);
 
 /// Progress of a study.
 struct SimulationProgress {

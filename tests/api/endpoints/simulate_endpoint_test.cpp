@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <stop_token>
 #include <string>
@@ -12,6 +13,7 @@
 #include "api/endpoints/plan_endpoint.h"
 #include "tests/api/support/requests.h"
 #include "tests/api/support/test_turn.h"
+#include "tests/support/step_limit.h"
 #include "tests/support/threaded_executor.h"
 
 namespace fleetplan::api {
@@ -177,6 +179,56 @@ TEST(SimulateEndpoint, ReturnsTheTraceOfARunInTheWorld) {
   EXPECT_EQ(actions.front()["t_start"], 0.0);
   EXPECT_EQ(actions.back()["t_end"], trace["plans"][0]["cost"]);
   EXPECT_NEAR(actions.back()["to"]["x"].get<double>(), 8.5, 1e-9);
+}
+
+/// A small request of one action with 300,000 bends and 30,000 stops.
+Json rough_way_request() {
+  Json request = Json::parse(R"({
+    "map": {"rows": ["......"], "resolution": 1000}, "runs": 1, "policy": "open_loop",
+    "robots": [{"id": "a", "radius": 0.3, "linear_speed": 1, "angular_speed": 1,
+                "start": {"x": 500, "y": 500, "theta": 0}}],
+    "disturbance": {"stops": {"rate_per_hour": 36000, "mean_s": 0.001},
+                    "cross_track": {"sigma": 0.01, "correlation_length": 0.01}},
+    "plans": [{"robot": "a", "actions": [{"type": "translate", "t_start": 0, "t_end": 3000,
+      "from": {"x": 500, "y": 500, "theta": 0}, "to": {"x": 3500, "y": 500, "theta": 0}}]}]})");
+  return request;
+}
+
+TEST(SimulateEndpoint, LeavesOutATraceThatIsTooLongForItsRequest) {
+  Json request = rough_way_request();
+  request["trace"] = 0;
+  Json answer = simulated(request);
+  EXPECT_FALSE(answer.contains("trace"));
+  ASSERT_EQ(answer["warnings"].size(), 1U);
+  EXPECT_THAT(answer["warnings"][0].get<std::string>(), HasSubstr("The trace is left out"));
+  EXPECT_EQ(answer["runs"], 1);
+
+  request["disturbance"]["cross_track"]["correlation_length"] = 1;
+  request["disturbance"]["stops"]["rate_per_hour"] = 360;
+  answer = simulated(request);
+  EXPECT_GT(answer["trace"]["plans"][0]["actions"].size(), 3000U);
+  EXPECT_TRUE(answer["warnings"].empty());
+}
+
+TEST(SimulateEndpoint, EndsSoonAfterItsStopWheneverThatIs) {
+  Json request = rough_way_request();
+  request["disturbance"]["cross_track"]["correlation_length"] = 1;
+  request["disturbance"]["stops"]["rate_per_hour"] = 3600;
+  request["trace"] = 0;
+  request["runs"] = 3;
+  int finished = 0;
+  for (std::int64_t steps = 0; steps < 8000; steps += 200) {
+    const support::StepLimit limit(steps);
+    const Reply reply = reply_to(request);
+    if (reply.status != 200) {
+      EXPECT_EQ(reply.problem, "check_unfinished");
+    } else {
+      ++finished;
+    }
+    EXPECT_LE(limit.late(), 8) << steps;
+  }
+  EXPECT_GT(finished, 0);
+  EXPECT_LT(finished, 40);
 }
 
 TEST(SimulateEndpoint, ReportsFaultsWithPointers) {

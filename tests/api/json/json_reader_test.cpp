@@ -31,6 +31,22 @@ TEST(JsonReader, ReadsMembersAndItems) {
   EXPECT_TRUE(read.faults.empty());
 }
 
+TEST(JsonReader, ReadsAllMembersInTheirOrder) {
+  JsonDocument read = document(R"({"b": 1, "a": 2, "c": [3]})");
+  const JsonReader root(read);
+  std::string keys;
+  double sum = 0.0;
+  for (const JsonReader member : root.members()) {
+    keys += member.value().key();
+    if (member.is_number()) sum += *member.value().number();
+  }
+  EXPECT_EQ(keys, "bac");
+  EXPECT_EQ(sum, 3.0);
+  for ([[maybe_unused]] const JsonReader member : root.find("c").members()) ADD_FAILURE();
+  for ([[maybe_unused]] const JsonReader item : root.items()) ADD_FAILURE();
+  for ([[maybe_unused]] const JsonReader member : root.find("d").members()) ADD_FAILURE();
+}
+
 TEST(JsonReader, ReadsNothingFromAnAbsentValueWithoutAFault) {
   JsonDocument read = document("{}");
   const JsonReader absent = JsonReader(read).find("a");

@@ -92,6 +92,23 @@ TEST(Vda5050, GivesEachRobotThatMovesAnOrder) {
   EXPECT_EQ(orders(body)["orders"].size(), 2U);
 }
 
+TEST(Vda5050, ListsTheFirstOfManySerialNumbersOfUnknownRobots) {
+  Json body = exported(swap_request());
+  Json serials = {{"a", "0815"}};
+  for (int k = 0; k < 5000; ++k) serials["unknown " + std::to_string(k)] = "x";
+  body["serial_numbers"] = serials;
+  const Reply reply = vda5050_endpoint(body.dump(), {});
+  EXPECT_EQ(reply.status, 422);
+  const Json problem = json_of(reply);
+  EXPECT_EQ(problem["errors_total"], 5000);
+  EXPECT_EQ(problem["errors"].size(), 20U);
+  EXPECT_EQ(problem["errors"][0]["detail"], "There is no robot \"unknown 0\" in robots.");
+  body["serial_numbers"] = Json::array();
+  EXPECT_EQ(faults_of_export(body), (Faults{{"/serial_numbers", "wrong_type"}}));
+  body["serial_numbers"] = {{"a", 7}};
+  EXPECT_EQ(faults_of_export(body), (Faults{{"/serial_numbers/a", "wrong_type"}}));
+}
+
 TEST(Vda5050, NamesMembersAsTheVersionDoes) {
   Json body = exported(swap_request());
   body["version"] = "3.0.0";

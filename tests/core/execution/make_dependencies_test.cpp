@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "tests/support/plan_builder.h"
+#include "tests/support/step_limit.h"
 
 namespace fleetplan::core {
 namespace {
@@ -26,6 +29,12 @@ DependencyRules rules(std::size_t robots, double margin = 0.0) {
 Dependencies made(const std::vector<Robot>& robots, const std::vector<RobotPlan>& plans,
                   const DependencyRules& rules) {
   return *make_dependencies(robots, plans, rules, StopCondition::never());
+}
+
+std::optional<Dependencies> made_or_none(const std::vector<Robot>& robots,
+                                         const std::vector<RobotPlan>& plans, double slack) {
+  return make_dependencies(robots, plans, {std::vector<double>(robots.size(), 0.0), slack, 0.0},
+                           StopCondition::never());
 }
 
 /// `a` drives along x through the origin, `b` along y, so much later.
@@ -125,6 +134,58 @@ TEST(MakeDependencies, OfALoadThatIsPutDownNeedTheSpaceThatIsThenTaken) {
   const Dependencies found = made(robots, crossing(robots, 6.0), rules(2));
   ASSERT_EQ(found.list.size(), 1U);
   EXPECT_NEAR(found.list[0].gate.fraction, 0.35, 1e-9);  // a metre and a half before the centre
+}
+
+/// Two robots that go to and fro beside each other, one a little later.
+struct Neighbours {
+  explicit Neighbours(int trips) {
+    PlanBuilder a(0, robots[0]);
+    PlanBuilder b(1, robots[1]);
+    b.wait(1.0);
+    for (int k = 0; k < trips; ++k) {
+      a.translate_to(8, 0).translate_to(0, 0);
+      b.translate_to(8, 1.1).translate_to(0, 1.1);
+    }
+    plans = {a.build(), b.build()};
+  }
+
+  std::vector<Robot> robots{robot("a", 0, 0), robot("b", 0, 1.1)};
+  std::vector<RobotPlan> plans;
+};
+
+TEST(MakeDependencies, OfManyTripsInOneCorridorLookAtAllPairsOfStretchesAFewTimesOnly) {
+  const Neighbours fleet(300);
+  const support::StepLimit limit;
+  const auto found = make_dependencies(fleet.robots, fleet.plans, rules(2, 0.3), support::counted());
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->list.size() + found->tight.size(), 500U);
+  // 360,000 pairs, a question for each 256 of what is looked at; each stretch is in several buckets.
+  EXPECT_LT(limit.steps(), 150'000);
+}
+
+TEST(MakeDependencies, EndSoonAfterTheirStop) {
+  const Neighbours fleet(100);
+  std::int64_t all = 0;
+  {
+    const support::StepLimit limit;
+    ASSERT_TRUE(make_dependencies(fleet.robots, fleet.plans, rules(2, 0.3), support::counted()));
+    all = limit.steps();
+  }
+  ASSERT_GT(all, 200);
+  for (std::int64_t steps = 0; steps < all; steps += all / 50) {
+    const support::StepLimit limit(steps);
+    EXPECT_FALSE(make_dependencies(fleet.robots, fleet.plans, rules(2, 0.3), support::counted()));
+    EXPECT_LE(limit.late(), 4) << steps;
+  }
+}
+
+TEST(MakeDependencies, AreNothingIfThereAreTooMany) {
+  // A robot follows another one for weeks, at a millimetre per second.
+  const std::vector<Robot> robots{robot("a", 1.0002, 0), robot("b", 0, 0)};
+  const std::vector<RobotPlan> plans{PlanBuilder(0, robots[0]).translate_to(2000, 0, 1e-3).build(),
+                                     PlanBuilder(1, robots[1]).wait(1.0).translate_to(1998, 0, 1e-3).build()};
+  EXPECT_FALSE(made_or_none(robots, plans, 0.1));
+  EXPECT_TRUE(made_or_none(robots, plans, 1000.0));
 }
 
 TEST(MakeDependencies, AreNothingWhenStopped) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <string>
 
@@ -14,6 +15,8 @@ namespace fleetplan::core {
 namespace {
 
 using support::PlanBuilder;
+
+constexpr std::size_t kAnyLength = std::numeric_limits<std::size_t>::max();  // of a trace
 
 SimulationReport simulated_by(std::size_t threads, const SimulatedFleet& fleet,
                               const SimulationSettings& settings) {
@@ -30,8 +33,8 @@ TEST(Simulation, OfAnUndisturbedPlanIsThePlan) {
     for (const auto policy :
          {ExecutionPolicy::open_loop, ExecutionPolicy::absorb_waits, ExecutionPolicy::clock_stop}) {
       const SimulatedFleet study = simulated(grid, fleet.robots, fleet.plans, policy);
-      const Simulator simulator(study, {{}, 1, 0});
-      const auto trace = simulator.trace(0, StopCondition::never());
+      const SimulationSettings settings{{}, 1, 0};
+      const auto trace = trace_run(study, settings, 0, kAnyLength, StopCondition::never());
       for (std::size_t k = 0; k < fleet.plans.size(); ++k) {
         const Position rest = fleet.robots[fleet.plans[k].robot].start.position;
         for (double t = 0.0; t < fleet.makespan + 1.0; t += 0.1) {
@@ -39,7 +42,8 @@ TEST(Simulation, OfAnUndisturbedPlanIsThePlan) {
           ASSERT_NEAR((sampled(trace->actions[k], rest, t) - planned).norm(), 0.0, 1e-6) << t;
         }
       }
-      const auto run = simulator.run(0, StopCondition::never());
+      const auto run =
+          Simulator::make(study, settings, StopCondition::never())->run(0, StopCondition::never());
       for (std::size_t k = 0; k < fleet.plans.size(); ++k) {
         EXPECT_NEAR(run->ends[k], fleet.plans[k].cost, 1e-6);
       }
@@ -48,7 +52,7 @@ TEST(Simulation, OfAnUndisturbedPlanIsThePlan) {
 }
 
 /// The least distance of two robots in a trace, less their radii; by samples.
-double sampled_gap(const Simulator::Trace& trace, const RandomFleet& fleet, double end) {
+double sampled_gap(const SimulationTrace& trace, const RandomFleet& fleet, double end) {
   double least = 1e9;
   const auto actions = [&](std::size_t robot) {
     for (std::size_t k = 0; k < fleet.plans.size(); ++k) {
@@ -78,10 +82,11 @@ TEST(Simulation, FindsTheCollisionsThatSamplesOfTheTraceFind) {
     const SimulatedFleet study = simulated(grid, fleet.robots, fleet.plans);
     SimulationSettings settings{rough(), 1, seed};
     settings.disturbance.cross_track = {0.1, 0.5};
-    const Simulator simulator(study, settings);
-    const auto run = simulator.run(seed, StopCondition::never());
+    const auto run =
+        Simulator::make(study, settings, StopCondition::never())->run(seed, StopCondition::never());
     const double end = *std::max_element(run->ends.begin(), run->ends.end());
-    const double gap = sampled_gap(*simulator.trace(seed, StopCondition::never()), fleet, end);
+    const auto trace = trace_run(study, settings, seed, kAnyLength, StopCondition::never());
+    const double gap = sampled_gap(*trace, fleet, end);
     const bool collides = !run->collisions.pairs.empty();
     if (gap < -2e-6) {
       EXPECT_TRUE(collides) << gap;
@@ -102,7 +107,7 @@ TEST(Simulation, TracesAreContiguous) {
   SimulationSettings settings{rough(), 1, 3};
   settings.disturbance.cross_track = {0.05, 0.3};
   const SimulatedFleet study = simulated(grid, fleet.robots, fleet.plans, ExecutionPolicy::clock_stop);
-  const auto trace = Simulator(study, settings).trace(0, StopCondition::never());
+  const auto trace = trace_run(study, settings, 0, kAnyLength, StopCondition::never());
   for (const std::vector<Action>& actions : trace->actions) {
     ASSERT_FALSE(actions.empty());
     EXPECT_EQ(actions.front().t_start, 0.0);

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::support {
+
+/// While it lives, this thread's stop conditions, those by default apart, are met after so many questions.
+class StepLimit {
+ public:
+  explicit StepLimit(std::int64_t steps = core::StepClock::kNever) : limit_(steps) {
+    core::step_clock = {0, steps};
+  }
+  ~StepLimit() { core::step_clock = {}; }
+  StepLimit(const StepLimit&) = delete;
+  StepLimit& operator=(const StepLimit&) = delete;
+
+  /// The questions so far, and those after the limit.
+  std::int64_t steps() const { return core::step_clock.steps; }
+  std::int64_t late() const { return steps() - limit_; }
+
+ private:
+  std::int64_t limit_;
+};
+
+/// A stop condition that only a StepLimit meets.
+inline core::StopCondition counted() {
+  return core::StopCondition(core::StopCondition::Clock::time_point::max());
+}
+
+}  // namespace fleetplan::support
