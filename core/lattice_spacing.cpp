@@ -19,6 +19,7 @@ double lattice_spacing(const Problem& problem, const PlanOptions& options) {
   if (options.lattice_spacing) return *options.lattice_spacing;
   const double resolution = problem.grid().resolution();
   double smallest = kForever;
+  // Bounded: each goal once.
   for (const Robot& robot : problem.robots()) {
     smallest = std::min(smallest, robot.radius);
     for (std::size_t k = 0; k < robot.goal_count(); ++k) {

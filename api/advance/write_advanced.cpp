@@ -113,6 +113,7 @@ void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest
 void write_obstacles(JsonWriter& json, const JsonValue& given, const AdvanceRequest& request) {
   json.begin_array();
   auto read = request.obstacles.begin();
+  // Bounded: the text of the request, which is copied.
   for (const JsonValue obstacle : given.children()) {
     // One that had left at the start is not among those that were read.
     if (read == request.obstacles.end() || obstacle.find("id")->string() != read->id) continue;

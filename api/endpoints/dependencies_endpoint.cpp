@@ -35,6 +35,7 @@ RequestError invalid_plans(const ValidateRequest& request, const core::VerifyRep
   RequestError error;
   error.detail = "The plans are not valid, so there are no dependencies; see errors and /v1/validate.";
   error.faults_total = report.violation_count;
+  // Bounded: at most FaultList::kMostListed.
   for (const core::Violation& violation : report.violations) {
     if (error.faults.size() == FaultList::kMostListed) break;
     std::string names;

@@ -18,8 +18,6 @@ namespace fleetplan::api {
 
 namespace {
 
-using Clock = RequestContext::Clock;
-
 /// When no further run is made: a part of the budget is for the answer.
 core::StopCondition end_of_runs(const core::Work& work, const SimulateRequest& request) {
   constexpr std::chrono::milliseconds kAnswerTime{50};

@@ -29,6 +29,7 @@ constexpr double kContiguous = 1e-6;
 /// Reports actions that are not contiguous in time. `plans`: in the order of the items of the list.
 void check_times(const JsonReader& list, const std::vector<core::RobotPlan>& plans) {
   std::size_t plan = 0;
+  // Bounded: items are read until the Work ends.
   for (const JsonReader item : list.items()) {
     double now = 0.0;
     std::size_t index = 0;

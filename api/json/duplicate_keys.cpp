@@ -75,6 +75,7 @@ class DuplicateKeys {
     const auto at = [&](std::size_t index) {
       return members.begin() + static_cast<std::ptrdiff_t>(std::min(index, members.size()));
     };
+    // Bounded: met_after() ends it.
     for (std::size_t begin = 0; begin < members.size(); begin += kChunk) {
       if (document_.work->met_after(kChunk)) return false;
       std::sort(at(begin), at(begin + kChunk), before);

@@ -35,6 +35,7 @@ bool in_word(char c) {
 /// Where the string, word or sign begins that the byte at `offset` belongs to.
 std::size_t token_start(std::string_view body, std::size_t offset) {
   std::size_t at = 0;
+  // Bounded: each byte is passed once.
   while (at <= offset) {
     const std::size_t start = at++;
     if (body[start] == '"') {

@@ -108,6 +108,7 @@ std::size_t append_escaped(std::string& text, std::string_view from, std::size_t
 
 std::size_t plain_length(std::string_view text) {
   std::size_t at = 0;
+  // Bounded: each byte is passed once or, of eight with something special, twice.
   while (true) {
     for (std::uint64_t bytes = 0; at + sizeof(bytes) <= text.size(); at += sizeof(bytes)) {
       std::memcpy(&bytes, text.data() + at, sizeof(bytes));

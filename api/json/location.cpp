@@ -19,6 +19,8 @@ std::string pointer_step(std::string_view key) {
 Location locate(const JsonValue& root, const JsonValue& value) {
   Location location{"", "the document"};
   JsonValue outer = root;
+  // Bounded: children are skipped whole, so each value is passed at most once; only listed faults are
+  // located.
   while (outer != value) {
     std::size_t index = 0;
     auto child = outer.children().begin();

@@ -31,6 +31,7 @@ class Parser {
 
   std::optional<JsonTape> run() {
     // After a value, containers end, or the next item or member begins.
+    // Bounded: each byte is passed once; pause() looks at the Work.
     while (value()) {
       if (pause()) return std::nullopt;
       while (!frames_.empty() && skip_space() && *at_ == closing()) close();

@@ -40,6 +40,7 @@ constexpr std::uint64_t kMostSeed = std::numeric_limits<std::uint64_t>::max();  
 void join_actions(const JsonReader& member, const std::vector<core::Robot>& robots,
                   std::vector<core::RobotPlan>& plans) {
   auto plan = plans.begin();
+  // Bounded: items are read until the Work ends.
   for (const JsonReader item : member.array().items()) {
     ActionChain chain({robots[plan->robot].start, std::nullopt, std::nullopt});
     auto action = plan->actions.begin();

@@ -57,6 +57,7 @@ std::string write_report(const core::VerifyReport& report, const std::vector<cor
   json.begin_object();
   json.member("valid", report.valid());
   json.key("violations").begin_array();
+  // Bounded: at most kMostWritten violations.
   for (std::size_t index = 0; index < written; ++index) {
     const core::Violation& violation = report.violations[index];
     json.begin_object();

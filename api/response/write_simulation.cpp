@@ -127,6 +127,7 @@ class SimulationWriter {
 
   void write_deadlocks() {
     json_.key("deadlocks").begin_array();
+    // Bounded: at most SimulationReport::kMostListed runs.
     for (const core::SimulationReport::Deadlock& deadlock : report_.deadlocks) {
       json_.begin_object().member("run", deadlock.run);
       json_.key("robots").begin_array();

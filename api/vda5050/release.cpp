@@ -8,6 +8,7 @@ namespace fleetplan::api {
 std::vector<std::vector<core::ActionPlace>> points_of(const std::vector<core::Dependency>& dependencies,
                                                       std::size_t robots) {
   std::vector<std::vector<core::ActionPlace>> points(robots);
+  // Bounded: two places of each dependency.
   for (const core::Dependency& dependency : dependencies) {
     for (const core::ActionProgress& progress : {dependency.gate, dependency.until}) {
       points[progress.robot].push_back(core::place_of(progress));

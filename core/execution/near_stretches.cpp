@@ -16,6 +16,7 @@ constexpr double kMostBuckets = 2.5e5;
 
 double largest_radius(const std::vector<std::vector<PlannedStretch>>& by_robot) {
   double largest = 0.0;
+  // Bounded: each stretch once.
   for (const auto& stretches : by_robot) {
     for (const PlannedStretch& stretch : stretches) largest = std::max(largest, stretch.radius);
   }
@@ -26,6 +27,7 @@ double largest_radius(const std::vector<std::vector<PlannedStretch>>& by_robot) 
 BucketGrid grid_of(const std::vector<std::vector<PlannedStretch>>& by_robot, double radius) {
   double width = 0.0;
   double height = 0.0;
+  // Bounded: each stretch once.
   for (const auto& stretches : by_robot) {
     for (const PlannedStretch& stretch : stretches) {
       width = std::max(width, stretch.planned.path.to.x());

@@ -30,6 +30,7 @@ class NextGreater {
   std::size_t from(std::size_t position, double value) const {
     if (position >= count_) return count_;
     std::size_t node = leaves_ + position;
+    // Bounded: the depth of the tree, up and down.
     while (!(tree_[node] > value)) {
       while (node % 2 == 1) node /= 2;
       if (node == 0) return count_;

@@ -51,6 +51,7 @@ std::vector<std::size_t> NeighbourhoodSelection::select(std::size_t first, Neigh
 std::vector<std::size_t> NeighbourhoodSelection::conflicting_with(std::size_t first, std::size_t size,
                                                                   Random& random) {
   std::vector<std::size_t> selected{first};
+  // Bounded: `size` robots, each with its conflicts.
   for (std::size_t k = 0; k < selected.size() && selected.size() < size; ++k) {  // selected grows
     std::vector<std::size_t> conflicting =
         state_.conflicting_robots(selected[k], trajectory_alone(selected[k]));

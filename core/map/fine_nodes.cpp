@@ -36,6 +36,7 @@ FineNodes::FineNodes(const OccupancyGrid& grid, const LineOfSight& sight, double
   const double pitch = pitch_ / grid.resolution();
   const double ample = cells + kHalfDiagonal * pitch;
   between_known_ = cells <= kLargestDisk;
+  // Bounded: four kinds of nodes with eight neighbours.
   for (std::size_t kind = half ? 0 : 3; kind < limits_.size(); ++kind) {
     const Position node(kind / 2 == 1 ? 0.0 : -0.5, kind % 2 == 1 ? 0.0 : -0.5);
     limits_[kind] = limits(node.x(), node.y(), cells, ample);

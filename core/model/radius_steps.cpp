@@ -63,6 +63,7 @@ std::vector<TimedSegment> with_radii(std::vector<TimedSegment> segments, const R
   auto step = steps.begin();
   std::vector<TimedSegment> sized;
   sized.reserve(segments.size() + steps.size());
+  // Bounded: each segment and each step once.
   for (TimedSegment& segment : segments) {
     for (; step != steps.end() && step->t < segment.t_end - kRounding; ++step) {
       if (step->t > segment.t_start + kRounding) {

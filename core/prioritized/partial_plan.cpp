@@ -91,6 +91,7 @@ class SafePlanner {
   /// Robots that crossed the start of a robot that has left it may follow their earlier trajectories again.
   void resume_those_waiting_for(std::size_t robot) {
     std::vector<std::size_t> left{robot};
+    // Bounded: a robot waits for one other, and goes on once.
     while (!left.empty()) {
       const std::vector<std::size_t> waiting = std::move(waiting_for_[left.back()]);
       left.pop_back();

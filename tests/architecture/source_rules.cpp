@@ -4,7 +4,10 @@
 #include <array>
 #include <cctype>
 #include <optional>
+#include <regex>
 #include <span>
+
+#include "tests/architecture/loop_rules.h"
 
 namespace fleetplan::architecture {
 namespace {
@@ -170,6 +173,18 @@ bool uses(string_view code, string_view identifier) {
   return false;
 }
 
+/// Whether a source of core or api makes a stop condition of its own, which knows nothing of the request's
+/// bounds, instead of deriving it from its Work or from another stop condition.
+bool makes_a_stop_condition(string_view path, const std::string& code) {
+  if (!path.starts_with("core/") && !path.starts_with("api/")) return false;
+  // The examples are part of the program.
+  if (path.starts_with("core/runtime/") || path == "api/endpoints/examples.cpp") return false;
+  static const std::regex made(
+      "StopCondition::never|Work::unbounded|\\bStopCondition(\\s+\\w+)?\\s*[({](?!const )");
+  static const std::regex function("\\bStopCondition\\s+\\w+\\(const ");
+  return std::regex_search(std::regex_replace(code, function, ""), made);
+}
+
 /// Whether only blanks and comments come before it; comments are blanked out in `code`.
 bool begins_with_pragma_once(string_view code) {
   const std::size_t first = code.find_first_not_of(" \t\r\n");
@@ -198,6 +213,12 @@ std::vector<std::string> violations(string_view path, string_view text) {
   }
   for (const string_view identifier : layer->forbidden) {
     if (uses(code, identifier)) report("must not use ", identifier);
+  }
+  if (makes_a_stop_condition(path, code)) {
+    report("makes a stop condition of its own: derive it from the request's ", "Work");
+  }
+  if (path.starts_with("core/") || path.starts_with("api/")) {
+    for (std::string& loop : unbounded_loops(path, text, code)) found.push_back(std::move(loop));
   }
   if (path.ends_with(".h")) {
     if (!begins_with_pragma_once(code)) report("does not begin with ", "#pragma once");

@@ -75,7 +75,8 @@ std::vector<double> contact_moments(const Problem& problem, const PlanOptions& o
   std::vector<Robot> larger = problem.robots();
   for (Robot& robot : larger) robot.radius += options.inflation + 1e-7;
   std::vector<double> moments;
-  for (const Violation& contact : verify(problem.grid(), larger, plan.plans, 0.0).violations) {
+  const VerifyReport report = *verify(problem.grid(), larger, plan.plans, 0.0, StopCondition::never());
+  for (const Violation& contact : report.violations) {
     const bool of_robots = contact.kind == Violation::Kind::robot_collision;
     if (of_robots || contact.kind == Violation::Kind::obstacle_collision) moments.push_back(contact.t);
   }

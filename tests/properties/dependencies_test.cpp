@@ -47,7 +47,8 @@ std::vector<Robot> with_margins(std::vector<Robot> robots, const std::vector<dou
 std::set<Pair> collisions(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                           const std::vector<RobotPlan>& executed) {
   std::set<Pair> pairs;
-  for (const Violation& violation : verify(grid, robots, executed, kTolerance).violations) {
+  const VerifyReport report = *verify(grid, robots, executed, kTolerance, StopCondition::never());
+  for (const Violation& violation : report.violations) {
     if (violation.kind == Violation::Kind::robot_collision) {
       pairs.emplace(violation.robots[0], violation.robots[1]);
     }

@@ -54,7 +54,8 @@ TEST_P(RandomFleet, EveryReturnedPlanPassesTheChecker) {
 
   const Plan plan = core::plan(problem, options, generous_budget());
 
-  const VerifyReport report = verify(problem.grid(), problem.robots(), plan.plans, kTolerance);
+  const VerifyReport report =
+      *verify(problem.grid(), problem.robots(), plan.plans, kTolerance, StopCondition::never());
   EXPECT_TRUE(report.valid()) << support::text(report);
   expect_every_robot_once(problem, plan);
   support::expect_bounded(plan);

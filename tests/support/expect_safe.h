@@ -90,7 +90,8 @@ inline void expect_safe(const core::Problem& problem, const core::Plan& plan, do
   for (std::size_t i = 0; i < robots.size(); ++i) {
     if (!starts_too_near(problem, i, inflation)) robots[i].radius += inflation;
   }
-  const core::VerifyReport report = core::verify(problem.grid(), robots, plan.plans, kSafeTolerance);
+  const core::VerifyReport report =
+      *core::verify(problem.grid(), robots, plan.plans, kSafeTolerance, core::StopCondition::never());
   EXPECT_TRUE(report.valid()) << "inflated by " << inflation << ": " << text(report);
 }
 

@@ -36,6 +36,7 @@ std::vector<double> time_windows(const std::vector<std::vector<Leg>>& legs_by_ro
   const std::size_t legs_per_robot = 1 + times.size() / (legs_by_robot.size() + others.size());
   const std::size_t wanted = std::min(kWindowsPerLeg * legs_per_robot, kMostWindows);
   const std::size_t parts = (kFewestWindows + wanted - 1) / wanted;
+  // Bounded: at most kMostWindows, in kFewestWindows parts.
   for (std::size_t k = 1; k <= wanted; ++k) {
     // The k-th quantile, so that one very slow robot does not put all others into one window.
     const double end = times[(times.size() - 1) * k / wanted];

@@ -96,7 +96,8 @@ NearestPoint nearest_to_polygon(const Position& from, const Position& to,
 }
 
 std::vector<Stretch> stretches_inside(const Position& from, const Position& to,
-                                      const std::vector<Position>& corners, double depth) {
+                                      const std::vector<Position>& corners, double depth,
+                                      const StopCondition& stop) {
   std::vector<double> ends{0.0, 1.0};
   for (std::size_t k = 0; k < corners.size(); ++k) {
     // Crossings, and the ends of edges that the segment passes along.
@@ -105,7 +106,7 @@ std::vector<Stretch> stretches_inside(const Position& from, const Position& to,
   }
   std::sort(ends.begin(), ends.end());
   std::vector<Stretch> inside;
-  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+  for (std::size_t k = 0; k + 1 < ends.size() && !stop.met(); ++k) {
     const double length = ends[k + 1] - ends[k];
     if (length <= 0.0) continue;
     bool is_deep = false;

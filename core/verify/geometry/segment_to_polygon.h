@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/geometry/position.h"
+#include "core/runtime/stop_condition.h"
 #include "core/verify/geometry/segment_to_rectangle.h"
 
 namespace fleetplan::core {
@@ -21,8 +22,9 @@ NearestPoint nearest_to_polygon(const Position& from, const Position& to,
                                 const std::vector<Position>& corners);
 
 /// The stretches of a segment, of length > 0, whose quarter points are inside of the polygon and not all
-/// within `depth` metres of its border; ascending.
+/// within `depth` metres of its border; ascending. Only the first ones once `stop` is met.
 std::vector<Stretch> stretches_inside(const Position& from, const Position& to,
-                                      const std::vector<Position>& corners, double depth);
+                                      const std::vector<Position>& corners, double depth,
+                                      const StopCondition& stop);
 
 }  // namespace fleetplan::core

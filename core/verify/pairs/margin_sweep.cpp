@@ -130,6 +130,7 @@ class MarginSweep {
     if (least_possible(leg, time, other, its_time) >= kept) return;
     if (least_shifted_distance(leg, time, other, its_time, margin_).distance >= kept) return;
     const std::vector<TimeSpan> left_out = left_out_(first, second);
+    // Bounded: the spans that few left-out ones leave.
     for (const TimeSpan& a : without(time, left_out)) {
       for (const TimeSpan& b : without(its_time, left_out)) record(a, b);
     }

@@ -99,7 +99,7 @@ ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions, co
       const Action& action = actions[k];
       if (in.zone->type == Zone::Type::blocked) continue;
       if (nearest_to_rectangle(action.from.position, action.to.position, in.box).distance > 0.0) continue;
-      auto found = action.type == Action::Type::translate ? check_translation(in, action, k, tolerance)
+      auto found = action.type == Action::Type::translate ? check_translation(in, action, k, tolerance, stop)
                    : action.type == Action::Type::rotate  ? check_rotation(in, action, k, tolerance)
                                                           : std::nullopt;
       if (found) violations.add(std::move(*found));
@@ -110,14 +110,14 @@ ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions, co
 
 /// The slowness that is missing is measured over what lies inside of the zone, as that of whole actions is.
 std::optional<Violation> ZonesOfRobot::check_translation(const ZoneBox& in, const Action& action,
-                                                         std::size_t number,
-                                                         const Tolerance& tolerance) const {
+                                                         std::size_t number, const Tolerance& tolerance,
+                                                         const StopCondition& stop) const {
   const Position way = action.to.position - action.from.position;
   const double length = way.norm();
   const double duration = std::max(0.0, action.t_end - action.t_start);
   if (length <= tolerance.metres) return std::nullopt;
   const auto inside =
-      stretches_inside(action.from.position, action.to.position, in.zone->polygon, tolerance.metres);
+      stretches_inside(action.from.position, action.to.position, in.zone->polygon, tolerance.metres, stop);
   const std::string name = "actions[" + std::to_string(number) + "]";
   for (const Stretch& stretch : inside) {
     const double t = action.t_start + stretch.first * duration;

@@ -44,7 +44,7 @@ class ZonesOfRobot {
   };
 
   std::optional<Violation> check_translation(const ZoneBox& in, const Action& action, std::size_t number,
-                                             const Tolerance& tolerance) const;
+                                             const Tolerance& tolerance, const StopCondition& stop) const;
   std::optional<Violation> check_rotation(const ZoneBox& in, const Action& action, std::size_t number,
                                           const Tolerance& tolerance) const;
   Violation broken(const ZoneBox& in, double t, double measured, double required, std::string detail) const;

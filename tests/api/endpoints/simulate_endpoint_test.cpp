@@ -310,7 +310,7 @@ TEST(SimulateEndpoint, TakesItsTurn) {
   context.turn = &turn;
   EXPECT_EQ(simulated(simulate_request(), context)["runs"], 40);
   EXPECT_EQ(turn.requests, 1);
-  EXPECT_EQ(turn.need.kind, TurnNeed::Kind::simulation);
+  EXPECT_EQ(turn.need->kind, TurnNeed::Kind::simulation);
   turn.refuses = true;
   EXPECT_EQ(reply_to(simulate_request(), context).problem, "overloaded");
   std::stop_source stop;

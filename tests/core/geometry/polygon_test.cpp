@@ -90,17 +90,18 @@ TEST(Polygon, SearchAndCheckAgree) {
 }
 
 TEST(StretchesInside, BeginAndEndAtTheBorder) {
-  const auto through = stretches_inside({0, 3}, {8, 3}, angle(), 1e-6);
+  const auto through = stretches_inside({0, 3}, {8, 3}, angle(), 1e-6, StopCondition::never());
   ASSERT_EQ(through.size(), 1U);
   EXPECT_NEAR(through[0].first, 0.25, 1e-12);
   EXPECT_NEAR(through[0].last, 0.75, 1e-12);
-  EXPECT_TRUE(stretches_inside({0, 7}, {8, 7}, angle(), 1e-6).empty());
-  EXPECT_TRUE(stretches_inside({0, 2}, {8, 2}, angle(), 1e-6).empty());  // along the border
+  EXPECT_TRUE(stretches_inside({0, 7}, {8, 7}, angle(), 1e-6, StopCondition::never()).empty());
+  EXPECT_TRUE(
+      stretches_inside({0, 2}, {8, 2}, angle(), 1e-6, StopCondition::never()).empty());  // along the border
 }
 
 TEST(StretchesInside, AreSeveralWhereASegmentComesBack) {
   // Through both arms of the L, past its notch.
-  const auto both = stretches_inside({2.5, 7}, {7, 2.5}, angle(), 1e-6);
+  const auto both = stretches_inside({2.5, 7}, {7, 2.5}, angle(), 1e-6, StopCondition::never());
   ASSERT_EQ(both.size(), 2U);
   EXPECT_LT(both[0].last, both[1].first);
 }

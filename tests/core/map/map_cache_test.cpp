@@ -129,7 +129,8 @@ TEST(MapCache, ThreadsShareIt) {
   std::array<std::vector<FinerVertices::Link>, kMaps> expected;
   const Lattice lattice(hall(14), 8, 0.25);
   for (int k = 0; k < kMaps; ++k) {
-    const auto finer = StaticMap(hall(13 + k), StopCondition::never()).finer_vertices(lattice, kRadius, {});
+    const auto finer = StaticMap(hall(13 + k), StopCondition::never())
+                           .finer_vertices(lattice, kRadius, StopCondition::never());
     const auto links = finer->links();
     expected[static_cast<std::size_t>(k)] = {links.begin(), links.end()};
   }
@@ -141,7 +142,7 @@ TEST(MapCache, ThreadsShareIt) {
         for (std::size_t round = 0; round < 12; ++round) {
           const std::size_t k = (thread + round * round) % kMaps;
           const auto map = cache.map_of(hall(13 + static_cast<int>(k)), StopCondition::never());
-          const auto finer = map->finer_vertices(lattice, kRadius, {});
+          const auto finer = map->finer_vertices(lattice, kRadius, StopCondition::never());
           const auto links = finer->links();
           if (!std::equal(links.begin(), links.end(), expected[k].begin(), expected[k].end()))
             ++wrong[thread];

@@ -26,7 +26,7 @@ Planning three_robots() {
 
 void search_back(SearchSpaces& spaces, std::size_t robot) {
   SearchSpace& space = *spaces.of(robot, StopCondition::never());
-  space.cost_to_go(0).from(space.vertices().start(), {});
+  space.cost_to_go(0).from(space.vertices().start(), StopCondition::never());
   ASSERT_GT(space.expansions(), 0);
 }
 

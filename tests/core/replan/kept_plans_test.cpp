@@ -131,7 +131,7 @@ TEST(KeptPlans, AreSafeAmongRobotsThatStay) {
   robots.push_back(driving(robot_at(1.5, 8.5, -M_PI / 2).to(1.5, 1.5), 3.0));
   const Problem problem = make_problem(hall(), robots);
   // The first robot cannot pass the third one; the last one cannot pass the first one then.
-  EXPECT_THAT(keep_previous_plans(problem, StopCondition::never(), {}, LeftOut::stay).kept,
+  EXPECT_THAT(keep_previous_plans(problem, {}, StopCondition::never(), LeftOut::stay).kept,
               ElementsAre(false, true, false, false));
 }
 

@@ -17,7 +17,7 @@ using support::robot_at;
 constexpr double kPi = std::numbers::pi;
 
 /// The estimate for robot 0 from its start.
-CostToGo::Estimate from_start(Planning& p, const StopCondition& stop = {}) {
+CostToGo::Estimate from_start(Planning& p, const StopCondition& stop = StopCondition::never()) {
   const Vertices vertices(p.instance, 0, 0, StopCondition::never());
   CostToGo cost_to_go(vertices);
   return cost_to_go.from(vertices.start(), stop);

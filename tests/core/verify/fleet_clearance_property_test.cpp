@@ -130,8 +130,10 @@ TEST(FleetClearanceProperty, DoesNotDependOnTheOrderOfRobots) {
     RandomFleet reversed = fleet;
     std::reverse(reversed.robots.begin(), reversed.robots.end());
     for (RobotPlan& plan : reversed.plans) plan.robot = fleet.robots.size() - 1 - plan.robot;
-    const VerifyReport one = verify(open_map(12, 12), fleet.robots, fleet.plans, kTolerance);
-    const VerifyReport other = verify(open_map(12, 12), reversed.robots, reversed.plans, kTolerance);
+    const VerifyReport one =
+        *verify(open_map(12, 12), fleet.robots, fleet.plans, kTolerance, StopCondition::never());
+    const VerifyReport other =
+        *verify(open_map(12, 12), reversed.robots, reversed.plans, kTolerance, StopCondition::never());
     EXPECT_EQ(*one.min_clearance, *other.min_clearance);
     ASSERT_EQ(one.violations.size(), other.violations.size());
     const auto by_detail = [](const Violation& a, const Violation& b) {

@@ -77,7 +77,7 @@ class Scene {
   Action& action(std::size_t index, std::size_t plan = 0) { return plans_[plan].actions[index]; }
 
   VerifyReport check(double tolerance = kTolerance) const {
-    return verify(grid_, robots_, plans_, tolerance);
+    return *verify(grid_, robots_, plans_, tolerance, StopCondition::never());
   }
   std::vector<Violation> violations(double tolerance = kTolerance) const {
     return check(tolerance).violations;

@@ -53,7 +53,8 @@ TEST(Verify, EndsWithinThePlanOfOneRobotWhenTheStopConditionIsMet) {
 
 TEST(Verify, ReportsABoundedNumberOfViolationsAndCountsAll) {
   const OccupancyGrid grid = support::ascii_map({"#........#"});
-  const auto report = verify(grid, {robot_at(0.5, 0.5)}, {leaps(30'000)}, kTolerance);
+  const VerifyReport report =
+      *verify(grid, {robot_at(0.5, 0.5)}, {leaps(30'000)}, kTolerance, StopCondition::never());
   EXPECT_EQ(report.violations.size(), kMostViolations);
   EXPECT_GE(report.violation_count, 30'000U) << "each leap is too fast";
   EXPECT_EQ(report.violations.front().t, 0.0);

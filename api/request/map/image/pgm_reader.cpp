@@ -35,6 +35,7 @@ class NumberReader {
 
  private:
   void skip() {
+    // Bounded: each byte is passed once.
     for (; at_ < bytes_.size(); ++at_) {
       if (bytes_[at_] == '#') {
         while (at_ < bytes_.size() && bytes_[at_] != '\n') ++at_;
