@@ -32,10 +32,13 @@ void write_goal(JsonWriter& json, const core::Goal& goal, const std::string& met
   json.end_object();
 }
 
-void write_actions(JsonWriter& json, std::string_view key, const std::vector<core::Action>& actions) {
+void write_actions(JsonWriter& json, std::string_view key, const std::vector<core::Action>& actions,
+                   core::Work& work) {
+  constexpr std::size_t kWorkOfAnAction = 512;  // bytes of text
   constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};
   json.key(key).begin_array();
   for (const core::Action& action : actions) {
+    if (work.met_after(kWorkOfAnAction)) break;
     json.begin_object().member("type", kTypes[static_cast<std::size_t>(action.type)]);
     json.member("t_start", action.t_start).member("t_end", action.t_end);
     write_pose(json, "from", action.from);
@@ -81,7 +84,7 @@ void write_goals(JsonWriter& json, const core::Robot& robot, const GoalMetadata&
 
 /// `radius`: that the robot had.
 void write_robot(JsonWriter& json, const JsonValue& given, double radius, const core::Robot& robot,
-                 const GoalMetadata& metadata) {
+                 const GoalMetadata& metadata, core::Work& work) {
   const bool has_other_radius = robot.radius != radius;
   json.begin_object();
   for (const JsonValue member : given.children()) {
@@ -93,18 +96,18 @@ void write_robot(JsonWriter& json, const JsonValue& given, double radius, const 
   if (has_other_radius) json.member("radius", robot.radius);
   write_pose(json, "start", robot.start);
   write_goals(json, robot, metadata, given.find("goal").has_value());
-  if (!robot.committed.empty()) write_actions(json, "committed", robot.committed);
-  if (robot.previous) write_actions(json, "previous", *robot.previous);
+  if (!robot.committed.empty()) write_actions(json, "committed", robot.committed, work);
+  if (robot.previous) write_actions(json, "previous", *robot.previous, work);
   json.end_object();
 }
 
 void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest& request,
-                  const std::vector<core::Robot>& robots) {
+                  const std::vector<core::Robot>& robots, core::Work& work) {
   json.begin_array();
   std::size_t index = 0;
   for (const JsonValue robot : given.children()) {
     write_robot(json, robot, request.robots[index].radius, robots[index],
-                GoalMetadata(request, index, robots[index]));
+                GoalMetadata(request, index, robots[index]), work);
     ++index;
   }
   json.end_array();
@@ -137,13 +140,14 @@ void write_obstacles(JsonWriter& json, const JsonValue& given, const AdvanceRequ
 
 }  // namespace
 
-std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots) {
+std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots,
+                           core::Work& work) {
   JsonWriter json;
   json.begin_object();
   for (const JsonValue member : request.request.value().children()) {
     json.key(member.key());
     if (member.key() == "robots") {
-      write_robots(json, member, request, robots);
+      write_robots(json, member, request, robots, work);
     } else if (member.key() == "obstacles") {
       write_obstacles(json, member, request);
     } else {

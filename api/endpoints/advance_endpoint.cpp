@@ -23,7 +23,7 @@ Reply advance_endpoint(std::string_view body, const RequestContext& context) {
     if (!request) return std::nullopt;
     const auto robots = advanced(request->robots, request->executions, request->moment, stop);
     if (stop.met()) return std::nullopt;
-    return write_advanced(*request, robots);
+    return write_advanced(*request, robots, stop);
   };
   return pure_endpoint(body, context, kMembers, next_request);
 }

@@ -4,21 +4,18 @@
 #include <charconv>
 #include <cmath>
 
+#include "api/json/json_string.h"
+
 namespace fleetplan::api {
 
 namespace {
 
-struct Sequence {
-  std::size_t bytes;
-  bool valid;
-};
-
-/// The first character of a text in UTF-8 that begins with a byte above 0x7F. If it is invalid: the bytes up
-/// to the first that cannot continue it, at least one.
-Sequence first_sequence(std::string_view text) {
+/// At the begin of a text that is not valid UTF-8: the bytes up to the first that cannot continue the
+/// character, at least one.
+std::size_t invalid_bytes(std::string_view text) {
   const auto byte = [&](std::size_t index) { return static_cast<unsigned char>(text[index]); };
   const unsigned lead = byte(0);
-  if (lead < 0xC2 || lead > 0xF4) return {1, false};
+  if (lead < 0xC2 || lead > 0xF4) return 1;
   const std::size_t length = lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
   // The second byte excludes overlong forms, surrogates and what is beyond U+10FFFF.
   unsigned lowest = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;
@@ -29,7 +26,7 @@ Sequence first_sequence(std::string_view text) {
     highest = 0xBF;
     ++bytes;
   }
-  return {bytes, bytes == length};
+  return bytes;
 }
 
 }  // namespace
@@ -102,6 +99,10 @@ void JsonWriter::append_string(std::string_view text) {
   constexpr std::string_view kReplacement = "\uFFFD";
   text_ += '"';
   for (std::size_t index = 0; index < text.size(); ++index) {
+    const std::size_t plain = plain_length(text.substr(index));
+    text_.append(text.substr(index, plain));
+    index += plain;
+    if (index == text.size()) break;
     const char character = text[index];
     const auto byte = static_cast<unsigned char>(character);
     if (character == '"' || character == '\\') {
@@ -115,12 +116,9 @@ void JsonWriter::append_string(std::string_view text) {
       text_ += "\\u00";
       text_ += kHex[byte >> 4U];
       text_ += kHex[byte & 0x0FU];
-    } else if (byte >= 0x80) {
-      const Sequence sequence = first_sequence(text.substr(index));
-      text_ += sequence.valid ? text.substr(index, sequence.bytes) : kReplacement;
-      index += sequence.bytes - 1;
     } else {
-      text_ += character;
+      text_ += kReplacement;
+      index += invalid_bytes(text.substr(index)) - 1;
     }
   }
   text_ += '"';

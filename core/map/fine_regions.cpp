@@ -12,7 +12,7 @@ constexpr unsigned kLeastSide = 8;
 /// A node has a vertex within so many spacings, along steps between nodes.
 constexpr double kFarthest = 2.5;
 /// Nodes between two checks of the stop condition; fewer where each of them takes long.
-constexpr int kStopStride = 1024;
+constexpr int kBlocksBetweenPolls = 1024;
 constexpr int kCostlyStopStride = 4;
 
 }  // namespace
@@ -46,7 +46,7 @@ Position FineRegions::position(int vertex) const {
 }
 
 bool FineRegions::find(const StopCondition& condition) {
-  StopStride stop(condition, nodes_.are_costly() ? kCostlyStopStride : kStopStride);
+  StopStride stop(condition, nodes_.are_costly() ? kCostlyStopStride : kBlocksBetweenPolls);
   for (int row = 0; row < block_rows_ && !stop.met(); ++row) {
     for (int column = 0; column < block_columns_ && !stop.met(); ++column) classify(column, row, stop);
   }

@@ -44,8 +44,8 @@ constexpr double kTurnAtCorner = 0.25 * std::numbers::pi;
 /// Of several vertices at corners that lie in one square of this size, in radii, one suffices.
 constexpr double kCornerSize = 0.35;
 /// Nodes, corners, links or bridges between two checks of the stop condition; fewer where each takes long.
-constexpr int kStopStride = 64;
-constexpr int kCostlyStopStride = 2;
+constexpr int kNodesBetweenPolls = 64;
+constexpr int kCostlyNodesBetweenPolls = 2;
 
 bool is_coarse(const OccupancyGrid& grid, const Lattice& lattice) {
   return lattice.spacing() > kCoarseCells * grid.resolution();
@@ -70,7 +70,7 @@ class Refinement {
         needed_(needed),
         way_round_(way_round),
         space_(lattice, sight, radius),
-        stop_(stop, nodes.are_costly() ? kCostlyStopStride : kStopStride),
+        stop_(stop, nodes.are_costly() ? kCostlyNodesBetweenPolls : kNodesBetweenPolls),
         added_(regions.added()) {}
 
   /// Adds vertices around the convex corners of obstacles, where the shortest paths bend.

@@ -7,7 +7,7 @@ namespace fleetplan::core {
 namespace {
 
 /// Ways that are estimated between two checks of the stop condition.
-constexpr int kStopStride = 16;
+constexpr int kGoalsBetweenPolls = 16;
 
 /// Estimates the way from one goal to the next one, seconds. A heading that is free is the best one.
 double estimated_leg(SearchSpace& space, std::size_t from, const StopCondition& stop) {
@@ -28,7 +28,7 @@ IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
   IndexedVector<Stage> stages(goals.size());
   const int last = static_cast<int>(goals.size()) - 1;
   for (int k = last; k >= 0; --k) {
-    if ((last - k) % kStopStride == kStopStride - 1 && stop.met()) return {};
+    if ((last - k) % kGoalsBetweenPolls == kGoalsBetweenPolls - 1 && stop.met()) return {};
     const auto index = static_cast<std::size_t>(k);
     const Goal& goal = goals[index];
     stages[k] = {space.goal(index), goal.service, goal.not_before, goal.service, 0.0};

@@ -17,7 +17,7 @@ constexpr double kLinkDistance = 2.0;
 /// The same for a start that is too near to others, farther if the robot is clear of them only there.
 constexpr double kLongestLink = 12.0;
 /// Comparisons of own vertices and links between two checks of the stop condition.
-constexpr std::size_t kStopStride = 16 * 1024;
+constexpr std::size_t kWorkBetweenPolls = 16 * 1024;
 
 }  // namespace
 
@@ -41,7 +41,7 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stag
   std::size_t work = 0;  // since the last check
   for (std::size_t k = 0; k < goals.size(); ++k) {
     work += 1 + 2 * own_.size() + (own_.empty() ? 0 : own_.back().links.size());
-    if (work >= kStopStride) {
+    if (work >= kWorkBetweenPolls) {
       work = 0;
       if (stop.met()) {
         finished_ = false;

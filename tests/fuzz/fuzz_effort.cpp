@@ -1,17 +1,19 @@
-// Requests of up to 2000 robots, 300,000 cells and extreme ranges, with small budgets of steps and memory.
-// However little there is of them, the answer is a verified plan or a well-formed rejection, and it comes
-// soon after the budget is spent. Time is measured by the steps of StopCondition, which are the same on every
-// machine.
+// Requests of all endpoints at the ends of their ranges, with small budgets of steps and memory. However
+// little there is of them, the answer is a verified plan or what was asked for, or a well-formed rejection,
+// and it comes soon after the budget is spent.
+//
+// Time is counted, not measured, so that the same requests fail on every machine: by the questions that stop
+// conditions are asked, and in builds with the preset `count` by basic blocks of the program, of which a
+// machine executes some hundred million in a second. There, the blocks between two questions are bounded: so
+// is every loop, whether somebody thought of it or not.
 
-#include <algorithm>
-#include <array>
+#include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
-#include <vector>
 
-#include "api/endpoints/plan_endpoint.h"
 #include "core/runtime/stop_condition.h"
+#include "tests/fuzz/effort_requests.h"
 #include "tests/fuzz/refusals.h"
 #include "tests/fuzz/require.h"
 #include "tests/fuzz/target.h"
@@ -22,116 +24,17 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Choices made by the bytes of an input; zeros after its end.
-class Choices {
- public:
-  explicit Choices(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-
-  int byte() {
-    if (bytes_.empty()) return 0;
-    const int value = bytes_.front();
-    bytes_ = bytes_.subspan(1);
-    return value;
-  }
-  /// 0 to `most`, small numbers more often.
-  int up_to(int most) {
-    const int share = byte();
-    return static_cast<int>(static_cast<std::int64_t>(share) * share * most / (255 * 255));
-  }
-  bool yes() { return byte() % 2 == 1; }
-  template <class T, std::size_t N>
-  T one_of(const std::array<T, N>& values) {
-    return values[static_cast<std::size_t>(byte()) % N];
-  }
-
- private:
-  std::span<const std::uint8_t> bytes_;
+/// The basic blocks since the last question. All requests of this target run in one thread.
+struct Blocks {
+  std::int64_t steps = 0;  // questions so far
+  std::int64_t count = 0;
+  bool counting = false;  // while an endpoint computes
 };
 
-struct Effort {
-  std::string body;
-  std::size_t robots = 0;
-  std::int64_t steps = 0;  // until the time is up
-  std::size_t memory = 0;  // bytes
-};
+Blocks blocks;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): for the callback below
 
-/// Rows of free cells with walls that leave gaps.
-Json rows_of(int columns, int rows, Choices& choices) {
-  const int wall_every = 2 + choices.up_to(60);
-  const int gap = 1 + choices.up_to(20);
-  const bool has_walls = choices.yes();
-  Json lines = Json::array();
-  for (int row = 0; row < rows; ++row) {
-    std::string line(static_cast<std::size_t>(columns), '.');
-    if (has_walls && row % wall_every == wall_every - 1) {
-      for (int column = 0; column < columns; ++column) {
-        if ((column + row / wall_every) % (4 * gap) >= gap) line[static_cast<std::size_t>(column)] = '#';
-      }
-    }
-    lines.push_back(line);
-  }
-  return lines;
-}
-
-/// The centres of every so many free cells.
-std::vector<Json> places_of(const Json& lines, int distance, double resolution) {
-  std::vector<Json> places;
-  const int rows = static_cast<int>(lines.size());
-  for (int row = 0; row < rows; row += distance) {
-    const auto& line = lines[static_cast<std::size_t>(row)].get_ref<const std::string&>();
-    for (int column = 0; column < static_cast<int>(line.size()); column += distance) {
-      if (line[static_cast<std::size_t>(column)] == '#') continue;
-      places.push_back({{"x", (column + 0.5) * resolution}, {"y", (rows - row - 0.5) * resolution}});
-    }
-  }
-  return places;
-}
-
-/// Robots at a distance from each other. The goal of each is the start of another one, or a place further on.
-Json robots_of(int count, const Json& lines, double resolution, Choices& choices) {
-  const std::vector<Json> places = places_of(lines, 1 + choices.up_to(20), resolution);
-  const int most = static_cast<int>(places.size());
-  const int shift = choices.up_to(most);
-  const int parked_every = 1 + choices.byte();
-  const std::string padding(choices.one_of(std::array<std::size_t, 3>{0, 30, 250}), 'x');
-  Json robots = Json::array();
-  for (int k = 0; k < std::min(count, most); ++k) {
-    Json robot{{"id", std::to_string(k) + padding}, {"start", places[static_cast<std::size_t>(k)]}};
-    if (k % parked_every != parked_every - 1) {
-      robot["goal"] = places[static_cast<std::size_t>((k + shift) % most)];
-    }
-    robots.push_back(robot);
-  }
-  return robots;
-}
-
-Effort effort_of(Choices choices) {
-  const int columns = 1 + choices.up_to(600);
-  const int rows = 1 + choices.up_to(500);
-  const auto resolution = choices.one_of(std::array{1.0, 0.05, 1e-3, 1000.0});
-  const auto radius = resolution * choices.one_of(std::array{0.3, 0.5, 0.49999, 1e-6, 3.0});
-  const Json lines = rows_of(columns, rows, choices);
-  const int robots = 1 + choices.up_to(1999);
-  Json request{
-      {"map", {{"rows", lines}, {"resolution", resolution}}},
-      {"robots", robots_of(robots, lines, resolution, choices)},
-      {"robot_defaults",
-       {{"radius", radius},
-        {"linear_speed", choices.one_of(std::array{1.0, 1e-3, 1e3})},
-        {"angular_speed", choices.one_of(std::array{1.0, 1e-3, 1e6})}}},
-      {"options",
-       {{"time_budget_ms", 100'000},
-        {"mode", choices.yes() ? "anytime" : "first"},
-        {"max_iterations", 40},
-        {"reordering", choices.one_of(std::array{"raise_failed", "random", "none"})},
-        {"inflation", resolution * choices.one_of(std::array{0.0, 0.01, 0.9, 10.0})},
-        {"start_safe_interval", choices.one_of(std::array{3.0, 0.0, 1000.0})},
-        {"wait_before_move", choices.one_of(std::array{0.0, 1.0})}}},
-  };
-  const std::int64_t steps = choices.up_to(3000);
-  const std::size_t memory = static_cast<std::size_t>(1 + choices.up_to(63)) << 20;
-  return {request.dump(), request["robots"].size(), steps, memory};
-}
+/// A tenth of a second: the longest map is read, copied and indexed in a few linear passes.
+constexpr std::int64_t kMostBlocks = 40'000'000;
 
 /// Steps after the last one of the time: each robot may be asked about a few times, and each loop ends.
 std::int64_t allowed_lateness(std::size_t robots) { return 500 + 16 * static_cast<std::int64_t>(robots); }
@@ -143,17 +46,7 @@ std::size_t allowed_size(const Json& answer, std::size_t request) {
   return 4096 + 64 * request + 1024 * actions;
 }
 
-void check(const Effort& effort) {
-  api::RequestContext context;
-  context.request_id = "id";
-  context.limits.max_plan_memory = effort.memory;
-  core::StepClock& clock = core::step_clock;
-  clock = {0, effort.steps};
-  const api::Reply reply = api::plan_endpoint(effort.body, context);
-  const std::int64_t late = clock.steps - effort.steps;
-  clock = {};
-  require(late <= allowed_lateness(effort.robots), "an answer is late", std::to_string(late));
-  if (reply.status != 200) return require_proper_refusal(effort.body, reply);
+void check_plan(const Effort& effort, const api::Reply& reply) {
   const Json answer = Json::parse(reply.body, nullptr, false);
   require(answer.is_object(), "an answer is not JSON", reply.body);
   require(answer.at("verified") == true, "an answer is not verified", reply.body);
@@ -163,12 +56,46 @@ void check(const Effort& effort) {
           "an answer is not linear in its request", std::to_string(reply.body.size()));
 }
 
+void check(const Effort& effort) {
+  api::RequestContext context;
+  context.request_id = "id";
+  context.limits.max_plan_memory = effort.memory;
+  core::StepClock& clock = core::step_clock;
+  clock = {0, effort.steps};
+  blocks = {0, 0, true};
+  const api::Reply reply = effort.endpoint(effort.body, context);
+  blocks.counting = false;
+  const std::int64_t late = clock.steps - effort.steps;
+  clock = {};
+  require(late <= allowed_lateness(effort.robots), "an answer is late", std::to_string(late));
+  if (reply.status != 200) return require_proper_refusal(effort.body, reply);
+  if (effort.plans) return check_plan(effort, reply);
+  require(Json::accept(reply.body), "an answer is not JSON", reply.body);
+}
+
 }  // namespace
 
 }  // namespace fleetplan::fuzz
 
+#ifdef FLEETPLAN_COUNT
+/// Called by each basic block of a build with -fsanitize-coverage=trace-pc.
+extern "C" __attribute__((no_sanitize_coverage)) void __sanitizer_cov_trace_pc() {  // NOLINT
+  using fleetplan::fuzz::blocks;
+  using fleetplan::fuzz::kMostBlocks;
+  const std::int64_t steps = fleetplan::core::step_clock.steps;
+  if (steps != blocks.steps) {
+    blocks.steps = steps;
+    blocks.count = 0;
+  }
+  if (!blocks.counting || ++blocks.count < kMostBlocks) return;
+  std::fputs("a loop asks no stop condition\n", stderr);
+  std::abort();  // here, so that a debugger shows the loop
+}
+#endif
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace fleetplan::fuzz;
-  check(effort_of(Choices({data, size})));
+  Choices choices({data, size});
+  check(choices.yes() ? execution_effort(choices) : planning_effort(choices));
   return 0;
 }

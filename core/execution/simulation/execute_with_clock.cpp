@@ -15,7 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSameMoment = 1e-9;
 constexpr double kSameShare = 1e-14;
 constexpr std::size_t kActionsBetweenPolls = 256;
-constexpr std::size_t kStepsBetweenPolls = 1024;
+constexpr std::size_t kClockStepsBetweenPolls = 1024;
 
 /// A part of a robot's plan: from `from` to `to` in planned time.
 struct ClockPhase {
@@ -127,7 +127,7 @@ class ClockedExecution {
 
   /// Counts what is done; looks at the stop condition once in a while, and stays true once it is met.
   bool stops() {
-    if (++steps_ % kStepsBetweenPolls == 0) stopped_ = stopped_ || stop_.met();
+    if (++steps_ % kClockStepsBetweenPolls == 0) stopped_ = stopped_ || stop_.met();
     return stopped_;
   }
 

@@ -7,7 +7,7 @@
 namespace fleetplan::core {
 namespace {
 
-constexpr std::size_t kActionsBetweenPolls = 256;
+constexpr std::size_t kPolicyActionsBetweenPolls = 256;
 
 }  // namespace
 
@@ -16,7 +16,7 @@ std::optional<ExecutedProgress> execute_alone(const PlannedExecution& planned, s
   const std::vector<Action>& actions = planned.plans[plan].actions;
   ProgressBuilder builder;
   for (std::size_t k = 0; k < actions.size(); ++k) {
-    if (k % kActionsBetweenPolls == 0 && stop.met()) return std::nullopt;
+    if (k % kPolicyActionsBetweenPolls == 0 && stop.met()) return std::nullopt;
     const Action& action = actions[k];
     builder.begin_action(k);
     builder.stand_for(disturbed.actions[k].start_delay);

@@ -1,0 +1,344 @@
+#include "tests/fuzz/effort_requests.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "api/endpoints/advance_endpoint.h"
+#include "api/endpoints/dependencies_endpoint.h"
+#include "api/endpoints/plan_endpoint.h"
+#include "api/endpoints/retime_endpoint.h"
+#include "api/endpoints/simulate_endpoint.h"
+#include "api/endpoints/validate_endpoint.h"
+#include "api/endpoints/vda5050_endpoint.h"
+
+namespace fleetplan::fuzz {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// Rows of free cells with walls that leave gaps.
+Json rows_of(int columns, int rows, Choices& choices) {
+  const int wall_every = 2 + choices.up_to(60);
+  const int gap = 1 + choices.up_to(20);
+  const bool has_walls = choices.yes();
+  Json lines = Json::array();
+  for (int row = 0; row < rows; ++row) {
+    std::string line(static_cast<std::size_t>(columns), '.');
+    if (has_walls && row % wall_every == wall_every - 1) {
+      for (int column = 0; column < columns; ++column) {
+        if ((column + row / wall_every) % (4 * gap) >= gap) line[static_cast<std::size_t>(column)] = '#';
+      }
+    }
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+/// The centres of every so many free cells.
+std::vector<Json> places_of(const Json& lines, int distance, double resolution) {
+  std::vector<Json> places;
+  const int rows = static_cast<int>(lines.size());
+  for (int row = 0; row < rows; row += distance) {
+    const auto& line = lines[static_cast<std::size_t>(row)].get_ref<const std::string&>();
+    for (int column = 0; column < static_cast<int>(line.size()); column += distance) {
+      if (line[static_cast<std::size_t>(column)] == '#') continue;
+      places.push_back({{"x", (column + 0.5) * resolution}, {"y", (rows - row - 0.5) * resolution}});
+    }
+  }
+  return places;
+}
+
+/// Robots at a distance from each other. The goal of each is the start of another one, or a place further on.
+Json robots_of(int count, const Json& lines, double resolution, Choices& choices) {
+  const std::vector<Json> places = places_of(lines, 1 + choices.up_to(20), resolution);
+  const int most = static_cast<int>(places.size());
+  const int shift = choices.up_to(most);
+  const int parked_every = 1 + choices.byte();
+  const std::string padding(choices.one_of(std::array<std::size_t, 3>{0, 30, 250}), 'x');
+  Json robots = Json::array();
+  for (int k = 0; k < std::min(count, most); ++k) {
+    Json robot{{"id", std::to_string(k) + padding}, {"start", places[static_cast<std::size_t>(k)]}};
+    if (k % parked_every != parked_every - 1) {
+      robot["goal"] = places[static_cast<std::size_t>((k + shift) % most)];
+    }
+    robots.push_back(robot);
+  }
+  return robots;
+}
+
+/// The extent of a map, metres.
+struct Extent {
+  double width;
+  double height;
+};
+
+Extent extent_of(const Json& map) {
+  const double resolution = map.value("resolution", 1.0);
+  return {resolution * static_cast<double>(map["rows"][0].get_ref<const std::string&>().size()),
+          resolution * static_cast<double>(map["rows"].size())};
+}
+
+/// A star with so many corners, which may leave the map.
+Json star(double x, double y, double radius, int corners) {
+  Json polygon = Json::array();
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / corners;
+    const double reach = k % 2 == 0 ? radius : 0.4 * radius;
+    polygon.push_back({{"x", x + reach * std::cos(angle)}, {"y", y + reach * std::sin(angle)}});
+  }
+  return polygon;
+}
+
+Json zones_of(const Extent& extent, Choices& choices) {
+  Json zones = Json::array();
+  const int count = choices.up_to(200);
+  const int corners = 4 + 2 * choices.up_to(40);
+  const double size = std::min(extent.width, extent.height) * (0.01 + choices.up_to(100) / 100.0);
+  for (int k = 0; k < count; ++k) {
+    const double x = extent.width * std::fmod(0.618 * k + 0.3, 1.0);
+    const double y = extent.height * std::fmod(0.414 * k + 0.7, 1.0);
+    Json zone{{"id", "z" + std::to_string(k)}, {"polygon", star(x, y, size, corners)}};
+    zone["type"] = choices.one_of(std::array{"blocked", "speed", "one_way"});
+    if (zone["type"] == "speed") zone["linear_speed"] = choices.one_of(std::array{1e-3, 0.5, 1e3});
+    if (zone["type"] == "one_way") zone["heading"] = 0.5 * k;
+    zones.push_back(std::move(zone));
+  }
+  return zones;
+}
+
+Json obstacles_of(const Extent& extent, Choices& choices) {
+  Json obstacles = Json::array();
+  const int count = choices.up_to(300);
+  const int entries = 1 + choices.up_to(150);
+  const double radius = std::min(extent.width, extent.height) * choices.one_of(std::array{1e-3, 0.1, 1.0});
+  for (int k = 0; k < count; ++k) {
+    Json motion = Json::array();
+    for (int entry = 0; entry < entries; ++entry) {
+      motion.push_back({{"t", 1e3 * entry},
+                        {"x", extent.width * std::fmod(0.618 * (k + entry), 1.0)},
+                        {"y", extent.height * std::fmod(0.414 * (k - entry) + 100.0, 1.0)}});
+    }
+    obstacles.push_back({{"id", "o" + std::to_string(k)}, {"radius", radius}, {"motion", std::move(motion)}});
+  }
+  return obstacles;
+}
+
+/// Members that a request of POST /v1/plan may have besides.
+void add_members(Json& request, Choices& choices) {
+  const Extent extent = extent_of(request["map"]);
+  if (choices.yes()) request["zones"] = zones_of(extent, choices);
+  if (choices.yes()) request["obstacles"] = obstacles_of(extent, choices);
+  Json& options = request["options"];
+  if (choices.yes()) options["horizon"] = choices.one_of(std::array{0.1, 10.0, 1e3});
+  if (choices.yes()) options["start_overlap"] = choices.one_of(std::array{0.01, 1.0, 1e6});
+  if (choices.yes()) options["interval_margin"] = choices.one_of(std::array{0.01, 1.0, 100.0});
+  if (choices.yes()) options["dependencies"] = true;
+  if (choices.yes()) request["robot_defaults"]["vicinity"] = choices.one_of(std::array{0.01, 5.0, 1e3});
+  if (choices.yes()) request["robot_defaults"]["may_reverse"] = true;
+  const int goals = choices.up_to(200);
+  Json& robots = request["robots"];
+  for (std::size_t k = 0; goals > 0 && k < robots.size() && k < 100; ++k) {
+    if (!robots[k].contains("goal")) continue;
+    Json list = Json::array();
+    for (int goal = 0; goal < goals; ++goal) {
+      Json place = robots[(k + static_cast<std::size_t>(goal)) % robots.size()]["start"];
+      place["service"] = goal % 3;
+      if (goal % 5 == 4)
+        place["radius_after"] = request["robot_defaults"]["radius"].get<double>() * (1.0 + goal % 2);
+      list.push_back(std::move(place));
+    }
+    list.push_back(robots[k]["goal"]);
+    robots[k].erase("goal");
+    robots[k]["goals"] = std::move(list);
+  }
+}
+
+/// Robots that go to and fro in rows of their own, or in one row.
+struct ToAndFro {
+  Json robots = Json::array();
+  Json plans = Json::array();
+  int legs = 0;
+};
+
+ToAndFro to_and_fro(const Extent& extent, double pitch, Choices& choices) {
+  ToAndFro fleet;
+  const int most_robots = static_cast<int>(std::min(300.0, extent.height / pitch));
+  const int robots = 1 + choices.up_to(most_robots - 1);
+  fleet.legs = 1 + choices.up_to(std::min(3000, 60'000 / robots));
+  const double length = std::max(0.1, extent.width - pitch) * choices.one_of(std::array{1.0, 0.3, 0.001});
+  const bool waits = choices.yes();
+  for (int k = 0; k < robots; ++k) {
+    const std::string id = "r" + std::to_string(k);
+    const double y = pitch * (k + 0.5);
+    const std::array<Json, 2> ends{Json{{"x", 0.5 * pitch}, {"y", y}, {"theta", 0.0}},
+                                   Json{{"x", 0.5 * pitch + length}, {"y", y}, {"theta", 0.0}}};
+    Json actions = Json::array();
+    double now = 0.0;
+    for (int leg = 0; leg < fleet.legs; ++leg) {
+      const auto from = static_cast<std::size_t>(leg % 2);
+      const double end = now + 1.01 * length;
+      actions.push_back({{"type", "translate"},
+                         {"t_start", now},
+                         {"t_end", end},
+                         {"from", ends[from]},
+                         {"to", ends[1 - from]},
+                         {"reverse", from == 1}});
+      now = end;
+      if (!waits) continue;
+      actions.push_back({{"type", "wait"},
+                         {"t_start", now},
+                         {"t_end", now + 0.5},
+                         {"from", ends[1 - from]},
+                         {"to", ends[1 - from]}});
+      now += 0.5;
+    }
+    fleet.robots.push_back({{"id", id}, {"start", ends[0]}, {"may_reverse", true}});
+    fleet.plans.push_back({{"robot", id}, {"cost", now}, {"actions", std::move(actions)}});
+  }
+  return fleet;
+}
+
+Json disturbance_of(Choices& choices) {
+  Json disturbance = Json::object();
+  if (choices.yes()) disturbance["speed"] = {{"min", 0.01}, {"max", 1.0}};
+  if (choices.yes()) {
+    disturbance["stops"] = {{"rate_per_hour", choices.one_of(std::array{1.0, 3600.0, 36'000.0})},
+                            {"mean_s", choices.one_of(std::array{0.001, 10.0})}};
+  }
+  if (choices.yes()) disturbance["start_delay"] = {{"min", 0.0}, {"max", 5.0}};
+  if (choices.yes()) {
+    disturbance["cross_track"] = {{"sigma", choices.one_of(std::array{0.001, 0.5})},
+                                  {"correlation_length", choices.one_of(std::array{0.01, 1.0})}};
+  }
+  return disturbance;
+}
+
+/// Every robot waits for its neighbour, leg by leg.
+Json dependencies_of(const ToAndFro& fleet, Choices& choices) {
+  Json dependencies = Json::array();
+  const auto place = [&](std::size_t robot, int leg) {
+    const std::size_t actions = fleet.plans[robot]["actions"].size();
+    return Json{{"robot", fleet.plans[robot]["robot"]},
+                {"action", static_cast<std::size_t>(leg) * actions / static_cast<std::size_t>(fleet.legs)},
+                {"progress", 0.5}};
+  };
+  const int every = 1 + choices.up_to(10);
+  for (std::size_t robot = 0; robot + 1 < fleet.plans.size(); ++robot) {
+    for (int leg = 1; leg < fleet.legs; leg += every) {
+      dependencies.push_back(
+          {{"gate", place(robot, leg)}, {"until", place(robot + 1, leg - 1)}, {"slack", 0.1}});
+    }
+  }
+  return dependencies;
+}
+
+Json states_of(const ToAndFro& fleet, Choices& choices) {
+  Json states = Json::array();
+  for (const Json& plan : fleet.plans) {
+    if (choices.yes()) continue;
+    states.push_back({{"robot", plan["robot"]},
+                      {"action", 0},
+                      {"progress", 0.5},
+                      {"speed_factor", choices.one_of(std::array{0.01, 1.0, 100.0})}});
+  }
+  return states;
+}
+
+}  // namespace
+
+Effort planning_effort(Choices choices) {
+  const int columns = 1 + choices.up_to(600);
+  const int rows = 1 + choices.up_to(500);
+  const auto resolution = choices.one_of(std::array{1.0, 0.05, 1e-3, 1000.0});
+  const auto radius = resolution * choices.one_of(std::array{0.3, 0.5, 0.49999, 1e-6, 3.0});
+  const Json lines = rows_of(columns, rows, choices);
+  const int robots = 1 + choices.up_to(1999);
+  Json request{
+      {"map", {{"rows", lines}, {"resolution", resolution}}},
+      {"robots", robots_of(robots, lines, resolution, choices)},
+      {"robot_defaults",
+       {{"radius", radius},
+        {"linear_speed", choices.one_of(std::array{1.0, 1e-3, 1e3})},
+        {"angular_speed", choices.one_of(std::array{1.0, 1e-3, 1e6})}}},
+      {"options",
+       {{"time_budget_ms", 100'000},
+        {"mode", choices.yes() ? "anytime" : "first"},
+        {"max_iterations", 40},
+        {"reordering", choices.one_of(std::array{"raise_failed", "random", "none"})},
+        {"inflation", resolution * choices.one_of(std::array{0.0, 0.01, 0.9, 10.0})},
+        {"start_safe_interval", choices.one_of(std::array{3.0, 0.0, 1000.0})},
+        {"wait_before_move", choices.one_of(std::array{0.0, 1.0})}}},
+  };
+  const std::int64_t steps = choices.up_to(3000);
+  const std::size_t memory = static_cast<std::size_t>(1 + choices.up_to(63)) << 20;
+  add_members(request, choices);
+  return {api::plan_endpoint, true, request.dump(), request["robots"].size(), steps, memory};
+}
+
+Effort execution_effort(Choices choices) {
+  const int columns = 2 + choices.up_to(1000);
+  const int rows = 1 + choices.up_to(300);
+  const double pitch = choices.one_of(std::array{1.0, 0.7, 0.2});
+  Json map{{"rows", rows_of(columns, rows, choices)}};
+  const ToAndFro fleet = to_and_fro(extent_of(map), pitch, choices);
+  Json body{{"map", std::move(map)},
+            {"robots", fleet.robots},
+            {"plans", fleet.plans},
+            {"robot_defaults", {{"radius", 0.3}, {"linear_speed", 1.0}, {"angular_speed", 1.0}}},
+            {"options", {{"time_budget_ms", 100'000}}}};
+  Effort effort;
+  effort.robots = fleet.robots.size();
+  const int kind = choices.byte() % 6;
+  if (kind < 3 && choices.yes()) add_members(body, choices);
+  if (kind == 0) {
+    effort.endpoint = api::validate_endpoint;
+  } else if (kind == 1) {
+    effort.endpoint = api::dependencies_endpoint;
+    body["options"]["execution_margin"] = choices.one_of(std::array{0.0, 0.1, 1.0, 100.0});
+    body["options"]["dependency_slack"] = choices.one_of(std::array{0.1, 1e-3, 10.0});
+  } else if (kind == 2) {
+    effort.endpoint = api::simulate_endpoint;
+    body["policy"] = choices.one_of(std::array{"open_loop", "absorb_waits", "dependencies", "clock_stop"});
+    if (body["policy"] == "dependencies") body["dependencies"] = dependencies_of(fleet, choices);
+    if (body["policy"] == "clock_stop") body["max_delay"] = 1.0;
+    body["runs"] = 1 + choices.up_to(50);
+    body["disturbance"] = disturbance_of(choices);
+    if (choices.yes()) body["trace"] = 0;
+  } else if (kind == 3) {
+    effort.endpoint = api::advance_endpoint;
+    Json request = body;
+    request.erase("plans");
+    body = {{"request", std::move(request)},
+            {"plans", fleet.plans},
+            {"at", choices.up_to(100) / 10.0},
+            {"commit", choices.one_of(std::array{0.0, 1.0, 1e3})}};
+  } else if (kind == 4) {
+    effort.endpoint = api::retime_endpoint;
+    body.erase("map");
+    body["dependencies"] = dependencies_of(fleet, choices);
+    body["at"] = 0.05;
+    body["states"] = states_of(fleet, choices);
+  } else {
+    effort.endpoint = api::vda5050_endpoint;
+    body.erase("options");
+    body["version"] = choices.one_of(std::array{"2.1.0", "3.0.0"});
+    body["manufacturer"] = "m";
+    body["timestamp"] = "2026-01-31T12:00:00.000Z";
+    body["dependencies"] = dependencies_of(fleet, choices);
+    Json numbers = Json::object();
+    for (int k = choices.up_to(20'000); k > 0; --k)
+      numbers["r" + std::to_string(k)] = "s" + std::to_string(k);
+    if (choices.yes()) body["serial_numbers"] = std::move(numbers);
+  }
+  effort.body = body.dump();
+  effort.steps = choices.up_to(3000);
+  effort.memory = static_cast<std::size_t>(1 + choices.up_to(127)) << 20;
+  return effort;
+}
+
+}  // namespace fleetplan::fuzz
