@@ -10,6 +10,7 @@
 
 #include "api/json/fault_text.h"
 #include "api/json/location.h"
+#include "core/runtime/stoppable_sort.h"
 
 namespace fleetplan::api {
 
@@ -17,8 +18,6 @@ namespace {
 
 // Up to here comparing all pairs is faster than sorting.
 constexpr std::size_t kFewMembers = 16;
-// So many members are sorted or merged between two looks at the stop.
-constexpr std::size_t kChunk = 4096;
 
 class DuplicateKeys {
  public:
@@ -64,29 +63,15 @@ class DuplicateKeys {
     }
   }
 
-  /// Sorts by key, and equal ones in the order of the document. Merges chunks, as std::sort cannot be
-  /// stopped; false if it was.
+  /// Sorts by key, and equal ones in the order of the document; false if it was stopped.
   bool sort(std::vector<Member>& members) {
     const auto before = [this](const Member& a, const Member& b) {
       if (a.hash != b.hash) return a.hash < b.hash;
       const int order = key(a).compare(key(b));
       return order != 0 ? order < 0 : a.node < b.node;
     };
-    const auto at = [&](std::size_t index) {
-      return members.begin() + static_cast<std::ptrdiff_t>(std::min(index, members.size()));
-    };
-    // Bounded: met_after() ends it.
-    for (std::size_t begin = 0; begin < members.size(); begin += kChunk) {
-      if (document_.work->met_after(kChunk)) return false;
-      std::sort(at(begin), at(begin + kChunk), before);
-    }
-    for (std::size_t width = kChunk; width < members.size(); width *= 2) {
-      for (std::size_t begin = 0; begin < members.size(); begin += 2 * width) {
-        if (document_.work->met_after(2 * width)) return false;
-        std::inplace_merge(at(begin), at(begin + width), at(begin + 2 * width), before);
-      }
-    }
-    return true;
+    return core::stoppable_sort(members, before,
+                                [this](std::size_t work) { return document_.work->met_after(work); });
   }
 
   void add(const JsonValue& later) {

@@ -1,6 +1,10 @@
 #include "core/reservation/motion_tree.h"
 
 #include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "core/runtime/stoppable_sort.h"
 
 namespace fleetplan::core {
 namespace {
@@ -47,26 +51,28 @@ double last_time(const std::vector<MotionTree::Disk>& disks) {
 
 MotionTree::MotionTree(std::vector<Disk> disks, const Extent& extent, const StopCondition& stop)
     : disks_(std::move(disks)) {
-  std::vector<Piece> all = pieces(extent, stop);
-  if (finished_ = !stop.met(); !finished_) return;
-  std::sort(all.begin(), all.end(), [](const Piece& a, const Piece& b) {
-    return std::pair(a.key, a.disk) < std::pair(b.key, b.disk);
-  });
-  finished_ = build(all, stop);
+  std::optional<std::vector<Piece>> all = pieces(extent, stop);
+  const auto before = [](const Piece& a, const Piece& b) {
+    return std::tuple(a.key, a.disk, a.part) < std::tuple(b.key, b.disk, b.part);
+  };
+  finished_ = all && stoppable_sort(*all, before, [&](std::size_t /*pieces*/) { return stop.met(); }) &&
+              build(*all, stop);
 }
 
-/// Those that a query can come near, not yet in order.
-std::vector<MotionTree::Piece> MotionTree::pieces(const Extent& extent, const StopCondition& stop) const {
+/// Those that a query can come near, not yet in order. None if the stop condition is met.
+std::optional<std::vector<MotionTree::Piece>> MotionTree::pieces(const Extent& extent,
+                                                                 const StopCondition& stop) const {
   double total = 0.0;
   for (const Disk& disk : disks_) total += length_of(disk.motion);
   const double length = std::max(std::max(extent.width, extent.height) / kPiecesAcross, total / kMorePieces);
   const double t_last = last_time(disks_);
   std::vector<Piece> all;
   for (std::size_t i = 0; i < disks_.size(); ++i) {
-    if (i % kStopStride == 0 && stop.met()) return {};
+    if (i % kStopStride == 0 && stop.met()) return std::nullopt;
     const auto parts = static_cast<std::uint32_t>(std::ceil(length_of(disks_[i].motion) / length));
     Piece piece{0, static_cast<std::uint32_t>(i), 0, std::max(parts, 1U)};
     for (; piece.part < piece.parts; ++piece.part) {
+      if (piece.part % kStopStride == kStopStride - 1 && stop.met()) return std::nullopt;
       const MotionBox b = box(piece);
       if (b.low.x() > extent.width + extent.radius || b.low.y() > extent.height + extent.radius ||
           b.high.x() < -extent.radius || b.high.y() < -extent.radius)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -96,7 +97,7 @@ class MotionTree {
     std::uint32_t parts;  // that the motion is divided into
   };
 
-  std::vector<Piece> pieces(const Extent& extent, const StopCondition& stop) const;
+  std::optional<std::vector<Piece>> pieces(const Extent& extent, const StopCondition& stop) const;
   MotionBox box(const Piece& piece) const;
   bool build(const std::vector<Piece>& pieces, const StopCondition& stop);
 
