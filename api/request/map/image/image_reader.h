@@ -56,7 +56,8 @@ std::optional<ImageFault> size_fault(std::uint64_t columns, std::uint64_t rows, 
 OpenedImage open_pgm(std::span<const std::uint8_t> bytes, std::int64_t most);
 
 /// A PNG of at most `most` pixels. Palettes, grays of fewer than 8 bits and transparent colours are expanded.
-/// `stop` ends the reading of an interlaced image.
+/// Whatever is not needed for the pixels, or follows them, stays unread. `stop` ends the reading, with any
+/// result.
 OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t most, core::Work& stop);
 
 }  // namespace fleetplan::api

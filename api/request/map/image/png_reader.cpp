@@ -1,8 +1,13 @@
-// PNG by libpng. Its errors leave by longjmp, over frames of the library and of the small functions here that
-// call it; none of these has an object with a destructor.
+// PNG by libpng. What is known of an image is what the library says of it; nothing is read past it. Its
+// errors leave by longjmp, over frames of the library and of the small functions here that call it; none of
+// these has an object with a destructor.
+//
+// The library asks for all bytes by on_read, which asks the stop condition: it reads little between two calls
+// (kReadAtOnce), and the chunks that it does not need are skipped without being decompressed.
 
 #include <png.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <csetjmp>
@@ -19,13 +24,23 @@ namespace fleetplan::api {
 namespace {
 
 constexpr std::array<std::uint8_t, 8> kSignature{137, 80, 78, 71, 13, 10, 26, 10};
-constexpr std::size_t kSizesAt = 16;                      // of width and height, four bytes each
-constexpr png_alloc_size_t kMostChunkMemory = 1U << 20U;  // bytes, of a chunk other than pixels
+constexpr std::array<std::uint8_t, 4> kHeaderName{'I', 'H', 'D', 'R'};
+constexpr std::size_t kFirstNameAt = kSignature.size() + 4;  // of the first chunk, after its length
+constexpr png_alloc_size_t kMostChunk = 1U << 20U;           // bytes of a chunk other than pixels
+constexpr png_uint_32 kNoKeptChunks = 1;                     // in libpng 0 stands for no limit
+/// Bytes of compressed pixels at once. They decompress to a megabyte at most.
+constexpr std::size_t kReadAtOnce = 1024;
+/// Bytes that are read behind the last pixel: the end of the compressed data and the check sums, in a second
+/// chunk perhaps. Whatever else follows stays unread.
+constexpr std::size_t kMostBehindPixels = 64;
 
 /// What the library is told, and what it tells.
 struct Source {
   std::span<const std::uint8_t> bytes;
+  ParseStop* stop = nullptr;
   std::size_t at = 0;
+  png_uint_32 rows = PNG_UINT_32_MAX;  // once known
+  std::size_t behind_pixels = 0;       // bytes read there
   std::array<char, 96> error{};
   bool out_of_memory = false;
 };
@@ -40,8 +55,19 @@ struct Source {
 
 void on_warning(png_structp /*png*/, png_const_charp /*text*/) {}
 
+/// Whether all pixels are decompressed: rows count from 0 again in each of the passes of an interlaced image.
+bool has_all_pixels(png_structp png, const Source& source) {
+  return png_get_current_pass_number(png) == PNG_INTERLACE_ADAM7_PASSES ||
+         png_get_current_row_number(png) == source.rows;
+}
+
 void on_read(png_structp png, png_bytep target, std::size_t size) {
   auto* source = static_cast<Source*>(png_get_io_ptr(png));
+  if (source->stop->met_after(size)) png_error(png, "the reading was stopped");
+  if (has_all_pixels(png, *source)) {
+    source->behind_pixels += size;
+    if (source->behind_pixels > kMostBehindPixels) png_error(png, "data behind the pixels");
+  }
   if (source->bytes.size() - source->at < size) png_error(png, "the file ends too early");
   std::memcpy(target, source->bytes.data() + source->at, size);
   source->at += size;
@@ -58,9 +84,18 @@ void on_free(png_structp /*png*/, png_voidp memory) { ::operator delete(memory);
 
 // Calls of the library: false after an error.
 
-bool read_header(png_structp png, png_infop info) {
+bool try_to_read_header(png_structp png, png_infop info) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;  // NOLINT(cert-err52-cpp): the library has no other way
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr,
+                              -1);  // all but IHDR, PLTE, tRNS, IDAT, IEND
+  png_set_compression_buffer_size(png, kReadAtOnce);
   png_read_info(png, info);
+  return true;
+}
+
+/// Sets how the pixels are to be given, and allocates memory for a row.
+bool try_to_begin_rows(png_structp png, png_infop info) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;  // NOLINT(cert-err52-cpp)
   png_set_expand(png);
   if constexpr (std::endian::native == std::endian::little) png_set_swap(png);  // of channels of 16 bits
   png_set_interlace_handling(png);
@@ -68,24 +103,17 @@ bool read_header(png_structp png, png_infop info) {
   return true;
 }
 
-bool read_row(png_structp png, std::uint8_t* row) {
+bool try_to_read_row(png_structp png, std::uint8_t* row) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;  // NOLINT(cert-err52-cpp)
   png_read_row(png, row, nullptr);
-  return true;
-}
-
-/// What follows the pixels: the check sums of the last ones, above all.
-bool read_end(png_structp png) {
-  if (setjmp(png_jmpbuf(png)) != 0) return false;  // NOLINT(cert-err52-cpp)
-  png_read_end(png, nullptr);
   return true;
 }
 
 /// The structures of the library.
 class Handle {
  public:
-  explicit Handle(std::span<const std::uint8_t> bytes)
-      : source_{bytes},
+  Handle(std::span<const std::uint8_t> bytes, core::Work& stop)
+      : source_{bytes, &stop},
         png_(png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &source_, on_error, on_warning, &source_,
                                       on_allocate, on_free)) {
     if (png_ != nullptr) info_ = png_create_info_struct(png_);
@@ -95,7 +123,8 @@ class Handle {
     }
     png_set_read_fn(png_, &source_, on_read);
     png_set_user_limits(png_, kLongestSide, kLongestSide);
-    png_set_chunk_malloc_max(png_, kMostChunkMemory);
+    png_set_chunk_malloc_max(png_, kMostChunk);
+    png_set_chunk_cache_max(png_, kNoKeptChunks);
   }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
@@ -103,6 +132,19 @@ class Handle {
 
   png_structp png() const { return png_; }
   png_infop info() const { return info_; }
+
+  bool read_header() { return try_to_read_header(png_, info_); }
+  std::uint32_t columns() const { return png_get_image_width(png_, info_); }
+  std::uint32_t rows() const { return png_get_image_height(png_, info_); }
+  bool begin_rows() {
+    source_.rows = rows();
+    return try_to_begin_rows(png_, info_);
+  }
+  /// False if the pixels of the row cannot be read. Data that end the reading behind the last one are no
+  /// fault.
+  bool read_row(std::uint8_t* row) {
+    return try_to_read_row(png_, row) || source_.behind_pixels > kMostBehindPixels;
+  }
   /// Why a call failed. Throws std::bad_alloc if it was memory.
   std::string error() const {
     if (source_.out_of_memory) throw std::bad_alloc();
@@ -125,19 +167,16 @@ class PngReader final : public ImageReader {
         interlaced_(png_get_interlace_type(handle_->png(), handle_->info()) != PNG_INTERLACE_NONE),
         row_bytes_(png_get_rowbytes(handle_->png(), handle_->info())),
         bytes_(row_bytes_ * (interlaced_ ? static_cast<std::size_t>(header.rows) : 1)),
-        channels_(static_cast<std::size_t>(header.columns) * static_cast<std::size_t>(header.channels)) {}
+        channels_(wide_ ? row_bytes_ / 2 : row_bytes_) {}
 
   Result<Row, std::string> next_row() override {
-    const bool first = row_ == 0;
-    const bool last = ++row_ == header().rows;
     std::uint8_t* bytes = bytes_.data();
     if (interlaced_) {
-      if (first && !read_passes()) return handle_->error();
-      bytes += row_bytes_ * static_cast<std::size_t>(row_ - 1);
-    } else if (!read_row(handle_->png(), bytes)) {
+      if (row_ == 0 && !read_passes()) return handle_->error();
+      bytes += row_bytes_ * static_cast<std::size_t>(row_++);
+    } else if (!handle_->read_row(bytes)) {
       return handle_->error();
     }
-    if (last && !stop_.met() && !read_end(handle_->png())) return handle_->error();
     unpack(bytes);
     return Row(channels_);
   }
@@ -146,8 +185,7 @@ class PngReader final : public ImageReader {
   bool read_passes() {
     for (int pass = 0; pass < PNG_INTERLACE_ADAM7_PASSES; ++pass) {
       for (int row = 0; row < header().rows; ++row) {
-        if (!read_row(handle_->png(), bytes_.data() + row_bytes_ * static_cast<std::size_t>(row)))
-          return false;
+        if (!handle_->read_row(bytes_.data() + row_bytes_ * static_cast<std::size_t>(row))) return false;
         if (stop_.met_after(row_bytes_)) return true;
       }
     }
@@ -169,27 +207,30 @@ class PngReader final : public ImageReader {
   std::size_t row_bytes_;
   std::vector<std::uint8_t> bytes_;  // of a row; of an interlaced image, of all
   std::vector<std::uint16_t> channels_;
-  int row_ = 0;
+  int row_ = 0;  // the next one of an interlaced image
 };
 
-std::uint32_t big_endian(const std::uint8_t* bytes) {
-  return std::uint32_t{bytes[0]} << 24U | std::uint32_t{bytes[1]} << 16U | std::uint32_t{bytes[2]} << 8U |
-         bytes[3];
+/// What is wrong with the first bytes.
+std::optional<ImageFault> beginning_fault(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < kSignature.size() || !std::equal(kSignature.begin(), kSignature.end(), bytes.begin()))
+    return ImageFault{"It does not begin as a PNG image."};
+  if (bytes.size() < kFirstNameAt + kHeaderName.size())
+    return ImageFault{"It is damaged: the file ends too early."};
+  if (std::equal(kHeaderName.begin(), kHeaderName.end(), bytes.begin() + kFirstNameAt)) return std::nullopt;
+  return ImageFault{
+      "Its first chunk is not the header, IHDR, as PNG requires. Save it as PNG again with an image editor."};
 }
 
 }  // namespace
 
 OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t most, core::Work& stop) {
-  const bool is_png =
-      bytes.size() >= kSignature.size() && std::equal(kSignature.begin(), kSignature.end(), bytes.begin());
-  if (!is_png) return ImageFault{"It does not begin as a PNG image."};
-  if (bytes.size() < kSizesAt + 8) return ImageFault{"It is damaged: the file ends too early."};
-  const std::uint32_t columns = big_endian(bytes.data() + kSizesAt);
-  const std::uint32_t rows = big_endian(bytes.data() + kSizesAt + 4);
-  if (auto fault = size_fault(columns, rows, most)) return *fault;
-  auto handle = std::make_unique<Handle>(bytes);
-  if (!read_header(handle->png(), handle->info())) return ImageFault{handle->error()};
-  const ImageHeader header{static_cast<int>(columns), static_cast<int>(rows),
+  if (auto fault = beginning_fault(bytes)) return *fault;
+  auto handle = std::make_unique<Handle>(bytes, stop);
+  const bool has_header = handle->read_header();
+  // The library knows the size also if it rejects it.
+  if (auto fault = size_fault(handle->columns(), handle->rows(), most)) return *fault;
+  if (!has_header || !handle->begin_rows()) return ImageFault{handle->error()};
+  const ImageHeader header{static_cast<int>(handle->columns()), static_cast<int>(handle->rows()),
                            png_get_channels(handle->png(), handle->info()), 65535};
   return std::unique_ptr<ImageReader>(std::make_unique<PngReader>(std::move(handle), header, stop));
 }
