@@ -63,7 +63,7 @@ struct Outcome {
 /// What the reader makes of a file while fresh memory is filled with `pattern`.
 Outcome read(const std::string& file, int pattern) {
   fill = pattern;
-  api::core::Work stop = core::Work::unbounded();
+  core::Work stop = core::Work::unbounded();
   const auto opened =
       api::open_png({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}, kMost, stop);
   if (!opened) return {0, 0, 0, {}, opened.failure().detail, opened.failure().too_large};

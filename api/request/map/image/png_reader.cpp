@@ -37,7 +37,7 @@ constexpr std::size_t kMostBehindPixels = 64;
 /// What the library is told, and what it tells.
 struct Source {
   std::span<const std::uint8_t> bytes;
-  ParseStop* stop = nullptr;
+  core::Work* stop = nullptr;
   std::size_t at = 0;
   png_uint_32 rows = PNG_UINT_32_MAX;  // once known
   std::size_t behind_pixels = 0;       // bytes read there

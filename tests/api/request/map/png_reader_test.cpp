@@ -12,6 +12,7 @@
 #include "api/request/map/image/image_reader.h"
 #include "core/runtime/memory_account.h"
 #include "tests/support/png_chunks.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 namespace {
@@ -35,7 +36,7 @@ struct Read {
   bool too_large = false;
 };
 
-Read read_png(const std::string& file, ParseStop stop = {}) {
+Read read_png(const std::string& file, core::Work& stop = unbounded_work()) {
   const auto opened =
       open_png({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}, kMost, stop);
   if (!opened) return {{}, opened.failure().detail, opened.failure().too_large};
@@ -58,7 +59,7 @@ std::size_t looks(const std::string& file) {
     ++*count;
     return std::chrono::nanoseconds(0);
   };
-  ParseStop stop({}, core::Work::Clock::now(), clock);
+  core::Work stop({.cpu_clock = clock});
   *count = 0;
   read_png(file, stop);
   return *count;
@@ -167,7 +168,7 @@ TEST(PngReader, AsksTheStopConditionInEveryPassOfAnInterlacedImage) {
 TEST(PngReader, EndsWhenItIsStopped) {
   std::stop_source source;
   source.request_stop();
-  const ParseStop stop(source.get_token(), core::Work::Clock::now());
+  core::Work stop({.stop = source.get_token()});
   const Read read = read_png(two_pixels(chunk("tEXt", std::string(1 << 20, 'a'))), stop);
   EXPECT_THAT(read.fault, HasSubstr("stopped"));
 }
