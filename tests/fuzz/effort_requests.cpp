@@ -21,6 +21,11 @@ namespace {
 
 using Json = nlohmann::json;
 
+template <typename Number>
+std::string name_of(char letter, Number number) {
+  return std::string(1, letter).append(std::to_string(number));
+}
+
 /// Rows of free cells with walls that leave gaps.
 Json rows_of(int columns, int rows, Choices& choices) {
   const int wall_every = 2 + choices.up_to(60);
@@ -102,7 +107,7 @@ Json zones_of(const Extent& extent, Choices& choices) {
   for (int k = 0; k < count; ++k) {
     const double x = extent.width * std::fmod(0.618 * k + 0.3, 1.0);
     const double y = extent.height * std::fmod(0.414 * k + 0.7, 1.0);
-    Json zone{{"id", "z" + std::to_string(k)}, {"polygon", star(x, y, size, corners)}};
+    Json zone{{"id", name_of('z', k)}, {"polygon", star(x, y, size, corners)}};
     zone["type"] = choices.one_of(std::array{"blocked", "speed", "one_way"});
     if (zone["type"] == "speed") zone["linear_speed"] = choices.one_of(std::array{1e-3, 0.5, 1e3});
     if (zone["type"] == "one_way") zone["heading"] = 0.5 * k;
@@ -123,7 +128,7 @@ Json obstacles_of(const Extent& extent, Choices& choices) {
                         {"x", extent.width * std::fmod(0.618 * (k + entry), 1.0)},
                         {"y", extent.height * std::fmod(0.414 * (k - entry) + 100.0, 1.0)}});
     }
-    obstacles.push_back({{"id", "o" + std::to_string(k)}, {"radius", radius}, {"motion", std::move(motion)}});
+    obstacles.push_back({{"id", name_of('o', k)}, {"radius", radius}, {"motion", std::move(motion)}});
   }
   return obstacles;
 }
@@ -173,7 +178,7 @@ ToAndFro to_and_fro(const Extent& extent, double pitch, Choices& choices) {
   const double length = std::max(0.1, extent.width - pitch) * choices.one_of(std::array{1.0, 0.3, 0.001});
   const bool waits = choices.yes();
   for (int k = 0; k < robots; ++k) {
-    const std::string id = "r" + std::to_string(k);
+    const std::string id = name_of('r', k);
     const double y = pitch * (k + 0.5);
     const std::array<Json, 2> ends{Json{{"x", 0.5 * pitch}, {"y", y}, {"theta", 0.0}},
                                    Json{{"x", 0.5 * pitch + length}, {"y", y}, {"theta", 0.0}}};
@@ -332,7 +337,7 @@ Effort execution_effort(Choices choices) {
     body["dependencies"] = dependencies_of(fleet, choices);
     Json numbers = Json::object();
     for (int k = choices.up_to(20'000); k > 0; --k)
-      numbers["r" + std::to_string(k)] = "s" + std::to_string(k);
+      numbers[name_of('r', k)] = name_of('s', k);
     if (choices.yes()) body["serial_numbers"] = std::move(numbers);
   }
   effort.body = body.dump();
