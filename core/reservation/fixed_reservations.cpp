@@ -79,13 +79,15 @@ FixedReservations::FixedReservations(double width, double height, double inflati
   if (empty_) return;
   try {
     Collector collector(owners_);
-    for (std::uint32_t i = 0; i < obstacles.size() && !stop.met(); ++i) {
-      collector.add_obstacle(obstacles[i], i);
+    known_ = true;
+    for (std::uint32_t i = 0; i < obstacles.size() && known_; ++i) {
+      known_ = !stop.met();
+      if (known_) collector.add_obstacle(obstacles[i], i);
     }
     for (std::uint32_t i = 0; i < robots_.size(); ++i)
       collector.add_robot(robots_[i], i, inflation, contacts);
-    tree_ = MotionTree(collector.disks(), {width, height, largest}, stop);
-    known_ = tree_.finished();
+    if (known_) tree_ = MotionTree(collector.disks(), {width, height, largest}, stop);
+    known_ = known_ && tree_.finished();
   } catch (const std::bad_alloc&) {  // not granted to the job
     known_ = false;
   }
