@@ -23,6 +23,7 @@ HttpServer::HttpServer(const Settings& settings, Service service)
       cross_origin_(settings.cors_origins),
       body_memory_(settings.limits.max_body, settings.queue + static_cast<std::size_t>(settings.workers),
                    settings.connections),
+      unsent_answers_(settings.max_unsent),
       jobs_(settings_, log_),
       backend_{settings_,
                service_,
@@ -85,9 +86,9 @@ void HttpServer::stop() {
 
 std::unique_ptr<Connection> HttpServer::connect(int fd, Endpoint& endpoint) {
   return std::make_unique<Connection>(
-      fd,
-      ConnectionContext{settings_, endpoint.steps, body_memory_, draining_, endpoint.exchanges, stop_signal_,
-                        [&endpoint](Exchange& exchange) { return endpoint.library.answer(exchange); }});
+      fd, ConnectionContext{settings_, endpoint.steps, body_memory_, unsent_answers_, draining_,
+                            endpoint.exchanges, stop_signal_,
+                            [&endpoint](Exchange& exchange) { return endpoint.library.answer(exchange); }});
 }
 
 void HttpServer::fail(const std::string& why) {
@@ -102,7 +103,8 @@ Gauges HttpServer::gauges() const {
           static_cast<std::size_t>(settings_.workers),
           jobs_.load(),
           log_.dropped(),
-          jobs_.maps()};
+          jobs_.maps(),
+          unsent_answers_.stats()};
 }
 
 }  // namespace fleetplan::server

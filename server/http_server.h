@@ -11,6 +11,7 @@
 #include "server/http/guard/body_memory.h"
 #include "server/http/guard/connection.h"
 #include "server/http/guard/stop_signal.h"
+#include "server/http/guard/unsent_answers.h"
 #include "server/http/library/library_server.h"
 #include "server/http/listener/listener.h"
 #include "server/http/static_files.h"
@@ -98,6 +99,7 @@ class HttpServer {
   std::atomic<bool> failed_{false};
   std::function<void()> on_failure_;
   BodyMemory body_memory_;  // of as many large bodies as there may be jobs
+  UnsentAnswers unsent_answers_;
   JobRunner jobs_;
   const Backend backend_;
   const RouteTable main_routes_;

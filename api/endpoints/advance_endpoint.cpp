@@ -18,9 +18,10 @@ constexpr std::array<std::string_view, 8> kMembers{"request", "plans", "at",    
 }  // namespace
 
 Reply advance_endpoint(std::string_view body, const RequestContext& context) {
-  const auto next_request = [&](const JsonReader& root, core::Work& stop) -> std::optional<std::string> {
+  const auto next_request = [&](const JsonReader& root, core::Work& stop,
+                                const AwaitTurn& await_turn) -> std::optional<std::string> {
     const auto request = parse_advance_request(root, context.limits, stop);
-    if (!request) return std::nullopt;
+    if (!request || !await_turn()) return std::nullopt;
     const auto robots = advanced(request->robots, request->executions, request->moment, stop);
     if (stop.met()) return std::nullopt;
     return write_advanced(*request, robots, stop);

@@ -8,9 +8,9 @@ namespace fleetplan::api {
 
 namespace {
 
-bool takes_turn(Turn& turn, const ValidateRequest& request, const core::StopCondition& stop) {
+TurnNeed need_of(const ValidateRequest& request, const core::StopCondition& stop) {
   const double work = work_of(request.robots.size(), request.plans);
-  return turn.request({TurnNeed::Kind::check, stop, stop.deadline(), work, true}) && turn.await();
+  return {TurnNeed::Kind::check, stop, stop.deadline(), work, true};
 }
 
 Reply check(std::string_view body, const RequestContext& context, core::Work& work, const AfterCheck& after) {
@@ -20,7 +20,7 @@ Reply check(std::string_view body, const RequestContext& context, core::Work& wo
   const auto unfinished = [&] {
     return unfinished_reply("The plans could not be checked", request->budget, stop, context);
   };
-  if (context.turn != nullptr && !takes_turn(*context.turn, *request, stop)) {
+  if (!take_turn(context.turn, need_of(*request, stop), work)) {
     return stop.cancelled() ? unfinished() : too_busy(context.request_id);
   }
   const auto report = core::verify({request->grid, request->robots, request->obstacles, &request->zones},

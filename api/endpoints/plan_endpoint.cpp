@@ -90,6 +90,7 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   const auto answer = [&](const core::Plan& plan) {
     return plan_answer(plan, *request, context.request_id, stages, end_of_planning(stop, *request));
   };
+  work.end_reading();
   const bool has_turn = context.turn == nullptr || context.turn->request(need_of(*request, stop, context));
   if (!has_turn) return too_busy(context.request_id);
   std::optional<ProgressReporter> reporter;

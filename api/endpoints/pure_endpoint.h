@@ -13,11 +13,16 @@
 
 namespace fleetplan::api {
 
-/// The JSON answer to a body, of which it gets the root and the stop. Nothing only when it reported faults or
-/// when the stop was met.
-using MakeAnswer = std::function<std::optional<std::string>(const JsonReader&, core::Work&)>;
+/// Waits for the turn of a request whose body has been read and has no fault so far. False: the answer is not
+/// to be made.
+using AwaitTurn = std::function<bool()>;
 
-/// The reply of an endpoint whose answer depends on nothing but the body, and is made while that is read.
+/// The JSON answer to a body, of which it gets the root. Nothing only when it reported faults, when its work
+/// was stopped, or when it got no turn.
+using MakeAnswer =
+    std::function<std::optional<std::string>(const JsonReader&, core::Work&, const AwaitTurn&)>;
+
+/// The reply of an endpoint whose answer depends on nothing but the body, and refers to what was read of it.
 /// `members`: of the body's root.
 Reply pure_endpoint(std::string_view body, const RequestContext& context,
                     std::span<const std::string_view> members, const MakeAnswer& make);

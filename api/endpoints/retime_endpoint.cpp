@@ -18,9 +18,10 @@ constexpr std::array<std::string_view, 8> kRetimeMembers{
 }  // namespace
 
 Reply retime_endpoint(std::string_view body, const RequestContext& context) {
-  const auto retimed = [&](const JsonReader& root, core::Work& stop) -> std::optional<std::string> {
+  const auto retimed = [&](const JsonReader& root, core::Work& stop,
+                           const AwaitTurn& await_turn) -> std::optional<std::string> {
     const auto request = parse_retime_request(root, context.limits, stop);
-    if (!request) return std::nullopt;
+    if (!request || !await_turn()) return std::nullopt;
     const auto times = core::retime(request->robots, core::executed_actions(request->robots, request->plans),
                                     request->dependencies, request->states, request->rules, stop.reading());
     if (!times) return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,14 +10,18 @@
 
 #include "api/endpoints/bounded_work.h"
 #include "api/endpoints/unfinished_reply.h"
+#include "api/json/fault_text.h"
 #include "api/request/parse_simulate_request.h"
 #include "api/response/error.h"
 #include "api/response/write_simulation.h"
+#include "core/runtime/memory_account.h"
 #include "core/runtime/time_share.h"
 
 namespace fleetplan::api {
 
 namespace {
+
+using Clock = RequestContext::Clock;
 
 /// When no further run is made: a part of the budget is for the answer.
 core::StopCondition end_of_runs(const core::Work& work, const SimulateRequest& request) {
@@ -25,9 +30,9 @@ core::StopCondition end_of_runs(const core::Work& work, const SimulateRequest& r
   return work.before_end(answer);
 }
 
-bool takes_turn(Turn& turn, const SimulateRequest& request, const core::StopCondition& stop) {
+TurnNeed need_of(const SimulateRequest& request, const core::StopCondition& stop) {
   const double work = work_of(request.robots.size(), request.plans);
-  return turn.request({TurnNeed::Kind::simulation, stop, stop.deadline(), work, false});
+  return {TurnNeed::Kind::simulation, stop, stop.deadline(), work, false};
 }
 
 /// The dependencies, whose robots become positions in the list of plans.
@@ -77,19 +82,41 @@ std::optional<std::string> asked_trace(const core::SimulatedFleet& fleet, Simula
   return text;
 }
 
-/// The runs in the caller's thread and, if they are idle, in others. From the second round on, it lets others
-/// have their first plans before.
-core::SimulationReport run_all(const core::SimulatedFleet& fleet, const SimulateRequest& request,
-                               const core::StopCondition& stop, const RequestContext& context) {
+/// The runs of a simulation, and how long it waited meanwhile as others had their turn.
+struct Runs {
+  core::SimulationReport report;
+  Clock::duration waited = Clock::duration::zero();
+};
+
+/// The runs in the caller's thread and, if they are idle, in others. Lets others have their turns in between.
+Runs run_all(const core::SimulatedFleet& fleet, const SimulateRequest& request,
+             const core::StopCondition& stop, const RequestContext& context) {
   core::CallerThread callers_thread;
   core::Executor& executor = context.executor != nullptr ? *context.executor : callers_thread;
-  return core::simulate(fleet, request.settings, stop, executor,
-                        [&](const core::SimulationProgress& progress) {
-                          if (context.events != nullptr) {
-                            context.events->progress({request.robots.size(), {}, progress});
-                          }
-                          return progress.done == 0 || executor.may_improve(stop);
-                        });
+  Runs runs;
+  const auto go_on = [&](const core::SimulationProgress& progress) {
+    if (context.events != nullptr) context.events->progress({request.robots.size(), {}, progress});
+    const auto before = Clock::now();
+    const bool goes_on = progress.done == 0 || context.turn == nullptr || context.turn->let_others();
+    runs.waited += Clock::now() - before;
+    return goes_on;
+  };
+  runs.report = core::simulate(fleet, request.settings, stop, executor, go_on);
+  return runs;
+}
+
+/// What to tell of runs that were not finished.
+std::string cut_warning(const Runs& runs, const SimulateRequest& request) {
+  constexpr std::chrono::milliseconds kMuch{10};
+  const auto ms = [](std::chrono::nanoseconds time) {
+    return number_text(std::round(std::chrono::duration<double, std::milli>(time).count())) + " ms";
+  };
+  const core::SimulationProgress& totals = runs.report.totals;
+  std::string text = "Only the first " + std::to_string(totals.done) + " of " + std::to_string(totals.runs) +
+                     " runs were finished within the time budget of " + ms(request.budget);
+  if (runs.waited >= kMuch) text += ", of which " + ms(runs.waited) + " went to other requests";
+  if (core::memory_shortages() > 0) text += ", or within the memory that a request is granted";
+  return text + '.';
 }
 
 Reply simulated(std::string_view body, const RequestContext& context, core::Work& work) {
@@ -99,25 +126,26 @@ Reply simulated(std::string_view body, const RequestContext& context, core::Work
   const auto unfinished = [&] {
     return unfinished_reply("Not a single run was finished", request->budget, stop, context);
   };
-  if (context.turn != nullptr && !takes_turn(*context.turn, *request, stop)) {
+  work.end_reading();
+  if (context.turn != nullptr && !context.turn->request(need_of(*request, stop))) {
     return too_busy(context.request_id);
   }
   if (context.events != nullptr) {
     context.events->begin({request->robots.size(), {}, core::SimulationProgress{0, request->settings.runs}});
   }
+  const auto asked = Clock::now();
   if (context.turn != nullptr && !context.turn->await()) {
     return stop.cancelled() ? unfinished() : too_busy(context.request_id);
   }
+  const auto waited = Clock::now() - asked;
   const core::SimulatedFleet fleet = fleet_of(*request);
   const auto trace = asked_trace(fleet, *request, context.limits, stop);
-  const core::SimulationReport report = run_all(fleet, *request, stop, context);
-  if (report.totals.done == 0) return unfinished();
-  if (report.totals.done < report.totals.runs) {
-    request->warnings.push_back("Only the first " + std::to_string(report.totals.done) + " of " +
-                                std::to_string(report.totals.runs) +
-                                " runs were finished within the time budget.");
-  }
-  return {200, kJson, write_simulation(report, *request, trace, context.request_id)};
+  Runs runs = run_all(fleet, *request, stop, context);
+  runs.waited += waited;
+  const core::SimulationProgress& totals = runs.report.totals;
+  if (totals.done == 0) return unfinished();
+  if (totals.done < totals.runs) request->warnings.push_back(cut_warning(runs, *request));
+  return {200, kJson, write_simulation(runs.report, *request, trace, context.request_id)};
 }
 
 }  // namespace

@@ -4,6 +4,11 @@
 
 namespace fleetplan::api {
 
+bool take_turn(Turn* turn, const TurnNeed& need, core::Work& work) {
+  work.end_reading();
+  return turn == nullptr || (turn->request(need) && turn->await());
+}
+
 double work_of(std::size_t robots, const std::vector<core::RobotPlan>& plans) {
   std::size_t work = robots;
   for (const core::RobotPlan& plan : plans) work += plan.actions.size();

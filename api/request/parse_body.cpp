@@ -89,7 +89,8 @@ RequestError unfinished(const core::Work& stop) {
   }
   return {ErrorCode::parse_unfinished,
           "Reading the request was given up after " +
-              std::string(stop.has_budget() ? "its time budget" : "a second of CPU time") +
+              std::string(stop.has_budget() ? "its time budget, or three seconds of CPU time"
+                                            : "a second of CPU time") +
               ": send a smaller map, or fewer robots, actions or other values" +
               (stop.has_budget() ? ", or increase options.time_budget_ms." : "."),
           {},

@@ -10,13 +10,18 @@ Work::Work(Bounds bounds)
     : bounds_(std::move(bounds)),
       memory_(std::make_shared<MemoryAccount>(bounds_.memory)),
       is_bounded_(true),
-      cpu_end_(bounds_.cpu_clock() + kMostCpu) {}
+      cpu_begin_(bounds_.cpu_clock()),
+      cpu_end_(cpu_begin_ + kMostCpu) {}
 
 void Work::set_budget(std::chrono::nanoseconds budget) {
   if (!is_bounded_) return;
   budget_ = budget;
-  cpu_end_.reset();
+  cpu_end_ = cpu_begin_ + kMostCpuOfReading;
   deadline_ = std::max(bounds_.received_at + budget, Clock::now()) + kGrace;
+}
+
+void Work::end_reading() {
+  if (budget_) cpu_end_.reset();
 }
 
 bool Work::look() {

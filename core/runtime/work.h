@@ -17,14 +17,16 @@ namespace fleetplan::core {
 /// which only a Work makes, or another StopCondition. So nothing that takes one as a parameter can be called
 /// without the bounds of a request.
 ///
-/// Reading ends when the client has left or the service drains; until the budget is known, after kMostCpu;
-/// from then on, when the budget is spent.
+/// Reading ends when the client has left or the service drains; after kMostCpu until the budget is known, and
+/// after kMostCpuOfReading in all; and when the budget is spent.
 class Work {
  public:
   using Clock = StopCondition::Clock;
   using CpuClock = std::function<std::chrono::nanoseconds()>;
 
   static constexpr std::chrono::seconds kMostCpu{1};
+  /// Whatever the budget, as others wait to be read.
+  static constexpr std::chrono::seconds kMostCpuOfReading{3};
   /// A request is read for so much longer than its budget, counted from when the budget is known if that is
   /// later: so one that waited too long still gets the answer of a valid request.
   static constexpr std::chrono::milliseconds kGrace{50};
@@ -60,6 +62,9 @@ class Work {
   void set_budget(std::chrono::nanoseconds budget);
   bool has_budget() const { return budget_.has_value(); }
 
+  /// The request has been read: from now on, only the budget bounds it, if it has one.
+  void end_reading();
+
   /// For computations while the request is read. They end with an exception if the memory does not suffice.
   StopCondition reading() const { return until(deadline_).despite_memory(); }
   /// The end of the budget, less what is kept for later. Without a budget it is never met.
@@ -78,6 +83,7 @@ class Work {
   Bounds bounds_ = {};
   std::shared_ptr<MemoryAccount> memory_ = std::make_shared<MemoryAccount>(kUnlimitedMemory);
   bool is_bounded_ = false;
+  std::chrono::nanoseconds cpu_begin_{0};
   std::optional<std::chrono::nanoseconds> cpu_end_;
   std::optional<std::chrono::nanoseconds> budget_;
   Clock::time_point deadline_ = Clock::time_point::max();  // of reading

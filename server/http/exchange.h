@@ -10,6 +10,7 @@
 #include "server/http/guard/body_memory.h"
 #include "server/http/guard/request_head.h"
 #include "server/http/guard/socket.h"
+#include "server/http/guard/unsent_answers.h"
 #include "server/http/route_table.h"
 
 namespace fleetplan::server {
@@ -19,16 +20,16 @@ struct Exchange {
   using Clock = std::chrono::steady_clock;
 
   Socket* socket = nullptr;
-  std::string unsent = {};        // end of the answer, which the client has not accepted yet
-  Clock::time_point begun_at;     // first byte in
-  Clock::time_point received_at;  // last byte of the body in
+  std::optional<UnsentAnswers::Answer> unsent = std::nullopt;  // what the client has not accepted yet
+  Clock::time_point begun_at;                                  // first byte in
+  Clock::time_point received_at;                               // last byte of the body in
   std::string request_id;
   std::string trace_id;  // of the client's trace; empty: it has none
   RequestHead head;
   const Route* route = nullptr;                            // none: the path is unknown
   std::string parameter = {};                              // see RouteTable::Match
   std::optional<BodyMemory::Share> memory = std::nullopt;  // for the body
-  std::string body;                                        // decoded; see release_body
+  std::string body;                                        // as sent, until its job decodes it
   std::uint64_t bytes_in = 0;                              // of the body as sent
 
   HeaderFields fields;  // of the answer, besides those that every answer has
@@ -50,11 +51,7 @@ struct Exchange {
   }
 
   /// Sends what the client accepts at once; the rest is added to `unsent`. False when the client is gone.
-  bool send(std::string_view data) {
-    const auto sent = unsent.empty() ? socket->write_some(data) : 0;
-    if (sent) unsent.append(data.substr(*sent));
-    return sent.has_value();
-  }
+  bool send(std::string_view data) { return unsent->send(data); }
 };
 
 /// How an answer was sent.

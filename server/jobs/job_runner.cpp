@@ -1,13 +1,17 @@
 #include "server/jobs/job_runner.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "api/response/error.h"
 #include "server/http/answer/internal_error.h"
+#include "server/http/guard/gzip.h"
+#include "server/http/steps/negotiation.h"
 #include "server/jobs/client_of.h"
 
 namespace fleetplan::server {
@@ -19,6 +23,9 @@ using Clock = Workers::Clock;
 /// While jobs are short, this multiple of the queue is accepted in addition.
 constexpr std::size_t kBurst = 7;
 
+/// At least this much time is left to code an answer, whatever the budget.
+constexpr std::chrono::milliseconds kForCoding{50};
+
 double seconds_since(Clock::time_point then) {
   return std::chrono::duration<double>(Clock::now() - then).count();
 }
@@ -29,12 +36,45 @@ api::Reply unparsed(const std::string& request_id, bool cancelled) {
   return api::problem_reply(api::ErrorCode::draining, api::kDrainingDetail, request_id);
 }
 
+bool is_gzip(const Exchange& exchange) {
+  return content_coding(exchange.head.field("content-encoding")) == ContentCoding::gzip;
+}
+
+/// Bytes to parse, by which slots are given. A coded body is as large as JSON that is coded is, as a rule.
+std::size_t bytes_to_parse(const Exchange& exchange, const api::Limits& limits) {
+  constexpr std::size_t kRatio = 10;
+  if (!is_gzip(exchange)) return exchange.body.size();
+  return std::min<std::size_t>(kRatio * exchange.body.size(), limits.max_body);
+}
+
+/// Decodes the exchange's body if it is coded.
+std::optional<BodyFault> decode_body(Exchange& exchange, std::uint64_t limit,
+                                     const core::StopCondition& stop) {
+  if (!is_gzip(exchange)) return std::nullopt;
+  auto decoded = gunzip(exchange.body, limit, *exchange.memory, stop);
+  if (auto* fault = std::get_if<BodyFault>(&decoded)) return std::move(*fault);
+  exchange.body = std::get<std::string>(std::move(decoded));
+  return std::nullopt;
+}
+
+/// Codes the answer if the client accepts that. It stays plain if it is small, or if `stop` is met before.
+void code_answer(Exchange& exchange, api::Reply& reply, const core::StopCondition& stop) {
+  constexpr std::size_t kLeast = 256;
+  if (reply.body.size() < kLeast || !accepts_gzip(exchange.head.field("accept-encoding"))) return;
+  auto coded = gzip(reply.body, stop);
+  if (!coded) return;
+  reply.body = std::move(*coded);
+  exchange.fields.emplace_back("Content-Encoding", "gzip");
+}
+
 Schedule::Kind kind_of(api::TurnNeed::Kind kind) {
   switch (kind) {
     case api::TurnNeed::Kind::plan:
       return Schedule::Kind::plan;
     case api::TurnNeed::Kind::simulation:
       return Schedule::Kind::simulation;
+    case api::TurnNeed::Kind::conversion:
+      return Schedule::Kind::conversion;
     case api::TurnNeed::Kind::check:
       break;
   }
@@ -61,6 +101,8 @@ class ExchangeTurn final : public api::Turn {
     return exchange_.had_turn;
   }
 
+  bool let_others() override { return job_.let_others(*stop_); }
+
   Clock::time_point answer_by() const { return answer_by_; }
 
  private:
@@ -83,10 +125,11 @@ JobRunner::JobRunner(const Settings& settings, const RequestLog& log)
       parse_slots_(static_cast<std::size_t>(settings.workers)) {}
 
 api::Reply JobRunner::run(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events) {
-  Workers::Job job(
-      workers_, client_of(exchange.socket->peer(), exchange.head.field("x-forwarded-for"), trusted_proxies_));
+  const std::string client =
+      client_of(exchange.socket->peer(), exchange.head.field("x-forwarded-for"), trusted_proxies_);
+  Workers::Job job(workers_, client);
   api::Reply reply =
-      job.refusal() ? refused(exchange, *job.refusal()) : compute(exchange, endpoint, events, job);
+      job.refusal() ? refused(exchange, *job.refusal()) : compute(exchange, endpoint, events, job, client);
   if (job.refusal()) exchange.retry_after_s = workers_.retry_after_s();
   if (reply.leftovers) disposal_.take(std::move(reply.leftovers));
   return reply;
@@ -103,13 +146,13 @@ api::Reply JobRunner::refused(Exchange& exchange, Refusal refusal) {
 }
 
 api::Reply JobRunner::compute(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events,
-                              Workers::Job& job) {
+                              Workers::Job& job, const std::string& client) {
   std::stop_source stop;
   const std::stop_callback cancel(cancel_all_.get_token(), [&stop] { stop.request_stop(); });
   const PeerWatch::Watched watched(peers_, *exchange.socket, stop);
-  const auto longest = std::chrono::milliseconds(limits_.max_budget_ms);
-  ParseSlots::Slot slot(parse_slots_, exchange.body.size(),
-                        core::StopCondition(exchange.received_at + longest, stop.get_token()));
+  const core::StopCondition latest(exchange.received_at + std::chrono::milliseconds(limits_.max_budget_ms),
+                                   stop.get_token());
+  ParseSlots::Slot slot(parse_slots_, {client, bytes_to_parse(exchange, limits_)}, latest);
   ExchangeTurn turn(job, slot, exchange);
 
   api::RequestContext context;
@@ -121,18 +164,25 @@ api::Reply JobRunner::compute(Exchange& exchange, const Service::Endpoint& endpo
   context.events = events;
   context.turn = &turn;
   context.maps = &maps_;
-  api::Reply reply = slot.has_slot() ? reply_of(endpoint, exchange, context)
+  api::Reply reply = slot.has_slot() ? reply_of(endpoint, exchange, context, latest)
                                      : unparsed(exchange.request_id, stop.stop_requested());
   if (turn.answer_by() != Clock::time_point::max()) exchange.late_s = seconds_since(turn.answer_by());
+  if (events == nullptr) {
+    const auto until = std::max(turn.answer_by() - kForCoding, Clock::now()) + kForCoding;
+    code_answer(exchange, reply, core::StopCondition(until, stop.get_token()));
+  }
   exchange.abandoned = watched.gone();
   if (exchange.abandoned) reply.status = 499;
   return reply;
 }
 
 /// An exception ends here, so that a stream of events can end with the problem, too.
-api::Reply JobRunner::reply_of(const Service::Endpoint& endpoint, const Exchange& exchange,
-                               const api::RequestContext& context) const {
+api::Reply JobRunner::reply_of(const Service::Endpoint& endpoint, Exchange& exchange,
+                               const api::RequestContext& context, const core::StopCondition& latest) const {
   try {
+    if (const auto fault = decode_body(exchange, limits_.max_body, latest)) {
+      return api::problem_reply(code_of(fault->kind), fault->detail, exchange.request_id);
+    }
     return endpoint(exchange.body, context);
   } catch (...) {
     return internal_error(log_, exchange.request_id, std::current_exception());

@@ -18,8 +18,8 @@
 namespace fleetplan::server {
 
 /// Runs jobs, which are the requests that take time: a plan, or the check of one. Accepts no more than the
-/// queue holds and stops those whose client has left. A job waits for a slot, in which its body is parsed,
-/// and then for its turn. Thread-safe.
+/// queue holds and stops those whose client has left. A job waits for a slot, in which its body is decoded
+/// and parsed, and then for its turn, in which its answer is made and coded. Thread-safe.
 class JobRunner {
  public:
   /// The log has to outlive it.
@@ -39,9 +39,9 @@ class JobRunner {
  private:
   api::Reply refused(Exchange& exchange, Refusal refusal);
   api::Reply compute(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events,
-                     Workers::Job& job);
-  api::Reply reply_of(const Service::Endpoint& endpoint, const Exchange& exchange,
-                      const api::RequestContext& context) const;
+                     Workers::Job& job, const std::string& client);
+  api::Reply reply_of(const Service::Endpoint& endpoint, Exchange& exchange,
+                      const api::RequestContext& context, const core::StopCondition& latest) const;
 
   const api::Limits limits_;
   const std::vector<AddressRange> trusted_proxies_;

@@ -1,17 +1,22 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <list>
+#include <map>
 #include <mutex>
+#include <string>
 
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::server {
 
 /// Bounds how many bodies are parsed at the same time, as parsing needs many times the memory of the body.
-/// The smallest body is next. One more slot is for small bodies, so that these do not wait behind large ones.
-/// Thread-safe.
+/// Slots go round the clients: next is a body of the client that has the fewest. Of those, small bodies come
+/// before large ones that arrived at the same time, but no body waits for ever: next is the one that would
+/// have been parsed first if each had been parsed alone since it arrived. One more slot is for small bodies,
+/// so that these do not wait behind large ones. Thread-safe.
 class ParseSlots {
  public:
   /// Bodies up to this many bytes may use the additional slot.
@@ -19,27 +24,35 @@ class ParseSlots {
 
   explicit ParseSlots(std::size_t slots) : free_(slots) {}
 
+  /// What is to be parsed.
+  struct Body {
+    std::string client;
+    std::size_t bytes = 0;  // decoded, as far as that is known
+  };
   class Slot;
 
  private:
+  using Clock = core::StopCondition::Clock;
   enum class Kind { none, any, small };
   struct Waiting;
 
-  Kind await(std::size_t bytes, const core::StopCondition& stop);
-  Kind take(std::size_t bytes);
-  void give_back(Kind kind);
+  Kind await(const Body& body, const core::StopCondition& stop);
+  Kind take(const Body& body);
+  void give_back(Kind kind, const Body& body);
+  std::list<Waiting*>::iterator next();
 
   std::mutex mutex_;
   std::size_t free_;
   bool small_is_free_ = true;
+  std::map<std::string, std::size_t> taken_;  // by client
   std::list<Waiting*> waiting_;
 };
 
 /// Waits for a slot and holds it.
 class ParseSlots::Slot {
  public:
-  /// For a body of so many bytes. Waits until `stop` is met at most; then has_slot() is false.
-  Slot(ParseSlots& slots, std::size_t bytes, const core::StopCondition& stop);
+  /// Waits until `stop` is met at most; then has_slot() is false.
+  Slot(ParseSlots& slots, Body body, const core::StopCondition& stop);
   ~Slot() { release(); }
   Slot(const Slot&) = delete;
   Slot& operator=(const Slot&) = delete;
@@ -49,6 +62,7 @@ class ParseSlots::Slot {
 
  private:
   ParseSlots& slots_;
+  const Body body_;
   Kind kind_;
 };
 

@@ -45,6 +45,7 @@ std::optional<Refusal> Schedule::accept(Job& job, Time now) {
 
 std::optional<Refusal> Schedule::request_turn(Job& job, const Need& need, Time now) {
   job.need = need;
+  job.due = need.deadline;
   if (turns_ < size_.workers) {
     grant(job, false, now);
     return std::nullopt;
@@ -73,6 +74,21 @@ Schedule::Improvement Schedule::improve(Job& job, Time now) {
   return {Improvement::Next::pauses, successor};
 }
 
+Schedule::Job* Schedule::share(Job& job, Time now) {
+  if (now - job.since < kLongTurn || paused() >= size_.workers) return nullptr;
+  const Job* other = next(job.in_lane, now);
+  if (other == nullptr || other->state != State::waiting) return nullptr;
+  const bool lane = job.in_lane;
+  if (job.state == State::computing) learn(job, now);
+  take_back(job);
+  Job* successor = hand_over(lane, now);
+  job.state = State::waiting;
+  job.is_interrupted = true;
+  job.latest_start = job.need.deadline;
+  job.due = std::min(job.need.deadline, now + kLongTurn);
+  return successor;
+}
+
 Schedule::Job* Schedule::leave(Job& job, Time now) {
   Job* successor = nullptr;
   const bool had_turn = job.has_turn();
@@ -85,15 +101,22 @@ Schedule::Job* Schedule::leave(Job& job, Time now) {
   return successor;
 }
 
-std::size_t Schedule::count(State state) const {
-  return static_cast<std::size_t>(
-      std::count_if(jobs_.begin(), jobs_.end(), [&](const Job* job) { return job->state == state; }));
+std::size_t Schedule::waiting() const {
+  return static_cast<std::size_t>(std::count_if(jobs_.begin(), jobs_.end(), [](const Job* job) {
+    return job->state == State::waiting && !job->is_interrupted;
+  }));
+}
+
+std::size_t Schedule::paused() const {
+  return static_cast<std::size_t>(std::count_if(jobs_.begin(), jobs_.end(), [](const Job* job) {
+    return job->state == State::paused || job->is_interrupted;
+  }));
 }
 
 bool Schedule::precedes(const Job& a, const Job& b) const {
   const auto rank = [&](const Job& job) {
     const Client& client = clients_.at(job.client);
-    return std::tuple(job.state == State::paused, client.turns, client.last_turn, job.need.deadline);
+    return std::tuple(job.state == State::paused, client.turns, client.last_turn, job.due);
   };
   return rank(a) < rank(b);
 }
@@ -113,6 +136,7 @@ Schedule::Job* Schedule::next(bool for_lane, Time now) const {
 void Schedule::grant(Job& job, bool lane, Time now) {
   job.state = job.state == State::paused ? State::improving : State::computing;
   job.in_lane = lane;
+  job.is_interrupted = false;
   job.since = now;
   if (lane) {
     lane_taken_ = true;

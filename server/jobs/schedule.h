@@ -20,6 +20,10 @@ namespace fleetplan::server {
 /// - **First plans before improvements.** A job that has its first plan and improves it gives its turn to a
 ///   job that waits for its first, and gets one again when no such job waits. At most as many improvements
 ///   are paused as there are workers; further ones end with what they have.
+/// - **Long turns are shared.** A job that goes on for long, such as a simulation, gives its turn to a job
+/// that
+///   waits and gets one again in the order of turns, as if it had just asked. Nothing is lost of what it has
+///   done. It keeps its turn while as many jobs are paused or interrupted as there are workers.
 /// - **Order.** Turns go round the clients: next is the client with the fewest turns, then the one whose last
 ///   turn is the longest ago. Of a client's jobs, and of clients that have had no turn yet, the one with the
 ///   earliest deadline is next.
@@ -33,6 +37,8 @@ class Schedule {
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr std::chrono::milliseconds kShortWait{250};
+  /// After this, a job that goes on shares its turn.
+  static constexpr std::chrono::milliseconds kLongTurn{250};
 
   struct Size {
     std::size_t workers = 1;
@@ -40,7 +46,8 @@ class Schedule {
     std::size_t burst = 0;
   };
 
-  enum class Kind { plan, check, simulation };
+  enum class Kind { plan, check, simulation, conversion };
+  static constexpr std::size_t kKinds = 4;
 
   /// What a job asks for when it asks for its turn.
   struct Need {
@@ -61,6 +68,8 @@ class Schedule {
     Need need = {};
     State state = State::accepted;
     bool in_lane = false;             // the turn it has is the lane's
+    bool is_interrupted = false;      // it waits for a turn again
+    Time due = Time::max();           // the earliest of a client's jobs comes first
     Time since = {};                  // its turn began
     Time latest_start = Time::max();  // a turn after that comes too late
   };
@@ -81,14 +90,23 @@ class Schedule {
   /// A job that has its turn and a plan is about to improve it.
   Improvement improve(Job& job, Time now);
 
+  /// A job that has its turn is about to go on with what cannot end early. Returns the job that has got its
+  /// turn, for which this one waits now, or null: it goes on.
+  Job* share(Job& job, Time now);
+
   /// The job waits no longer, but remains accepted.
-  void stop_waiting(Job& job) { job.state = Job::State::accepted; }
+  void stop_waiting(Job& job) {
+    job.state = Job::State::accepted;
+    job.is_interrupted = false;
+  }
 
   /// The job, which was accepted, has ended. Returns the job that has got its turn, or null.
   Job* leave(Job& job, Time now);
 
-  std::size_t waiting() const { return count(Job::State::waiting); }
-  std::size_t paused() const { return count(Job::State::paused); }
+  /// Jobs that wait for their first turn.
+  std::size_t waiting() const;
+  /// Jobs that had a turn and wait for another one.
+  std::size_t paused() const;
   std::size_t running() const { return turns_ + (lane_taken_ ? 1 : 0); }
 
   /// Seconds until a job that arrived now would get its turn.
@@ -100,14 +118,13 @@ class Schedule {
     std::size_t turns = 0;
     Time last_turn = Time::min();
   };
-  /// Running means of jobs until their first plan, the end of a check, or the first runs of a simulation.
+  /// Running means of the turns of jobs: until their first plan, their end, or their interruption.
   struct Pace {
     double seconds = 0.0;
     double deviation = 0.0;  // of the seconds, from what was expected
     double work = 0.0;
   };
 
-  std::size_t count(Job::State state) const;
   bool precedes(const Job& a, const Job& b) const;
   Job* next(bool for_lane, Time now) const;
   void grant(Job& job, bool lane, Time now);
@@ -125,7 +142,7 @@ class Schedule {
   std::map<std::string, Client> clients_;  // that have a job
   std::size_t turns_ = 0;                  // without the lane's
   bool lane_taken_ = false;
-  std::array<Pace, 3> paces_;  // by kind
+  std::array<Pace, kKinds> paces_;
 };
 
 }  // namespace fleetplan::server

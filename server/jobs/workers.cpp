@@ -82,6 +82,14 @@ bool Workers::Job::may_improve(const core::StopCondition& stop) {
   return wait(lock, stop, stop.deadline());
 }
 
+bool Workers::Job::let_others(const core::StopCondition& stop) {
+  std::unique_lock lock(workers_.mutex_);
+  Schedule::Job* successor = workers_.schedule_.share(entry_, Clock::now());
+  if (successor == nullptr) return true;
+  workers_.has_turn(successor);
+  return wait(lock, stop, stop.deadline());
+}
+
 /// Until the job has its turn; false when `stop` is cancelled or the time is over before.
 bool Workers::Job::wait(std::unique_lock<std::mutex>& lock, const core::StopCondition& stop,
                         Clock::time_point until) {

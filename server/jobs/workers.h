@@ -65,6 +65,9 @@ class Workers::Job final : public core::Executor {
   /// Gives the turn away while others wait for their first plans.
   bool may_improve(const core::StopCondition& stop) override;
 
+  /// Gives the turn to others if it has lasted long, and waits for the next. False when `stop` is met before.
+  bool let_others(const core::StopCondition& stop);
+
  private:
   friend class Workers;
 

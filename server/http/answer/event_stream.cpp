@@ -16,6 +16,9 @@ std::string hexadecimal(std::size_t number) {
   return {digits.data(), end};
 }
 
+/// From one try to send what the client did not accept to the next.
+constexpr std::chrono::milliseconds kRetry{20};
+
 }  // namespace
 
 EventStream::EventStream(Exchange& exchange, const char* last)
@@ -47,9 +50,7 @@ void EventStream::end(const api::Reply& reply) {
   stop_writing();
   if (!failed_ && !exchange_.abandoned) {
     const std::string last = event(reply.status == 200 ? last_ : "problem", reply.body);
-    const std::string text = chunked_ ? last + "0\r\n\r\n" : last;
-    failed_ = !exchange_.send(text);
-    sent_ += text.size();
+    send(chunked_ ? last + "0\r\n\r\n" : last);
   }
   if (failed_) exchange_.close = true;
   exchange_.streamed = sent_;
@@ -69,17 +70,41 @@ void EventStream::write_events() {
   std::string due = head();
   std::unique_lock lock(mutex_);
   do {
+    const bool is_behind = exchange_.unsent->has_rest();
     const api::PlanProgress progress = progress_;
-    const std::optional<std::string> incumbent = std::exchange(incumbent_, std::nullopt);
+    const std::optional<std::string> incumbent =
+        is_behind ? std::nullopt : std::exchange(incumbent_, std::nullopt);
     lock.unlock();
-    const std::chrono::duration<double, std::milli> elapsed = Exchange::Clock::now() - exchange_.received_at;
-    due += event("progress", api::write_progress(progress, elapsed.count()));
-    if (incumbent) due += event("incumbent", *incumbent);
-    failed_ = !send(due);
-    due.clear();
+    if (is_behind) {
+      write_rest();
+    } else {
+      const std::chrono::duration<double, std::milli> elapsed =
+          Exchange::Clock::now() - exchange_.received_at;
+      due += event("progress", api::write_progress(progress, elapsed.count()));
+      if (incumbent) due += event("incumbent", *incumbent);
+      send(due);
+      due = std::string();
+    }
+    const bool waits_for_client = exchange_.unsent->has_rest();
     lock.lock();
-    changed_.wait_for(lock, kPeriod, [&] { return ending_ || incumbent_; });
+    changed_.wait_for(lock, waits_for_client ? kRetry : kPeriod,
+                      [&] { return ending_ || (incumbent_ && !waits_for_client); });
   } while (!ending_ && !failed_);
+}
+
+void EventStream::send(std::string_view text) {
+  sent_ += text.size();
+  failed_ = !exchange_.send(text);
+  patience_.emplace(exchange_.unsent->rest());
+  deadline_ = patience_->deadline();
+  if (failed_) exchange_.socket->hang_up();  // so that the plan is stopped, too
+}
+
+void EventStream::write_rest() {
+  const auto sent = exchange_.unsent->send_rest();
+  if (sent && *sent > 0) deadline_ = patience_->deadline();
+  failed_ = !sent || Exchange::Clock::now() >= deadline_;
+  if (failed_) exchange_.socket->hang_up();
 }
 
 std::string EventStream::head() const {
@@ -100,15 +125,6 @@ std::string EventStream::event(std::string_view name, std::string_view data) con
   for (const std::string_view part : parts) text.append(part);
   if (chunked_) text.append("\r\n");
   return text;
-}
-
-bool EventStream::send(std::string_view text) {
-  if (!exchange_.socket->write_all(text)) {
-    exchange_.socket->hang_up();  // so that the plan is stopped, too
-    return false;
-  }
-  sent_ += text.size();
-  return true;
 }
 
 }  // namespace fleetplan::server

@@ -19,7 +19,8 @@ namespace fleetplan::server {
 /// data. It bypasses the HTTP library, which would have to know from the start that the answer is a stream.
 ///
 /// After begin() a thread of its own writes. The planner only stores the latest state, so a slow client does
-/// not delay it; such a client skips outdated states.
+/// not delay it; such a client skips outdated states. One that is too slow, see WritePatience, loses its
+/// connection.
 class EventStream final : public api::PlanEvents {
  public:
   /// From one progress event to the next, whatever the planner does.
@@ -42,19 +43,23 @@ class EventStream final : public api::PlanEvents {
 
  private:
   void write_events();
+  void write_rest();
   void stop_writing();
   std::string head() const;
   std::string event(std::string_view name, std::string_view data) const;
-  bool send(std::string_view text);
+  void send(std::string_view text);
 
   Exchange& exchange_;
   const bool chunked_;
   const std::string_view last_;
   bool begun_ = false;
   std::thread writer_;
-  bool failed_ = false;     // the client accepts no more; of the thread that writes
-  std::uint64_t sent_ = 0;  // bytes; of the thread that writes
-  std::mutex mutex_;        // guards all below
+  // Of the thread that writes:
+  bool failed_ = false;     // the client accepts no more
+  std::uint64_t sent_ = 0;  // bytes, and those that are still to be sent
+  std::optional<WritePatience> patience_;
+  Exchange::Clock::time_point deadline_;  // to accept more
+  std::mutex mutex_;                      // guards all below
   std::condition_variable changed_;
   api::PlanProgress progress_;
   std::optional<std::string> incumbent_;  // not written yet

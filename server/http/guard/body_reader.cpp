@@ -20,6 +20,22 @@ constexpr std::uint64_t kMaxReserved = 64 * 1024;
 
 }  // namespace
 
+api::ErrorCode code_of(BodyFault::Kind kind) {
+  switch (kind) {
+    case BodyFault::Kind::too_large:
+      return api::ErrorCode::body_too_large;
+    case BodyFault::Kind::no_room:
+      return api::ErrorCode::overloaded;
+    case BodyFault::Kind::too_slow:
+      return api::ErrorCode::request_timeout;
+    case BodyFault::Kind::stopped:
+      return api::ErrorCode::draining;
+    case BodyFault::Kind::malformed:
+      break;
+  }
+  return api::ErrorCode::malformed_request;
+}
+
 BodyFault malformed_body(std::string detail) { return {BodyFault::Kind::malformed, std::move(detail)}; }
 
 BodyFault too_large_body(const std::string& size, std::uint64_t limit) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "api/response/error.h"
 #include "server/http/guard/body_memory.h"
 #include "server/http/guard/request_head.h"
 
@@ -17,6 +18,7 @@ struct BodyFault {
   std::string detail;
 };
 
+api::ErrorCode code_of(BodyFault::Kind kind);
 BodyFault malformed_body(std::string detail);
 BodyFault too_large_body(const std::string& size, std::uint64_t limit);
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "server/http/guard/gzip.h"
-#include "server/http/steps/negotiation.h"
 #include "server/http/steps/request_id.h"
 #include "server/http/text.h"
 
@@ -33,21 +31,6 @@ ErrorCode code_of(BadHead::Kind kind) {
   }
 }
 
-ErrorCode code_of(BodyFault::Kind kind) {
-  switch (kind) {
-    case BodyFault::Kind::too_large:
-      return ErrorCode::body_too_large;
-    case BodyFault::Kind::no_room:
-      return ErrorCode::overloaded;
-    case BodyFault::Kind::too_slow:
-      return ErrorCode::request_timeout;
-    case BodyFault::Kind::stopped:
-      return ErrorCode::draining;
-    default:
-      return ErrorCode::malformed_request;
-  }
-}
-
 bool has_body(const RequestHead& head) { return head.chunked || head.content_length.value_or(0) > 0; }
 
 bool expects_continue(const RequestHead& head) {
@@ -64,7 +47,7 @@ void skip_empty_lines(std::string& input) {
 }  // namespace
 
 Connection::Connection(int fd, ConnectionContext context)
-    : context_(std::move(context)), socket_(fd, context_.stop.fd()), peer_(socket_.peer()) {
+    : context_(std::move(context)), socket_(fd), peer_(socket_.peer()) {
   begin(Phase::idle, Clock::now() + context_.settings.idle_timeout);
 }
 
@@ -136,6 +119,7 @@ void Connection::begin_exchange() {
   under_way_.emplace(context_.exchanges);
   exchange_.emplace();
   exchange_->socket = &socket_;
+  exchange_->unsent.emplace(context_.unsent_answers, socket_);
   exchange_->memory.emplace(context_.body_memory);
   exchange_->begun_at = Clock::now();
   scanner_ = {};
@@ -245,14 +229,6 @@ bool Connection::body() {
 /// The request is complete.
 void Connection::end_body() {
   exchange_->received_at = Clock::now();
-  if (content_coding(exchange_->head.field("content-encoding")) == ContentCoding::gzip &&
-      exchange_->route->takes_body()) {
-    auto decoded = gunzip(exchange_->body, context_.settings.limits.max_body, *exchange_->memory);
-    if (const auto* fault = std::get_if<BodyFault>(&decoded)) {
-      return answer_directly(refusal(*exchange_, code_of(fault->kind), fault->detail));
-    }
-    exchange_->body = std::get<std::string>(std::move(decoded));
-  }
   answer();
 }
 
@@ -283,19 +259,17 @@ void Connection::answer() {
 
 void Connection::send_rest(const Sent& sent) {
   sent_ = sent;
-  accepted_ = 0;
-  write_patience_.emplace(exchange_->unsent.size());
+  write_patience_.emplace(exchange_->unsent->rest());
   begin(Phase::sending, write_patience_->deadline());
 }
 
 bool Connection::sending() {
-  const auto rest = std::string_view(exchange_->unsent).substr(accepted_);
-  if (sent_.usable && !rest.empty()) {
-    const auto written = socket_.write_some(rest);
+  UnsentAnswers::Answer& unsent = *exchange_->unsent;
+  if (sent_.usable && unsent.has_rest()) {
+    const auto written = unsent.send_rest();
     sent_.usable = written.has_value() && (*written > 0 || Clock::now() < deadline_);
-    accepted_ += written.value_or(0);
   }
-  if (sent_.usable && accepted_ < exchange_->unsent.size()) {
+  if (sent_.usable && unsent.has_rest()) {
     stop_seen_ = context_.stop.raised();
     if (stop_seen_) write_patience_->stop();
     deadline_ = write_patience_->deadline();

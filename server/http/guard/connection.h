@@ -10,6 +10,7 @@
 #include "server/http/guard/body_memory.h"
 #include "server/http/guard/body_reader.h"
 #include "server/http/guard/stop_signal.h"
+#include "server/http/guard/unsent_answers.h"
 #include "server/http/steps/steps.h"
 #include "server/ops/settings/settings.h"
 
@@ -20,6 +21,7 @@ struct ConnectionContext {
   const Settings& settings;
   const Steps& steps;
   BodyMemory& body_memory;
+  UnsentAnswers& unsent_answers;
   const std::atomic<bool>& draining;
   std::atomic<std::size_t>& exchanges;  // under way
   const StopSignal& stop;
@@ -109,7 +111,6 @@ class Connection {
   std::optional<BodyReader> body_;  // of the exchange; later the body of one that was refused, to be dropped
   std::uint64_t body_bytes_ = 0;    // read, chunk sizes included
   Sent sent_;
-  std::size_t accepted_ = 0;  // by the client, of the exchange's `unsent`
   std::optional<WritePatience> write_patience_;
 };
 

@@ -17,11 +17,6 @@ constexpr std::chrono::seconds kWriteTimeout{10};
 constexpr std::size_t kLeastBytesPerMs = 10;
 constexpr std::chrono::seconds kWriteTimeoutAtTheEnd{2};
 
-int milliseconds_until(Socket::Clock::time_point deadline) {
-  const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Socket::Clock::now()).count();
-  return static_cast<int>(std::clamp<std::int64_t>(left, 0, 3'600'000));
-}
-
 }  // namespace
 
 Socket::~Socket() { ::close(fd_); }
@@ -54,20 +49,6 @@ std::optional<std::size_t> Socket::write_some(std::string_view data) {
     }
   }
   return written;
-}
-
-bool Socket::write_all(std::string_view data) {
-  WritePatience patience(data.size());
-  while (true) {
-    const auto written = write_some(data);
-    if (!written) return false;
-    data.remove_prefix(*written);
-    if (data.empty()) return true;
-    std::array<pollfd, 2> wanted{{{fd_, POLLOUT, 0}, {stop_fd_, POLLIN, 0}}};
-    const int timeout = milliseconds_until(patience.deadline());
-    if (::poll(wanted.data(), patience.stopped() ? 1 : 2, timeout) == 0) return false;
-    if (wanted[1].revents != 0) patience.stop();
-  }
 }
 
 bool Socket::has_input() const {

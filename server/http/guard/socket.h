@@ -8,15 +8,13 @@
 
 namespace fleetplan::server {
 
-/// A connected socket, closed at the end. Reading never waits; writing waits only in write_all, which has a
-/// deadline.
+/// A connected socket, closed at the end. Neither reading nor writing waits.
 class Socket {
  public:
   using Clock = std::chrono::steady_clock;
   enum class Read { some, nothing, end };
 
-  /// `stop_fd`: once this descriptor becomes readable, write_all ends soon.
-  Socket(int fd, int stop_fd) : fd_(fd), stop_fd_(stop_fd) {}
+  explicit Socket(int fd) : fd_(fd) {}
   ~Socket();
   Socket(const Socket&) = delete;
   Socket& operator=(const Socket&) = delete;
@@ -26,9 +24,6 @@ class Socket {
 
   /// Sends as much as the peer takes at once: the number of bytes, none when the peer is gone.
   std::optional<std::size_t> write_some(std::string_view data);
-
-  /// False when the peer is gone or too slow, see WritePatience.
-  bool write_all(std::string_view data);
 
   /// True when the peer has closed its side.
   bool peer_gone() const;
@@ -49,7 +44,6 @@ class Socket {
 
  private:
   int fd_;
-  int stop_fd_;
 };
 
 /// How long a peer may take to accept data: it may pause for 10 s, and fall behind 10 kB/s by 10 s in all.

@@ -34,9 +34,9 @@ std::string percent_encoded(std::string_view path) {
 std::string request_for_library(const Exchange& exchange) {
   const RequestHead& head = exchange.head;
   std::string request = head.method + ' ' + percent_encoded(head.path) + " HTTP/1.1\r\n";
+  if (exchange.route->takes_body()) return request + "Content-Length: 0\r\n\r\n";  // jobs code their answers
   if (accepts_gzip(head.field("accept-encoding"))) request += "Accept-Encoding: gzip\r\n";
-  if (!exchange.route->takes_body()) return request + "\r\n";
-  return request + "Content-Length: 0\r\n\r\n";
+  return request + "\r\n";
 }
 
 }  // namespace

@@ -28,9 +28,13 @@ AcceptFault accept_fault(int error) {
 }
 
 int accept_connection(int listening_fd) {
+  /// Bytes that the kernel takes before they are sent: what a client does not read belongs to UnsentAnswers.
+  constexpr int kMostUnsent = 128 * 1024;
   const int fd = ::accept4(listening_fd, nullptr, nullptr, SOCK_CLOEXEC);
   const int yes = 1;
-  if (fd >= 0) ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  if (fd < 0) return fd;
+  ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  ::setsockopt(fd, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kMostUnsent, sizeof kMostUnsent);
   return fd;
 }
 

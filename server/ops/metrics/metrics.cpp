@@ -61,7 +61,8 @@ void write_jobs(MetricsText& text, const WorkerLoad& jobs) {
   for (std::size_t reason = 0; reason < kReasons.size(); ++reason) {
     text.sample(as_double(jobs.refused[reason]), {{"reason", kReasons[reason]}});
   }
-  text.metric("fleetplan_improvements_paused", "gauge", "Anytime plans that wait while others are made.")
+  text.metric("fleetplan_improvements_paused", "gauge",
+              "Anytime plans and simulations that wait while others compute.")
       .sample(as_double(jobs.paused));
   text.metric("fleetplan_improvements_ended_total", "counter",
               "Anytime plans returned before their time, as others waited.")
@@ -181,6 +182,10 @@ std::string Metrics::text(const Gauges& now) const {
       .sample(as_double(now.maps.misses));
   gauge("fleetplan_map_cache_maps", now.maps.maps, "Maps that are kept or in use.");
   gauge("fleetplan_map_cache_bytes", now.maps.bytes, "Memory of the maps that are kept or in use.");
+  gauge("fleetplan_unsent_bytes", now.unsent.bytes, "Memory of answers that clients have not accepted yet.");
+  text.metric("fleetplan_unsent_dropped_total", "counter",
+              "Answers dropped as their clients did not read them and others needed the memory.")
+      .sample(as_double(now.unsent.dropped));
   text.metric("fleetplan_log_lines_dropped_total", "counter", "Log lines dropped: stderr was not read.")
       .sample(as_double(now.log_dropped));
   write_process(text, started_at_);

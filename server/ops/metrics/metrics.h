@@ -12,6 +12,7 @@
 
 #include "core/map/map_cache.h"
 #include "server/http/exchange.h"
+#include "server/http/guard/unsent_answers.h"
 #include "server/http/route_table.h"
 #include "server/jobs/worker_load.h"
 #include "server/ops/metrics/metric_types.h"
@@ -26,6 +27,7 @@ struct Gauges {
   WorkerLoad jobs;
   std::uint64_t log_dropped = 0;  // lines since the start
   core::MapCache::Stats maps;
+  UnsentAnswers::Stats unsent;
 };
 
 /// Counts requests and plans since the start. Thread-safe; counting takes no lock.

@@ -23,6 +23,7 @@ namespace {
 
 constexpr std::size_t kQueuePerWorker = 4;
 constexpr std::uint64_t kLeastPlanMemory = 1 << 20;
+constexpr std::uint64_t kLeastUnsent = 1 << 20;
 constexpr std::int64_t kMaxMs = 86'400'000;        // a day
 constexpr std::size_t kMostItems = 1'000'000'000;  // of a request
 
@@ -166,6 +167,11 @@ class Flags {
         "Memory of maps that are kept for later requests, in bytes, 0 for none; accepts KiB, MiB and GiB")
         ->transform(CLI::AsSizeValue(false))
         ->default_str("128MiB");
+    max_unsent_ = settings_.max_unsent;
+    add("max-unsent", max_unsent_,
+        "Memory of answers that clients have not accepted yet, in bytes; accepts KiB, MiB and GiB")
+        ->transform(CLI::AsSizeValue(false))
+        ->default_str("64MiB");
     add_number<std::int64_t>("max-cells", limits.max_cells, 1, 1'000'000'000, "Most cells of a map");
     add_number<std::size_t>("max-robots", limits.max_robots, 1, 1'000'000, "Most robots of a request");
     add_number<std::size_t>("max-goals", limits.max_goals, 1, kMostItems, "Most goals in lists of a request");
@@ -203,6 +209,8 @@ class Flags {
     if (max_plan_memory_ < kLeastPlanMemory || max_plan_memory_ > (std::uint64_t{1} << 40))
       return bad("--max-plan-memory must be 1 MiB to 1 TiB");
     if (map_cache_ > (std::uint64_t{1} << 40)) return bad("--map-cache must be at most 1 TiB");
+    if (max_unsent_ < kLeastUnsent || max_unsent_ > (std::uint64_t{1} << 40))
+      return bad("--max-unsent must be 1 MiB to 1 TiB");
     std::error_code ignored;
     if (!settings_.web_root.empty() && !std::filesystem::is_directory(settings_.web_root, ignored)) {
       return bad("--web-root: '" + settings_.web_root + "' is not a folder");
@@ -216,6 +224,7 @@ class Flags {
     limits.max_body = max_body_;
     limits.max_plan_memory = max_plan_memory_;
     settings_.map_cache = map_cache_;
+    settings_.max_unsent = max_unsent_;
     if (queue_->count() == 0) settings_.queue = kQueuePerWorker * static_cast<std::size_t>(settings_.workers);
     settings_.idle_timeout = std::chrono::milliseconds(idle_timeout_ms_);
     settings_.read_timeout = std::chrono::milliseconds(read_timeout_ms_);
@@ -256,6 +265,7 @@ class Flags {
   std::uint64_t max_body_ = 0;
   std::uint64_t max_plan_memory_ = 0;
   std::uint64_t map_cache_ = 0;
+  std::uint64_t max_unsent_ = 0;
   std::int64_t idle_timeout_ms_ = Settings{}.idle_timeout.count();
   std::int64_t read_timeout_ms_ = Settings{}.read_timeout.count();
   std::int64_t drain_ms_ = Settings{}.drain.count();

@@ -23,6 +23,7 @@ struct Settings {
   std::size_t connections = 1024;
   api::Limits limits;
   std::size_t map_cache = 128u << 20;               // bytes, of maps that are kept; 0: none
+  std::size_t max_unsent = 64u << 20;               // bytes, of answers that clients have not accepted yet
   std::chrono::milliseconds idle_timeout{1000};     // of a connection between requests
   std::chrono::milliseconds read_timeout{10'000};   // for a request's head; see also read_body
   std::chrono::milliseconds drain{10'000};          // for running jobs after SIGTERM

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "api/endpoints/turn.h"
@@ -20,7 +21,11 @@ class TestTurn final : public Turn {
     return comes && !need->stop.cancelled();
   }
 
+  bool let_others() override { return ++shared < shared_before_end; }
+
   bool refuses = false;
+  int shared = 0;  // calls of let_others
+  int shared_before_end = std::numeric_limits<int>::max();
   bool comes = true;
   std::function<void()> on_await = [] {};
   std::optional<TurnNeed> need;  // of the last request

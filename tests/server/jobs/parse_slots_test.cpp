@@ -19,31 +19,31 @@ const core::StopCondition kNow(core::StopCondition::Clock::time_point::min());
 
 TEST(ParseSlots, BoundHowManyBodiesAreParsed) {
   ParseSlots slots(2);
-  Slot first(slots, kLarge, kForever);
-  const Slot second(slots, kLarge, kForever);
+  Slot first(slots, {"client", kLarge}, kForever);
+  const Slot second(slots, {"client", kLarge}, kForever);
   EXPECT_TRUE(first.has_slot() && second.has_slot());
-  EXPECT_FALSE(Slot(slots, kLarge, kNow).has_slot());
+  EXPECT_FALSE(Slot(slots, {"client", kLarge}, kNow).has_slot());
   first.release();
-  EXPECT_TRUE(Slot(slots, kLarge, kNow).has_slot());
+  EXPECT_TRUE(Slot(slots, {"client", kLarge}, kNow).has_slot());
 }
 
 TEST(ParseSlots, HaveOneMoreForSmallBodies) {
   ParseSlots slots(1);
-  const Slot large(slots, kLarge, kForever);
-  Slot small(slots, ParseSlots::kSmall, kForever);
+  const Slot large(slots, {"client", kLarge}, kForever);
+  Slot small(slots, {"client", ParseSlots::kSmall}, kForever);
   EXPECT_TRUE(small.has_slot());
-  EXPECT_FALSE(Slot(slots, 1, kNow).has_slot());
+  EXPECT_FALSE(Slot(slots, {"client", 1}, kNow).has_slot());
   small.release();
-  EXPECT_TRUE(Slot(slots, 1, kNow).has_slot());
+  EXPECT_TRUE(Slot(slots, {"client", 1}, kNow).has_slot());
 }
 
 TEST(ParseSlots, StopWaitingWhenTheClientLeaves) {
   ParseSlots slots(1);
-  const Slot large(slots, kLarge, kForever);
+  const Slot large(slots, {"client", kLarge}, kForever);
   std::stop_source leaves;
   leaves.request_stop();
   const core::StopCondition stop(core::StopCondition::Clock::time_point::max(), leaves.get_token());
-  EXPECT_FALSE(Slot(slots, kLarge, stop).has_slot());
+  EXPECT_FALSE(Slot(slots, {"client", kLarge}, stop).has_slot());
 }
 
 TEST(ParseSlots, ServeEveryBodyWithoutMoreThanTheirNumber) {
@@ -54,7 +54,7 @@ TEST(ParseSlots, ServeEveryBodyWithoutMoreThanTheirNumber) {
   for (int t = 0; t < 6; ++t) {
     threads.emplace_back([&, t] {
       for (int k = 0; k < 200; ++k) {
-        const Slot slot(slots, t < 3 ? kLarge : 1, kForever);
+        const Slot slot(slots, {"client", t < 3 ? kLarge : 1}, kForever);
         EXPECT_LE(++parsing, 3);
         std::this_thread::yield();
         --parsing;

@@ -41,8 +41,8 @@ TEST(PeerWatch, StopsTheJobOfAClientThatLeaves) {
   PeerWatch watch;
   Pair stays;
   Pair leaves;
-  const Socket staying(stays.ends[0], -1);
-  const Socket leaving(leaves.ends[0], -1);
+  const Socket staying(stays.ends[0]);
+  const Socket leaving(leaves.ends[0]);
   std::stop_source stayer_stop;
   std::stop_source leaver_stop;
   const PeerWatch::Watched one(watch, staying, stayer_stop);
@@ -60,13 +60,13 @@ TEST(PeerWatch, WakesAgainAfterAVeryShortJob) {
     std::this_thread::sleep_for(2 * PeerWatch::kPeriod);  // it has nothing to watch and sleeps
     {
       const Pair brief;
-      const Socket socket(brief.ends[0], -1);
+      const Socket socket(brief.ends[0]);
       const PeerWatch::Watched gone_before_it_wakes(watch, socket, std::stop_source());
     }
     std::this_thread::sleep_for(2 * PeerWatch::kPeriod);
     Pair leaves;
     const std::stop_source leaver_stop;
-    const Socket leaving(leaves.ends[0], -1);
+    const Socket leaving(leaves.ends[0]);
     const PeerWatch::Watched watched(watch, leaving, leaver_stop);
     leaves.leave();
     ASSERT_TRUE(is_stopped(leaver_stop)) << "in round " << i;

@@ -24,7 +24,7 @@ class Gzip : public testing::Test {
  protected:
   std::variant<std::string, BodyFault> decode(const std::string& coded, std::uint64_t limit = 1 << 20) {
     BodyMemory::Share share(memory);
-    return gunzip(coded, limit, share);
+    return gunzip(coded, limit, share, core::StopCondition::never());
   }
 
   void expect_text(const std::string& coded, const std::string& text) {
