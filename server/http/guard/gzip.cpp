@@ -31,8 +31,9 @@ class Inflater {
   /// The next decoded bytes, valid until the next call; empty at the end, if the rest is not valid, or if the
   /// stop condition is met.
   std::string_view next() {
-    while (valid_ && !ended_ && !stopped_) {
+    while (valid_ && !ended_) {
       stopped_ = stop_.met();
+      if (stopped_) break;
       feed();
       stream_.next_out = reinterpret_cast<Bytef*>(buffer_.data());
       stream_.avail_out = kPiece;

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <string>
 
 #include "api/endpoints/plan_endpoint.h"
 #include "tests/api/support/requests.h"
+#include "tests/api/support/test_turn.h"
 
 namespace fleetplan::api {
 namespace {
@@ -72,6 +74,22 @@ TEST(AdvanceEndpoint, KeepsTheNumbersOfThePlan) {
   EXPECT_EQ(robot["previous"].back()["to"], actions.back()["to"]);
   EXPECT_EQ(robot["previous"][0]["from"], robot["start"]);
   EXPECT_EQ(robot["committed"][0], robot["previous"][0]);
+}
+
+TEST(AdvanceEndpoint, TakesItsTurnOnceItHasBeenRead) {
+  TestTurn turn;
+  RequestContext context;
+  context.turn = &turn;
+  Json body = advance_request(swap_request(), 1.0);
+  EXPECT_EQ(advance_endpoint(body.dump(), context).status, 200);
+  EXPECT_EQ(turn.requests, 1);
+  EXPECT_EQ(turn.need->kind, TurnNeed::Kind::conversion);
+  EXPECT_LE(turn.need->stop.deadline(), RequestContext::Clock::now() + std::chrono::seconds(5));
+  turn.refuses = true;
+  EXPECT_EQ(advance_endpoint(body.dump(), context).problem, "overloaded");
+  body["at"] = -1.0;
+  EXPECT_EQ(advance_endpoint(body.dump(), context).status, 422) << "its faults need no turn";
+  EXPECT_EQ(turn.requests, 2);
 }
 
 TEST(AdvanceEndpoint, ReportsFaultsWhereTheyAre) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "api/endpoints/plan_endpoint.h"
@@ -319,6 +320,27 @@ TEST(SimulateEndpoint, TakesItsTurn) {
   late.comes = false;
   context.turn = &late;
   EXPECT_EQ(reply_to(simulate_request(), context).problem, "overloaded");
+}
+
+TEST(SimulateEndpoint, LetsOthersHaveTheirTurnAndSaysWhatThatCost) {
+  Json request = simulate_request();
+  request["runs"] = 1000;
+  TestTurn turn;
+  RequestContext context;
+  context.turn = &turn;
+  int shared = 0;
+  turn.on_share = [&] { return ++shared > 0; };
+  EXPECT_EQ(simulated(request, context)["runs"], 1000);
+  EXPECT_GT(shared, 5);
+  turn.on_share = [] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return false;  // the turn did not come back in time
+  };
+  const Json cut = simulated(request, context);
+  EXPECT_LT(cut["runs"], 1000);
+  EXPECT_THAT(cut["warnings"][0].get<std::string>(),
+              testing::ContainsRegex("Only the first [0-9]+ of 1000 runs .* time budget of 5000 ms, of which "
+                                     "[0-9]+ ms went to other requests"));
 }
 
 TEST(SimulateEndpoint, RunsWithinTheMemoryOfItsFigures) {

@@ -68,6 +68,21 @@ TEST(ReadingStops, IsMetAfterASecondOfCpuTimeAsLongAsTheBudgetIsUnknown) {
   EXPECT_FALSE(with_budget.look());
 }
 
+TEST(ReadingStops, IsMetAfterThreeSecondsOfCpuTimeUntilTheRequestHasBeenRead) {
+  std::chrono::nanoseconds now{7};
+  Work reading({.cpu_clock = [&now] { return now; }});
+  Work computing({.cpu_clock = [&now] { return now; }});
+  Work without_budget({.cpu_clock = [&now] { return now; }});
+  for (Work* work : {&reading, &computing}) work->set_budget(std::chrono::hours(1));
+  for (Work* work : {&computing, &without_budget}) work->end_reading();
+  now += milliseconds(2999);
+  EXPECT_FALSE(reading.look());
+  EXPECT_TRUE(without_budget.look()) << "nothing else bounds it";
+  now += milliseconds(1);
+  EXPECT_TRUE(reading.look());
+  EXPECT_FALSE(computing.look());
+}
+
 TEST(ReadingStops, IsMetAtTheEndOfTheBudgetAndItsGrace) {
   Work stop({.received_at = Clock::now() - std::chrono::hours(1)});
   stop.set_budget(milliseconds(10));

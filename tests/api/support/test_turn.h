@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <optional>
 
 #include "api/endpoints/turn.h"
@@ -21,13 +20,12 @@ class TestTurn final : public Turn {
     return comes && !need->stop.cancelled();
   }
 
-  bool let_others() override { return ++shared < shared_before_end; }
+  bool let_others() override { return on_share(); }
 
   bool refuses = false;
-  int shared = 0;  // calls of let_others
-  int shared_before_end = std::numeric_limits<int>::max();
   bool comes = true;
   std::function<void()> on_await = [] {};
+  std::function<bool()> on_share = [] { return true; };
   std::optional<TurnNeed> need;  // of the last request
   int requests = 0;
 };

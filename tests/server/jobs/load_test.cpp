@@ -179,6 +179,38 @@ TEST(Load, ManyLargeBodiesAreRejectedWhileSmallOnesAreAccepted) {
   }));
 }
 
+TEST(Load, ClientsThatReadNothingKeepNoMemoryFromOthers) {
+  constexpr std::size_t kAnswer = 8 << 20;
+  Settings settings = with_workers(2, 32);
+  settings.max_unsent = 2 * kAnswer;
+  StubService stub;
+  Service service = stub.service();
+  service.plan = [&](std::string_view, const api::RequestContext& context) {
+    if (!has_turn(context)) return api::too_busy(context.request_id);
+    return api::Reply{200, api::kJson, std::string(kAnswer, '1')};
+  };
+  const TestServer server(settings, service);
+  std::vector<std::unique_ptr<RawConnection>> silent;
+  for (int k = 0; k < 12; ++k) {
+    silent.push_back(std::make_unique<RawConnection>(server.server.port()));
+    silent.back()->send(
+        "POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: "
+        "1\r\n\r\n1");
+  }
+  const auto metric = [&](const std::string& name) {
+    const auto metrics = server.client().Get("/metrics");
+    const auto at = metrics ? metrics->body.find("\n" + name + ' ') : std::string::npos;
+    return at == std::string::npos ? -1.0 : std::stod(metrics->body.substr(at + name.size() + 2));
+  };
+  ASSERT_TRUE(holds_soon([&] { return metric("fleetplan_unsent_dropped_total") >= 10.0; }));
+  EXPECT_LE(metric("fleetplan_unsent_bytes"), 2.0 * kAnswer);
+  for (int k = 0; k < 3; ++k) {
+    const auto answered = server.client().Post("/v1/plan", "1", kJsonType);
+    ASSERT_TRUE(answered);
+    EXPECT_EQ(answered->body.size(), kAnswer);
+  }
+}
+
 TEST(Leaving, StopsThePlan) {
   TestServer server(with_workers(1, 1));
   {

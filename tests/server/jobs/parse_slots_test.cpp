@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <mutex>
 #include <stop_token>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -44,6 +47,52 @@ TEST(ParseSlots, StopWaitingWhenTheClientLeaves) {
   leaves.request_stop();
   const core::StopCondition stop(core::StopCondition::Clock::time_point::max(), leaves.get_token());
   EXPECT_FALSE(Slot(slots, {"client", kLarge}, stop).has_slot());
+}
+
+/// Bodies that wait for the only slot, in the order in which they get it.
+class Waiting : public testing::Test {
+ protected:
+  void wait(const std::string& name, const std::string& client, std::size_t bytes) {
+    threads.emplace_back([this, name, client, bytes] {
+      const Slot slot(slots, {client, bytes}, kForever);
+      const std::lock_guard lock(mutex);
+      order.push_back(name);
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // until it waits
+  }
+
+  std::vector<std::string> served() {
+    first.release();
+    threads.clear();
+    return order;
+  }
+
+  ParseSlots slots{1};
+  Slot first{slots, {"hog", kLarge}, kForever};
+  Slot small{slots, {"hog", 1}, kForever};
+  std::mutex mutex;
+  std::vector<std::string> order;
+  std::vector<std::jthread> threads;
+};
+
+TEST_F(Waiting, GoesRoundTheClients) {
+  wait("first of the hog", "hog", kLarge);
+  wait("second of the hog", "hog", kLarge);
+  wait("other", "other", 2 * kLarge);
+  EXPECT_EQ(served().front(), "other");
+}
+
+TEST_F(Waiting, ServesTheSmallestOfThoseThatCameTogether) {
+  wait("huge", "client", 1000 * kLarge);
+  wait("large", "client", kLarge);
+  EXPECT_EQ(served(), (std::vector<std::string>{"large", "huge"}));
+}
+
+TEST_F(Waiting, DoesNotServeSmallBodiesThatComeLater) {
+  wait("large", "client", kLarge);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // longer than it takes to parse it
+  wait("later", "client", kLarge / 10);
+  EXPECT_EQ(served(), (std::vector<std::string>{"large", "later"}));
 }
 
 TEST(ParseSlots, ServeEveryBodyWithoutMoreThanTheirNumber) {

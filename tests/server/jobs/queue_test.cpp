@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -126,6 +127,37 @@ TEST(Queue, MakesFirstPlansWhileOthersImproveTheirs) {
   }
   // The worker has one paused improvement at most, so that of two, one has ended with what it had.
   EXPECT_TRUE(holds_soon([&] { return has_metric("fleetplan_improvements_ended_total 1\n"); }));
+}
+
+TEST(Queue, InterruptsSimulationsForOthersWithoutCuttingThem) {
+  StubService stub;
+  const TestServer server(with_one_worker(4), planner_behind(stub));
+  Json request = endless_request();
+  request["options"] = {{"time_budget_ms", 60'000}};
+  const auto planned = server.client().Post("/v1/plan", request.dump(), kJsonType);
+  ASSERT_TRUE(planned);
+  ASSERT_EQ(planned->status, 200) << planned->body;
+  request["plans"] = Json::parse(planned->body)["plans"];
+  request["policy"] = "open_loop";
+  request["runs"] = 10'000;  // seconds
+  auto simulation = std::async(std::launch::async, [&] {
+    auto client = server.client();
+    client.set_read_timeout(std::chrono::minutes(2));
+    return client.Post("/v1/simulate", request.dump(), kJsonType);
+  });
+  ASSERT_TRUE(holds_soon([&] {
+    const auto metrics = server.client().Get("/metrics");
+    return metrics && metrics->body.find("fleetplan_workers_busy 1\n") != std::string::npos;
+  }));
+  const RawConnection other(server.server.port());
+  send_gate(other);
+  stub.gate.await_waiting(1);  // it has the only turn, in the middle of the simulation
+  EXPECT_EQ(simulation.wait_for(std::chrono::seconds(0)), std::future_status::timeout);
+  stub.gate.open();
+  const auto simulated = simulation.get();
+  ASSERT_TRUE(simulated);
+  ASSERT_EQ(simulated->status, 200) << simulated->body;
+  EXPECT_EQ(Json::parse(simulated->body)["runs"], 10'000);
 }
 
 TEST(Queue, EstimatesRetryAfterFromTheWorkAhead) {

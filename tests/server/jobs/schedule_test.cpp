@@ -206,6 +206,35 @@ TEST_F(Schedules, EndImprovementsBeyondOnePausedPerWorker) {
   EXPECT_TRUE(second.has_turn()) << "until it has written its answer";
 }
 
+TEST_F(Schedules, ShareLongTurnsWithThoseThatWait) {
+  Job& simulation = asking();
+  now += Schedule::kLongTurn;
+  EXPECT_EQ(schedule.share(simulation, now), nullptr) << "nobody waits";
+  Job& plan = asking(2s);
+  EXPECT_EQ(schedule.share(simulation, now), &plan);
+  EXPECT_EQ(simulation.state, State::waiting);
+  EXPECT_EQ(schedule.paused(), 1U);
+  EXPECT_EQ(schedule.waiting(), 0U);
+  Job& later = asking(2s);
+  EXPECT_EQ(schedule.leave(plan, now), &simulation) << "it asked before";
+  EXPECT_EQ(schedule.paused(), 0U);
+  EXPECT_EQ(schedule.share(simulation, now + Schedule::kLongTurn / 2), nullptr) << "its turn is short so far";
+  EXPECT_EQ(schedule.leave(simulation, now), &later);
+}
+
+TEST_F(Schedules, KeepLongTurnsWhileAsManyArePausedAsThereAreWorkers) {
+  Job& first = asking();
+  now += Schedule::kLongTurn;
+  Job& second = asking();
+  asking();
+  EXPECT_EQ(schedule.share(first, now), &second);
+  now += Schedule::kLongTurn;
+  EXPECT_EQ(schedule.share(second, now), nullptr);
+  EXPECT_TRUE(second.has_turn()) << "it is not cut";
+  schedule.stop_waiting(first);
+  EXPECT_NE(schedule.share(second, now), nullptr);
+}
+
 TEST_F(Schedules, DoNotGiveTheTurnToAJobThatStoppedWaiting) {
   Job& running = asking();
   Job& waiting = asking();

@@ -76,6 +76,30 @@ TEST_F(Gzip, FollowedByAnythingElseIsMalformed) {
   }
 }
 
+TEST_F(Gzip, CodesWhatItDecodes) {
+  std::string text;
+  for (int k = 0; k < 60'000; ++k) text += std::to_string(k * k) + ',';
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{64 * 1024}, text.size()}) {
+    const auto coded = gzip(text.substr(0, size), core::StopCondition::never());
+    ASSERT_TRUE(coded);
+    expect_text(*coded, text.substr(0, size));
+  }
+  EXPECT_LT(gzip(text, core::StopCondition::never())->size(), text.size() / 2);
+}
+
+TEST_F(Gzip, EndsWhenItIsStopped) {
+  const core::StopCondition met(core::StopCondition::Clock::time_point::min());
+  EXPECT_FALSE(gzip(std::string(1'000'000, 'a'), met));
+  std::string members;  // that decode to nothing
+  for (int k = 0; k < 1000; ++k) members += gzipped("");
+  for (const std::string& coded : {members, gzipped(std::string(1000, ' '))}) {
+    BodyMemory::Share share(memory);
+    const auto decoded = gunzip(coded, 1 << 20, share, met);
+    ASSERT_TRUE(std::holds_alternative<BodyFault>(decoded));
+    EXPECT_EQ(std::get<BodyFault>(decoded).kind, BodyFault::Kind::stopped);
+  }
+}
+
 TEST_F(Gzip, IsBoundedByTheLimitAndTheMemory) {
   expect_fault(gzipped(std::string(1001, ' ')), BodyFault::Kind::too_large, 1000);
   expect_fault(gzipped(std::string(600, ' ')) + gzipped(std::string(600, ' ')), BodyFault::Kind::too_large,
