@@ -336,8 +336,7 @@ Effort execution_effort(Choices choices) {
     body["timestamp"] = "2026-01-31T12:00:00.000Z";
     body["dependencies"] = dependencies_of(fleet, choices);
     Json numbers = Json::object();
-    for (int k = choices.up_to(20'000); k > 0; --k)
-      numbers[name_of('r', k)] = name_of('s', k);
+    for (int k = choices.up_to(20'000); k > 0; --k) numbers[name_of('r', k)] = name_of('s', k);
     if (choices.yes()) body["serial_numbers"] = std::move(numbers);
   }
   effort.body = body.dump();

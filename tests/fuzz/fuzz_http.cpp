@@ -63,6 +63,7 @@ Conversation converse(std::string_view bytes, std::size_t packet) {
   static const server::RequestLog kLog(kSettings.log_level);
   static server::Metrics metrics(kRoutes);
   static server::BodyMemory memory(1 << 20, 1, 1);
+  static server::UnsentAnswers unsent(1 << 20);
   static server::StopSignal stop;
   std::array<int, 2> ends{};  // keeps packets apart, so that each is read separately
   require(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) == 0, "no socket pair");
@@ -85,7 +86,7 @@ Conversation converse(std::string_view bytes, std::size_t packet) {
   };
   const server::Steps steps(server::Steps::Port::main, kSettings, kRoutes, kCrossOrigin, draining, metrics,
                             kLog);
-  serve(server::Connection(ends[0], {kSettings, steps, memory, draining, active, stop, answer}));
+  serve(server::Connection(ends[0], {kSettings, steps, memory, unsent, draining, active, stop, answer}));
   require(active == 0, "an exchange has no end");
 
   std::array<char, 1 << 16> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled by recv
