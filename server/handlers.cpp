@@ -89,7 +89,7 @@ Handler limits(const Backend& backend) {
     json.member("max_obstacles", limits.max_obstacles);
     json.member("max_obstacle_entries", limits.max_obstacle_entries);
     json.member("max_zones", limits.max_zones).member("max_zone_corners", limits.max_zone_corners);
-    json.member("max_plan_memory", limits.max_plan_memory);
+    json.member("max_plan_memory", limits.max_plan_memory).member("max_unsent", settings.max_unsent);
     json.member("default_budget_ms", limits.default_budget_ms).member("min_budget_ms", 1);
     json.member("max_budget_ms", limits.max_budget_ms);
     json.member("workers", settings.workers).member("queue", settings.queue).end_object();

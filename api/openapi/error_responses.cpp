@@ -82,9 +82,8 @@ constexpr std::array<Example, 22> kExamples{{
      "The request needs more than 256 MiB of memory, max_plan_memory of /v1/limits: send fewer robots or a "
      "map with fewer cells."},
     {ErrorCode::parse_unfinished,
-     "Reading the request was given up after its time budget: send a smaller map, or fewer robots, actions "
-     "or "
-     "other values, or increase options.time_budget_ms."},
+     "Reading the request was given up after its time budget, or three seconds of CPU time: send a smaller "
+     "map, or fewer robots, actions or other values, or increase options.time_budget_ms."},
     {ErrorCode::head_too_large, "There are more than 100 header fields."},
     {ErrorCode::internal_error, "A bug in the service; its log has more under this request_id."},
     {ErrorCode::overloaded, "All workers are busy and the queue is full: try again later."},

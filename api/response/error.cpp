@@ -40,8 +40,8 @@ constexpr std::array<ErrorRow, 21> kTable{{
      "The request needs more memory than `max_plan_memory` of `GET /v1/limits`, so that there is not even a "
      "partial plan."},
     {ErrorCode::parse_unfinished, 422, "parse_unfinished", "Request Not Read",
-     "Reading the body took more than a second of CPU time, or more than the time budget once that was read: "
-     "the request is too large for this service."},
+     "Reading the body took more than a second of CPU time before the time budget was read, more than three "
+     "seconds in all, or more than the budget: the request is too large for this service."},
     {ErrorCode::head_too_large, 431, "head_too_large", "Request Header Fields Too Large",
      "The head of the request is larger than 32 KiB, or has more than 100 fields."},
     {ErrorCode::internal_error, 500, "internal_error", "Internal Server Error",

@@ -74,9 +74,11 @@ std::optional<fs::path> StaticFiles::locate(std::string_view path) const {
   fs::path file = root_;
   if (path.empty()) path = "index.html";
   if (path.ends_with('/')) return std::nullopt;
-  for (const auto segment : split(path, '/')) {
+  while (!path.empty()) {
+    const std::string_view segment = path.substr(0, path.find('/'));
     if (!is_plain_name(segment)) return std::nullopt;
     file /= segment;
+    path.remove_prefix(std::min(segment.size() + 1, path.size()));
   }
   std::error_code error;
   file = fs::canonical(file, error);

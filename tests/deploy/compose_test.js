@@ -30,8 +30,9 @@ test("bodies and plans fit into the memory of a replica", () => {
     FLEETPLAN_MAX_BODY: maxBody,
     FLEETPLAN_MAX_PLAN_MEMORY: maxPlanMemory,
     FLEETPLAN_MAP_CACHE: mapCache,
+    FLEETPLAN_MAX_UNSENT: maxUnsent,
   } = replica.environment;
-  const most = memoryOfReplica({ workers: replica.cpus, maxBody, maxPlanMemory, mapCache });
+  const most = memoryOfReplica({ workers: replica.cpus, maxBody, maxPlanMemory, mapCache, maxUnsent });
   assert.ok(most <= bytesOf(replica.mem_limit), `${most / MIB} MiB`);
 });
 

@@ -104,6 +104,7 @@ test("bodies and plans fit into the memory of a pod", () => {
       maxBody: setting("FLEETPLAN_MAX_BODY"),
       maxPlanMemory: setting("FLEETPLAN_MAX_PLAN_MEMORY"),
       mapCache: setting("FLEETPLAN_MAP_CACHE"),
+      maxUnsent: setting("FLEETPLAN_MAX_UNSENT"),
     });
     assert.ok(most <= bytesOf(resources.limits.memory), `${most / 2 ** 20} MiB`);
   }

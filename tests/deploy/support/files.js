@@ -53,9 +53,9 @@ export function bytesOf(size) {
 }
 
 /** The most bytes that a replica needs, as docs/operations.md derives them. */
-export function memoryOfReplica({ workers, maxBody, maxPlanMemory, mapCache }) {
+export function memoryOfReplica({ workers, maxBody, maxPlanMemory, mapCache, maxUnsent }) {
   const queue = 4 * workers;
   const bodies = bytesOf(maxBody) * (workers + queue + 1 + queue);
   const plans = bytesOf(maxPlanMemory) * (3 * workers + 1);
-  return bytesOf("30MiB") + bodies + plans + bytesOf(mapCache);
+  return bytesOf("30MiB") + bodies + plans + bytesOf(mapCache) + bytesOf(maxUnsent);
 }

@@ -99,9 +99,10 @@ TEST_F(Page, IsCachedForAYearOnlyWhereNamesHaveContentHashes) {
 
 TEST_F(Page, HasNoHiddenLinkedOrOutsideFiles) {
   const TestServer server(settings());
-  for (const char* path : {"/../outside.txt", "/%2e%2e/outside.txt", "/modules/../../outside.txt",
-                           "/..%2foutside.txt", "/link.txt", "/.hidden", "/modules", "/modules/",
-                           "//index.html", "/./index.html", "/..\\outside.txt"}) {
+  for (const char* path :
+       {"/../outside.txt", "/%2e%2e/outside.txt", "/modules/../../outside.txt", "/..%2foutside.txt",
+        "/link.txt", "/.hidden", "/modules", "/modules/", "//index.html", "/./index.html",
+        "/%20index.html%20", "/%20index.html", "/..\\outside.txt"}) {
     RawConnection raw(server.server.port());
     raw.send("GET " + std::string(path) + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
     const std::string answer = raw.receive();
