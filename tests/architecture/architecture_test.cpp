@@ -15,7 +15,7 @@
 #include "tests/architecture/source_rules.h"
 
 namespace fleetplan::architecture {
-namespace {
+namespace TEST_FILE {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -197,5 +197,5 @@ TEST(SourceRules, RejectOtherFolders) {
   EXPECT_THAT(violations("lib/a.cpp", ""), ElementsAre("lib/a.cpp belongs to no layer"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::architecture

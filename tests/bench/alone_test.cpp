@@ -8,7 +8,7 @@
 #include "tests/bench/measure.h"
 
 namespace fleetplan::bench {
-namespace {
+namespace TEST_FILE {
 
 using nlohmann::json;
 
@@ -27,5 +27,5 @@ TEST(Alone, ReportsTheShareOfTheFloorThatTheDisksCover) {
   EXPECT_NEAR(plan_alone(instance.body(3, json::object()), {}, 1).floor_share, disks / 144.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::bench

@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace fleetplan::bench {
-namespace {
+namespace TEST_FILE {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -71,5 +71,5 @@ TEST(Instance, ThatCannotBeReadIsNamed) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::bench

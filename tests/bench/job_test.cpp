@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace fleetplan::bench {
-namespace {
+namespace TEST_FILE {
 
 using nlohmann::json;
 using testing::ElementsAre;
@@ -55,5 +55,5 @@ TEST(Job, RejectsAnythingElse) {
   EXPECT_THROW(parse_job(unknown_hall.dump()), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::bench

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace fleetplan::bench {
-namespace {
+namespace TEST_FILE {
 
 TEST(Process, CountsCpuTimeOfWorkAndNotOfSleep) {
   const double before = thread_cpu_seconds();
@@ -31,5 +31,5 @@ TEST(Process, ReportsThePeakOfMemory) {
   EXPECT_GE(peak_memory(), before + kSize / 2);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::bench

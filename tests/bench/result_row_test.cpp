@@ -5,7 +5,7 @@
 #include <algorithm>
 
 namespace fleetplan::bench {
-namespace {
+namespace TEST_FILE {
 
 TEST(ResultRow, HasAsManyValuesAsColumns) {
   const std::string header = csv_header();
@@ -38,5 +38,5 @@ TEST(ResultRow, ReportsWhetherTheAnswerIsValid) {
   EXPECT_TRUE(csv_row(measurement).ends_with(",0\n"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::bench

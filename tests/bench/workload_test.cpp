@@ -14,7 +14,7 @@
 #include "tests/support/ascii_map.h"
 
 namespace fleetplan::bench {
-namespace {
+namespace TEST_FILE {
 
 constexpr std::uint64_t kSeeds = 5;
 
@@ -245,5 +245,5 @@ TEST(LargestRoom, DoesNotConnectDiagonalCells) {
   EXPECT_EQ(largest_room(grid, 0.5).size(), 4u);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::bench

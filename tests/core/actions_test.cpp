@@ -10,7 +10,7 @@
 #include "tests/support/problem_builder.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 using Type = Action::Type;
@@ -110,5 +110,5 @@ TEST(Actions, LeaveNoGapInTimeOrPose) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

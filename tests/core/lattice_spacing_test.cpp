@@ -5,7 +5,7 @@
 #include "tests/support/problem_builder.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::make_problem;
 using support::robot_at;
@@ -40,5 +40,5 @@ TEST(LatticeSpacing, IsAsAskedFor) {
   EXPECT_EQ(chosen(0.05, 0.3, options), 0.4);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -14,7 +14,7 @@
 #include "tests/support/threaded_executor.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 
@@ -113,5 +113,5 @@ TEST(ImprovementMemory, EndsTheImprovementWithThePlanThatItHas) {
   support::expect_safe(problem, *planned.plan);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

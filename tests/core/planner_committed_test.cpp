@@ -22,7 +22,7 @@
 #include "tests/support/summary.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 using Reason = Unplanned::Reason;
@@ -257,5 +257,5 @@ TEST_P(CommittedFleet, OfAPlanCutAnywhereIsPlannedAndAccepted) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, CommittedFleet, testing::Range(0, 60));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -10,7 +10,7 @@
 #include "tests/support/problem_builder.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::ascii_map;
 using support::plan_checked;
@@ -158,5 +158,5 @@ TEST(PlannerLoads, ImprovementAndKeptPlansKeepTheRadii) {
   for (std::size_t i = 0; i < robots.size(); ++i) EXPECT_EQ(again.plans[i].cost, plan.plans[i].cost);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -12,7 +12,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::plan_checked;
 using support::robot_at;
@@ -108,5 +108,5 @@ TEST(PlannerReverse, ALoneRobotIsNoSlowerThanOneThatMayNot) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

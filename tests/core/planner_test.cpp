@@ -14,7 +14,7 @@
 #include "tests/support/problem_builder.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::expect_safe;
 using support::robot_at;
@@ -354,5 +354,5 @@ TEST(Planner, PlansInOtherOrdersWhatTheFirstOneGaveUp) {
   EXPECT_GT(plan.search.attempts, 247) << "six robots are given up after 41 failures each";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -8,7 +8,7 @@
 #include "tests/support/problem_builder.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::plan_checked;
 using support::robot_at;
@@ -77,5 +77,5 @@ TEST(PlannerVicinity, OfOneRobotKeepsCommittedMotionAtTheDistance) {
   EXPECT_TRUE(plan.unplanned.empty());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -11,7 +11,7 @@
 #include "tests/support/problem_builder.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::plan_checked;
 using support::robot_at;
@@ -248,5 +248,5 @@ TEST(ProblemFaults, NameTheBlockedZone) {
   EXPECT_NEAR(committed[0].t, 3.1, 1e-6);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -25,7 +25,7 @@
 #include "tests/support/summary.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::Dice;
 
@@ -323,5 +323,5 @@ TEST_P(Contact, OverlapsOfInflatedDisksAreLeftWithoutComingNearer) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Contact, testing::Range(0, 150));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -17,7 +17,7 @@
 #include "tests/support/summary.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::Dice;
 using Pair = std::pair<std::size_t, std::size_t>;
@@ -127,5 +127,5 @@ TEST(DependenciesOfRandomPlans, KeepRobotsApartAtAnyPaceAndLetThemArrive) {
   EXPECT_GT(tally.collisions_without, kPlans / 4) << "the executions do not test the dependencies";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

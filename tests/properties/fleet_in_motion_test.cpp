@@ -15,7 +15,7 @@
 #include "tests/support/summary.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::Dice;
 using support::expect_no_worse_than_previous;
@@ -82,5 +82,5 @@ TEST_P(FleetInMotion, KeepsPlansThatHoldWhateverTheBudget) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, FleetInMotion, testing::Range(0, 150));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

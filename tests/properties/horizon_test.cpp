@@ -19,7 +19,7 @@
 #include "tests/support/summary.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::Dice;
 using support::FleetRequest;
@@ -164,5 +164,5 @@ TEST_P(HorizonOfRandomFleet, EveryPlanIsValidOnAnyMap) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, HorizonOfRandomFleet, testing::Range(0, 60));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

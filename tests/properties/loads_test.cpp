@@ -14,7 +14,7 @@
 #include "tests/support/sanitized.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::Dice;
 using support::expect_no_worse_than_previous;
@@ -57,5 +57,5 @@ TEST_P(Loads, AreCarriedWithoutCollisions) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Loads, testing::Range(0, support::kSanitized ? 60 : 200));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

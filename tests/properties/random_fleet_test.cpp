@@ -14,7 +14,7 @@
 #include "tests/support/summary.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 /// Metres: the contact tolerance of the service, and the rounding of times and positions.
 constexpr double kTolerance = 2e-9;
@@ -79,5 +79,5 @@ TEST_P(RandomFleet, TheSameRequestGivesTheSamePlan) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomFleet, testing::Range(0, kRuns));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -21,7 +21,7 @@
 #include "tests/support/summary.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::Dice;
 using support::FleetRequest;
@@ -259,5 +259,5 @@ TEST_P(ReplanWhereNeeded, PlansAroundInvalidRobots) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, ReplanWhereNeeded, testing::Range(0, 150));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

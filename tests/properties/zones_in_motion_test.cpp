@@ -14,7 +14,7 @@
 #include "tests/support/sanitized.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::Dice;
 using support::FleetRequest;
@@ -54,5 +54,5 @@ TEST_P(ZonesInMotion, FleetsGoOnFromAnyMoment) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, ZonesInMotion, testing::Range(0, support::kSanitized ? 50 : 150));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -12,7 +12,7 @@
 #include "tests/support/summary.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 constexpr int kRuns = 400;
 
@@ -80,5 +80,5 @@ TEST(FleetWithoutZones, BreaksTheirRules) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -21,7 +21,7 @@ namespace fleetplan::api {
 /// GoogleTest prints scenarios with this function; it has to be in the namespace of Example.
 void PrintTo(const Example& example, std::ostream* out) { *out << example.name; }
 
-namespace {
+namespace TEST_FILE {
 
 using nlohmann::json;
 using testing::IsEmpty;
@@ -142,5 +142,5 @@ TEST(Scenarios, AreTheFilesOfTheFolderAndTheEntriesOfItsIndex) {
   EXPECT_EQ(listed.front(), "corridor-swap") << "the page opens with it";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

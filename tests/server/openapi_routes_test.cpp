@@ -10,7 +10,7 @@
 #include "tests/server/support/declared_routes.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 TEST(OpenApiRoutes, AreThoseOfTheServer) {
   std::map<std::string, std::string> documented;  // methods by path
@@ -27,5 +27,5 @@ TEST(OpenApiRoutes, AreThoseOfTheServer) {
   EXPECT_EQ(documented, served);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using core::Action;
 using core::Pose;
@@ -360,5 +360,5 @@ TEST(AdvancedObstacle, VanishesOrStays) {
   EXPECT_EQ(stays->motion[0].position.y(), 3.0);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

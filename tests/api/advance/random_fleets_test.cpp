@@ -22,7 +22,7 @@
 #include "tests/support/summary.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using support::Dice;
 
@@ -156,5 +156,5 @@ TEST(RandomFleets, MayStopWhereTheirCommitmentsEndWhateverHappens) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

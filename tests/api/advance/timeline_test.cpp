@@ -6,7 +6,7 @@
 #include <numbers>
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using core::Action;
 using core::Pose;
@@ -202,5 +202,5 @@ TEST(Timeline, APoseBesideThePathIsNoProgress) {
   EXPECT_FALSE(measured_progress(robot(), corner(), {{5.0, 2.0}, kQuarter}, 1.0, 0.1));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -10,7 +10,7 @@
 #include "tests/api/support/test_turn.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 Json planned(const Json& request) {
   const Reply reply = plan_endpoint(request.dump(), {});
@@ -136,5 +136,5 @@ TEST(AdvanceEndpoint, ARequestThatNeedsTooMuchMemoryIsRefused) {
   EXPECT_EQ(json_of(reply)["code"], "memory_exceeded");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -12,7 +12,7 @@
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 
@@ -86,5 +86,5 @@ TEST(BoundedWork, ChecksThePlanOfAJobThatIsShortOfMemory) {
   EXPECT_EQ(answer["verified"], true);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

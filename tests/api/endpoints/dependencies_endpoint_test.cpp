@@ -11,7 +11,7 @@
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 
@@ -172,5 +172,5 @@ TEST(NewTimes, ReportFaultsOfStatesAndPlans) {
                             {"/states/3/held", "unknown_key"}}));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -13,7 +13,7 @@
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 TEST(Examples, AreValidRequestsSortedByName) {
   ASSERT_FALSE(examples().empty());
@@ -59,5 +59,5 @@ TEST(Examples, BeginWithTheFirstEntryOfTheIndex) {
   EXPECT_EQ(json_of(examples_endpoint())["examples"][0]["name"], "corridor-swap");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -11,7 +11,7 @@
 #include "tests/api/support/fault_case.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 /// Robot "a" visits two goals, the second one with metadata; "b" cannot reach its goal.
 Json tagged_request() {
@@ -122,5 +122,5 @@ TEST(Metadata, OfTheWrongTypeOrSizeIsAFault) {
   EXPECT_THAT(brief(faults_of(body)), testing::ElementsAre(testing::Pair("/metadata", "out_of_range")));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

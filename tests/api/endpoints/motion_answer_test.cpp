@@ -8,7 +8,7 @@
 #include "tests/api/support/motion_requests.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 Json answer_of(const Json& request) {
   const Reply reply = plan_endpoint(request.dump(), {});
@@ -171,5 +171,5 @@ TEST(MotionAnswer, SaysWhereAPlanStopsAtTheHorizon) {
   EXPECT_FALSE(answer_of(request).contains("estimated"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -17,7 +17,7 @@
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::IsEmpty;
 
@@ -108,5 +108,5 @@ TEST(OpenApi, IsReturnedAsJson) {
   EXPECT_EQ(reply.body, openapi_document());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -19,7 +19,7 @@
 #include "tests/api/support/test_turn.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -524,5 +524,5 @@ TEST(PlanEndpoint, NeverCallsAGoalOutOfReachBecauseTheBudgetEnds) {
   core::step_clock = {};
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -13,7 +13,7 @@
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 class Events : public PlanEvents {
  public:
@@ -165,5 +165,5 @@ TEST(ProgressReporter, RequestsNoPlanShortlyBeforeTheDeadline) {
   EXPECT_TRUE(ProgressReporter(events, 1, soon + std::chrono::minutes(1), answer).wants_plan());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

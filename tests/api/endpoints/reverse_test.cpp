@@ -10,7 +10,7 @@
 #include "tests/api/support/motion_requests.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 
@@ -101,5 +101,5 @@ TEST(Reverse, ThatIsNotPossibleIsAFault) {
   for (const FaultCase& one : cases) expect_one_fault(swap_request(), one);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

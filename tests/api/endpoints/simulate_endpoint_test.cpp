@@ -18,7 +18,7 @@
 #include "tests/support/threaded_executor.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -384,5 +384,5 @@ TEST(SimulateEndpoint, ReportsProgress) {
             R"({"elapsed_ms":1.5,"runs":20,"done":10,"collided":3,"deadlocked":1})");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

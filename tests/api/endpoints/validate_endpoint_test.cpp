@@ -11,7 +11,7 @@
 #include "tests/api/support/test_turn.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::ElementsAre;
 
@@ -270,5 +270,5 @@ TEST(ValidateEndpoint, JudgesTheVicinityOfRobots) {
   EXPECT_EQ(validated(request)["valid"], true) << "0.6 m + 0.35 m";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

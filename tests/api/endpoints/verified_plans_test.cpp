@@ -16,7 +16,7 @@
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using support::Dice;
 
@@ -147,5 +147,5 @@ TEST(Contact, WithAWallAndAtAGoalCanBeLeftAndReached) {
   EXPECT_EQ(answer["status"], "solved") << answer.dump();
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

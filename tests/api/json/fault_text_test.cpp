@@ -9,7 +9,7 @@
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 constexpr std::array<std::string_view, 3> kWords{"radius", "linear_speed", "goal"};
 
@@ -55,5 +55,5 @@ TEST(Alternatives, ReadLikeASentence) {
   EXPECT_EQ(alternatives(kWords), R"("radius", "linear_speed" or "goal")");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

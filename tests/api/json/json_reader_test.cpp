@@ -8,7 +8,7 @@
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 constexpr Range kUnit{0.0, 1.0, "metres"};
 constexpr std::array<std::string_view, 2> kMembers{"a", "b"};
@@ -81,5 +81,5 @@ TEST(JsonReader, ReportsFaultsAtTheirPlacesInTheOrderOfTheDocument) {
             "item 2 must be a string, not null; omit it to use its default, if it has one.");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 std::string written(double number) {
   JsonWriter json;
@@ -79,5 +79,5 @@ TEST(JsonWriter, SeparatesMembersAndItems) {
   EXPECT_EQ(json.take(), R"({"a":1,"b":[true,"x",{}],"c":null})");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -6,7 +6,7 @@
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 JsonDocument document(std::string_view body) {
   auto read = read_json(body, 32, unbounded_work());
@@ -41,5 +41,5 @@ TEST(Location, HasTheNameOfTheLastStep) {
   EXPECT_EQ(locate(read.root(), map.item(2)).name, "item 2");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using Json = nlohmann::json;
 
@@ -162,5 +162,5 @@ TEST(ValidJson, WithRandomChangesIsReadAsByTheGeneralParserOrNotAtAll) {
   EXPECT_GT(read, 1000);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

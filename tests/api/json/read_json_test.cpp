@@ -10,7 +10,7 @@
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -208,5 +208,5 @@ TEST(FaultList, ListsTheFirstOfTheDocumentInItsOrder) {
   EXPECT_EQ(listed.back().pointer, "19");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

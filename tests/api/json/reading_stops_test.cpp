@@ -12,7 +12,7 @@
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using core::Work;
 using std::chrono::milliseconds;
@@ -160,5 +160,5 @@ TEST(ReadingStops, LeavesAShortRequestAlone) {
   EXPECT_TRUE(parse_request(swap_request().dump(), {}, work));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

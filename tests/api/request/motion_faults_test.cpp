@@ -9,7 +9,7 @@
 #include "tests/api/support/motion_requests.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -177,5 +177,5 @@ TEST(MotionFaults, AcceptMotionThatIsSlowerThanTheRobotAndBackwards) {
   EXPECT_THAT(brief_faults_of(request), IsEmpty());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -11,7 +11,7 @@
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 core::Robot robot(const std::string& id, double y) {
   core::Robot robot{id, 0.3, 1.0, 2.0, {{0.5, y}, 0.0}, core::Goal{{4.5, y}, 0.0}};
@@ -76,5 +76,5 @@ TEST_F(ParseDependencies, ReportsDependenciesThatContradictThePlans) {
   EXPECT_THAT(faults_[0].detail, testing::HasSubstr("slack is 2 s, not 1.5 s"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

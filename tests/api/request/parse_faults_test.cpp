@@ -11,7 +11,7 @@
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -267,5 +267,5 @@ TEST(Faults, OfHugeRobotsOnALargeBlockedMapAreFoundAtOnce) {
   EXPECT_LT(core::Work::thread_cpu_time() - begin, std::chrono::seconds(2)) << "4 ms for each pose otherwise";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -8,7 +8,7 @@
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using core::Action;
 using core::MovingObstacle;
@@ -209,5 +209,5 @@ TEST(ParseMotion, RefusesOtherFaultsThanPosesEvenIfInvalidRobotsAreReported) {
   EXPECT_EQ(brief_faults_of(request), (Faults{{"/robots/0/radius", "out_of_range"}}));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -11,7 +11,7 @@
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -161,5 +161,5 @@ TEST(ParseRequest, ReadsALargeMap) {
   EXPECT_EQ(parsed(request).problem.grid().cell_count(), 1024 * 1024);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

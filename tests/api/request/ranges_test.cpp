@@ -11,7 +11,7 @@
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -85,5 +85,5 @@ TEST(Ranges, OfTimesOfGivenPlansEndAtAHundredMillionSeconds) {
                                                       "/plans/0/actions/0/t_end"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -8,7 +8,7 @@
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 class RobotNamesTest : public testing::Test {
  protected:
@@ -53,5 +53,5 @@ TEST_F(RobotNamesTest, ReportWhatIsNoId) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

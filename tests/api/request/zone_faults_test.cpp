@@ -9,7 +9,7 @@
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -267,5 +267,5 @@ TEST(ZoneFaults, ReportMoreThanTheLimitsAllow) {
   EXPECT_THAT(brief_faults_of(request, limits), ElementsAre(Pair("/zones", "out_of_range")));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -8,7 +8,7 @@
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 constexpr ErrorCode kLast = ErrorCode::draining;
 
@@ -72,5 +72,5 @@ TEST(Errors, ListEveryFault) {
     {"pointer": "/b~1c", "code": "x", "detail": "y"}])"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -10,7 +10,7 @@
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using Status = PlanOutcome::Status;
 
@@ -66,5 +66,5 @@ TEST(PlanOutcome, IsPartialWhenSomeRobotsHaveAPlanAndNoneWhenNoRobotHas) {
   EXPECT_EQ(status_of(plan), Status::solved);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -11,7 +11,7 @@
 #include "tests/support/plan_builder.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::DoubleNear;
 using testing::ElementsAre;
@@ -150,5 +150,5 @@ TEST(Release, EndsAtTheFirstGateWhoseConditionIsNotMet) {
   EXPECT_EQ(released({1, 0.0}), 5U);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

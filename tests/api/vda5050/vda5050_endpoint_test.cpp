@@ -14,7 +14,7 @@
 #include "tests/api/support/fault_case.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 
@@ -246,5 +246,5 @@ TEST(Vda5050, RejectsWhatItCannotExport) {
                                             {"/progress/3/last_released_sequence_id", "out_of_range"}}));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

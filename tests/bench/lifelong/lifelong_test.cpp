@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 namespace fleetplan::bench {
-namespace {
+namespace TEST_FILE {
 
 LifelongJob job(const char* strategy) {
   const nlohmann::json line = {{"name", strategy},
@@ -77,5 +77,5 @@ TEST(Lifelong, HasAValueForEveryColumn) {
   EXPECT_THAT(row, testing::StartsWith("\"stop\",6,120.000000,3,0.500000,15.000000,0.500000,2,0.250000,"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::bench

@@ -6,7 +6,7 @@
 #include <numbers>
 
 namespace fleetplan::bench {
-namespace {
+namespace TEST_FILE {
 
 using core::Action;
 using core::Pose;
@@ -69,5 +69,5 @@ TEST(TimedActions, AreFilledUpWithAWait) {
   EXPECT_EQ(waiting_until({}, 3.0, 1.0, {{2.0, 2.0}, 0.0}).front().t_start, 1.0);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::bench

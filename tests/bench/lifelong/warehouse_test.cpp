@@ -8,7 +8,7 @@
 #include "tests/bench/lifelong/fleet_request.h"
 
 namespace fleetplan::bench {
-namespace {
+namespace TEST_FILE {
 
 using nlohmann::json;
 
@@ -51,5 +51,5 @@ TEST(Fleet, HasGoalsThatDoNotOverlap) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::bench

@@ -15,7 +15,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::ascii_map;
 using testing::ElementsAre;
@@ -171,5 +171,5 @@ TEST(CornerVisibility, StopsSoonAfterTheStopConditionIsMet) {
   step_clock = {};
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -9,7 +9,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 
@@ -84,5 +84,5 @@ TEST(LowerBound, CountsOnlyWhatIsLeftOfAServiceUnderWay) {
 
 INSTANTIATE_TEST_SUITE_P(AnyAngle, LowerBoundOfRandomProblems, testing::Bool());
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -12,7 +12,7 @@
 #include "core/geometry/angle.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -105,5 +105,5 @@ TEST(ReverseBound, IsTheBestTradeOfTurnsForLength) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

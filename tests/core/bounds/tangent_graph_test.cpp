@@ -14,7 +14,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::ascii_map;
 
@@ -231,5 +231,5 @@ TEST(TangentGraph, TangentsAreTheSameIfVisibilityIsLimitedToTheRadiusOfTheDisk) 
   EXPECT_GT(excluded, 1000);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

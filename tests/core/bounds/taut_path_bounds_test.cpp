@@ -18,7 +18,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::ascii_map;
 using support::make_problem;
@@ -426,5 +426,5 @@ TEST(TautPathSearch, NeedsLessWorkWhereAPlanIsKnown) {
   EXPECT_LT(work(*cost_alone(problem)), 0.8 * static_cast<double>(work(kForever)));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

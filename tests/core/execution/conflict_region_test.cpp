@@ -7,7 +7,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 Segment line(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y1}}; }
 
@@ -107,5 +107,5 @@ TEST(ConflictRegion, HasTheRangesOfARaster) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

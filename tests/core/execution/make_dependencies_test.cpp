@@ -11,7 +11,7 @@
 #include "tests/support/step_limit.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 
@@ -194,5 +194,5 @@ TEST(MakeDependencies, AreNothingWhenStopped) {
   EXPECT_FALSE(make_dependencies(robots, crossing(robots, 4.0), rules(2), over));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -8,7 +8,7 @@
 #include "tests/support/plan_builder.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 
@@ -110,5 +110,5 @@ TEST_F(Retime, ARobotThatHasPassedItsGateGoesOn) {
   EXPECT_NEAR(found[0].delay, 8.0, 1e-9);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -11,7 +11,7 @@
 #include "tests/support/step_limit.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 
@@ -112,5 +112,5 @@ TEST(Staircase, IsNothingSoonAfterItsStop) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -5,7 +5,7 @@
 #include "tests/support/plan_builder.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 
@@ -54,5 +54,5 @@ TEST_F(WaitPurposes, IgnoreAGoalThatTheRobotDoesNotHave) {
   EXPECT_EQ(purpose(0.0).least, 0.0);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -5,7 +5,7 @@
 #include <numbers>
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -25,5 +25,5 @@ TEST(Angle, RotatesTheShorterWayAndByPiCounterClockwise) {
   EXPECT_EQ(rotation_between(kPi, 0.0), kPi);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

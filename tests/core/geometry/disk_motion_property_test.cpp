@@ -9,7 +9,7 @@
 #include "tests/support/sanitized.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 constexpr std::uint64_t kSeed = 20261121;
 constexpr int kCases = support::kSanitized ? 4000 : 20000;
@@ -143,5 +143,5 @@ TEST_F(DiskMotionProperty, MirroringAndTimeShiftPreserveIntervals) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 MovingDisk wait(double x, double y, double t_start, double t_end) {
   return MovingDisk(TimedSegment{{{x, y}, {x, y}}, t_start, t_end});
@@ -114,5 +114,5 @@ TEST(ForbiddenDepartures, OfEqualVelocitiesKeepDistance) {
   EXPECT_NEAR(forbidden.end, 11.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 TEST(SafeInterval, ContainsItsEnds) {
   const SafeInterval interval{1.0, 2.0};
@@ -35,5 +35,5 @@ TEST(UnsafeInterval, IsEmptyUnlessBeginIsBeforeEnd) {
   EXPECT_FALSE((UnsafeInterval{1.0, kForever}.empty()));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -11,7 +11,7 @@
 #include "tests/support/random_zones.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using Corners = std::vector<Position>;
 
@@ -106,5 +106,5 @@ TEST(StretchesInside, AreSeveralWhereASegmentComesBack) {
   EXPECT_LT(both[0].last, both[1].first);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 TEST(Segment, IsNearestToAPointBesideItOrAtAnEnd) {
   const Segment segment{{1, 1}, {5, 1}};
@@ -28,5 +28,5 @@ TEST(CrossProduct, IsPositiveForADirectionToTheLeft) {
   EXPECT_EQ(cross_product({2, 1}, {4, 2}), 0.0);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 /// How often each alternative is chosen in 1000 tries with these gains and efforts.
 std::vector<int> tries(AdaptiveChoice& choice, const std::vector<double>& gain,
@@ -55,5 +55,5 @@ TEST(AdaptiveChoice, AdaptsToChangedGains) {
   EXPECT_GT(chosen[1], 2 * chosen[0]);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

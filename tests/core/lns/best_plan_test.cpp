@@ -6,7 +6,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 
@@ -65,5 +65,5 @@ TEST(BestPlan, MayBeReachedThroughLosses) {
   EXPECT_EQ(incumbent.cost(1), TwoRows::row(6.5, 8.0).cost);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

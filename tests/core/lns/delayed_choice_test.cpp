@@ -5,7 +5,7 @@
 #include <map>
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 /// How often each robot is chosen in 1000 draws.
 std::map<std::size_t, int> chosen(const DelayedChoice& choice, const std::vector<std::size_t>& robots,
@@ -44,5 +44,5 @@ TEST(DelayedChoice, ChoosesARobotWithoutDelays) {
   EXPECT_EQ(chosen(DelayedChoice(4), {1, 3}, {0.0, 0.0})[3], 1000);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -11,7 +11,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::expect_safe;
 using support::robot_at;
@@ -189,5 +189,5 @@ TEST_P(LnsRandomFleets, NeverMakesAPlanWorseOrUnsafe) {
 INSTANTIATE_TEST_SUITE_P(Objectives, LnsRandomFleets,
                          testing::Values(Objective::flowtime, Objective::makespan));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -6,7 +6,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 using testing::ElementsAre;
@@ -63,5 +63,5 @@ TEST(NeighbourhoodSelection, ContainsNoRobotTwice) {
   EXPECT_THAT(p.select(0, Neighbourhood::random, 2), SizeIs(2));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

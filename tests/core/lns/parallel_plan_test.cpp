@@ -13,7 +13,7 @@
 #include "tests/support/threaded_executor.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using Objective = PlanOptions::Objective;
 using support::robot_at;
@@ -111,5 +111,5 @@ TEST(PlanOnManyThreads, ReturnsACompleteSafePlanAfterTheDeadline) {
   support::expect_safe(problem, together);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 struct Step {
   int number = 0;
@@ -98,5 +98,5 @@ TEST(Pipeline, GoesOnAfterAnException) {
   EXPECT_EQ(completed, std::vector{5});
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

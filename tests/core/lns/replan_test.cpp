@@ -5,7 +5,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::exact_text;
 using support::plans_of;
@@ -136,5 +136,5 @@ TEST(Replan, LeavesTheStateUnchanged) {
       << "reservations as well";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -10,7 +10,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 /// To the nearest blocked cell, the ring around the map included.
 int squared_distance(const OccupancyGrid& grid, Cell cell) {
@@ -69,5 +69,5 @@ TEST(DistanceTransform, IsNotFinishedIfTheStopConditionIsMet) {
   step_clock = {};
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

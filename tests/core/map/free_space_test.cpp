@@ -10,7 +10,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 TEST(FreeSpace, AllowStepsThatDiskMaySweep) {
   const std::uint64_t seed = 5;
@@ -48,5 +48,5 @@ TEST(FreeSpace, DoNotCutCorners) {
   EXPECT_EQ(std::popcount(space.steps_from(bottom_left)), 1) << "only straight up";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

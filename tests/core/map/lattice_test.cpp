@@ -13,7 +13,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 std::vector<std::pair<int, int>> steps_of(int connectivity) {
   const OccupancyGrid grid(1, 1, 1.0);
@@ -115,5 +115,5 @@ TEST(Lattice, FindsVerticesWithinDistance) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

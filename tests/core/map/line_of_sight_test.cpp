@@ -11,7 +11,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 constexpr double kOverlap = 1e-6;  // metres; more than contact
 
@@ -211,5 +211,5 @@ TEST(LineOfSight, AgreesWithDistanceForHugeDisks) {
 
 INSTANTIATE_TEST_SUITE_P(Resolutions, LineOfSightOnRandomMaps, testing::Values(0.05, 0.5, 1.0, 2.0));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

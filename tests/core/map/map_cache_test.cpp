@@ -15,7 +15,7 @@
 #include "core/runtime/memory_account.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 constexpr std::size_t kPlenty = std::size_t{64} << 20;
 
@@ -167,5 +167,5 @@ TEST(MapCache, KeepsNoMapThatIsNotFinished) {
   step_clock = {};
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

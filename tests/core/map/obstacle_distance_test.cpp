@@ -10,7 +10,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 TEST(ObstacleDistance, IsDistanceToNearestBlockedCell) {
   const OccupancyGrid grid = support::ascii_map({".....",  //
@@ -55,5 +55,5 @@ TEST(ObstacleDistance, AgreesWithBruteForceOnRandomMaps) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

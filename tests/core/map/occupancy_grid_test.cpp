@@ -5,7 +5,7 @@
 #include "tests/support/ascii_map.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 TEST(OccupancyGrid, CountsRowsFromTheBottom) {
   const OccupancyGrid grid = support::ascii_map({"#..",  //
@@ -41,5 +41,5 @@ TEST(OccupancyGrid, BorderBelongsToCellOnRightOrAbove) {
   EXPECT_EQ(grid.cell_at({-0.001, 1.0}), (Cell{-1, 4}));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -19,7 +19,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 /// Sets of things that are connected.
 class Components {
@@ -207,5 +207,5 @@ TEST(Refinement, AsksMoreOftenAmongPolygons) {
   expect_to_end_at_every_question(map, Lattice(map.grid(), 16), 0.4, 120 * 120 / 4);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -12,7 +12,7 @@
 #include "tests/support/problem_builder.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 using Kind = ProblemFault::Kind;
@@ -148,5 +148,5 @@ TEST(CommittedFaults, OfThousandsOfRobotsAreFoundUnderTheStopCondition) {
   EXPECT_FALSE(std::get<ProblemFaults>(made).finished);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using Type = Action::Type;
 using testing::IsEmpty;
@@ -101,5 +101,5 @@ TEST(Itinerary, ForgetsAServiceThatTheRobotLeaves) {
   EXPECT_EQ(itinerary.arrived, 6.0);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -6,7 +6,7 @@
 #include "tests/support/problem_builder.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 using Kind = ProblemFault::Kind;
@@ -121,5 +121,5 @@ TEST(Problem, IsNotMadeWhenTheStopConditionIsMetFirst) {
   EXPECT_EQ(faults.total, 0u);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 /// Expects segments from t = 0 to kForever without gaps or jumps.
 void expect_contiguous(const std::vector<TimedSegment>& segments) {
@@ -55,5 +55,5 @@ TEST(TimedSegment, HasTheVelocityOfItsMotion) {
   EXPECT_EQ((TimedSegment{{{1, 1}, {1, 1}}, 1.0, 1.0}.velocity()), Position(0, 0)) << "no 0/0";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

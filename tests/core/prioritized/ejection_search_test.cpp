@@ -5,7 +5,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 using Robots = std::vector<std::size_t>;
@@ -76,5 +76,5 @@ TEST(EjectionSearch, FindsNothingWhereRobotsThatStayBlockTheOnlyWay) {
   EXPECT_TRUE(result.complete);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -5,7 +5,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 using Answer = Enclosure::Answer;
@@ -100,5 +100,5 @@ TEST(Enclosure, NeverClosesOffARobotThatHasAPath) {
   EXPECT_GT(closed_count, 20);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -5,7 +5,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::expect_safe;
 using support::robot_at;
@@ -137,5 +137,5 @@ TEST(PartialPlan, ReturnsRobotsToTheirPathsWhenTheOneInTheirWayHasLeft) {
   expect_safe(p.state);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

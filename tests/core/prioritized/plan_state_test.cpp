@@ -10,7 +10,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 using Robots = std::vector<std::size_t>;
@@ -204,5 +204,5 @@ TEST(PlanState, FindsAGoalAtTheStartReachable) {
   EXPECT_FALSE(p.state.way_to_goal(0, 1000, p.never).none());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -6,7 +6,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::expect_safe;
 using support::robot_at;
@@ -175,5 +175,5 @@ TEST(Prioritized, DoesNotTryOtherOrdersForARobotThatHasNoPathAtAll) {
   EXPECT_FALSE(result.cut_off);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -8,7 +8,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 using Priority = PlanOptions::Priority;
@@ -107,5 +107,5 @@ TEST_P(OrderSequenceReordering, OmitsADroppedRobot) {
 INSTANTIATE_TEST_SUITE_P(Kinds, OrderSequenceReordering,
                          testing::Values(Reordering::raise_failed, Reordering::random));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -7,7 +7,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::expect_safe;
 using support::robot_at;
@@ -137,5 +137,5 @@ TEST(Repair, ReturnsUnsolvedRobotsByPriorityWhenStopped) {
   EXPECT_TRUE(result.cut_off);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

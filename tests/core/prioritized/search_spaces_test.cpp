@@ -9,7 +9,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 
@@ -78,5 +78,5 @@ TEST(SearchSpaces, AreNotMadeIfTheStopConditionIsMet) {
   step_clock = {};
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

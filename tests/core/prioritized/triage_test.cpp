@@ -10,7 +10,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 constexpr double kPi = std::numbers::pi;
@@ -209,5 +209,5 @@ TEST(Triage, LeavesTheMapSearchesOfMostRobotsForLater) {
   EXPECT_LE(p.state.map_expansions(), 50'000);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -13,7 +13,7 @@
 #include "tests/support/expect_safe.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::make_problem;
 using support::robot_at;
@@ -197,5 +197,5 @@ TEST(PreviousPlan, VisitsEachGoal) {
   EXPECT_EQ(previous_trajectory(robot).visits.size(), 1u);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

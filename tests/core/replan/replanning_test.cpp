@@ -9,7 +9,7 @@
 #include "tests/support/expect_safe.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::make_problem;
 using support::robot_at;
@@ -276,5 +276,5 @@ TEST(Replanning, ChangesAPlanThroughARobotThatHasNoWay) {
   support::expect_safe(problem, plan);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -9,7 +9,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 struct Visit {
   std::size_t bucket;
@@ -145,5 +145,5 @@ TEST_F(RandomBuckets, CoverExceedsReachByAtMostBucketDiagonal) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

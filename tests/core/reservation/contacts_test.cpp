@@ -10,7 +10,7 @@
 #include "core/reservation/reservation_table.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using Robots = std::vector<std::size_t>;
 
@@ -126,5 +126,5 @@ TEST_F(TooNear, BothMayLeaveAtOnce) {
   EXPECT_TRUE(table.robots_hit(0, {{{{2, 2}, {3, 2}}, 0.0, 1.0}}).empty());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

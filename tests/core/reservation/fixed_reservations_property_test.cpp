@@ -17,7 +17,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 constexpr double kSize = 12.0;
 constexpr double kHorizon = 30.0;  // seconds; nothing moves later
@@ -266,5 +266,5 @@ TEST_P(NearStarts, DoNotComeNearerWhileBothLeave) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, NearStarts, testing::Range(0, 20));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

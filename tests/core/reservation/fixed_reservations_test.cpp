@@ -9,7 +9,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using Indices = std::vector<std::size_t>;
 
@@ -190,5 +190,5 @@ TEST(FixedReservations, ACommitmentMayEndWhereAnotherRobotHasJustPassed) {
   EXPECT_NEAR(safe[1].begin, 9.0, 1e-6) << "it stays there without a margin";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

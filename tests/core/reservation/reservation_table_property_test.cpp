@@ -14,7 +14,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 constexpr double kWidth = 12.0;
 constexpr double kHeight = 9.0;
@@ -198,5 +198,5 @@ TEST_P(RandomReservations, CommitAndRemoveChangeNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomReservations, testing::Range(0, 60));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -7,7 +7,7 @@
 #include "core/model/trajectory.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 /// Robots of radius 0.5 m on a map of 20 m x 20 m.
 ReservationTable table_of(std::size_t robots) { return {20.0, 20.0, 1.0, std::vector<double>(robots, 0.5)}; }
@@ -130,5 +130,5 @@ TEST(ReservationTable, FiniteReservationEndsOnTime) {
   EXPECT_EQ(safe[0].begin, 3.0);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

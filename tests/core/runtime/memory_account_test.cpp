@@ -11,7 +11,7 @@
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 constexpr std::size_t kMiB = 1 << 20;
 /// A thread's last batch, and what the allocator adds.
@@ -140,5 +140,5 @@ TEST(StopCondition, IsMetWhileTheJobIsShortOfMemory) {
   EXPECT_FALSE(stop.met());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

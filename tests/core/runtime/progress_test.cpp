@@ -16,7 +16,7 @@
 #include "tests/support/summary.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::Recorder;
 using support::robot_at;
@@ -191,5 +191,5 @@ TEST(Progress, DoesNotChangeThePlan) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 TEST(Random, IsTheSameOnEveryMachine) {
   Random random(5489);  // the seed for which the standard names mt19937_64's values
@@ -38,5 +38,5 @@ TEST(Random, ShufflesIntoEveryOrder) {
   EXPECT_EQ(seen.size(), 6u);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

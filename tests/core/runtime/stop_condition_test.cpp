@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using Clock = StopCondition::Clock;
 
@@ -40,5 +40,5 @@ TEST(StopCondition, IsMetAfterTheStepsOfATest) {
   EXPECT_FALSE(stop.met());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

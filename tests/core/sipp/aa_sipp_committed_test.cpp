@@ -10,7 +10,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 using Type = Action::Type;
@@ -118,5 +118,5 @@ TEST(AaSippCommitted, AcceptsOnlyCostsBelowTheBoundCommittedTimeIncluded) {
   EXPECT_TRUE(p.state.plan(0, limits, p.never).trajectory);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

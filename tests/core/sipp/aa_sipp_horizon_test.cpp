@@ -10,7 +10,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 
@@ -108,5 +108,5 @@ TEST(AaSippHorizon, EndsWhereTheCommitmentDoesIfThatIsLater) {
   EXPECT_EQ(trajectory.moves.size(), 1u);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -13,7 +13,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::expect_safe;
 using support::robot_at;
@@ -169,5 +169,5 @@ TEST(AaSippMoves, SlowRotationDelaysDeparture) {
   EXPECT_NEAR(plan_first(p).cost, 3.0 + 10.0 * kPi, 1e-9);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -15,7 +15,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::expect_safe;
 using support::robot_at;
@@ -280,5 +280,5 @@ TEST(AaSippSequence, IsHardlyEverDearerThanSearchesOneAfterTheOther) {
   EXPECT_LE(dearer, 2) << "of " << count;
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

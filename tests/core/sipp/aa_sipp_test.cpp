@@ -11,7 +11,7 @@
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::expect_safe;
 using support::robot_at;
@@ -202,5 +202,5 @@ TEST(AaSipp, RepeatsResultAfterOtherSearches) {
   EXPECT_EQ(first.expansions, second.expansions);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -10,7 +10,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 
@@ -112,5 +112,5 @@ TEST(CostToGo, IsAtLeastLowerBoundOnRandomProblems) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -5,7 +5,7 @@
 #include "core/geometry/interval.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 constexpr Motion kMotion{0.4, 1.0, 0.5, 0.0};  // a radian takes 2 s
 constexpr Motion kMotionWithWait{0.4, 1.0, 0.5, 3.0};
@@ -76,5 +76,5 @@ TEST(DominanceTable, ResetRemovesAllArrivals) {
   EXPECT_TRUE(table.empty(0));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -13,7 +13,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 
@@ -113,5 +113,5 @@ TEST(TimesFromStart, AreLowerBoundsAndExactAtTheGoalOnRandomMaps) {
   EXPECT_GT(reached, 20);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

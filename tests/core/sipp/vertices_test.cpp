@@ -9,7 +9,7 @@
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::robot_at;
 
@@ -130,5 +130,5 @@ TEST(Vertices, LinksOwnVerticesBothWaysWithLatticeInSightWithinTwoCells) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

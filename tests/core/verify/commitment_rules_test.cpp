@@ -8,7 +8,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 using ::testing::ElementsAre;
@@ -102,5 +102,5 @@ TEST(Commitments, OfTheRequestAreNotJudgedByTheSpeedOfTheRobot) {
   EXPECT_THAT(kinds_of(scene.violations(CheckRules{})), ElementsAre(Kind::speed));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

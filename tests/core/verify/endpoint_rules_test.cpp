@@ -8,7 +8,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 using ::testing::ElementsAre;
@@ -115,5 +115,5 @@ TEST(Verify, AcceptsPlansInAnyOrderButNotTwice) {
   EXPECT_THROW(scene.check(), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

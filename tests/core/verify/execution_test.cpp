@@ -11,7 +11,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 
@@ -91,5 +91,5 @@ TEST(TimeWindows, AscendFromZeroToTheEndDespiteOneSlowRobot) {
   EXPECT_GE(std::count_if(windows.begin(), windows.end(), [](double t) { return t <= 3.0; }), 10);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -13,7 +13,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 constexpr unsigned kFirstSeed = 20190901;
 constexpr double kStep = 0.01;             // seconds
@@ -155,5 +155,5 @@ TEST(FleetClearanceProperty, DoesNotDependOnTheOrderOfRobots) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -6,7 +6,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 using ::testing::ElementsAre;
@@ -89,5 +89,5 @@ TEST(IntervalMargin, IsNotAskedOfUnavoidableMeetings) {
   EXPECT_EQ(scene.violations(rules).size(), 1U);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -9,7 +9,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 using ::testing::ElementsAre;
@@ -101,5 +101,5 @@ TEST(LoadRules, TheMarginIsThatOfTheRadiusAtEachTime) {
   EXPECT_THAT(kinds_with(1.0), ElementsAre(Kind::margin));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -11,7 +11,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 using ::testing::ElementsAre;
@@ -316,5 +316,5 @@ TEST(ReverseRules, AMoveAheadIsNoReverseOne) {
   EXPECT_NEAR(violations[0].distance, 4.0, 1e-9);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

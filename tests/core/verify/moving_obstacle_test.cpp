@@ -15,7 +15,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 using ::testing::ElementsAre;
@@ -185,5 +185,5 @@ TEST_P(RandomObstacles, AreMetWhereSamplesMeetThem) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomObstacles, testing::Range(0, 40));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

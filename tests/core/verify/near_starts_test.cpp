@@ -6,7 +6,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 using ::testing::ElementsAre;
@@ -126,5 +126,5 @@ TEST(InvalidRobots, MayOverlapWallsAndEachOther) {
   EXPECT_THAT(kinds_of(scene.violations(CheckRules{})), ElementsAre(Kind::robot_collision));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

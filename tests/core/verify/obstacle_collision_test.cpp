@@ -9,7 +9,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::ascii_map;
 using support::PlanBuilder;
@@ -215,5 +215,5 @@ TEST(ObstacleCollision, ReportsRobotsOutsideTheMap) {
               ElementsAre(Kind::obstacle_collision, Kind::obstacle_collision, Kind::obstacle_collision));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

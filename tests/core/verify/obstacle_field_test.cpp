@@ -12,7 +12,7 @@
 #include "tests/support/ascii_map.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::ascii_map;
 
@@ -143,5 +143,5 @@ TEST(ObstacleField, AgreesWithBruteForceAlongSegments) {
   EXPECT_GT(apart, 30);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

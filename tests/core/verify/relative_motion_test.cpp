@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 TEST(RelativeMotion, KeepsItsDistanceWithoutMotion) {
   const double infinity = std::numeric_limits<double>::infinity();
@@ -57,5 +57,5 @@ TEST(RelativeMotion, IsNearestAtTheBeginningForNearlyEqualVelocities) {
   EXPECT_NEAR(closest_moment(follow).distance, 1.0, 1e-14);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

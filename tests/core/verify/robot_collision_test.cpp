@@ -9,7 +9,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 using ::testing::ElementsAre;
@@ -190,5 +190,5 @@ TEST(MinClearance, IsNegativeWhereDisksOverlap) {
   EXPECT_NEAR(*passing_at(-0.25).check().min_clearance, -0.25, 1e-12);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

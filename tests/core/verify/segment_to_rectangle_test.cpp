@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 const Rectangle kSquare{Position(2, 2), Position(3, 3)};
 
@@ -52,5 +52,5 @@ TEST(SegmentToRectangle, ClipsASegmentToTheRectangle) {
   EXPECT_FALSE(stretch_inside(Position(2, 2), Position(2, 2), kSquare).empty());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

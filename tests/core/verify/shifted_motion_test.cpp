@@ -8,7 +8,7 @@
 #include <random>
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 Leg leg(double t_begin, double t_end, Position from, Position to) { return {t_begin, t_end, from, to}; }
 
@@ -84,5 +84,5 @@ TEST_P(RandomShiftedMotion, IsWhatSamplesFind) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomShiftedMotion, testing::Range(0, 100));
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

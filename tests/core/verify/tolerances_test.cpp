@@ -7,7 +7,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 using ::testing::ElementsAre;
@@ -73,5 +73,5 @@ TEST(Tolerances, OfTwoRobotsAllowForTheLargerOverlap) {
   EXPECT_THAT(found[0].robots, ElementsAre(1, 2));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -6,7 +6,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 using ::testing::ElementsAre;
@@ -97,5 +97,5 @@ TEST(Vicinity, OfCommittedMotionsIsNotKept) {
   EXPECT_THAT(scene.violations(), IsEmpty());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -5,7 +5,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 Violation at(double t) { return {Kind::speed, {0}, t, 0.0, 0.0, ""}; }
 
@@ -60,5 +60,5 @@ TEST(Verify, ReportsABoundedNumberOfViolationsAndCountsAll) {
   EXPECT_EQ(report.violations.front().t, 0.0);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -9,7 +9,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 using ::testing::ElementsAre;
@@ -138,5 +138,5 @@ TEST(Visits, OfRobotsWithoutAPlanAreNotChecked) {
   EXPECT_THAT(scene.violations(), IsEmpty());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -8,7 +8,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 using ::testing::ElementsAre;
@@ -72,5 +72,5 @@ TEST(AddedWaits, MayHaveBegunBeforeTheCommitment) {
   EXPECT_THAT(scene.violations(wait_of(2)), IsEmpty());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

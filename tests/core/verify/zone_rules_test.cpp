@@ -8,7 +8,7 @@
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 using ::testing::ElementsAre;
@@ -113,5 +113,5 @@ TEST(ZoneRules, AZoneMayBeForSomeRobotsOnly) {
               IsEmpty());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -9,7 +9,7 @@
 #include "server/http_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 using Json = nlohmann::json;
 
@@ -109,5 +109,5 @@ TEST_F(Contract, EveryExampleOfTheServiceIsPlanned) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

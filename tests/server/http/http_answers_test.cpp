@@ -9,7 +9,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 constexpr const char* kJsonType = "application/json";
 
@@ -260,5 +260,5 @@ TEST_F(HttpAnswers, SeveralShareOneConnection) {
   for (int i = 0; i < 20; ++i) expect_served();
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

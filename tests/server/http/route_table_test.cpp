@@ -8,7 +8,7 @@
 #include "server/http/exchange.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 const Handler kNoHandler = [](Exchange& /*exchange*/) { return api::Reply{}; };
 
@@ -85,5 +85,5 @@ TEST(Route, AllowsHeadWhereItAllowsGet) {
   EXPECT_FALSE(document.allows("POST"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

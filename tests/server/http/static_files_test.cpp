@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 
@@ -126,5 +126,5 @@ TEST(StaticFiles, WithoutAFolderAreNone) {
   EXPECT_FALSE(none.read("/index.html"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

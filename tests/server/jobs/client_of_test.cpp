@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 std::vector<AddressRange> ranges(const std::vector<std::string>& texts) {
   std::vector<AddressRange> result;
@@ -56,5 +56,5 @@ TEST(AddressRange, RejectsWhatIsNone) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

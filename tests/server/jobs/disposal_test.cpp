@@ -7,7 +7,7 @@
 #include <thread>
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 /// Reports the thread that destroys it, which then waits until it may go on.
 struct Leftover {
@@ -49,5 +49,5 @@ TEST(Disposal, FreesWhatIsLeftAtItsEnd) {
   EXPECT_TRUE(left.expired());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

@@ -17,7 +17,7 @@
 #include "tests/server/support/worker_jobs.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 constexpr std::chrono::milliseconds kLong{60'000};
 
@@ -206,5 +206,5 @@ TEST(Helpers, DoNotStartAfterOneHasThrown) {
   });
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

@@ -11,7 +11,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 using Json = nlohmann::json;
 
@@ -91,5 +91,5 @@ TEST(IdleWorkers, DoNotChangeThePlan) {
   EXPECT_EQ(helped["search"], alone["search"]);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

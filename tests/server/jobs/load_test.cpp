@@ -14,7 +14,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 constexpr const char* kJsonType = "application/json";
 
@@ -341,5 +341,5 @@ TEST(Binding, TwiceToOnePortFailsWithAMessage) {
   EXPECT_NE(fault->find("in use"), std::string::npos) << *fault;
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

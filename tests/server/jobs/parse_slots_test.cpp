@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 using Slot = ParseSlots::Slot;
 
@@ -115,5 +115,5 @@ TEST(ParseSlots, ServeEveryBodyWithoutMoreThanTheirNumber) {
   EXPECT_EQ(parsed, 1200);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

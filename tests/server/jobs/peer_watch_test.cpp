@@ -11,7 +11,7 @@
 #include <thread>
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 /// A connection whose other end a test may close.
 struct Pair {
@@ -73,5 +73,5 @@ TEST(PeerWatch, WakesAgainAfterAVeryShortJob) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

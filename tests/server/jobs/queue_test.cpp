@@ -14,7 +14,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 using Json = nlohmann::json;
 
@@ -175,5 +175,5 @@ TEST(Queue, EstimatesRetryAfterFromTheWorkAhead) {
   stub.gate.open();
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

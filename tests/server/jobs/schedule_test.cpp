@@ -8,7 +8,7 @@
 #include <string>
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 using namespace std::chrono_literals;
 using State = Schedule::Job::State;
@@ -299,5 +299,5 @@ TEST_F(Schedules, GiveTheNextTurnToTheClientThatUsesFewest) {
   schedule.leave(greedy, now);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

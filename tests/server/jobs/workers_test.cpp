@@ -13,7 +13,7 @@
 #include "tests/server/support/worker_jobs.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 TEST(Workers, RunAtMostOneJobPerWorker) {
   Workers workers({3, 1000});
@@ -201,5 +201,5 @@ TEST(Workers, SpreadTheReturnOfRefusedClients) {
   EXPECT_LE(*std::max_element(seconds.begin(), seconds.end()), 2);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

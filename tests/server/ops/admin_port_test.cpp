@@ -8,7 +8,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 constexpr const char* kJsonType = "application/json";
 
@@ -108,5 +108,5 @@ TEST(AdminPort, ReportsAPortThatIsTaken) {
   EXPECT_NE(fault->find("--admin-port"), std::string::npos) << *fault;
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

@@ -8,7 +8,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 using testing::Optional;
@@ -73,5 +73,5 @@ TEST(HealthProbe, RejectsAnotherService) {
 
 TEST(HealthProbe, RejectsPortZero) { EXPECT_THAT(health_fault(at_port(0)), Optional(HasSubstr("name one"))); }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

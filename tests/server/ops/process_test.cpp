@@ -25,7 +25,7 @@
 #include "tests/support/temporary_file.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 /// A running `fleetplan`, whose output and log can be read.
 class Process {
@@ -492,5 +492,5 @@ TEST(Process, ExitsAtOnceOnASecondInterrupt) {
   EXPECT_EQ(request.get(), 0);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

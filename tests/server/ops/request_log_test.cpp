@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 /// A pipe in place of stderr.
 class Pipe {
@@ -86,5 +86,5 @@ TEST(RequestLog, CountsLinesThatTheDescriptorDoesNotTake) {
   EXPECT_EQ(log.dropped(), 1U);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

@@ -8,7 +8,7 @@
 #include "tests/support/base64.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 
@@ -59,5 +59,5 @@ TEST(Base64, IsDecodedNoFurtherWhenStopped) {
   EXPECT_TRUE(stop.met());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

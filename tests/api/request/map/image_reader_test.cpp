@@ -9,7 +9,7 @@
 #include "tests/api/support/images.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -172,5 +172,5 @@ TEST(Png, WithTooManyPixelsIsRejectedByItsHeader) {
   EXPECT_THAT(read.fault, HasSubstr("65537 x 1 = 65537 pixels; this service accepts at most 1000"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

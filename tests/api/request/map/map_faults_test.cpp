@@ -10,7 +10,7 @@
 #include "tests/support/base64.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 
@@ -215,5 +215,5 @@ INSTANTIATE_TEST_SUITE_P(
              "/map/movingai", "bad_movingai", "Line 5 has \"é\" in column 3"}),
     [](const auto& one) { return one.param.name; });
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

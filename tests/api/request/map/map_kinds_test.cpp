@@ -11,7 +11,7 @@
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::ElementsAre;
 
@@ -168,5 +168,5 @@ TEST(MovingAiMap, MayHaveSwampAndAnyLineEnds) {
   EXPECT_EQ(drawn(map), with_unknown(kRoom, '.'));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -15,7 +15,7 @@
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using support::big_endian;
 using support::chunk;
@@ -211,5 +211,5 @@ TEST(PngReader, RejectsAnUnknownChunkThatIsCritical) {
   EXPECT_THAT(read_png(two_pixels(chunk("ABCD", "x"))).fault, HasSubstr("ABCD"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

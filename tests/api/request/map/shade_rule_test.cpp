@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace fleetplan::api {
-namespace {
+namespace TEST_FILE {
 
 using testing::ElementsAre;
 
@@ -110,5 +110,5 @@ TEST(ShadeRule, OfAllGraysIsTheSameWithAndWithoutATable) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -7,7 +7,7 @@
 #include "tests/core/execution/simulation/study.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 
@@ -129,5 +129,5 @@ TEST(Disturbance, IsNotDrawnOnceTheStopConditionIsMet) {
   EXPECT_FALSE(draw_disturbances(LongPlan().plans, disturbance, 1, 0, met));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -10,7 +10,7 @@
 #include "tests/support/step_limit.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 
@@ -102,5 +102,5 @@ TEST(Simulator, IsNotMadeSoonAfterItsStop) {
   EXPECT_LE(limit.late(), 4);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -9,7 +9,7 @@
 #include "tests/core/execution/simulation/study.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 
@@ -212,5 +212,5 @@ TEST(ExecutionPolicies, EndWhenTheStopConditionIsMet) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

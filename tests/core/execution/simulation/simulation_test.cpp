@@ -12,7 +12,7 @@
 #include "tests/support/threaded_executor.h"
 
 namespace fleetplan::core {
-namespace {
+namespace TEST_FILE {
 
 using support::PlanBuilder;
 
@@ -217,5 +217,5 @@ TEST(Simulation, ReportsTheRunsThatWereFinished) {
   EXPECT_EQ(simulate(study, settings, met, executor).totals.done, 0U);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -12,7 +12,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 constexpr const char* kJsonType = "application/json";
 const httplib::Headers kEvents{{"Accept", "text/event-stream"}};
@@ -253,5 +253,5 @@ TEST_F(EventStreams, AreSentForPlansOnly) {
   EXPECT_EQ(validated->body, R"({"size":3})");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

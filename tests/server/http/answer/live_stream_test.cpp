@@ -8,7 +8,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 using Json = nlohmann::json;
 
@@ -120,5 +120,5 @@ TEST_F(LiveStream, AnswersAnInvalidRequestWithAnOrdinaryError) {
   EXPECT_EQ(Json::parse(result->body)["errors"][0]["pointer"], "/robots/3/start");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 TEST(Authority, IsAHostInLowerCaseWithAnOptionalPort) {
   const auto name = parse_authority("Fleet.Example:8080");
@@ -33,5 +33,5 @@ TEST(LocalName, IsLocalhostOrALoopbackAddress) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

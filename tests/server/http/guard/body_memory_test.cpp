@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 constexpr std::uint64_t kMegabyte = 1 << 20;
 
@@ -89,5 +89,5 @@ TEST(BodyMemory, CountsCorrectlyAcrossThreads) {
   EXPECT_FALSE(all.grow_to(8 * kMegabyte + 1));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

@@ -5,7 +5,7 @@
 #include <string>
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 TEST(ChunkLine, IsASizeWithExtensions) {
   for (const char* line :
@@ -49,5 +49,5 @@ TEST(ChunkLine, RejectsAnythingElse) {
   EXPECT_FALSE(parse_chunk_line(std::string_view("1;a=\"\0\"", 7)));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

@@ -8,7 +8,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 class Framing : public testing::Test {
  protected:
@@ -263,5 +263,5 @@ TEST(SlowClient, IsDisconnectedWhenIdle) {
   EXPECT_TRUE(raw.closed_by_server());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

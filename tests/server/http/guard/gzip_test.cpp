@@ -4,7 +4,7 @@
 #include <zlib.h>
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 std::string gzipped(const std::string& text) {
   z_stream stream{};
@@ -108,5 +108,5 @@ TEST_F(Gzip, IsBoundedByTheLimitAndTheMemory) {
   expect_text(gzipped(std::string(1000, ' ')), std::string(1000, ' '));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 RequestHead parsed(const std::string& text) {
   auto result = parse_request_head(text);
@@ -125,5 +125,5 @@ TEST(HeadScanner, RejectsALoneLineFeed) {
   EXPECT_EQ(HeadScanner().scan("GET / HTTP/1.1\n\n"), HeadScanner::State::malformed);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

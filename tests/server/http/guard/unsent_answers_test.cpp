@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 /// More than the buffers of a pair of sockets hold.
 constexpr std::size_t kLarge = 4 << 20;
@@ -139,5 +139,5 @@ TEST(UnsentAnswers, OfManyThreadsStayWithinTheBudget) {
   EXPECT_EQ(all.stats().bytes, 0U);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

@@ -10,7 +10,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 constexpr const char* kJsonType = "application/json";
 
@@ -91,5 +91,5 @@ TEST_F(LibraryRouting, KeepsTheExchangesOfConcurrentConnectionsApart) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

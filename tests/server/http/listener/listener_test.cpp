@@ -23,7 +23,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 TEST(Accepting, EndsOnlyWhenTheSocketIsBroken) {
   for (const int error : {EAGAIN, EWOULDBLOCK})
@@ -220,5 +220,5 @@ TEST(SlowReader, HoldsNoMemoryOfItsBody) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

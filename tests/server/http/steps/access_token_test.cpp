@@ -5,7 +5,7 @@
 #include "tests/support/temporary_file.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 using support::TemporaryFile;
 
@@ -74,5 +74,5 @@ TEST(Base64, IsDecoded) {
   EXPECT_EQ(base64_decoded("Zm 9v"), std::nullopt);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

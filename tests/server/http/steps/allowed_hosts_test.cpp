@@ -5,7 +5,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 bool admits(const AllowedHosts& hosts, const std::optional<std::string>& host) {
   RequestHead head;
@@ -55,5 +55,5 @@ TEST(WrongHost, Is421OnEveryPath) {
   EXPECT_NE(absolute.receive().find("wrong_host"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

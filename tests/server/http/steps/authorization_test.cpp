@@ -10,7 +10,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 constexpr const char* kJsonType = "application/json";
 
@@ -83,5 +83,5 @@ TEST_F(Authorization, IsNotRequiredWithoutASetting) {
   EXPECT_EQ(limits->status, 200);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

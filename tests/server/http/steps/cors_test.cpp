@@ -6,7 +6,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 using testing::Contains;
 using testing::ElementsAre;
@@ -161,5 +161,5 @@ TEST(Origin, IsSchemeHostAndPort) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 TEST(Accept, SelectsJsonWhenAbsentNamedOrCoveredByARange) {
   for (const char* accept : {"", "  ", "*/*", "application/json", "application/*", "text/html, */*;q=0.1",
@@ -77,5 +77,5 @@ TEST(ContentEncoding, IsGzipOrPlain) {
   EXPECT_EQ(content_coding("gzip, gzip"), ContentCoding::unknown);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

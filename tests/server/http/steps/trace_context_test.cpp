@@ -5,7 +5,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 const std::string kTraceId = "0af7651916cd43dd8448eb211c80319c";
 const std::string kParentId = "b7ad6b7169203331";
@@ -75,5 +75,5 @@ TEST(TraceContext, IsAbsentFromAnswersToRequestsWithoutOne) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

@@ -18,7 +18,7 @@
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -350,5 +350,5 @@ TEST(Histogram, IncludesUpperBoundsInTheirBucket) {
   EXPECT_EQ(histogram.count(Histogram::kBounds.size()), 1u);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

@@ -10,7 +10,7 @@
 #include "tests/support/temporary_file.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 using support::TemporaryFile;
 using testing::AllOf;
@@ -104,5 +104,5 @@ TEST(ConfigFile, IsRejectedWhenMissing) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

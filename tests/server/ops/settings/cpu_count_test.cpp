@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 /// What the kernel mounts at /sys/fs/cgroup, made of ordinary files.
 class CpuQuota : public testing::Test {
@@ -82,5 +82,5 @@ TEST_F(CpuQuota, IsNoneWhereFilesAreMissingOrBroken) {
   EXPECT_EQ(of("0::/\n1:cpu:/\nnonsense\n"), std::nullopt);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server

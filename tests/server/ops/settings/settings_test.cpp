@@ -7,7 +7,7 @@
 #include "tests/support/temporary_file.h"
 
 namespace fleetplan::server {
-namespace {
+namespace TEST_FILE {
 
 Settings settings_of(std::vector<std::string> arguments) {
   auto parsed = parse_settings(std::move(arguments));
@@ -165,5 +165,5 @@ TEST(Settings, AreDescribedByHelp) {
   EXPECT_EQ(version.text, "fleetplan " FLEETPLAN_VERSION "\n");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace fleetplan::server
