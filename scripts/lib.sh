@@ -10,11 +10,10 @@ cd "$ROOT" || exit
 # To build the server. "package:command" also counts as installed if the command comes from elsewhere.
 BUILD_PACKAGES=(g++:g++ cmake:cmake ninja-build:ninja pkgconf:pkg-config esbuild:esbuild
   libcpp-httplib-dev nlohmann-json3-dev libeigen3-dev libspdlog-dev libcli11-dev libpng-dev)
-# For the tests, in addition.
-TEST_PACKAGES=(libgtest-dev libgmock-dev clang-format:clang-format clang-tidy:clang-tidy
-  python3:python3 nodejs:node npm:npm chromium:chromium curl:curl jq:jq haproxy:haproxy
-  mosquitto:mosquitto)
-# For the fuzz targets, in addition.
+# In addition: for the tests of the release build, for all tests, for the checks of the sources, for the fuzz targets.
+UNIT_TEST_PACKAGES=(libgtest-dev libgmock-dev python3:python3 curl:curl jq:jq)
+TEST_PACKAGES=(nodejs:node npm:npm chromium:chromium haproxy:haproxy mosquitto:mosquitto)
+CHECK_PACKAGES=(clang-format:clang-format clang-tidy:clang-tidy)
 FUZZ_PACKAGES=(clang:clang++ libclang-rt-dev)
 
 say() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
@@ -119,12 +118,12 @@ build_jobs() {
   echo $((cpus < fitting ? cpus : fitting))
 }
 
-# configure PRESET: quiet unless it fails; starts again if the old configuration cannot be used, for example after
-# the project was moved.
+# configure PRESET [OPTIONS...]: quiet unless it fails; starts again if the old configuration cannot be used, for
+# example after the project was moved.
 configure() {
   local log
   log=$(mktemp)
-  if ! cmake --preset "$1" >"$log" 2>&1 && ! cmake --fresh --preset "$1" >"$log" 2>&1; then
+  if ! cmake --preset "$@" >"$log" 2>&1 && ! cmake --fresh --preset "$@" >"$log" 2>&1; then
     cat "$log" >&2
     rm -f "$log"
     return 1
