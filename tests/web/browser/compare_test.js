@@ -157,6 +157,21 @@ test("the other plan is drawn as rings over the first instead", async () => {
   });
 });
 
+test("a plan that is dropped and not valid says so where it is compared", async () => {
+  await onPage(async (page) => {
+    await choose(page, "crossing");
+    const answer = await pressPlan(page);
+    const long = answer.plans.find(({ actions }) => actions.length > 1);
+    const short = { ...long, actions: long.actions.slice(0, 1) };
+    const plans = answer.plans.map((plan) => (plan === long ? short : plan));
+    await drop(page, { "short.json": JSON.stringify({ ...answer, plans }) });
+    await page.getByText(/^This plan is not valid: \d+ violations?, listed under Plan\.$/).waitFor();
+    await compareWith(page).selectOption("before 0");
+    await page.getByRole("button", { name: "Swap" }).click();
+    await page.getByText("This plan is not valid").waitFor({ state: "hidden" });
+  });
+});
+
 test("a plan of other robots that is dropped is opened, not compared", async () => {
   await onPage(async (page) => {
     const request = await choose(page, "corridor-swap");
