@@ -7,8 +7,10 @@ import gzip
 import json
 import math
 import os
+import struct
 import threading
 import time
+import zlib
 from typing import Callable
 
 from client import Connection, Lost, request
@@ -43,6 +45,12 @@ def refused(*codes):
             return f"{answer.status} {code}"
         return "a long list of faults" if len(answer.json()["errors"]) > LISTED else None
     return fault
+
+
+def bad_image(answer):
+    """Whatever the robots, the image cannot be decoded."""
+    faults = [(fault["pointer"], fault["code"]) for fault in answer.json().get("errors", [])]
+    return None if answer.status == 422 and faults == [("/map/image/png", "bad_image")] else f"{answer.status} {faults}"
 
 
 def planned(statuses, reasons=None, blocked_by=None):
@@ -249,7 +257,24 @@ def many_serial_numbers(members):
             "serial_numbers": {f"u{i}": "x" for i in range(members)}}
 
 
+def chunk(kind, data):
+    """A chunk of a PNG."""
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def image_map(columns, rows, before=b"", inside=b"", behind=b""):
+    """A robot on a free map that is a PNG with more chunks `before` its header and `inside` it, and data `behind` its pixels."""
+    pixels = zlib.compress((b"\0" + b"\xff" * columns) * rows + behind, 9)
+    header = chunk(b"IHDR", struct.pack(">IIBBBBB", columns, rows, 8, 0, 0, 0, 0))
+    png = b"\x89PNG\r\n\x1a\n" + before + header + inside + chunk(b"IDAT", pixels) + chunk(b"IEND", b"")
+    robot = {"id": "a", "start": {"x": 1.5, "y": 0.5}, "goal": {"x": columns - 1.5, "y": 0.5}}
+    return {"map": {"image": {"png": base64.b64encode(png).decode(), "resolution": 1.0}}, "robots": [robot],
+            "robot_defaults": ROBOT, "options": {"time_budget_ms": 100}}
+
+
 def costly_requests():
+    lying = chunk(b"juNk", struct.pack(">II", 2000, 1))
+    texts = chunk(b"zTXt", b"k\0\0" + zlib.compress(bytes(3 * MIB), 9)) * 1000
     empty_objects = b'{"robots": [' + b",".join([b"{}"] * (14 * MIB // 3)) + b"]}"
     empty_strings = b'{"robots": [' + b",".join([b'""'] * (14 * MIB // 3)) + b"]}"
     members = b"{" + b",".join(b'"%d":0' % i for i in range(2_700_000)) + b"}"
@@ -303,6 +328,9 @@ def costly_requests():
         Costly("a plan with dependencies",
                posted(neighbours(600, 2000, True, execution_margin=0.1, dependencies=True, time_budget_ms=150)), 0.15, 300,
                answered_or_unfinished("dependencies")),
+        Costly("a PNG that lies about its size", posted(image_map(1, 1, before=lying)), 0.1, 200, bad_image),
+        Costly("a PNG with data behind it", posted(image_map(8, 4, behind=bytes(50 * MIB))), 0.1, 200, planned(["solved"])),
+        Costly("a PNG of 1000 texts", posted(image_map(8, 4, inside=texts)), 0.1, 200, planned(["solved"])),
         Costly("1,200,000 serial numbers", posted(many_serial_numbers(1_200_000), "/v1/export/vda5050"), 1.5, 300,
                refused("invalid_request", "parse_unfinished", "memory_exceeded")),
     ]

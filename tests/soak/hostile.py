@@ -190,6 +190,10 @@ def attacks():
     bomb = gzip.compress(bytes(1 << 30), 9)
     chunks = POST + b"Transfer-Encoding: chunked\r\n\r\n" + b"1\r\n[\r\n" * 200_000
     heads = b"GET / HTTP/1.1\r\nHost: localhost\r\n" + b"".join(b"X-%d: y\r\n" % i for i in range(5000)) + b"\r\n"
+    streams = gzip.compress(json.dumps(HONEST).encode() + b" " * 4_000_000, 9)
+    rough = costly.posted(costly.rough_way(options={"time_budget_ms": 500}), "/v1/simulate")
+    masks = costly.posted(costly.mask_of_many_parts(), "/v1/advance")
+    trace = costly.posted(costly.rough_way(options={"time_budget_ms": 3600}, trace=0), "/v1/simulate")
     ids = {**HONEST, "robots": [{**robot, "id": robot["id"] * 1_000_000} for robot in HONEST["robots"]]}
     return [
         ("500 idle sockets", 500, idle),
@@ -211,6 +215,10 @@ def attacks():
         ("repeated keys, long pointer", 2, send_and_read(posted(b'{"' + b"k" * 500_000 + b'":{"a":0' + b',"a":0' * 50_000 + b"}}"))),
         ("1 MB ids", 4, send_and_read(posted(json.dumps(ids).encode()))),
         ("clients that never read", 50, never_read(request("GET", "/v1/examples/hall-100"))),
+        ("60 answers that nobody reads", 60, never_read(trace)),
+        ("1000 gzip streams at once", 1000, send_and_read(posted(streams, ("Content-Encoding", "gzip")))),
+        ("4 simulations of rough ways", 4, send_and_read(rough)),
+        ("4 masks of many parts", 4, send_and_read(masks)),
         ("half-closed clients", 8, half_closed(posted(small))),
         ("disconnect after sending", 8, send_and_leave(posted(small))),
         ("500 requests at once", 4, send_and_read(request("GET", "/healthz") * 500)),
