@@ -1,5 +1,8 @@
+#include <unistd.h>
+
 #include <iostream>
 
+#include "server/command/commands.h"
 #include "server/ops/health_probe.h"
 #include "server/ops/settings/settings.h"
 #include "server/ops/standard_descriptors.h"
@@ -9,13 +12,18 @@
 int main(int argc, char** argv) {
   using namespace fleetplan::server;
   open_standard_descriptors();
-  const auto parsed = parse_settings({argv + 1, argv + argc});
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  const Streams streams{std::cin, std::cout, std::cerr, isatty(STDERR_FILENO) == 1};
+  Service service = planning_service();
+  if (const auto code = run_command(arguments, service, streams)) return *code;
+  if (!arguments.empty() && arguments[0] == "serve") arguments.erase(arguments.begin());
+  const auto parsed = parse_settings(std::move(arguments));
   if (const auto* exit = std::get_if<SettingsExit>(&parsed)) {
     (exit->code == 0 ? std::cout : std::cerr) << exit->text;
     return exit->code;
   }
   const auto& settings = std::get<Settings>(parsed);
-  if (!settings.healthcheck) return run(settings, planning_service());
+  if (!settings.healthcheck) return run(settings, std::move(service));
   const auto fault = health_fault(settings);
   if (fault) std::cerr << "fleetplan: " << *fault << '\n';
   return fault ? 1 : 0;

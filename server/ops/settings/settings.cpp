@@ -50,6 +50,7 @@ class Flags {
   Flags() : app_("Fleetplan: collision-free timed motions for fleets of robots, over HTTP.", "fleetplan") {
     app_.set_version_flag("--version", std::string("fleetplan ") + kVersion);
     app_.get_formatter()->column_width(36);
+    app_.footer("`fleetplan help` lists the commands that answer requests from files, without a server.");
     settings_.workers = cpus_granted();
     settings_.web_root = default_web_root().string();
     add_serving();

@@ -1,0 +1,138 @@
+#include "server/command/commands.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "server/service.h"
+#include "tests/support/temporary_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace fleetplan::server {
+namespace TEST_FILE {
+
+using Json = nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// What a command did.
+struct Outcome {
+  std::optional<int> code;
+  std::string out;
+  std::string err;
+};
+
+Outcome run(std::vector<std::string> arguments, const std::string& input = "", bool on_terminal = false) {
+  std::istringstream in(input);
+  std::ostringstream out, err;
+  const auto code = run_command(std::move(arguments), planning_service(), {in, out, err, on_terminal});
+  return {code, out.str(), err.str()};
+}
+
+std::string content(const std::string& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Two robots in a corridor, which move from x = 0.5 to 2.5 and from 4.5 to 6.5.
+std::string request(const std::string& row, double start_of_a = 0.5) {
+  const auto robot = [](const char* id, double from, double to) {
+    return Json{{"id", id}, {"start", {{"x", from}, {"y", 0.5}}}, {"goal", {{"x", to}, {"y", 0.5}}}};
+  };
+  return Json{{"map", {{"rows", {row}}}},
+              {"robots", {robot("a", start_of_a, 2.5), robot("b", 4.5, 6.5)}},
+              {"robot_defaults", {{"radius", 0.3}, {"linear_speed", 1.0}, {"angular_speed", 1.0}}}}
+      .dump();
+}
+
+TEST(Commands, LeaveTheSettingsOfTheServerAlone) {
+  EXPECT_FALSE(run({}).code);
+  EXPECT_FALSE(run({"--port", "0"}).code);
+  EXPECT_FALSE(run({"--help"}).code);
+  EXPECT_FALSE(run({"serve", "--port", "0"}).code);
+}
+
+TEST(Commands, AnswerAsTheServiceDoes) {
+  const Outcome outcome = run({"plan"}, request("......."));
+  EXPECT_EQ(outcome.code, kSolved);
+  EXPECT_EQ(outcome.err, "");
+  const Json answer = Json::parse(outcome.out);
+  EXPECT_EQ(answer["status"], "solved");
+  EXPECT_EQ(answer["verified"], true);
+  EXPECT_EQ(answer["plans"].size(), 2u);
+}
+
+TEST(Commands, TellInTheExitCodeHowManyRobotsHaveAPlan) {
+  EXPECT_EQ(run({"plan"}, request(".....#.")).code, kPartial);
+  EXPECT_EQ(run({"plan"}, request(".#...#.")).code, kNone);
+}
+
+TEST(Commands, TellInTheExitCodeWhetherPlansAreValid) {
+  Json body = Json::parse(request("......."));
+  const Json plans = Json::parse(run({"plan"}, body.dump()).out)["plans"];
+  body["plans"] = plans;
+  EXPECT_EQ(run({"validate"}, body.dump()).code, kSolved);
+  body["plans"][0]["actions"][0]["t_end"] = 0.01;
+  EXPECT_EQ(run({"validate"}, body.dump()).code, kPartial);
+}
+
+TEST(Commands, ListFaultsAsLines) {
+  const support::TemporaryFile file(request(".......", 0.1));
+  const Outcome outcome = run({"plan", file.path()});
+  EXPECT_EQ(outcome.code, kBadInput);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, AllOf(StartsWith(file.path() + ": /robots/0/start: "), HasSubstr("Move it")));
+  EXPECT_THAT(run({"plan"}, "{").err, StartsWith("stdin: Not JSON"));
+}
+
+TEST(Commands, RejectWhatTheyDoNotKnow) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"plam"},
+                                                    {"plan", "--fast"},
+                                                    {"validate", "--svg", "x"},
+                                                    {"examples", "none"},
+                                                    {"plan", "/no/such/file"},
+                                                    {"plan", "/"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, kBadInput) << arguments[0];
+    EXPECT_NE(outcome.err, "") << arguments[0];
+  }
+}
+
+TEST(Commands, WriteAnswerAndPictureToFiles) {
+  const support::TemporaryFolder folder;
+  const std::string answer = folder.path() / "answer.json", picture = folder.path() / "picture.svg";
+  const Outcome outcome = run({"plan", "-", "--output", answer, "--svg", picture}, request("......."));
+  EXPECT_EQ(outcome.code, kSolved);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(Json::parse(content(answer))["status"], "solved");
+  EXPECT_THAT(content(picture),
+              AllOf(StartsWith("<svg "), HasSubstr("<title>b</title>"), HasSubstr("</svg>")));
+  EXPECT_EQ(run({"plan", "--output", "/no/such/folder/x"}, request(".......")).code, kFailed);
+}
+
+TEST(Commands, ShowProgressOnATerminalOnly) {
+  EXPECT_THAT(run({"plan"}, request("......."), true).err, HasSubstr("robots planned"));
+  EXPECT_EQ(run({"plan", "--quiet"}, request("......."), true).err, "");
+}
+
+TEST(Commands, PrintTheExamplesThatThePageOffers) {
+  const Outcome list = run({"examples"});
+  EXPECT_EQ(list.code, kSolved);
+  EXPECT_THAT(list.out, HasSubstr("warehouse\n"));
+  EXPECT_EQ(run({"plan"}, run({"examples", "corridor-swap"}).out).code, kSolved);
+}
+
+TEST(Commands, ExplainThemselves) {
+  const Outcome help = run({"help"});
+  EXPECT_EQ(help.code, kSolved);
+  EXPECT_THAT(help.out, AllOf(HasSubstr("validate"), HasSubstr("Exit codes")));
+  EXPECT_EQ(run({"plan", "--help"}).code, kSolved);
+}
+
+}  // namespace TEST_FILE
+}  // namespace fleetplan::server
