@@ -2,7 +2,7 @@
 // paths, and plan again, with all members of requests together. Whatever happens, no request is answered by
 // `internal_error`, and /v1/plan accepts what /v1/advance returns.
 //
-// FLEETPLAN_LIVES is how many fleets live, FLEETPLAN_FIRST_LIFE the seed of the first.
+// FLEETPLAN_ROUNDS is how often they are planned in all, FLEETPLAN_FIRST_LIFE the seed of the first fleet.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,9 @@ namespace {
 
 using support::Dice;
 
-constexpr int kRounds = 5;
+constexpr int kRoundsOfALife = 5;
+/// So many steps may the checks of previous plans outlast the budget.
+constexpr std::int64_t kPatience = 100'000;
 
 std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
   const char* text = std::getenv(name);
@@ -48,7 +50,7 @@ std::vector<core::Zone> zones_for(Dice& dice, const core::Problem& problem) {
 Json first_request(Dice& dice) {
   while (true) {
     support::FleetRequest request = support::random_request(dice);
-    if (dice.chance(0.4)) support::add_loads(dice, request);
+    if (dice.chance(0.5)) support::add_loads(dice, request);
     const auto plain = support::problem_of(request);
     if (!plain) continue;
     if (dice.chance(0.4)) request.zones = zones_for(dice, *plain);
@@ -56,6 +58,8 @@ Json first_request(Dice& dice) {
     if (!support::problem_of(request)) continue;
     Json json = json_of(request);
     json["options"]["time_budget_ms"] = 100'000;
+    if (dice.chance(0.3)) json["options"]["invalid_robots"] = "report";
+    if (dice.chance(0.2)) json["options"]["dependencies"] = true;
     return json;
   }
 }
@@ -65,7 +69,7 @@ Reply planned_in(std::int64_t steps, const Json& request) {
   core::CallerThread executor;
   const Planner planner = [&](const core::Problem& problem, const core::PlanOptions& options,
                               const core::StopCondition& stop, core::Observer* observer) {
-    const support::StepLimit limit(steps);
+    const support::StepLimit limit(steps, kPatience);
     return core::plan(problem, options, stop, executor, observer);
   };
   return plan_with(planner, request.dump(), {});
@@ -89,7 +93,7 @@ std::optional<core::Pose> pose_at(const Json& plan, double t) {
 /// A fleet from round to round.
 class Life {
  public:
-  explicit Life(Dice& dice) : dice_(dice), request_(first_request(dice)) {}
+  explicit Life(Dice& dice) : dice_(dice), first_(first_request(dice)), request_(first_) {}
 
   /// Returns false when it has ended.
   bool go_on() {
@@ -100,7 +104,7 @@ class Life {
 
  private:
   bool plan() {
-    constexpr std::int64_t kPlenty = 20'000;
+    constexpr std::int64_t kPlenty = 5'000;
     const std::int64_t steps = dice_.chance(0.3) ? dice_.below(2000) : kPlenty;
     const Reply reply = planned_in(steps, request_);
     if (reply.status != 200 && may_be_refused(reply)) return false;
@@ -116,7 +120,9 @@ class Life {
     if (reply.status != 422 || !has_measured_) return false;
     const Json problem = Json::parse(reply.body);
     return std::all_of(problem.at("errors").begin(), problem.at("errors").end(), [](const Json& fault) {
-      return fault.at("code") == "starts_overlap" || fault.at("code") == "start_in_obstacle";
+      const Json& code = fault.at("code");
+      return code == "starts_overlap" || code == "start_in_obstacle" || code == "committed_collision" ||
+             code == "committed_in_zone";
     });
   }
 
@@ -125,11 +131,13 @@ class Life {
     if (dice_.chance(0.5)) body["commit"] = dice_.between(0.0, 6.0);
     body["pose_tolerance"] = 0.1 * request_.at("map").at("resolution").get<double>();
     has_measured_ = false;
+    const bool measures = dice_.chance(0.4);
     for (const Json& plan : answer_.at("plans")) {
       if (dice_.chance(0.15)) {
         body["holds"].push_back({{"robot", plan.at("robot")}, {"until", dice_.between(0.0, 20.0)}});
       }
-      if (dice_.chance(0.15)) measure(body, plan);
+      if (dice_.chance(0.1)) start_anew(body, plan.at("robot"));
+      if (measures && dice_.chance(0.3)) measure(body, plan);
     }
     const std::string text = body.dump();
     const Reply reply = advance_endpoint(text, {});
@@ -137,6 +145,16 @@ class Life {
     if (reply.status == 200) request_ = Json::parse(reply.body);
     came_from_ = "advanced from " + text + "\nto ";
     return reply.status == 200;
+  }
+
+  /// A robot that keeps its radius begins again with its first goal.
+  void start_anew(Json& body, const Json& robot) const {
+    for (const Json& one : first_.at("robots")) {
+      if (one.at("id") != robot || !one.contains("goals")) continue;
+      const auto keeps_radius = [](const Json& goal) { return !goal.contains("radius_after"); };
+      if (!std::all_of(one.at("goals").begin(), one.at("goals").end(), keeps_radius)) return;
+      body["goals"].push_back({{"robot", robot}, {"goals", one.at("goals")}});
+    }
   }
 
   /// The robot is late, or beside its path, or both.
@@ -157,6 +175,7 @@ class Life {
   }
 
   Dice& dice_;
+  const Json first_;
   Json request_;
   Json answer_;
   std::string came_from_;
@@ -165,13 +184,14 @@ class Life {
 
 TEST(RandomLives, NeverMeetAnInternalErrorAndGoOnFromAnyMoment) {
   const std::uint64_t first = from_environment("FLEETPLAN_FIRST_LIFE", 0);
-  const std::uint64_t lives = from_environment("FLEETPLAN_LIVES", 60);
-  for (std::uint64_t seed = first; seed < first + lives; ++seed) {
+  const std::uint64_t rounds = from_environment("FLEETPLAN_ROUNDS", 300);
+  std::uint64_t done = 0;
+  for (std::uint64_t seed = first; done < rounds; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Dice dice(seed);
     Life life(dice);
-    for (int round = 0; round < kRounds && life.go_on(); ++round) {
-    }
+    bool goes_on = true;
+    for (int round = 0; round < kRoundsOfALife && goes_on; ++round, ++done) goes_on = life.go_on();
   }
 }
 
