@@ -7,6 +7,7 @@
 
 #include "api/advance/clear_commitments.h"
 #include "api/advance/timeline.h"
+#include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"
 #include "core/model/served_goals.h"
@@ -119,6 +120,16 @@ double horizon(const Actions& actions, const Moment& moment) {
   return until;
 }
 
+/// Ends the commitment before the first action that breaks the rule of a zone.
+void keep_rules(core::Robot& robot, std::size_t index, const std::vector<core::Zone>& all) {
+  core::Robot without_limits = robot;  // so that each zone counts
+  without_limits.linear_speed = without_limits.angular_speed = core::Zone::kNoLimit;
+  const core::DriveZones zones(all, index, without_limits);
+  const auto breaks = [&](const Action& action) { return zones.broken_by(action).has_value(); };
+  const auto first = std::find_if(robot.committed.begin(), robot.committed.end(), breaks);
+  robot.committed.erase(first, robot.committed.end());
+}
+
 }  // namespace
 
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment) {
@@ -161,6 +172,9 @@ std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
   for (std::size_t k = 0; k < robots.size(); ++k) {
     if (stop.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return next;
     next.push_back(advanced(robots[k], executions[k], moment));
+    if (executions[k].measured && !moment.zones.empty()) {
+      keep_rules(next.back(), k, moment.zones);
+    }
   }
   clear_commitments(next, moment.inflation, stop);
   return next;

@@ -121,8 +121,7 @@ class Life {
     const Json problem = Json::parse(reply.body);
     return std::all_of(problem.at("errors").begin(), problem.at("errors").end(), [](const Json& fault) {
       const Json& code = fault.at("code");
-      return code == "starts_overlap" || code == "start_in_obstacle" || code == "committed_collision" ||
-             code == "committed_in_zone";
+      return code == "starts_overlap" || code == "start_in_obstacle" || code == "committed_collision";
     });
   }
 
