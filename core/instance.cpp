@@ -33,6 +33,7 @@ std::vector<Endpoints> endpoints(const Problem& problem, const Lattice& lattice,
     ends.start = robot.committed_end().position;
     ends.start_rounding = rounding(ends.start);
     ends.narrower_at_start = largest - radius;
+    ends.grows_at_start = growth_at_end(robot, itinerary_of(robot)).has_value();
     if (robot.goal) {
       const double last = last_radius(robot);
       ends.goal = robot.goal->position;

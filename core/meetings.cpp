@@ -168,7 +168,9 @@ class MeetingSearch {
       const Position& place = itinerary.pose.position;
       Passer passer{false, i, largest_radius(robots[i])};
       const bool changes = changes_radius(robots[i]);
-      for (const TimedSegment& segment : committed_segments(robots[i], itinerary)) {
+      std::vector<TimedSegment> segments = committed_segments(robots[i], itinerary);
+      if (const auto growth = growth_at_end(robots[i], itinerary)) segments.push_back(*growth);
+      for (const TimedSegment& segment : segments) {
         passer.pieces.emplace_back(segment);
         if (changes) passer.narrower.push_back(segment.narrower);
         certain_.push_back({i, false, passer.pieces.back(), passer.radius - segment.narrower});

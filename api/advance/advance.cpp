@@ -7,6 +7,7 @@
 
 #include "api/advance/clear_commitments.h"
 #include "api/advance/timeline.h"
+#include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"
 #include "core/model/served_goals.h"
@@ -36,18 +37,30 @@ bool has_served_last(const core::Robot& robot, const Actions& actions, double pr
   return std::max(end, robot.committed_until()) <= progress + kSameService;
 }
 
+/// The first of these goals that changes the radius.
+std::optional<std::size_t> first_load(const core::Robot& robot, std::size_t begin, std::size_t end) {
+  for (std::size_t k = begin; k < end; ++k) {
+    if (robot.goal_at(k).radius_after) return k;
+  }
+  return std::nullopt;
+}
+
 /// `progress`: the planned time of what the robot has executed of its actions. It stands after the last one.
 GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, double progress, double at) {
   const Actions& actions = execution.actions;
   core::Robot past = robot;
   past.committed = actions_until(actions, progress);
+  const std::size_t visited_by_plan = core::itinerary_of(past).first_goal;
   if (past.committed_until() < progress) {
     const core::Pose pose = past.committed_end();
     past.committed.push_back({Action::Type::wait, past.committed_until(), progress, pose, pose});
   }
   const core::Itinerary itinerary = core::itinerary_of(past);
   GoalsLeft left;
-  left.visited = past.committed.empty() ? 0 : itinerary.first_goal;
+  left.visited = itinerary.first_goal;
+  // Nobody has made room for a robot without a plan: it has been served, but its load is still to come.
+  const auto load = execution.planned ? std::nullopt : first_load(robot, visited_by_plan, left.visited);
+  left.visited = load.value_or(left.visited);
   for (std::size_t k = left.visited; k < robot.goal_count(); ++k) {
     core::Goal goal = robot.goal_at(k);
     goal.not_before = std::max(0.0, goal.not_before - at);
@@ -60,7 +73,7 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
     left.radius = *std::exchange(last.radius_after, std::nullopt);
   }
   core::Goal& next = left.goals.front();
-  next.service = std::max(0.0, next.service - itinerary.service_done);
+  next.service = load ? 0.0 : std::max(0.0, next.service - itinerary.service_done);
   if (next.service <= kSameService) next.service = 0.0;
   return left;
 }
@@ -107,6 +120,16 @@ double horizon(const Actions& actions, const Moment& moment) {
   return until;
 }
 
+/// Ends the commitment before the first action that breaks the rule of a zone.
+void keep_rules(core::Robot& robot, std::size_t index, const std::vector<core::Zone>& all) {
+  core::Robot without_limits = robot;  // so that each zone counts
+  without_limits.linear_speed = without_limits.angular_speed = core::Zone::kNoLimit;
+  const core::DriveZones zones(all, index, without_limits);
+  const auto breaks = [&](const Action& action) { return zones.broken_by(action).has_value(); };
+  const auto first = std::find_if(robot.committed.begin(), robot.committed.end(), breaks);
+  robot.committed.erase(first, robot.committed.end());
+}
+
 }  // namespace
 
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment) {
@@ -149,6 +172,9 @@ std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
   for (std::size_t k = 0; k < robots.size(); ++k) {
     if (stop.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return next;
     next.push_back(advanced(robots[k], executions[k], moment));
+    if (executions[k].measured && !moment.zones.empty()) {
+      keep_rules(next.back(), k, moment.zones);
+    }
   }
   clear_commitments(next, moment.inflation, stop);
   return next;

@@ -9,6 +9,7 @@
 #include "core/model/action.h"
 #include "core/model/moving_obstacle.h"
 #include "core/model/robot.h"
+#include "core/model/zone.h"
 #include "core/runtime/work.h"
 
 namespace fleetplan::api {
@@ -20,6 +21,7 @@ struct Moment {
   double pose_tolerance = 0.1;
   double wait_before_move = 0.0;  // of the request's options
   double inflation = 0.0;         // likewise
+  std::vector<core::Zone> zones = {};
 };
 
 /// What a robot does, and what happened to it.
@@ -36,8 +38,9 @@ struct Execution {
 /// has no previous actions if it has no plan, is elsewhere than planned, or gets other goals.
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment);
 
-/// All of them. Committed actions end where they touch another robot that is committed or stands at the end
-/// of its commitment: see clear_commitments.
+/// All of them. Where a measured robot would break the rule of a zone if it went on, its commitment ends
+/// before the action. Committed actions end where they touch another robot that is committed or stands at the
+/// end of its commitment: see clear_commitments.
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
                                   core::Work& stop);

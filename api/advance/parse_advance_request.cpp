@@ -70,6 +70,14 @@ void parse_events(const JsonReader& root, const RobotNames& names, const Limits&
   });
 }
 
+std::vector<core::Zone> in_world(std::vector<core::Zone> zones, const WorldFrame& frame) {
+  // Bounded: each corner once.
+  for (core::Zone& zone : zones) {
+    for (core::Position& corner : zone.polygon) corner = frame.to_world(corner);
+  }
+  return zones;
+}
+
 }  // namespace
 
 std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
@@ -95,6 +103,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
     read.executions[plan.robot].planned = true;
   }
   if (!read.request || root.fault_count() > 0 || stop.met()) return std::nullopt;
+  if (fleet.map) read.moment.zones = in_world(fleet.zones, fleet.map->frame);
   std::size_t corners = fleet.zones.size();
   for (const core::Zone& zone : fleet.zones) corners += zone.polygon.size();
   UniqueIds unique_ids;

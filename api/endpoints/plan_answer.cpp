@@ -143,7 +143,7 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   std::optional<core::VerifyReport> report;
   if (any_moves && plan.meetings_known) report = check(plan, check_stop(stop).despite_memory());
   core::Plan less;
-  const bool is_whole = report || !any_moves;
+  const bool is_whole = report || (!any_moves && plan.meetings_known);
   const core::StopCondition last = last_stop(stages, stop);
   if (!is_whole) less = without_moves(plan, request.problem, last);
   const core::Plan& answered = is_whole ? plan : less;

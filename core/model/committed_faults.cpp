@@ -38,7 +38,10 @@ std::vector<Disk> certain_motion(const Robot& robot) {
     }
   } else if (robot.committed_until() > 0.0) {
     const double largest = largest_radius(robot);
-    for (const TimedSegment& segment : committed_segments(robot, itinerary_of(robot))) {
+    const Itinerary itinerary = itinerary_of(robot);
+    std::vector<TimedSegment> segments = committed_segments(robot, itinerary);
+    if (const auto growth = growth_at_end(robot, itinerary)) segments.push_back(*growth);
+    for (const TimedSegment& segment : segments) {
       motion.push_back({MovingDisk(segment), largest - segment.narrower});
     }
   }
@@ -78,7 +81,9 @@ std::optional<Collision> collision_after_leaving(const std::vector<Disk>& a, con
     const double end = std::min(mine.t_end, theirs.t_end);
     const auto near = overlap(mine, theirs, reach);
     clear = clear || !near || near->end < end;  // the distance is convex within a segment
-    (mine.t_end <= theirs.t_end ? i : j) += 1;
+    const bool mine_is_over =
+        mine.t_end < theirs.t_end || (mine.t_end == theirs.t_end && (i + 1 < a.size() || j + 1 == b.size()));
+    (mine_is_over ? i : j) += 1;
   }
   return std::nullopt;
 }

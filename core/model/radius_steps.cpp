@@ -90,4 +90,16 @@ std::vector<TimedSegment> committed_segments(const Robot& robot, const Itinerary
   return with_radii(std::move(segments), robot, radius_steps(robot, itinerary.visited));
 }
 
+std::optional<TimedSegment> growth_at_end(const Robot& robot, const Itinerary& itinerary) {
+  double before = robot.radius;
+  double after = robot.radius;
+  for (const RadiusStep& step : radius_steps(robot, itinerary.visited)) {
+    after = step.radius;
+    if (step.t < itinerary.t_begin - kRounding) before = after;
+  }
+  if (after <= before) return std::nullopt;
+  const Position& place = itinerary.pose.position;
+  return TimedSegment{{place, place}, itinerary.t_begin, itinerary.t_begin, largest_radius(robot) - after};
+}
+
 }  // namespace fleetplan::core

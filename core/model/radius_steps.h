@@ -2,6 +2,7 @@
 
 // The radius of a robot that picks loads up or puts them down at its goals (Goal::radius_after).
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,10 @@ std::vector<RadiusStep> radius_steps(const Robot& robot, std::span<const Visit> 
 
 /// The committed motion of a robot, waits included, from t = 0 to its end; see with_radii.
 std::vector<TimedSegment> committed_segments(const Robot& robot, const Itinerary& itinerary);
+
+/// The instant at which the committed motion ends, if the robot has a larger radius from then on: then it
+/// certainly has it, however soon it leaves.
+std::optional<TimedSegment> growth_at_end(const Robot& robot, const Itinerary& itinerary);
 
 /// Contiguous segments from t = 0 with TimedSegment::narrower set; a rest is divided where the radius
 /// changes.

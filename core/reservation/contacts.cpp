@@ -24,6 +24,7 @@ struct Contacts::Point {
   double radius;
   double rounding;
   double inflation;
+  bool grows = false;
 };
 
 Contacts::Contacts(std::vector<Endpoints> robots)
@@ -32,7 +33,8 @@ Contacts::Contacts(std::vector<Endpoints> robots)
   double largest = 0.0;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const Endpoints& robot = robots_[i];
-    points.push_back({robot.start, i, Endpoint::start, robot.radius, robot.start_rounding, robot.inflation});
+    points.push_back({robot.start, i, Endpoint::start, robot.radius, robot.start_rounding, robot.inflation,
+                      robot.grows_at_start});
     if (robot.goal)
       points.push_back({*robot.goal, i, Endpoint::goal, robot.radius + robot.growth, robot.goal_rounding,
                         robot.inflation});
@@ -60,6 +62,7 @@ void Contacts::compare(const Point& a, const Point& b) {
   if (a.endpoint == Endpoint::start && b.endpoint == Endpoint::start) {
     const double bare = sum - a.inflation - b.inflation;
     const bool overlapping = distance < bare - kContactTolerance - 4.0 * kSamePosition;
+    if (overlapping && (a.grows || b.grows)) return;
     add(a.robot, {b.robot, kept, kForever, overlapping});
     add(b.robot, {a.robot, kept, kForever, overlapping});
   } else if (distance >= sum - kContactTolerance - 4.0 * kSamePosition) {

@@ -28,6 +28,8 @@ struct Endpoints {
   double growth = 0.0;
   double narrower_at_start = 0.0;
   double narrower_at_goal = 0.0;
+  /// It becomes larger at the start only, so it has not been so near to any bare disk before.
+  bool grows_at_start = false;
 };
 
 /// Where a robot stands, or moves from or to.

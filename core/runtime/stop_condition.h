@@ -16,8 +16,13 @@ struct StepClock {
 
   std::int64_t steps = 0;
   std::int64_t end = kNever;  // the thread's stop conditions, those by default apart, are met after so many
+  std::int64_t patience = 0;  // steps by which those that outlast the budget are met later
 
-  bool tick() { return ++steps > end; }
+  bool tick(bool outlasts) { return ++steps > end_of(outlasts); }
+  bool is_over(bool outlasts) const { return steps >= end_of(outlasts); }
+
+ private:
+  std::int64_t end_of(bool outlasts) const { return outlasts && end < kNever ? end + patience : end; }
 };
 
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): changed by tests only
@@ -39,7 +44,7 @@ class StopCondition {
 
   bool met() const {
     if (!is_bounded_) return false;
-    return step_clock.tick() || cancelled() || (heeds_memory_ && is_short_of_memory()) ||
+    return step_clock.tick(outlasts_) || cancelled() || (heeds_memory_ && is_short_of_memory()) ||
            Clock::now() >= deadline_;
   }
   /// The same, but not met while the job is short of memory: for the end of a job, which has memory set
@@ -50,12 +55,22 @@ class StopCondition {
     return without;
   }
   /// Met at another time, or when a stop is requested.
-  StopCondition until(Clock::time_point deadline) const { return StopCondition(deadline, stop_); }
+  StopCondition until(Clock::time_point deadline) const {
+    StopCondition other(deadline, stop_);
+    other.outlasts_ = outlasts_ || deadline > deadline_;
+    return other;
+  }
   /// Met at this time only: for the little that is done once a stop was requested.
-  static StopCondition even_if_cancelled(Clock::time_point deadline) { return StopCondition(deadline); }
+  static StopCondition even_if_cancelled(Clock::time_point deadline) {
+    StopCondition other(deadline);
+    other.outlasts_ = true;
+    return other;
+  }
   bool cancelled() const { return stop_.stop_requested(); }
   /// Whether the time is over: cancelled, or after the deadline, whatever else the condition is met for.
-  bool is_over() const { return cancelled() || Clock::now() >= deadline_; }
+  bool is_over() const {
+    return is_bounded_ && (step_clock.is_over(outlasts_) || cancelled() || Clock::now() >= deadline_);
+  }
   Clock::time_point deadline() const { return deadline_; }
   const std::stop_token& stop_token() const { return stop_; }
 
@@ -64,6 +79,7 @@ class StopCondition {
 
   bool is_bounded_ = false;
   bool heeds_memory_ = true;
+  bool outlasts_ = false;  // the budget: for what is done after it
   Clock::time_point deadline_ = Clock::time_point::max();
   std::stop_token stop_;
 };

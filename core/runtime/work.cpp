@@ -27,7 +27,7 @@ void Work::end_reading() {
 bool Work::look() {
   amount_ = 0;
   if (!is_bounded_) return false;
-  met_ = met_ || step_clock.tick() || cancelled() || (cpu_end_ && bounds_.cpu_clock() >= *cpu_end_) ||
+  met_ = met_ || step_clock.tick(false) || cancelled() || (cpu_end_ && bounds_.cpu_clock() >= *cpu_end_) ||
          Clock::now() >= deadline_;
   return met_;
 }

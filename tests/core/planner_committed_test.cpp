@@ -79,6 +79,31 @@ void expect_in_the_way(const Plan& plan, std::size_t robot, const Robots& blocke
   EXPECT_EQ(entry->blocked_by, blocked_by);
 }
 
+TEST(PlannerCommitted, ALoadPickedUpWhereACommitmentEndsMeetsARobotThatCannotLeaveInTime) {
+  Robot loading = robot_at(1.5, 4.5).to(8.5, 4.5).drives(4.5, 4.5);
+  loading.via = {Goal{{4.5, 4.5}, {}, 0.0, 0.0, 1.2}};
+  const Robot slow = robot_at(4.5, 5.9).speeds(0.01, 0.01).to(4.5, 8.5);
+  const Problem problem = support::make_problem(OccupancyGrid(10, 10, 1.0), {loading, slow});
+  const Plan plan = checked_plan(problem, in_motion());
+  ASSERT_EQ(plan.unavoidable.size(), 1u);
+  EXPECT_EQ(plan.unavoidable[0].robot, 1u);
+  EXPECT_EQ(plan.unavoidable[0].other, 0u);
+  EXPECT_NEAR(plan.unavoidable[0].t, 3.0, 1e-9);
+  ASSERT_FALSE(plan.unplanned.empty());
+  EXPECT_EQ(plan.unplanned.back().reason, Reason::committed_in_the_way);
+}
+
+TEST(PlannerCommitted, AnObstacleMayPassWhereALoadIsPickedUpForCertain) {
+  Robot loading = robot_at(1.5, 4.5).to(8.5, 4.5).drives(4.5, 4.5);
+  loading.via = {Goal{{4.5, 4.5}, {}, 0.0, 0.0, 1.2}};
+  ProblemConditions conditions;
+  conditions.obstacles = {person({{0.0, {4.5, 5.9}}, {60.0, {4.5, 5.9}}})};
+  const Problem problem = support::make_problem(OccupancyGrid(10, 10, 1.0), {loading}, std::move(conditions));
+  const Plan plan = checked_plan(problem, in_motion());
+  ASSERT_EQ(plan.unavoidable.size(), 1u);
+  EXPECT_NEAR(plan.unavoidable[0].t, 3.0, 1e-9);
+}
+
 TEST(PlannerCommitted, ARobotLeavesInTimeFromWhereCommittedMotionPasses) {
   const Problem problem = support::make_problem(
       support::ascii_map({".........",  //

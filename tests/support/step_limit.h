@@ -6,11 +6,15 @@
 
 namespace fleetplan::support {
 
-/// While it lives, this thread's stop conditions, those by default apart, are met after so many questions.
+/// While it lives, this thread's stop conditions, those by default apart, are met after so many questions;
+/// those that outlast the budget, which decide about the answer, after `patience` more.
 class StepLimit {
  public:
-  explicit StepLimit(std::int64_t steps = core::StepClock::kNever) : limit_(steps) {
-    core::step_clock = {0, steps};
+  explicit StepLimit(std::int64_t steps = core::StepClock::kNever, std::int64_t patience = 0)
+      : limit_(steps) {
+    core::step_clock = {};
+    core::step_clock.end = steps;
+    core::step_clock.patience = patience;
   }
   ~StepLimit() { core::step_clock = {}; }
   StepLimit(const StepLimit&) = delete;

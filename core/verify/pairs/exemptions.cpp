@@ -19,14 +19,16 @@ constexpr double kTouching = 2.0 * kMostTolerance;
 /// Seconds. The time of a meeting went through decimal text.
 constexpr double kTextRounding = 1e-6;
 
-/// The position of the robot at `t`.
-std::optional<std::size_t> position_of(const ExecutedFleet& fleet, std::size_t robot, double t) {
+/// The positions of the robot at `t`, ascending: where its radius changes then, both.
+std::vector<std::size_t> positions_at(const ExecutedFleet& fleet, std::size_t robot, double t) {
+  std::vector<std::size_t> positions;
   const auto found = std::lower_bound(fleet.robots.begin(), fleet.robots.end(), robot);
-  if (found == fleet.robots.end() || *found != robot) return std::nullopt;
   auto position = static_cast<std::size_t>(found - fleet.robots.begin());
-  while (fleet.end_of(position) < t && position + 1 < fleet.size() && fleet.robots[position + 1] == robot)
-    ++position;
-  return position;
+  for (; position < fleet.size() && fleet.robots[position] == robot; ++position) {
+    const bool has_begun = fleet.begin_of(position) <= t + kTextRounding;
+    if (has_begun && fleet.end_of(position) >= t - kTextRounding) positions.push_back(position);
+  }
+  return positions;
 }
 
 /// Whether an overlap until `t` goes on at the next position of the same robot.
@@ -52,15 +54,22 @@ Exemptions::Exemptions(const std::vector<Meeting>& meetings, const ExecutedFleet
   std::vector<std::size_t> listed(fleet.size(), 0);
   for (const Meeting& meeting : meetings) {
     if (stop.met()) return;
-    const auto one = position_of(fleet, meeting.robot, meeting.t);
-    if (!one || !is_certain(*one, meeting.t)) continue;
-    count(*one, meeting.t, listed);
-    if (meeting.obstacle && *meeting.obstacle < obstacles.size()) {
-      add_obstacle(*one, *meeting.obstacle, meeting.t);
+    const std::vector<std::size_t> ones = positions_at(fleet, meeting.robot, meeting.t);
+    if (ones.empty() || !is_certain(ones.front(), meeting.t)) continue;
+    count(ones.front(), meeting.t, listed);
+    for (const std::size_t one : ones) {
+      if (meeting.obstacle && *meeting.obstacle < obstacles.size()) {
+        add_obstacle(one, *meeting.obstacle, std::max(meeting.t, fleet.begin_of(one)));
+      }
+      if (meeting.other && *meeting.other != meeting.robot) add_meeting(one, *meeting.other, meeting.t);
     }
-    const auto other = meeting.other ? position_of(fleet, *meeting.other, meeting.t) : std::nullopt;
-    if (!other || fleet.same_robot(*one, *other) || !is_certain(*other, meeting.t)) continue;
-    add_robots(*one, *other, meeting.t);
+  }
+}
+
+void Exemptions::add_meeting(std::size_t one, std::size_t other_robot, double t) {
+  for (const std::size_t other : positions_at(fleet_, other_robot, t)) {
+    if (!is_certain(other, t)) continue;
+    add_robots(one, other, std::max({t, fleet_.begin_of(one), fleet_.begin_of(other)}));
   }
 }
 

@@ -47,6 +47,7 @@ class Exemptions {
   };
   void count(std::size_t position, double t, std::vector<std::size_t>& meetings);
   bool is_certain(std::size_t position, double t) const;
+  void add_meeting(std::size_t one, std::size_t other_robot, double t);
   void add_obstacle(std::size_t position, std::size_t obstacle, double t);
   void add_robots(std::size_t one, std::size_t other, double t);
 

@@ -4,6 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/geometry/tolerance.h"
+#include "core/verify/pairs/common_pieces.h"
 #include "core/verify/pairs/pair_distance.h"
 
 namespace fleetplan::core {
@@ -24,10 +26,16 @@ std::vector<Leg> committed_legs(const std::vector<Leg>& legs, double until) {
   return kept;
 }
 
+/// Of bodies that both begin before `until`, or then: a robot that grows where its commitment ends.
 double least_of_commitments(const ExecutedFleet& fleet, const Overlap& overlap, double until) {
   const auto& a = fleet.legs[overlap.first];
   const auto& b = fleet.legs[overlap.second];
-  if (until <= 0.0) return (a.front().from - b.front().from).norm();
+  const double begin = std::max(a.front().t_begin, b.front().t_begin);
+  if (until <= begin) {
+    const Position apart =
+        position_at(*first_leg_until(a, begin), begin) - position_at(*first_leg_until(b, begin), begin);
+    return apart.norm();
+  }
   return least_distance(committed_legs(a, fleet.departures[overlap.first].committed_until),
                         committed_legs(b, fleet.departures[overlap.second].committed_until), {0.0, until});
 }
@@ -42,7 +50,8 @@ std::optional<double> leaves_overlap(const ExecutedFleet& fleet, const Overlap& 
   const double kept = fleet.kept_distance(overlap.first, overlap.second, rules.inflation);
   if (kept <= bare && rules.start_overlap <= 0.0) return std::nullopt;
   // One that has got another radius since its plan began has no right to be so near.
-  if (fleet.begin_of(overlap.first) > a.committed_until || fleet.begin_of(overlap.second) > b.committed_until)
+  if (fleet.begin_of(overlap.first) > a.committed_until + kSameTime ||
+      fleet.begin_of(overlap.second) > b.committed_until + kSameTime)
     return std::nullopt;
   const double tolerance = std::max(fleet.tolerances[overlap.first], fleet.tolerances[overlap.second]);
   const double moved = std::min(a.first_move_ends, b.first_move_ends);
@@ -55,7 +64,7 @@ std::optional<double> leaves_overlap(const ExecutedFleet& fleet, const Overlap& 
     return allowed && overlap.distance >= at_start - tolerance ? std::optional(until) : std::nullopt;
   }
   const double certain = std::max(a.committed_until, b.committed_until);
-  const bool begins_so = overlap.t_begin <= certain;
+  const bool begins_so = overlap.t_begin <= certain + kSameTime;
   const bool first_moves = overlap.t_begin <= moved && overlap.t_end <= moved;
   if (!begins_so && !first_moves) return std::nullopt;
   const double least = least_of_commitments(fleet, overlap, certain);

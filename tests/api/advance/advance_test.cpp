@@ -360,5 +360,16 @@ TEST(AdvancedObstacle, VanishesOrStays) {
   EXPECT_EQ(stays->motion[0].position.y(), 3.0);
 }
 
+TEST(Advance, ARobotWithoutAPlanThatIsServedWhereItStandsDoesNotGrow) {
+  core::Robot waiting = robot();
+  waiting.via[0].position = waiting.start.position;
+  waiting.via[0].radius_after = 0.9;
+  const core::Robot next = advanced(waiting, {{}, false}, moment(6.0));
+  EXPECT_EQ(next.radius, waiting.radius);
+  EXPECT_EQ(next.goal_count(), 2U);
+  EXPECT_EQ(next.via[0].service, 0.0);
+  EXPECT_EQ(next.via[0].radius_after, 0.9);
+}
+
 }  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -136,5 +136,32 @@ TEST(AdvanceEndpoint, ARequestThatNeedsTooMuchMemoryIsRefused) {
   EXPECT_EQ(json_of(reply)["code"], "memory_exceeded");
 }
 
+/// A robot drives along a corridor with a zone in it, and is measured in the zone.
+Json measured_in(const Json& zone, const Json& pose) {
+  Json request = Json::parse(R"({
+    "map": {"rows": ["........", "........", "........"], "origin": {"x": 10, "y": 0}},
+    "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 3.0},
+    "robots": [{"id": "a", "start": {"x": 10.5, "y": 1.5}, "goal": {"x": 17.5, "y": 1.5}}]})");
+  request["zones"] = {zone};
+  request["zones"][0]["polygon"] =
+      Json::parse(R"([{"x": 12, "y": 0}, {"x": 14, "y": 0}, {"x": 14, "y": 3}, {"x": 12, "y": 3}])");
+  Json body = advance_request(request, 5.9);
+  body["poses"] = {pose};
+  return advanced_json(body);
+}
+
+TEST(AdvanceEndpoint, NoCommitmentOfAMeasuredRobotBreaksTheRuleOfAZone) {
+  const Json slow{{"id", "slow"}, {"type", "speed"}, {"linear_speed", 0.5}};
+  const Json one_way{{"id", "one"}, {"type", "one_way"}, {"heading", 0.0}, {"half_angle", 0.001}};
+  for (const Json& next :
+       {measured_in(slow, {{"robot", "a"}, {"x", 13.95}, {"y", 1.5}, {"theta", 0.0}}),
+        measured_in(one_way, {{"robot", "a"}, {"x", 13.0}, {"y", 1.55}, {"theta", 0.0}})}) {
+    EXPECT_FALSE(next["robots"][0].contains("committed")) << next;
+    EXPECT_EQ(plan_endpoint(next.dump(), {}).status, 200);
+  }
+  const Json slower = measured_in(slow, {{"robot", "a"}, {"x", 13.0}, {"y", 1.5}, {"theta", 0.0}});
+  EXPECT_TRUE(slower["robots"][0].contains("committed")) << slower;
+}
+
 }  // namespace TEST_FILE
 }  // namespace fleetplan::api

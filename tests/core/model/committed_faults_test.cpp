@@ -75,6 +75,21 @@ TEST(CommittedFaults, ContactIsAllowed) {
   EXPECT_TRUE(faults_of({robot_at(0.5, 0.5).to(9.5, 4.5).drives(8.5, 0.5), robot_at(4.5, 1.3)}).empty());
 }
 
+TEST(CommittedFaults, ALoadThatIsPickedUpWhereACommitmentEnds) {
+  const auto loads_at = [](Robot robot, double x, double y) {
+    robot.via = {Goal{{x, y}, {}, 0.0, 0.0, 0.45}};
+    return robot;
+  };
+  const Robot loading = loads_at(robot_at(1.5, 0.5).to(9.5, 4.5).drives(4.5, 0.5), 4.5, 0.5);
+  expect_collision(faults_of({loading, robot_at(4.5, 1.32)}), 0, 1, 3.0, -0.03);
+  EXPECT_TRUE(faults_of({loading, robot_at(4.5, 1.36)}).empty()) << "there is room for the load";
+  const Robot leaving = robot_at(4.5, 1.32).to(0.5, 3.5).waits(2.5);
+  EXPECT_TRUE(faults_of({loading, leaving}).empty()) << "it may leave before";
+  expect_collision(faults_of({loading, robot_at(4.5, 1.32).to(0.5, 3.5).waits(3.5)}), 1, 0, 3.0, -0.03);
+  const Robot both = loads_at(robot_at(4.5, 1.36).to(0.5, 3.5).waits(3.0), 4.5, 1.36);
+  expect_collision(faults_of({loading, both}), 1, 0, 3.0, -0.04);
+}
+
 TEST(CommittedFaults, AMotionIntoAWallOrOffTheMap) {
   expect_collision(faults_of({robot_at(2.5, 2.5).to(9.5, 4.5).drives(8.5, 2.5)}), 0, 0, 3.1, -0.4);
   const auto off = faults_of({robot_at(7.5, 0.5).to(9.5, 4.5).drives(9.9, 0.5)});

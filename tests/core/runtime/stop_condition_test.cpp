@@ -40,5 +40,23 @@ TEST(StopCondition, IsMetAfterTheStepsOfATest) {
   EXPECT_FALSE(stop.met());
 }
 
+TEST(StopCondition, IsMetLaterByStepsIfItOutlastsTheBudget) {
+  const Clock::time_point end = Clock::now() + std::chrono::hours(1);
+  const StopCondition stop(end);
+  const StopCondition check = stop.until(end + std::chrono::hours(1));
+  step_clock = {0, 1, 2};
+  EXPECT_FALSE(stop.is_over());
+  EXPECT_FALSE(stop.met());
+  EXPECT_TRUE(stop.is_over());
+  EXPECT_TRUE(stop.met());
+  EXPECT_TRUE(stop.until(end - std::chrono::minutes(1)).is_over());
+  EXPECT_FALSE(check.is_over());
+  EXPECT_FALSE(check.met());
+  EXPECT_TRUE(check.met());
+  EXPECT_TRUE(StopCondition::even_if_cancelled(end).met());
+  step_clock = {};
+  EXPECT_FALSE(check.met());
+}
+
 }  // namespace TEST_FILE
 }  // namespace fleetplan::core

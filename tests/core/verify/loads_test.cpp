@@ -83,6 +83,24 @@ TEST(LoadRules, TheLastGoalChangesTheRadiusForGood) {
   EXPECT_DOUBLE_EQ(violations[0].t_begin.value_or(0.0), 8.0);
 }
 
+TEST(LoadRules, ALoadPickedUpWhereACommitmentEndsMayBeWithinTheInflation) {
+  const auto kinds_beside = [](double y) {
+    Scene scene;
+    Robot robot = robot_at(2, 10);
+    robot.via = {load(8, 10, 0.0, 1.0)};
+    robot.goal = Goal{Position(18, 10), std::nullopt};
+    robot.committed = PlanBuilder(0, robot).translate_to(8, 10).build().actions;
+    Robot other = robot_at(8, y);
+    other.goal = Goal{Position(8, 18), std::nullopt};
+    scene.stand(robot).stand(other);
+    CheckRules rules;
+    rules.inflation = 0.1;
+    return kinds_of(scene.violations(rules));
+  };
+  EXPECT_THAT(kinds_beside(11.6), IsEmpty());
+  EXPECT_THAT(kinds_beside(11.4), ElementsAre(Kind::robot_collision)) << "the disks overlap";
+}
+
 TEST(LoadRules, ARobotAloneHasNoClearance) {
   EXPECT_EQ(carrying(1.0).check().min_clearance, std::nullopt) << "its own disks are no pair";
 }
