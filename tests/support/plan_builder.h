@@ -16,7 +16,8 @@ namespace fleetplan::support {
 /// `drive_to` adds the rotation that it needs.
 class PlanBuilder {
  public:
-  PlanBuilder(std::size_t index, const core::Robot& robot) : robot_(robot), pose_(robot.start) {
+  PlanBuilder(std::size_t index, const core::Robot& robot)
+      : linear_speed_(robot.linear_speed), angular_speed_(robot.angular_speed), pose_(robot.start) {
     plan_.robot = index;
   }
 
@@ -25,7 +26,7 @@ class PlanBuilder {
     core::Pose to = pose_;
     to.theta = core::normalize_angle(theta);
     const double angle = std::abs(core::rotation_between(pose_.theta, to.theta));
-    return add(core::Action::Type::rotate, angle / robot_.angular_speed, to);
+    return add(core::Action::Type::rotate, angle / angular_speed_, to);
   }
 
   /// Translates to a point without rotating, at `speed` (m/s), or at the robot's full speed if it is 0.
@@ -33,7 +34,7 @@ class PlanBuilder {
     core::Pose to = pose_;
     to.position = core::Position(x, y);
     const double length = (to.position - pose_.position).norm();
-    return add(core::Action::Type::translate, length / (speed > 0.0 ? speed : robot_.linear_speed), to);
+    return add(core::Action::Type::translate, length / (speed > 0.0 ? speed : linear_speed_), to);
   }
 
   /// Rotates towards a point if necessary and translates there.
@@ -61,7 +62,8 @@ class PlanBuilder {
     return *this;
   }
 
-  core::Robot robot_;
+  double linear_speed_;
+  double angular_speed_;
   core::Pose pose_;
   double now_ = 0.0;
   core::RobotPlan plan_;
