@@ -204,6 +204,15 @@ class Examples(DocumentTest):
                 self.assertEqual(done.returncode, 0, block + done.stderr)
                 self.assertNotEqual(done.stdout, "", block)
 
+    def test_the_program_answers_from_a_file(self):
+        (block,) = [block for block in blocks("README.md", "sh") if "fleetplan plan" in block]
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "tests").symlink_to(PROJECT / "tests")
+            command = block.replace("build/serve/server/fleetplan", str(pathlib.Path(BINARY).resolve()))
+            subprocess.run(["bash", "-euo", "pipefail", "-c", command], cwd=folder, check=True)
+            self.assertEqual(json.loads((pathlib.Path(folder) / "plan.json").read_text())["status"], "solved")
+            self.assertTrue((pathlib.Path(folder) / "warehouse.svg").read_text().startswith("<svg "))
+
     def test_the_events_have_the_names_that_are_shown(self):
         names = {variant["properties"]["event"]["const"] for variant in self.schema("PlanEvent")["oneOf"]}
         self.assertEqual({code(row[0])[0] for row in table("docs/api.md", ["`event`"])}, names)
