@@ -202,6 +202,7 @@ class MeetingSearch {
   /// Compares the pieces that begin before `t`. Returns false if the stop condition is met.
   bool compare_until(double t) {
     std::vector<MotionTree::Disk> disks;
+    disks.reserve(certain_.size());
     for (const Certain& part : certain_) disks.push_back({part.disk, part.radius});
     // Invalid robots may stand beside the map.
     const MotionTree tree(std::move(disks), {problem_.grid().width(), problem_.grid().height(), kForever},

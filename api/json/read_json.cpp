@@ -243,7 +243,7 @@ JsonError error_of(const Builder& builder, std::string_view body, int max_depth)
 
 }  // namespace
 
-Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, core::Work& stop) {
+Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, core::Work& work) {
   if (body.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     return JsonError{JsonError::Kind::malformed, "The body is empty; send the request as a JSON object."};
   }
@@ -256,28 +256,28 @@ Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, 
   }
   const JsonError unfinished{JsonError::Kind::unfinished, ""};
   const auto finished = [&](JsonTape tape) -> Result<JsonDocument, JsonError> {
-    JsonDocument document{std::move(tape), {}, &stop};
+    JsonDocument document{std::move(tape), {}, &work};
     report_duplicate_keys(document);
-    if (stop.met()) return unfinished;
+    if (work.met()) return unfinished;
     return document;
   };
-  if (auto tape = parse_valid_json(body, static_cast<std::size_t>(max_depth), kMostValues, stop)) {
+  if (auto tape = parse_valid_json(body, static_cast<std::size_t>(max_depth), kMostValues, work)) {
     return finished(std::move(*tape));
   }
-  if (stop.met()) return unfinished;
+  if (work.met()) return unfinished;
 
   // The general parser takes several times as long, and finds what is wrong.
-  Input input(body, stop);
+  Input input(body, work);
   Builder builder(body, input, max_depth, {});
   if (nlohmann::json::sax_parse(input.begin(), input.end(), &builder)) return finished(builder.take());
-  if (stop.met()) return unfinished;
+  if (work.met()) return unfinished;
   if (!builder.overflowed()) return error_of(builder, body, max_depth);
 
-  Tamed tamed = tame_overflowing(body, stop);
-  Input tame_input(tamed.body, stop);
+  Tamed tamed = tame_overflowing(body, work);
+  Input tame_input(tamed.body, work);
   Builder again(body, tame_input, max_depth, std::move(tamed.overflowing));
   if (nlohmann::json::sax_parse(tame_input.begin(), tame_input.end(), &again)) return finished(again.take());
-  if (stop.met()) return unfinished;
+  if (work.met()) return unfinished;
   return error_of(again, body, max_depth);
 }
 

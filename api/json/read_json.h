@@ -17,7 +17,7 @@ namespace fleetplan::api {
 struct JsonDocument {
   JsonTape tape;
   FaultList faults;
-  core::Work* work;  // that is done when the document is read
+  core::Work* work = nullptr;  // that is done when the document is read
 
   JsonValue root() const { return tape.root(); }
 };

@@ -47,6 +47,7 @@ std::optional<std::string> write_orders(const VdaRequest& request, core::Work& s
   constexpr std::size_t kWorkOfANode = 1024;
   const std::vector<Route>& routes = request.routes;
   std::vector<core::ActionPlace> reached;
+  reached.reserve(request.progress.size());
   for (const OrderProgress& progress : request.progress) reached.push_back(progress.at);
   const auto released = released_nodes(routes, request.dependencies, reached);
   bool all_released = true;
