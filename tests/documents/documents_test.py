@@ -205,7 +205,7 @@ class Examples(DocumentTest):
                 self.assertNotEqual(done.stdout, "", block)
 
     def test_the_program_answers_from_a_file(self):
-        (block,) = [block for block in blocks("README.md", "sh") if "fleetplan plan" in block]
+        (block,) = blocks("docs/command_line.md", "sh")
         with tempfile.TemporaryDirectory() as folder:
             (pathlib.Path(folder) / "tests").symlink_to(PROJECT / "tests")
             command = block.replace("build/serve/server/fleetplan", str(pathlib.Path(BINARY).resolve()))
