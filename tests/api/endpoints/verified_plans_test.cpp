@@ -30,7 +30,7 @@ T one_of(Dice& dice, const std::vector<T>& values) {
 }
 
 /// Up to five robots of any speeds on a small map of any scale, anywhere in the world.
-Json random_request(Dice& dice) {
+Json random_small_request(Dice& dice) {
   const double resolution = one_of(dice, std::vector<double>{0.001, 0.05, 0.5, 1.0, 1e3, 1e5});
   const double x = one_of(dice, std::vector<double>{0.0, -7.5, 691'234.567, 9e8});
   const double y = one_of(dice, std::vector<double>{0.0, 5'334'999.789, -9e8});
@@ -71,7 +71,7 @@ class VerifiedPlans : public testing::TestWithParam<int> {};
 TEST_P(VerifiedPlans, AreValidAtTheDefaultTolerance) {
   Dice dice(static_cast<std::uint64_t>(GetParam()));
   for (int k = 0; k < 10;) {
-    Json request = random_request(dice);
+    Json request = random_small_request(dice);
     if (!brief_faults_of(request).empty()) continue;  // starts in walls or on each other
     ++k;
     SCOPED_TRACE(request.dump());
