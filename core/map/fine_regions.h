@@ -35,7 +35,7 @@ class FineRegions {
   FineRegions(const FineNodes& nodes, const Lattice& lattice, double radius, const LineOfSight& sight);
 
   /// False if the stop condition was met first.
-  bool find(const StopCondition& stop);
+  bool find(const StopCondition& condition);
 
   /// Additional vertices; their ids follow those of the lattice.
   const std::vector<Position>& added() const { return added_; }

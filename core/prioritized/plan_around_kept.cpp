@@ -153,6 +153,7 @@ class PlanningAroundKept {
   void explain_best() {
     if (return_to(state_, best_, end_) && !time_.all.met()) {
       std::vector<std::size_t> staying;
+      staying.reserve(best_.plan.staying.size());
       for (const SafePlan::Staying& robot : best_.plan.staying) staying.push_back(robot.robot);
       SafePlan more = make_safe(state_, {}, staying, Effort::full, time_.all, progress_);
       result_.cut_off = result_.cut_off || more.cut_off;

@@ -120,6 +120,7 @@ class Repair {
   /// By priority.
   std::vector<std::size_t> unsolved() const {
     std::vector<std::size_t> robots;
+    robots.reserve(pending_.size());
     for (const auto& [rank, robot] : pending_) robots.push_back(robot);
     return robots;
   }

@@ -78,6 +78,7 @@ class MarginSweep {
     }
     if (stopped_) return std::nullopt;
     std::vector<ShiftedOverlap> overlaps;
+    overlaps.reserve(deepest_.size());
     for (const auto& [pair, overlap] : deepest_) overlaps.push_back(overlap);
     return overlaps;
   }
