@@ -45,6 +45,7 @@ class Picture {
     text_ << "\"/>\n";
   }
 
+  /// Bounded: one pass over the corners of all zones.
   void add_zones() {
     for (const core::Zone& zone : problem_.zones()) {
       const bool is_blocked = zone.type == core::Zone::Type::blocked;
