@@ -94,11 +94,18 @@ class ProgressReader {
     OrderProgress progress;
     progress.at = read_point(json, robot);
     const JsonReader order_id = json.find("order_id");
-    if (!order_id || order_id.is_null()) return progress;
+    const bool has_order = order_id && !order_id.is_null();
+    const auto read_order = [&](std::string_view key) {
+      return has_order ? json.require(key) : json.find(key);
+    };
+    const JsonReader update = read_order("order_update_id");
+    const JsonReader last = read_order("last_released_sequence_id");
+    const auto update_id = update.natural(kMostUpdates);
+    const auto last_released = last.natural(kMostUpdates);
+    if (!has_order) return progress;
     progress.order_id = order_id.name();
-    progress.update_id = json.require("order_update_id").natural(kMostUpdates).value_or(0);
-    const JsonReader last = json.require("last_released_sequence_id");
-    progress.last_released = last.natural(kMostUpdates).value_or(0);
+    progress.update_id = update_id.value_or(0);
+    progress.last_released = last_released.value_or(0);
     const std::size_t nodes = routes_[robot].nodes.size();
     if (progress.last_released % 2 != 0 || progress.last_released >= 2 * nodes) {
       last.fault(fault::kOutOfRange, [&] {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "api/json/fault_text.h"
 #include "api/request/motion/parse_actions.h"
@@ -15,6 +16,9 @@ namespace {
 constexpr double kTolerance = core::kContactTolerance;
 /// Radians: a rotation is not drawn to a vertex, and the check of the answer allows it no more.
 constexpr double kTurnTolerance = core::kSamePosition;
+/// Seconds: what doubles lose in the times of the longest plan. A fast robot turns visibly in that time. The
+/// times of an action may have been as late as that, before /v1/advance made them earlier.
+constexpr double kTimeRounding = std::numeric_limits<double>::epsilon() * core::kLongestPlan;
 
 double distance_between(const core::Pose& a, const core::Pose& b) { return (b.position - a.position).norm(); }
 
@@ -120,7 +124,7 @@ void ActionChain::check_speed(const core::Action& action, const JsonReader& item
   const auto& speed = translates ? linear_speed_ : angular_speed_;
   const char* const unit = translates ? "m" : "rad";
   const bool instant = translates && duration <= 0.0 && amount > 0.0;
-  const double tolerance = translates ? kTolerance : kTurnTolerance;
+  const double tolerance = translates ? kTolerance : kTurnTolerance + speed.value_or(0.0) * kTimeRounding;
   if (instant || (speed && amount > *speed * duration + tolerance)) {
     item.fault(fault::kSpeed, [&] {
       return name() + (translates ? " translates " : " rotates ") + number_text(amount) + " " + unit +

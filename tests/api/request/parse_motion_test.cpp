@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "api/request/parse_request.h"
 #include "tests/api/support/motion_requests.h"
 #include "tests/support/unbounded_work.h"
@@ -57,6 +59,23 @@ TEST(ParseMotion, JoinsActionsWhoseNumbersWereRoundedAndKeepsThoseReceived) {
   ASSERT_NE(received, nullptr);
   EXPECT_EQ(received->t_start, 2.0 + 1e-7);
   EXPECT_EQ(received->to.position.x(), 2.5 + 2e-7);
+}
+
+TEST(ParseMotion, AllowsFastTurnsWhatDoublesLoseInLateTimes) {
+  Json request = moving_request();
+  Json& robot = request["robots"][0];
+  robot["angular_speed"] = 1e6;
+  Json& committed = robot["committed"];
+  // As the service returned them: a quarter turn takes 1.5708e-6 s, and doubles are 1.5e-11 s apart here.
+  const double begin = 73188.19733787222;
+  const double end = 73188.19733944301;
+  committed[1]["t_end"] = begin;
+  committed.push_back(committed[1]);
+  committed[2]["type"] = "rotate";
+  committed[2]["t_start"] = begin;
+  committed[2]["t_end"] = end;
+  committed[2]["to"]["theta"] = committed[2]["from"]["theta"].get<double>() + std::acos(0.0);
+  EXPECT_EQ(parsed(request).problem.robots()[0].committed.at(2).t_end, end);
 }
 
 TEST(ParseMotion, ReadsGoalsInTheirOrder) {

@@ -244,6 +244,14 @@ TEST(Vda5050, RejectsWhatItCannotExport) {
                                             {"/progress/2/robot", "duplicate"},
                                             {"/progress/2/progress", "out_of_range"},
                                             {"/progress/3/last_released_sequence_id", "out_of_range"}}));
+
+  // Of a robot without an order too, the members of one are what the document says.
+  body = valid;
+  body["progress"] = Json::parse(R"([
+    {"robot": "a", "action": 0, "progress": 0, "order_update_id": null},
+    {"robot": "b", "action": 0, "progress": 0, "order_id": null, "last_released_sequence_id": -1}])");
+  EXPECT_EQ(faults_of_export(body), (Faults{{"/progress/0/order_update_id", "wrong_type"},
+                                            {"/progress/1/last_released_sequence_id", "out_of_range"}}));
 }
 
 }  // namespace TEST_FILE

@@ -1,0 +1,225 @@
+// Requests about plans that the service made: to simulate, advance, retime and export them.
+
+import assert from "node:assert/strict";
+import fc from "fast-check";
+
+import { mostly, valuesOfComponent, within } from "./arbitraries.js";
+import { textOf } from "./text.js";
+
+const makespanOf = (plans) =>
+  Math.max(0, ...plans.map(({ actions }) => (actions.length > 0 ? actions.at(-1).t_end : 0)));
+
+/** Where a robot with these actions is at a time, seconds. */
+function poseAt(actions, t) {
+  const under = actions.find(({ t_end }) => t < t_end);
+  if (under === undefined) return actions.at(-1).to;
+  const { t_start, t_end, from, to } = under;
+  const share = (t - t_start) / (t_end - t_start);
+  const between = (axis) => from[axis] + share * (to[axis] - from[axis]);
+  const turn = Math.atan2(Math.sin(to.theta - from.theta), Math.cos(to.theta - from.theta));
+  return { x: between("x"), y: between("y"), theta: from.theta + share * turn };
+}
+
+/** One value for some of the items. */
+function ofSome(items, make) {
+  return fc.tuple(...items.map((item) => fc.option(make(item)))).map((made) => made.filter(Boolean));
+}
+
+/** Some progress of each of some plans with actions. */
+const progressOf = ({ robot, actions }) =>
+  fc.record({
+    robot: fc.constant(robot),
+    action: fc.nat({ max: actions.length - 1 }),
+    progress: mostly(within(0, 1), fc.constantFrom(0, 1)),
+  });
+
+const moving = (plans) => plans.filter(({ actions }) => actions.length > 0);
+
+/** Requests and the service's answers to them, {request, answer}, in which robots move. */
+async function planned(client, requests) {
+  const all = [];
+  for (const request of requests) {
+    const { status, json } = await client.post("/v1/plan", textOf(request));
+    if (status === 200 && moving(json.plans).length > 0) all.push({ request, answer: json });
+  }
+  return all;
+}
+
+/**
+ * Fleets and their plans, {request, answer}: `count` of `requests` that are planned at rest, and then once more in
+ * motion, with committed and previous actions.
+ */
+export async function plannedFleets(client, requests, count, seed) {
+  const first = await planned(client, fc.sample(requests, { numRuns: count, seed }));
+  const inMotion = [];
+  for (const { request, answer } of first) {
+    const at = makespanOf(answer.plans) / 3;
+    const next = await client.post("/v1/advance", textOf({ request, plans: answer.plans, at }));
+    if (next.status === 200) inMotion.push(next.json);
+  }
+  const all = [...first, ...(await planned(client, inMotion))];
+  assert.ok(all.length >= count / 4, "too few fleets can be planned");
+  return all;
+}
+
+/** Arbitraries of requests about the planned fleets, which the service has to accept. */
+export class Executions {
+  #document;
+  #fleets;
+
+  constructor(document, fleets) {
+    this.#document = document;
+    this.#fleets = fc.constantFrom(...fleets);
+  }
+
+  /** Requests to plan, half of them of fleets in motion. */
+  requests() {
+    return this.#fleets.map(({ request }) => request);
+  }
+
+  /** Requests with their plans, as /v1/validate and /v1/dependencies take them. */
+  checks() {
+    const rest = fc.record({ tolerance: within(1e-6, 1e-3) }, { requiredKeys: [], noNullPrototype: true });
+    return this.#fleets.chain((fleet) => rest.map((further) => ({ ...merged(fleet), ...further })));
+  }
+
+  simulations() {
+    const spread = (least, most) =>
+      fc.tuple(within(least, most), within(least, most)).map(([a, b]) => ({
+        min: Math.min(a, b),
+        max: Math.max(a, b),
+      }));
+    const any = valuesOfComponent(this.#document, "Disturbance");
+    const disturbance = fc.record({
+      any,
+      speed: spread(0.3, 1.2),
+      turn: spread(0.3, 1.2),
+      start_delay: spread(0, 3),
+    });
+    const runs = mostly(fc.integer({ min: 1, max: 30 }), fc.integer({ min: 1, max: 100_000 }));
+    return this.#fleets.chain((fleet) => {
+      const policies = ["open_loop", "absorb_waits", "clock_stop"];
+      if (fleet.answer.dependencies) policies.push("dependencies");
+      return fc
+        .record({
+          policy: fc.constantFrom(...policies),
+          max_delay: within(0, 3),
+          disturbance,
+          runs,
+          trace: fc.option(fc.nat()),
+          seed: fc.nat(),
+        })
+        .map(({ disturbance: { any: wild, ...tame }, trace, ...rest }) => ({
+          ...merged(fleet),
+          ...rest,
+          disturbance: { ...wild, ...tame },
+          ...(trace === null ? {} : { trace: trace % rest.runs }),
+        }));
+    });
+  }
+
+  retimings() {
+    return this.#fleets.chain(({ request, answer }) => {
+      const { robots, robot_defaults, options } = request;
+      const paces = fc.record(
+        { speed_factor: mostly(within(0.3, 1.2), within(1e-3, 1e3)), held_s: within(0, 30) },
+        { requiredKeys: [], noNullPrototype: true },
+      );
+      const state = (plan) =>
+        fc.record({ at: progressOf(plan), pace: paces }).map(({ at, pace }) => ({ ...at, ...pace }));
+      return fc.record({
+        robots: fc.constant(robots),
+        robot_defaults: fc.constant(robot_defaults),
+        plans: fc.constant(answer.plans),
+        dependencies: fc.constant(answer.dependencies ?? []),
+        options: fc.constant(options),
+        at: within(0, 1.2 * makespanOf(answer.plans)),
+        states: ofSome(moving(answer.plans), state),
+      });
+    });
+  }
+
+  orders() {
+    const text = fc.string({ minLength: 1, maxLength: 20, unit: "grapheme" });
+    const leaves = ({ actions }) => actions.some(({ type }) => type === "translate");
+    const order = (plan) =>
+      fc.record({
+        order_id: fc.option(text),
+        order_update_id: fc.nat(),
+        last_released_sequence_id: leaves(plan) ? fc.constantFrom(0, 2) : fc.constant(0), // of a node that it has
+      });
+    return this.#fleets.chain(({ request, answer }) => {
+      const { map, robots, robot_defaults, options } = request;
+      const progress = (plan) =>
+        fc
+          .record({ at: progressOf(plan), order: fc.option(order(plan)) })
+          .map(({ at, order: of }) => ({ ...at, ...of }));
+      const ids = robots.map(({ id }) => id);
+      return fc
+        .record({
+          version: fc.constantFrom("2.1.0", "3.0.0"),
+          manufacturer: text,
+          timestamp: fc
+            .date({ min: new Date(0), max: new Date("9999-12-31"), noInvalidDate: true })
+            .map((date) => date.toISOString()),
+          map_id: text,
+          serial_numbers: ofSome(ids, (id) => text.map((serial) => [id, serial])).map(Object.fromEntries),
+          progress: ofSome(moving(answer.plans), progress),
+        })
+        .map((header) => ({
+          ...header,
+          map,
+          robots,
+          robot_defaults,
+          options,
+          plans: answer.plans,
+          dependencies: answer.dependencies ?? [],
+        }));
+    });
+  }
+
+  /**
+   * Later moments of the plans. Robots are late together, by as much, as each on its own may be where another one
+   * has come meanwhile, which is no fault of the service. New goals are those that the robot has had.
+   */
+  moments() {
+    return this.#fleets.chain(({ request, answer }) => {
+      const end = makespanOf(answer.plans);
+      const { robots } = request;
+      const goalsOf = ({ goal, goals }) => goals ?? (goal ? [goal] : []);
+      const keepsRadius = (robot) => goalsOf(robot).every(({ radius_after }) => radius_after === undefined);
+      const again = (robot) => fc.constant({ robot: robot.id, goals: goalsOf(robot) });
+      const hold = ({ id }) => fc.record({ robot: fc.constant(id), until: within(0, 20) });
+      return fc
+        .record({
+          at: within(0, 1.2 * end),
+          late: fc.option(within(0, 2)),
+          rest: fc.record(
+            {
+              commit: within(0, 10),
+              holds: ofSome(robots, hold),
+              goals: ofSome(robots.filter(keepsRadius), again),
+              pose_tolerance: within(1e-6, 0.2),
+            },
+            { requiredKeys: [], noNullPrototype: true },
+          ),
+        })
+        .map(({ at, late, rest }) => ({
+          request,
+          plans: answer.plans,
+          at,
+          ...rest,
+          ...(late === null ? {} : { poses: posesAt(answer.plans, Math.max(0, at - late)) }),
+        }));
+    });
+  }
+}
+
+function posesAt(plans, t) {
+  return moving(plans).map(({ robot, actions }) => ({ robot, ...poseAt(actions, t) }));
+}
+
+/** A complete answer merged into its request. */
+function merged({ request, answer }) {
+  return { ...request, ...answer };
+}
