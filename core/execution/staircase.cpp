@@ -186,13 +186,12 @@ class StaircaseSearch {
 }  // namespace
 
 PassedRegion::PassedRegion(const ConflictRegion& shares, const Part& first, const Part& second)
-    : shares_(shares), first_(first), second_(second) {
+    : shares_(shares), first_(first), second_(second), most_first_(first.begin + first.length) {
   const double least = second_after(-kNever);
   const double most = first_before(kNever);
   is_open_ = least < kNever && most > -kNever;
   // Without the region's own border, that of its stretches, which are exact.
   least_second_ = least < kNever ? std::max(second.begin, least - kRounding) : second.begin;
-  most_first_ = first.begin + first.length;
   if (most > -kNever) most_first_ = std::min(most_first_, most + kRounding);
 }
 

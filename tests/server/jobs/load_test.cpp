@@ -75,7 +75,8 @@ TEST(Load, ParsesAsManyBodiesAtATimeAsThereAreWorkers) {
   service.plan = [&](std::string_view, const api::RequestContext& context) {
     for (int now = ++parsing, before = most; now > before && !most.compare_exchange_weak(before, now);) {
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_TRUE(holds_soon([&most] { return most >= 2; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // in which a third one would begin
     --parsing;
     if (!has_turn(context)) return api::too_busy(context.request_id);
     return api::Reply{200, api::kJson, "{}"};

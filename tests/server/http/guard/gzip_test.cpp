@@ -78,7 +78,7 @@ TEST_F(Gzip, FollowedByAnythingElseIsMalformed) {
 
 TEST_F(Gzip, CodesWhatItDecodes) {
   std::string text;
-  for (int k = 0; k < 60'000; ++k) text += std::to_string(k * k) + ',';
+  for (std::int64_t k = 0; k < 60'000; ++k) text += std::to_string(k * k) + ',';
   for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{64 * 1024}, text.size()}) {
     const auto coded = gzip(text.substr(0, size), core::StopCondition::never());
     ASSERT_TRUE(coded);
