@@ -146,6 +146,10 @@ double Instance::radius_at_start(std::size_t index) const {
   return sight(index).fitting_radius(itineraries_[index].pose.position, least, motion(index).radius);
 }
 
+bool Instance::is_clear_at_start(std::size_t index) const {
+  return radius_at_start(index) >= motion(index).radius - kMostOverlap;
+}
+
 bool Instance::fits_at_start(std::size_t index) const {
   return sight(index).disk_fits(itineraries_[index].pose.position, motion(index).radius);
 }

@@ -70,6 +70,8 @@ class Instance {
   /// No plan of the robot takes so long, seconds.
   double longest_plan(std::size_t index) const;
   bool fits_at_start(std::size_t index) const;
+  /// Whether no wall is nearer than in contact where the robot's plan begins.
+  bool is_clear_at_start(std::size_t index) const;
   /// Whether the robot's disk fits at all goals that are left, or is in contact with a wall.
   bool fits_at_goal(std::size_t index) const;
   /// Shared by all robots for which it is the same.

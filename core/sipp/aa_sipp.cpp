@@ -92,7 +92,7 @@ void Search::expand(LabelId id) {
   const Vertices& view = vertices(stage);
   if (view.any_angle()) offer_goal(id);
   view.for_each_neighbour(place_at(id).vertex, [&](int neighbour) {
-    if (zones_ != nullptr && !view.allow(place_at(id).vertex, neighbour)) return;
+    if (!view.allow(place_at(id).vertex, neighbour)) return;
     const PlaceId target = place_of(neighbour, stage);
     if (state_.places[target].never_safe()) return;
     // A shortcut replaces two moves forwards, or two backwards.

@@ -35,6 +35,7 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stag
       start_pose_(instance.itinerary(robot).pose),
       start_(instance.motion(robot).radius == motion_.radius ? add_start(instance, robot) : -1) {
   if (limit_speeds()) slowest_motion_.angular_speed = zones_->least_angular_speed();
+  if (start_ >= 0 && !instance.is_clear_at_start(robot)) never_entered_ = start_;
   // Committed actions that end in contact with the goal end there: a service goes on, without a move.
   double same = instance.robot(robot).committed.empty() ? kSamePosition : kContactTolerance;
   const std::vector<Goal>& goals = instance.itinerary(robot).goals;

@@ -23,7 +23,7 @@ class OccupancyGrid;
 /// they lie off the lattice; these are linked to every lattice vertex in sight within two cells. A start or
 /// goal that is too near to a wall or to another robot's start is an own vertex, too. At such a vertex the
 /// robot keeps the distance from walls that it has there, and from a start it is linked to vertices that are
-/// far enough away to be clear.
+/// far enough away to be clear. A start that is too near to a wall is left once, and never entered again.
 ///
 /// A robot whose radius changes has one view for each of its radii.
 class Vertices {
@@ -89,12 +89,14 @@ class Vertices {
     return limit_speeds() ? zones_->linear_speed_at(position(vertex)) : motion_.linear_speed;
   }
   bool limit_speeds() const { return zones_ != nullptr && zones_->limit_speeds(); }
-  /// Returns whether the one-way zones allow the straight move.
+  /// Returns whether the straight move does not lead back to a start that is too near to a wall, and one-way
+  /// zones allow it.
   bool allow(int from, int to) const {
+    if (to == never_entered_ && from != to) return false;
     return zones_ == nullptr || zones_->allow(position(from), position(to));
   }
 
-  /// Returns whether obstacles and one-way zones leave the straight line between two vertices free for the
+  /// Returns whether obstacles, one-way zones and a start that is never entered leave the straight line between two vertices free for the
   /// robot (paper, "Estimating the feasibility of the move w.r.t. static obstacles").
   bool in_sight(int from, int to) const { return is_free(from, to) && allow(from, to); }
 
@@ -157,6 +159,7 @@ class Vertices {
   Pose start_pose_;
   std::vector<OwnVertex> own_;
   int start_ = -1;
+  int never_entered_ = -1;  // the start, if it is too near to a wall
   std::vector<GoalPose> goals_;
   bool finished_ = true;
 };
