@@ -96,8 +96,8 @@ class Vertices {
     return zones_ == nullptr || zones_->allow(position(from), position(to));
   }
 
-  /// Returns whether obstacles, one-way zones and a start that is never entered leave the straight line between two vertices free for the
-  /// robot (paper, "Estimating the feasibility of the move w.r.t. static obstacles").
+  /// Returns whether obstacles leave the straight line between two vertices free for the robot (paper,
+  /// "Estimating the feasibility of the move w.r.t. static obstacles"), and the move is allowed.
   bool in_sight(int from, int to) const { return is_free(from, to) && allow(from, to); }
 
   /// Calls visit(vertex) for every neighbour that one lattice move or link reaches from `vertex`.

@@ -21,6 +21,7 @@
 #include "core/verify/execution/execution.h"
 #include "core/verify/pairs/fleet_clearance.h"
 #include "core/verify/verify.h"
+#include "tests/support/expect_safe.h"
 #include "tests/support/random_problem.h"
 #include "tests/support/step_limit.h"
 #include "tests/support/summary.h"
@@ -323,6 +324,58 @@ TEST_P(Contact, OverlapsOfInflatedDisksAreLeftWithoutComingNearer) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Contact, testing::Range(0, 150));
+
+/// Robots on few cells, where they have to make way, most of them with starts up to 4 cm in walls.
+std::optional<Problem> crowd_with_starts_in_walls(Dice& dice) {
+  OccupancyGrid grid(8, 3, 0.5);
+  for (int k = 0; k < 6; ++k) grid.block({dice.below(8), dice.below(3)});
+  const auto is_at_wall = [&](const Position& start, double radius) {
+    const double gap = obstacle_distance(grid, start, 1.0) - radius;
+    return gap >= -0.04 && (gap < 0.0 || dice.chance(0.2));
+  };
+  std::vector<Robot> robots;
+  for (int attempts = 0; robots.size() < 5 && attempts < 500; ++attempts) {
+    const double radius = dice.between(0.12, 0.22);
+    const Position start(dice.between(0.1, 3.9), dice.between(0.1, 1.4));
+    const Position goal = grid.center({dice.below(8), dice.below(3)});
+    if (!is_at_wall(start, radius) || obstacle_distance(grid, goal, 1.0) < radius) continue;
+    const bool is_apart = std::all_of(robots.begin(), robots.end(), [&](const Robot& other) {
+      const double kept = other.radius + radius;
+      return (other.start.position - start).norm() > kept && (other.goal->position - goal).norm() > kept;
+    });
+    if (!is_apart) continue;
+    Robot robot{std::to_string(robots.size()),    radius,
+                dice.between(0.2, 3.0),           dice.between(0.5, 3.0),
+                {start, dice.between(-kPi, kPi)}, Goal{goal, {}}};
+    robot.may_reverse = dice.chance(0.3);
+    robots.push_back(robot);
+  }
+  ProblemConditions conditions;
+  conditions.wall_overlap = 0.05;
+  auto created = Problem::create(grid, std::move(robots), conditions, StopCondition::never());
+  auto* valid = std::get_if<Problem>(&created);
+  return valid != nullptr ? std::optional<Problem>(std::move(*valid)) : std::nullopt;
+}
+
+class StartsInWalls : public testing::TestWithParam<int> {};
+
+TEST_P(StartsInWalls, AreLeftForGood) {
+  SCOPED_TRACE(testing::Message() << "seed " << GetParam());
+  Dice dice(static_cast<std::uint64_t>(GetParam()));
+  for (int k = 0; k < 20; ++k) {
+    const auto problem = crowd_with_starts_in_walls(dice);
+    ASSERT_TRUE(problem);
+    PlanOptions options;
+    options.start_overlap = 0.05;
+    options.mode = dice.chance(0.3) ? PlanOptions::Mode::anytime : PlanOptions::Mode::first;
+    options.max_iterations = 5;
+    const support::StepLimit limit(kMostSteps);
+    const Plan plan = core::plan(*problem, options, support::counted());
+    support::expect_safe(*problem, plan, options);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, StartsInWalls, testing::Range(0, 20));
 
 }  // namespace TEST_FILE
 }  // namespace fleetplan::core
