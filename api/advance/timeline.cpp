@@ -187,11 +187,16 @@ std::optional<Progress> measured_progress(const core::Robot& robot, const Action
 
 Remainder remainder(const core::Robot& robot, const Actions& actions, double at) {
   const std::size_t under_way = planned_progress(actions, at).action;
-  Remainder rest{actions.empty() ? robot.start : actions.back().to, shifted(actions, under_way, at)};
-  if (rest.actions.empty()) return rest;
+  Remainder rest{actions.empty() ? robot.start : actions.back().to, {}};
+  if (under_way == actions.size()) return rest;
   rest.start = pose_at(actions[under_way], at);
-  rest.actions.front().t_start = 0.0;
-  rest.actions.front().from = rest.start;
+  Action action = actions[under_way];
+  action.t_start = 0.0;
+  action.t_end -= at;
+  action.from = rest.start;
+  rest.actions.push_back(action);
+  // One by one: those of an invalid plan may overlap in time.
+  for (const Action& following : shifted(actions, under_way + 1, at)) append(rest.actions, {following});
   return rest;
 }
 

@@ -103,6 +103,16 @@ TEST(Timeline, ActionsAreCutWhereTheyAreUnderWay) {
   EXPECT_TRUE(actions_until(corner(), 0.0).empty());
 }
 
+TEST(Timeline, ActionsThatOverlapInTimeFollowEachOther) {
+  std::vector<Action> actions = corner();
+  actions[1].t_start = 1.0;  // while the robot still drives
+  actions[2].t_start = 2.0;
+  const Remainder rest = remainder(robot(), actions, 3.0);
+  ASSERT_EQ(rest.actions.size(), 4u);
+  expect_contiguous(rest);
+  EXPECT_EQ(rest.actions.back().t_end, 1.0 + 4.0 + 5.0 + 2.0);
+}
+
 TEST(Timeline, AHoldDelaysTheRest) {
   Remainder rest = remainder(robot(), corner(), 1.0);
   hold(rest, 30.0);
