@@ -67,7 +67,9 @@ TEST(Vertices, AddsAStartOnTheLatticeThatIsTooNearToAWall) {
   EXPECT_FALSE(std::binary_search(from_start.begin(), from_start.end(), 16)) << "the same place";
   EXPECT_FALSE(std::binary_search(from_start.begin(), from_start.end(), 24)) << "as near to the wall";
   EXPECT_TRUE(vertices.in_sight(48, 17));
-  EXPECT_TRUE(vertices.in_sight(17, 48));
+  EXPECT_FALSE(vertices.in_sight(17, 48)) << "it is left once, and never entered again";
+  EXPECT_FALSE(vertices.allow(17, 48));
+  EXPECT_TRUE(vertices.allow(48, 17));
   EXPECT_FALSE(vertices.in_sight(48, 22)) << "far away, the robot keeps its full distance";
 }
 
