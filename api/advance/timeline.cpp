@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
@@ -46,20 +45,27 @@ void delay(Actions& actions, std::size_t first, double seconds) {
   }
 }
 
-/// Appends actions that follow at their planned times; later if those before end later; after a wait if they
-/// end earlier.
-void append(Actions& actions, Actions following) {
-  if (following.empty()) return;
-  const double end = actions.empty() ? 0.0 : actions.back().t_end;
-  Action& next = following.front();
-  if (end > next.t_start) delay(following, 0, end - next.t_start);
-  const bool waits = next.type == Action::Type::wait && !next.goal;
-  if (end < next.t_start - kDone && !waits) {
-    actions.push_back({Action::Type::wait, end, next.t_start, next.from, next.from});
-  } else {
-    next.t_start = end;
+/// Appends actions that follow at their planned times; later, with all that follow, if those before end
+/// later; after a wait if they end earlier. Those of an invalid plan may overlap in time.
+void append(Actions& actions, const Actions& following) {
+  double late = 0.0;
+  for (Action next : following) {
+    const double end = actions.empty() ? 0.0 : actions.back().t_end;
+    next.t_start += late;
+    next.t_end += late;
+    if (end > next.t_start) {
+      const double later = end - next.t_start;
+      next.t_end += later;
+      late += later;
+    }
+    const bool waits = next.type == Action::Type::wait && !next.goal;
+    if (end < next.t_start - kDone && !waits) {
+      actions.push_back({Action::Type::wait, end, next.t_start, next.from, next.from});
+    } else {
+      next.t_start = end;
+    }
+    actions.push_back(next);
   }
-  actions.insert(actions.end(), following.begin(), following.end());
 }
 
 /// How far along a translation the pose is, from 0 to 1.
@@ -195,8 +201,7 @@ Remainder remainder(const core::Robot& robot, const Actions& actions, double at)
   action.t_end -= at;
   action.from = rest.start;
   rest.actions.push_back(action);
-  // One by one: those of an invalid plan may overlap in time.
-  for (const Action& following : shifted(actions, under_way + 1, at)) append(rest.actions, {following});
+  append(rest.actions, shifted(actions, under_way + 1, at));
   return rest;
 }
 
@@ -213,7 +218,7 @@ Remainder remainder_of_measured(const core::Robot& robot, const Actions& actions
       turn_back(rest.actions, following, planned.to.theta, robot.angular_speed);
     }
   }
-  append(rest.actions, std::move(following));
+  append(rest.actions, following);
   return rest;
 }
 

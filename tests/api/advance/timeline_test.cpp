@@ -111,6 +111,10 @@ TEST(Timeline, ActionsThatOverlapInTimeFollowEachOther) {
   ASSERT_EQ(rest.actions.size(), 4u);
   expect_contiguous(rest);
   EXPECT_EQ(rest.actions.back().t_end, 1.0 + 4.0 + 5.0 + 2.0);
+
+  const auto late = measured_progress(robot(), actions, {{3.0, 1.0}, 0.0}, 3.0, 1e-6);
+  ASSERT_TRUE(late);
+  expect_contiguous(remainder_of_measured(robot(), actions, {{3.0, 1.0}, 0.0}, *late, 3.0));
 }
 
 TEST(Timeline, AHoldDelaysTheRest) {
