@@ -9,7 +9,8 @@ cd "$ROOT" || exit
 
 # To build the server. "package:command" also counts as installed if the command comes from elsewhere.
 BUILD_PACKAGES=(g++:g++ cmake:cmake ninja-build:ninja pkgconf:pkg-config esbuild:esbuild
-  libcpp-httplib-dev nlohmann-json3-dev libeigen3-dev libspdlog-dev libcli11-dev libpng-dev)
+  libcpp-httplib-dev nlohmann-json3-dev libeigen3-dev libspdlog-dev libcli11-dev libpng-dev
+  libyaml-cpp-dev)
 # In addition: for the tests of the release build, for all tests, for the checks of the sources, for the fuzz targets.
 UNIT_TEST_PACKAGES=(libgtest-dev libgmock-dev python3:python3 curl:curl jq:jq)
 TEST_PACKAGES=(nodejs:node npm:npm chromium:chromium haproxy:haproxy mosquitto:mosquitto)

@@ -12,8 +12,11 @@
 namespace fleetplan::server {
 
 Service planning_service() {
-  // Listing the examples reads all of their maps, so it is done once.
-  const auto list_examples = [list = api::examples_endpoint()] { return list; };
+  // Listing the examples reads all of their maps, so it is done once, and only where somebody asks.
+  const auto list_examples = [] {
+    static const api::Reply list = api::examples_endpoint();
+    return list;
+  };
   Service service{.plan = api::plan_endpoint,
                   .validate = api::validate_endpoint,
                   .simulate = api::simulate_endpoint,

@@ -123,7 +123,7 @@ std::vector<std::string> joined(std::vector<std::string> warnings, const std::ve
 }  // namespace
 
 Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std::string& request_id,
-                  Stages stages, const core::StopCondition& stop) {
+                  Stages stages, const core::StopCondition& stop, const AnsweredPlan& on_answer) {
   stages.planned = Stages::Clock::now();
   const auto& robots = request.problem.robots();
   const auto check = [&](const core::Plan& checked, const core::StopCondition& patience) {
@@ -157,6 +157,7 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   const std::vector<std::string> warnings =
       dependencies ? joined(request.warnings, dependencies->warnings) : request.warnings;
   stages.verified = Stages::Clock::now();
+  if (on_answer) on_answer(request.problem, answered);
   std::string text = write_response(
       {answered, *report, robots, request.problem.obstacles(), request.received, request.frame.origin,
        warnings, request.metadata, told_spacing(request), dependencies ? &dependencies->made : nullptr},

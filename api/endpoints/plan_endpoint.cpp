@@ -87,8 +87,9 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   stages.parsed = Clock::now();
 
   const core::StopCondition stop = work.before_end(kept_for_answer(*request, stages.parsed - begin));
-  const auto answer = [&](const core::Plan& plan) {
-    return plan_answer(plan, *request, context.request_id, stages, end_of_planning(stop, *request));
+  const auto answer = [&](const core::Plan& plan, const AnsweredPlan& on_answer) {
+    return plan_answer(plan, *request, context.request_id, stages, end_of_planning(stop, *request),
+                       on_answer);
   };
   work.end_reading();
   const bool has_turn = context.turn == nullptr || context.turn->request(need_of(*request, stop, context));
@@ -97,7 +98,8 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   if (context.events != nullptr) {
     const std::size_t robots = request->problem.robots().size();
     context.events->begin({robots});
-    reporter.emplace(*context.events, robots, stop.deadline(), answer);
+    reporter.emplace(*context.events, robots, stop.deadline(),
+                     [&](const core::Plan& better) { return answer(better, {}); });
   }
   const bool has_come = context.turn == nullptr || context.turn->await();
   stages.started = Clock::now();
@@ -110,12 +112,13 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
     const auto patience = core::StopCondition::even_if_cancelled(Clock::now() + kMostForPrevious);
     Reply reply =
         answer(core::plan_without_search(request->problem, request->options,
-                                         "The time budget was spent before planning could begin.", patience));
+                                         "The time budget was spent before planning could begin.", patience),
+               context.answered);
     if (reply.outcome) reply.outcome->plan_seconds.reset();
     return reply;
   }
   const core::Plan plan = plan_or_none(planner, *request, stop, reporter ? &*reporter : nullptr);
-  return reporter && reporter->rejection() ? *reporter->rejection() : answer(plan);
+  return reporter && reporter->rejection() ? *reporter->rejection() : answer(plan, context.answered);
 }
 
 }  // namespace

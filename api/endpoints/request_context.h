@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <stop_token>
 #include <string>
 
@@ -8,10 +9,15 @@
 #include "api/endpoints/turn.h"
 #include "api/request/limits.h"
 #include "core/map/map_cache.h"
+#include "core/model/plan.h"
+#include "core/model/problem.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/work.h"
 
 namespace fleetplan::api {
+
+/// Gets the plan of an answer, which has passed the check, before the answer is written.
+using AnsweredPlan = std::function<void(const core::Problem&, const core::Plan&)>;
 
 /// What an endpoint gets of its request beside the body.
 struct RequestContext {
@@ -23,6 +29,7 @@ struct RequestContext {
   Limits limits;
   core::Executor* executor = nullptr;  // of further threads; null: the caller's alone
   PlanEvents* events = nullptr;        // receives the progress of a plan; may be null
+  AnsweredPlan answered;               // gets the plan that is returned; may be empty
   Turn* turn = nullptr;                // to compute; null: at once
   core::MapCache* maps = nullptr;      // that earlier requests had; null: none
   core::Work::CpuClock cpu_clock = core::Work::thread_cpu_time;

@@ -235,8 +235,9 @@ JsonError error_of(const Builder& builder, std::string_view body, int max_depth)
                                            std::to_string(max_depth) + " levels."};
   }
   if (builder.too_many()) {
-    return {JsonError::Kind::too_large, "The JSON holds more than " + std::to_string(kMostValues) +
-                                            " values, which no request needs; send a large map as an image."};
+    return {JsonError::Kind::too_large,
+            "The JSON holds more than " + std::to_string(kMostValues) +
+                " values, which no request needs; send a large map as an image, best as a PNG."};
   }
   return {JsonError::Kind::malformed, explain_malformed(body, builder.error_position())};
 }

@@ -65,7 +65,10 @@ constexpr std::array<Example, 22> kExamples{{
      "Answers are application/json or text/event-stream, which Accept: 'text/html' excludes: add "
      "application/json or leave the header out."},
     {ErrorCode::request_timeout, "The request's head did not arrive within 10000 ms."},
-    {ErrorCode::body_too_large, "The body has 40000000 bytes; the limit is 33554432."},
+    {ErrorCode::body_too_large,
+     "The body has 40000000 bytes; the limit is 33554432. A large map is smallest as a PNG, in "
+     "map.image.png; see "
+     "GET /v1/limits."},
     {ErrorCode::target_too_long, "The request target is longer than 8192 bytes."},
     {ErrorCode::unsupported_media_type,
      "The body is declared a web form, as 'curl -d' does: use 'curl --json', or add -H 'Content-Type: "

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "api/json/fault_text.h"
+#include "api/request/geometry_hints.h"
 #include "api/request/ranges.h"
 
 namespace fleetplan::api {
@@ -32,8 +33,10 @@ std::string obstacle_name(const core::ProblemFault& found, const std::vector<cor
                     : "a blocked cell or the edge of the map";
 }
 
+/// `outside`: see outside_text.
 std::string in_obstacle(const std::string& pose, const std::string& robot, double radius, double gap,
-                        const std::string& obstacle) {
+                        const std::string& obstacle, const std::string& outside) {
+  if (!outside.empty()) return "The " + pose + " of robot " + robot + ' ' + outside;
   return "The " + pose + " of robot " + robot + " does not fit: its disk overlaps " + obstacle + " by " +
          metres(-gap) + " (radius " + number_text(radius) + " m). Move it or make the robot smaller.";
 }
@@ -74,20 +77,22 @@ std::string collision(const core::ProblemFault& found, const std::string& robot,
 }  // namespace
 
 GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
-                       const std::vector<std::size_t>& indices) {
+                       const std::vector<std::size_t>& indices, const core::OccupancyGrid& grid) {
   using Kind = core::ProblemFault::Kind;
   const std::vector<ReadRobot>& robots = fleet.robots;
   const std::string obstacle = obstacle_name(found, fleet.zones);
   const ReadRobot& read = robots[indices[found.robot]];
   const std::string name = name_of(robots, indices[found.robot]);
   const std::string other = name_of(robots, indices[found.other]);
+  const auto outside = [&](const JsonReader& pose) { return outside_text(pose, grid, fleet.map->frame); };
   switch (found.kind) {
     case Kind::start_in_obstacle:
       return {read.start, fault::kStartInObstacle,
-              in_obstacle("start", name, read.robot.radius, found.gap, obstacle)};
+              in_obstacle("start", name, read.robot.radius, found.gap, obstacle, outside(read.start))};
     case Kind::goal_in_obstacle:
       return {read.goals[found.goal], fault::kGoalInObstacle,
-              in_obstacle(goal_name(read, found.goal), name, found.radius, found.gap, obstacle)};
+              in_obstacle(goal_name(read, found.goal), name, found.radius, found.gap, obstacle,
+                          outside(read.goals[found.goal]))};
     case Kind::starts_overlap:
       return {read.start, fault::kStartsOverlap, overlap("starts", other, name, found.gap)};
     case Kind::goals_overlap:

@@ -6,6 +6,7 @@
 
 #include "api/json/json_reader.h"
 #include "api/request/parse_body.h"
+#include "core/map/occupancy_grid.h"
 #include "core/model/problem.h"
 
 namespace fleetplan::api {
@@ -17,8 +18,8 @@ struct GeometryFault {
   std::string detail;
 };
 
-/// `indices`: of the problem's robots in the fleet.
+/// `indices`: of the problem's robots in the fleet, whose map is `grid`.
 GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
-                       const std::vector<std::size_t>& indices);
+                       const std::vector<std::size_t>& indices, const core::OccupancyGrid& grid);
 
 }  // namespace fleetplan::api

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "api/request/geometry_faults.h"
+#include "api/request/geometry_hints.h"
 
 namespace fleetplan::api {
 
@@ -53,10 +54,7 @@ class ProblemMaker {
       const auto& faults = std::get<core::ProblemFaults>(made);
       if (!faults.finished) stop_.look();
       if (reports_ && faults.finished && mark_invalid(faults)) continue;
-      for (const auto& found : faults.listed) {
-        const GeometryFault fault = describe(found, fleet_, indices_);
-        fault.place.fault(fault.code, fault.detail);
-      }
+      report(faults);
       root_.count_more_faults(faults.total - faults.listed.size());
       return std::nullopt;
     }
@@ -64,6 +62,14 @@ class ProblemMaker {
   }
 
  private:
+  void report(const core::ProblemFaults& faults) {
+    std::string cause = common_cause(faults, fleet_, indices_, *map_, stop_.reading());
+    for (const auto& found : faults.listed) {
+      const GeometryFault fault = describe(found, fleet_, indices_, map_->grid());
+      fault.place.fault(fault.code, fault.detail + std::exchange(cause, ""));
+    }
+  }
+
   /// A request with other faults is refused anyway.
   bool reports() const {
     return fleet_.options.invalid_robots == InvalidRobots::report && root_.fault_count() == 0;
@@ -112,7 +118,7 @@ class ProblemMaker {
   bool mark_invalid(const core::ProblemFaults& faults) {
     bool any = false;
     for (const core::ProblemFault& found : faults.listed) {
-      const GeometryFault fault = describe(found, fleet_, indices_);
+      const GeometryFault fault = describe(found, fleet_, indices_, map_->grid());
       if (stop_.look()) return false;
       const Fault error = fault.place.described_fault(fault.code, fault.detail);
       any = make_invalid(found.robot, error) || any;

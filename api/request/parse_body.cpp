@@ -5,6 +5,7 @@
 
 #include "api/json/fault_text.h"
 #include "api/request/parse_metadata.h"
+#include "api/request/unit_warnings.h"
 #include "api/request/zones/parse_zones.h"
 #include "core/map/lattice.h"
 
@@ -117,6 +118,9 @@ Fleet parse_fleet(const JsonReader& root, const Limits& limits,
   fleet.robots = parse_robots(root.require("robots"), root.find("robot_defaults"), frame, limits, ids);
   fleet.obstacles = parse_obstacles(root.find("obstacles"), frame, limits, ids);
   fleet.zones = parse_zones(root.find("zones"), fleet.map ? &*fleet.map : nullptr, limits, fleet.robots);
+  for (std::string& warning : unit_warnings(fleet.robots, root.find("zones"))) {
+    fleet.options.warnings.push_back(std::move(warning));
+  }
   fleet.metadata = parse_metadata(root);
   set_default_start_safe_interval(root.find("options"), fleet.robots, fleet.options.plan);
   return fleet;

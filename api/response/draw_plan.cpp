@@ -16,7 +16,8 @@ using core::Robot;
 /// Writes the elements of a picture. Its y axis points down, that of the map up.
 class Picture {
  public:
-  explicit Picture(const core::Problem& problem) : problem_(problem), height_(problem.grid().height()) {
+  Picture(const core::Problem& problem, const core::StopCondition& stop)
+      : problem_(problem), stop_(stop), height_(problem.grid().height()) {
     constexpr double kLongerSide = 1200;  // pixels, at first; a viewer scales it
     const double width = problem.grid().width();
     const double scale = kLongerSide / std::max(width, height_);
@@ -27,12 +28,11 @@ class Picture {
   }
 
   /// Blocked cells; those beside each other in a row become one rectangle.
-  /// Bounded: one pass over the cells of the map.
   void add_map() {
     const core::OccupancyGrid& grid = problem_.grid();
     const double side = grid.resolution();
     text_ << "<path fill=\"#555\" d=\"";
-    for (int row = 0; row < grid.rows(); ++row) {
+    for (int row = 0; row < grid.rows() && !stop_.met(); ++row) {
       const auto cells = grid.row(row);
       for (auto begin = std::find(cells.begin(), cells.end(), 1); begin != cells.end();) {
         const auto end = std::find(begin, cells.end(), 0);
@@ -45,9 +45,9 @@ class Picture {
     text_ << "\"/>\n";
   }
 
-  /// Bounded: one pass over the corners of all zones.
   void add_zones() {
     for (const core::Zone& zone : problem_.zones()) {
+      if (stop_.met()) return;
       const bool is_blocked = zone.type == core::Zone::Type::blocked;
       text_ << "<polygon fill=\"" << (is_blocked ? "#d33" : "#36c") << "\" fill-opacity=\"0.2\" points=\"";
       for (const Position& corner : zone.polygon) add(corner);
@@ -123,21 +123,27 @@ class Picture {
   }
 
   const core::Problem& problem_;
+  const core::StopCondition& stop_;
   const double height_;  // metres
   std::ostringstream text_;
 };
 
 }  // namespace
 
-std::string draw_plan(const core::Problem& problem, const core::Plan& plan) {
-  Picture picture(problem);
+std::optional<std::string> draw_plan(const core::Problem& problem, const core::Plan& plan,
+                                     const core::StopCondition& stop) {
+  Picture picture(problem, stop);
   picture.add_map();
   picture.add_zones();
   for (const core::Unplanned& unplanned : plan.unplanned) {
+    if (stop.met()) break;
     picture.add_unplanned(problem.robots()[unplanned.robot]);
   }
-  for (const core::RobotPlan& robot_plan : plan.plans) picture.add_planned(robot_plan);
-  return picture.take();
+  for (const core::RobotPlan& robot_plan : plan.plans) {
+    if (stop.met()) return std::nullopt;
+    picture.add_planned(robot_plan);
+  }
+  return stop.met() ? std::nullopt : std::optional(picture.take());
 }
 
 }  // namespace fleetplan::api

@@ -192,26 +192,31 @@ class Examples(DocumentTest):
     def test_the_shell_examples_with_curl_succeed(self):
         place = SERVICE.removeprefix("http://")
         examples = [(name, block) for name in DOCUMENTS for block in blocks(name, "sh")
-                    if re.search(r"^(curl|gzip|jq) ", block, re.MULTILINE)]
+                    if re.search(r"^(curl|gzip|jq) |map2request .*\|\n +curl ", block, re.MULTILINE)]
         self.assertIn("README.md", [name for name, _ in examples])
         for name, block in examples:
             with self.subTest(name), tempfile.TemporaryDirectory() as folder:
                 (pathlib.Path(folder) / "tests").symlink_to(PROJECT / "tests")
                 (pathlib.Path(folder) / ".curlrc").write_text("fail\nsilent\nshow-error\n")
                 done = subprocess.run(
-                    ["bash", "-euo", "pipefail", "-c", block.replace(place, self.url.removeprefix("http://"))],
+                    ["bash", "-euo", "pipefail", "-c", self.with_program(block).replace(place, self.url.removeprefix("http://"))],
                     cwd=folder, env={**os.environ, "CURL_HOME": folder}, capture_output=True, text=True, check=False)
                 self.assertEqual(done.returncode, 0, block + done.stderr)
                 self.assertNotEqual(done.stdout, "", block)
 
-    def test_the_program_answers_from_a_file(self):
-        (block,) = blocks("docs/command_line.md", "sh")
+    @staticmethod
+    def with_program(block):
+        return block.replace("build/serve/server/fleetplan", str(pathlib.Path(BINARY).resolve()))
+
+    def test_the_program_answers_from_files(self):
         with tempfile.TemporaryDirectory() as folder:
             (pathlib.Path(folder) / "tests").symlink_to(PROJECT / "tests")
-            command = block.replace("build/serve/server/fleetplan", str(pathlib.Path(BINARY).resolve()))
-            subprocess.run(["bash", "-euo", "pipefail", "-c", command], cwd=folder, check=True)
-            self.assertEqual(json.loads((pathlib.Path(folder) / "plan.json").read_text())["status"], "solved")
+            for block in blocks("docs/command_line.md", "sh"):
+                subprocess.run(["bash", "-euo", "pipefail", "-c", self.with_program(block)], cwd=folder, check=True)
+                self.assertEqual(json.loads((pathlib.Path(folder) / "plan.json").read_text())["status"], "solved")
             self.assertTrue((pathlib.Path(folder) / "warehouse.svg").read_text().startswith("<svg "))
+            for name in ["warehouse.png", "hall.png"]:
+                self.assertTrue((pathlib.Path(folder) / name).read_bytes().startswith(b"\x89PNG"))
 
     def test_the_events_have_the_names_that_are_shown(self):
         names = {variant["properties"]["event"]["const"] for variant in self.schema("PlanEvent")["oneOf"]}
@@ -287,6 +292,47 @@ class ConfigurationTables(DocumentTest):
         families = set(re.findall(r"^# HELP (fleetplan_\w+)", self.get("/metrics"), re.MULTILINE))
         rows = table("docs/configuration.md", ["metric"])
         self.assertEqual({re.match(r"\w+", code(row[0])[0]).group() for row in rows}, families)
+
+
+class ManualPage(unittest.TestCase):
+    """The manual page has the commands and options of the help."""
+
+    PAGE = (PROJECT / "docs" / "fleetplan.1").read_text().replace("\\-", "-")
+
+    @staticmethod
+    def help_of(*arguments):
+        return subprocess.run([BINARY, *arguments, "--help"], capture_output=True, text=True, check=True).stdout
+
+    def options_of(self, section):
+        """The options that a section describes, each after a tag."""
+        return set(re.findall(r"^\.TP\n\.B\S* .*?(--[a-z0-9-]+)", section, re.MULTILINE))
+
+    def options_in(self, text):
+        return set(re.findall(r"^  (?:-\w,)?(--[a-z0-9-]+)", text, re.MULTILINE))
+
+    def test_it_has_the_commands_with_their_options(self):
+        commands = self.PAGE.partition(".SH COMMANDS")[2].partition(".SH ")[0]
+        described = {re.match(r"[a-z0-9-]+", part.strip('"')).group(): part for part in commands.split(".SS ")[1:]}
+        listed = subprocess.run([BINARY, "help"], capture_output=True, text=True, check=True).stdout
+        names = re.findall(r"^  ([a-z][a-z0-9-]+) ", listed.partition("Subcommands:")[2], re.MULTILINE)
+        self.assertEqual(list(described), names)
+        for name in set(names) - {"serve"}:
+            self.assertEqual(self.options_of(described[name]), self.options_in(self.help_of(name)) - {"--help"}, name)
+
+    def test_it_has_the_options_of_the_server(self):
+        section = self.PAGE.partition(".SH OPTIONS")[2].partition(".SH ")[0]
+        self.assertEqual(self.options_of(section), self.options_in(self.help_of("serve")))
+
+    def test_it_has_the_exit_codes_of_the_document(self):
+        section = self.PAGE.partition(".SH EXIT STATUS")[2].partition(".SH ")[0]
+        self.assertEqual(re.findall(r"^\.B (\d+)$", section, re.MULTILINE),
+                         [row[0] for row in table("docs/command_line.md", ["exit code"])])
+
+    @unittest.skipUnless(shutil.which("groff"), "needs groff")
+    def test_it_is_formatted_without_warnings(self):
+        done = subprocess.run(["groff", "-man", "-ww", "-z", PROJECT / "docs" / "fleetplan.1"],
+                              capture_output=True, text=True, check=True)
+        self.assertEqual(done.stderr, "")
 
 
 class Names(unittest.TestCase):

@@ -121,7 +121,8 @@ std::variant<std::string, BodyFault> gunzip(std::string_view coded, std::uint64_
     if (part.size() > limit - decoded.size()) {
       return BodyFault{BodyFault::Kind::too_large, "The body of " + std::to_string(coded.size()) +
                                                        " bytes exceeds the limit of " +
-                                                       std::to_string(limit) + " bytes when decompressed."};
+                                                       std::to_string(limit) + " bytes when decompressed." +
+                                                       std::string(api::kLargeMapRemedy)};
     }
     if (!share.grow_to(coded.size() + decoded.size() + part.size())) {
       return BodyFault{BodyFault::Kind::no_room, BodyMemory::kFull};

@@ -121,7 +121,7 @@ Steps::Answer Steps::content(const Exchange& exchange) const {
   if (head.content_length && *head.content_length > limit) {
     return refusal(exchange, ErrorCode::body_too_large,
                    "The body has " + std::to_string(*head.content_length) + " bytes; the limit is " +
-                       std::to_string(limit) + ".");
+                       std::to_string(limit) + "." + std::string(api::kLargeMapRemedy));
   }
   return std::nullopt;
 }

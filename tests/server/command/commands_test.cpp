@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "server/service.h"
@@ -30,7 +31,7 @@ struct Outcome {
 Outcome run(std::vector<std::string> arguments, const std::string& input = "", bool on_terminal = false) {
   std::istringstream in(input);
   std::ostringstream out, err;
-  const auto code = run_command(std::move(arguments), planning_service(), {in, out, err, on_terminal});
+  const auto code = run_command(std::move(arguments), planning_service, {in, out, err, on_terminal});
   return {code, out.str(), err.str()};
 }
 
@@ -112,7 +113,30 @@ TEST(Commands, WriteAnswerAndPictureToFiles) {
   EXPECT_EQ(Json::parse(content(answer))["status"], "solved");
   EXPECT_THAT(content(picture),
               AllOf(StartsWith("<svg "), HasSubstr("<title>b</title>"), HasSubstr("</svg>")));
+  const std::string painted = folder.path() / "picture.png";
+  EXPECT_EQ(run({"plan", "--png", painted}, request(".....#.")).code, kPartial);
+  EXPECT_THAT(content(painted), StartsWith("\x89PNG"));
+  EXPECT_EQ(run({"plan", "--png", "/no/such/folder/x"}, request(".......")).code, kFailed);
   EXPECT_EQ(run({"plan", "--output", "/no/such/folder/x"}, request(".......")).code, kFailed);
+}
+
+TEST(Commands, DrawAPlanWithoutMotionToo) {
+  const support::TemporaryFolder folder;
+  const std::string picture = folder.path() / "picture.svg";
+  Json spent = Json::parse(request("......."));
+  spent["options"]["time_budget_ms"] = 1;  // spent, as a rule, before planning begins
+  run({"plan", "--svg", picture}, spent.dump());
+  EXPECT_THAT(content(picture), HasSubstr("<title>b"));
+}
+
+TEST(Commands, MakeTheServiceOnlyToUseIt) {
+  const auto no_service = []() -> Service { throw std::logic_error("the service is not needed"); };
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{}, {"--healthcheck"}, {"help"}, {"plan", "--help"}, {"plam"}, {"serve"}}) {
+    std::istringstream in;
+    std::ostringstream out, err;
+    EXPECT_NO_THROW(run_command(arguments, no_service, {in, out, err, false}));
+  }
 }
 
 TEST(Commands, ShowProgressOnATerminalOnly) {

@@ -157,6 +157,7 @@ TEST_F(HttpAnswers, ABodyOverTheLimitIs413WithItsSizeAndTheLimit) {
   const auto problem = expect_problem(result, 413, "body_too_large");
   EXPECT_NE(problem.value("detail", "").find("1048577"), std::string::npos);
   EXPECT_NE(problem.value("detail", "").find("1048576"), std::string::npos);
+  EXPECT_NE(problem.value("detail", "").find("as a PNG"), std::string::npos);
   expect_served();
 }
 

@@ -42,6 +42,12 @@ std::string letter_fault(std::string_view text, std::size_t from) {
 }  // namespace
 
 Result<Bytes, std::string> decode_base64(std::string_view text, core::Work& stop) {
+  if (text.starts_with("data:")) {
+    constexpr std::size_t kLongestPrefix = 64;
+    const std::string_view prefix = text.substr(0, text.substr(0, kLongestPrefix).find(',') + 1);
+    return "is a data URL; leave out its prefix" + (prefix.empty() ? "" : ' ' + in_quotes(prefix)) +
+           " and give the base64 alone";
+  }
   if (text.size() % 4 != 0) {
     return "has " + std::to_string(text.size()) +
            " characters of base64, not a multiple of 4; is it cut off?";

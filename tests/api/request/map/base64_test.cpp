@@ -40,6 +40,10 @@ TEST(Base64, OfAllBytesIsReadBack) {
 TEST(Base64, OfAnotherFormIsAFault) {
   EXPECT_THAT(decoded("Zm9vYg"), HasSubstr("has 6 characters of base64, not a multiple of 4"));
   EXPECT_THAT(decoded("Zm9v\nYg="), HasSubstr("white space at character 5; write base64 on one line"));
+  EXPECT_THAT(decoded("data:image/png;base64,Zm9v"),
+              HasSubstr("leave out its prefix \"data:image/png;base64,\""));
+  EXPECT_THAT(decoded("data:" + std::string(100, 'x')),
+              HasSubstr("leave out its prefix and give the base64"));
   EXPECT_THAT(decoded("Zg==Zm9v"), HasSubstr("padding at character 3, before its end"));
   EXPECT_THAT(decoded("Z==="), HasSubstr("padding at character 2"));
   EXPECT_THAT(decoded("===="), HasSubstr("padding at character 1"));

@@ -1,0 +1,147 @@
+#include "api/request/geometry_hints.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <set>
+
+#include "api/json/fault_text.h"
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+using core::Position;
+using Kind = core::ProblemFault::Kind;
+
+/// If this share of the robots is at fault, with at least so many faults, they are rather described wrongly
+/// than placed wrongly.
+constexpr double kShareOfAll = 0.5;
+constexpr std::size_t kFewestFaults = 2;
+/// Poses between two looks at the stop condition.
+constexpr std::size_t kPosesBetweenStops = 16;
+
+/// The position of a pose in the request, which may have faults, in the world.
+std::optional<Position> position_of(const JsonReader& pose) {
+  const JsonReader x = pose.find("x");
+  const JsonReader y = pose.find("y");
+  if (!x.is_number() || !y.is_number()) return std::nullopt;
+  return Position(*x.value().number(), *y.value().number());
+}
+
+bool is_on(const core::OccupancyGrid& grid, const Position& position) {
+  return position.x() >= 0.0 && position.x() <= grid.width() && position.y() >= 0.0 &&
+         position.y() <= grid.height();
+}
+
+std::string interval(double low, double length) {
+  return number_text(low) + " to " + number_text(low + length) + " m";
+}
+
+/// The unit in which the position would be on the map, for a sentence; empty if there is none.
+std::string fitting_unit(const Position& world, const core::OccupancyGrid& grid, const WorldFrame& frame) {
+  // Pixels count from the corner of the map.
+  const bool is_pixel = grid.resolution() < 1.0 && is_on(grid, world * grid.resolution());
+  if (is_pixel) return "pixels of " + number_text(grid.resolution()) + " m";
+  struct Unit {
+    double metres;
+    const char* name;
+  };
+  for (const Unit& unit : {Unit{0.01, "centimetres"}, Unit{0.001, "millimetres"}}) {
+    if (is_on(grid, frame.to_map(world * unit.metres))) return unit.name;
+  }
+  return "";
+}
+
+/// Whether the disks of the starts and goals of all robots would fit with other positions or radii.
+class Trial {
+ public:
+  Trial(const Fleet& fleet, const std::vector<std::size_t>& indices, const core::StaticMap& map,
+        const core::StopCondition& stop)
+      : fleet_(fleet), indices_(indices), map_(map), stop_(stop) {}
+
+  bool all_fit(bool mirrored, double radius_factor) {
+    std::size_t looks = 0;
+    const auto fits = [&](const JsonReader& pose, double radius) {
+      if (++looks % kPosesBetweenStops == 0 && stop_.met()) return false;
+      const auto world = position_of(pose);
+      if (!world) return true;  // has a fault of its own
+      Position position = fleet_.map->frame.to_map(*world);
+      if (mirrored) position.y() = map_.grid().height() - position.y();
+      return map_.sight().disk_fits(position, radius_factor * radius - core::kContactTolerance);
+    };
+    for (const std::size_t index : indices_) {
+      const ReadRobot& read = fleet_.robots[index];
+      double radius = read.robot.radius;
+      if (!fits(read.start, radius)) return false;
+      for (const JsonReader& goal : read.goals) {
+        const JsonReader after = goal.find("radius_after");
+        const double leaves = after.is_number() ? *after.value().number() : radius;
+        if (!fits(goal, std::max(radius, leaves))) return false;
+        radius = leaves;
+      }
+    }
+    return true;
+  }
+
+ private:
+  const Fleet& fleet_;
+  const std::vector<std::size_t>& indices_;
+  const core::StaticMap& map_;
+  const core::StopCondition& stop_;
+};
+
+bool is_of_pair(Kind kind) { return kind == Kind::starts_overlap || kind == Kind::goals_overlap; }
+
+bool is_of_wall(const core::ProblemFault& found) {
+  return (found.kind == Kind::start_in_obstacle || found.kind == Kind::goal_in_obstacle) && !found.zone;
+}
+
+}  // namespace
+
+std::string outside_text(const JsonReader& pose, const core::OccupancyGrid& grid, const WorldFrame& frame) {
+  const auto world = position_of(pose);
+  if (!world || is_on(grid, frame.to_map(*world))) return "";
+  const std::string unit = fitting_unit(*world, grid, frame);
+  return "is at (" + number_text(world->x()) + ", " + number_text(world->y()) +
+         "), outside the map, which reaches from " + interval(frame.origin.x(), grid.width()) +
+         " in x and from " + interval(frame.origin.y(), grid.height()) + " in y. " +
+         (unit.empty() ? "Move it onto the map, or correct the origin and resolution of the map."
+                       : "Give it in metres: in " + unit + " it would be on the map.");
+}
+
+std::string common_cause(const core::ProblemFaults& faults, const Fleet& fleet,
+                         const std::vector<std::size_t>& indices, const core::StaticMap& map,
+                         const core::StopCondition& stop) {
+  std::set<std::size_t> at_fault;
+  bool any_wall = false;
+  bool all_of_walls = true;
+  bool half_parts_pairs = true;  // with half the radii, the disks of the pairs would not overlap
+  for (const core::ProblemFault& found : faults.listed) {
+    if (!is_of_wall(found) && !is_of_pair(found.kind)) return "";
+    at_fault.insert(found.robot);
+    any_wall = any_wall || is_of_wall(found);
+    if (!is_of_pair(found.kind)) continue;
+    all_of_walls = false;
+    at_fault.insert(found.other);
+    const double sum =
+        fleet.robots[indices[found.robot]].robot.radius + fleet.robots[indices[found.other]].robot.radius;
+    half_parts_pairs = half_parts_pairs && found.gap + 0.5 * sum >= -core::kContactTolerance;
+  }
+  const bool is_whole = faults.total == faults.listed.size();
+  const bool are_many =
+      faults.total >= kFewestFaults &&
+      static_cast<double>(at_fault.size()) >= kShareOfAll * static_cast<double>(indices.size());
+  Trial trial(fleet, indices, map, stop);
+  if (are_many && half_parts_pairs && (is_whole || all_of_walls) && trial.all_fit(false, 0.5)) {
+    return " With half the radii, all starts and goals would fit: is radius given as the diameter?";
+  }
+  if (any_wall && all_of_walls && trial.all_fit(true, 1.0)) {
+    return " With y mirrored, all starts and goals would fit: y points up, and the first of rows is the top "
+           "one.";
+  }
+  return "";
+}
+
+}  // namespace fleetplan::api

@@ -1,0 +1,40 @@
+#include "server/command/files.h"
+
+#include <array>
+#include <fstream>
+#include <istream>
+
+namespace fleetplan::server {
+
+InputFault input_fault(const std::string& file, std::size_t line, const std::string& detail) {
+  return {shown_name(file) + ':' + (line > 0 ? std::to_string(line) + ':' : "") + ' ' + detail};
+}
+
+api::Result<std::string, InputFault> read_file(const std::string& name, std::istream& in, std::size_t most) {
+  std::ifstream file;
+  if (name != "-") file.open(name, std::ios::binary);
+  std::istream& source = name == "-" ? in : file;
+  if (name != "-" && !file.is_open()) return input_fault(name, 0, "cannot read the file; does it exist?");
+  std::string text;
+  std::array<char, std::size_t{1} << 16> part{};
+  while (source && text.size() <= most) {
+    source.read(part.data(), part.size());
+    text.append(part.data(), static_cast<std::size_t>(source.gcount()));
+  }
+  if (source.bad()) return input_fault(name, 0, "cannot read the file; is it a folder?");
+  if (text.size() > most) {
+    return input_fault(name, 0, "the file has more than " + std::to_string(most) + " bytes.");
+  }
+  return text;
+}
+
+std::string shown_name(const std::string& file) { return file == "-" ? "stdin" : file; }
+
+bool write_file(const std::string& name, const std::string& text) {
+  std::ofstream file(name, std::ios::binary);
+  file << text;
+  file.close();
+  return !file.fail();
+}
+
+}  // namespace fleetplan::server

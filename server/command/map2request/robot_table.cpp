@@ -1,0 +1,222 @@
+#include "server/command/map2request/robot_table.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "api/json/fault_text.h"
+#include "api/json/json_string.h"
+#include "api/json/json_writer.h"
+#include "server/command/map2request/read_number.h"
+
+namespace fleetplan::server {
+
+namespace {
+
+/// Two thousand robots, which a server accepts by default, have 200 kB.
+constexpr std::size_t kMostTable = std::size_t{4} << 20;
+
+struct Column {
+  std::string_view name;
+  std::string_view short_name;
+  std::string_view pose;    // the member of the robot that has it; empty: the robot itself
+  std::string_view member;  // its own name there
+  bool is_required = false;
+};
+
+constexpr std::array<Column, 11> kColumns{{
+    {"id", "name", "", "id", true},
+    {"radius", "radius", "", "radius", true},
+    {"linear_speed", "speed", "", "linear_speed", true},
+    {"angular_speed", "angular_speed", "", "angular_speed", true},
+    {"vicinity", "vicinity", "", "vicinity", false},
+    {"start_x", "start_x", "start", "x", true},
+    {"start_y", "start_y", "start", "y", true},
+    {"start_theta", "start_theta", "start", "theta", false},
+    {"goal_x", "goal_x", "goal", "x", false},
+    {"goal_y", "goal_y", "goal", "y", false},
+    {"goal_theta", "goal_theta", "goal", "theta", false},
+}};
+
+std::string column_names() {
+  std::string names;
+  for (const Column& column : kColumns) names += (names.empty() ? "" : ", ") + std::string(column.name);
+  return names;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
+}
+
+/// Whether a line is UTF-8 without control characters other than tabs.
+bool is_text(std::string_view line) {
+  constexpr std::string_view kNotPlain = "\"\\\t";  // what a string of JSON escapes
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    at += api::plain_length(line.substr(at));
+    if (at < line.size() && kNotPlain.find(line[at]) == std::string_view::npos) return false;
+  }
+  return true;
+}
+
+/// The fields of a line; nothing if a quote is not closed, or something follows it.
+std::optional<std::vector<std::string>> fields_of(std::string_view line, char separator) {
+  std::vector<std::string> fields;
+  while (true) {
+    const std::string_view rest = trimmed(line);
+    std::string field;
+    std::size_t end = 0;
+    if (rest.starts_with('"')) {
+      std::size_t at = static_cast<std::size_t>(rest.data() - line.data()) + 1;
+      for (; at < line.size() && !(line[at] == '"' && line.substr(at, 2) != "\"\""); ++at) {
+        field += line[at];
+        if (line[at] == '"') ++at;
+      }
+      if (at >= line.size()) return std::nullopt;
+      end = std::min(line.find(separator, at), line.size());
+      if (!trimmed(line.substr(at + 1, end - at - 1)).empty()) return std::nullopt;
+    } else {
+      end = std::min(line.find(separator), line.size());
+      field = trimmed(line.substr(0, end));
+    }
+    fields.push_back(std::move(field));
+    if (end == line.size()) return fields;
+    line.remove_prefix(end + 1);
+  }
+}
+
+class TableReader {
+ public:
+  explicit TableReader(std::string file) { table_.file = std::move(file); }
+
+  api::Result<RobotTable, InputFault> read(std::string_view text) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // as spreadsheets write it
+    json_.begin_array();
+    while (!text.empty() && !fault_) {
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      ++line_;
+      read_line(text.substr(0, end));
+      text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    if (!fault_ && columns_.empty())
+      fail("there is no header line; it names columns: " + column_names() + '.', 0);
+    if (fault_) return *fault_;
+    table_.json = json_.end_array().take();
+    return std::move(table_);
+  }
+
+ private:
+  void fail(const std::string& detail) { fail(detail, line_); }
+  void fail(const std::string& detail, std::size_t line) {
+    if (!fault_) fault_ = input_fault(table_.file, line, detail);
+  }
+
+  void read_line(std::string_view line) {
+    if (trimmed(line).empty() || trimmed(line).starts_with('#')) return;
+    if (!is_text(trimmed(line))) {
+      return fail("the line is not text in UTF-8; save the file as CSV in UTF-8.");
+    }
+    if (columns_.empty()) choose_separator(line);
+    const auto fields = fields_of(line, separator_);
+    if (!fields)
+      return fail("a quote is not closed, or something follows it; write \"\" for a quote in quotes.");
+    if (columns_.empty()) {
+      read_header(*fields);
+    } else {
+      read_robot(*fields);
+    }
+  }
+
+  void choose_separator(std::string_view header) {
+    const std::size_t at = header.find_first_of(",;\t");
+    if (at != std::string_view::npos) separator_ = header[at];
+  }
+
+  void read_header(const std::vector<std::string>& names) {
+    std::array<std::string_view, kColumns.size()> known;
+    std::transform(kColumns.begin(), kColumns.end(), known.begin(),
+                   [](const Column& column) { return column.name; });
+    for (const std::string& name : names) {
+      const auto found = std::find_if(kColumns.begin(), kColumns.end(), [&](const Column& column) {
+        return column.name == name || column.short_name == name;
+      });
+      if (found == kColumns.end()) {
+        return fail("unknown column " + api::in_quotes(name) + api::suggestion(name, known) +
+                    "; known columns: " + column_names() + '.');
+      }
+      if (std::find(columns_.begin(), columns_.end(), &*found) != columns_.end()) {
+        return fail("the column " + std::string(found->name) + " is there twice; remove one of them.");
+      }
+      columns_.push_back(&*found);
+    }
+    for (const Column& column : kColumns) {
+      if (column.is_required && std::find(columns_.begin(), columns_.end(), &column) == columns_.end()) {
+        return fail("the column " + std::string(column.name) +
+                    " is missing; add it to this header and to each line.");
+      }
+    }
+  }
+
+  void read_robot(const std::vector<std::string>& fields) {
+    if (fields.size() != columns_.size()) {
+      return fail("the line has " + std::to_string(fields.size()) + " fields, but the header has " +
+                  std::to_string(columns_.size()) + "; write numbers with a point, and leave no field out.");
+    }
+    table_.lines.push_back(line_);
+    json_.begin_object();
+    write_members(fields, "");
+    for (const std::string_view pose : {"start", "goal"}) {
+      if (!has_any(fields, pose)) continue;
+      json_.key(pose).begin_object();
+      write_members(fields, pose);
+      json_.end_object();
+    }
+    json_.end_object();
+  }
+
+  bool has_any(const std::vector<std::string>& fields, std::string_view pose) const {
+    for (std::size_t index = 0; index < fields.size(); ++index) {
+      if (columns_[index]->pose == pose && !fields[index].empty()) return true;
+    }
+    return false;
+  }
+
+  void write_members(const std::vector<std::string>& fields, std::string_view pose) {
+    for (std::size_t index = 0; index < fields.size(); ++index) {
+      const Column& column = *columns_[index];
+      const std::string& field = fields[index];
+      if (column.pose != pose) continue;
+      if (field.empty()) {
+        if (column.is_required) fail(std::string(column.name) + " is empty; give it for each robot.");
+      } else if (column.member == "id") {
+        json_.member(column.member, std::string_view(field));
+      } else if (const auto number = read_number(field)) {
+        json_.member(column.member, *number);
+      } else {
+        const bool has_comma = field.find(',') != std::string::npos;
+        fail(std::string(column.name) + " must be a number, not " + api::in_quotes(field) +
+             (has_comma ? "; write a point instead of the comma." : "."));
+      }
+    }
+  }
+
+  RobotTable table_;
+  char separator_ = ',';
+  std::size_t line_ = 0;
+  std::vector<const Column*> columns_;  // in the order of the file
+  api::JsonWriter json_;
+  std::optional<InputFault> fault_;
+};
+
+}  // namespace
+
+api::Result<RobotTable, InputFault> read_robot_table(const std::string& file, std::istream& in) {
+  const auto text = read_file(file, in, kMostTable);
+  if (!text) return text.failure();
+  return TableReader(file).read(*text);
+}
+
+}  // namespace fleetplan::server

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "server/command/files.h"
+
+namespace fleetplan::server {
+
+/// A map.yaml of ROS and its image.
+struct RosMapFile {
+  std::string yaml;                                       // the name of the file
+  std::string image;                                      // likewise
+  std::string json;                                       // the member `image` of a map with both
+  std::map<std::string, std::size_t, std::less<>> lines;  // of the file, from 1, by member
+  std::vector<std::string> ignored;                       // lines for people about members without effect
+};
+
+/// Reads both files, as map_server does: the image beside the yaml, unless its path is absolute. Whether the
+/// image can be decoded is not looked at.
+api::Result<RosMapFile, InputFault> read_ros_map(const std::string& yaml, std::istream& in);
+
+}  // namespace fleetplan::server
