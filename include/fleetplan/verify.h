@@ -78,7 +78,8 @@ struct Verification {
 /// std::invalid_argument if a plan belongs to no robot, or two belong to the same one.
 Verification verify(const Problem& problem, std::span<const RobotPlan> plans, const Rules& rules = {});
 
-/// Checks a plan of plan() for the same problem; its unavoidable meetings are allowed.
-Verification verify(const Problem& problem, const Plan& plan);
+/// Checks a plan of plan() for the same problem and options as plan() itself does: with tolerances that follow
+/// from the size of the map, and its unavoidable meetings allowed.
+Verification verify(const Problem& problem, const Plan& plan, const Options& options = {});
 
 }  // namespace fleetplan
