@@ -165,8 +165,7 @@ RobotPlan plan_of(const core::RobotPlan& plan, const Frame& frame) {
   for (const core::Action& action : plan.actions) made.actions.push_back(frame.from_core(action));
   for (const core::Visit& visit : plan.visits) {
     const bool leaves = visit.t_leave < core::kForever;
-    made.visits.push_back(
-        {visit.goal, visit.t_arrive, leaves ? std::optional(visit.t_leave) : std::nullopt});
+    made.visits.push_back({visit.goal, visit.t_arrive, leaves ? std::optional(visit.t_leave) : std::nullopt});
   }
   return made;
 }

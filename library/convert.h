@@ -3,14 +3,14 @@
 // The values of the public headers as those of core, and back. Core has positions relative to the lower left
 // corner of the map.
 
-#include <vector>
-
 #include <fleetplan/action.h>
 #include <fleetplan/map.h>
 #include <fleetplan/options.h>
 #include <fleetplan/plan.h>
 #include <fleetplan/problem.h>
 #include <fleetplan/verify.h>
+
+#include <vector>
 
 #include "core/map/occupancy_grid.h"
 #include "core/model/moving_obstacle.h"

@@ -48,7 +48,8 @@ void check_robot(const Robot& robot, const std::string& place, FaultList& faults
 
 void check_obstacle(const MovingObstacle& obstacle, const std::string& place, FaultList& faults) {
   faults.check(obstacle.radius, kLength, place + ".radius");
-  if (obstacle.motion.empty()) faults.add(place + ".motion", "The motion has no entry; it needs one at least.");
+  if (obstacle.motion.empty())
+    faults.add(place + ".motion", "The motion has no entry; it needs one at least.");
   for (std::size_t k = 0; k < obstacle.motion.size(); ++k) {
     const MovingObstacle::Entry& entry = obstacle.motion[k];
     const std::string here = item(place + ".motion", k);
@@ -68,7 +69,8 @@ void check_obstacle(const MovingObstacle& obstacle, const std::string& place, Fa
 
 void check_zone(const Zone& zone, std::size_t robots, const std::string& place, FaultList& faults) {
   constexpr std::size_t kFewestCorners = 3;
-  if (zone.polygon.size() < kFewestCorners) faults.add(place + ".polygon", "A polygon has at least 3 corners.");
+  if (zone.polygon.size() < kFewestCorners)
+    faults.add(place + ".polygon", "A polygon has at least 3 corners.");
   for (std::size_t k = 0; k < zone.polygon.size(); ++k) {
     const std::string here = item(place + ".polygon", k);
     check_position(zone.polygon[k].x, zone.polygon[k].y, here, faults);
@@ -99,7 +101,8 @@ Fault described(const core::ProblemFault& found) {
     case Kind::goal_in_obstacle:
       return {item(robot + ".goals", found.goal), disk + obstacle + " by " + overlap + '.'};
     case Kind::starts_overlap:
-      return {robot + ".start", "It overlaps the start of " + item("robots", found.other) + " by " + overlap + '.'};
+      return {robot + ".start",
+              "It overlaps the start of " + item("robots", found.other) + " by " + overlap + '.'};
     case Kind::goals_overlap:
       return {robot + ".goals",
               "The last goal overlaps that of " + item("robots", found.other) + " by " + overlap + '.'};
@@ -140,7 +143,8 @@ ReadFleet read_fleet(const Problem& problem) {
     check_robot(robot, place, faults);
     core::Robot& made = read.robots.emplace_back(robot_of(robot, frame));
     made.committed = read_actions(robot.committed, made, frame, place + ".committed", faults);
-    if (robot.previous) made.previous = read_actions(*robot.previous, made, frame, place + ".previous", faults);
+    if (robot.previous)
+      made.previous = read_actions(*robot.previous, made, frame, place + ".previous", faults);
   }
   for (std::size_t k = 0; k < problem.obstacles.size(); ++k) {
     check_obstacle(problem.obstacles[k], item("obstacles", k), faults);
@@ -156,7 +160,8 @@ ReadFleet read_fleet(const Problem& problem) {
 
 std::vector<Fault> faults_of(const Options& options, const Map& map) {
   FaultList faults(kMostFaults);
-  if (options.time_budget.count() <= 0) faults.add("options.time_budget", "The time budget must be positive.");
+  if (options.time_budget.count() <= 0)
+    faults.add("options.time_budget", "The time budget must be positive.");
   const auto interval = options.start_safe_interval.value_or(0.0);
   faults.check(interval, kDuration, "options.start_safe_interval");
   faults.check(options.inflation, kLengthOrZero, "options.inflation");

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <fleetplan/options.h>
+#include <fleetplan/problem.h>
+
 #include <optional>
 #include <stop_token>
 #include <vector>
-
-#include <fleetplan/options.h>
-#include <fleetplan/problem.h>
 
 #include "core/model/moving_obstacle.h"
 #include "core/model/problem.h"

@@ -1,11 +1,10 @@
+#include <fleetplan/limits.h>
 #include <fleetplan/map.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
-
-#include <fleetplan/limits.h>
 
 namespace fleetplan {
 
@@ -31,7 +30,8 @@ Map::Map(int columns, int rows, double resolution, Position origin)
 
 Map Map::from_rows(std::span<const std::string_view> rows, double resolution, Position origin) {
   constexpr std::size_t kMost = 1'000'000'000;
-  if (rows.empty() || rows.size() > kMost || rows[0].size() > kMost) refuse("a map has 1 to 1e9 rows and columns");
+  if (rows.empty() || rows.size() > kMost || rows[0].size() > kMost)
+    refuse("a map has 1 to 1e9 rows and columns");
   const auto columns = static_cast<int>(rows[0].size());
   const auto height = static_cast<int>(rows.size());
   Map map(columns, height, resolution, origin);

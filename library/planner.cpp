@@ -1,12 +1,12 @@
 #include "core/planner.h"
 
+#include <fleetplan/planner.h>
+
 #include <algorithm>
 #include <chrono>
 #include <limits>
 #include <stdexcept>
 #include <utility>
-
-#include <fleetplan/planner.h>
 
 #include "core/replan/plan_without_search.h"
 #include "core/replan/previous_plan.h"
@@ -64,10 +64,8 @@ Plan nothing_planned(std::size_t robots) {
   Plan plan;
   plan.deterministic = false;
   for (std::size_t robot = 0; robot < robots; ++robot) {
-    plan.unplanned.push_back({robot,
-                              Unplanned::Reason::budget_exhausted,
-                              "Planning was stopped before it began.",
-                              {}});
+    plan.unplanned.push_back(
+        {robot, Unplanned::Reason::budget_exhausted, "Planning was stopped before it began.", {}});
   }
   return plan;
 }

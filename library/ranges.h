@@ -1,13 +1,13 @@
 #pragma once
 
+#include <fleetplan/limits.h>
+#include <fleetplan/problem.h>
+
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
-
-#include <fleetplan/limits.h>
-#include <fleetplan/problem.h>
 
 namespace fleetplan::library {
 

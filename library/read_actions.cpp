@@ -76,8 +76,10 @@ std::vector<core::Action> read_actions(const std::vector<Action>& actions, const
       return read;
     };
     if (!in_range(actions[k])) return refuse("has a time or a coordinate out of range");
-    if (actions[k].goal && actions[k].type != Action::Type::wait) return refuse("names a goal, but does not wait");
-    if (actions[k].goal && *actions[k].goal >= robot.goal_count()) return refuse("names a goal that there is not");
+    if (actions[k].goal && actions[k].type != Action::Type::wait)
+      return refuse("names a goal, but does not wait");
+    if (actions[k].goal && *actions[k].goal >= robot.goal_count())
+      return refuse("names a goal that there is not");
     core::Action action = frame.to_core(actions[k]);
     if (const char* why = gap(action, before, now)) return refuse(why);
     action.t_start = now;

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <fleetplan/action.h>
+
 #include <string>
 #include <vector>
-
-#include <fleetplan/action.h>
 
 #include "core/model/action.h"
 #include "core/model/robot.h"

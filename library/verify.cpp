@@ -1,3 +1,5 @@
+#include "core/verify/verify.h"
+
 #include <fleetplan/verify.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 
 #include "core/runtime/stop_condition.h"
 #include "core/verify/tolerances.h"
-#include "core/verify/verify.h"
 #include "library/check_plan.h"
 #include "library/convert.h"
 #include "library/make_problem.h"
@@ -46,11 +47,13 @@ std::vector<core::RobotPlan> core_plans(std::span<const RobotPlan> plans, const 
   return made;
 }
 
-Verification check(const Problem& problem, const std::vector<core::RobotPlan>& plans,
-                   std::vector<core::Tolerance> tolerances, const Rules& rules) {
+}  // namespace
+
+Verification verify(const Problem& problem, std::span<const RobotPlan> plans, const Rules& rules) {
   library::ReadFleet fleet = library::read_fleet(problem);
   if (!fleet.faults.empty()) throw InvalidProblem(std::move(fleet.faults));
-  core::CheckRules core_rules{std::move(tolerances)};
+  core::CheckRules core_rules;
+  core_rules.tolerances.assign(problem.robots.size(), core::Tolerance::of_all(rules.tolerance));
   core_rules.inflation = rules.inflation;
   core_rules.interval_margin = rules.interval_margin;
   core_rules.wait_before_move = rules.wait_before_move;
@@ -58,17 +61,9 @@ Verification check(const Problem& problem, const std::vector<core::RobotPlan>& p
   core_rules.horizon = rules.horizon;
   core_rules.exempt = library::meetings_of(rules.unavoidable);
   const core::OccupancyGrid grid = library::grid_of(problem.map);
-  auto report = core::verify({grid, fleet.robots, fleet.obstacles, &fleet.zones}, plans, core_rules,
-                             end_of(rules));
+  auto report = core::verify({grid, fleet.robots, fleet.obstacles, &fleet.zones},
+                             core_plans(plans, library::Frame(problem.map)), core_rules, end_of(rules));
   return report ? library::verification_of(std::move(*report)) : Verification();
-}
-
-}  // namespace
-
-Verification verify(const Problem& problem, std::span<const RobotPlan> plans, const Rules& rules) {
-  const std::vector<core::Tolerance> tolerances(problem.robots.size(),
-                                                core::Tolerance::of_all(rules.tolerance));
-  return check(problem, core_plans(plans, library::Frame(problem.map)), tolerances, rules);
 }
 
 Verification verify(const Problem& problem, const Plan& plan, const Options& options) {

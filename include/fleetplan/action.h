@@ -1,10 +1,10 @@
 #pragma once
 
+#include <fleetplan/pose.h>
+
 #include <cstddef>
 #include <optional>
 #include <span>
-
-#include <fleetplan/pose.h>
 
 namespace fleetplan {
 

@@ -3,8 +3,8 @@
 namespace fleetplan {
 
 // What real fleets stay in. Within these ranges the planner and its check keep positions to far less than a
-// micrometre, whatever the numbers of other robots (docs/method.md, Tolerances). A number outside of its range
-// is a fault of the problem. The service accepts the same ranges.
+// micrometre, whatever the numbers of other robots (docs/method.md, Tolerances). A number outside of its
+// range is a fault of the problem. The service accepts the same ranges.
 
 /// Metres: the smallest radius, resolution and lattice spacing.
 inline constexpr double kShortestLength = 1e-4;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fleetplan/pose.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -7,13 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include <fleetplan/pose.h>
-
 namespace fleetplan {
 
 /// The blocked and free cells of the plane. Cells are closed squares; column 0 is leftmost, row 0 at the
-/// bottom. Cell (c, r) covers [c, c+1] x [r, r+1] times the resolution, from the origin on. Everything outside
-/// the map is blocked.
+/// bottom. Cell (c, r) covers [c, c+1] x [r, r+1] times the resolution, from the origin on. Everything
+/// outside the map is blocked.
 class Map {
  public:
   /// A free map of `columns` x `rows` cells (both at least 1) of `resolution` metres. `origin` is the lower
@@ -21,15 +21,16 @@ class Map {
   /// a number is out of range (limits.h), or if the map has more than 1e9 cells.
   Map(int columns, int rows, double resolution, Position origin = {});
 
-  /// Draws the map from text, the top row first: `.` and `G` are free, `#`, `@`, `O`, `T` and `W` blocked. All
-  /// rows have the same length. Throws std::invalid_argument otherwise, and as the constructor does.
+  /// Draws the map from text, the top row first: `.` and `G` are free, `#`, `@`, `O`, `T` and `W` blocked.
+  /// All rows have the same length. Throws std::invalid_argument otherwise, and as the constructor does.
   static Map from_rows(std::span<const std::string_view> rows, double resolution, Position origin = {});
-  static Map from_rows(std::initializer_list<std::string_view> rows, double resolution, Position origin = {}) {
+  static Map from_rows(std::initializer_list<std::string_view> rows, double resolution,
+                       Position origin = {}) {
     return from_rows(std::span(rows.begin(), rows.size()), resolution, origin);
   }
 
-  /// Takes cells row by row from the bottom, as in an occupancy grid of ROS; others than 0 are blocked. Throws
-  /// std::invalid_argument if their number is not `columns` x `rows`, and as the constructor does.
+  /// Takes cells row by row from the bottom, as in an occupancy grid of ROS; others than 0 are blocked.
+  /// Throws std::invalid_argument if their number is not `columns` x `rows`, and as the constructor does.
   static Map from_cells(std::span<const std::uint8_t> cells, int columns, int rows, double resolution,
                         Position origin = {});
 

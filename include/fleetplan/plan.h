@@ -1,20 +1,20 @@
 #pragma once
 
+#include <fleetplan/action.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <fleetplan/action.h>
-
 namespace fleetplan {
 
 /// A visit of a robot to one of its goals.
 struct Visit {
-  std::size_t goal = 0;                 // by its number in Robot::goals
-  double t_arrive = 0.0;                // seconds; from then on at rest in the goal pose
-  std::optional<double> t_leave = {};   // seconds, the end of the service; none at the last goal
+  std::size_t goal = 0;                // by its number in Robot::goals
+  double t_arrive = 0.0;               // seconds; from then on at rest in the goal pose
+  std::optional<double> t_leave = {};  // seconds, the end of the service; none at the last goal
 };
 
 /// The plan of one robot.
@@ -24,7 +24,7 @@ struct RobotPlan {
   /// Contiguous in time and space from t = 0 in the start pose, the committed ones first. Empty if the robot
   /// need not move.
   std::vector<Action> actions = {};
-  double lower_bound = 0.0;  // seconds: no plan for the robot alone on the map costs less
+  double lower_bound = 0.0;        // seconds: no plan for the robot alone on the map costs less
   std::vector<Visit> visits = {};  // one for each goal, in their order
   /// Seconds, if the plan stops at the horizon: `cost` and an estimate of the way that is left.
   std::optional<double> estimated_cost = {};
@@ -71,8 +71,8 @@ struct SearchStatistics {
   double seconds = 0.0;           // of planning, without reading the problem and without the check
 };
 
-/// The result of the planner. Every robot is in exactly one of `plans` and `unplanned`, which are in the order
-/// of Problem::robots.
+/// The result of the planner. Every robot is in exactly one of `plans` and `unplanned`, which are in the
+/// order of Problem::robots.
 struct Plan {
   enum class Status {
     solved,   // every robot has a plan

@@ -1,14 +1,14 @@
 #pragma once
 
+#include <fleetplan/options.h>
+#include <fleetplan/plan.h>
+#include <fleetplan/problem.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <stop_token>
-
-#include <fleetplan/options.h>
-#include <fleetplan/plan.h>
-#include <fleetplan/problem.h>
 
 namespace fleetplan {
 
@@ -21,8 +21,8 @@ struct Progress {
 
 /// The connection of a running call to its caller.
 struct Control {
-  /// When a stop is requested, planning ends within milliseconds and returns what it has, as at the end of the
-  /// time budget. May be requested by any thread.
+  /// When a stop is requested, planning ends within milliseconds and returns what it has, as at the end of
+  /// the time budget. May be requested by any thread.
   std::stop_token stop = {};
   /// Called in the thread that called plan(), possibly thousands of times a second. Its time counts against
   /// the time budget. It may throw, which ends planning; plan() passes the exception on.

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include <fleetplan/map.h>
 #include <fleetplan/options.h>
 #include <fleetplan/robot.h>
 #include <fleetplan/surroundings.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace fleetplan {
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <fleetplan/action.h>
+#include <fleetplan/pose.h>
+
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <fleetplan/action.h>
-#include <fleetplan/pose.h>
 
 namespace fleetplan {
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <fleetplan/pose.h>
+
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <fleetplan/pose.h>
 
 namespace fleetplan {
 

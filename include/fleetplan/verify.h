@@ -1,5 +1,9 @@
 #pragma once
 
+#include <fleetplan/options.h>
+#include <fleetplan/plan.h>
+#include <fleetplan/problem.h>
+
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -7,10 +11,6 @@
 #include <stop_token>
 #include <string>
 #include <vector>
-
-#include <fleetplan/options.h>
-#include <fleetplan/plan.h>
-#include <fleetplan/problem.h>
 
 namespace fleetplan {
 
@@ -44,10 +44,10 @@ struct Violation {
 struct Rules {
   /// >= 0: how far plans may deviate, in metres, seconds and radians. 1e-6 allows for decimal text.
   double tolerance = 1e-6;
-  double inflation = 0.0;         // metres, as in Options
-  double interval_margin = 0.0;   // seconds, as in Options
-  double wait_before_move = 0.0;  // seconds, as in Options
-  double start_overlap = 0.0;     // metres, as in Options
+  double inflation = 0.0;                 // metres, as in Options
+  double interval_margin = 0.0;           // seconds, as in Options
+  double wait_before_move = 0.0;          // seconds, as in Options
+  double start_overlap = 0.0;             // metres, as in Options
   std::optional<double> horizon = {};     // seconds, as in Options: plans that end later may end anywhere
   std::vector<Meeting> unavoidable = {};  // collisions that are allowed, as in Plan
 
@@ -68,18 +68,18 @@ struct Verification {
 };
 
 /// Checks plans from any source, at most one for each robot and in any order: robots against robots, moving
-/// obstacles, walls, zones and the edge of the map, continuity, speeds, starts, visits, goals and commitments.
-/// A robot without a plan executes its committed actions and stays at their end. The check is exact in
-/// continuous time up to rounding, and shares no collision test with the search. The lower bounds, visits and
-/// estimates of plans need not be given.
+/// obstacles, walls, zones and the edge of the map, continuity, speeds, starts, visits, goals and
+/// commitments. A robot without a plan executes its committed actions and stays at their end. The check is
+/// exact in continuous time up to rounding, and shares no collision test with the search. The lower bounds,
+/// visits and estimates of plans need not be given.
 ///
 /// The problem need not be valid as a whole: overlapping starts are violations at t = 0. But its numbers have
 /// to be in their ranges, and lists as their types describe; throws InvalidProblem otherwise. Throws
 /// std::invalid_argument if a plan belongs to no robot, or two belong to the same one.
 Verification verify(const Problem& problem, std::span<const RobotPlan> plans, const Rules& rules = {});
 
-/// Checks a plan of plan() for the same problem and options as plan() itself does: with tolerances that follow
-/// from the size of the map, and its unavoidable meetings allowed.
+/// Checks a plan of plan() for the same problem and options: by the rules that follow from the options, with
+/// its unavoidable meetings allowed.
 Verification verify(const Problem& problem, const Plan& plan, const Options& options = {});
 
 }  // namespace fleetplan

@@ -46,7 +46,8 @@ TEST_P(Layer, FollowsItsRules) {
   for (const auto& [path, text] : sources) EXPECT_THAT(violations(path, text), IsEmpty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Layer, testing::Values("include", "library", "examples", "core", "api", "server", "tests"),
+INSTANTIATE_TEST_SUITE_P(Of, Layer,
+                         testing::Values("include", "library", "examples", "core", "api", "server", "tests"),
                          [](const auto& layer) { return layer.param; });
 
 /// Two types of one name in one namespace are undefined behaviour, which no compiler reports.
@@ -81,7 +82,8 @@ TEST(SourceRules, AllowPublicHeadersOnlyEachOtherAndTheStandardLibrary) {
   EXPECT_THAT(violations(path, "#pragma once\n#include <Eigen/Core>\n"), ElementsAre(HasSubstr("Eigen")));
   EXPECT_THAT(violations(path, "#pragma once\n#include \"core/model/robot.h\"\n"),
               ElementsAre(HasSubstr("core/model/robot.h")));
-  EXPECT_THAT(violations(path, "#pragma once\nthread_local int x;\n"), ElementsAre(HasSubstr("thread_local")));
+  EXPECT_THAT(violations(path, "#pragma once\nthread_local int x;\n"),
+              ElementsAre(HasSubstr("thread_local")));
   EXPECT_THAT(violations("library/a.cpp", "#include \"api/response/error.h\"\n"),
               ElementsAre(HasSubstr("api/response/error.h")));
 }

@@ -46,7 +46,8 @@ const std::vector<Layer>& layers() {
        {"library/", "core/"},
        {"fleetplan/"},
        false,
-       {"getenv", "cout", "cerr", "clog", "printf", "std::exit", "std::abort", "system_clock", "thread_local"}},
+       {"getenv", "cout", "cerr", "clog", "printf", "std::exit", "std::abort", "system_clock",
+        "thread_local"}},
       {"examples/", {}, {"fleetplan/"}, false, {}},
       {"api/",
        {"api/", "core/"},
@@ -54,7 +55,7 @@ const std::vector<Layer>& layers() {
        false,
        {"getenv", "cout", "cerr", "clog", "printf", "std::exit", "spdlog", "httplib"}},
       {"server/", {"server/", "api/", "core/"}, {}, true, {"rand", "srand"}},
-      {"tests/", {"tests/", "server/", "api/", "core/"}, {}, true, {}},
+      {"tests/", {"tests/", "server/", "api/", "library/", "core/"}, {}, true, {}},
   };
   return all;
 }
