@@ -17,14 +17,16 @@ function(install_compressed file folder name component)
     " COMPONENT ${component})
 endfunction()
 
-install(FILES ${debian}/fleetplan.service DESTINATION lib/systemd/system COMPONENT system)
-install(FILES ${debian}/fleetplan.default DESTINATION /etc/default RENAME fleetplan COMPONENT system)
+install(FILES ${debian}/fleetplan.service DESTINATION lib/systemd/system COMPONENT system EXCLUDE_FROM_ALL)
+install(FILES ${debian}/fleetplan.default DESTINATION /etc/default RENAME fleetplan COMPONENT system EXCLUDE_FROM_ALL)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${doc}/fleetplan RENAME copyright COMPONENT system)
 install(FILES ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${doc}/fleetplan COMPONENT system)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${doc}/fleetplan COMPONENT system
         USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE)
 install_compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md ${doc}/fleetplan changelog system)
-install_compressed(${manual} ${CMAKE_INSTALL_DATAROOTDIR}/man/man1 fleetplan.1 system)
+if(EXISTS ${manual})
+  install_compressed(${manual} ${CMAKE_INSTALL_DATAROOTDIR}/man/man1 fleetplan.1 system)
+endif()
 
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${doc}/libfleetplan-dev RENAME copyright
         COMPONENT development)
@@ -53,16 +55,14 @@ set(CPACK_DEBIAN_SERVER_PACKAGE_CONTROL_EXTRA
     "${debian}/postinst;${debian}/prerm;${debian}/postrm;${debian}/conffiles")
 set(CPACK_DEBIAN_SERVER_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-string(CONCAT CPACK_COMPONENT_GROUP_SERVER_DESCRIPTION
-    "planner of collision-free motions for fleets of robots\n"
+string(CONCAT CPACK_DEBIAN_SERVER_DESCRIPTION
     "A stateless HTTP service that plans timed motions for fleets of differential-drive\n"
     "robots, its web page, and commands that answer requests from files.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libfleetplan-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libstdc++-12-dev | libstdc++-dev")
-string(CONCAT CPACK_COMPONENT_GROUP_DEV_DESCRIPTION
-    "planner of collision-free motions for fleets of robots (library)\n"
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libstdc++-12-dev | libstdc++-13-dev | libstdc++-14-dev")
+string(CONCAT CPACK_DEBIAN_DEV_DESCRIPTION
     "Headers, static library and CMake package for programs that plan timed motions for\n"
     "fleets of differential-drive robots: find_package(fleetplan).")
 

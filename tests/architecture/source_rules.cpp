@@ -41,7 +41,7 @@ const std::vector<Layer>& layers() {
        {"getenv", "cout", "cerr", "clog", "printf", "fprintf", "puts", "std::exit", "std::abort",
         "system_clock", "random_device", "rand", "srand", "spdlog", "nlohmann", "httplib"}},
       // The public headers are all that users have.
-      {"include/fleetplan/", {}, {"fleetplan/"}, false, {"getenv", "cout", "thread_local", "core"}},
+      {"include/fleetplan/", {}, {"fleetplan/"}, false, {"getenv", "cout", "thread_local"}},
       {"library/",
        {"library/", "core/"},
        {"fleetplan/"},
