@@ -3,6 +3,7 @@
 
 import argparse
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -41,6 +42,16 @@ class InstalledLibrary(unittest.TestCase):
     def test_the_example_plans_without_collisions(self):
         output = run(self.build(PROJECT / "examples", "example") / "plan")
         self.assertRegex(output, r"(?s)\Aeast-bound arrives after .*flowtime \d+\.\d+ s, no collisions\n\Z")
+
+    @unittest.skipUnless((PROJECT / "docs").exists(), "the image is built without documents")
+    def test_the_program_of_the_document_runs(self):
+        (program,) = re.findall(r"^```cpp\n(.*?)^```$", (PROJECT / "docs/library.md").read_text(), re.M | re.S)
+        source = self.folder / "document.cpp"
+        source.write_text(program)
+        (archive,) = self.prefix.rglob("libfleetplan.a")
+        run(ARGUMENTS.compiler, "-std=c++20", *self.flags, "-I", self.prefix / "include", source, archive,
+            "-o", self.folder / "document")
+        self.assertRegex(run(self.folder / "document"), r"(?m)s: to 3\.5, 2\.5\n\Z")
 
     def test_a_shared_library_may_contain_it(self):
         output = run(self.build(PROJECT / "tests/library/consumer", "consumer") / "consumer")
