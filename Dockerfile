@@ -12,7 +12,10 @@ RUN bash -euo pipefail -c '. scripts/lib.sh; need_packages "${BUILD_PACKAGES[@]}
 COPY CMakeLists.txt CMakePresets.json ./
 COPY cmake cmake
 COPY web web
+COPY include include
 COPY core core
+COPY library library
+COPY examples examples
 COPY api api
 COPY server server
 COPY tests tests

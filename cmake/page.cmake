@@ -21,4 +21,4 @@ else()
   add_custom_target(fleetplan_page)
 endif()
 
-install(DIRECTORY ${FLEETPLAN_WEB_ROOT}/ DESTINATION share/fleetplan/web)
+install(DIRECTORY ${FLEETPLAN_WEB_ROOT}/ DESTINATION share/fleetplan/web COMPONENT runtime)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fleetplan/limits.h>
+
 #include <cstdint>
 #include <limits>
 
@@ -7,19 +9,14 @@
 
 namespace fleetplan::api {
 
-// What real fleets stay in. Within these ranges the planner and its check keep positions to far less than a
-// micrometre, whatever the numbers of other robots (docs/method.md, Tolerances).
-inline constexpr double kShortestLength = 1e-4;     // metres; 200 times the contact tolerance
-inline constexpr double kLargestExtent = 1e6;       // metres; of a map, and so of a robot
-inline constexpr double kFarthestCoordinate = 1e9;  // metres; doubles are a tenth of a micrometre apart there
-inline constexpr double kLongestTime = 1e8;         // seconds, three years
+// The numbers that requests may have are those of the library.
 inline constexpr Range kLength{kShortestLength, kLargestExtent, "metres"};
 inline constexpr Range kLengthOrZero{0.0, kLargestExtent, "metres"};
 inline constexpr Range kCoordinate{-kFarthestCoordinate, kFarthestCoordinate, "metres"};
-inline constexpr Range kLinearSpeed{1e-3, 1e3, "metres per second"};
-inline constexpr Range kAngularSpeed{1e-3, 1e6, "radians per second"};
+inline constexpr Range kLinearSpeed{kLeastLinearSpeed, kMostLinearSpeed, "metres per second"};
+inline constexpr Range kAngularSpeed{kLeastAngularSpeed, kMostAngularSpeed, "radians per second"};
 inline constexpr Range kDuration{0.0, kLongestTime, "seconds"};
-inline constexpr Range kHorizon{1e-3, kLongestTime, "seconds"};
+inline constexpr Range kHorizon{kShortestHorizon, kLongestTime, "seconds"};
 inline constexpr Range kSlackInTime{1e-3, kLongestTime, "seconds"};  // of dependencies
 inline constexpr Range kAnyAngle{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
                                  "radians"};

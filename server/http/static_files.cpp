@@ -103,11 +103,10 @@ std::optional<StaticFile> StaticFiles::read(std::string_view path) const {
 
 fs::path default_web_root() {
   std::error_code error;
-  if (fs::is_directory(FLEETPLAN_BUILT_WEB, error)) return FLEETPLAN_BUILT_WEB;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
-  if (error) return {};
   const fs::path installed = executable.parent_path().parent_path() / "share" / "fleetplan" / "web";
-  return fs::is_directory(installed, error) ? installed : fs::path();
+  if (!error && fs::is_directory(installed, error)) return installed;
+  return fs::is_directory(FLEETPLAN_BUILT_WEB, error) ? fs::path(FLEETPLAN_BUILT_WEB) : fs::path();
 }
 
 }  // namespace fleetplan::server

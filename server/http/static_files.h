@@ -35,8 +35,8 @@ class StaticFiles {
   std::filesystem::path root_;  // canonical
 };
 
-/// The folder of the page when no setting names one: the page that was built with this program, if that
-/// folder exists; else ../share/fleetplan/web beside the executable; else none (empty).
+/// The folder of the page when no setting names one: ../share/fleetplan/web beside the executable, if
+/// that folder exists; else the page that was built with this program; else none (empty).
 std::filesystem::path default_web_root();
 
 }  // namespace fleetplan::server

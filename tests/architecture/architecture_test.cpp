@@ -46,7 +46,8 @@ TEST_P(Layer, FollowsItsRules) {
   for (const auto& [path, text] : sources) EXPECT_THAT(violations(path, text), IsEmpty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Layer, testing::Values("core", "api", "server", "tests"),
+INSTANTIATE_TEST_SUITE_P(Of, Layer,
+                         testing::Values("include", "library", "examples", "core", "api", "server", "tests"),
                          [](const auto& layer) { return layer.param; });
 
 /// Two types of one name in one namespace are undefined behaviour, which no compiler reports.
@@ -73,6 +74,18 @@ TEST(SourceRules, AllowCoreOnlyItselfEigenAndTheStandardLibrary) {
   EXPECT_THAT(violations("core/a.cpp", "  #  include <nlohmann/json.hpp>"),
               ElementsAre(HasSubstr("<nlohmann/json.hpp>"), HasSubstr("use nlohmann")));
   EXPECT_THAT(violations("core/a.cpp", "#include <unistd.h>\n"), ElementsAre(HasSubstr("<unistd.h>")));
+}
+
+TEST(SourceRules, AllowPublicHeadersOnlyEachOtherAndTheStandardLibrary) {
+  const std::string path = "include/fleetplan/a.h";
+  EXPECT_THAT(violations(path, "#pragma once\n#include <fleetplan/b.h>\n#include <vector>\n"), IsEmpty());
+  EXPECT_THAT(violations(path, "#pragma once\n#include <Eigen/Core>\n"), ElementsAre(HasSubstr("Eigen")));
+  EXPECT_THAT(violations(path, "#pragma once\n#include \"core/model/robot.h\"\n"),
+              ElementsAre(HasSubstr("core/model/robot.h")));
+  EXPECT_THAT(violations(path, "#pragma once\nthread_local int x;\n"),
+              ElementsAre(HasSubstr("thread_local")));
+  EXPECT_THAT(violations("library/a.cpp", "#include \"api/response/error.h\"\n"),
+              ElementsAre(HasSubstr("api/response/error.h")));
 }
 
 TEST(SourceRules, AllowApiToIncludeCoreButNotTheServer) {

@@ -40,13 +40,22 @@ const std::vector<Layer>& layers() {
        false,
        {"getenv", "cout", "cerr", "clog", "printf", "fprintf", "puts", "std::exit", "std::abort",
         "system_clock", "random_device", "rand", "srand", "spdlog", "nlohmann", "httplib"}},
+      // The public headers are all that users have.
+      {"include/fleetplan/", {}, {"fleetplan/"}, false, {"getenv", "cout", "thread_local"}},
+      {"library/",
+       {"library/", "core/"},
+       {"fleetplan/"},
+       false,
+       {"getenv", "cout", "cerr", "clog", "printf", "std::exit", "std::abort", "system_clock",
+        "thread_local"}},
+      {"examples/", {}, {"fleetplan/"}, false, {}},
       {"api/",
        {"api/", "core/"},
-       {"nlohmann/", "png.h"},
+       {"fleetplan/", "nlohmann/", "png.h"},
        false,
        {"getenv", "cout", "cerr", "clog", "printf", "std::exit", "spdlog", "httplib"}},
       {"server/", {"server/", "api/", "core/"}, {}, true, {"rand", "srand"}},
-      {"tests/", {"tests/", "server/", "api/", "core/"}, {}, true, {}},
+      {"tests/", {"tests/", "server/", "api/", "library/", "core/"}, {}, true, {}},
   };
   return all;
 }

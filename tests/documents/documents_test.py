@@ -339,6 +339,16 @@ class Names(unittest.TestCase):
     def test_the_readme_is_short(self):
         self.assertLessEqual(len(DOCUMENTS["README.md"].splitlines()), 120)
 
+    def test_the_version_is_that_of_the_build_everywhere(self):
+        def stated(file, pattern):
+            return re.findall(pattern, (PROJECT / file).read_text(), re.MULTILINE)
+        (version,) = stated("CMakeLists.txt", r"^project\(fleetplan VERSION (\S+)")
+        self.assertEqual(stated("Dockerfile", r'image\.version="([^"]*)"'), [version])
+        self.assertEqual(json.loads((PROJECT / "api/openapi.json").read_text())["info"]["version"], version)
+        self.assertEqual(stated("deploy/kubernetes/overlays/example/kustomization.yaml", r"newTag: (\S+)"), [version])
+        (required,) = stated("examples/CMakeLists.txt", r"find_package\(fleetplan (\S+)")
+        self.assertTrue(version.startswith(required + "."), required)
+
     def test_every_path_that_is_named_exists(self):
         folders = "|".join(sorted(p.name for p in PROJECT.iterdir() if p.is_dir() and p.name not in (".git", "build")))
         for name, text in DOCUMENTS.items():

@@ -29,7 +29,7 @@ constexpr std::array<std::string_view, 9> kMembers{
     "id", "type", "polygon", "mask", "robots", "linear_speed", "angular_speed", "heading", "half_angle"};
 /// What it costs to make a zone of a part of a mask, in bytes of text.
 constexpr std::size_t kWorkOfAPart = 64;
-constexpr Range kHalfAngle{1e-3, std::numbers::pi, "radians"};
+constexpr Range kHalfAngle{kLeastHalfAngle, std::numbers::pi, "radians"};
 
 class ZoneReader {
  public:

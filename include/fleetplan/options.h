@@ -1,0 +1,58 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+namespace fleetplan {
+
+/// How to plan. The defaults are those of the service, and so are the meanings: docs/api.md, Options.
+struct Options {
+  enum class Mode {
+    first,    // returns the first plan
+    anytime,  // uses the rest of the time budget to improve it
+  };
+  enum class Objective { flowtime, makespan };  // the sum or the maximum of the robots' costs
+  enum class Priority { shortest_first, longest_first, as_listed, random };
+  enum class Reordering { raise_failed, random, none };
+  enum class Replan {
+    all,           // the search begins with the previous plans, and improves them
+    where_needed,  // previous plans that hold are kept, unless a robot could not be planned otherwise
+  };
+
+  /// For planning, > 0; the check of the plan may take a little longer. Robots that have no plan by then are
+  /// unplanned.
+  std::chrono::nanoseconds time_budget = std::chrono::seconds(5);
+  Mode mode = Mode::first;
+  Objective objective = Objective::flowtime;  // what `anytime` minimizes
+  std::uint64_t seed = 0;                     // of all random choices
+  /// The order in which robots are planned first. Later robots give way to earlier ones.
+  Priority priority = Priority::shortest_first;
+  /// How the order changes when no plan is found for a robot.
+  Reordering reordering = Reordering::raise_failed;
+  /// Seconds, >= 0, for which the starts of robots that are not planned yet are kept free. None: 3; if any
+  /// robot has committed actions or a previous plan, 0, or 1 with a horizon.
+  std::optional<double> start_safe_interval = {};
+  /// Metres, >= 0, added to every radius during planning: a margin for real robots.
+  double inflation = 0.0;
+  /// Seconds, >= 0, that a robot stands still before every translation, already turned.
+  double wait_before_move = 0.0;
+  /// Allows straight moves between any two cells in line of sight, not only between neighbours.
+  bool any_angle = true;
+  int connectivity = 8;  // the number of neighbours of a cell: 4, 8, 16 or 32
+  Replan replan = Replan::all;
+  /// Seconds, >= 0, by which any two robots may be early or late without meeting.
+  double interval_margin = 0.0;
+  /// Metres, >= 0, by which measured starts may overlap each other or a wall, inflation included.
+  double start_overlap = 0.0;
+  /// Metres between the points at which robots may stop besides starts and goals. None: chosen by the map and
+  /// the robots.
+  std::optional<double> lattice_spacing = {};
+  /// Seconds up to which conflicts are resolved. A plan may stop there before its goal, where the robot may
+  /// rest for good; see RobotPlan::estimated_cost. None: whole ways are planned.
+  std::optional<double> horizon = {};
+  /// Of `anytime`: improves by so many steps, instead of until the time budget ends.
+  std::optional<std::int64_t> max_iterations = {};
+};
+
+}  // namespace fleetplan

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <fleetplan/action.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fleetplan {
+
+/// A visit of a robot to one of its goals.
+struct Visit {
+  std::size_t goal = 0;                // by its number in Robot::goals
+  double t_arrive = 0.0;               // seconds; from then on at rest in the goal pose
+  std::optional<double> t_leave = {};  // seconds, the end of the service; none at the last goal
+};
+
+/// The plan of one robot.
+struct RobotPlan {
+  std::size_t robot = 0;  // by its number in Problem::robots
+  double cost = 0.0;      // seconds: when it has come to rest in its last goal, where it stays
+  /// Contiguous in time and space from t = 0 in the start pose, the committed ones first. Empty if the robot
+  /// need not move.
+  std::vector<Action> actions = {};
+  double lower_bound = 0.0;        // seconds: no plan for the robot alone on the map costs less
+  std::vector<Visit> visits = {};  // one for each goal, in their order
+  /// Seconds, if the plan stops at the horizon: `cost` and an estimate of the way that is left.
+  std::optional<double> estimated_cost = {};
+};
+
+/// A robot without a plan. It executes its committed actions and stays at their end, or stays at its start;
+/// the plans of other robots keep clear of it.
+struct Unplanned {
+  enum class Reason {
+    start_blocked,         // it cannot leave its start
+    goal_blocked,          // it does not fit at a goal
+    goal_unreachable,      // no way leads to a goal
+    blocked_by_robots,     // robots that stay are in its way: `blocked_by`
+    budget_exhausted,      // the time or the memory was spent first
+    committed_in_the_way,  // committed motion or an obstacle passes where it stands: Plan::unavoidable
+  };
+  std::size_t robot = 0;
+  Reason reason = Reason::budget_exhausted;
+  std::string detail = {};                   // a sentence for people
+  std::vector<std::size_t> blocked_by = {};  // ascending; the first twenty
+};
+
+/// A collision that no plan avoids: a robot that cannot leave its place in time from where the committed
+/// motion of another robot, or an obstacle, will pass.
+struct Meeting {
+  std::size_t robot = 0;
+  std::optional<std::size_t> other = {};     // another robot, or
+  std::optional<std::size_t> obstacle = {};  // an obstacle
+  double t = 0.0;                            // seconds; when the overlap begins
+};
+
+/// The sum and the maximum of the planned robots' costs, seconds.
+struct Objectives {
+  double flowtime = 0.0;
+  double makespan = 0.0;
+};
+
+/// What the search did.
+struct SearchStatistics {
+  std::int64_t attempts = 0;      // priority orders tried
+  std::int64_t expansions = 0;    // search labels expanded
+  std::int64_t improvements = 0;  // found in mode `anytime`
+  bool exhausted = false;         // more time would change nothing
+  double seconds = 0.0;           // of planning, without reading the problem and without the check
+};
+
+/// The result of the planner. Every robot is in exactly one of `plans` and `unplanned`, which are in the
+/// order of Problem::robots.
+struct Plan {
+  enum class Status {
+    solved,   // every robot has a plan
+    partial,  // some robots have
+    none,
+  };
+  Status status = Status::none;
+  std::vector<RobotPlan> plans = {};
+  std::vector<Unplanned> unplanned = {};
+  std::vector<Meeting> unavoidable = {};  // by time
+  Objectives objectives;
+  Objectives lower_bound;  // of the planned robots
+  /// The independent checker (verify.h) has found no violation. False only if the time did not suffice for
+  /// the check. A plan that it rejects is never returned, see plan().
+  bool verified = false;
+  /// Metres: the smallest gap between two disks over all time; none for fewer than two robots, or unless
+  /// verified.
+  std::optional<double> min_clearance = {};
+  /// The same problem, options and build give the same plan. False if the clock influenced it.
+  bool deterministic = true;
+  SearchStatistics search;
+
+  /// The plan of a robot; null if it has none.
+  const RobotPlan* plan_of(std::size_t robot) const;
+};
+
+}  // namespace fleetplan

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <fleetplan/options.h>
+#include <fleetplan/plan.h>
+#include <fleetplan/problem.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stop_token>
+
+namespace fleetplan {
+
+/// How far planning has come.
+struct Progress {
+  std::int64_t attempts = 0;            // priority orders begun so far
+  std::size_t planned = 0;              // robots that have a plan now, parked ones included; may decrease
+  std::optional<Objectives> best = {};  // of the plan that would be returned now; none before the first
+};
+
+/// The connection of a running call to its caller.
+struct Control {
+  /// When a stop is requested, planning ends within milliseconds and returns what it has, as at the end of
+  /// the time budget. May be requested by any thread.
+  std::stop_token stop = {};
+  /// Called in the thread that called plan(), possibly thousands of times a second. Its time counts against
+  /// the time budget. It may throw, which ends planning; plan() passes the exception on.
+  std::function<void(const Progress&)> progress = {};
+};
+
+/// Plans collision-free timed motions for all robots of the problem, or for as many as it can within the time
+/// budget, and checks the plan in continuous time. The computation takes place in the calling thread.
+///
+/// Planning is prioritized, so it is neither complete nor optimal: a solvable problem may return
+/// Plan::Status::partial, and costs may exceed the optimum. Each plan comes with a lower bound of its cost.
+///
+/// Throws InvalidProblem if faults_of() has any. Throws std::logic_error if the checker rejects the plan: a
+/// bug of the library, not of the problem.
+Plan plan(const Problem& problem, const Options& options = {}, const Control& control = {});
+
+}  // namespace fleetplan

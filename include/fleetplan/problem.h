@@ -1,0 +1,54 @@
+#pragma once
+
+#include <fleetplan/map.h>
+#include <fleetplan/options.h>
+#include <fleetplan/robot.h>
+#include <fleetplan/surroundings.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace fleetplan {
+
+/// What to plan for. All coordinates are in the frame in which Map::origin is given.
+///
+/// A problem is valid if
+///
+/// - all numbers are in their ranges (limits.h) and the lists are as their types describe,
+/// - the disk of every robot is clear of blocked cells and zones at its start and goals,
+/// - no two starts and no two last goals overlap, apart from Options::start_overlap,
+/// - committed motion collides with nothing that is certain: walls, other committed motion, parked robots.
+///
+/// Overlaps of up to 5e-7 m are contact, and contact is allowed.
+struct Problem {
+  Map map;
+  std::vector<Robot> robots = {};
+  std::vector<MovingObstacle> obstacles = {};
+  std::vector<Zone> zones = {};
+};
+
+/// Something that is wrong with a problem or with options.
+struct Fault {
+  std::string place;   // the member, such as "robots[3].goals[0]" or "options.horizon"
+  std::string detail;  // a sentence for people, with units
+};
+
+/// The faults of a problem and of the options for it: at most 20, in the order of robots; none if the problem
+/// can be planned. Geometry is examined only if all numbers are in their ranges. Takes milliseconds for a map
+/// of a million cells.
+std::vector<Fault> faults_of(const Problem& problem, const Options& options = {});
+
+/// Thrown by functions that need a valid problem.
+class InvalidProblem : public std::invalid_argument {
+ public:
+  /// At least one fault; what() has the first of them.
+  explicit InvalidProblem(std::vector<Fault> faults);
+
+  const std::vector<Fault>& faults() const { return faults_; }
+
+ private:
+  std::vector<Fault> faults_;
+};
+
+}  // namespace fleetplan

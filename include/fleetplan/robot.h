@@ -1,0 +1,46 @@
+#pragma once
+
+#include <fleetplan/action.h>
+#include <fleetplan/pose.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fleetplan {
+
+/// A pose in which a robot comes to rest.
+struct Goal {
+  double x = 0.0;  // metres
+  double y = 0.0;
+  std::optional<double> theta = {};  // radians; none: any heading
+  double service = 0.0;              // seconds, >= 0, at rest in the pose
+  double not_before = 0.0;           // seconds, >= 0: the service begins at this time at the earliest
+  /// Metres: the radius of the robot from the end of the service on; none: as before.
+  std::optional<double> radius_after = {};
+};
+
+/// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead (or
+/// back, see `may_reverse`). It has no inertia. Touching is allowed, overlapping is not. limits.h has the
+/// ranges.
+struct Robot {
+  std::string id;              // for your own use; may be empty, need not be unique
+  double radius = 0.0;         // metres, > 0
+  double linear_speed = 0.0;   // metres per second, > 0
+  double angular_speed = 0.0;  // radians per second, > 0
+  Pose start;                  // at t = 0
+  /// Visited in this order. The robot stays at the last one. Without goals it is parked, and never moves.
+  std::vector<Goal> goals;
+
+  /// Executed whatever is planned: contiguous from t = 0 in `start`, none faster than the robot. The plan
+  /// begins with these actions. Gaps of up to 5e-7 are closed.
+  std::vector<Action> committed;
+  /// The actions of an earlier plan, likewise from t = 0 in `start`, the committed ones included. The planner
+  /// keeps it or begins with it, see Options::replan.
+  std::optional<std::vector<Action>> previous;
+
+  bool may_reverse = false;  // it may translate backwards
+  double vicinity = 0.0;     // metres, >= 0: added to its radius against other robots only
+};
+
+}  // namespace fleetplan

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <fleetplan/pose.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fleetplan {
+
+/// A disk that nobody here controls: a person, a robot of another fleet. It is absent before the first entry,
+/// moves straight at constant speed from entry to entry, and then leaves or stays. It may cross walls, the
+/// edge of the map and other obstacles.
+struct MovingObstacle {
+  struct Entry {
+    double t = 0.0;  // seconds, >= 0, strictly ascending
+    Position position;
+  };
+
+  std::string id;             // for your own use
+  double radius = 0.0;        // metres, > 0
+  std::vector<Entry> motion;  // at least one
+  bool stays = false;         // after the last entry
+};
+
+/// A part of the map with a rule of its own.
+struct Zone {
+  enum class Type {
+    blocked,  // no part of a robot's disk may be inside
+    speed,    // limits of the speeds while the robot's centre is inside
+    one_way,  // translations with the centre inside keep within `half_angle` of `heading`
+  };
+
+  std::string id;  // for your own use
+  Type type = Type::blocked;
+  /// The corners of a simple polygon, three at least, in either order. Its border belongs to a blocked zone,
+  /// not to the others. Sides that cross are not detected; which points are inside is then undefined.
+  std::vector<Position> polygon;
+  /// Of `speed`: the limits; none: no limit of this speed.
+  std::optional<double> linear_speed;   // metres per second
+  std::optional<double> angular_speed;  // radians per second
+  double heading = 0.0;                 // of `one_way`: radians
+  double half_angle = 0.0;              // of `one_way`: radians, > 0, at most pi
+  std::vector<std::size_t> robots;      // that it is for; empty: all of them
+};
+
+}  // namespace fleetplan

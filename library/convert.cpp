@@ -1,0 +1,212 @@
+#include "library/convert.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/geometry/angle.h"
+#include "core/geometry/segment.h"
+
+namespace fleetplan::library {
+
+namespace {
+
+/// The values of two enumerations are in the same order; these are their last ones.
+template <typename A, typename B>
+constexpr bool same(A a, B b) {
+  return static_cast<int>(a) == static_cast<int>(b);
+}
+static_assert(same(Action::Type::wait, core::Action::Type::wait));
+static_assert(same(Zone::Type::one_way, core::Zone::Type::one_way));
+static_assert(same(Options::Mode::anytime, core::PlanOptions::Mode::anytime));
+static_assert(same(Options::Objective::makespan, core::PlanOptions::Objective::makespan));
+static_assert(same(Options::Priority::random, core::PlanOptions::Priority::random));
+static_assert(same(Options::Reordering::none, core::PlanOptions::Reordering::none));
+static_assert(same(Options::Replan::where_needed, core::PlanOptions::Replan::where_needed));
+static_assert(same(Unplanned::Reason::committed_in_the_way, core::Unplanned::Reason::committed_in_the_way));
+static_assert(same(Violation::Kind::zone, core::Violation::Kind::zone));
+
+}  // namespace
+
+core::Pose Frame::to_core(const Pose& pose) const {
+  return {to_core(pose.x, pose.y), core::normalize_angle(pose.theta)};
+}
+
+core::Action Frame::to_core(const Action& action) const {
+  return {static_cast<core::Action::Type>(action.type),
+          action.t_start,
+          action.t_end,
+          to_core(action.from),
+          to_core(action.to),
+          action.goal,
+          action.reverse};
+}
+
+Pose Frame::from_core(const core::Pose& pose) const {
+  const core::Position position = pose.position + origin_;
+  return {position.x(), position.y(), pose.theta};
+}
+
+Action Frame::from_core(const core::Action& action) const {
+  return {static_cast<Action::Type>(action.type),
+          action.t_start,
+          action.t_end,
+          from_core(action.from),
+          from_core(action.to),
+          action.goal,
+          action.reverse};
+}
+
+core::OccupancyGrid grid_of(const Map& map) {
+  core::OccupancyGrid grid(map.columns(), map.rows(), map.resolution());
+  for (int row = 0; row < map.rows(); ++row) {
+    for (int column = 0; column < map.columns(); ++column) {
+      if (map.blocked(column, row)) grid.block({column, row});
+    }
+  }
+  return grid;
+}
+
+core::Robot robot_of(const Robot& robot, const Frame& frame) {
+  core::Robot made;
+  made.id = robot.id;
+  made.radius = robot.radius;
+  made.linear_speed = robot.linear_speed;
+  made.angular_speed = robot.angular_speed;
+  made.start = frame.to_core(robot.start);
+  made.may_reverse = robot.may_reverse;
+  made.vicinity = robot.vicinity;
+  for (const Goal& goal : robot.goals) {
+    core::Goal& each = made.via.emplace_back();
+    each.position = frame.to_core(goal.x, goal.y);
+    if (goal.theta) each.theta = core::normalize_angle(*goal.theta);
+    each.service = goal.service;
+    each.not_before = goal.not_before;
+    each.radius_after = goal.radius_after;
+  }
+  if (made.via.empty()) return made;
+  made.goal = made.via.back();
+  made.via.pop_back();
+  return made;
+}
+
+core::MovingObstacle obstacle_of(const MovingObstacle& obstacle, const Frame& frame) {
+  using After = core::MovingObstacle::After;
+  core::MovingObstacle made{obstacle.id, obstacle.radius, {}, obstacle.stays ? After::stays : After::leaves};
+  for (const MovingObstacle::Entry& entry : obstacle.motion) {
+    made.motion.push_back({entry.t, frame.to_core(entry.position.x, entry.position.y)});
+  }
+  return made;
+}
+
+core::Zone zone_of(const Zone& zone, const Frame& frame) {
+  core::Zone made;
+  made.id = zone.id;
+  made.type = static_cast<core::Zone::Type>(zone.type);
+  for (const Position& corner : zone.polygon) made.polygon.push_back(frame.to_core(corner.x, corner.y));
+  made.linear_speed = zone.linear_speed.value_or(core::Zone::kNoLimit);
+  made.angular_speed = zone.angular_speed.value_or(core::Zone::kNoLimit);
+  made.heading = core::normalize_angle(zone.heading);
+  made.half_angle = zone.half_angle;
+  made.robots = zone.robots;
+  std::sort(made.robots.begin(), made.robots.end());
+  made.robots.erase(std::unique(made.robots.begin(), made.robots.end()), made.robots.end());
+  return made;
+}
+
+core::PlanOptions options_of(const Options& options, bool in_motion) {
+  core::PlanOptions made;
+  made.mode = static_cast<core::PlanOptions::Mode>(options.mode);
+  made.objective = static_cast<core::PlanOptions::Objective>(options.objective);
+  made.seed = options.seed;
+  made.priority = static_cast<core::PlanOptions::Priority>(options.priority);
+  made.reordering = static_cast<core::PlanOptions::Reordering>(options.reordering);
+  // As the service does, see api/request/parse_body.cpp.
+  const double in_motion_interval = options.horizon ? 1.0 : 0.0;
+  made.start_safe_interval =
+      options.start_safe_interval.value_or(in_motion ? in_motion_interval : made.start_safe_interval);
+  made.inflation = options.inflation;
+  made.wait_before_move = options.wait_before_move;
+  made.any_angle = options.any_angle;
+  made.connectivity = options.connectivity;
+  made.replan = static_cast<core::PlanOptions::Replan>(options.replan);
+  made.interval_margin = options.interval_margin;
+  made.start_overlap = options.start_overlap;
+  made.lattice_spacing = options.lattice_spacing;
+  made.horizon = options.horizon;
+  made.max_iterations = options.max_iterations;
+  return made;
+}
+
+core::RobotPlan plan_of(const RobotPlan& plan, const Frame& frame) {
+  core::RobotPlan made;
+  made.robot = plan.robot;
+  made.cost = plan.cost;
+  for (const Action& action : plan.actions) made.actions.push_back(frame.to_core(action));
+  for (const Visit& visit : plan.visits) {
+    made.visits.push_back({visit.goal, visit.t_arrive, visit.t_leave.value_or(core::kForever)});
+  }
+  made.estimated_cost = plan.estimated_cost;
+  return made;
+}
+
+std::vector<core::Meeting> meetings_of(const std::vector<Meeting>& meetings) {
+  std::vector<core::Meeting> made;
+  for (const Meeting& meeting : meetings) {
+    made.push_back({meeting.robot, meeting.other, meeting.obstacle, meeting.t});
+  }
+  return made;
+}
+
+namespace {
+
+RobotPlan plan_of(const core::RobotPlan& plan, const Frame& frame) {
+  RobotPlan made{plan.robot, plan.cost, {}, plan.lower_bound, {}, plan.estimated_cost};
+  made.actions.reserve(plan.actions.size());
+  for (const core::Action& action : plan.actions) made.actions.push_back(frame.from_core(action));
+  for (const core::Visit& visit : plan.visits) {
+    const bool leaves = visit.t_leave < core::kForever;
+    made.visits.push_back({visit.goal, visit.t_arrive, leaves ? std::optional(visit.t_leave) : std::nullopt});
+  }
+  return made;
+}
+
+}  // namespace
+
+Plan plan_of(const core::Plan& plan, const Frame& frame) {
+  Plan made;
+  for (const core::RobotPlan& robot : plan.plans) made.plans.push_back(plan_of(robot, frame));
+  for (const core::Unplanned& robot : plan.unplanned) {
+    made.unplanned.push_back({robot.robot,
+                              static_cast<Unplanned::Reason>(robot.reason),
+                              robot.detail,
+                              {robot.blocked_by.begin(), robot.blocked_by.end()}});
+  }
+  for (const core::Meeting& meeting : plan.unavoidable) {
+    made.unavoidable.push_back({meeting.robot, meeting.other, meeting.obstacle, meeting.t});
+  }
+  using Status = Plan::Status;
+  made.status = made.unplanned.empty() ? Status::solved : made.plans.empty() ? Status::none : Status::partial;
+  made.objectives = {plan.objectives.flowtime, plan.objectives.makespan};
+  made.lower_bound = {plan.lower_bound.flowtime, plan.lower_bound.makespan};
+  made.deterministic = plan.deterministic;
+  made.search.attempts = plan.search.attempts;
+  made.search.expansions = plan.search.expansions;
+  made.search.improvements = plan.search.improvements;
+  made.search.exhausted = plan.search.exhausted;
+  return made;
+}
+
+Verification verification_of(core::VerifyReport report) {
+  Verification made;
+  made.finished = true;
+  made.violation_count = report.violation_count;
+  made.min_clearance = report.min_clearance;
+  for (core::Violation& found : report.violations) {
+    made.violations.push_back({static_cast<Violation::Kind>(found.kind), std::move(found.robots), found.t,
+                               found.distance, found.required, std::move(found.detail), found.obstacle,
+                               found.zone});
+  }
+  return made;
+}
+
+}  // namespace fleetplan::library

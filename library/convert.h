@@ -1,0 +1,55 @@
+#pragma once
+
+// The values of the public headers as those of core, and back. Core has positions relative to the lower left
+// corner of the map.
+
+#include <fleetplan/action.h>
+#include <fleetplan/map.h>
+#include <fleetplan/options.h>
+#include <fleetplan/plan.h>
+#include <fleetplan/problem.h>
+#include <fleetplan/verify.h>
+
+#include <vector>
+
+#include "core/map/occupancy_grid.h"
+#include "core/model/moving_obstacle.h"
+#include "core/model/plan.h"
+#include "core/model/plan_options.h"
+#include "core/model/robot.h"
+#include "core/model/zone.h"
+#include "core/verify/verify.h"
+
+namespace fleetplan::library {
+
+/// Where the lower left corner of the map is.
+class Frame {
+ public:
+  explicit Frame(const Map& map) : origin_(map.origin().x, map.origin().y) {}
+
+  core::Position to_core(double x, double y) const { return core::Position(x, y) - origin_; }
+  core::Pose to_core(const Pose& pose) const;
+  core::Action to_core(const Action& action) const;
+  Pose from_core(const core::Pose& pose) const;
+  Action from_core(const core::Action& action) const;
+
+ private:
+  core::Position origin_;
+};
+
+core::OccupancyGrid grid_of(const Map& map);
+/// Without its committed and previous actions.
+core::Robot robot_of(const Robot& robot, const Frame& frame);
+core::MovingObstacle obstacle_of(const MovingObstacle& obstacle, const Frame& frame);
+core::Zone zone_of(const Zone& zone, const Frame& frame);
+/// `in_motion`: whether any robot has committed actions or a previous plan.
+core::PlanOptions options_of(const Options& options, bool in_motion);
+
+core::RobotPlan plan_of(const RobotPlan& plan, const Frame& frame);
+std::vector<core::Meeting> meetings_of(const std::vector<Meeting>& meetings);
+
+/// Without whether it is verified, and how long it took.
+Plan plan_of(const core::Plan& plan, const Frame& frame);
+Verification verification_of(core::VerifyReport report);
+
+}  // namespace fleetplan::library

@@ -1,0 +1,109 @@
+#include "core/planner.h"
+
+#include <fleetplan/planner.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "core/replan/plan_without_search.h"
+#include "core/replan/previous_plan.h"
+#include "core/runtime/executor.h"
+#include "core/runtime/stop_condition.h"
+#include "library/check_plan.h"
+#include "library/convert.h"
+#include "library/make_problem.h"
+
+namespace fleetplan {
+
+namespace {
+
+using Clock = core::StopCondition::Clock;
+
+/// The check and the decision whether previous plans are kept may take so long after the time budget.
+constexpr std::chrono::milliseconds kPatience{500};
+
+/// The end of a time budget that may be very long.
+Clock::time_point end_of(std::chrono::nanoseconds budget, Clock::time_point begin) {
+  const auto left = Clock::time_point::max() - begin;
+  return budget >= left ? Clock::time_point::max() : begin + budget;
+}
+
+class Reporter : public core::Observer {
+ public:
+  explicit Reporter(const std::function<void(const Progress&)>& progress) : progress_(progress) {}
+
+  void progressed(const core::Progress& progress) override {
+    Progress told{progress.attempts, progress.planned, std::nullopt};
+    if (progress.best) told.best = Objectives{progress.best->flowtime, progress.best->makespan};
+    progress_(told);
+  }
+  bool wants_plan() override { return false; }
+  void show(const core::Plan& /*plan*/) override {}
+
+ private:
+  const std::function<void(const Progress&)>& progress_;
+};
+
+core::Plan planned(const core::Problem& problem, const core::PlanOptions& options,
+                   const core::StopCondition& stop, const Control& control) {
+  if (stop.met() && !core::have_previous_plans(problem.robots())) {
+    const auto patience = core::StopCondition::even_if_cancelled(Clock::now() + kPatience);
+    return core::plan_without_search(problem, options, "Planning was stopped before it began.", patience);
+  }
+  core::CallerThread thread;
+  if (!control.progress) return core::plan(problem, options, stop, thread);
+  Reporter reporter(control.progress);
+  return core::plan(problem, options, stop, thread, &reporter);
+}
+
+/// What is returned if a stop is requested while the problem is read.
+Plan nothing_planned(std::size_t robots) {
+  Plan plan;
+  plan.deterministic = false;
+  for (std::size_t robot = 0; robot < robots; ++robot) {
+    plan.unplanned.push_back(
+        {robot, Unplanned::Reason::budget_exhausted, "Planning was stopped before it began.", {}});
+  }
+  return plan;
+}
+
+}  // namespace
+
+Plan plan(const Problem& problem, const Options& options, const Control& control) {
+  const Clock::time_point begin = Clock::now();
+  library::MadeProblem made = library::make_problem(problem, options, control.stop);
+  if (!made.faults.empty()) throw InvalidProblem(std::move(made.faults));
+  if (!made.problem) return nothing_planned(problem.robots.size());
+
+  const core::PlanOptions core_options = library::options_of(options, library::in_motion(problem));
+  const core::StopCondition stop(end_of(options.time_budget, begin), control.stop);
+  const Clock::time_point started = Clock::now();
+  const core::Plan found = planned(*made.problem, core_options, stop, control);
+  Plan plan = library::plan_of(found, library::Frame(problem.map));
+  plan.search.seconds = std::chrono::duration<double>(Clock::now() - started).count();
+  if (!found.meetings_known) return plan;
+
+  const Clock::time_point now = Clock::now();
+  const auto patience = core::StopCondition::even_if_cancelled(
+      control.stop.stop_requested() ? now + kPatience : std::max(stop.deadline(), now + kPatience));
+  const auto report = library::check_plan(*made.problem, core_options, found, patience);
+  if (!report) return plan;
+  if (!report->valid()) {
+    throw std::logic_error("fleetplan made a plan that its checker rejects: " +
+                           report->violations.front().detail);
+  }
+  plan.verified = true;
+  plan.min_clearance = report->min_clearance;
+  return plan;
+}
+
+const RobotPlan* Plan::plan_of(std::size_t robot) const {
+  const auto found = std::lower_bound(plans.begin(), plans.end(), robot,
+                                      [](const RobotPlan& plan, std::size_t r) { return plan.robot < r; });
+  return found != plans.end() && found->robot == robot ? &*found : nullptr;
+}
+
+}  // namespace fleetplan

@@ -1,0 +1,98 @@
+#include "library/read_actions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/geometry/angle.h"
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::library {
+
+namespace {
+
+using Type = core::Action::Type;
+
+constexpr double kTolerance = core::kContactTolerance;
+/// Radians and seconds, as the service has them (api/request/motion/action_chain.cpp).
+constexpr double kTurnTolerance = core::kSamePosition;
+constexpr double kTimeRounding = std::numeric_limits<double>::epsilon() * core::kLongestPlan;
+
+double distance(const core::Pose& a, const core::Pose& b) { return (b.position - a.position).norm(); }
+double turn(const core::Pose& a, const core::Pose& b) { return core::angle_between(a.theta, b.theta); }
+
+bool in_range(const Action& action) {
+  const auto is_pose = [](const Pose& pose) {
+    return kCoordinate.contains(pose.x) && kCoordinate.contains(pose.y) && kAngle.contains(pose.theta);
+  };
+  return kDuration.contains(action.t_start) && kDuration.contains(action.t_end) && is_pose(action.from) &&
+         is_pose(action.to);
+}
+
+/// Why an action cannot follow a pose and a time; null if it can.
+const char* gap(const core::Action& action, const core::Pose& before, double now) {
+  if (std::abs(action.t_start - now) > kTolerance) return "does not start when the one before ends";
+  if (action.t_end < action.t_start - kTolerance) return "ends before it starts";
+  if (distance(before, action.from) > kTolerance || turn(before, action.from) > kTolerance) {
+    return "does not begin where the one before ends, or at the robot's start";
+  }
+  const bool moves = action.type != Type::translate && distance(action.from, action.to) > kTolerance;
+  const bool turns = action.type != Type::rotate && turn(action.from, action.to) > kTolerance;
+  return moves || turns ? "contradicts its type: only translations move, and only rotations turn" : nullptr;
+}
+
+/// Why a robot cannot execute an action; null if it can.
+const char* impossible(const core::Action& action, const core::Robot& robot) {
+  const double duration = action.t_end - action.t_start;
+  if (action.type == Type::rotate) {
+    const double tolerance = kTurnTolerance + robot.angular_speed * kTimeRounding;
+    const bool is_fast = turn(action.from, action.to) > robot.angular_speed * duration + tolerance;
+    return is_fast ? "is faster than the robot" : nullptr;
+  }
+  if (action.type != Type::translate) return nullptr;
+  const double length = distance(action.from, action.to);
+  if (length > robot.linear_speed * duration + kTolerance || (duration <= 0.0 && length > 0.0)) {
+    return "is faster than the robot";
+  }
+  const core::Position d = action.to.position - action.from.position;
+  const core::Position heading(std::cos(action.from.theta), std::sin(action.from.theta));
+  if (std::abs(core::cross_product(heading, d)) > kTolerance) return "leads off the line of its heading";
+  if (!action.reverse) return nullptr;
+  if (!robot.may_reverse) return "reverses, but the robot may not";
+  return d.dot(heading) > kTolerance ? "leads ahead, although it reverses" : nullptr;
+}
+
+}  // namespace
+
+std::vector<core::Action> read_actions(const std::vector<Action>& actions, const core::Robot& robot,
+                                       const Frame& frame, const std::string& place, FaultList& faults) {
+  std::vector<core::Action> read;
+  read.reserve(actions.size());
+  core::Pose before = robot.start;
+  double now = 0.0;
+  for (std::size_t k = 0; k < actions.size(); ++k) {
+    const auto refuse = [&](const std::string& why) {
+      faults.add(item(place, k), "The action " + why + '.');
+      return read;
+    };
+    if (!in_range(actions[k])) return refuse("has a time or a coordinate out of range");
+    if (actions[k].goal && actions[k].type != Action::Type::wait)
+      return refuse("names a goal, but does not wait");
+    if (actions[k].goal && *actions[k].goal >= robot.goal_count())
+      return refuse("names a goal that there is not");
+    core::Action action = frame.to_core(actions[k]);
+    if (const char* why = gap(action, before, now)) return refuse(why);
+    action.t_start = now;
+    action.t_end = std::max(action.t_start, action.t_end);
+    action.from = before;
+    if (action.type != Type::translate) action.to.position = action.from.position;
+    if (action.type != Type::rotate) action.to.theta = action.from.theta;
+    if (const char* why = impossible(action, robot)) return refuse(why);
+    before = action.to;
+    now = action.t_end;
+    read.push_back(action);
+  }
+  return read;
+}
+
+}  // namespace fleetplan::library

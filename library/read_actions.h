@@ -1,0 +1,20 @@
+#pragma once
+
+#include <fleetplan/action.h>
+
+#include <string>
+#include <vector>
+
+#include "core/model/action.h"
+#include "core/model/robot.h"
+#include "library/convert.h"
+#include "library/ranges.h"
+
+namespace fleetplan::library {
+
+/// Committed or previous actions of a robot. Differences within the contact tolerance are removed, so that
+/// they are exactly contiguous; larger ones, and actions that the robot cannot execute, are faults.
+std::vector<core::Action> read_actions(const std::vector<Action>& actions, const core::Robot& robot,
+                                       const Frame& frame, const std::string& place, FaultList& faults);
+
+}  // namespace fleetplan::library

@@ -1,0 +1,7 @@
+#include <fleetplan/fleetplan.h>
+
+namespace fleetplan {
+
+const char* version() { return FLEETPLAN_VERSION; }
+
+}  // namespace fleetplan

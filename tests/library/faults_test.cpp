@@ -1,0 +1,108 @@
+#include <fleetplan/problem.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/library/fleet.h"
+
+namespace fleetplan {
+namespace TEST_FILE {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+std::vector<std::string> places(const Problem& problem, const Options& options = {}) {
+  std::vector<std::string> places;
+  for (const Fault& fault : faults_of(problem, options)) {
+    places.push_back(fault.place);
+    EXPECT_TRUE(fault.detail.ends_with('.')) << fault.detail;
+  }
+  return places;
+}
+
+TEST(PublicFaults, AreNoneForAValidProblem) {
+  EXPECT_THAT(places(corridor_swap()), IsEmpty());
+  EXPECT_THAT(places({Map(1, 1, 1.0)}), IsEmpty()) << "without robots";
+}
+
+TEST(PublicFaults, NameEveryNumberOutOfRange) {
+  Problem problem = corridor_swap();
+  problem.robots[0].radius = 0.0;
+  problem.robots[1].angular_speed = std::numeric_limits<double>::infinity();
+  problem.robots[1].goals[0].theta = std::numeric_limits<double>::quiet_NaN();
+  problem.obstacles.push_back({"", 0.5, {{1.0, {0.0, 0.0}}, {1.0, {1.0, 0.0}}}});
+  problem.obstacles.push_back({"", 0.5, {}});
+  problem.zones.push_back(
+      {"", Zone::Type::one_way, {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}}, {}, {}, 0.0, 0.0, {7}});
+  Options options;
+  options.connectivity = 5;
+  options.horizon = 0.0;
+  EXPECT_THAT(places(problem, options),
+              ElementsAre("robots[0].radius", "robots[1].angular_speed", "robots[1].goals[0].theta",
+                          "obstacles[0].motion[1].t", "obstacles[1].motion", "zones[0].half_angle",
+                          "zones[0].robots[0]", "options.horizon", "options.connectivity"));
+}
+
+TEST(PublicFaults, NamePosesThatCollide) {
+  Problem problem = corridor_swap();
+  problem.robots[0].start = {0.5, 1.5, 0.0};
+  EXPECT_THAT(places(problem), ElementsAre("robots[0].start"));
+  problem = corridor_swap();
+  problem.robots[0].goals.insert(problem.robots[0].goals.begin(), {3.5, 1.5});
+  EXPECT_THAT(places(problem), ElementsAre("robots[0].goals[0]"));
+  problem = corridor_swap();
+  problem.robots[1].start = {0.8, 0.5, 0.0};
+  EXPECT_THAT(places(problem), ElementsAre("robots[1].start"));
+  Options measured;
+  measured.start_overlap = 0.4;
+  EXPECT_THAT(places(problem, measured), IsEmpty());
+}
+
+TEST(PublicFaults, NameCommittedActionsThatTheRobotCannotExecute) {
+  using Type = Action::Type;
+  const auto places_with = [](const std::vector<Action>& committed) {
+    Problem problem = corridor_swap();
+    problem.robots[0].committed = committed;
+    return places(problem);
+  };
+  const Pose start{0.5, 0.5, 0.0};
+  const Pose there{2.5, 0.5, 0.0};
+  EXPECT_THAT(places_with({{Type::translate, 0.0, 2.0, start, there, {}, false}}), IsEmpty());
+  EXPECT_THAT(places_with({{Type::translate, 0.0, 1.0, start, there, {}, false}}),
+              ElementsAre("robots[0].committed[0]"))
+      << "too fast";
+  EXPECT_THAT(places_with({{Type::translate, 0.0, 2.0, start, {2.5, 0.7, 0.0}, {}, false}}),
+              ElementsAre("robots[0].committed[0]"))
+      << "sideways";
+  EXPECT_THAT(places_with({{Type::wait, 0.0, 2.0, start, there, {}, false}}),
+              ElementsAre("robots[0].committed[0]"))
+      << "a wait that moves";
+  EXPECT_THAT(places_with({{Type::wait, 0.0, 1.0, start, start, {}, false},
+                           {Type::wait, 1.5, 2.0, start, start, {}, false}}),
+              ElementsAre("robots[0].committed[1]"))
+      << "a gap in time";
+  Problem parked = corridor_swap();
+  parked.robots[1].goals.clear();
+  parked.robots[0].committed = {{Type::translate, 0.0, 9.0, start, {8.5, 0.5, 0.0}, {}, false}};
+  EXPECT_THAT(places(parked), testing::Contains("robots[0].committed"));
+}
+
+TEST(PublicFaults, AreThrownByThePlanner) {
+  Problem problem = corridor_swap();
+  problem.robots[1].radius = -1.0;
+  try {
+    plan(problem);
+    FAIL() << "planned";
+  } catch (const InvalidProblem& invalid) {
+    ASSERT_EQ(invalid.faults().size(), 1U);
+    EXPECT_EQ(invalid.faults()[0].place, "robots[1].radius");
+    EXPECT_EQ(std::string(invalid.what()),
+              "robots[1].radius: The value is -1; it must be from 1e-04 to 1e+06 m.");
+  }
+}
+
+}  // namespace TEST_FILE
+}  // namespace fleetplan
