@@ -12,7 +12,7 @@
 
 // Not with ThreadSanitizer: its suppressions for libraries that are not built for it see the direct callers
 // of its own functions only.
-#ifndef __SANITIZE_THREAD__
+#ifndef FLEETPLAN_THREAD_SANITIZER
 
 // All forms are replaced, also those whose defaults call others: those of a sanitizer do not.
 // NOLINTBEGIN(cppcoreguidelines-no-malloc, cppcoreguidelines-owning-memory, misc-new-delete-overloads)
@@ -23,18 +23,10 @@ using fleetplan::core::memory_tally;
 
 constexpr std::size_t kLength = 8;
 
-#if defined(__SANITIZE_ADDRESS__)
-#define FLEETPLAN_SANITIZER_ALLOCATES
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define FLEETPLAN_SANITIZER_ALLOCATES
-#endif
-#endif
-
 /// What a block of this size takes in the GNU C library, its length included: a multiple of 16 bytes.
 /// Computed where the size is known, as asking for it would double the cost of counting.
 constexpr std::size_t taken(std::size_t size) {
-#ifdef FLEETPLAN_SANITIZER_ALLOCATES
+#ifdef FLEETPLAN_ADDRESS_SANITIZER
   return size + kLength;
 #else
   return std::max<std::size_t>(32, (size + kLength + 15) & ~std::size_t{15});
@@ -110,4 +102,4 @@ void operator delete[](void* memory, std::align_val_t /*align*/, const std::noth
 
 // NOLINTEND(cppcoreguidelines-no-malloc, cppcoreguidelines-owning-memory, misc-new-delete-overloads)
 
-#endif  // __SANITIZE_THREAD__
+#endif  // FLEETPLAN_THREAD_SANITIZER

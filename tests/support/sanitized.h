@@ -4,7 +4,7 @@ namespace fleetplan::support {
 
 /// Whether this is a build with AddressSanitizer, which runs several times slower. Long tests then try a part
 /// of their cases; the release build tries all of them.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef FLEETPLAN_ADDRESS_SANITIZER
 inline constexpr bool kSanitized = true;
 #else
 inline constexpr bool kSanitized = false;

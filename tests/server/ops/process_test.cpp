@@ -326,7 +326,7 @@ TEST(Process, ExitsWithOneWhenItCannotAcceptConnectionsAnyMore) {
   }
 }
 
-#ifndef __SANITIZE_ADDRESS__  // the sanitizers use descriptors, too, to judge types
+#ifndef FLEETPLAN_ADDRESS_SANITIZER  // the sanitizers use descriptors, too, to judge types
 TEST(Process, ServesNewClientsWhenItsDescriptorsAreUsedUp) {
   Process process({"--port", "0", "--workers", "1", "--idle-timeout-ms", "600000"}, [] {
     const rlimit few{48, 48};
