@@ -33,9 +33,6 @@ struct Blocks {
 
 Blocks blocks;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): for the callback below
 
-/// A tenth of a second: the longest map is read, copied and indexed in a few linear passes.
-constexpr std::int64_t kMostBlocks = 40'000'000;
-
 /// Steps after the last one of the time: each robot may be asked about a few times, and each loop ends.
 std::int64_t allowed_lateness(std::size_t robots) { return 500 + 16 * static_cast<std::int64_t>(robots); }
 
@@ -81,7 +78,8 @@ void check(const Effort& effort) {
 /// Called by each basic block of a build with -fsanitize-coverage=trace-pc.
 extern "C" __attribute__((no_sanitize_coverage)) void __sanitizer_cov_trace_pc() {  // NOLINT
   using fleetplan::fuzz::blocks;
-  using fleetplan::fuzz::kMostBlocks;
+  // A tenth of a second: the longest map is read, copied and indexed in a few linear passes.
+  constexpr std::int64_t kMostBlocks = 40'000'000;
   const std::int64_t steps = fleetplan::core::step_clock.steps;
   if (steps != blocks.steps) {
     blocks.steps = steps;
