@@ -93,4 +93,8 @@ export function valuesOfComponent(document, name, overrides = {}) {
 export const mostly = (usual, any) =>
   fc.oneof({ weight: 7, arbitrary: usual }, { weight: 1, arbitrary: any });
 
-export const within = (least, most) => fc.double({ min: least, max: most, noNaN: true });
+/** Numbers of a range, all of it as likely; doubles by their bits are mostly tiny. */
+export function within(least, most) {
+  const STEPS = 2 ** 20;
+  return fc.integer({ min: 0, max: STEPS }).map((step) => least + (most - least) * (step / STEPS));
+}

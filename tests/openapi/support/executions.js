@@ -6,8 +6,13 @@ import fc from "fast-check";
 import { mostly, valuesOfComponent, within } from "./arbitraries.js";
 import { textOf } from "./text.js";
 
-const makespanOf = (plans) =>
-  Math.max(0, ...plans.map(({ actions }) => (actions.length > 0 ? actions.at(-1).t_end : 0)));
+const moving = (plans) => plans.filter(({ actions }) => actions.length > 0);
+
+/** Times until a little after one of the plans has ended. */
+const momentsOf = (plans) =>
+  fc
+    .record({ plan: fc.constantFrom(...moving(plans)), share: within(0, 1.1) })
+    .map(({ plan, share }) => share * plan.actions.at(-1).t_end);
 
 /** Where a robot with these actions is at a time, seconds. */
 function poseAt(actions, t) {
@@ -19,6 +24,8 @@ function poseAt(actions, t) {
   const turn = Math.atan2(Math.sin(to.theta - from.theta), Math.cos(to.theta - from.theta));
   return { x: between("x"), y: between("y"), theta: from.theta + share * turn };
 }
+
+const goalsOf = ({ goal, goals }) => goals ?? (goal ? [goal] : []);
 
 /** One value for some of the items. */
 function ofSome(items, make) {
@@ -32,8 +39,6 @@ const progressOf = ({ robot, actions }) =>
     action: fc.nat({ max: actions.length - 1 }),
     progress: mostly(within(0, 1), fc.constantFrom(0, 1)),
   });
-
-const moving = (plans) => plans.filter(({ actions }) => actions.length > 0);
 
 /** Requests and the service's answers to them, {request, answer}, in which robots move. */
 async function planned(client, requests) {
@@ -53,7 +58,7 @@ export async function plannedFleets(client, requests, count, seed) {
   const first = await planned(client, fc.sample(requests, { numRuns: count, seed }));
   const inMotion = [];
   for (const { request, answer } of first) {
-    const at = makespanOf(answer.plans) / 3;
+    const at = moving(answer.plans)[0].actions.at(-1).t_end / 3;
     const next = await client.post("/v1/advance", textOf({ request, plans: answer.plans, at }));
     if (next.status === 200) inMotion.push(next.json);
   }
@@ -133,7 +138,7 @@ export class Executions {
         plans: fc.constant(answer.plans),
         dependencies: fc.constant(answer.dependencies ?? []),
         options: fc.constant(options),
-        at: within(0, 1.2 * makespanOf(answer.plans)),
+        at: momentsOf(answer.plans),
         states: ofSome(moving(answer.plans), state),
       });
     });
@@ -180,43 +185,67 @@ export class Executions {
 
   /**
    * Later moments of the plans. Robots are late together, by as much, as each on its own may be where another one
-   * has come meanwhile, which is no fault of the service. New goals are those that the robot has had.
+   * has come meanwhile, which is no fault of the service. Starts may overlap by as much as poses are off the plans.
+   * New goals are those that the robot has had.
    */
   moments() {
     return this.#fleets.chain(({ request, answer }) => {
-      const end = makespanOf(answer.plans);
-      const { robots } = request;
-      const goalsOf = ({ goal, goals }) => goals ?? (goal ? [goal] : []);
+      const { robots, options } = request;
       const keepsRadius = (robot) => goalsOf(robot).every(({ radius_after }) => radius_after === undefined);
       const again = (robot) => fc.constant({ robot: robot.id, goals: goalsOf(robot) });
       const hold = ({ id }) => fc.record({ robot: fc.constant(id), until: within(0, 20) });
+      const error = fc.record({ x: within(-1, 1), y: within(-1, 1), theta: within(-1, 1) });
+      const measured = fc.record({
+        late: within(0, 2),
+        off: mostly(fc.constant(0), within(0, 0.2)), // shares of the smallest radius; radians
+        tolerance: within(0.001, 0.3),
+        errors: fc.tuple(...answer.plans.map(() => error)),
+      });
       return fc
         .record({
-          at: within(0, 1.2 * end),
-          late: fc.option(within(0, 2)),
+          at: momentsOf(answer.plans),
+          measured: fc.option(measured),
           rest: fc.record(
             {
               commit: within(0, 10),
               holds: ofSome(robots, hold),
               goals: ofSome(robots.filter(keepsRadius), again),
-              pose_tolerance: within(1e-6, 0.2),
             },
             { requiredKeys: [], noNullPrototype: true },
           ),
         })
-        .map(({ at, late, rest }) => ({
-          request,
-          plans: answer.plans,
-          at,
-          ...rest,
-          ...(late === null ? {} : { poses: posesAt(answer.plans, Math.max(0, at - late)) }),
-        }));
+        .map(({ at, measured: how, rest }) => {
+          const moment = { request, plans: answer.plans, at, ...rest };
+          if (how === null) return moment;
+          // A robot that stands may be that far from where its plan has it, and is taken to be there.
+          const radius = smallestRadius(request);
+          const pose_tolerance = how.tolerance * radius;
+          const start_overlap = options.start_overlap + 3 * (how.off * radius + pose_tolerance);
+          const poses = posesAt(answer.plans, Math.max(0, at - how.late), how.errors, how.off * radius);
+          return {
+            ...moment,
+            request: { ...request, options: { ...options, start_overlap } },
+            poses,
+            pose_tolerance,
+          };
+        });
     });
   }
 }
 
-function posesAt(plans, t) {
-  return moving(plans).map(({ robot, actions }) => ({ robot, ...poseAt(actions, t) }));
+function smallestRadius({ robots, robot_defaults }) {
+  const goals = robots.flatMap(goalsOf).map(({ radius_after }) => radius_after);
+  const radii = robots.map(({ radius }) => radius ?? robot_defaults.radius);
+  return Math.min(...radii, ...goals.filter(Boolean));
+}
+
+/** Where the robots of plans are at a time, with errors of at most `most` metres and radians. */
+function posesAt(plans, t, errors, most) {
+  return moving(plans).map(({ robot, actions }, index) => {
+    const { x, y, theta } = poseAt(actions, t);
+    const error = errors[index];
+    return { robot, x: x + most * error.x, y: y + most * error.y, theta: theta + most * error.theta };
+  });
 }
 
 /** A complete answer merged into its request. */

@@ -21,7 +21,7 @@ const MAPS = fc
   .record(
     {
       rows: ROWS,
-      resolution: fc.constantFrom(1, 0.5, 0.05, 25, 1e-3, 1e4),
+      resolution: mostly(fc.constantFrom(1, 0.5, 0.05), fc.constantFrom(25, 1e-3, 1e4)),
       origin: fc.record({ x: fc.constantFrom(0, -7.5, 1e4), y: fc.constantFrom(0, 3) }),
     },
     { requiredKeys: ["rows"], noNullPrototype: true },
@@ -90,7 +90,7 @@ function fleets(document, map, free) {
   const cells = fc.shuffledSubarray(free, { minLength: most, maxLength: most });
   return fc
     .record({
-      robots: fc.array(robot, { minLength: 1, maxLength: most }),
+      robots: fc.array(robot, { minLength: 1, maxLength: most, size: "max" }),
       starts: cells,
       ends: cells,
       robot_defaults: traits,
@@ -200,17 +200,18 @@ function anyOptions(document) {
 }
 
 /** Options with which most fleets can be planned, dependencies included. Numbers survive JSON.parse. */
-function usualOptions(document) {
+function usualOptions(document, { resolution = 1 }) {
   const seldom = (most) => mostly(fc.constant(0), within(0, most));
+  const distance = seldom(0.05).map((share) => share * resolution);
   const usual = fc.record({
     seed: fc.nat(),
     max_iterations: fc.option(fc.nat()),
     start_safe_interval: within(0, 4),
-    inflation: seldom(0.05),
+    inflation: distance,
     wait_before_move: seldom(2),
     interval_margin: seldom(1),
-    start_overlap: seldom(0.05),
-    execution_margin: seldom(0.05),
+    start_overlap: distance,
+    execution_margin: distance,
     dependency_slack: within(0.001, 0.5),
     horizon: mostly(fc.constant(null), within(1, 60)),
     lattice_spacing: fc.constant(null),
@@ -219,7 +220,8 @@ function usualOptions(document) {
   return fc.record({ any: anyOptions(document), usual }).map(({ any, usual: tame }) => ({ ...any, ...tame }));
 }
 
-function requestsWith(document, options) {
+/** `optionsOf`: a map's. */
+function requestsWith(document, optionsOf) {
   return MAPS.chain((map) =>
     fleets(document, map, freeCells(map.rows)).chain((fleet) =>
       fc.record({
@@ -233,7 +235,7 @@ function requestsWith(document, options) {
           ),
           obstacles: obstaclesOn(map),
           metadata: METADATA,
-          options,
+          options: optionsOf(document, map),
         }),
       }),
     ),
@@ -241,11 +243,11 @@ function requestsWith(document, options) {
 }
 
 /** Realistic requests to plan, with usual options. */
-export const usualRequests = (document) => requestsWith(document, usualOptions(document));
+export const usualRequests = (document) => requestsWith(document, usualOptions);
 
 /** Realistic requests to plan, with usual options or any that the schema allows. */
 export function plausibleRequests(document) {
-  return fc.oneof(requestsWith(document, anyOptions(document)), usualRequests(document));
+  return fc.oneof(requestsWith(document, anyOptions), usualRequests(document));
 }
 
 /** Requests to validate: realistic fleets with plans generated from the schema, most for robots of the request. */
