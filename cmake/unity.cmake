@@ -1,13 +1,8 @@
 # With CMAKE_UNITY_BUILD, the sources of a folder of these targets are compiled as one, which saves CPU time of a full
-# build. Two sources of a folder then share their unnamed namespace. Those that use one name for different things
-# are listed in `alone` and compiled on their own.
+# build. Two sources of a folder then share their unnamed namespace. The one that uses names for other things than its
+# folder is compiled on its own.
 
-set(alone
-  api/request/.*
-  core/bounds/.*
-  server/.*/socket.cpp
-)
-list(JOIN alone "|" alone)
+set(alone server/.*/socket.cpp)
 
 foreach(target fleetplan_core fleetplan_api fleetplan_server)
   get_target_property(folder ${target} SOURCE_DIR)

@@ -10,7 +10,7 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kMembers{"speed", "turn", "stops", "start_delay", "cross_track"};
+constexpr std::array<std::string_view, 5> kDisturbanceMembers{"speed", "turn", "stops", "start_delay", "cross_track"};
 constexpr std::array<std::string_view, 2> kRangeMembers{"min", "max"};
 constexpr std::array<std::string_view, 2> kStopsMembers{"rate_per_hour", "mean_s"};
 constexpr std::array<std::string_view, 2> kCrossTrackMembers{"sigma", "correlation_length"};
@@ -53,7 +53,7 @@ core::Disturbance::CrossTrack parse_cross_track(const JsonReader& member) {
 
 core::Disturbance parse_disturbance(const JsonReader& member) {
   core::Disturbance disturbance;
-  const JsonReader json = member.object(kMembers);
+  const JsonReader json = member.object(kDisturbanceMembers);
   if (!json) return disturbance;
   disturbance.speed = parse_range(json.find("speed"), kFactor, disturbance.speed);
   disturbance.turn = parse_range(json.find("turn"), kFactor, disturbance.turn);

@@ -14,7 +14,7 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kMembers{"robots", "robot", "obstacle", "t"};
+constexpr std::array<std::string_view, 4> kMeetingMembers{"robots", "robot", "obstacle", "t"};
 
 /// Robots or obstacles by id.
 using Names = std::unordered_map<std::string_view, std::size_t>;
@@ -38,7 +38,7 @@ class MeetingReader {
   }
 
   core::Meeting read(const JsonReader& item) const {
-    const JsonReader json = item.object(kMembers);
+    const JsonReader json = item.object(kMeetingMembers);
     core::Meeting meeting;
     meeting.t = json.require("t").number(kDuration).value_or(0.0);
     if (const JsonReader pair = json.find("robots")) {

@@ -18,7 +18,7 @@ namespace fleetplan::api {
 namespace {
 
 // `lower_bound`, `estimated_cost`, `ends_at` and `metadata` belong to an answer of /v1/plan and are ignored.
-constexpr std::array<std::string_view, 8> kMembers{"robot",   "cost",    "lower_bound", "estimated_cost",
+constexpr std::array<std::string_view, 8> kPlanMembers{"robot",   "cost",    "lower_bound", "estimated_cost",
                                                    "ends_at", "actions", "visits",      "metadata"};
 constexpr std::array<std::string_view, 4> kVisitMembers{"goal", "t_arrive", "t_leave", "metadata"};
 
@@ -83,7 +83,7 @@ std::vector<core::RobotPlan> parse_plans(const JsonReader& member, const std::ve
   std::vector<core::RobotPlan> plans;
   Roster roster(robots);
   for (const JsonReader item : member.array().items()) {
-    const JsonReader json = item.object(kMembers);
+    const JsonReader json = item.object(kPlanMembers);
     core::RobotPlan plan = parse_plan(json, frame);
     if (const auto owner = roster.assign(json.require("robot"))) {
       plan.robot = *owner;

@@ -11,7 +11,7 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kMembers{"map",   "robot_defaults", "robots",  "obstacles",
+constexpr std::array<std::string_view, 7> kPlanRequestMembers{"map",   "robot_defaults", "robots",  "obstacles",
                                                    "zones", "options",        "metadata"};
 
 /// `errors`: of each robot, or none.
@@ -51,7 +51,7 @@ Result<PlanRequest, RequestError> parse_request(std::string_view body, const Lim
                        std::move(fleet.metadata),
                        requested_dependencies(fleet)};
   };
-  return parse_body<PlanRequest>(body, limits, stop, kMembers, parse);
+  return parse_body<PlanRequest>(body, limits, stop, kPlanRequestMembers, parse);
 }
 
 }  // namespace fleetplan::api

@@ -16,7 +16,7 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 14> kMembers{
+constexpr std::array<std::string_view, 14> kRobotMembers{
     "id",          "radius", "linear_speed", "angular_speed", "vicinity",  "execution_margin", "may_reverse",
     "body_radius", "start",  "goal",         "goals",         "committed", "previous",         "metadata"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
@@ -77,7 +77,7 @@ class RobotReader {
         actions_(limits.max_actions, "actions in committed and previous") {}
 
   ReadRobot read(const JsonReader& item) {
-    const JsonReader json = item.object(kMembers);
+    const JsonReader json = item.object(kRobotMembers);
     ReadRobot read;
     if (!json) return read;
     core::Robot& robot = read.robot;

@@ -21,7 +21,7 @@ namespace fleetplan::api {
 namespace {
 
 // The members of a request to simulate, then those that an answer of /v1/plan adds, which are ignored.
-constexpr std::array<std::string_view, 31> kMembers{
+constexpr std::array<std::string_view, 31> kSimulateRequestMembers{
     "map",         "robot_defaults", "robots",     "obstacles",       "zones",
     "options",     "plans",          "policy",     "max_delay",       "disturbance",
     "runs",        "seed",           "trace",      "dependencies",    "tight",
@@ -34,7 +34,7 @@ constexpr std::array<std::string_view, 31> kMembers{
 constexpr std::array<std::string_view, 4> kPolicies{"open_loop", "absorb_waits", "dependencies",
                                                     "clock_stop"};
 constexpr std::size_t kDefaultRuns = 100;
-constexpr std::uint64_t kMostSeed = std::numeric_limits<std::uint64_t>::max();  // as of the options
+constexpr std::uint64_t kMostSimulationSeed = std::numeric_limits<std::uint64_t>::max();  // as of the options
 
 /// Reports actions that do not go on from one another, and removes what is within the tolerance of that.
 void join_actions(const JsonReader& member, const std::vector<core::Robot>& robots,
@@ -93,7 +93,7 @@ void parse_runs(const JsonReader& root, const Limits& limits, SimulateRequest& r
   const JsonReader member = root.find("runs");
   std::size_t runs = kDefaultRuns;
   if (member.number(kRuns)) runs = member.natural(kMostRuns).value_or(runs);
-  request.settings.seed = root.find("seed").natural(kMostSeed).value_or(0);
+  request.settings.seed = root.find("seed").natural(kMostSimulationSeed).value_or(0);
   const JsonReader trace = root.find("trace");
   if (const auto run = trace.natural(kMostRuns)) {
     if (*run >= runs) {
@@ -152,7 +152,7 @@ Result<SimulateRequest, RequestError> parse_simulate_request(std::string_view bo
     parse_all_dependencies(root, request);
     return reading.met() ? std::nullopt : std::optional(std::move(request));
   };
-  return parse_body<SimulateRequest>(body, limits, stop, kMembers, parse);
+  return parse_body<SimulateRequest>(body, limits, stop, kSimulateRequestMembers, parse);
 }
 
 }  // namespace fleetplan::api

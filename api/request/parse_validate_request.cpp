@@ -16,7 +16,7 @@ namespace fleetplan::api {
 namespace {
 
 // The members of a request to validate, then those that an answer of /v1/plan adds, which are ignored.
-constexpr std::array<std::string_view, 26> kMembers{
+constexpr std::array<std::string_view, 26> kValidateRequestMembers{
     "map",       "robot_defaults", "robots",        "obstacles", "unavoidable", "options",  "plans",
     "tolerance", "status",         "request_id",    "unplanned", "flowtime",    "makespan", "lower_bound",
     "verified",  "min_clearance",  "deterministic", "search",    "timings_ms",  "warnings", "lattice_spacing",
@@ -69,7 +69,7 @@ Result<ValidateRequest, RequestError> parse_validate_request(std::string_view bo
                            std::move(plans),           std::move(dependencies),
                            std::move(rules),           check_budget(fleet.options, limits)};
   };
-  return parse_body<ValidateRequest>(body, limits, stop, kMembers, parse);
+  return parse_body<ValidateRequest>(body, limits, stop, kValidateRequestMembers, parse);
 }
 
 }  // namespace fleetplan::api

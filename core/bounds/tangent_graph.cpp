@@ -8,11 +8,11 @@
 namespace fleetplan::core {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kQuarterTurn = 0.5 * std::numbers::pi;
 /// The number of pieces in which an arc is tested, few enough for the bits of a number; each is then within
 /// 0.12 % of the radius from its chord.
 constexpr int kPieces = 16;
-constexpr double kPiece = 0.5 * kPi / kPieces;
+constexpr double kPiece = kQuarterTurn / kPieces;
 /// Rounding of places on a bend, in pieces.
 constexpr double kPieceRounding = 1e-7;
 
@@ -105,7 +105,7 @@ const TangentGraph::Arc& TangentGraph::arc(int corner) {
   if (arc.known) return arc;
   arc.known = true;
   work_ += kPieces * kSweepWork;
-  const double first = away_direction(corners_.corner(corner)) - 0.25 * kPi;
+  const double first = away_direction(corners_.corner(corner)) - 0.5 * kQuarterTurn;
   const Position center = corners_.position(corner);
   const auto at = [&](int k) {
     const double angle = first + k * kPiece;
@@ -121,9 +121,9 @@ const TangentGraph::Arc& TangentGraph::arc(int corner) {
 bool TangentGraph::is_arc_free(const Bend& bend, double from_angle, double to_angle) {
   const double low = bend.left ? from_angle : -to_angle;
   const double high = bend.left ? to_angle : -from_angle;
-  const int first = std::max(0, static_cast<int>(std::ceil((low + 0.25 * kPi) / kPiece + kPieceRounding)));
+  const int first = std::max(0, static_cast<int>(std::ceil((low + 0.5 * kQuarterTurn) / kPiece + kPieceRounding)));
   const int last =
-      std::min(kPieces, static_cast<int>(std::floor((high + 0.25 * kPi) / kPiece - kPieceRounding)));
+      std::min(kPieces, static_cast<int>(std::floor((high + 0.5 * kQuarterTurn) / kPiece - kPieceRounding)));
   if (last <= first) return true;
   const std::uint32_t pieces = ((1u << last) - 1u) & ~((1u << first) - 1u);
   return (arc(bend.corner).blocked & pieces) == 0;

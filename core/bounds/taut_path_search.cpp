@@ -12,9 +12,9 @@ namespace {
 /// Rounding of an angle on a bend (radians): tangents that touch it at the same angle are connected.
 constexpr double kSameAngle = 1e-6;
 /// Rounding of the cost of a path, relative and in seconds.
-constexpr double kRounding = 1e-9;
+constexpr double kCostRounding = 1e-9;
 /// Expansions between two checks of the stop condition.
-constexpr int kStopStride = 16;
+constexpr int kExpansionStride = 16;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ TautPathResult TautPathSearch::run(const GoalLeg& leg, const Motion& motion, dou
   leg_ = &leg;
   motion_ = &motion;
   bend_time_ = motion.translation_time(graph_.radius()) + 1.0 / motion.angular_speed;
-  limit_ = known_cost * (1.0 + kRounding) + kRounding;
+  limit_ = known_cost * (1.0 + kCostRounding) + kCostRounding;
   const std::int64_t last_work = work() + max_work;
   reset();
   const double straight = lower_bound(leg, motion);
@@ -38,7 +38,7 @@ TautPathResult TautPathSearch::run(const GoalLeg& leg, const Motion& motion, dou
     result.seconds = std::max(straight, best.f);
     if (arrivals_[best.arrival].at_goal) return result;
     if (work() > last_work) return result;
-    if (expansion % kStopStride == 0 && stop.met()) {
+    if (expansion % kExpansionStride == 0 && stop.met()) {
       result.cut_off = true;
       return result;
     }

@@ -19,9 +19,9 @@ constexpr std::array<std::uint8_t, 256> make_kinds() {
   kinds['S'] = kSwamp;
   return kinds;
 }
-constexpr std::array<std::uint8_t, 256> kKinds = make_kinds();
+constexpr std::array<std::uint8_t, 256> kLetterKinds = make_kinds();
 
-std::uint8_t kind_of(char letter) { return kKinds[static_cast<unsigned char>(letter)]; }
+std::uint8_t kind_of(char letter) { return kLetterKinds[static_cast<unsigned char>(letter)]; }
 
 }  // namespace
 

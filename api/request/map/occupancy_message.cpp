@@ -15,7 +15,7 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kMembers{"header", "info", "data"};
+constexpr std::array<std::string_view, 3> kMessageMembers{"header", "info", "data"};
 constexpr std::array<std::string_view, 5> kInfoMembers{"map_load_time", "resolution", "width", "height",
                                                        "origin"};
 constexpr std::array<std::string_view, 2> kPoseMembers{"position", "orientation"};
@@ -40,7 +40,7 @@ void check_orientation(const JsonReader& member) {
                    "The map is turned by its orientation; maps must not be" + std::string(kTurnRemedy) + ".");
 }
 
-WorldFrame parse_origin(const JsonReader& member) {
+WorldFrame parse_message_origin(const JsonReader& member) {
   const JsonReader pose = member.object(kPoseMembers);
   const JsonReader position = pose.find("position").object(kPositionMembers);
   const double x = position.require("x").number(kCoordinate).value_or(0.0);
@@ -98,13 +98,13 @@ std::string size_detail(std::size_t given, std::uint64_t columns, std::uint64_t 
 
 std::optional<OccupancyMessage> parse_occupancy_message(const JsonReader& message, std::int64_t max_cells) {
   const std::size_t before = message.fault_count();
-  const JsonReader read = message.object(kMembers);
+  const JsonReader read = message.object(kMessageMembers);
   const JsonReader info = read.require("info").object(kInfoMembers);
   const JsonReader length = info.require("resolution");
   const auto resolution = length.number(kLength);
   const auto columns = parse_side(info.require("width"));
   const auto rows = parse_side(info.require("height"));
-  const WorldFrame frame = parse_origin(info.find("origin"));
+  const WorldFrame frame = parse_message_origin(info.find("origin"));
   const JsonReader data = read.require("data").array();
   if (!data || !columns || !rows || !check_cells(info.find("width"), *columns, *rows, max_cells))
     return std::nullopt;

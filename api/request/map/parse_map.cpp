@@ -21,7 +21,7 @@ struct Kind {
   Parse parse;
 };
 
-constexpr std::array<Kind, 4> kKinds{{
+constexpr std::array<Kind, 4> kMapKinds{{
     {"rows", {"rows", "resolution", "origin"}, parse_rows_map},
     {"occupancy_grid", {"occupancy_grid", "unknown", "unknown"}, parse_occupancy_grid_map},
     {"image", {"image", "unknown", "unknown"}, parse_image_map},
@@ -33,7 +33,7 @@ constexpr std::array<Kind, 4> kKinds{{
 std::optional<WorldMap> parse_map(const JsonReader& member, std::int64_t max_cells) {
   const std::size_t before = member.fault_count();
   const Kind* found = nullptr;
-  for (const Kind& kind : kKinds) {
+  for (const Kind& kind : kMapKinds) {
     const JsonReader given = member.find(kind.name);
     if (!given) continue;
     if (found != nullptr) {
@@ -43,7 +43,7 @@ std::optional<WorldMap> parse_map(const JsonReader& member, std::int64_t max_cel
     }
     found = &kind;
   }
-  const JsonReader map = member.object((found != nullptr ? *found : kKinds.front()).members);
+  const JsonReader map = member.object((found != nullptr ? *found : kMapKinds.front()).members);
   if (found == nullptr) {
     map.require("rows",
                 "; give one string for each row, the top one first, or an occupancy_grid, an image or a "

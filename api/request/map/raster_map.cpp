@@ -18,7 +18,7 @@ namespace {
 constexpr std::int8_t kLeastBlocked = 65;  // percent
 constexpr std::int8_t kMostFree = 25;
 constexpr std::array<std::string_view, 2> kUnknown{"blocked", "free"};
-constexpr std::array<std::string_view, 9> kMembers{
+constexpr std::array<std::string_view, 9> kMapImageMembers{
     "pgm", "png", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode", "image"};
 constexpr std::size_t kOriginLength = 3;
 
@@ -39,7 +39,7 @@ core::OccupancyGrid draw(const Raster& raster, double resolution, bool unknown_i
 }
 
 /// map_server's list of x, y and yaw.
-WorldFrame parse_origin(const JsonReader& member) {
+WorldFrame parse_image_origin(const JsonReader& member) {
   const JsonReader origin = member.array();
   if (!origin) return {};
   if (origin.size() != kOriginLength) {
@@ -68,11 +68,11 @@ std::optional<WorldMap> parse_occupancy_grid_map(const JsonReader& map, std::int
 std::optional<WorldMap> parse_image_map(const JsonReader& map, std::int64_t max_cells) {
   const std::size_t before = map.fault_count();
   const bool unknown_is_free = parse_unknown(map.find("unknown"));
-  const JsonReader image = map.find("image").object(kMembers);
+  const JsonReader image = map.find("image").object(kMapImageMembers);
   if (!image) return std::nullopt;
   const JsonReader resolution = image.require("resolution", "; give the size of a pixel in metres");
   const auto pixel = resolution.number(kLength);
-  const WorldFrame frame = parse_origin(image.find("origin"));
+  const WorldFrame frame = parse_image_origin(image.find("origin"));
   const auto raster = decode_image(image, max_cells);
   if (raster && pixel) check_extent(resolution, raster->columns, raster->rows, *pixel);
   if (!raster || map.fault_count() != before) return std::nullopt;

@@ -12,7 +12,7 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kMembers{"type", "t_start", "t_end",  "from",
+constexpr std::array<std::string_view, 7> kActionMembers{"type", "t_start", "t_end",  "from",
                                                    "to",   "goal",    "reverse"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
 constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};  // as in core::Action::Type
@@ -37,7 +37,7 @@ bool gives_back(const core::Action& map, const core::Action& world, const WorldF
 }  // namespace
 
 core::Action parse_action(const JsonReader& item, const Range& times) {
-  const JsonReader json = item.object(kMembers);
+  const JsonReader json = item.object(kActionMembers);
   core::Action action;
   const auto type = json.require("type").word(kTypes);
   if (type) action.type = static_cast<core::Action::Type>(*type);

@@ -13,13 +13,13 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kMembers{
+constexpr std::array<std::string_view, 7> kGoalMembers{
     "x", "y", "theta", "service", "not_before", "radius_after", "metadata"};
 
 /// Adds the goal if it is valid.
 void add_goal(const JsonReader& member, const WorldFrame& frame, ReadGoals& read) {
   const std::size_t before = member.fault_count();
-  const JsonReader json = member.object(kMembers);
+  const JsonReader json = member.object(kGoalMembers);
   auto goal = parse_pose(json, frame);
   const auto service = json.find("service").number(kDuration);
   const auto not_before = json.find("not_before").number(kDuration);

@@ -17,7 +17,7 @@ namespace {
 using Entry = core::MovingObstacle::Entry;
 using After = core::MovingObstacle::After;
 
-constexpr std::array<std::string_view, 4> kMembers{"id", "radius", "motion", "after"};
+constexpr std::array<std::string_view, 4> kObstacleMembers{"id", "radius", "motion", "after"};
 constexpr std::array<std::string_view, 3> kEntryMembers{"t", "x", "y"};
 constexpr std::array<std::string_view, 2> kAfter{"leaves", "stays"};  // as in core::MovingObstacle::After
 constexpr Range kTime{-kLongestTime, kLongestTime, "seconds"};
@@ -87,7 +87,7 @@ std::vector<Entry> parse_motion(const JsonReader& member, const WorldFrame& fram
 }
 
 core::MovingObstacle parse_obstacle(const JsonReader& item, const WorldFrame& frame, Quota& quota) {
-  const JsonReader json = item.object(kMembers);
+  const JsonReader json = item.object(kObstacleMembers);
   core::MovingObstacle obstacle;
   obstacle.id = json.require("id").name().value_or("");
   obstacle.radius = json.require("radius").number(kLength).value_or(1.0);
