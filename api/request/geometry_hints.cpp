@@ -13,7 +13,7 @@ namespace fleetplan::api {
 namespace {
 
 using core::Position;
-using Kind = core::ProblemFault::Kind;
+using FaultKind = core::ProblemFault::Kind;
 
 /// If this share of the robots is at fault, with at least so many faults, they are rather described wrongly
 /// than placed wrongly.
@@ -92,10 +92,10 @@ class Trial {
   const core::StopCondition& stop_;
 };
 
-bool is_of_pair(Kind kind) { return kind == Kind::starts_overlap || kind == Kind::goals_overlap; }
+bool is_of_pair(FaultKind kind) { return kind == FaultKind::starts_overlap || kind == FaultKind::goals_overlap; }
 
 bool is_of_wall(const core::ProblemFault& found) {
-  return (found.kind == Kind::start_in_obstacle || found.kind == Kind::goal_in_obstacle) && !found.zone;
+  return (found.kind == FaultKind::start_in_obstacle || found.kind == FaultKind::goal_in_obstacle) && !found.zone;
 }
 
 }  // namespace

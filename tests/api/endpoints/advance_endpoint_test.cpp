@@ -142,11 +142,11 @@ Json measured_in(const Json& zone, const Json& pose) {
     "map": {"rows": ["........", "........", "........"], "origin": {"x": 10, "y": 0}},
     "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 3.0},
     "robots": [{"id": "a", "start": {"x": 10.5, "y": 1.5}, "goal": {"x": 17.5, "y": 1.5}}]})");
-  request["zones"] = {zone};
+  request["zones"] = Json::array({zone});
   request["zones"][0]["polygon"] =
       Json::parse(R"([{"x": 12, "y": 0}, {"x": 14, "y": 0}, {"x": 14, "y": 3}, {"x": 12, "y": 3}])");
   Json body = advance_request(request, 5.9);
-  body["poses"] = {pose};
+  body["poses"] = Json::array({pose});
   return advanced_json(body);
 }
 

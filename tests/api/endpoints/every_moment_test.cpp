@@ -78,7 +78,7 @@ Json two_seconds_later() {
   body["goals"] = Json::parse(R"([{"robot": "c", "goals": [{"x": 11.5, "y": 7.5, "radius_after": 0.35}]}])");
   Json pose = answer_of(advance_endpoint, body)["robots"][0]["start"];
   pose["robot"] = "a";
-  body["poses"] = {pose};
+  body["poses"] = Json::array({pose});
   return body;
 }
 

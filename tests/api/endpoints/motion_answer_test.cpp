@@ -126,7 +126,7 @@ TEST(MotionAnswer, ReportsInvalidRobotsWithTheirErrors) {
 
 TEST(MotionAnswer, KeepsClearOfMovingObstacles) {
   Json request = swap_request();
-  request["obstacles"] = {obstacle()};
+  request["obstacles"] = Json::array({obstacle()});
   const Json answer = answer_of(request);
   EXPECT_EQ(answer["status"], "solved") << answer.dump();
   EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());

@@ -20,7 +20,7 @@ using Case = FaultCase;
 Json& committed(Json& request, std::size_t index) { return request["robots"][0]["committed"][index]; }
 
 void give_obstacle(Json& request, const std::function<void(Json&)>& modify) {
-  request["obstacles"] = {obstacle()};
+  request["obstacles"] = Json::array({obstacle()});
   modify(request["obstacles"][0]);
 }
 
@@ -154,7 +154,7 @@ TEST(MotionFaults, ReportMoreThanTheLimitsAllow) {
   robot(request, 1)["previous"] = Json::array();
   robot(request, 1).erase("goal");
   robot(request, 1)["goals"] = {{{"x", 7.5}, {"y", 0.5}}, {{"x", 0.5}, {"y", 1.5}}};
-  request["obstacles"] = {obstacle()};
+  request["obstacles"] = Json::array({obstacle()});
   Limits limits;
   limits.max_goals = limits.max_actions = limits.max_obstacle_entries = 2;
   limits.max_obstacles = 1;

@@ -117,7 +117,7 @@ TEST(ParseMotion, ReadsObstaclesInTheMapFrame) {
       robot[key]["y"] = robot[key]["y"].get<double>() + 2.0;
     }
   }
-  request["obstacles"] = {obstacle()};
+  request["obstacles"] = Json::array({obstacle()});
   request["obstacles"][0]["after"] = "stays";
   const PlanRequest read = parsed(request);
   ASSERT_EQ(read.problem.obstacles().size(), 1U);
@@ -132,7 +132,7 @@ TEST(ParseMotion, ReadsObstaclesInTheMapFrame) {
 
 std::vector<MovingObstacle> obstacles_of(const Json& motion, const char* after) {
   Json request = swap_request();
-  request["obstacles"] = {obstacle()};
+  request["obstacles"] = Json::array({obstacle()});
   request["obstacles"][0]["motion"] = motion;
   request["obstacles"][0]["after"] = after;
   return parsed(request).problem.obstacles();

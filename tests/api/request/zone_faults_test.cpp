@@ -29,7 +29,7 @@ Json zone() {
 
 Json request_with_zone() {
   Json request = swap_request();
-  request["zones"] = {zone()};
+  request["zones"] = Json::array({zone()});
   return request;
 }
 
@@ -233,7 +233,7 @@ TEST(Zones, LimitEachRobotToThePercentageOfASpeedMask) {
 
 TEST(ZoneFaults, NameTheZoneWhoseRuleCommittedMotionBreaks) {
   Json request = moving_request();
-  request["zones"] = {zone()};
+  request["zones"] = Json::array({zone()});
   polygon(request) = {corner(1, 1), corner(2, 1), corner(2, 2), corner(1, 2)};
   make_speed(request);
   const auto fast = faults_of(request.dump());
@@ -248,7 +248,7 @@ TEST(ZoneFaults, NameTheZoneWhoseRuleCommittedMotionBreaks) {
 
 TEST(ZoneFaults, NameTheZoneThatCommittedMotionEnters) {
   Json request = moving_request();
-  request["zones"] = {zone()};
+  request["zones"] = Json::array({zone()});
   polygon(request) = {corner(1.5, 1), corner(2, 1), corner(2, 2)};
   const auto faults = faults_of(request.dump());
   EXPECT_THAT(brief(faults), ElementsAre(Pair("/robots/0/committed/0", "committed_collision")));
