@@ -65,7 +65,7 @@ test("the service's first plan is played while it looks for better ones", async 
     );
     const first = await hook(page, "answer");
     assert.equal(first.verified, true);
-    await page.click("#cancel");
+    await page.evaluate(() => document.getElementById("cancel").click()); // at once, within the minute
     await page.waitForSelector("#cancel", { state: "hidden" });
     const last = await hook(page, "answer");
     assert.ok(last.verified && last.flowtime <= first.flowtime, `${last.flowtime} after ${first.flowtime}`);
