@@ -507,6 +507,17 @@ test("violations are listed, and pressing one shows its moment and robots", asyn
   });
 });
 
+test("the timeline folds when the window becomes narrow, and unfolds when it becomes wide", async () => {
+  await onPage(async (page) => {
+    const body = page.locator("#timeline-body");
+    assert.equal(await body.isVisible(), true);
+    await page.setViewportSize({ width: 390, height: 844 });
+    await body.waitFor({ state: "hidden" });
+    await page.setViewportSize({ width: 1440, height: 900 });
+    await body.waitFor({ state: "visible" });
+  });
+});
+
 test("on a phone the timeline starts folded, a tap on a row selects, the card is below", async () => {
   const phone = {
     viewport: { width: 390, height: 844 },
