@@ -85,6 +85,7 @@ export class FleetRun {
     this.#service = service;
     this.#now = now;
     session.on("time playback", () => this.#watch());
+    session.on("playback", () => this.#onPlayback());
     session.on("request", ({ proceeded }) => proceeded || this.stop());
   }
 
@@ -177,6 +178,12 @@ export class FleetRun {
     if (this.running && !this.#isProceeding && time >= Math.min(this.#end, duration)) this.#proceed(true);
   }
 
+  /** Who pauses while the next round is late wants that one paused, too. */
+  #onPlayback() {
+    const { playing, time, duration } = this.#session.player;
+    if (this.#isProceeding && !playing && time < duration) this.#plays = false;
+  }
+
   /** Goes on with the next round as soon as it is planned. */
   async #proceed(plays) {
     const turn = this.#turn;
@@ -202,6 +209,6 @@ export class FleetRun {
     this.#session.proceed(next.request, next.answer);
     this.#session.seek(Math.min(late, this.period / 2));
     this.#isProceeding = false;
-    this.#begin(next.request, next.answer, plays || playing);
+    this.#begin(next.request, next.answer, this.#plays || playing);
   }
 }

@@ -38,7 +38,9 @@ export class TimelineDock {
     this.#least.addEventListener("click", () => show(fleet.least.ids, fleet.least.t));
     watchGapThreshold(session, fleet, this.#chart, show);
     this.#watchDivider();
-    this.#fold(matchMedia("(max-width: 820px)").matches);
+    const narrow = matchMedia("(max-width: 820px)");
+    this.#fold(narrow.matches);
+    narrow.addEventListener("change", () => this.#fold(narrow.matches)); // also of a phone whose width comes late
     session.on("answer", () => {
       const known = [...session.tracks.values()].some((track) => delayOf(track) > -Infinity);
       this.#sort.querySelector("[value=delay]").disabled = !known;

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { planned } from "../support/browser.js";
+import { pause, planned } from "../support/browser.js";
 import { hook, pagesFor } from "../support/on_page.js";
 import { expectedPose } from "../support/expected_pose.js";
 
@@ -50,9 +50,9 @@ for (const [size, options] of [
         await page.getByRole("button", { name: `Execution ${first.run}: ` }).focus();
         await page.keyboard.press("Enter");
         await page.waitForFunction(() => /execution/.test(window.fleetplan.answer.warnings[0]));
-        await page.waitForFunction(() => window.fleetplan.playing);
-        await page.evaluate(() => document.activeElement.blur());
-        await page.keyboard.press("Space");
+        const from = Math.max(0, first.t - 2); // s, where it is played from
+        await page.waitForFunction((begin) => window.fleetplan.time > begin, from);
+        await pause(page);
         const { trace } = await page.evaluate(
           async (sent) => {
             const headers = { "Content-Type": "application/json" };

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { choose, pressPlan, seek } from "../support/browser.js";
+import { choose, planAndPause, pressPlan, seek } from "../support/browser.js";
 import { drop } from "../support/map_files.js";
 import { coloursAt, countColour, hasTime, hook, pagesFor, themeColour } from "../support/on_page.js";
 
@@ -36,10 +36,8 @@ const PHONE = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch:
 /** Plans an example and drops the same plan, in which the first robot is 30 s late: {answer, second}. */
 async function dropSecond(page) {
   await choose(page, "crossing");
-  const answer = await pressPlan(page);
-  await page.waitForFunction(() => window.fleetplan.playing);
+  const answer = await planAndPause(page);
   await page.evaluate(() => document.activeElement.blur());
-  await page.keyboard.press("Space");
   const second = delayed(answer, 0, 30);
   await drop(page, { "second.json": JSON.stringify(second) });
   await page.waitForSelector(".differences");

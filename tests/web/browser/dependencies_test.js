@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { choose, pressPlan, seek } from "../support/browser.js";
+import { choose, planAndPause, seek } from "../support/browser.js";
 import { countColour, hasTime, pagesFor, themeColour } from "../support/on_page.js";
 
 const onPage = pagesFor();
@@ -11,9 +11,7 @@ const onPage = pagesFor();
 test("what an action waits for is listed, and drawn in scene and timeline", async () => {
   await onPage(async (page) => {
     const request = await choose(page, "hospital-ward");
-    const answer = await pressPlan(page);
-    await page.waitForFunction(() => window.fleetplan.playing);
-    await page.keyboard.press("Space");
+    const answer = await planAndPause(page);
     const { dependencies } = await page.evaluate(
       async (body) => {
         const headers = { "Content-Type": "application/json" };

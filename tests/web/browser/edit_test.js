@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { choose, pressPlan, seek } from "../support/browser.js";
+import { choose, pause, planAndPause, pressPlan, seek } from "../support/browser.js";
 import { coloursAt, countColour, hook, pagesFor, paste, REFUSED, themeColour } from "../support/on_page.js";
 import { drag, press, windowPoint } from "../support/scene_pointer.js";
 
@@ -241,8 +241,8 @@ test("robots are added with the mouse, duplicated and deleted", async () => {
     assert.equal(await hook(page, "answer"), null);
     await page.locator("#scene").focus();
     await page.keyboard.press("p");
-    await page.waitForFunction(() => window.fleetplan.answer?.status === "solved", null, { timeout: 60_000 });
-    await page.keyboard.press("Space");
+    await page.waitForFunction(() => window.fleetplan.answer?.status === "solved");
+    await pause(page);
     await undoAll(page);
     assert.deepEqual(await hook(page, "request"), REQUEST);
     assert.equal(await hook(page, "answer"), null, "it was not planned");
@@ -492,8 +492,7 @@ test("a request without a valid map or robots can be edited", async () => {
 test("a robot under way is selected, not dragged; its start is where it starts", async () => {
   await onPage(async (page) => {
     await editing(page);
-    await pressPlan(page);
-    await page.keyboard.press("Space");
+    await planAndPause(page);
     await seek(page, 3);
     const pose = await page.evaluate(() => window.fleetplan.poseOf("robot-2"));
     assert.ok(pose.x > 1.5);

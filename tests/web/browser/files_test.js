@@ -24,6 +24,13 @@ async function problemOn(page) {
   return page.innerText("#problem");
 }
 
+/** Waits until the dialog has these words: what a map is made into is worked out in a worker. */
+const dialogSays = (page, words) =>
+  page.waitForFunction(
+    (pattern) => new RegExp(pattern).test(document.querySelector("dialog").innerText),
+    words.source,
+  );
+
 const TINY = {
   map: { rows: [".....", "....."] },
   robots: [
@@ -127,7 +134,7 @@ for (const [way, hand] of Object.entries(WAYS)) {
       await hand(page, { "lab.yaml": YAML, "lab.pgm": pgm(GRAYS) });
       await page.waitForSelector("dialog[open]");
       assert.match(await page.innerText("dialog"), /5 × 4 pixels of 50 mm, 60 % unknown/);
-      assert.match(await page.innerText("dialog"), /3 × 3 = 9 cells of 50 mm \(at most 200\), 44 % blocked/);
+      await dialogSays(page, /3 × 3 = 9 cells of 50 mm \(at most 200\), 44 % blocked/);
       await page.click("dialog .primary");
       await requestIs(page, {
         map: { rows: ["###", ".#.", "..."], resolution: 0.05, origin: { x: -1.05, y: 2 } },
@@ -145,7 +152,7 @@ test("the dialog of a ROS map previews its choices", async () => {
     await page.check("#ros-unknown-free");
     await page.uncheck("#ros-trim");
     await page.fill("#ros-merge", "2");
-    assert.match(await page.innerText("dialog"), /3 × 2 = 6 cells of 100 mm .* 67 % blocked.*\(-1\.1, 2\) m/);
+    await dialogSays(page, /3 × 2 = 6 cells of 100 mm .* 67 % blocked.*\(-1\.1, 2\) m/);
     await page.keyboard.press("Enter");
     await page.waitForFunction(() => window.fleetplan.request.map.resolution === 0.1);
     assert.deepEqual((await hook(page, "request")).map, {
@@ -162,9 +169,9 @@ test("a ROS map with more cells than the service accepts is merged until it fits
     await drop(page, { "lab.yaml": YAML, "lab.pgm": pgm(rows) });
     await page.waitForSelector("dialog[open]");
     assert.equal(await page.inputValue("#ros-merge"), "2");
-    assert.match(await page.innerText("dialog"), /15 × 10 = 150 cells of 100 mm/);
+    await dialogSays(page, /15 × 10 = 150 cells of 100 mm/);
     await page.fill("#ros-merge", "1");
-    assert.match(await page.innerText("dialog"), /at most 200\. Merge at least 2\./);
+    await dialogSays(page, /at most 200\. Merge at least 2\./);
     assert.equal(await page.isEnabled("dialog .primary"), false);
     await page.fill("#ros-merge", "");
     assert.equal(await page.isEnabled("dialog .primary"), false);
@@ -360,7 +367,14 @@ test("files that cannot be opened are named with a remedy", async () => {
 async function save(page, selector) {
   if (!(await page.isVisible(selector))) await page.click("#save-menu summary");
   const [download] = await Promise.all([page.waitForEvent("download"), page.click(selector)]);
-  return { name: download.suggestedFilename(), content: await readFile(await download.path()) };
+  const folder = await mkdtemp(join(tmpdir(), "fleetplan-"));
+  try {
+    const path = join(folder, "saved");
+    await download.saveAs(path);
+    return { name: download.suggestedFilename(), content: await readFile(path) };
+  } finally {
+    await rm(folder, { recursive: true });
+  }
 }
 
 test("a saved request and its plan can be opened again", async () => {
@@ -399,8 +413,8 @@ test("a picture of the scene is saved, twice as fine", async () => {
 async function copied(page, selector) {
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
   await page.click("#save-menu summary");
-  await page.click(selector);
-  await page.waitForFunction((id) => document.querySelector(id).textContent === "Copied", selector);
+  const isCopied = (id) => document.querySelector(id).textContent === "Copied"; // for a moment
+  await Promise.all([page.waitForFunction(isCopied, selector), page.click(selector)]);
   return page.evaluate(() => navigator.clipboard.readText());
 }
 

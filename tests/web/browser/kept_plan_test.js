@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { pressPlan, seek } from "../support/browser.js";
+import { planAndPause, pressPlan, seek } from "../support/browser.js";
 import { coloursAt, hook, pagesFor, paste, themeColour } from "../support/on_page.js";
 import { drag, windowPoint } from "../support/scene_pointer.js";
 
@@ -20,9 +20,8 @@ const REQUEST = {
 async function planned(page) {
   await paste(page, REQUEST);
   await page.waitForFunction(() => window.fleetplan.request.robots.length === 3);
-  const answer = await pressPlan(page);
+  const answer = await planAndPause(page);
   await page.click("#tab-edit");
-  await page.click("#play");
   return answer;
 }
 

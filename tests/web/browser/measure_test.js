@@ -13,7 +13,7 @@ test("a time is typed by keys alone", async () => {
   await onPage(async (page) => {
     await choose(page, "crossing");
     const { makespan } = await pressPlan(page);
-    await page.waitForFunction(() => window.fleetplan.playing);
+    await page.waitForFunction(() => window.fleetplan.time > 0);
     await page.keyboard.press("j");
     assert.equal(await hook(page, "playing"), false);
     await page.keyboard.type("3,25");

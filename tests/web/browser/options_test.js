@@ -132,7 +132,7 @@ test("a listed error leads to its field", async () => {
       await paste(page, { ...REQUEST, options: { seed: -4 } });
       await page.click("#plan");
       await page.click('[data-error="/options/seed"]');
-      assert.equal(await page.evaluate(() => document.activeElement.id), "option-seed");
+      await page.waitForFunction(() => document.activeElement.id === "option-seed"); // the form is loaded first
       assert.equal(await page.isVisible("#panel-options"), true);
     },
     { allowed: REFUSED },

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { choose, pressPlan, seek } from "../support/browser.js";
+import { choose, planAndPause, seek } from "../support/browser.js";
 import { coloursAt, hasTime, pagesFor, paste, themeColour } from "../support/on_page.js";
 
 const onPage = pagesFor();
@@ -20,8 +20,7 @@ const TURNING = {
 
 async function planned(page, request) {
   await paste(page, request);
-  const answer = await pressPlan(page);
-  await page.keyboard.press("Space");
+  const answer = await planAndPause(page);
   await page.keyboard.press("r");
   await hasTime(page, 0);
   return answer;
@@ -48,8 +47,7 @@ test("keys and buttons step from event to event", async () => {
 test("with a selected robot, steps go to its own events", async () => {
   await onPage(async (page) => {
     await choose(page, "crossing");
-    const answer = await pressPlan(page);
-    await page.keyboard.press("Space");
+    const answer = await planAndPause(page);
     const [{ robot, actions }] = answer.plans.filter((plan) => plan.actions.length > 1);
     await page.click(`.robot[data-robot="${robot}"]`);
     await page.keyboard.press("r");

@@ -4,8 +4,9 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
-import { choose, openPage, pressPlan, seek, startBrowser } from "../support/browser.js";
+import { choose, openPage, planAndPause, pressPlan, seek, startBrowser } from "../support/browser.js";
 import { expectedPose } from "../support/expected_pose.js";
+import { paste } from "../support/on_page.js";
 import { startService } from "../support/service.js";
 
 const NEAR = 1e-9; // metres
@@ -42,9 +43,7 @@ async function onPage(steps, options = { colorScheme: "light" }) {
 /** Plans an example and pauses: {request, answer}. */
 async function planned(page, name) {
   const request = await choose(page, name);
-  const answer = await pressPlan(page);
-  await page.waitForFunction(() => window.fleetplan.playing);
-  await page.keyboard.press("Space");
+  const answer = await planAndPause(page);
   return { request, answer };
 }
 
@@ -385,9 +384,7 @@ const BAY = {
 
 test("a wait names the robot that causes it, and pressing the name selects that robot", async () => {
   await onPage(async (page) => {
-    await page.click("#paste");
-    await page.fill("#paste-text", JSON.stringify(BAY));
-    await page.click("#paste-form button");
+    await paste(page, BAY);
     const answer = await pressPlan(page);
     const waiting = answer.plans.find(({ actions }) => actions.some(({ type }) => type === "wait"));
     const other = BAY.robots.find(({ id }) => id !== waiting.robot).id;
@@ -487,9 +484,7 @@ test("violations are listed, and pressing one shows its moment and robots", asyn
       });
       await route.fulfill({ json: withoutWaits(await response.json(), "waiter") });
     });
-    await page.click("#paste");
-    await page.fill("#paste-text", JSON.stringify(BAY));
-    await page.click("#paste-form button");
+    await paste(page, BAY);
     await pressPlan(page);
     await page.click("#check-plan");
     await page.locator("#check.bad").waitFor();
@@ -509,6 +504,17 @@ test("violations are listed, and pressing one shows its moment and robots", asyn
     }
     await seek(page, 0);
     assert.equal(await dangerAround(page, "comer"), 0);
+  });
+});
+
+test("the timeline folds when the window becomes narrow, and unfolds when it becomes wide", async () => {
+  await onPage(async (page) => {
+    const body = page.locator("#timeline-body");
+    assert.equal(await body.isVisible(), true);
+    await page.setViewportSize({ width: 390, height: 844 });
+    await body.waitFor({ state: "hidden" });
+    await page.setViewportSize({ width: 1440, height: 900 });
+    await body.waitFor({ state: "visible" });
   });
 });
 

@@ -32,6 +32,7 @@ for (const [what, open] of [
       const request = await hook(page, "request");
       const answer = await pressPlan(page);
       await isKept(page);
+      await page.waitForFunction(() => location.hash !== ""); // so is the request
       await reloaded(page);
       assert.deepEqual(await hook(page, "request"), request);
       assert.deepEqual(actionsOf(await hook(page, "answer")), actionsOf(answer));

@@ -5,7 +5,7 @@ import { mkdir } from "node:fs/promises";
 import { before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 
-import { choose, pressPlan, seek } from "../support/browser.js";
+import { choose, planAndPause, pressPlan, seek } from "../support/browser.js";
 import { hook, pagesFor } from "../support/on_page.js";
 
 const FOLDER = fileURLToPath(new URL("../../../build/screenshots/", import.meta.url));
@@ -20,8 +20,7 @@ before(() => mkdir(FOLDER, { recursive: true }));
 /** An example's plan, at rest a third on, with a robot selected. */
 async function planned(page, example, robot) {
   await choose(page, example);
-  const answer = await pressPlan(page);
-  await page.keyboard.press("Space");
+  const answer = await planAndPause(page);
   await seek(page, answer.makespan * 0.3);
   await page.locator(`.robot[data-robot="${robot}"]`).click();
 }

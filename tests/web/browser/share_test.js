@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
-import { choose, pressPlan } from "../support/browser.js";
+import { choose, newContext, pressPlan } from "../support/browser.js";
 import { png } from "../support/map_files.js";
 import { coloursAt, countColour, hook, pagesFor, paste } from "../support/on_page.js";
 
@@ -19,7 +19,7 @@ async function saved(page, button) {
   await page.focus("#save-menu summary");
   await page.keyboard.press("Enter");
   const [download] = await Promise.all([
-    page.waitForEvent("download", { timeout: 60_000 }),
+    page.waitForEvent("download"),
     (async () => {
       await page.focus(button);
       await page.keyboard.press("Enter");
@@ -89,14 +89,14 @@ for (const [how, onPage] of [
     await onPage(async (page) => {
       await choose(page, "hospital-ward");
       await pressPlan(page);
-      await page.waitForFunction(() => window.fleetplan.playing);
+      await page.waitForFunction(() => window.fleetplan.time > 0);
       const answer = await pressPlan(page);
       await page.click("#tab-analyse");
       await page.getByText("Compare plans", { exact: true }).click();
       await page.getByLabel("Compare the plan with").selectOption("before 0");
       const { name, path } = await saved(page, "#save-page");
       assert.equal(name, "hospital-ward.html");
-      const away = await page.context().browser().newContext({ offline: true });
+      const away = await newContext(page.context().browser(), { offline: true });
       try {
         const other = await away.newPage();
         const complaints = [];
@@ -158,7 +158,7 @@ test("a page to send draws the image of a map and the mask of a zone", async () 
     const [wall, mask] = await coloursAt(page, places);
     assert.notEqual(wall, mask);
     const { path } = await saved(page, "#save-page");
-    const away = await page.context().browser().newContext({ offline: true });
+    const away = await newContext(page.context().browser(), { offline: true });
     try {
       const other = await away.newPage();
       await other.goto(pathToFileURL(path).href);

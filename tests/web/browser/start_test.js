@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 
-import { pressPlan, startBrowser } from "../support/browser.js";
+import { newContext, pressPlan, startBrowser } from "../support/browser.js";
 import { startService } from "../support/service.js";
 
 const SOURCES = fileURLToPath(new URL("../../../web", import.meta.url));
@@ -25,7 +25,7 @@ after(async () => {
 
 /** Runs the steps on a page of a new context. */
 async function onNewPage(steps, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 390, height: 844 }, ...options });
+  const context = await newContext(browser, { viewport: { width: 390, height: 844 }, ...options });
   try {
     await steps(await context.newPage());
   } finally {
@@ -46,7 +46,7 @@ for (const part of ["**/model/scene.js", "**/main.js", "**/styles/main.css"]) {
     await onNewPage(async (page) => {
       const found = await losing(page, part);
       await page.goto(service.url + REQUEST);
-      await page.waitForSelector("#not-loaded.certain", { timeout: 5000 });
+      await page.waitForSelector("#not-loaded.certain");
       assert.match(await page.innerText("#not-loaded"), /has not loaded completely/);
       await found();
       await page.click("#not-loaded a");
@@ -55,6 +55,26 @@ for (const part of ["**/model/scene.js", "**/main.js", "**/styles/main.css"]) {
       assert.equal(await page.locator("#not-loaded").count(), 0);
     });
   });
+}
+
+/**
+ * Waits for the styles, by which the notice shows itself after a while, and puts that while at the page's command: returns
+ * how long it is, seconds, and a function that shows the notice at a time within it.
+ */
+async function stopNotice(page) {
+  const after = await page.waitForFunction(() => {
+    const notice = document.getElementById("not-loaded");
+    const [late] = notice?.getAnimations() ?? [];
+    if (late === undefined) return null;
+    late.pause();
+    return late.effect.getTiming().delay / 1000;
+  });
+  const at = (seconds) =>
+    page.evaluate((time) => {
+      const [late] = document.getElementById("not-loaded").getAnimations();
+      late.currentTime = time * 1000;
+    }, seconds);
+  return { after: await after.jsonValue(), at };
 }
 
 test("a page that loads shows no such notice meanwhile", async () => {
@@ -67,8 +87,8 @@ test("a page that loads shows no such notice meanwhile", async () => {
     });
     await page.goto(service.url, { waitUntil: "commit" });
     await page.waitForSelector("#example");
-    const isStyled = () => getComputedStyle(document.getElementById("not-loaded")).position === "fixed";
-    await page.waitForFunction(isStyled);
+    const { after, at } = await stopNotice(page);
+    await at(after - 0.1);
     assert.equal(await page.isVisible("#not-loaded"), false);
     release();
     await begun(page);
@@ -79,11 +99,12 @@ test("a page of which nothing arrives says so after a while", async () => {
   await onNewPage(async (page) => {
     await page.route(/(start|main)\.js/, () => {}); // they are never answered
     await page.goto(service.url, { waitUntil: "commit" });
-    await page.waitForFunction(() => {
-      const notice = document.getElementById("not-loaded");
-      return notice && getComputedStyle(notice).visibility === "hidden"; // as soon as there are styles
-    });
-    await page.waitForSelector("#not-loaded", { state: "visible", timeout: 30_000 });
+    const { after, at } = await stopNotice(page);
+    assert.equal(after, 10);
+    await at(after - 0.1);
+    assert.equal(await page.isVisible("#not-loaded"), false);
+    await at(after + 0.1);
+    assert.equal(await page.isVisible("#not-loaded"), true);
   });
 });
 

@@ -2,7 +2,16 @@
 
 import { chromium } from "playwright-core";
 
+// Playwright's, which a second switch replaces, and the pop-up of the address bar, a hidden page that takes as much CPU
+// time for each window as a page of ours.
+const WITHOUT = [
+  ...["AvoidUnnecessaryBeforeUnloadCheckSync", "BoundaryEventDispatchTracksNodeRemoval", "AutoDeElevate"],
+  ...["DestroyProfileOnBrowserClose", "DialMediaRouteProvider", "GlobalMediaControls", "HttpsUpgrades"],
+  ...["LensOverlay", "MediaRouter", "OptimizationHints", "PaintHolding", "RenderDocument"],
+  ...["ThirdPartyStoragePartitioning", "Translate", "WebUIOmniboxPopup", "WebUIOmniboxAimPopup"],
+];
 const FLAGS = [
+  `--disable-features=${WITHOUT.join()}`,
   "--no-sandbox",
   "--disable-gpu",
   "--disable-quic",
@@ -12,11 +21,25 @@ const FLAGS = [
   "--disable-sync",
 ];
 
+const PATIENCE_MS = 120_000; // what is waited for takes long only on a busy machine
+
 /** Chromium's error when a network interface of the machine appeared or disappeared. */
 const DISTURBED = /ERR_NETWORK_CHANGED/;
 
+/** How Chromium is launched. */
+export const LAUNCH = { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: FLAGS };
+
+/** The browser of run.js at CHROMIUM_ENDPOINT, which closing leaves running, or one of its own. */
 export function startBrowser() {
-  return chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: FLAGS });
+  const shared = process.env.CHROMIUM_ENDPOINT;
+  return shared ? chromium.connect(shared) : chromium.launch(LAUNCH);
+}
+
+/** A context whose waits take as long as a busy machine needs. */
+export async function newContext(browser, options = {}) {
+  const context = await browser.newContext(options);
+  context.setDefaultTimeout(PATIENCE_MS);
+  return context;
 }
 
 /**
@@ -24,7 +47,7 @@ export function startBrowser() {
  * `complaints` collects console errors, warnings and uncaught exceptions, `requested` every requested address.
  */
 export async function openPage(browser, url, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
+  const context = await newContext(browser, { viewport: { width: 1440, height: 900 }, ...options });
   const page = await context.newPage();
   const complaints = [];
   const requested = [];
@@ -75,17 +98,29 @@ export async function choose(page, name) {
 export async function pressPlan(page) {
   await page.click("#plan");
   const isDone = () => window.fleetplan.answer && document.getElementById("cancel").hidden;
-  await page.waitForFunction(isDone, null, { timeout: 60_000 });
+  await page.waitForFunction(isDone);
   return page.evaluate(() => window.fleetplan.answer);
 }
 
-/** Chooses an example, plans it and pauses the plan, wherever it is by then; returns the answer. */
+/** Waits until a plan plays, or has played, and pauses it, wherever it is by then. */
+export async function pause(page) {
+  await page.waitForFunction(() => window.fleetplan.time > 0);
+  await page.evaluate(() => {
+    if (window.fleetplan.playing) document.getElementById("play").click(); // at once: it may be about to end
+  });
+}
+
+/** Presses Plan, waits for the answer, and pauses the plan once it plays; returns the answer. */
+export async function planAndPause(page) {
+  const answer = await pressPlan(page);
+  await pause(page);
+  return answer;
+}
+
+/** Chooses an example, plans it and pauses the plan; returns the answer. */
 export async function planned(page, example) {
   await choose(page, example);
-  const answer = await pressPlan(page);
-  await page.waitForFunction(() => window.fleetplan.time > 0);
-  if (await page.evaluate(() => window.fleetplan.playing)) await page.click("#play");
-  return answer;
+  return planAndPause(page);
 }
 
 /** Moves the scrubber to a time as dragging it does. */

@@ -36,35 +36,52 @@ export function pagesFor(flags = []) {
 /** Chromium's message when the service rejects a request. */
 export const REFUSED = /status of 422/;
 
-/** Pastes a request, an object or a text. */
+/** Pastes a request, an object or a text, and waits until it is open. */
 export async function paste(page, request) {
+  await pasteText(page, typeof request === "string" ? request : JSON.stringify(request));
+  await page.waitForSelector("#paste-form", { state: "hidden" });
+}
+
+/** Pastes a text, which need not be a request. */
+export async function pasteText(page, text) {
   await page.click("#paste");
-  await page.fill("#paste-text", typeof request === "string" ? request : JSON.stringify(request));
+  await page.fill("#paste-text", text);
   await page.click("#paste-form button");
 }
 
 /**
  * Answers requests for plans with a stream of these events, [[name, data]], an object or a text each, which does not
- * end; or ends, as a lost connection does, if it is `cut`.
+ * end; or ends, as a lost connection does, if it is `cut`. Returns what sends further events and ends it:
+ * {send(events), end()}.
  */
-export function streamPlan(page, events, { cut = false } = {}) {
-  const chunks = events.map(([name, data]) => `event: ${name}\ndata: ${JSON.stringify(data)}\n\n`);
-  return page.evaluate(
+export async function streamPlan(page, events, { cut = false } = {}) {
+  const chunksOf = (all) => all.map(([name, data]) => `event: ${name}\ndata: ${JSON.stringify(data)}\n\n`);
+  const stream = await page.evaluateHandle(
     ({ chunks, cut }) => {
       const whole = window.fetch;
+      const stream = {
+        /** @type {any} */ controller: null,
+        send: (all) => all.forEach((chunk) => stream.controller.enqueue(new TextEncoder().encode(chunk))),
+      };
       window.fetch = async (address, init) => {
         if (address !== "v1/plan") return whole(address, init);
         const body = new ReadableStream({
           start(controller) {
-            for (const chunk of chunks) controller.enqueue(new TextEncoder().encode(chunk));
+            stream.controller = controller;
+            stream.send(chunks);
             if (cut) controller.close();
           },
         });
         return new Response(body, { headers: { "Content-Type": "text/event-stream" } });
       };
+      return stream;
     },
-    { chunks, cut },
+    { chunks: chunksOf(events), cut },
   );
+  return {
+    send: (further) => stream.evaluate((each, chunks) => each.send(chunks), chunksOf(further)),
+    end: () => stream.evaluate((each) => each.controller.close()),
+  };
 }
 
 export const hook = (page, name) => page.evaluate((member) => window.fleetplan[member], name);

@@ -5,14 +5,17 @@ import { createInterface } from "node:readline";
 
 import { freePorts } from "./free_ports.js";
 
-const START_MS = 10_000;
+const START_MS = 60_000;
+// After which idle connections are closed: by default so soon that a busy machine's browser may just be sending.
+const IDLE_MS = 60_000;
 
 /** Starts the server that FLEETPLAN_BIN names, with the page that was built with it: {url, stop, kill}. */
 export async function startService(flags = []) {
   const binary = process.env.FLEETPLAN_BIN;
   if (!binary) throw new Error("FLEETPLAN_BIN must name the server binary");
   const [port] = await freePorts(1);
-  const all = ["--host", "127.0.0.1", "--port", String(port), "--log-level", "warn", ...flags];
+  const all = ["--host", "127.0.0.1", "--port", String(port), "--log-level", "warn"];
+  all.push("--idle-timeout-ms", String(IDLE_MS), ...flags);
   const env = { ...process.env, FLEETPLAN_BIN: undefined }; // which the server would warn of
   const child = spawn(binary, all, { env, stdio: ["ignore", "pipe", "inherit"] });
   const ended = new Promise((resolve) => child.once("exit", resolve));

@@ -182,6 +182,22 @@ test("a robot that is held while the fleet is paused is planned at once, and the
   assert.equal(session.player.playing, true, "unless it is played meanwhile");
 });
 
+test("a fleet that is paused while the next round is late stays paused", async () => {
+  const late = [];
+  const plan = () => new Promise((answer) => late.push(() => answer({ ...ANSWER, status: "solved" })));
+  const { session, run, pass } = begin({ plan });
+  run.start(2);
+  await pass(3);
+  assert.ok(session.player.playing && session.player.time > 2, "the old plan is played meanwhile");
+  session.pause();
+  late[0]();
+  await pass(1);
+  assert.deepEqual([run.rounds.length, session.player.playing], [1, false]);
+  session.play();
+  await pass(1);
+  assert.equal(session.player.playing, true);
+});
+
 test("a failure, or another request, stops the run", async () => {
   const problem = { title: "Service Unavailable" };
   const failing = begin({ plan: async () => Promise.reject(new ProblemError(problem)) });

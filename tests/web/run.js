@@ -1,0 +1,22 @@
+// Runs `node --test` with these arguments and one Chromium for all test files, as many at once as there are CPUs. Without
+// it, each file starts a Chromium of its own.
+
+import { spawn } from "node:child_process";
+import { once } from "node:events";
+import { availableParallelism } from "node:os";
+import { chromium } from "playwright-core";
+
+import { LAUNCH } from "./support/browser.js";
+
+const browser = await chromium.launchServer({ ...LAUNCH, host: "127.0.0.1" });
+try {
+  const files = `--test-concurrency=${availableParallelism()}`;
+  const tests = spawn(process.execPath, ["--test", files, ...process.argv.slice(2)], {
+    env: { ...process.env, CHROMIUM_ENDPOINT: browser.wsEndpoint() },
+    stdio: "inherit",
+  });
+  const [code] = await once(tests, "exit");
+  process.exitCode = code ?? 1;
+} finally {
+  await browser.close();
+}
