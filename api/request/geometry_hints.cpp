@@ -92,10 +92,13 @@ class Trial {
   const core::StopCondition& stop_;
 };
 
-bool is_of_pair(FaultKind kind) { return kind == FaultKind::starts_overlap || kind == FaultKind::goals_overlap; }
+bool is_of_pair(FaultKind kind) {
+  return kind == FaultKind::starts_overlap || kind == FaultKind::goals_overlap;
+}
 
 bool is_of_wall(const core::ProblemFault& found) {
-  return (found.kind == FaultKind::start_in_obstacle || found.kind == FaultKind::goal_in_obstacle) && !found.zone;
+  return (found.kind == FaultKind::start_in_obstacle || found.kind == FaultKind::goal_in_obstacle) &&
+         !found.zone;
 }
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kDisturbanceMembers{"speed", "turn", "stops", "start_delay", "cross_track"};
+constexpr std::array<std::string_view, 5> kDisturbanceMembers{"speed", "turn", "stops", "start_delay",
+                                                              "cross_track"};
 constexpr std::array<std::string_view, 2> kRangeMembers{"min", "max"};
 constexpr std::array<std::string_view, 2> kStopsMembers{"rate_per_hour", "mean_s"};
 constexpr std::array<std::string_view, 2> kCrossTrackMembers{"sigma", "correlation_length"};

@@ -11,8 +11,8 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kPlanRequestMembers{"map",   "robot_defaults", "robots",  "obstacles",
-                                                   "zones", "options",        "metadata"};
+constexpr std::array<std::string_view, 7> kPlanRequestMembers{
+    "map", "robot_defaults", "robots", "obstacles", "zones", "options", "metadata"};
 
 /// `errors`: of each robot, or none.
 std::vector<ReceivedRobot> received(std::vector<ReadRobot>& robots, std::vector<std::vector<Fault>> errors) {

@@ -121,7 +121,8 @@ const TangentGraph::Arc& TangentGraph::arc(int corner) {
 bool TangentGraph::is_arc_free(const Bend& bend, double from_angle, double to_angle) {
   const double low = bend.left ? from_angle : -to_angle;
   const double high = bend.left ? to_angle : -from_angle;
-  const int first = std::max(0, static_cast<int>(std::ceil((low + 0.5 * kQuarterTurn) / kPiece + kPieceRounding)));
+  const int first =
+      std::max(0, static_cast<int>(std::ceil((low + 0.5 * kQuarterTurn) / kPiece + kPieceRounding)));
   const int last =
       std::min(kPieces, static_cast<int>(std::floor((high + 0.5 * kQuarterTurn) / kPiece - kPieceRounding)));
   if (last <= first) return true;

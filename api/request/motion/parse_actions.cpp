@@ -13,7 +13,7 @@ namespace fleetplan::api {
 namespace {
 
 constexpr std::array<std::string_view, 7> kActionMembers{"type", "t_start", "t_end",  "from",
-                                                   "to",   "goal",    "reverse"};
+                                                         "to",   "goal",    "reverse"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
 constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};  // as in core::Action::Type
 
