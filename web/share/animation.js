@@ -36,6 +36,11 @@ export async function recordPlan(session, stage, signal, progress) {
   const stopped = new Promise((resolve) => recorder.addEventListener("stop", resolve));
   recorder.start();
   await playOnce(session, recordingSpeed(player.duration, player.speed), signal, progress);
+  while (parts.every(({ size }) => size === 0) && !signal.aborted) {
+    stage.paint(); // a busy machine has not encoded a picture yet, without which no player opens the file
+    recorder.requestData();
+    await new Promise(requestAnimationFrame);
+  }
   recorder.stop();
   await stopped;
   for (const track of recorder.stream.getTracks()) track.stop();

@@ -63,7 +63,18 @@ test("an animation plays the whole plan", async () => {
   await onBundle(async (page) => {
     await paste(page, SHORT);
     const { makespan } = await pressPlan(page);
+    await page.evaluate(() => {
+      window.recorded = []; // the times of the plan from which and to which it is recorded
+      for (const name of ["start", "stop"]) {
+        const done = MediaRecorder.prototype[name];
+        MediaRecorder.prototype[name] = function () {
+          window.recorded.push(window.fleetplan.time);
+          done.call(this);
+        };
+      }
+    });
     const { name, path } = await saved(page, "#save-animation");
+    assert.deepEqual(await page.evaluate(() => window.recorded), [0, makespan]);
     assert.match(name, /\.webm$/);
     const bytes = await readFile(path);
     assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3, "EBML");
@@ -76,7 +87,7 @@ test("an animation plays the whole plan", async () => {
       await new Promise((done) => video.addEventListener("ended", done));
       return video.currentTime;
     }, bytes.toString("base64"));
-    assert.ok(lasts > makespan * 0.8, `${lasts} s of a plan of ${makespan} s`);
+    assert.ok(lasts > 0, "it plays, with as many frames as the machine had time for");
     assert.ok((await page.innerText("#save-animation")).startsWith("Animation"));
   });
 });
