@@ -104,7 +104,7 @@ std::optional<StaticFile> StaticFiles::read(std::string_view path) const {
 fs::path default_web_root() {
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = executable.parent_path().parent_path() / "share" / "fleetplan" / "web";
+  fs::path installed = executable.parent_path().parent_path() / "share" / "fleetplan" / "web";
   if (!error && fs::is_directory(installed, error)) return installed;
   return fs::is_directory(FLEETPLAN_BUILT_WEB, error) ? fs::path(FLEETPLAN_BUILT_WEB) : fs::path();
 }

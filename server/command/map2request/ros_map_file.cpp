@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 7> kMembers{
     "image", "mode", "resolution", "origin", "negate", "occupied_thresh", "free_thresh"};
 constexpr std::array<std::string_view, 3> kModes{"trinary", "scale", "raw"};
 
-std::size_t line_of(const YAML::Mark& mark) { return static_cast<std::size_t>(mark.line + 1); }
+std::size_t line_of(const YAML::Mark& mark) { return static_cast<std::size_t>(mark.line) + 1; }
 
 /// As map_server reads it: quoted or not.
 std::optional<double> number_of(const YAML::Node& node) {
