@@ -79,12 +79,7 @@ export class Client {
         }
       });
       sent.setTimeout(TIMEOUT_MS, () => sent.destroy(new Error("no answer in time")));
-      sent.on("error", (error) => {
-        // The service closes idle connections, also while this process computes and does not notice.
-        const wasIdle = sent.reusedSocket && error.code === "ECONNRESET";
-        if (wasIdle) resolve(this.#exchange(method, path, body, headers));
-        else reject(error);
-      });
+      sent.on("error", reject);
       sent.end(body);
     });
   }
