@@ -58,6 +58,7 @@ std::vector<std::string> unit_warnings(const std::vector<ReadRobot>& robots, con
   }
   if (zones && zones.value().is_array()) {
     for (const JsonReader zone : zones.items()) {
+      if (zone.stop().met_after(1)) break;
       const std::string id(zone.find("id").string().value_or(""));
       headings.look_at(zone.find("heading"), of("heading of zone ", id));
     }

@@ -5,7 +5,6 @@
 
 #include "api/json/json_reader.h"
 #include "api/request/parse_robots.h"
-#include "core/model/zone.h"
 
 namespace fleetplan::api {
 
