@@ -87,11 +87,6 @@ int exit_code_of(const api::Reply& reply) {
   return answer.value("valid", true) ? kSolved : kPartial;
 }
 
-int fail(const Streams& streams, int code, const std::string& message) {
-  streams.err << "fleetplan: " << message << '\n';
-  return code;
-}
-
 /// The pictures that a command asks for, of the plan that is answered.
 class Pictures {
  public:
@@ -147,11 +142,7 @@ int answer_request(const RequestCommand& command, const Streams& streams) {
     return code;
   }
   if (!reply.body.ends_with('\n')) reply.body += '\n';
-  if (command.output.empty()) {
-    streams.out << reply.body << std::flush;
-  } else if (!write_file(command.output, reply.body)) {
-    return fail(streams, kFailed, "cannot write " + command.output);
-  }
+  if (const int failed = write_output(command.output, reply.body, streams)) return failed;
   if (const auto file = pictures.write()) return fail(streams, kFailed, "cannot write " + *file);
   return code;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "server/command/answer_request.h"
+#include "server/command/files.h"
 #include "server/command/map2request/map_to_request.h"
 
 namespace fleetplan::server {
@@ -37,11 +38,6 @@ struct Arguments {
   std::string robots;
 };
 
-int fail(std::ostream& err, int code, const std::string& message) {
-  err << "fleetplan: " << message << '\n';
-  return code;
-}
-
 int show_examples(const std::string& name, const Service& service, const Streams& streams) {
   if (name.empty()) {
     for (const auto& example : service.examples) streams.out << example.name << '\n';
@@ -51,7 +47,7 @@ int show_examples(const std::string& name, const Service& service, const Streams
   const auto found = std::find_if(examples.begin(), examples.end(),
                                   [&](const Service::Example& example) { return example.name == name; });
   if (found == examples.end()) {
-    return fail(streams.err, kBadInput, "there is no example " + name + "; `fleetplan examples` lists them");
+    return fail(streams, kBadInput, "there is no example " + name + "; `fleetplan examples` lists them");
   }
   streams.out << found->body;
   return kSolved;
@@ -88,7 +84,7 @@ std::optional<int> run_command(std::vector<std::string> arguments,
   const auto command = std::find_if(kCommands.begin(), kCommands.end(),
                                     [&](const Command& known) { return known.word == word; });
   if (command == kCommands.end() && word != "map2request" && word != "examples" && word != "help") {
-    return fail(streams.err, kBadInput, "unknown command " + word + "; `fleetplan help` lists them");
+    return fail(streams, kBadInput, "unknown command " + word + "; `fleetplan help` lists them");
   }
   if (word == "help") arguments = {"--help"};
   CLI::App app("Fleetplan: collision-free timed motions for fleets of robots.", "fleetplan");

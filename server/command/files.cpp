@@ -3,6 +3,7 @@
 #include <array>
 #include <fstream>
 #include <istream>
+#include <ostream>
 
 namespace fleetplan::server {
 
@@ -35,6 +36,20 @@ bool write_file(const std::string& name, const std::string& text) {
   file << text;
   file.close();
   return !file.fail();
+}
+
+int write_output(const std::string& name, const std::string& text, const Streams& streams) {
+  if (name.empty()) {
+    streams.out << text << std::flush;
+  } else if (!write_file(name, text)) {
+    return fail(streams, kFailed, "cannot write " + name);
+  }
+  return kSolved;
+}
+
+int fail(const Streams& streams, int code, const std::string& message) {
+  streams.err << "fleetplan: " << message << '\n';
+  return code;
 }
 
 }  // namespace fleetplan::server

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "api/json/result.h"
+#include "server/command/streams.h"
 
 namespace fleetplan::server {
 
@@ -26,5 +27,12 @@ std::string shown_name(const std::string& file);
 
 /// Returns whether all of the text was written.
 bool write_file(const std::string& name, const std::string& text);
+
+/// Writes what a command is asked for to a file, or to the standard output if the name is empty. Returns the
+/// exit code.
+int write_output(const std::string& name, const std::string& text, const Streams& streams);
+
+/// Reports why a command fails; returns the exit code.
+int fail(const Streams& streams, int code, const std::string& message);
 
 }  // namespace fleetplan::server

@@ -81,13 +81,7 @@ int map_to_request(const std::string& yaml, const std::string& robots, const std
   for (const std::string& line : map->ignored) streams.err << line << '\n';
   for (const std::string& warning : request->warnings)
     streams.err << input_fault(robots, 0, warning).line << '\n';
-  if (output.empty()) {
-    streams.out << body << std::flush;
-    return kSolved;
-  }
-  if (write_file(output, body)) return kSolved;
-  streams.err << "fleetplan: cannot write " << output << '\n';
-  return kFailed;
+  return write_output(output, body, streams);
 }
 
 }  // namespace fleetplan::server
