@@ -12,7 +12,7 @@
 #include "core/replan/previous_plan.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
-#include "library/check_plan.h"
+#include "core/verify/check_plan.h"
 #include "library/convert.h"
 #include "library/make_problem.h"
 
@@ -89,7 +89,7 @@ Plan plan(const Problem& problem, const Options& options, const Control& control
   const Clock::time_point now = Clock::now();
   const auto patience = core::StopCondition::even_if_cancelled(
       control.stop.stop_requested() ? now + kPatience : std::max(stop.deadline(), now + kPatience));
-  const auto report = library::check_plan(*made.problem, core_options, found, patience);
+  const auto report = core::check_plan(*made.problem, core_options, found, patience);
   if (!report) return plan;
   if (!report->valid()) {
     throw std::logic_error("fleetplan made a plan that its checker rejects: " +

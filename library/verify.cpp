@@ -7,28 +7,10 @@
 #include <utility>
 
 #include "core/runtime/stop_condition.h"
-#include "core/verify/tolerances.h"
-#include "library/check_plan.h"
 #include "library/convert.h"
 #include "library/make_problem.h"
 
 namespace fleetplan {
-
-namespace library {
-
-std::optional<core::VerifyReport> check_plan(const core::Problem& problem, const core::PlanOptions& options,
-                                             const core::Plan& plan, const core::StopCondition& stop) {
-  core::CheckRules rules{core::plan_tolerances(problem.grid(), problem.robots(), plan.plans)};
-  rules.interval_margin = options.interval_margin;
-  rules.start_overlap = options.start_overlap;
-  rules.horizon = options.horizon;
-  rules.exact_commitments = true;
-  rules.exempt = plan.unavoidable;
-  return core::verify({problem.grid(), problem.robots(), problem.obstacles(), &problem.zones()}, plan.plans,
-                      rules, stop);
-}
-
-}  // namespace library
 
 namespace {
 

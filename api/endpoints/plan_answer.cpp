@@ -10,8 +10,7 @@
 #include "api/response/error.h"
 #include "core/lattice_spacing.h"
 #include "core/meetings.h"
-#include "core/verify/tolerances.h"
-#include "core/verify/verify.h"
+#include "core/verify/check_plan.h"
 
 namespace fleetplan::api {
 
@@ -127,15 +126,7 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   stages.planned = Stages::Clock::now();
   const auto& robots = request.problem.robots();
   const auto check = [&](const core::Plan& checked, const core::StopCondition& patience) {
-    const core::OccupancyGrid& grid = request.problem.grid();
-    core::CheckRules rules{core::plan_tolerances(grid, robots, checked.plans)};
-    rules.interval_margin = request.options.interval_margin;
-    rules.start_overlap = request.options.start_overlap;
-    rules.horizon = request.options.horizon;
-    rules.exact_commitments = true;
-    rules.exempt = checked.unavoidable;
-    return core::verify({grid, robots, request.problem.obstacles(), &request.problem.zones()}, checked.plans,
-                        rules, patience);
+    return core::check_plan(request.problem, request.options, checked, patience);
   };
   const bool any_moves = std::any_of(plan.plans.begin(), plan.plans.end(), [&](const core::RobotPlan& robot) {
     return moves(robot, request.problem);

@@ -8,10 +8,10 @@
 #include "core/runtime/stop_condition.h"
 #include "core/verify/verify.h"
 
-namespace fleetplan::library {
+namespace fleetplan::core {
 
 /// The check of a plan of the planner; none if `stop` is met first.
-std::optional<core::VerifyReport> check_plan(const core::Problem& problem, const core::PlanOptions& options,
-                                             const core::Plan& plan, const core::StopCondition& stop);
+std::optional<VerifyReport> check_plan(const Problem& problem, const PlanOptions& options, const Plan& plan,
+                                       const StopCondition& stop);
 
-}  // namespace fleetplan::library
+}  // namespace fleetplan::core
