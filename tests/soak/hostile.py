@@ -203,6 +203,7 @@ def attacks():
         ("3000 slow readers", 3000, never_read(request("GET", "/v1/examples/hall-100"))),
         ("slow heads", 200, drip(b"GET / HTTP/1.1\r\nHost: localhost\r\nX: " + b"y" * 1000, 0.5)),
         ("slow bodies", 200, drip(POST + b"Content-Length: 1000\r\n\r\n" + b" " * 1000, 0.5)),
+        ("a scheme as request target", 8, send_and_read(b"GET http HTTP/1.1\r\nHost: localhost\r\n\r\n")),
         ("header floods", 8, send_and_read(heads)),
         ("conflicting lengths", 8, send_and_read(POST + b"Content-Length: 1\r\nContent-Length: 2\r\n\r\nab")),
         ("negative lengths", 8, send_and_read(POST + b"Content-Length: -1\r\n\r\n")),

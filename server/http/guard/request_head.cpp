@@ -25,9 +25,10 @@ std::string_view take_line(std::string_view& rest) {
 /// asterisk-form (RFC 9112, 3.2). None of them has a fragment.
 std::optional<BadHead> parse_target(std::string_view target, RequestHead& head) {
   if (target.find('#') != std::string_view::npos) return BadHead{"The request target contains a fragment."};
-  const std::string scheme = lower_case(target.substr(0, target.find("://")));
+  const auto scheme_end = target.find("://");
+  const std::string scheme = scheme_end == std::string_view::npos ? "" : lower_case(target.substr(0, scheme_end));
   if (scheme == "http" || scheme == "https") {
-    target.remove_prefix(scheme.size() + 3);
+    target.remove_prefix(scheme_end + 3);
     const auto authority = target.substr(0, target.find_first_of("/?"));
     if (!parse_authority(authority)) return BadHead{"The request target has no valid host."};
     head.host = std::string(authority);

@@ -54,7 +54,7 @@ TEST(RequestHead, RejectsHostFieldsThatAreMissingRepeatedOrMalformed) {
 
 TEST(RequestHead, RejectsTargetsThatAreNeitherAPathNorAnHttpAddress) {
   for (const char* target :
-       {"healthz", "*", "/healthz#a", "http://host/#", "http://host#a", "http://", "http:///healthz",
+       {"healthz", "*", "http", "https", "HTTP", "/healthz#a", "http://host/#", "http://host#a", "http://", "http:///healthz",
         "http://?a", "http://user@host/", "ftp://host/", "host:80", "?a", "://host/"}) {
     EXPECT_TRUE(is_refused(std::string("GET ") + target + " HTTP/1.1\r\nHost: a\r\n\r\n")) << target;
   }
