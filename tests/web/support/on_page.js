@@ -92,22 +92,16 @@ export const hasTime = (page, time) =>
 
 /** The colours painted on a scene, a canvas, at places of it ({x, y}, CSS pixels), each "r,g,b". */
 export async function coloursAt(page, places, canvas = "scene") {
-  const { pixels, width, scale } = await sceneOf(page, canvas);
-  return places.map(({ x, y }) => {
-    const at = (Math.round(y * scale) * width + Math.round(x * scale)) * 4;
-    return [...pixels.subarray(at, at + 3)].join();
-  });
+  const parts = await painted(page, canvas, places, 0);
+  return parts.map((pixels) => [...pixels.subarray(0, 3)].join());
 }
 
 /** The number of pixels of a colour, "r,g,b", within `reach` CSS pixels of a canvas place. */
 export async function countColour(page, colour, place, reach) {
-  const { pixels, width, scale } = await sceneOf(page);
+  const [pixels] = await painted(page, "scene", [place], reach);
   const expected = colour.split(",").map(Number);
   let found = 0;
   for (let at = 0; at < pixels.length; at += 4) {
-    const x = ((at / 4) % width) / scale;
-    const y = Math.floor(at / 4 / width) / scale;
-    if (Math.abs(x - place.x) > reach || Math.abs(y - place.y) > reach) continue;
     if (expected.every((part, offset) => pixels[at + offset] === part)) found += 1;
   }
   return found;
@@ -121,19 +115,34 @@ export function themeColour(page, name) {
   }, name);
 }
 
-/** The painted scene: {pixels (RGBA bytes), width (device pixels), scale (device pixels per CSS pixel)}. */
-async function sceneOf(page, id = "scene") {
+/**
+ * What is painted on a canvas around each of these places ({x, y}, CSS pixels): the RGBA bytes of the pixels that are at
+ * most `reach` CSS pixels away in x and in y, as far as the canvas reaches. The next frames are waited for.
+ */
+async function painted(page, id, places, reach) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  const { text, width, scale } = await page.evaluate((name) => {
-    const canvas = document.getElementById(name);
-    const copy = new OffscreenCanvas(canvas.width, canvas.height);
-    const context = copy.getContext("2d", { willReadFrequently: true });
-    context.drawImage(canvas, 0, 0);
-    const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
-    let text = "";
-    for (let at = 0; at < data.length; at += 8192)
-      text += String.fromCharCode(...data.subarray(at, at + 8192));
-    return { text: btoa(text), width: canvas.width, scale: canvas.width / canvas.clientWidth };
-  }, id);
-  return { pixels: Buffer.from(text, "base64"), width, scale };
+  const texts = await page.evaluate(
+    ({ id, places, reach }) => {
+      const canvas = document.getElementById(id);
+      const { width, height } = canvas;
+      const scale = width / canvas.clientWidth;
+      const copy = new OffscreenCanvas(width, height);
+      const context = copy.getContext("2d", { willReadFrequently: true });
+      context.drawImage(canvas, 0, 0);
+      return places.map(({ x, y }) => {
+        const [middleX, middleY] = [Math.round(x * scale), Math.round(y * scale)];
+        const away = Math.min(Math.floor(reach * scale), width + height);
+        const [left, top] = [Math.max(middleX - away, 0), Math.max(middleY - away, 0)];
+        const [right, bottom] = [Math.min(middleX + away + 1, width), Math.min(middleY + away + 1, height)];
+        if (left >= right || top >= bottom) return "";
+        const { data } = context.getImageData(left, top, right - left, bottom - top);
+        let text = "";
+        for (let at = 0; at < data.length; at += 8192)
+          text += String.fromCharCode(...data.subarray(at, at + 8192));
+        return btoa(text);
+      });
+    },
+    { id, places: places.map(({ x, y }) => ({ x, y })), reach: Math.min(reach, Number.MAX_SAFE_INTEGER) },
+  );
+  return texts.map((text) => Buffer.from(text, "base64"));
 }
