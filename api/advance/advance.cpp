@@ -122,9 +122,7 @@ double horizon(const Actions& actions, const Moment& moment) {
 
 /// Ends the commitment before the first action that breaks the rule of a zone.
 void keep_rules(core::Robot& robot, std::size_t index, const std::vector<core::Zone>& all) {
-  core::Robot without_limits = robot;  // so that each zone counts
-  without_limits.linear_speed = without_limits.angular_speed = core::Zone::kNoLimit;
-  const core::DriveZones zones(all, index, without_limits);
+  const core::DriveZones zones(all, index, robot, core::DriveZones::Limits::all_zones);
   const auto breaks = [&](const Action& action) { return zones.broken_by(action).has_value(); };
   const auto first = std::find_if(robot.committed.begin(), robot.committed.end(), breaks);
   robot.committed.erase(first, robot.committed.end());

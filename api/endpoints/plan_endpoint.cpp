@@ -31,14 +31,16 @@ Clock::duration for_dependencies(const PlanRequest& request) {
 
 /// The part of the budget after planning, to check the plan and write the answer: a twentieth of the budget,
 /// but at most what a thousand robots need; or a quarter of what reading the request took, which tells how
-/// large it is and how busy the machine. The meetings of robots and moving obstacles, and their check, take
-/// up to half as long as reading them.
+/// large it is and how busy the machine. The check of a large map, and that of robots that meet moving
+/// obstacles, take up to half as long as reading them.
 Clock::duration kept_for_answer(const PlanRequest& request, Clock::duration reading) {
   constexpr Clock::duration kMostForTheAnswer = std::chrono::milliseconds(25);
   const std::chrono::nanoseconds budget = request.budget;
-  const bool has_obstacles = !request.problem.obstacles().empty();
-  const auto for_the_check = has_obstacles ? std::min<Clock::duration>(budget / 2, reading / 2)
-                                           : std::min<Clock::duration>(budget / 4, reading / 4);
+  constexpr int kManyCells = 1'000'000;
+  const core::OccupancyGrid& grid = request.problem.grid();
+  const bool is_slow = !request.problem.obstacles().empty() || grid.columns() > kManyCells / grid.rows();
+  const auto for_the_check = is_slow ? std::min<Clock::duration>(budget / 2, reading / 2)
+                                     : std::min<Clock::duration>(budget / 4, reading / 4);
   return for_dependencies(request) +
          std::max(std::min<Clock::duration>(budget / 20, kMostForTheAnswer), for_the_check);
 }

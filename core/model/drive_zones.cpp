@@ -60,19 +60,20 @@ std::vector<DriveZones::Piece> timed(const std::vector<Part>& parts, const Posit
 
 }  // namespace
 
-DriveZones::DriveZones(const std::vector<Zone>& zones, std::size_t robot, const Robot& limits)
-    : linear_speed_(limits.linear_speed),
-      angular_speed_(limits.angular_speed),
-      least_angular_speed_(limits.angular_speed) {
+DriveZones::DriveZones(const std::vector<Zone>& zones, std::size_t index, const Robot& robot, Limits limits)
+    : linear_speed_(limits == Limits::slower_zones ? robot.linear_speed : Zone::kNoLimit),
+      angular_speed_(limits == Limits::slower_zones ? robot.angular_speed : Zone::kNoLimit),
+      least_angular_speed_(angular_speed_) {
   for (std::size_t k = 0; k < zones.size(); ++k) {
     const Zone& zone = zones[k];
-    if (!zone.is_for(robot)) continue;
+    if (!zone.is_for(index)) continue;
     if (zone.type == Zone::Type::one_way) {
       one_way_.push_back({k, Polygon(zone.polygon), zone.heading, zone.half_angle});
     }
-    const bool is_slow = zone.linear_speed < linear_speed_ || zone.angular_speed < angular_speed_;
+    const double linear_speed = zone.linear_speed_for(robot.linear_speed);
+    const bool is_slow = linear_speed < linear_speed_ || zone.angular_speed < angular_speed_;
     if (zone.type != Zone::Type::speed || !is_slow) continue;
-    speed_.push_back({k, Polygon(zone.polygon), zone.linear_speed, zone.angular_speed});
+    speed_.push_back({k, Polygon(zone.polygon), linear_speed, zone.angular_speed});
     least_angular_speed_ = std::min(least_angular_speed_, zone.angular_speed);
   }
 }

@@ -25,7 +25,12 @@ class DriveZones {
     double end = 0.0;
   };
 
-  DriveZones(const std::vector<Zone>& zones, std::size_t robot, const Robot& limits);
+  /// Which zones that limit speeds count: those that are slower than the robot, or all.
+  enum class Limits { slower_zones, all_zones };
+
+  /// The zones for `robot`, the one with this index.
+  DriveZones(const std::vector<Zone>& zones, std::size_t index, const Robot& robot,
+             Limits limits = Limits::slower_zones);
 
   bool empty() const { return speed_.empty() && one_way_.empty(); }
   bool limit_speeds() const { return !speed_.empty(); }

@@ -69,7 +69,7 @@ class FleetCheck {
       add_to_fleet(index, plan, std::move(body), departure);
     }
     if (robot.invalid) return;  // it may stand in a wall
-    const ZonesOfRobot zones(request_.zones, index);
+    const ZonesOfRobot zones(request_.zones, index, robot.linear_speed);
     const auto distance_from = [&](const Position& position, double reach) {
       return zones.distance_to_blocked(position, distance_from_walls(field, position, reach));
     };

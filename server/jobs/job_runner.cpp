@@ -5,6 +5,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -40,11 +41,23 @@ bool is_gzip(const Exchange& exchange) {
   return content_coding(exchange.head.field("content-encoding")) == ContentCoding::gzip;
 }
 
-/// Bytes to parse, by which slots are given. A coded body is as large as JSON that is coded is, as a rule.
+/// The size of the decoded text that the last gzip member of a body claims to have (RFC 1952, 2.3.1).
+std::size_t claimed_size(std::string_view coded) {
+  constexpr std::size_t kBytes = 4;
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < std::min(kBytes, coded.size()); ++i) {
+    size = size << 8 | static_cast<unsigned char>(coded[coded.size() - 1 - i]);
+  }
+  return size;
+}
+
+/// Bytes to parse, by which slots are given. A coded body is as large as it claims, or as JSON that is coded
+/// is, as a rule, if that is more.
 std::size_t bytes_to_parse(const Exchange& exchange, const api::Limits& limits) {
   constexpr std::size_t kRatio = 10;
   if (!is_gzip(exchange)) return exchange.body.size();
-  return std::min<std::size_t>(kRatio * exchange.body.size(), limits.max_body);
+  return std::min<std::size_t>(std::max(kRatio * exchange.body.size(), claimed_size(exchange.body)),
+                               limits.max_body);
 }
 
 /// Decodes the exchange's body if it is coded.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <map>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -34,7 +33,7 @@ constexpr Range kHalfAngle{kLeastHalfAngle, std::numbers::pi, "radians"};
 class ZoneReader {
  public:
   ZoneReader(const WorldMap* map, const Limits& limits, const std::vector<ReadRobot>& robots)
-      : map_(map), all_(robots), corners_(limits.max_zone_corners, "corners of zones"), names_(robots) {}
+      : map_(map), corners_(limits.max_zone_corners, "corners of zones"), names_(robots) {}
 
   /// The zone, or the parts of its mask.
   std::vector<core::Zone> read(const JsonReader& item) {
@@ -77,38 +76,13 @@ class ZoneReader {
     }
     if (map_ == nullptr) return {};
     std::vector<core::Zone> zones;
-    const RobotsBySpeed by_speed = zone.type == Type::speed ? robots_by_speed(zone) : RobotsBySpeed();
     for (const MaskPart& part : parse_mask(mask, map_->grid, zone.type == Type::speed, corners_)) {
-      if (mask.stop().met_after(kWorkOfAPart * (1 + by_speed.size()))) return {};
-      core::Zone cells = zone;
+      if (mask.stop().met_after(kWorkOfAPart)) return {};
+      core::Zone& cells = zones.emplace_back(zone);
       cells.polygon = part.polygon;
-      if (zone.type == Type::blocked) {
-        zones.push_back(std::move(cells));
-      } else {
-        add_slow_cells(part.percent / 100.0, cells, by_speed, zones);
-      }
+      if (zone.type == Type::speed) cells.linear_speed_share = part.percent / 100.0;
     }
     return zones;
-  }
-
-  using RobotsBySpeed = std::map<double, std::vector<std::size_t>>;
-
-  RobotsBySpeed robots_by_speed(const core::Zone& zone) const {
-    RobotsBySpeed by_speed;
-    for (std::size_t robot = 0; robot < all_.size(); ++robot) {
-      if (zone.is_for(robot)) by_speed[all_[robot].robot.linear_speed].push_back(robot);
-    }
-    return by_speed;
-  }
-
-  /// Adds a zone for the robots of each speed.
-  static void add_slow_cells(double share, const core::Zone& cells, const RobotsBySpeed& by_speed,
-                             std::vector<core::Zone>& zones) {
-    for (const auto& [speed, robots] : by_speed) {
-      core::Zone& zone = zones.emplace_back(cells);
-      zone.linear_speed = share * speed;
-      if (by_speed.size() > 1) zone.robots = robots;
-    }
   }
 
   static void read_rule(const JsonReader& json, core::Zone& zone) {
@@ -174,7 +148,6 @@ class ZoneReader {
   }
 
   const WorldMap* map_;
-  const std::vector<ReadRobot>& all_;
   Quota corners_;
   RobotNames names_;
   std::unordered_map<std::string, std::size_t> zones_;  // by id, their numbers

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
-#include <vector>
 
 #include "core/map/occupancy_grid.h"
 #include "core/verify/geometry/segment_to_rectangle.h"
@@ -49,7 +49,8 @@ class ObstacleField {
   double resolution_;
   double width_;
   double height_;
-  std::vector<std::uint32_t> blocked_below_left_;  // of each corner of a cell, row by row from the bottom
+  /// Blocked cells below and to the left of each corner of a cell, row by row from the bottom.
+  std::unique_ptr<std::uint32_t[]> blocked_below_left_;
 };
 
 }  // namespace fleetplan::core

@@ -46,7 +46,8 @@ std::string blocked_text(const Zone& zone, double distance, double radius, doubl
 
 }  // namespace
 
-ZonesOfRobot::ZonesOfRobot(const std::vector<Zone>* zones, std::size_t robot) : robot_(robot) {
+ZonesOfRobot::ZonesOfRobot(const std::vector<Zone>* zones, std::size_t robot, double own_speed)
+    : robot_(robot), own_speed_(own_speed) {
   if (zones == nullptr) return;
   for (std::size_t k = 0; k < zones->size(); ++k) {
     const Zone& zone = (*zones)[k];
@@ -129,7 +130,7 @@ std::optional<Violation> ZonesOfRobot::check_translation(const ZoneBox& in, cons
                         in.zone->id + "\", which allows " + radians(in.zone->half_angle));
     }
     const double share = stretch.last - stretch.first;
-    const double limit = in.zone->linear_speed;
+    const double limit = in.zone->linear_speed_for(own_speed_);
     const double taken = share * duration;
     const double least = share * length / limit;
     if (taken >= least - tolerance.seconds || taken * limit >= share * length - tolerance.metres) continue;

@@ -18,7 +18,8 @@ namespace fleetplan::core {
 class ZonesOfRobot {
  public:
   /// `zones`: null if there are none; otherwise they outlive this object.
-  ZonesOfRobot(const std::vector<Zone>* zones, std::size_t robot);
+  /// `own_speed`: the robot's linear speed, metres per second.
+  ZonesOfRobot(const std::vector<Zone>* zones, std::size_t robot, double own_speed);
 
   bool empty() const { return zones_.empty(); }
 
@@ -50,6 +51,7 @@ class ZonesOfRobot {
   Violation broken(const ZoneBox& in, double t, double measured, double required, std::string detail) const;
 
   std::size_t robot_;
+  double own_speed_;
   std::vector<ZoneBox> zones_;
 };
 
