@@ -31,18 +31,20 @@ Clock::duration for_dependencies(const PlanRequest& request) {
 
 /// The part of the budget after planning, to check the plan and write the answer: a twentieth of the budget,
 /// but at most what a thousand robots need; or a quarter of what reading the request took, which tells how
-/// large it is and how busy the machine. The check of a large map, and that of robots that meet moving
-/// obstacles, take up to half as long as reading them.
+/// large it is and how busy the machine. The meetings of robots and moving obstacles, and their check, take
+/// up to half as long as reading them; the check of a very large map takes up to as long.
 Clock::duration kept_for_answer(const PlanRequest& request, Clock::duration reading) {
   constexpr Clock::duration kMostForTheAnswer = std::chrono::milliseconds(25);
+  constexpr int kManyCells = 4'000'000;
   const std::chrono::nanoseconds budget = request.budget;
-  constexpr int kManyCells = 1'000'000;
   const core::OccupancyGrid& grid = request.problem.grid();
-  const bool is_slow = !request.problem.obstacles().empty() || grid.columns() > kManyCells / grid.rows();
-  const auto for_the_check = is_slow ? std::min<Clock::duration>(budget / 2, reading / 2)
-                                     : std::min<Clock::duration>(budget / 4, reading / 4);
+  const auto for_the_check = [&]() -> Clock::duration {
+    if (grid.columns() > kManyCells / grid.rows()) return std::min<Clock::duration>(budget / 2, reading);
+    if (!request.problem.obstacles().empty()) return std::min<Clock::duration>(budget / 2, reading / 2);
+    return std::min<Clock::duration>(budget / 4, reading / 4);
+  };
   return for_dependencies(request) +
-         std::max(std::min<Clock::duration>(budget / 20, kMostForTheAnswer), for_the_check);
+         std::max(std::min<Clock::duration>(budget / 20, kMostForTheAnswer), for_the_check());
 }
 
 /// What the request asks of the server. A few robots on a small map take milliseconds, as a rule.

@@ -314,7 +314,7 @@ def costly_requests():
         Costly("20,000 goals off the lattice", posted(many_goals(lambda k: (2 + 0.0041 * k, 2 + k * 0.618 % 90))), 0.1,
                300, planned(["none"], ["budget_exhausted"])),
         Costly("a mask of many parts", posted(mask_of_many_parts(), "/v1/advance"), 0.5, 300,
-                refused("invalid_request", "parse_unfinished", "memory_exceeded")),
+               answered_or_unfinished("map")),
         Costly("300,000 bends, 30,000 stops", posted(rough_way(options={"time_budget_ms": 500}), "/v1/simulate"), 0.5, 300,
                answered_or_unfinished("runs")),
         Costly("a trace of 300,000 bends", posted(rough_way(options={"time_budget_ms": 3600}, trace=0), "/v1/simulate"), 3.6,
