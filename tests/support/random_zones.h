@@ -50,6 +50,7 @@ inline std::vector<core::Zone> random_zones(Dice& dice, const core::Problem& pro
     if (zone.type == core::Zone::Type::speed) {
       const core::Robot& robot = problem.robots().front();
       if (dice.chance(0.8)) zone.linear_speed = robot.linear_speed * dice.between(0.2, 1.2);
+      if (dice.chance(0.3)) zone.linear_speed_share = dice.between(0.2, 1.2);
       if (dice.chance(0.5)) zone.angular_speed = robot.angular_speed * dice.between(0.2, 1.2);
     }
     if (zone.type == core::Zone::Type::one_way) {

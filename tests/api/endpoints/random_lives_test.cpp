@@ -39,7 +39,8 @@ std::vector<core::Zone> zones_for(Dice& dice, const core::Problem& problem) {
   using Type = core::Zone::Type;
   std::vector<core::Zone> zones =
       support::random_zones(dice, problem, {Type::blocked, Type::one_way, Type::speed});
-  for (core::Zone& zone : zones) {  // a request has a limit in each
+  for (core::Zone& zone : zones) {  // a request has a limit in each, and shares in masks only
+    zone.linear_speed_share = core::Zone::kNoLimit;
     const bool has_any = std::min(zone.linear_speed, zone.angular_speed) < core::Zone::kNoLimit;
     if (zone.type == Type::speed && !has_any) zone.angular_speed = 1.0;
   }
