@@ -56,6 +56,15 @@ def anchor(heading):
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
 
 
+def first_request():
+    """The first request of the page of requests; the page of responses has its answer."""
+    return json.loads(blocks("docs/plan_request.md", "json")[0])
+
+
+def first_response():
+    return json.loads(blocks("docs/plan_response.md", "json")[0])
+
+
 def prose(text):
     """A document without its code blocks."""
     return re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL)
@@ -140,7 +149,8 @@ class Examples(DocumentTest):
         self.assertTrue(self.post("/v1/validate", {**request, **answer})["valid"])
 
     def test_the_request_of_the_api_page_returns_the_response_below_it(self):
-        request, _, _, shown, verdict, _ = map(json.loads, blocks("docs/api.md", "json"))
+        request, shown = first_request(), first_response()
+        (verdict,) = map(json.loads, blocks("docs/endpoints.md", "json"))
         answer = self.post("/v1/plan", request)
         self.assert_shape(shown, answer)
         self.assertEqual(set(shown), set(answer))
@@ -149,7 +159,7 @@ class Examples(DocumentTest):
         self.assert_shape(self.post("/v1/validate", {**request, **answer}), verdict)
 
     def test_the_members_of_fleets_in_motion_are_accepted_and_planned(self):
-        request, motion, *_ = map(json.loads, blocks("docs/api.md", "json"))
+        request, motion, _ = map(json.loads, blocks("docs/plan_request.md", "json"))
         request = {**request, **motion}
         answer = self.post("/v1/plan", request)
         self.assertEqual(answer["status"], "solved")
@@ -161,7 +171,8 @@ class Examples(DocumentTest):
         self.assertTrue(self.post("/v1/validate", {**request, **answer})["valid"])
 
     def test_the_zones_of_the_api_page_make_the_way_longer(self):
-        request, _, zones, shown, *_ = map(json.loads, blocks("docs/api.md", "json"))
+        request, _, zones = map(json.loads, blocks("docs/plan_request.md", "json"))
+        shown = first_response()
         request = {**request, **zones}
         answer = self.post("/v1/plan", request)
         self.assertEqual(answer["status"], "solved")
@@ -169,8 +180,8 @@ class Examples(DocumentTest):
         self.assertTrue(self.post("/v1/validate", {**request, **answer})["valid"])
 
     def test_the_error_of_the_api_page_is_returned_for_the_fault_that_it_shows(self):
-        *_, shown = map(json.loads, blocks("docs/api.md", "json"))
-        request = json.loads(blocks("docs/api.md", "json")[0])
+        (shown,) = map(json.loads, blocks("docs/errors.md", "json"))
+        request = first_request()
         request["robots"][0]["linear_speed"] = 0
         with self.assertRaises(urllib.error.HTTPError) as raised:
             self.post("/v1/plan", request)
@@ -181,7 +192,7 @@ class Examples(DocumentTest):
             self.assertEqual(shown[member], answer[member])
 
     def test_the_python_example_plans_for_every_robot(self):
-        (program,) = blocks("docs/api.md", "python")
+        (program,) = blocks("docs/first_request.md", "python")
         self.assertIn(SERVICE, program)
         done = subprocess.run([sys.executable, "-c", program.replace(SERVICE, self.url)],
                               capture_output=True, text=True, check=False)
@@ -220,8 +231,8 @@ class Examples(DocumentTest):
 
     def test_the_events_have_the_names_that_are_shown(self):
         names = {variant["properties"]["event"]["const"] for variant in self.schema("PlanEvent")["oneOf"]}
-        self.assertEqual({code(row[0])[0] for row in table("docs/api.md", ["`event`"])}, names)
-        shown = set(re.findall(r"^event: (\w+)$", DOCUMENTS["docs/api.md"], re.MULTILINE))
+        self.assertEqual({code(row[0])[0] for row in table("docs/plan_response.md", ["`event`"])}, names)
+        shown = set(re.findall(r"^event: (\w+)$", DOCUMENTS["docs/plan_response.md"], re.MULTILINE))
         self.assertLessEqual(shown, names)
 
 
@@ -229,7 +240,7 @@ class ApiTables(DocumentTest):
     def test_the_options_are_those_of_the_schema(self):
         request = self.openapi["paths"]["/v1/plan"]["post"]["requestBody"]["content"]["application/json"]["schema"]
         options = self.resolve(self.resolve(request)["properties"]["options"])["properties"]
-        rows = table("docs/api.md", ["option", "range", "default", "meaning"])
+        rows = table("docs/plan_request.md", ["option", "range", "default", "meaning"])
         self.assertEqual([code(row[0])[0] for row in rows], list(options))
         budget = json.loads(self.get("/v1/limits"))["default_budget_ms"]  # the only default that is a setting
         for name, stated, default, _ in rows:
@@ -264,15 +275,15 @@ class ApiTables(DocumentTest):
     def test_the_errors_are_those_of_the_schema(self):
         errors = {(value["status"], value["code"]) for value in values(self.openapi["components"], "value")
                   if isinstance(value, dict) and "code" in value and "request_id" in value}
-        rows = table("docs/api.md", ["status", "`code`"])
+        rows = table("docs/errors.md", ["status", "`code`"])
         self.assertEqual({(int(status), code(name)[0]) for status, name, _ in rows}, errors)
 
     def test_faults_reasons_and_violations_are_those_of_the_schema(self):
-        def listed(header):
-            return {name for row in table("docs/api.md", [header]) for name in code(row[0])}
-        self.assertEqual(listed("`errors[].code`"), set(self.schema("Fault")["properties"]["code"]["enum"]))
-        self.assertEqual(listed("`reason`"), set(self.schema("Unplanned")["properties"]["reason"]["enum"]))
-        self.assertEqual(listed("violation `kind`"), set(self.schema("Violation")["properties"]["kind"]["enum"]))
+        def listed(document, header):
+            return {name for row in table(document, [header]) for name in code(row[0])}
+        self.assertEqual(listed("docs/errors.md", "`errors[].code`"), set(self.schema("Fault")["properties"]["code"]["enum"]))
+        self.assertEqual(listed("docs/plan_response.md", "`reason`"), set(self.schema("Unplanned")["properties"]["reason"]["enum"]))
+        self.assertEqual(listed("docs/endpoints.md", "violation `kind`"), set(self.schema("Violation")["properties"]["kind"]["enum"]))
 
 
 class ConfigurationTables(DocumentTest):
@@ -338,6 +349,11 @@ class ManualPage(unittest.TestCase):
 class Names(unittest.TestCase):
     def test_the_readme_is_short(self):
         self.assertLessEqual(len(DOCUMENTS["README.md"].splitlines()), 120)
+
+    def test_lines_outside_of_tables_and_code_have_at_most_120_columns(self):
+        for name, text in DOCUMENTS.items():
+            outside = re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL)
+            self.assertEqual([line for line in outside.splitlines() if len(line) > 120 and not line.startswith("|")], [], name)
 
     def test_the_version_is_that_of_the_build_everywhere(self):
         def stated(file, pattern):
