@@ -12,7 +12,7 @@
 #include "core/replan/previous_plan.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
-#include "core/verify/check_plan.h"
+#include "core/verify/verify.h"
 #include "library/convert.h"
 #include "library/make_problem.h"
 

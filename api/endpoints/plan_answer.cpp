@@ -10,7 +10,7 @@
 #include "api/response/error.h"
 #include "core/lattice_spacing.h"
 #include "core/meetings.h"
-#include "core/verify/check_plan.h"
+#include "core/verify/verify.h"
 
 namespace fleetplan::api {
 

@@ -8,7 +8,7 @@
 #include "core/prioritized/priority_order.h"
 #include "core/replan/previous_plan.h"
 #include "core/runtime/random.h"
-#include "core/verify/tolerances.h"
+#include "core/verify/check_rules.h"
 #include "core/verify/verify.h"
 
 namespace fleetplan::core {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/verify/pairs/common_pieces.h"
+#include "core/verify/geometry/relative_motion.h"
 #include "core/verify/pairs/fleet_clearance.h"
 
 namespace fleetplan::core {

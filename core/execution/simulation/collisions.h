@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/runtime/stop_condition.h"
-#include "core/verify/execution/execution.h"
+#include "core/verify/execution.h"
 #include "core/verify/geometry/obstacle_field.h"
 
 namespace fleetplan::core {

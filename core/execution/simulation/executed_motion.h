@@ -10,7 +10,7 @@
 #include "core/model/action.h"
 #include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
-#include "core/verify/execution/execution.h"
+#include "core/verify/execution.h"
 
 namespace fleetplan::core {
 

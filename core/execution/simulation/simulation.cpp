@@ -4,7 +4,7 @@
 #include <map>
 
 #include "core/runtime/memory_account.h"
-#include "core/verify/tolerances.h"
+#include "core/verify/check_rules.h"
 
 namespace fleetplan::core {
 namespace {

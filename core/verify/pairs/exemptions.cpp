@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/model/most_meetings.h"
-#include "core/verify/pairs/pair_distance.h"
-#include "core/verify/tolerances.h"
+#include "core/verify/check_rules.h"
+#include "core/verify/geometry/relative_motion.h"
 
 namespace fleetplan::core {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/verify/violation_list.h"
+#include "core/verify/violations.h"
 
 #include <algorithm>
 #include <tuple>

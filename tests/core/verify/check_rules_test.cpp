@@ -1,4 +1,4 @@
-#include "core/verify/tolerances.h"
+#include "core/verify/check_rules.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/verify/geometry/segment_to_rectangle.h"
+#include "core/verify/geometry/segment_distance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/verify/tolerances.h"
+#include "core/verify/check_rules.h"
 
 #include <algorithm>
 #include <limits>
