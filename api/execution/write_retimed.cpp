@@ -6,7 +6,6 @@
 
 #include "api/json/json_writer.h"
 #include "core/execution/executed_actions.h"
-#include "core/execution/pace.h"
 #include "core/model/served_goals.h"
 
 namespace fleetplan::api {

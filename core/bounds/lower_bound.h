@@ -1,5 +1,7 @@
 #pragma once
 
+// Lower bounds of costs, obstacles ignored.
+
 #include <optional>
 #include <vector>
 
@@ -37,5 +39,12 @@ double end_after(const Itinerary& itinerary, const std::vector<double>& seconds)
 
 /// A lower bound of the cost of a robot with a goal, seconds, obstacles ignored.
 double lower_bound(const Robot& robot, const Motion& motion);
+
+/// A lower bound of the cost of a robot that may reverse and gets `distance` metres (> 0) in a direction,
+/// from one heading to another one (none: any), seconds. Obstacles and waits are left out. The robot need not
+/// turn into the direction: it may go forwards and backwards beside it, on a longer way. docs/method.md,
+/// Lemma 4.
+double reverse_bound(double distance, double direction, std::optional<double> from_heading,
+                     std::optional<double> to_heading, const Motion& motion);
 
 }  // namespace fleetplan::core

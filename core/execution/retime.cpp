@@ -8,8 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/execution/pace.h"
-#include "core/execution/wait_purposes.h"
+#include "core/execution/executed_actions.h"
 
 namespace fleetplan::core {
 

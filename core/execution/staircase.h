@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/execution/conflict_region.h"
-#include "core/execution/pace.h"
+#include "core/execution/executed_actions.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

@@ -1,5 +1,3 @@
-#include "core/bounds/reverse_bound.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,6 @@
-#include "core/execution/wait_purposes.h"
-
 #include <gtest/gtest.h>
 
+#include "core/execution/executed_actions.h"
 #include "tests/support/plan_builder.h"
 
 namespace fleetplan::core {

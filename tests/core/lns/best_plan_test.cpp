@@ -1,5 +1,3 @@
-#include "core/lns/best_plan.h"
-
 #include <gtest/gtest.h>
 
 #include "core/lns/incumbent.h"

@@ -1,8 +1,8 @@
-#include "core/lns/delayed_choice.h"
-
 #include <gtest/gtest.h>
 
 #include <map>
+
+#include "core/lns/adaptive_choice.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
