@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "core/geometry/angle.h"
-#include "core/geometry/same_position.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
-#include "core/model/served_goals.h"
+#include "core/model/itinerary.h"
 
 namespace fleetplan::core {
 

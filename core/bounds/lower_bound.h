@@ -6,16 +6,16 @@
 #include <vector>
 
 #include "core/geometry/position.h"
+#include "core/instance/motion.h"
 #include "core/model/itinerary.h"
 #include "core/model/robot.h"
-#include "core/motion.h"
 
 namespace fleetplan::core {
 
 /// The cost from a pose to the goal without obstacles, seconds: the straight line, the rotation into its
 /// direction and from there to the goal heading. The wait before moves is not included. No path costs less;
 /// docs/method.md, Lemma 1, proves it. For a robot that may reverse: a lower bound of the cost of all paths,
-/// also of those that go forwards and backwards beside the line (see reverse_bound.h).
+/// also of those that go forwards and backwards beside the line (see reverse_bound).
 double straight_cost(const Pose& from, const Goal& goal, const Motion& motion);
 
 /// The way to a goal from the one before, or from where the robot's plan begins.

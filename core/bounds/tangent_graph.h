@@ -11,7 +11,7 @@
 #include "core/geometry/position.h"
 #include "core/map/line_of_sight.h"
 #include "core/map/occupancy_grid.h"
-#include "core/runtime/indexed_vector.h"
+#include "core/runtime/arrays.h"
 
 namespace fleetplan::core {
 
@@ -126,7 +126,7 @@ class TangentGraph {
   std::optional<Tangent> to_point(const Bend& from, const Position& point);
 
   bool is_free(const Tangent& tangent);
-  /// Of the k-th tangent in `from(bend)`; the result is stored.
+  /// Whether the k-th tangent in `from(bend)` is free; the result is stored.
   bool is_free(const Bend& bend, int k);
   /// Whether the disk can follow the arc between two places on the bend. True as well where obstacles reach
   /// less than a piece of 5.6 degrees into it.

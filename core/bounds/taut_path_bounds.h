@@ -10,9 +10,9 @@
 #include "core/bounds/corner_visibility.h"
 #include "core/bounds/lower_bound.h"
 #include "core/bounds/tangent_graph.h"
-#include "core/instance.h"
-#include "core/motion.h"
-#include "core/runtime/indexed_vector.h"
+#include "core/instance/instance.h"
+#include "core/instance/motion.h"
+#include "core/runtime/arrays.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
@@ -97,9 +97,9 @@ class TautPathSearch {
 /// the services, after the committed actions.
 class TautPathBounds {
  public:
-  /// Of `robots`, all with goals. `costs`, by robot, are those of a known plan; infinite for none. The work
-  /// is limited to about half a second: beyond it, on large maps full of corners, or when `stop` is met
-  /// or the memory spent, bounds are weaker, down to the straight line.
+  /// Bounds the costs of `robots`, all with goals. `costs`, by robot, are those of a known plan; infinite for
+  /// none. The work is limited to about half a second: beyond it, on large maps full of corners, or when
+  /// `stop` is met or the memory spent, bounds are weaker, down to the straight line.
   TautPathBounds(const Instance& instance, const std::vector<std::size_t>& robots,
                  const std::vector<double>& costs, const StopCondition& stop);
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"
-#include "core/model/served_goals.h"
 
 namespace fleetplan::core {
 

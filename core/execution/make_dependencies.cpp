@@ -93,9 +93,9 @@ class Implications {
   std::vector<PairRange> pairs_;
 };
 
-/// The dependencies that no two others imply. A waits for C if A waits for B, which must first pass a gate of its own to
-/// C: the progress of B that A waits for is strictly beyond that gate. `all`: of each pair of robots in
-/// ascending order of both progresses. Nothing if the stop condition is met.
+/// The dependencies that no two others imply. A waits for C if A waits for B, which must first pass a gate of
+/// its own to C: the progress of B that A waits for is strictly beyond that gate. `all`: of each pair of
+/// robots in ascending order of both progresses. Nothing if the stop condition is met.
 std::optional<std::vector<WholeDependency>> without_implied(std::vector<WholeDependency> all,
                                                             const StopCondition& stop) {
   std::vector<WholeDependency> kept;

@@ -39,7 +39,7 @@ class NearStretches {
   bool add(std::size_t robot, const StopCondition& stop);
 
  private:
-  /// Those near one stretch. False if `stop` is met.
+  /// Finds the stretches near one. False if `stop` is met.
   bool find_near(std::size_t robot, std::size_t stretch, std::vector<std::vector<NearPair>>& by_other,
                  const StopCondition& stop);
 

@@ -16,7 +16,7 @@ namespace fleetplan::core {
 /// Ropke and Pisinger, 2006). Every alternative keeps a positive probability.
 class AdaptiveChoice {
  public:
-  /// Of `count` >= 1 alternatives, all equal at first.
+  /// Chooses among `count` >= 1 alternatives, all equal at first.
   explicit AdaptiveChoice(std::size_t count) : records_(count) {}
 
   std::size_t choose(Random& random) const;

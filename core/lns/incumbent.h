@@ -12,7 +12,7 @@
 
 namespace fleetplan::core {
 
-/// The plan that iterations begin with: a trajectory for each planned robot. See best_plan.h for the best
+/// The plan that iterations begin with: a trajectory for each planned robot. See BestPlan for the best
 /// one.
 class Incumbent {
  public:

@@ -4,7 +4,7 @@
 #include <optional>
 #include <tuple>
 
-#include "core/model/served_goals.h"
+#include "core/model/itinerary.h"
 
 namespace fleetplan::core {
 

@@ -9,9 +9,9 @@ namespace fleetplan::core {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-/// Of a coordinate or a time: the planner and the checker add up many of them.
+/// Relative to a coordinate or a time: the planner and the checker add up many of them.
 constexpr double kRounding = 16.0 * kEpsilon;
-/// Of a position at a time: both ends of a move are rounded, for each of two robots.
+/// Relative to a position at a time: both ends of a move are rounded, for each of two robots.
 constexpr double kMotionRounding = 2.0 * kEpsilon;
 /// Metres, seconds, radians: a start or goal may be this far from the vertex that stands for it.
 constexpr double kLeast = 2.0 * kSamePosition;

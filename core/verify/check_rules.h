@@ -1,13 +1,13 @@
 #pragma once
 
-// What is checked, by which rules, and with which tolerances.
+// The input of a check: the fleet, the rules and the tolerances.
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "core/geometry/moving_obstacle.h"
 #include "core/map/occupancy_grid.h"
-#include "core/model/moving_obstacle.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/model/zone.h"

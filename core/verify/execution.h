@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/model/moving_obstacle.h"
+#include "core/geometry/moving_obstacle.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/verify/check_rules.h"

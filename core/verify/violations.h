@@ -81,7 +81,7 @@ class ViolationList {
   void add(ViolationList more);
 
   std::size_t total() const { return total_; }
-  /// Those that are kept, in order; leaves the list empty.
+  /// The violations that are kept, in order; leaves the list empty.
   std::vector<Violation> take();
 
  private:

@@ -16,7 +16,7 @@
 
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
-#include "core/map/obstacle_distance.h"
+#include "core/map/occupancy_grid.h"
 #include "core/planner.h"
 #include "core/verify/execution.h"
 #include "core/verify/pairs/fleet_clearance.h"

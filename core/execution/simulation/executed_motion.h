@@ -37,9 +37,9 @@ std::optional<std::vector<Leg>> executed_legs(const Robot& robot, const std::vec
                                               const DisturbedActions& disturbed,
                                               const ExecutedProgress& progress, const StopCondition& stop);
 
-/// The same as actions, contiguous in time and space: planned actions at their executed times, cut where the
-/// robot halts, or where the offset from its path changes. Headings are those of the plan. Returns none if
-/// there are more than `most`, or if `stop` is met first.
+/// The executed motion as actions, contiguous in time and space: planned actions at their executed times, cut
+/// where the robot halts, or where the offset from its path changes. Headings are those of the plan. Returns
+/// none if there are more than `most`, or if `stop` is met first.
 std::optional<std::vector<Action>> disturbed_actions(const std::vector<Action>& planned,
                                                      const DisturbedActions& disturbed,
                                                      const ExecutedProgress& progress, std::size_t most,

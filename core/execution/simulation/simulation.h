@@ -50,7 +50,8 @@ std::optional<ExecutedCollision> find_wall(const ObstacleField& field, std::size
                                            const std::vector<Leg>& legs, double radius, double tolerance,
                                            const StopCondition& stop);
 
-/// What is executed. A robot without a plan executes its committed actions and stays at their end.
+/// The fleet and the execution to study. A robot without a plan executes its committed actions and stays at
+/// their end.
 struct SimulatedFleet {
   const OccupancyGrid& grid;
   const std::vector<Robot>& robots;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/model/most_meetings.h"
+#include "core/model/plan.h"
 #include "core/verify/check_rules.h"
 #include "core/verify/geometry/relative_motion.h"
 

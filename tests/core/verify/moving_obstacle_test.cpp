@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "core/model/most_meetings.h"
+#include "core/model/plan.h"
 #include "core/verify/execution.h"
 #include "core/verify/pairs/exemptions.h"
 #include "core/verify/pairs/obstacle_sweep.h"

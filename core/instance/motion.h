@@ -1,6 +1,8 @@
 #pragma once
 
 #include "core/geometry/angle.h"
+#include "core/model/plan_options.h"
+#include "core/model/robot.h"
 
 namespace fleetplan::core {
 
@@ -17,5 +19,18 @@ struct Motion {
   /// Seconds to turn from one normalised heading to another, the shorter way.
   double rotation_time(double from, double to) const { return angle_between(from, to) / angular_speed; }
 };
+
+/// How the robot moves under these options while it has this radius (metres).
+inline Motion motion_of(const Robot& robot, const PlanOptions& options, double radius) {
+  return {radius + options.inflation,
+          robot.linear_speed,
+          robot.angular_speed,
+          options.wait_before_move,
+          radius + options.inflation + robot.vicinity,
+          robot.may_reverse};
+}
+inline Motion motion_of(const Robot& robot, const PlanOptions& options) {
+  return motion_of(robot, options, robot.radius);
+}
 
 }  // namespace fleetplan::core

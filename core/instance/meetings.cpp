@@ -1,4 +1,4 @@
-#include "core/meetings.h"
+#include "core/instance/meetings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <tuple>
 #include <utility>
 
-#include "core/geometry/overlap.h"
+#include "core/geometry/disk_motion.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
-#include "core/model/most_meetings.h"
+#include "core/model/plan.h"
 #include "core/model/radius_steps.h"
 #include "core/reservation/motion_tree.h"
 

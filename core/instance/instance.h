@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/instance/motion.h"
 #include "core/map/free_space.h"
 #include "core/map/lattice.h"
 #include "core/model/drive_zones.h"
@@ -13,12 +14,16 @@
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
 #include "core/model/trajectory.h"
-#include "core/motion.h"
 #include "core/reservation/contacts.h"
 #include "core/reservation/fixed_reservations.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
+
+/// Metres between the vertices of the lattice that robots are planned on: as the options ask. By default, the
+/// map's resolution; where that is at most a quarter of the smallest radius, its largest odd multiple up to
+/// this radius, so that vertices are centres of cells as well.
+double lattice_spacing(const Problem& problem, const PlanOptions& options);
 
 /// A problem with its options, the lattice and the static feasibility of moves: what stays the same while one
 /// request is planned. Not thread-safe, because static moves are computed on first use.

@@ -1,7 +1,6 @@
-#include "core/lattice_spacing.h"
-
 #include <gtest/gtest.h>
 
+#include "core/instance/instance.h"
 #include "tests/support/problem_builder.h"
 
 namespace fleetplan::core {

@@ -1,6 +1,7 @@
+#include "core/lns/incumbent.h"
+
 #include <gtest/gtest.h>
 
-#include "core/lns/incumbent.h"
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {

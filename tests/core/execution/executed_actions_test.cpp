@@ -1,6 +1,7 @@
+#include "core/execution/executed_actions.h"
+
 #include <gtest/gtest.h>
 
-#include "core/execution/executed_actions.h"
 #include "tests/support/plan_builder.h"
 
 namespace fleetplan::core {

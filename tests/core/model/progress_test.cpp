@@ -1,6 +1,6 @@
 // The progress and the plans that a planner reports to an observer.
 
-#include "core/runtime/progress.h"
+#include "core/model/progress.h"
 
 #include <gtest/gtest.h>
 

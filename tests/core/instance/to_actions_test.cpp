@@ -1,4 +1,4 @@
-#include "core/actions.h"
+#include "core/instance/to_actions.h"
 
 #include <gtest/gtest.h>
 

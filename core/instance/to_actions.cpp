@@ -1,4 +1,4 @@
-#include "core/actions.h"
+#include "core/instance/to_actions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/geometry/angle.h"
-#include "core/model/served_goals.h"
+#include "core/model/itinerary.h"
 
 namespace fleetplan::core {
 namespace {
