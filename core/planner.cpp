@@ -24,7 +24,6 @@
 #include "core/replan/follow_kept.h"
 #include "core/replan/kept_plans.h"
 #include "core/runtime/memory_account.h"
-#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 namespace {

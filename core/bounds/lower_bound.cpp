@@ -7,9 +7,7 @@
 #include <numbers>
 
 #include "core/geometry/angle.h"
-#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
-#include "core/model/itinerary.h"
 
 namespace fleetplan::core {
 

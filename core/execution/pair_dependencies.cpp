@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/execution/conflict_region.h"
 #include "core/geometry/disk_motion.h"
 
 namespace fleetplan::core {

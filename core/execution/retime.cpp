@@ -8,8 +8,6 @@
 #include <tuple>
 #include <utility>
 
-#include "core/execution/executed_actions.h"
-
 namespace fleetplan::core {
 
 namespace {

@@ -5,7 +5,6 @@
 
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
-#include "core/instance/motion.h"
 #include "core/model/radius_steps.h"
 
 namespace fleetplan::core {

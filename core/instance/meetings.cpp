@@ -9,7 +9,6 @@
 #include "core/geometry/disk_motion.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
-#include "core/model/plan.h"
 #include "core/model/radius_steps.h"
 #include "core/reservation/motion_tree.h"
 

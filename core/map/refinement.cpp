@@ -17,8 +17,6 @@
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
 #include "core/map/fine_regions.h"
-#include "core/map/free_space.h"
-#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 namespace {

@@ -9,8 +9,6 @@
 #include "core/instance/meetings.h"
 #include "core/instance/motion.h"
 #include "core/model/itinerary.h"
-#include "core/model/plan.h"
-#include "core/replan/kept_plans.h"
 
 namespace fleetplan::core {
 

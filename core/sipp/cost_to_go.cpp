@@ -6,8 +6,6 @@
 #include <queue>
 #include <vector>
 
-#include "core/geometry/angle.h"
-#include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
 #include "core/runtime/arrays.h"
 #include "core/sipp/times_from_start.h"

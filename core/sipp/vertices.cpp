@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/instance/instance.h"
 #include "core/map/refinement.h"

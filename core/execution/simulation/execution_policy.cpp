@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/execution/simulation/executed_motion.h"
-
 namespace fleetplan::core {
 namespace {
 

@@ -15,7 +15,6 @@
 #include "core/verify/pairs/fleet_clearance.h"
 #include "core/verify/pairs/margin_sweep.h"
 #include "core/verify/pairs/obstacle_sweep.h"
-#include "core/verify/violations.h"
 
 namespace fleetplan::core {
 namespace {

@@ -5,9 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/model/plan.h"
 #include "core/verify/check_rules.h"
-#include "core/verify/geometry/relative_motion.h"
 
 namespace fleetplan::core {
 namespace {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/geometry/tolerance.h"
-#include "core/verify/geometry/relative_motion.h"
 #include "core/verify/pairs/moving_boxes.h"
 
 namespace fleetplan::core {

@@ -5,7 +5,6 @@
 #include <map>
 #include <utility>
 
-#include "core/verify/geometry/relative_motion.h"
 #include "core/verify/pairs/moving_boxes.h"
 
 namespace fleetplan::core {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/geometry/angle.h"
-#include "core/verify/violations.h"
 
 namespace fleetplan::core {
 namespace {

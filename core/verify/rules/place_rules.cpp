@@ -7,8 +7,6 @@
 
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
-#include "core/verify/geometry/segment_distance.h"
-#include "core/verify/violations.h"
 
 namespace fleetplan::core {
 namespace {

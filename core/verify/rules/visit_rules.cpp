@@ -10,7 +10,6 @@
 
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
-#include "core/verify/violations.h"
 
 namespace fleetplan::core {
 namespace {
