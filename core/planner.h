@@ -3,8 +3,8 @@
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
+#include "core/model/progress.h"
 #include "core/runtime/executor.h"
-#include "core/runtime/progress.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

@@ -12,8 +12,8 @@
 
 #include <vector>
 
+#include "core/geometry/moving_obstacle.h"
 #include "core/map/occupancy_grid.h"
-#include "core/model/moving_obstacle.h"
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
 #include "core/model/robot.h"

@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/model/moving_obstacle.h"
+#include "core/geometry/moving_obstacle.h"
 #include "core/model/problem.h"
 #include "core/model/robot.h"
 #include "core/model/zone.h"

@@ -8,11 +8,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/replan/plan_without_search.h"
-#include "core/replan/previous_plan.h"
+#include "core/replan/follow_kept.h"
+#include "core/replan/kept_plans.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
-#include "core/verify/check_plan.h"
+#include "core/verify/verify.h"
 #include "library/convert.h"
 #include "library/make_problem.h"
 

@@ -10,7 +10,6 @@
 #include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"
-#include "core/model/served_goals.h"
 
 namespace fleetplan::api {
 

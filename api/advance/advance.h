@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/moving_obstacle.h"
 #include "core/model/action.h"
-#include "core/model/moving_obstacle.h"
 #include "core/model/robot.h"
 #include "core/model/zone.h"
 #include "core/runtime/work.h"

@@ -8,9 +8,9 @@
 
 #include "api/endpoints/plan_dependencies.h"
 #include "api/response/error.h"
-#include "core/lattice_spacing.h"
-#include "core/meetings.h"
-#include "core/verify/check_plan.h"
+#include "core/instance/instance.h"
+#include "core/instance/meetings.h"
+#include "core/verify/verify.h"
 
 namespace fleetplan::api {
 

@@ -11,8 +11,8 @@
 #include "api/endpoints/progress_reporter.h"
 #include "api/request/parse_request.h"
 #include "api/response/error.h"
-#include "core/replan/plan_without_search.h"
-#include "core/replan/previous_plan.h"
+#include "core/replan/follow_kept.h"
+#include "core/replan/kept_plans.h"
 
 namespace fleetplan::api {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/execution/simulation/simulation.h"
-#include "core/runtime/progress.h"
+#include "core/model/progress.h"
 
 namespace fleetplan::api {
 

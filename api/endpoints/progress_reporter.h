@@ -7,7 +7,7 @@
 
 #include "api/endpoints/plan_events.h"
 #include "api/response/reply.h"
-#include "core/runtime/progress.h"
+#include "core/model/progress.h"
 
 namespace fleetplan::api {
 

@@ -8,7 +8,7 @@
 #include "api/endpoints/plan_events.h"
 #include "api/endpoints/turn.h"
 #include "api/request/limits.h"
-#include "core/map/map_cache.h"
+#include "core/map/static_map.h"
 #include "core/model/plan.h"
 #include "core/model/problem.h"
 #include "core/runtime/executor.h"

@@ -15,7 +15,7 @@
 #include "api/response/error.h"
 #include "api/response/write_simulation.h"
 #include "core/runtime/memory_account.h"
-#include "core/runtime/time_share.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::api {
 

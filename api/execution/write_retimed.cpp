@@ -6,8 +6,7 @@
 
 #include "api/json/json_writer.h"
 #include "core/execution/executed_actions.h"
-#include "core/execution/pace.h"
-#include "core/model/served_goals.h"
+#include "core/model/itinerary.h"
 
 namespace fleetplan::api {
 

@@ -5,7 +5,7 @@
 
 #include "api/json/fault.h"
 #include "api/request/parse_body.h"
-#include "core/map/map_cache.h"
+#include "core/map/static_map.h"
 #include "core/model/problem.h"
 
 namespace fleetplan::api {

@@ -11,7 +11,7 @@
 #include "api/request/requested_dependencies.h"
 #include "api/request/world_frame.h"
 #include "api/response/error.h"
-#include "core/map/map_cache.h"
+#include "core/map/static_map.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
 #include "core/runtime/work.h"

@@ -9,7 +9,7 @@
 #include "api/request/parse_meetings.h"
 #include "api/request/parse_plans.h"
 #include "api/request/ranges.h"
-#include "core/verify/tolerances.h"
+#include "core/verify/check_rules.h"
 
 namespace fleetplan::api {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/model/moving_obstacle.h"
+#include "core/geometry/moving_obstacle.h"
 #include "core/model/robot.h"
 #include "core/verify/verify.h"
 

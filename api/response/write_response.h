@@ -7,8 +7,8 @@
 
 #include "api/request/received_robot.h"
 #include "core/execution/dependency.h"
+#include "core/geometry/moving_obstacle.h"
 #include "core/geometry/position.h"
-#include "core/model/moving_obstacle.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/verify/verify.h"

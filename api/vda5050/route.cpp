@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/execution/wait_purposes.h"
+#include "core/execution/executed_actions.h"
 #include "core/geometry/angle.h"
 
 namespace fleetplan::api {

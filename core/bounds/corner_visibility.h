@@ -6,8 +6,7 @@
 
 #include "core/geometry/position.h"
 #include "core/map/occupancy_grid.h"
-#include "core/map/stop_stride.h"
-#include "core/runtime/indexed_vector.h"
+#include "core/runtime/arrays.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
@@ -38,7 +37,7 @@ class CornerVisibility {
 
   /// Whether the stop condition was met: corners and what is visible may be incomplete from then on.
   bool stopped() const { return stop_.met(); }
-  /// The same, to be asked in loops over corners; asks the stop condition once in a while.
+  /// Like stopped(), for loops over corners: asks the stop condition once in a while.
   bool stopped_at_step() { return stop_.met_at_step(); }
 
   const OccupancyGrid& grid() const { return grid_; }

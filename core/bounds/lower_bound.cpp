@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <numbers>
 
-#include "core/bounds/reverse_bound.h"
-#include "core/geometry/same_position.h"
+#include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
-#include "core/model/served_goals.h"
 
 namespace fleetplan::core {
 
@@ -61,6 +61,64 @@ double lower_bound(const Robot& robot, const Motion& motion) {
   std::vector<double> seconds;
   for (const GoalLeg& leg : legs_of(itinerary)) seconds.push_back(lower_bound(leg, motion));
   return end_after(itinerary, seconds);
+}
+
+namespace {
+
+/// Radians; beside the direction by more, the robot goes away from it.
+constexpr double kMostAside = std::numbers::pi / 2.0;
+
+/// Rotations and length when the robot's line comes within `aside` radians of the direction, at `end`.
+class Turns {
+ public:
+  /// `from`, `to`: how far the headings are from that end of the line, or 0 if they are free.
+  Turns(double from, double to, double least_turn, double straight_seconds, double angular_speed)
+      : from_(from), to_(to), least_(least_turn), straight_(straight_seconds), speed_(angular_speed) {}
+
+  /// The least cost. It is convex in `aside`: at the least one the slope changes its sign, either where a
+  /// rotation ends or where its gain equals the longer way.
+  double least_cost() const {
+    const double sum = from_ + to_ - least_;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double aside :
+         {0.0, from_, to_, from_ - least_, to_ - least_, 0.5 * sum, stationary(1.0), stationary(2.0)}) {
+      least = std::min(least, cost(std::clamp(aside, 0.0, kMostAside)));
+    }
+    return least;
+  }
+
+ private:
+  double cost(double aside) const {
+    const double turn = std::max(from_ - aside, 0.0) + std::max(to_ - aside, 0.0);
+    return std::max(turn, least_) / speed_ + straight_ / std::cos(aside);
+  }
+
+  /// Where a radian less of so many rotations saves as much time as the longer way costs.
+  double stationary(double rotations) const {
+    const double gain = rotations / (speed_ * straight_);
+    return std::asin(2.0 * gain / (1.0 + std::sqrt(1.0 + 4.0 * gain * gain)));
+  }
+
+  double from_;
+  double to_;
+  double least_;
+  double straight_;
+  double speed_;
+};
+
+}  // namespace
+
+double reverse_bound(double distance, double direction, std::optional<double> from_heading,
+                     std::optional<double> to_heading, const Motion& motion) {
+  const double straight = motion.translation_time(distance);
+  const double least_turn = from_heading && to_heading ? angle_between(*from_heading, *to_heading) : 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double end : {direction, opposite_heading(direction)}) {
+    const double from = from_heading ? angle_between(*from_heading, end) : 0.0;
+    const double to = to_heading ? angle_between(*to_heading, end) : 0.0;
+    least = std::min(least, Turns(from, to, least_turn, straight, motion.angular_speed).least_cost());
+  }
+  return least;
 }
 
 }  // namespace fleetplan::core

@@ -1,19 +1,21 @@
 #pragma once
 
+// Lower bounds of costs, obstacles ignored.
+
 #include <optional>
 #include <vector>
 
 #include "core/geometry/position.h"
+#include "core/instance/motion.h"
 #include "core/model/itinerary.h"
 #include "core/model/robot.h"
-#include "core/motion.h"
 
 namespace fleetplan::core {
 
 /// The cost from a pose to the goal without obstacles, seconds: the straight line, the rotation into its
 /// direction and from there to the goal heading. The wait before moves is not included. No path costs less;
 /// docs/method.md, Lemma 1, proves it. For a robot that may reverse: a lower bound of the cost of all paths,
-/// also of those that go forwards and backwards beside the line (see reverse_bound.h).
+/// also of those that go forwards and backwards beside the line (see reverse_bound).
 double straight_cost(const Pose& from, const Goal& goal, const Motion& motion);
 
 /// The way to a goal from the one before, or from where the robot's plan begins.
@@ -37,5 +39,12 @@ double end_after(const Itinerary& itinerary, const std::vector<double>& seconds)
 
 /// A lower bound of the cost of a robot with a goal, seconds, obstacles ignored.
 double lower_bound(const Robot& robot, const Motion& motion);
+
+/// A lower bound of the cost of a robot that may reverse and gets `distance` metres (> 0) in a direction,
+/// from one heading to another one (none: any), seconds. Obstacles and waits are left out. The robot need not
+/// turn into the direction: it may go forwards and backwards beside it, on a longer way. docs/method.md,
+/// Lemma 4.
+double reverse_bound(double distance, double direction, std::optional<double> from_heading,
+                     std::optional<double> to_heading, const Motion& motion);
 
 }  // namespace fleetplan::core

@@ -1,11 +1,123 @@
 #include "core/bounds/tangent_graph.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <numbers>
 #include <vector>
 
+#include "core/geometry/angle.h"
+#include "core/geometry/tolerance.h"
+
 namespace fleetplan::core {
+namespace {
+
+/// A gap is tight if a straight move through a third of one cell of it stays on the grid line, up to three
+/// times this, in cells, from one end of the map to the other; so both of its ends would be off all cell
+/// centres. (The third: a robot may stop in the gap at its own start and goal. With both at the ends of one
+/// move, the goal is in sight, and no taut path is needed.)
+constexpr double kMaxDeviation = 0.1;
+/// The play that contact with the walls leaves to a disk that just fits, metres.
+constexpr double kPlay = 8.0 * kSearchSlack;
+/// A tangent in a tight gap is so close to a grid line, in cells and radians; far more than the reduction of
+/// the disk's radius causes.
+constexpr double kOnLine = 1e-3;
+
+/// The width in cells of a gap that is tight for the disk, or 0.
+int tight_width(const OccupancyGrid& grid, double radius) {
+  const double diameter = 2.0 * radius / grid.resolution();
+  if (diameter > std::min(grid.columns(), grid.rows()) + 1.0) return 0;
+  const int cells = static_cast<int>(std::lround(diameter));
+  if (cells == 0 || cells % 2 != 0) return 0;
+  const double play = std::max(0.0, cells - diameter) + kPlay / grid.resolution();
+  return play * std::max(grid.columns(), grid.rows()) <= kMaxDeviation ? cells : 0;
+}
+
+}  // namespace
+
+TightGaps::TightGaps(const OccupancyGrid& grid, double radius, bool stops_at_cell_centers)
+    : grid_(grid), width_(stops_at_cell_centers ? tight_width(grid, radius) : 0) {}
+
+bool TightGaps::crossed_by(const Position& begin, const Position& end, double length) const {
+  if (width_ == 0) return false;
+  const Position d = end - begin;
+  const int axis = std::abs(d.y()) > std::abs(d.x()) ? 1 : 0;
+  if (std::abs(d[1 - axis]) > kOnLine * length) return false;
+  const Position first = begin / grid_.resolution();
+  const Position last = end / grid_.resolution();
+  const double line = std::round(last[1 - axis]);
+  if (std::abs(last[1 - axis] - line) > kOnLine) return false;
+  const auto [low, high] = std::minmax(first[axis], last[axis]);
+  const int end_cell = static_cast<int>(std::floor(high + kOnLine));
+  for (int cell = static_cast<int>(std::ceil(low - kOnLine)); cell < end_cell; ++cell) {
+    if (is_gap(static_cast<int>(line), cell, axis == 1)) return true;
+  }
+  return false;
+}
+
+/// Whether there are walls on both sides of the grid line, exactly a tight gap apart.
+bool TightGaps::is_gap(int line, int cell, bool vertical) const {
+  const int low = line - width_ / 2 - 1;
+  const int high = line + width_ / 2;
+  return vertical ? grid_.blocked({low, cell}) && grid_.blocked({high, cell})
+                  : grid_.blocked({cell, low}) && grid_.blocked({cell, high});
+}
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// Rounding of headings along an axis (radians): a move grazes a quarter within this of its end.
+constexpr double kGrazing = 1e-12;
+
+/// The headings on the bend around the corner.
+const Quadrant& quadrant(const Corner& corner, bool left) {
+  static constexpr std::array<Quadrant, 4> kQuadrants = {Quadrant{-1.0, -1.0, -0.75 * kPi},
+                                                         {1.0, -1.0, -0.25 * kPi},
+                                                         {-1.0, 1.0, 0.75 * kPi},
+                                                         {1.0, 1.0, 0.25 * kPi}};
+  // With the corner on the left, the direction away from the blocked cell is to the right.
+  const bool east = left ? corner.away_y < 0 : corner.away_y > 0;
+  const bool north = left ? corner.away_x > 0 : corner.away_x < 0;
+  return kQuadrants[(north ? 2U : 0U) + (east ? 1U : 0U)];
+}
+
+/// The place on the bend at which the disk has this heading.
+double angle_on_bend(const TangentEnd& end, double heading) {
+  if (end.quadrant == nullptr) return 0.0;
+  const double turned = rotation_between(end.quadrant->middle, heading);
+  return end.offset > 0.0 ? turned : -turned;
+}
+
+}  // namespace
+
+TangentEnd circle_around(const Corner& corner, const Position& center, double offset) {
+  return {center, offset, &quadrant(corner, offset > 0.0)};
+}
+
+std::optional<Tangent> common_tangent(const TangentEnd& from, const TangentEnd& to) {
+  const Position d = to.center - from.center;
+  const double across = to.offset - from.offset;
+  const double distance = d.norm();
+  if (!(distance > std::abs(across))) return std::nullopt;
+  const double sine = across / distance;
+  const double cosine = std::sqrt(1.0 - sine * sine);
+  const Position along = Position(d.x() * cosine + d.y() * sine, d.y() * cosine - d.x() * sine) / distance;
+  if (!is_heading_of(from, along, kDirectionRounding) || !is_heading_of(to, along, kDirectionRounding)) {
+    return std::nullopt;
+  }
+  Tangent tangent;
+  tangent.heading = std::atan2(along.y(), along.x());
+  tangent.leave_angle = angle_on_bend(from, tangent.heading);
+  tangent.arrive_angle = angle_on_bend(to, tangent.heading);
+  const bool grazes_first = std::abs(tangent.leave_angle + 0.25 * kPi) < kGrazing;
+  const bool grazes_last = std::abs(tangent.arrive_angle - 0.25 * kPi) < kGrazing;
+  if (grazes_first || grazes_last) return std::nullopt;
+  tangent.length = distance * cosine;
+  const Position left(-along.y(), along.x());
+  tangent.begin = from.center - from.offset * left;
+  tangent.end = to.center - to.offset * left;
+  return tangent;
+}
+
 namespace {
 
 constexpr double kQuarterTurn = 0.5 * std::numbers::pi;

@@ -2,16 +2,166 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <functional>
 #include <limits>
 #include <new>
-
-#include "core/bounds/corner_visibility.h"
-#include "core/bounds/lower_bound.h"
-#include "core/bounds/tangent_graph.h"
-#include "core/bounds/taut_path_search.h"
+#include <span>
 
 namespace fleetplan::core {
+namespace {
+
+/// Rounding of an angle on a bend (radians): tangents that touch it at the same angle are connected.
+constexpr double kSameAngle = 1e-6;
+/// Rounding of the cost of a path, relative and in seconds.
+constexpr double kCostRounding = 1e-9;
+/// Expansions between two checks of the stop condition.
+constexpr int kExpansionStride = 16;
+
+}  // namespace
+
+TautPathResult TautPathSearch::run(const GoalLeg& leg, const Motion& motion, double known_cost,
+                                   std::int64_t max_work, const StopCondition& stop) {
+  leg_ = &leg;
+  motion_ = &motion;
+  bend_time_ = motion.translation_time(graph_.radius()) + 1.0 / motion.angular_speed;
+  limit_ = known_cost * (1.0 + kCostRounding) + kCostRounding;
+  const std::int64_t last_work = work() + max_work;
+  reset();
+  const double straight = lower_bound(leg, motion);
+  for (const int corner : corners_.visible_from(leg.to.position)) {
+    goal_visible_[corner] = 1;
+  }
+  expand_start();
+  if (corners_.stopped()) return {straight, true};
+  TautPathResult result{straight, false};
+  for (int expansion = 1; !open_.empty(); ++expansion) {
+    const Open best = open_.front();
+    result.seconds = std::max(straight, best.f);
+    if (arrivals_[best.arrival].at_goal) return result;
+    if (work() > last_work) return result;
+    if (expansion % kExpansionStride == 0 && stop.met()) {
+      result.cut_off = true;
+      return result;
+    }
+    std::pop_heap(open_.begin(), open_.end(), std::greater<>());
+    open_.pop_back();
+    expand(best.arrival);
+    if (corners_.stopped()) {  // ways may be missing
+      result.cut_off = true;
+      return result;
+    }
+  }
+  return {straight, false};
+}
+
+void TautPathSearch::reset() {
+  arrivals_.clear();
+  open_.clear();
+  from_start_.clear();
+  last_arrival_.clear();
+  last_arrival_.resize(static_cast<std::size_t>(graph_.bend_count()), -1);
+  goal_visible_.clear();
+  goal_visible_.resize(static_cast<std::size_t>(corners_.count()), 0);
+}
+
+void TautPathSearch::expand_start() {
+  for (const int corner : corners_.visible_from(leg_->from)) {
+    if (corners_.stopped_at_step()) return;
+    for (const bool left : {false, true}) {
+      const Bend bend{corner, left};
+      const auto tangent = graph_.from_point(leg_->from, bend);
+      if (!tangent) continue;
+      ++steps_;
+      const double rotation = leg_->heading ? motion_->rotation_time(*leg_->heading, tangent->heading) : 0.0;
+      const double seconds =
+          rotation + motion_->translation_time(tangent->length) + 2.0 * motion_->wait_before_move;
+      const Arrival arrival{seconds, tangent->arrive_angle, bend, from_start_.next_index(), -1, false};
+      if (push(arrival, *tangent)) from_start_.push_back(*tangent);
+    }
+  }
+}
+
+void TautPathSearch::expand(int index) {
+  const Arrival arrival = arrivals_[index];
+  if (is_dominated(arrival.bend, arrival.angle, arrival.seconds, index)) return;
+  if (arrival.untested >= 0) {
+    if (!graph_.is_free(from_start_[arrival.untested])) return;
+    add_to_bend(index);
+  }
+  expand_tangents(arrival);
+  if (goal_visible_[arrival.bend.corner] != 0) expand_goal(arrival);
+}
+
+/// Puts the arrivals by tangents from the bend on the open list.
+void TautPathSearch::expand_tangents(const Arrival& arrival) {
+  const std::span<const Tangent> tangents = graph_.from(arrival.bend);
+  int k = -1;  // of the tangent
+  for (const Tangent& tangent : tangents) {
+    ++k;
+    if (tangent.leave_angle < arrival.angle - kSameAngle) break;  // the others leave before the arrival
+    ++steps_;
+    double seconds = seconds_after(arrival, tangent);
+    if (tangent.to.left != arrival.bend.left) seconds += motion_->wait_before_move;
+    if (exceeds_limit(seconds, tangent.end) || is_dominated(tangent.to, tangent.arrive_angle, seconds, -1))
+      continue;
+    if (!graph_.is_arc_free(arrival.bend, arrival.angle, tangent.leave_angle)) continue;
+    if (!graph_.is_free(arrival.bend, k)) continue;
+    if (push({seconds, tangent.arrive_angle, tangent.to, -1, -1, false}, tangent)) {
+      add_to_bend(arrivals_.next_index() - 1);
+    }
+  }
+}
+
+/// Puts the goal on the open list.
+void TautPathSearch::expand_goal(const Arrival& arrival) {
+  const auto tangent = graph_.to_point(arrival.bend, leg_->to.position);
+  if (!tangent || tangent->leave_angle < arrival.angle - kSameAngle) return;
+  ++steps_;
+  const double seconds = seconds_after(arrival, *tangent);
+  if (!graph_.is_arc_free(arrival.bend, arrival.angle, tangent->leave_angle)) return;
+  if (graph_.is_free(*tangent)) push({seconds, 0.0, {}, -1, -1, true}, *tangent);
+}
+
+/// The time at the end of the tangent, after the arc to its beginning.
+double TautPathSearch::seconds_after(const Arrival& arrival, const Tangent& tangent) const {
+  const double turn = std::max(0.0, tangent.leave_angle - arrival.angle);
+  return arrival.seconds + turn * bend_time_ + motion_->translation_time(tangent.length);
+}
+
+/// Whether the goal cannot be reached from `end` within the limit, turns ignored.
+bool TautPathSearch::exceeds_limit(double seconds, const Position& end) const {
+  const double left = (limit_ - seconds) * motion_->linear_speed;
+  return left < 0.0 || (leg_->to.position - end).squaredNorm() > left * left;
+}
+
+/// Puts an arrival on the open list and returns true, unless the goal cannot be reached within the limit,
+/// turns included.
+bool TautPathSearch::push(const Arrival& arrival, const Tangent& by) {
+  const double f = arrival.seconds + straight_cost({by.end, by.heading}, leg_->to, *motion_);
+  if (f > limit_) return false;
+  open_.push_back({f, arrivals_.push_back(arrival)});
+  std::push_heap(open_.begin(), open_.end(), std::greater<>());
+  return true;
+}
+
+void TautPathSearch::add_to_bend(int index) {
+  Arrival& arrival = arrivals_[index];
+  int& last = last_arrival_[TangentGraph::index(arrival.bend)];
+  arrival.next = last;
+  last = index;
+}
+
+/// Whether a tested arrival other than `except` is at this angle of the bend at no greater cost.
+bool TautPathSearch::is_dominated(const Bend& bend, double angle, double seconds, int except) const {
+  for (int a = last_arrival_[TangentGraph::index(bend)]; a >= 0;) {
+    const Arrival& other = arrivals_[a];
+    const bool before = other.angle <= angle;
+    if (before && a != except && other.seconds + (angle - other.angle) * bend_time_ <= seconds) return true;
+    a = other.next;
+  }
+  return false;
+}
+
 namespace {
 
 /// The work for all robots of a request together (see TautPathSearch::work),

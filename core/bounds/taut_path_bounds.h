@@ -1,22 +1,105 @@
 #pragma once
 
+// Lower bounds of costs among obstacles, by taut paths.
+
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <vector>
 
-#include "core/instance.h"
+#include "core/bounds/corner_visibility.h"
+#include "core/bounds/lower_bound.h"
+#include "core/bounds/tangent_graph.h"
+#include "core/instance/instance.h"
+#include "core/instance/motion.h"
+#include "core/runtime/arrays.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
+
+/// A lower bound of the cost of every path.
+struct TautPathResult {
+  double seconds = 0.0;
+  bool cut_off = false;  // the stop condition was met first
+};
+
+/// The cheapest taut path of a robot that is alone on the static map and may turn anywhere, arcs included: a
+/// lower bound of the cost of its plans. A* (Hart, Nilsson and Raphael, 1968) on the tangent graph (Liu and
+/// Arimoto, IJRR 1992), with the straight cost as the heuristic.
+///
+/// Paths that can be deformed into each other, without crossing obstacles grown by the radius, form a class.
+/// The taut path of a class has the least length and the least total rotation of the class (docs/method.md,
+/// Lemma 2). If it bends, and k of its straight pieces lie between bends of opposite sense, every path of the
+/// class has at least k + 2 translations, each with an added wait (Lemma 3). So no plan costs less than the
+/// cheapest taut path.
+class TautPathSearch {
+ public:
+  /// For robots of one radius.
+  TautPathSearch(CornerVisibility& corners, const LineOfSight& sight, double radius,
+                 bool stops_at_cell_centers = true)
+      : corners_(corners), graph_(corners, sight, radius, stops_at_cell_centers) {}
+
+  /// `motion` has the radius; the leg ends out of sight of its begin. Paths that cost more
+  /// than `known_cost`, that of a known path in seconds (infinite for none), are not explored. After
+  /// `max_work`, or when `stop` is met, returns the bound that is proved by then.
+  TautPathResult run(const GoalLeg& leg, const Motion& motion, double known_cost, std::int64_t max_work,
+                     const StopCondition& stop);
+
+  /// The work done so far by this search and by `corners`, in steps of 10 to 20 ns.
+  std::int64_t work() const { return steps_ * kStepWork + graph_.work() + corners_.work(); }
+
+ private:
+  static constexpr int kStepWork = 3;  // of examining a tangent; measured
+
+  struct Arrival {
+    double seconds = 0.0;
+    double angle = 0.0;  // on the bend
+    Bend bend;
+    int untested = -1;  // in from_start_: the move by which it arrives, if it is not known to be free
+    int next = -1;      // the next one in the list of tested arrivals at the same bend, or -1
+    bool at_goal = false;
+  };
+  struct Open {
+    double f;
+    int arrival;
+    bool operator>(const Open& other) const { return f != other.f ? f > other.f : arrival > other.arrival; }
+  };
+
+  void reset();
+  void expand_start();
+  void expand(int index);
+  void expand_tangents(const Arrival& arrival);
+  void expand_goal(const Arrival& arrival);
+  double seconds_after(const Arrival& arrival, const Tangent& tangent) const;
+  bool exceeds_limit(double seconds, const Position& end) const;
+  bool push(const Arrival& arrival, const Tangent& by);
+  void add_to_bend(int index);
+  bool is_dominated(const Bend& bend, double angle, double seconds, int except) const;
+
+  CornerVisibility& corners_;
+  TangentGraph graph_;
+  std::int64_t steps_ = 0;  // tangents examined
+
+  // Of the current search; members to reuse their memory.
+  const GoalLeg* leg_ = nullptr;
+  const Motion* motion_ = nullptr;
+  double bend_time_ = 0.0;            // seconds for a radian of an arc
+  double limit_ = 0.0;                // seconds; paths that cost more are not explored
+  IndexedVector<char> goal_visible_;  // by corner
+  IndexedVector<Tangent> from_start_;
+  IndexedVector<Arrival> arrivals_;
+  std::vector<Open> open_;           // a heap
+  IndexedVector<int> last_arrival_;  // by bend, the head of its list
+};
 
 /// Lower bounds of the costs of robots, each alone on the static map, seconds: the straight line with its
 /// rotations where it is free, the cheapest taut path elsewhere (see TautPathSearch); from goal to goal, with
 /// the services, after the committed actions.
 class TautPathBounds {
  public:
-  /// Of `robots`, all with goals. `costs`, by robot, are those of a known plan; infinite for none. The work
-  /// is limited to about half a second: beyond it, on large maps full of corners, or when `stop` is met
-  /// or the memory spent, bounds are weaker, down to the straight line.
+  /// Bounds the costs of `robots`, all with goals. `costs`, by robot, are those of a known plan; infinite for
+  /// none. The work is limited to about half a second: beyond it, on large maps full of corners, or when
+  /// `stop` is met or the memory spent, bounds are weaker, down to the straight line.
   TautPathBounds(const Instance& instance, const std::vector<std::size_t>& robots,
                  const std::vector<double>& costs, const StopCondition& stop);
 

@@ -1,12 +1,15 @@
 #pragma once
 
-// What robots execute, as far as it is planned, and when progress in it is planned.
+// What robots execute, as far as it is planned: their actions, what their waits are for, and when which
+// progress is planned. Whole progress is the number of actions executed and the fraction of the one under
+// way.
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include "core/execution/dependency.h"
+#include "core/geometry/segment.h"
 #include "core/model/action.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
@@ -22,5 +25,48 @@ std::vector<Actions> executed_actions(const std::vector<Robot>& robots, const st
 
 /// The planned time of a progress in these actions, seconds. An action without duration happens when it ends.
 double planned_time(Actions actions, std::size_t action, double fraction);
+
+/// What a wait is for. The rest of it only gives way to others, or keeps to the clock.
+struct WaitPurpose {
+  double least = 0.0;       // seconds: a service, or a wait that was added before a translation
+  double not_before = 0.0;  // seconds: these do not begin earlier
+};
+
+/// By action; of actions that do not wait, nothing. `wait_before_move`: of PlanOptions, seconds; 0 if added
+/// waits may be shortened. A service at the end of a longer added wait counts towards it.
+std::vector<WaitPurpose> wait_purposes(const Robot& robot, Actions actions, double wait_before_move);
+
+/// A translation, or consecutive actions in one place.
+struct PlannedStretch {
+  TimedSegment planned;   // the last one has no end: the robot rests
+  double begin = 0.0;     // whole progress
+  double length = 0.0;    // the number of actions; 0 of a rest after the last action
+  double radius = 0.0;    // metres, of the space that the robot takes
+  bool separates = true;  // whether it keeps others away in ways that those beside it do not
+};
+
+/// When a robot is planned to make which whole progress.
+class Pace {
+ public:
+  explicit Pace(Actions actions) : actions_(actions) {}
+
+  /// The progress at this time: 0 before the first action.
+  double progress_at(double t) const;
+  /// The time of this progress, seconds.
+  double time_at(double progress) const;
+
+  /// As a gate, which is not passed: at the begin of an action rather than at the end of the one before.
+  ActionProgress gate(std::size_t robot, double progress) const;
+  /// As what must be reached: at the end of an action.
+  ActionProgress until(std::size_t robot, double progress) const;
+
+ private:
+  Actions actions_;
+};
+
+/// The stretches of a robot that executes these actions, from t = 0 in its start. `margin` (metres) is added
+/// to its radius, which changes with the goals that it serves (Goal::radius_after). During the action that
+/// ends with such a change it takes the larger space.
+std::vector<PlannedStretch> stretches_of(const Robot& robot, Actions actions, double margin);
 
 }  // namespace fleetplan::core

@@ -26,7 +26,7 @@ struct DependencyRules {
 inline constexpr std::size_t kDependenciesOfAny = 10'000;
 inline constexpr std::size_t kDependenciesOfAnAction = 100;
 inline constexpr std::size_t kMostDependencies = 250'000;
-/// Those that others imply included.
+/// The limit of dependencies that are found, including those that others imply.
 inline constexpr std::size_t kMostFound = 1'000'000;
 
 /// The dependencies of a valid plan. Where `tight` is empty, robots that go along their own actions in order,

@@ -8,9 +8,6 @@
 #include <tuple>
 #include <utility>
 
-#include "core/execution/pace.h"
-#include "core/execution/wait_purposes.h"
-
 namespace fleetplan::core {
 
 namespace {

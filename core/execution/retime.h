@@ -33,7 +33,7 @@ struct RetimedRobot {
   std::vector<double> ends;  // seconds, of the actions from `first` on
   double begin = 0.0;        // seconds, of what is left of the action under way: now
   double delay = 0.0;        // seconds: by how much it arrives later than planned, or earlier if negative
-  /// Of a robot that arrives late: the one it waited for last, and the one whose delay is at the root of
+  /// For a robot that arrives late: the one it waited for last, and the one whose delay is at the root of
   /// that; itself if it is late by its own doing.
   std::optional<std::size_t> waits_for = {};
   std::optional<std::size_t> because_of = {};

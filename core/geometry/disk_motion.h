@@ -11,7 +11,8 @@
 // paths only touch: there the square root loses half of the digits, but the overlap is of second order in
 // that error and stays below 1e-12 m.
 
-#include "core/geometry/interval.h"
+#include <optional>
+
 #include "core/geometry/segment.h"
 
 namespace fleetplan::core {
@@ -45,5 +46,18 @@ UnsafeInterval unsafe_interval(const Position& p, const MovingDisk& b, double re
 /// of the move covers it. Use it on contiguous trajectories only.
 UnsafeInterval forbidden_departures(const Position& from, const Position& velocity, double duration,
                                     const MovingDisk& b, double reach);
+
+/// When two disks are nearer to each other than they may be, seconds; begin <= end.
+struct OverlapTime {
+  double begin = 0.0;
+  double end = 0.0;
+};
+
+/// The time during which `a` and `b` are closer than `reach` while both last; none if they never are. Unlike
+/// for a search, a common instant counts: a disk that is there for one instant only may overlap another one.
+std::optional<OverlapTime> overlap(const MovingDisk& a, const MovingDisk& b, double reach);
+
+/// The least distance of the centres while both last; kForever if they have no common time.
+double least_distance(const MovingDisk& a, const MovingDisk& b);
 
 }  // namespace fleetplan::core

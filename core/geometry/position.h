@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "core/geometry/tolerance.h"
+
 namespace fleetplan::core {
 
 /// A point or a displacement in the plane, metres.
@@ -19,5 +21,10 @@ struct Pose {
   Position position{0.0, 0.0};
   double theta = 0.0;
 };
+
+/// Whether the two are the same up to rounding, see kSamePosition.
+inline bool is_same_position(const Position& a, const Position& b) {
+  return (a - b).squaredNorm() <= kSamePosition * kSamePosition;
+}
 
 }  // namespace fleetplan::core

@@ -1,9 +1,14 @@
 #pragma once
 
+// What an iteration of large neighbourhood search chooses by recent success.
+
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "core/lns/neighbourhood.h"
 #include "core/runtime/random.h"
+#include "core/sipp/aa_sipp.h"
 
 namespace fleetplan::core {
 
@@ -11,7 +16,7 @@ namespace fleetplan::core {
 /// Ropke and Pisinger, 2006). Every alternative keeps a positive probability.
 class AdaptiveChoice {
  public:
-  /// Of `count` >= 1 alternatives, all equal at first.
+  /// Chooses among `count` >= 1 alternatives, all equal at first.
   explicit AdaptiveChoice(std::size_t count) : records_(count) {}
 
   std::size_t choose(Random& random) const;
@@ -30,6 +35,51 @@ class AdaptiveChoice {
   std::vector<double> weights() const;
 
   std::vector<Record> records_;
+};
+
+/// Chooses the robot whose cost an iteration tries to reduce: with a probability that grows with its delay
+/// (cost minus lower bound) and falls with its recent failures.
+class DelayedChoice {
+ public:
+  /// For robots 0 to count - 1.
+  explicit DelayedChoice(std::size_t count) : failures_(count, 0.0) {}
+
+  /// Returns one of `robots` (not empty); delays[k] >= 0 is the delay of robots[k] in seconds.
+  std::size_t choose(const std::vector<std::size_t>& robots, const std::vector<double>& delays,
+                     Random& random) const;
+
+  /// Whether an iteration made the robot cheaper.
+  void learn(std::size_t robot, bool gained);
+
+ private:
+  std::vector<double> failures_;  // by robot; failures before a gain count less
+};
+
+/// The parameters of one iteration of large neighbourhood search: which robots, how many, and the effort.
+/// Each is chosen by its recent gain per effort (see AdaptiveChoice).
+class AdaptiveParameters {
+ public:
+  /// Positions in the lists of possible values.
+  struct Choice {
+    std::size_t kind = 0;
+    std::size_t size = 0;
+    std::size_t limits = 0;
+
+    Neighbourhood neighbourhood() const { return static_cast<Neighbourhood>(kind); }
+    std::size_t robots() const;
+    const SearchLimits& search_limits() const;
+  };
+
+  AdaptiveParameters();
+
+  Choice choose(Random& random) const;
+  /// `gain` in seconds, >= 0.
+  void learn(const Choice& choice, double gain, std::int64_t searches, std::int64_t expansions);
+
+ private:
+  AdaptiveChoice kinds_;
+  AdaptiveChoice sizes_;
+  AdaptiveChoice limits_;
 };
 
 }  // namespace fleetplan::core

@@ -9,7 +9,6 @@
 #include <thread>
 #include <utility>
 
-#include "core/lns/exhaustion.h"
 #include "core/lns/incumbent.h"
 #include "core/lns/iterations.h"
 #include "core/lns/pipeline.h"

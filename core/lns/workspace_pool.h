@@ -7,7 +7,7 @@
 #include <mutex>
 #include <vector>
 
-#include "core/instance.h"
+#include "core/instance/instance.h"
 #include "core/lns/incumbent.h"
 #include "core/lns/neighbourhood.h"
 #include "core/model/trajectory.h"
@@ -30,7 +30,7 @@ class Workspace {
   NeighbourhoodSelection& neighbourhoods() { return neighbourhoods_; }
   /// Adopts the trajectories that have been replaced in the incumbent since the last call.
   void update();
-  /// The same, with other trajectories for some robots, until the next update.
+  /// Updates with other trajectories for some robots, until the next update.
   void update(const std::map<std::size_t, Trajectory>& others);
   /// The trajectories of the state may be others than those of the last update, or missing.
   void invalidate();

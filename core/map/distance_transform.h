@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/map/occupancy_grid.h"
-#include "core/map/stop_stride.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry/same_position.h"
 #include "core/map/occupancy_grid.h"
 
 namespace fleetplan::core {

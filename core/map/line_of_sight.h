@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/geometry/polygon.h"
 #include "core/geometry/position.h"
-#include "core/map/blocked_polygons.h"
 #include "core/map/distance_transform.h"
 #include "core/map/occupancy_grid.h"
 #include "core/runtime/stop_condition.h"

@@ -48,7 +48,7 @@ class OccupancyGrid {
   Cell cell_at(const Position& position) const;
 
   bool operator==(const OccupancyGrid&) const = default;
-  /// Of all that the grid consists of.
+  /// The hash of all that the grid consists of.
   std::size_t hash() const;
 
   std::size_t index(Cell cell) const {
@@ -62,5 +62,9 @@ class OccupancyGrid {
   double resolution_;
   std::vector<std::uint8_t> blocked_;  // row by row from the bottom, 1 = blocked
 };
+
+/// The distance in metres from a position to the nearest blocked cell or edge of the map, at most `limit` (>
+/// 0, metres). Outside the map it is minus the distance to the map.
+double obstacle_distance(const OccupancyGrid& grid, const Position& position, double limit);
 
 }  // namespace fleetplan::core

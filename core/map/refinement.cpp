@@ -14,12 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/geometry/interval.h"
+#include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
-#include "core/map/fine_nodes.h"
 #include "core/map/fine_regions.h"
-#include "core/map/free_space.h"
-#include "core/map/stop_stride.h"
 
 namespace fleetplan::core {
 namespace {

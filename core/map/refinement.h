@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/map/finer_vertices.h"
+#include "core/map/free_space.h"
 #include "core/map/lattice.h"
 #include "core/map/line_of_sight.h"
 #include "core/map/occupancy_grid.h"

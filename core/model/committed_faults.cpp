@@ -7,9 +7,9 @@
 #include <set>
 #include <utility>
 
-#include "core/geometry/overlap.h"
+#include "core/geometry/disk_motion.h"
 #include "core/geometry/tolerance.h"
-#include "core/map/obstacle_distance.h"
+#include "core/map/occupancy_grid.h"
 #include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"

@@ -2,15 +2,47 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/model/action.h"
-#include "core/model/robot_list.h"
-#include "core/model/visit.h"
+#include "core/model/trajectory.h"
 
 namespace fleetplan::core {
+
+/// Robots by index: the first few of a list that may contain all of them, and how many it contains. So lists
+/// for every robot are not quadratic in the robots.
+class RobotList {
+ public:
+  static constexpr std::size_t kMostListed = 20;
+
+  using value_type = std::size_t;
+  using const_iterator = std::vector<std::size_t>::const_iterator;
+
+  RobotList() = default;
+  RobotList(std::initializer_list<std::size_t> all) : RobotList(std::vector<std::size_t>(all)) {}
+  RobotList(std::vector<std::size_t> all)  // NOLINT: implicit
+      : total_(all.size()) {
+    if (all.size() > kMostListed) all = std::vector<std::size_t>(all.begin(), all.begin() + kMostListed);
+    listed_ = std::move(all);
+  }
+
+  const_iterator begin() const { return listed_.begin(); }
+  const_iterator end() const { return listed_.end(); }
+  std::size_t operator[](std::size_t index) const { return listed_[index]; }
+  std::size_t size() const { return listed_.size(); }
+  bool empty() const { return listed_.empty(); }
+  /// The size of the whole list.
+  std::size_t total() const { return total_; }
+  bool operator==(const RobotList&) const = default;
+
+ private:
+  std::vector<std::size_t> listed_;
+  std::size_t total_ = 0;
+};
 
 /// The plan of one robot. The actions are contiguous in time and space, begin at t = 0 in the start pose with
 /// the committed actions, and end at `cost` in the last goal's pose, where the robot stays. A robot that does
@@ -45,6 +77,12 @@ struct Unplanned {
   RobotList blocked_by;  // the blocking robots, ascending
 };
 
+/// Why a robot with Robot::invalid has no plan.
+inline Unplanned unplanned_invalid(std::size_t robot) {
+  return {
+      robot, Unplanned::Reason::invalid, "The robot's geometry is at fault, so it stays where it is.", {}};
+}
+
 /// The number of reasons; Reason::invalid is the last one.
 inline constexpr std::size_t kUnplannedReasons = static_cast<std::size_t>(Unplanned::Reason::invalid) + 1;
 
@@ -56,6 +94,10 @@ struct Meeting {
   std::optional<std::size_t> obstacle;  // index into the problem's obstacles
   double t = 0.0;                       // seconds; the begin of the overlap
 };
+
+/// A robot has at most so many meetings in a plan, the first ones. If it has so many, later collisions of
+/// what it certainly does are exempt, too. So the list grows with the robots only.
+inline constexpr std::size_t kMostMeetingsOfRobot = 8;
 
 /// The sum (flowtime) and the maximum (makespan) of the planned robots' costs, or of their lower bounds, in
 /// seconds.

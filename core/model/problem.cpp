@@ -5,7 +5,7 @@
 
 #include "core/geometry/tolerance.h"
 #include "core/map/line_of_sight.h"
-#include "core/map/obstacle_distance.h"
+#include "core/map/occupancy_grid.h"
 #include "core/model/committed_faults.h"
 #include "core/model/radius_steps.h"
 

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/geometry/moving_obstacle.h"
 #include "core/map/static_map.h"
-#include "core/model/moving_obstacle.h"
 #include "core/model/robot.h"
 #include "core/model/zone.h"
 #include "core/model/zone_maps.h"

@@ -9,7 +9,7 @@
 #include "core/geometry/segment.h"
 #include "core/model/itinerary.h"
 #include "core/model/robot.h"
-#include "core/model/visit.h"
+#include "core/model/trajectory.h"
 
 namespace fleetplan::core {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/geometry/position.h"
-#include "core/instance.h"
+#include "core/instance/instance.h"
 
 namespace fleetplan::core {
 

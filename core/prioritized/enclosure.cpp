@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/geometry/tolerance.h"
-#include "core/map/obstacle_distance.h"
-#include "core/map/paged_array.h"
+#include "core/map/occupancy_grid.h"
+#include "core/runtime/arrays.h"
 
 namespace fleetplan::core {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/prioritized/ordering_result.h"
 #include "core/prioritized/partial_plan.h"
 #include "core/prioritized/repair.h"
-#include "core/runtime/time_share.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/instance.h"
+#include "core/instance/instance.h"
 #include "core/model/trajectory.h"
 #include "core/prioritized/enclosure.h"
 #include "core/prioritized/search_spaces.h"

@@ -8,7 +8,6 @@
 #include "core/prioritized/partial_plan.h"
 #include "core/prioritized/repair_or_restart.h"
 #include "core/prioritized/restarts.h"
-#include "core/runtime/time_share.h"
 
 namespace fleetplan::core {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/bounds/lower_bound.h"
-#include "core/model/served_goals.h"
+#include "core/model/itinerary.h"
 
 namespace fleetplan::core {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "core/instance.h"
+#include "core/instance/instance.h"
 #include "core/runtime/random.h"
 
 namespace fleetplan::core {

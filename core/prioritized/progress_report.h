@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
+#include "core/model/progress.h"
 #include "core/prioritized/plan_state.h"
-#include "core/runtime/progress.h"
 
 namespace fleetplan::core {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/instance.h"
+#include "core/instance/instance.h"
 #include "core/runtime/stop_condition.h"
 #include "core/sipp/search_space.h"
 

@@ -3,7 +3,6 @@
 #include <set>
 #include <utility>
 
-#include "core/model/unplanned_invalid.h"
 #include "core/prioritized/disk_index.h"
 #include "core/prioritized/without_way.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/instance.h"
+#include "core/instance/instance.h"
 #include "core/prioritized/plan_state.h"
 
 namespace fleetplan::core {

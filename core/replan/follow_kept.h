@@ -1,7 +1,13 @@
 #pragma once
 
+// Plans that go on with what is kept of previous plans.
+
+#include "core/model/plan.h"
+#include "core/model/plan_options.h"
+#include "core/model/problem.h"
 #include "core/prioritized/plan_state.h"
 #include "core/replan/kept_plans.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 
@@ -10,7 +16,14 @@ namespace fleetplan::core {
 /// number of those that do.
 std::size_t follow_kept_plans(PlanState& state, const KeptPlans& previous, const KeptPlans& certain);
 
-/// The same where all of `movers` are kept and no search follows: takes hardly any time.
+/// For the case that all of `movers` are kept and no search follows: takes hardly any time.
 void finish_with_kept_plans(PlanState& state, const std::vector<std::size_t>& movers);
+
+/// The plan for which no search is needed: parked robots, and robots whose previous plans hold while all
+/// others stay at their starts or committed ends. The others are unplanned for lack of a budget, with this
+/// detail. Takes as long as a few checks of the plans; none of the previous plans is kept if `stop` is met
+/// first.
+Plan plan_without_search(const Problem& problem, const PlanOptions& options, const char* detail,
+                         const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -1,14 +1,33 @@
 #pragma once
 
+// Previous plans, and which of them hold.
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "core/model/action.h"
+#include "core/model/plan.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
+#include "core/model/robot.h"
+#include "core/model/trajectory.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
+
+/// Whether any robot has a previous plan.
+bool have_previous_plans(const std::vector<Robot>& robots);
+
+/// The actions of the robot's previous plan as received. Without one, if it is empty or if the robot is
+/// parked, the robot rests after its committed actions.
+const std::vector<Action>& previous_actions(const Robot& robot);
+
+/// These actions as a plan without visits, with 0 as lower bound.
+RobotPlan previous_plan(std::size_t index, const Robot& robot);
+
+/// The motion of a previous plan that holds (see KeptPlans).
+Trajectory previous_trajectory(const Robot& robot);
 
 /// The previous plans that hold together.
 struct KeptPlans {
@@ -32,7 +51,7 @@ enum class LeftOut : std::uint8_t {
 KeptPlans keep_previous_plans(const Problem& problem, const PlanOptions& options, const StopCondition& stop,
                               LeftOut left_out = LeftOut::unknown);
 
-/// Of plans that are kept, those that hold also if all other robots stay at their starts or committed ends.
+/// Finds those of the kept plans that hold also if all other robots stay at their starts or committed ends.
 KeptPlans keep_if_others_stay(const Problem& problem, const PlanOptions& options, const KeptPlans& previous,
                               const StopCondition& stop);
 

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/geometry/moving_obstacle.h"
 #include "core/geometry/segment.h"
-#include "core/model/moving_obstacle.h"
 #include "core/reservation/contacts.h"
 #include "core/reservation/motion_tree.h"
 #include "core/runtime/stop_condition.h"

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/geometry/interval.h"
 #include "core/geometry/segment.h"
 
 namespace fleetplan::core {

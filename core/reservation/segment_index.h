@@ -8,7 +8,7 @@
 #include "core/geometry/segment.h"
 #include "core/reservation/bucket_grid.h"
 #include "core/reservation/contacts.h"
-#include "core/runtime/indexed_vector.h"
+#include "core/runtime/arrays.h"
 
 namespace fleetplan::core {
 

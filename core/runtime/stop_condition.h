@@ -47,7 +47,7 @@ class StopCondition {
     return step_clock.tick(outlasts_) || cancelled() || (heeds_memory_ && is_short_of_memory()) ||
            Clock::now() >= deadline_;
   }
-  /// The same, but not met while the job is short of memory: for the end of a job, which has memory set
+  /// This condition, but not met while the job is short of memory: for the end of a job, which has memory set
   /// apart.
   StopCondition despite_memory() const {
     StopCondition without = *this;
@@ -82,6 +82,37 @@ class StopCondition {
   bool outlasts_ = false;  // the budget: for what is done after it
   Clock::time_point deadline_ = Clock::time_point::max();
   std::stop_token stop_;
+};
+
+/// Met after a share of the time that remains, or when `stop` is cancelled.
+inline StopCondition after_share(const StopCondition& stop, double share) {
+  using Clock = StopCondition::Clock;
+  if (stop.deadline() == Clock::time_point::max()) return stop;
+  const auto now = Clock::now();
+  const auto remaining = std::chrono::duration_cast<Clock::duration>((stop.deadline() - now) * share);
+  return stop.until(now + remaining);
+}
+
+/// Asks a stop condition once in so many steps of a computation. Stays met once it is.
+class StopStride {
+ public:
+  StopStride(StopCondition stop, int stride) : stop_(std::move(stop)), stride_(stride), left_(stride) {}
+
+  /// To be called at every step.
+  bool met_at_step() {
+    if (--left_ > 0) return met_;
+    left_ = stride_;
+    met_ = met_ || stop_.met();
+    return met_;
+  }
+  /// Whether it was met at a step before.
+  bool met() const { return met_; }
+
+ private:
+  StopCondition stop_;
+  int stride_;
+  int left_;  // steps until it asks
+  bool met_ = false;
 };
 
 }  // namespace fleetplan::core

@@ -6,10 +6,8 @@
 #include <queue>
 #include <vector>
 
-#include "core/geometry/angle.h"
-#include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
-#include "core/map/paged_array.h"
+#include "core/runtime/arrays.h"
 #include "core/sipp/times_from_start.h"
 #include "core/sipp/vertices.h"
 

@@ -8,7 +8,7 @@
 
 #include "core/geometry/angle.h"
 #include "core/geometry/segment.h"
-#include "core/motion.h"
+#include "core/instance/motion.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/geometry/angle.h"
-#include "core/geometry/interval.h"
+#include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "core/motion.h"
-#include "core/runtime/indexed_vector.h"
+#include "core/instance/motion.h"
+#include "core/runtime/arrays.h"
 
 namespace fleetplan::core {
 

@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "core/geometry/angle.h"
-#include "core/geometry/interval.h"
+#include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
+#include "core/instance/motion.h"
 #include "core/model/drive_zones.h"
-#include "core/motion.h"
 #include "core/reservation/reservation_table.h"
 
 namespace fleetplan::core {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/runtime/indexed_vector.h"
+#include "core/runtime/arrays.h"
 #include "core/sipp/dominance_table.h"
 
 namespace fleetplan::core {

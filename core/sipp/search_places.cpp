@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "core/geometry/interval.h"
+#include "core/geometry/segment.h"
 #include "core/sipp/search.h"
 
 namespace fleetplan::core {

@@ -4,8 +4,6 @@
 #include <optional>
 #include <tuple>
 
-#include "core/model/served_goals.h"
-
 namespace fleetplan::core {
 
 SearchSpace::SearchSpace(const Instance& instance, std::size_t robot, const StopCondition& stop)

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/instance.h"
+#include "core/instance/instance.h"
 #include "core/model/itinerary.h"
 #include "core/sipp/cost_to_go.h"
 #include "core/sipp/vertices.h"

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "core/geometry/interval.h"
 #include "core/geometry/position.h"
-#include "core/runtime/indexed_vector.h"
+#include "core/geometry/segment.h"
+#include "core/runtime/arrays.h"
 #include "core/sipp/cost_to_go.h"
 #include "core/sipp/dominance_table.h"
 #include "core/sipp/edge_timing.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/runtime/indexed_vector.h"
+#include "core/runtime/arrays.h"
 #include "core/runtime/stop_condition.h"
 #include "core/sipp/search_space.h"
 

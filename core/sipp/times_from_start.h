@@ -8,7 +8,7 @@
 
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
-#include "core/map/paged_array.h"
+#include "core/runtime/arrays.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/geometry/same_position.h"
 #include "core/geometry/tolerance.h"
-#include "core/instance.h"
+#include "core/instance/instance.h"
 #include "core/map/refinement.h"
 #include "core/sipp/way_to_lattice.h"
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "core/geometry/position.h"
-#include "core/map/finer_vertices.h"
+#include "core/instance/motion.h"
+#include "core/map/free_space.h"
 #include "core/map/lattice.h"
 #include "core/model/drive_zones.h"
-#include "core/motion.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

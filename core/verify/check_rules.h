@@ -1,19 +1,36 @@
 #pragma once
 
-// What is checked, and by which rules.
+// The input of a check: the fleet, the rules and the tolerances.
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "core/geometry/moving_obstacle.h"
 #include "core/map/occupancy_grid.h"
-#include "core/model/moving_obstacle.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/model/zone.h"
-#include "core/verify/tolerances.h"
 
 namespace fleetplan::core {
+
+/// How much the plan of one robot may deviate. Two disks may overlap by the larger one of their tolerances.
+struct Tolerance {
+  double metres = 0.0;
+  double seconds = 0.0;
+  double radians = 0.0;
+
+  static Tolerance of_all(double tolerance) { return {tolerance, tolerance, tolerance}; }
+};
+
+/// No tolerance in metres exceeds this, whatever a request contains; also the default of POST /v1/validate.
+inline constexpr double kMostTolerance = 1e-6;
+
+/// By robot, the tolerances for a plan of the planner: contact, and what doubles lose in coordinates of the
+/// map's size and, at the robot's own speed, in times as long as its own plan's. For robots with actions of
+/// the request, kMostTolerance.
+std::vector<Tolerance> plan_tolerances(const OccupancyGrid& grid, const std::vector<Robot>& robots,
+                                       const std::vector<RobotPlan>& plans);
 
 /// The map, the robots, the moving obstacles and the zones of a request. They need not form a valid Problem.
 struct CheckedFleet {

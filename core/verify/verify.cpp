@@ -3,17 +3,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/verify/execution/bodies.h"
-#include "core/verify/execution/executed_fleet.h"
+#include "core/verify/execution.h"
 #include "core/verify/pairs/check_pairs.h"
-#include "core/verify/rules/commitment_rules.h"
-#include "core/verify/rules/endpoint_rules.h"
 #include "core/verify/rules/motion_rules.h"
-#include "core/verify/rules/obstacle_rules.h"
+#include "core/verify/rules/place_rules.h"
 #include "core/verify/rules/visit_rules.h"
-#include "core/verify/rules/wait_rules.h"
-#include "core/verify/rules/zone_rules.h"
-#include "core/verify/violation_list.h"
 
 namespace fleetplan::core {
 namespace {
@@ -141,6 +135,18 @@ std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<
 std::optional<VerifyReport> verify(const CheckedFleet& fleet, const std::vector<RobotPlan>& plans,
                                    const CheckRules& rules, const StopCondition& stop) {
   return FleetCheck(fleet, plans, rules, stop).run();
+}
+
+std::optional<VerifyReport> check_plan(const Problem& problem, const PlanOptions& options, const Plan& plan,
+                                       const StopCondition& stop) {
+  CheckRules rules{plan_tolerances(problem.grid(), problem.robots(), plan.plans)};
+  rules.interval_margin = options.interval_margin;
+  rules.start_overlap = options.start_overlap;
+  rules.horizon = options.horizon;
+  rules.exact_commitments = true;
+  rules.exempt = plan.unavoidable;
+  return verify({problem.grid(), problem.robots(), problem.obstacles(), &problem.zones()}, plan.plans, rules,
+                stop);
 }
 
 }  // namespace fleetplan::core

@@ -10,74 +10,14 @@
 
 #include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"
+#include "core/model/plan_options.h"
+#include "core/model/problem.h"
 #include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/check_rules.h"
-#include "core/verify/tolerances.h"
+#include "core/verify/violations.h"
 
 namespace fleetplan::core {
-
-/// The maximum number of overlaps of robots in a report. Many robots in one place have millions of them.
-inline constexpr std::size_t kMostCollisions = 10'000;
-
-/// The maximum number of violations in a report. Every action may have several.
-inline constexpr std::size_t kMostViolations = 10'000;
-
-/// A violation of the rules by a plan. All numbers are finite.
-///
-/// The kinds, and what `distance` and `required` are:
-///
-/// - robot_collision: two disks overlap; one violation for each uninterrupted overlap. The distance of the
-///   centres, and the sum of the radii.
-/// - obstacle_collision: a disk overlaps a blocked cell or leaves the map; one violation for each action, or
-///   one for consecutive actions through which the overlap continues. The distance from the centre to the
-///   obstacle (0: inside), and the radius.
-/// - discontinuity: a gap in time or position, an action that contradicts its type, or a cost other than the
-///   last t_end. The gap or jump, and 0; or a time, and the required time. Also a number that is not finite
-///   or beyond 1e30: then the robot is not checked any further.
-/// - speed: faster than the robot. The speed, and the robot's; or for an action without duration the
-///   duration, and the shortest possible one. Also a translation that leads off the line of its heading
-///   (forwards or backwards): by how many metres, and 0.
-/// - wrong_start, wrong_goal: the distance of the first or the resting pose from the required one, and 0.
-///   Parked robots must rest at their start or committed end, in any heading. A robot without a plan is
-///   unplanned, which is allowed.
-/// - wrong_visit: a goal that is not served in its order, in time and for its service, or a visit that a plan
-///   or the `goal` of a wait claims but that does not take place. A time, and the required time; or how far
-///   the robot rests from the goal, and 0.
-/// - committed_changed: a plan that does not begin with the committed actions. By how much the first number
-///   that differs does, and 0; or the number of actions, and of committed ones.
-/// - margin: a robot passes where another one is up to the interval margin earlier or later. The distance of
-///   the centres, and the sum of the radii.
-/// - moving_obstacle: a disk overlaps a moving obstacle; one violation for each uninterrupted overlap. The
-///   distance of the centres, and the sum of the radii.
-/// - zone: the rule of a zone is broken. Blocked: a disk overlaps it; one violation for each uninterrupted
-///   overlap: the distance from the centre to the zone (0: inside), and the radius. Speed and one-way: one
-///   violation for each action that has the centre deeper inside than the tolerance: its speed, and the
-///   greatest allowed one; or the angle between its direction and the heading, and the greatest one.
-struct Violation {
-  enum class Kind {
-    robot_collision,
-    obstacle_collision,
-    discontinuity,
-    speed,
-    wrong_start,
-    wrong_goal,
-    wrong_visit,
-    committed_changed,
-    margin,
-    moving_obstacle,
-    zone,
-  };
-  Kind kind;
-  std::vector<std::size_t> robots;  // indices, ascending; two for robot_collision and margin, one otherwise
-  double t = 0.0;                   // seconds; of a collision, the first time at which the overlap is deepest
-  double distance = 0.0;            // measured: metres, radians, seconds or metres (radians) per second
-  double required = 0.0;            // the limit or required value, same unit
-  std::string detail;               // a sentence for people, with units; names no robots by index
-  std::optional<std::size_t> obstacle = {};  // of moving_obstacle: its index
-  std::optional<double> t_begin = {};        // of robot_collision: when the overlap begins, seconds
-  std::optional<std::size_t> zone = {};      // of zone: its index
-};
 
 /// The outcome of a check.
 struct VerifyReport {
@@ -105,9 +45,13 @@ std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<
                                    const std::vector<RobotPlan>& plans, double tolerance,
                                    const StopCondition& stop);
 
-/// The same with tolerances by robot.
+/// The plainest check, with tolerances by robot.
 std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                    const std::vector<RobotPlan>& plans,
                                    const std::vector<Tolerance>& tolerances, const StopCondition& stop);
+
+/// The check of a plan of the planner; none if `stop` is met first.
+std::optional<VerifyReport> check_plan(const Problem& problem, const PlanOptions& options, const Plan& plan,
+                                       const StopCondition& stop);
 
 }  // namespace fleetplan::core

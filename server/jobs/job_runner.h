@@ -5,7 +5,7 @@
 
 #include "api/endpoints/plan_events.h"
 #include "api/response/reply.h"
-#include "core/map/map_cache.h"
+#include "core/map/static_map.h"
 #include "server/http/exchange.h"
 #include "server/jobs/disposal.h"
 #include "server/jobs/parse_slots.h"

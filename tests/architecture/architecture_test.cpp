@@ -108,14 +108,15 @@ TEST(SourceRules, AllowTheFacadeOnlyOutsideCoreAndInItsSource) {
   EXPECT_THAT(violations("core/planner.cpp", include), IsEmpty());
   EXPECT_THAT(violations("api/endpoints/a.cpp", include), IsEmpty());
   for (const std::string path :
-       {"core/instance.h", "core/sipp/a.cpp", "core/lns/a.cpp", "core/verify/a.cpp"}) {
+       {"core/instance/instance.h", "core/sipp/a.cpp", "core/lns/a.cpp", "core/verify/a.cpp"}) {
     EXPECT_THAT(violations(path, "#pragma once\n" + include),
                 ElementsAre(path + " must not include \"core/planner.h\""));
   }
 }
 
 TEST(SourceRules, RejectPlanningOfAllRobotsInFoldersForOneRobot) {
-  for (const std::string folder : {"geometry", "map", "model", "runtime", "reservation", "bounds", "sipp"}) {
+  for (const std::string folder :
+       {"geometry", "map", "model", "instance", "runtime", "reservation", "bounds", "sipp"}) {
     const std::string path = "core/" + folder + "/a.cpp";
     EXPECT_THAT(violations(path, "#include \"core/prioritized/plan_state.h\"\n"),
                 ElementsAre(path + " must not include \"core/prioritized/plan_state.h\""));

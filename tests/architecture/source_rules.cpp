@@ -72,6 +72,7 @@ const std::vector<FolderRule>& folder_rules() {
       {"core/runtime/", all_robots, {}},
       {"core/reservation/", all_robots, {}},
       {"core/bounds/", all_robots, {}},
+      {"core/instance/", all_robots, {}},
       {"core/sipp/", all_robots, {}},
       // Execution works with plans, whoever made them.
       {"core/execution/",

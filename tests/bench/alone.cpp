@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "api/request/parse_request.h"
-#include "core/instance.h"
+#include "core/instance/instance.h"
 #include "core/prioritized/plan_state.h"
 #include "tests/bench/median.h"
 #include "tests/support/unbounded_work.h"

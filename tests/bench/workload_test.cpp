@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "core/map/obstacle_distance.h"
+#include "core/map/occupancy_grid.h"
 #include "core/model/problem.h"
 #include "tests/support/ascii_map.h"
 

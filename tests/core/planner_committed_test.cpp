@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/meetings.h"
-#include "core/model/most_meetings.h"
+#include "core/instance/meetings.h"
+#include "core/model/plan.h"
 #include "core/planner.h"
 #include "core/verify/verify.h"
 #include "tests/core/support/planning.h"

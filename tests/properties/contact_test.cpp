@@ -16,9 +16,9 @@
 
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
-#include "core/map/obstacle_distance.h"
+#include "core/map/occupancy_grid.h"
 #include "core/planner.h"
-#include "core/verify/execution/execution.h"
+#include "core/verify/execution.h"
 #include "core/verify/pairs/fleet_clearance.h"
 #include "core/verify/verify.h"
 #include "tests/support/expect_safe.h"

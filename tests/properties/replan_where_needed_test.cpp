@@ -12,10 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/map/obstacle_distance.h"
+#include "core/map/occupancy_grid.h"
 #include "core/planner.h"
 #include "core/replan/kept_plans.h"
-#include "core/replan/previous_plan.h"
 #include "tests/support/expect_replanned.h"
 #include "tests/support/moving_fleet.h"
 #include "tests/support/summary.h"

@@ -15,7 +15,7 @@
 
 #include "core/geometry/tolerance.h"
 #include "core/planner.h"
-#include "core/replan/previous_plan.h"
+#include "core/replan/kept_plans.h"
 #include "core/verify/verify.h"
 #include "tests/support/expect_safe.h"
 

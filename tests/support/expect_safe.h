@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/actions.h"
-#include "core/map/obstacle_distance.h"
+#include "core/instance/to_actions.h"
+#include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"

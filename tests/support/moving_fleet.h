@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/geometry/position.h"
-#include "core/map/obstacle_distance.h"
+#include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"

@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/map/obstacle_distance.h"
+#include "core/map/occupancy_grid.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
 

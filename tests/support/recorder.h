@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/runtime/progress.h"
+#include "core/model/progress.h"
 
 namespace fleetplan::support {
 

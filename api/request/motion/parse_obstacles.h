@@ -6,7 +6,7 @@
 #include "api/request/limits.h"
 #include "api/request/motion/unique_ids.h"
 #include "api/request/world_frame.h"
-#include "core/model/moving_obstacle.h"
+#include "core/geometry/moving_obstacle.h"
 
 namespace fleetplan::api {
 

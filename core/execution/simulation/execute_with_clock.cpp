@@ -2,8 +2,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/execution/simulation/executed_motion.h"
 #include "core/execution/simulation/execution_policy.h"
-#include "core/execution/simulation/progress_builder.h"
 
 namespace fleetplan::core {
 namespace {

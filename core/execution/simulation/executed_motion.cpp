@@ -1,6 +1,5 @@
 #include "core/execution/simulation/executed_motion.h"
 
-#include <algorithm>
 #include <limits>
 #include <span>
 

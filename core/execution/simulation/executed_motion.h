@@ -2,6 +2,7 @@
 
 // What a robot did in one execution of its plan.
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -10,7 +11,7 @@
 #include "core/model/action.h"
 #include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
-#include "core/verify/execution/execution.h"
+#include "core/verify/execution.h"
 
 namespace fleetplan::core {
 
@@ -36,12 +37,45 @@ std::optional<std::vector<Leg>> executed_legs(const Robot& robot, const std::vec
                                               const DisturbedActions& disturbed,
                                               const ExecutedProgress& progress, const StopCondition& stop);
 
-/// The same as actions, contiguous in time and space: planned actions at their executed times, cut where the
-/// robot halts, or where the offset from its path changes. Headings are those of the plan. Returns none if
-/// there are more than `most`, or if `stop` is met first.
+/// The executed motion as actions, contiguous in time and space: planned actions at their executed times, cut
+/// where the robot halts, or where the offset from its path changes. Headings are those of the plan. Returns
+/// none if there are more than `most`, or if `stop` is met first.
 std::optional<std::vector<Action>> disturbed_actions(const std::vector<Action>& planned,
                                                      const DisturbedActions& disturbed,
                                                      const ExecutedProgress& progress, std::size_t most,
                                                      const StopCondition& stop);
+
+/// Adds to the progress of a robot, from t = 0 on.
+class ProgressBuilder {
+ public:
+  double now() const { return now_; }
+  double fraction() const { return fraction_; }
+
+  void begin_action(std::size_t action) {
+    action_ = action;
+    fraction_ = 0.0;
+    add_knot();
+  }
+  void stand_for(double seconds) { go_on(seconds, fraction_); }
+  void stand_until(double t) { go_on(std::max(0.0, t - now_), fraction_); }
+  /// At constant speed to a fraction of the action.
+  void go_on(double seconds, double to_fraction) {
+    if (seconds <= 0.0 && to_fraction == fraction_) return;
+    now_ += seconds;
+    fraction_ = to_fraction;
+    add_knot();
+  }
+
+  const ExecutedProgress& progress() const { return progress_; }
+  ExecutedProgress& progress() { return progress_; }
+
+ private:
+  void add_knot() { progress_.knots.push_back({now_, action_, fraction_}); }
+
+  double now_ = 0.0;
+  std::size_t action_ = 0;
+  double fraction_ = 0.0;
+  ExecutedProgress progress_;
+};
 
 }  // namespace fleetplan::core

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "core/execution/dependency.h"
-#include "core/execution/simulation/course.h"
+#include "core/execution/executed_actions.h"
 #include "core/execution/simulation/disturbance.h"
 #include "core/execution/simulation/executed_motion.h"
-#include "core/execution/wait_purposes.h"
 #include "core/model/plan.h"
 #include "core/runtime/stop_condition.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/map/occupancy_grid.h"
-#include "core/verify/geometry/segment_to_rectangle.h"
+#include "core/verify/geometry/segment_distance.h"
 
 namespace fleetplan::core {
 

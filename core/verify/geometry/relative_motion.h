@@ -1,10 +1,15 @@
 #pragma once
 
-// The motion of a point relative to another one, both straight at constant speed.
+// The motion of a point relative to another one, both straight at constant speed; and two bodies leg by leg,
+// at equal and at slightly different times.
 
+#include <algorithm>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/geometry/position.h"
+#include "core/verify/execution.h"
 
 namespace fleetplan::core {
 
@@ -39,5 +44,68 @@ ClosestMoment closest_moment(const RelativeMotion& motion);
 /// or ends inside the motion, its error is a few ulp of the coordinates divided by the speed, or the square
 /// root of that where the approach is tangential; at an end of the motion it is exact.
 std::optional<TimeSpan> span_closer_than(const RelativeMotion& motion, double distance);
+
+/// The first leg that does not end before `t`.
+inline std::vector<Leg>::const_iterator first_leg_until(const std::vector<Leg>& legs, double t) {
+  return std::lower_bound(legs.begin(), legs.end(), t,
+                          [](const Leg& leg, double time) { return leg.t_end < time; });
+}
+
+/// Calls `visit(const RelativeMotion&)` for each piece of time within the closed span in which both bodies
+/// move straight, in order of time, until it returns false. The motion is that of `b` relative to `a`. Legs
+/// of `b` that take no time count only if `counts_instants`.
+template <typename Visit>
+void visit_common_pieces(std::span<const Leg> a, std::span<const Leg> b, const TimeSpan& span,
+                         bool counts_instants, Visit visit) {
+  for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
+    const double begin = std::max({i->t_begin, j->t_begin, span.begin});
+    const double end = std::min({i->t_end, j->t_end, span.end});
+    if (begin > span.end) return;
+    const bool instant = counts_instants && begin == end && j->t_begin == j->t_end;
+    if (begin < end || instant) {
+      const RelativeMotion motion{begin, end, position_at(*j, begin) - position_at(*i, begin),
+                                  position_at(*j, end) - position_at(*i, end)};
+      if (!visit(motion)) return;
+    }
+    if (i->t_end <= j->t_end) {
+      ++i;
+    } else {
+      ++j;
+    }
+  }
+}
+
+/// Visits the common pieces of all legs of two bodies. A leg that takes no time counts if it is all there is
+/// of `b`.
+template <typename Visit>
+void visit_common_pieces(const std::vector<Leg>& a, const std::vector<Leg>& b, const TimeSpan& span,
+                         Visit visit) {
+  const auto present = [&span](const std::vector<Leg>& legs) {
+    return std::span<const Leg>(first_leg_until(legs, span.begin), legs.end());
+  };
+  visit_common_pieces(present(a), present(b), span, b.size() == 1, visit);
+}
+
+/// The least distance between the centres of two bodies within a time span, metres; infinity if they are
+/// never there together.
+double least_distance(const std::vector<Leg>& a, const std::vector<Leg>& b, const TimeSpan& span);
+
+/// The uninterrupted time around `t` in which two bodies are nearer to each other than `distance`; none if
+/// they are not at `t`.
+std::optional<TimeSpan> time_together(const std::vector<Leg>& a, const std::vector<Leg>& b, double distance,
+                                      double t);
+
+/// Where two bodies come nearest to each other.
+struct ShiftedMoment {
+  double distance = 0.0;  // metres; infinity if there is no such pair of times
+  double t_first = 0.0;
+  double t_second = 0.0;
+};
+
+/// The least distance of a position of one leg at a time within `first`, and one of the other leg at a time
+/// within `second`, if these times differ by no more than `margin`. All times are finite. Exact up to
+/// rounding.
+ShiftedMoment least_shifted_distance(const Leg& a, const TimeSpan& first, const Leg& b,
+                                     const TimeSpan& second, double margin);
 
 }  // namespace fleetplan::core

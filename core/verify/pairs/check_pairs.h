@@ -3,11 +3,11 @@
 #include <optional>
 #include <vector>
 
-#include "core/model/moving_obstacle.h"
+#include "core/geometry/moving_obstacle.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/check_rules.h"
-#include "core/verify/execution/executed_fleet.h"
-#include "core/verify/violation_list.h"
+#include "core/verify/execution.h"
+#include "core/verify/violations.h"
 
 namespace fleetplan::core {
 

@@ -5,9 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/model/most_meetings.h"
-#include "core/verify/pairs/pair_distance.h"
-#include "core/verify/tolerances.h"
+#include "core/verify/check_rules.h"
 
 namespace fleetplan::core {
 namespace {

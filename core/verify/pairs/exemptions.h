@@ -8,7 +8,7 @@
 
 #include "core/model/plan.h"
 #include "core/runtime/stop_condition.h"
-#include "core/verify/execution/executed_fleet.h"
+#include "core/verify/execution.h"
 #include "core/verify/geometry/relative_motion.h"
 
 namespace fleetplan::core {

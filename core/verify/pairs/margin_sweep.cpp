@@ -5,9 +5,6 @@
 #include <map>
 #include <utility>
 
-#include "core/verify/execution/time_windows.h"
-#include "core/verify/geometry/shifted_motion.h"
-#include "core/verify/pairs/common_pieces.h"
 #include "core/verify/pairs/moving_boxes.h"
 
 namespace fleetplan::core {

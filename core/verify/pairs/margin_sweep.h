@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/runtime/stop_condition.h"
-#include "core/verify/execution/executed_fleet.h"
+#include "core/verify/execution.h"
 #include "core/verify/geometry/relative_motion.h"
 
 namespace fleetplan::core {
@@ -29,8 +29,7 @@ using LeftOut = std::function<std::vector<TimeSpan>(std::size_t first, std::size
 /// The deepest such overlap of each pair, in the order of the pairs, at most `most`. Times differ by `margin`
 /// or less. Left out are times at which both robots execute commitments or one of them stays at the end of
 /// its commitment before it first leaves. All radii are enlarged by `inflation` and
-/// the vicinity. Returns none if `stop` is
-/// met first.
+/// the vicinity. Returns none if `stop` is met first.
 std::optional<std::vector<ShiftedOverlap>> overlaps_within_margin(const ExecutedFleet& fleet, double margin,
                                                                   double inflation, const LeftOut& left_out,
                                                                   std::size_t most,

@@ -1,16 +1,22 @@
 #pragma once
 
-// The bounding boxes of moving disks in one time window after the other.
+// Time windows, and the bounding boxes of moving disks in one window after the other.
 
 #include <cstddef>
 #include <limits>
 #include <span>
 #include <vector>
 
-#include "core/verify/execution/execution.h"
+#include "core/verify/execution.h"
 #include "core/verify/geometry/relative_motion.h"
 
 namespace fleetplan::core {
+
+/// The boundaries of time windows in which each robot has about half a leg: ascending, the first is 0, the
+/// last the time at which all robots have come to rest. Only 0 if no robot ever moves. The same for `others`,
+/// which move among them.
+std::vector<double> time_windows(const std::vector<std::vector<Leg>>& legs_by_robot,
+                                 const std::vector<std::vector<Leg>>& others = {});
 
 /// The bounding box of a disk within a time window.
 struct MovingBox {

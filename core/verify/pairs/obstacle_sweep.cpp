@@ -5,8 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/verify/execution/time_windows.h"
-#include "core/verify/pairs/common_pieces.h"
+#include "core/verify/geometry/relative_motion.h"
 #include "core/verify/pairs/moving_boxes.h"
 
 namespace fleetplan::core {

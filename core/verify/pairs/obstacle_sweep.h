@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/runtime/stop_condition.h"
-#include "core/verify/execution/executed_fleet.h"
+#include "core/verify/execution.h"
 #include "core/verify/pairs/exemptions.h"
 #include "core/verify/pairs/fleet_clearance.h"
 

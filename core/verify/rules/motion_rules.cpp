@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/geometry/angle.h"
-#include "core/verify/quantity_text.h"
 
 namespace fleetplan::core {
 namespace {
@@ -230,6 +229,114 @@ std::optional<Violation> find_unusable_number(std::size_t index, const Robot& ro
 ViolationList check_motion(const Robot& robot, const RobotPlan& plan, std::size_t given,
                            const Tolerance& tolerance, const StopCondition& stop) {
   return MotionCheck(robot, plan, tolerance).run(given, stop);
+}
+
+namespace {
+
+constexpr std::size_t kBetweenPolls = 64;
+
+bool goes_on_straight(const Action& before, const Action& action, const Tolerance& tolerance) {
+  if (before.type != Action::Type::translate) return false;
+  if (action.t_start - before.t_end > tolerance.seconds) return false;
+  if (std::abs(rotation_between(before.to.theta, action.from.theta)) > tolerance.radians) return false;
+  const Position earlier = before.to.position - before.from.position;
+  const Position later = action.to.position - action.from.position;
+  return earlier.dot(later) >= 0.0;  // not back
+}
+
+}  // namespace
+
+ViolationList check_waits(const Robot& robot, const RobotPlan& plan, double wait, const Tolerance& tolerance,
+                          const StopCondition& stop) {
+  ViolationList violations;
+  if (wait <= 0.0) return violations;
+  const std::vector<Action>& actions = plan.actions;
+  // Since when the robot stands, and whether possibly since before t = 0.
+  double since = 0.0;
+  bool open = !robot.committed.empty() && !actions.empty() && actions.front().type == Action::Type::wait;
+  for (std::size_t k = 0; k < actions.size(); ++k) {
+    if (k % kBetweenPolls == 0 && stop.met()) break;
+    const Action& action = actions[k];
+    if (action.type == Action::Type::wait) continue;
+    const double stood = action.t_start - since;
+    const bool judged = action.type == Action::Type::translate && k >= robot.committed.size() && !open &&
+                        (k == 0 || !goes_on_straight(actions[k - 1], action, tolerance));
+    if (judged && stood < wait - tolerance.seconds) {
+      violations.add({Violation::Kind::speed,
+                      {plan.robot},
+                      action.t_start,
+                      stood,
+                      wait,
+                      "actions[" + std::to_string(k) + "] follows a stand-still of " + seconds(stood) +
+                          ", but robots wait " + seconds(wait) + " before they move",
+                      {}});
+    }
+    since = action.t_end;
+    open = false;
+  }
+  return violations;
+}
+
+namespace {
+
+/// A number of an action, and that of the committed one.
+struct Comparison {
+  const char* what;
+  double difference;
+  double tolerance;
+  const char* unit;
+};
+
+/// The first difference that is larger than its tolerance.
+std::optional<Comparison> difference(const Action& action, const Action& committed,
+                                     const Tolerance& tolerance) {
+  const auto position = [](const Pose& a, const Pose& b) {
+    return std::max(std::abs(a.position.x() - b.position.x()), std::abs(a.position.y() - b.position.y()));
+  };
+  const auto heading = [](const Pose& a, const Pose& b) {
+    return a.theta == b.theta ? 0.0 : std::abs(rotation_between(a.theta, b.theta));
+  };
+  for (const Comparison& comparison :
+       {Comparison{"begins", std::abs(action.t_start - committed.t_start), tolerance.seconds, "s"},
+        Comparison{"ends", std::abs(action.t_end - committed.t_end), tolerance.seconds, "s"},
+        Comparison{"begins", position(action.from, committed.from), tolerance.metres, "m"},
+        Comparison{"ends", position(action.to, committed.to), tolerance.metres, "m"},
+        Comparison{"begins with a heading", heading(action.from, committed.from), tolerance.radians, "rad"},
+        Comparison{"ends with a heading", heading(action.to, committed.to), tolerance.radians, "rad"}}) {
+    if (comparison.difference > comparison.tolerance) return comparison;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Violation> check_commitments(const Robot& robot, const RobotPlan& plan,
+                                           const Tolerance& tolerance, bool exact) {
+  const Tolerance allowed = exact ? Tolerance{} : tolerance;
+  Violation violation{Violation::Kind::committed_changed, {plan.robot}, 0.0, 0.0, 0.0, "", {}};
+  for (std::size_t k = 0; k < robot.committed.size(); ++k) {
+    const Action& committed = robot.committed[k];
+    violation.t = committed.t_start;
+    if (k >= plan.actions.size()) {
+      violation.distance = static_cast<double>(plan.actions.size());
+      violation.required = static_cast<double>(robot.committed.size());
+      violation.detail = "the plan has " + std::to_string(plan.actions.size()) + " actions, but " +
+                         std::to_string(robot.committed.size()) + " are committed";
+      return violation;
+    }
+    const std::string action = "actions[" + std::to_string(k) + "]";
+    if (plan.actions[k].type != committed.type) {
+      violation.detail = action + " has another type than the committed action";
+      return violation;
+    }
+    if (const auto changed = difference(plan.actions[k], committed, allowed)) {
+      violation.distance = changed->difference;
+      violation.detail = action + " " + changed->what + " " +
+                         quantity_text(changed->difference, changed->unit) + " off the committed action";
+      return violation;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace fleetplan::core

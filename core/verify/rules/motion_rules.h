@@ -1,13 +1,15 @@
 #pragma once
 
+// How a plan moves: from action to action, within the speeds, after waits, and as committed.
+
 #include <cstddef>
 #include <optional>
 
 #include "core/model/plan.h"
 #include "core/model/robot.h"
-#include "core/verify/tolerances.h"
-#include "core/verify/verify.h"
-#include "core/verify/violation_list.h"
+#include "core/runtime/stop_condition.h"
+#include "core/verify/check_rules.h"
+#include "core/verify/violations.h"
 
 namespace fleetplan::core {
 
@@ -20,5 +22,16 @@ std::optional<Violation> find_unusable_number(std::size_t index, const Robot& ro
 /// numbers are usable. The first `given` actions are not judged. Ends early when `stop` is met.
 ViolationList check_motion(const Robot& robot, const RobotPlan& plan, std::size_t given,
                            const Tolerance& tolerance, const StopCondition& stop);
+
+/// Reports translations (`speed`) before which the robot, already turned, stands still for less than `wait`
+/// seconds. Translations that follow each other in one straight line are one; committed ones are not judged.
+/// A robot that is committed to stand still at t = 0 may have done so for any time before.
+ViolationList check_waits(const Robot& robot, const RobotPlan& plan, double wait, const Tolerance& tolerance,
+                          const StopCondition& stop);
+
+/// Reports a plan that does not begin with the committed actions (`committed_changed`), once: the first
+/// number that differs, at all if `exact`, otherwise by more than the tolerance.
+std::optional<Violation> check_commitments(const Robot& robot, const RobotPlan& plan,
+                                           const Tolerance& tolerance, bool exact);
 
 }  // namespace fleetplan::core

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/map/map_cache.h"
+#include "core/map/static_map.h"
 #include "server/http/exchange.h"
 #include "server/http/guard/unsent_answers.h"
 #include "server/http/route_table.h"

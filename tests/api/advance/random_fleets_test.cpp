@@ -15,7 +15,7 @@
 #include "api/advance/advance.h"
 #include "core/geometry/tolerance.h"
 #include "core/planner.h"
-#include "core/verify/tolerances.h"
+#include "core/verify/check_rules.h"
 #include "core/verify/verify.h"
 #include "tests/support/moments.h"
 #include "tests/support/random_problem.h"

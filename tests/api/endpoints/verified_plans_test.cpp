@@ -10,7 +10,7 @@
 
 #include "api/endpoints/plan_endpoint.h"
 #include "api/endpoints/validate_endpoint.h"
-#include "core/verify/tolerances.h"
+#include "core/verify/check_rules.h"
 #include "tests/api/support/requests.h"
 #include "tests/support/random_problem.h"
 #include "tests/support/unbounded_work.h"

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <random>
 
+#include "core/geometry/angle.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 
@@ -83,6 +87,95 @@ TEST(LowerBound, CountsOnlyWhatIsLeftOfAServiceUnderWay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AnyAngle, LowerBoundOfRandomProblems, testing::Bool());
+
+Motion motion(double linear_speed, double angular_speed) {
+  Motion motion;
+  motion.linear_speed = linear_speed;
+  motion.angular_speed = angular_speed;
+  motion.may_reverse = true;
+  return motion;
+}
+
+TEST(ReverseBound, IsTheLengthForARobotThatLooksAlongTheLine) {
+  const Motion robot = motion(2.0, 0.5);
+  EXPECT_DOUBLE_EQ(reverse_bound(6.0, 0.3, 0.3, 0.3, robot), 3.0);
+  EXPECT_NEAR(reverse_bound(6.0, 0.3, 0.3 - kPi, 0.3 - kPi, robot), 3.0, 1e-12) << "backwards";
+  EXPECT_DOUBLE_EQ(reverse_bound(6.0, 0.3, std::nullopt, std::nullopt, robot), 3.0);
+  EXPECT_DOUBLE_EQ(reverse_bound(6.0, 0.3, std::nullopt, 0.3, robot), 3.0);
+}
+
+TEST(ReverseBound, TurnsIntoTheLineIfThatIsQuick) {
+  const Motion robot = motion(0.01, 10.0);
+  EXPECT_NEAR(reverse_bound(1.0, 0.0, 1.0, std::nullopt, robot), 100.0 + 0.1, 0.01);
+  EXPECT_NEAR(reverse_bound(1.0, 0.0, kPi - 1.0, std::nullopt, robot), 100.0 + 0.1, 0.01) << "backwards";
+}
+
+TEST(ReverseBound, GoesBesideTheLineIfTurningIsSlow) {
+  const Motion robot = motion(100.0, 0.01);
+  EXPECT_NEAR(reverse_bound(1.0, 0.0, kPi / 3.0, kPi / 3.0, robot), 0.02, 1e-3);
+  const double opposite = reverse_bound(1.0, 0.0, kPi / 2.0, -kPi / 2.0, robot);
+  EXPECT_GE(opposite, kPi / 0.01) << "it has to turn anyway";
+  EXPECT_LE(opposite, kPi / 0.01 + 0.02);
+}
+
+TEST(ReverseBound, IsNeverMoreThanTheStraightCostForwards) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> heading(-kPi, kPi);
+  std::uniform_real_distribution<double> exponent(-2.0, 2.0);
+  for (int k = 0; k < 2000; ++k) {
+    Motion robot = motion(std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random)));
+    Goal goal{{std::pow(10.0, exponent(random)), 0.0}, std::nullopt};
+    if (k % 2 == 0) goal.theta = heading(random);
+    const Pose from{{0.0, 0.0}, heading(random)};
+    const double both = straight_cost(from, goal, robot);
+    robot.may_reverse = false;
+    EXPECT_LE(both, straight_cost(from, goal, robot) + 1e-12);
+  }
+}
+
+/// Robots that go forwards and backwards at random never take less time.
+TEST(ReverseBound, HoldsForRandomPaths) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> heading(-kPi, kPi);
+  std::uniform_real_distribution<double> length(-3.0, 3.0);
+  std::uniform_real_distribution<double> exponent(-2.0, 2.0);
+  for (int k = 0; k < 5000; ++k) {
+    const Motion robot = motion(std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random)));
+    const double spread = std::pow(10.0, exponent(random) - 1.0);
+    const double from = heading(random);
+    Position at(0.0, 0.0);
+    double theta = from;
+    double seconds = 0.0;
+    for (int move = 1 + k % 4; move > 0; --move) {
+      const double next = normalize_angle(theta + spread * heading(random));
+      const double metres = length(random);
+      seconds += robot.rotation_time(theta, next) + std::abs(metres) / robot.linear_speed;
+      at += metres * Position(std::cos(next), std::sin(next));
+      theta = next;
+    }
+    const double distance = at.norm();
+    if (distance < 1e-6) continue;
+    const double bound = reverse_bound(distance, std::atan2(at.y(), at.x()), from, theta, robot);
+    EXPECT_LE(bound, seconds * (1.0 + 1e-9) + 1e-9);
+  }
+}
+
+/// The best of many deviations from the line.
+TEST(ReverseBound, IsTheBestTradeOfTurnsForLength) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> angle(0.0, kPi / 2.0);
+  std::uniform_real_distribution<double> exponent(-1.0, 1.0);
+  for (int k = 0; k < 300; ++k) {
+    const Motion robot = motion(1.0, std::pow(10.0, exponent(random)));
+    const double from = angle(random);
+    const double bound = reverse_bound(1.0, 0.0, from, std::nullopt, robot);
+    double best = std::min(from / robot.angular_speed + 1.0, 1.0 / std::cos(from));
+    for (double aside = 0.0; aside < from; aside += 1e-4) {
+      best = std::min(best, (from - aside) / robot.angular_speed + 1.0 / std::cos(aside));
+    }
+    EXPECT_NEAR(bound, best, 1e-6);
+  }
+}
 
 }  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "core/bounds/lower_bound.h"
-#include "core/bounds/taut_path_search.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 

@@ -28,5 +28,35 @@ TEST(CrossProduct, IsPositiveForADirectionToTheLeft) {
   EXPECT_EQ(cross_product({2, 1}, {4, 2}), 0.0);
 }
 
+TEST(SafeInterval, ContainsItsEnds) {
+  const SafeInterval interval{1.0, 2.0};
+  EXPECT_TRUE(interval.contains(1.0));
+  EXPECT_TRUE(interval.contains(1.5));
+  EXPECT_TRUE(interval.contains(2.0));
+  EXPECT_FALSE(interval.contains(0.999));
+  EXPECT_FALSE(interval.contains(2.001));
+}
+
+TEST(SafeInterval, IsUnboundedByDefault) {
+  EXPECT_TRUE(SafeInterval{}.contains(0.0));
+  EXPECT_TRUE(SafeInterval{}.contains(1e300));
+  EXPECT_FALSE(SafeInterval{}.contains(-1e-300));
+}
+
+TEST(UnsafeInterval, ExcludesItsEnds) {
+  const UnsafeInterval interval{1.0, 2.0};
+  EXPECT_FALSE(interval.contains(1.0));
+  EXPECT_TRUE(interval.contains(1.5));
+  EXPECT_FALSE(interval.contains(2.0));
+}
+
+TEST(UnsafeInterval, IsEmptyUnlessBeginIsBeforeEnd) {
+  EXPECT_TRUE(UnsafeInterval{}.empty());
+  EXPECT_TRUE((UnsafeInterval{1.0, 1.0}.empty()));
+  EXPECT_TRUE((UnsafeInterval{2.0, 1.0}.empty()));
+  EXPECT_TRUE((UnsafeInterval{kForever, -kForever}.empty()));
+  EXPECT_FALSE((UnsafeInterval{1.0, kForever}.empty()));
+}
+
 }  // namespace TEST_FILE
 }  // namespace fleetplan::core

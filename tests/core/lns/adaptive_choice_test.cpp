@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <vector>
 
 namespace fleetplan::core {
@@ -53,6 +54,43 @@ TEST(AdaptiveChoice, AdaptsToChangedGains) {
   tries(choice, {5.0, 1.0}, {1.0, 1.0});
   const auto chosen = tries(choice, {1.0, 5.0}, {1.0, 1.0});
   EXPECT_GT(chosen[1], 2 * chosen[0]);
+}
+
+/// How often each robot is chosen in 1000 draws.
+std::map<std::size_t, int> chosen(const DelayedChoice& choice, const std::vector<std::size_t>& robots,
+                                  const std::vector<double>& delays) {
+  Random random(3);
+  std::map<std::size_t, int> chosen;
+  for (int k = 0; k < 1000; ++k) ++chosen[choice.choose(robots, delays, random)];
+  return chosen;
+}
+
+TEST(DelayedChoice, ChoosesInProportionToDelay) {
+  const DelayedChoice choice(8);
+  auto times = chosen(choice, {2, 5, 7}, {1.0, 0.0, 3.0});
+  EXPECT_NEAR(times[2], 250, 60);
+  EXPECT_EQ(times[5], 0);
+  EXPECT_NEAR(times[7], 750, 60);
+}
+
+TEST(DelayedChoice, PrefersRobotsWithFewerFailures) {
+  DelayedChoice choice(2);
+  choice.learn(1, false);
+  choice.learn(1, false);
+  choice.learn(1, false);
+  EXPECT_NEAR(chosen(choice, {0, 1}, {1.0, 1.0})[1], 200, 60);
+}
+
+TEST(DelayedChoice, ReducesFailuresAfterAGain) {
+  DelayedChoice choice(2);
+  for (int k = 0; k < 8; ++k) choice.learn(0, false);
+  const int before = chosen(choice, {0, 1}, {1.0, 1.0})[0];
+  choice.learn(0, true);
+  EXPECT_GT(chosen(choice, {0, 1}, {1.0, 1.0})[0], before + 20);
+}
+
+TEST(DelayedChoice, ChoosesARobotWithoutDelays) {
+  EXPECT_EQ(chosen(DelayedChoice(4), {1, 3}, {0.0, 0.0})[3], 1000);
 }
 
 }  // namespace TEST_FILE

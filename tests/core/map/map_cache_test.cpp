@@ -1,5 +1,3 @@
-#include "core/map/map_cache.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/map/static_map.h"
 #include "core/runtime/memory_account.h"
 
 namespace fleetplan::core {

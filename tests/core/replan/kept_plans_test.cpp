@@ -3,10 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/model/served_goals.h"
+#include "core/model/itinerary.h"
 #include "core/planner.h"
-#include "core/replan/plan_without_search.h"
-#include "core/replan/previous_plan.h"
+#include "core/replan/follow_kept.h"
 #include "tests/core/replan/fleets.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/ascii_map.h"

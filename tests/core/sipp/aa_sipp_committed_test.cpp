@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/actions.h"
+#include "core/instance/to_actions.h"
 #include "core/sipp/aa_sipp.h"
 #include "tests/core/support/planning.h"
 

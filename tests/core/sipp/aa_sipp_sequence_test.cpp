@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/actions.h"
-#include "core/model/served_goals.h"
+#include "core/instance/to_actions.h"
+#include "core/model/itinerary.h"
 #include "core/planner.h"
 #include "core/sipp/aa_sipp.h"
 #include "tests/core/support/planning.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/geometry/interval.h"
+#include "core/geometry/segment.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {

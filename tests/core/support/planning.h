@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/instance.h"
+#include "core/instance/instance.h"
 #include "core/prioritized/plan_state.h"
 #include "core/prioritized/progress_report.h"
 #include "core/runtime/executor.h"

@@ -1,13 +1,13 @@
 // Positions over time, for valid and invalid plans.
 
-#include "core/verify/execution/execution.h"
+#include "core/verify/execution.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/verify/execution/time_windows.h"
+#include "core/verify/pairs/moving_boxes.h"
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {

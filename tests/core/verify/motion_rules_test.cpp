@@ -1,4 +1,6 @@
 // Continuity and speed: valid plans broken in one place each.
+// Added waits: robots stand still, already turned, before they move.
+// Plans have to begin with the committed actions.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -314,6 +316,152 @@ TEST(ReverseRules, AMoveAheadIsNoReverseOne) {
   ASSERT_EQ(violations.size(), 1U);
   EXPECT_EQ(violations[0].kind, Kind::speed);
   EXPECT_NEAR(violations[0].distance, 4.0, 1e-9);
+}
+
+constexpr double kQuarter = std::numbers::pi / 2;
+
+template <typename Build>
+Scene scene_of(Build build) {
+  Scene scene;
+  scene.add(robot_at(2, 5), build);
+  return scene;
+}
+
+CheckRules wait_of(double seconds) {
+  CheckRules rules;
+  rules.wait_before_move = seconds;
+  return rules;
+}
+
+TEST(AddedWaits, PrecedeEveryTranslation) {
+  const Scene scene = scene_of([](PlanBuilder& plan) {
+    plan.wait(2).translate_to(5, 5).rotate_to(kQuarter).wait(1).wait(1).translate_to(5, 8);
+  });
+  EXPECT_THAT(scene.violations(wait_of(2)), IsEmpty());
+  const auto violations = scene.violations(wait_of(2.5));
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::speed, Kind::speed));
+  EXPECT_DOUBLE_EQ(violations[0].t, 2.0);
+  EXPECT_DOUBLE_EQ(violations[0].distance, 2.0);
+  EXPECT_DOUBLE_EQ(violations[0].required, 2.5);
+  EXPECT_EQ(violations[0].detail,
+            "actions[1] follows a stand-still of 2 s, but robots wait 2.5 s before they move");
+}
+
+TEST(AddedWaits, CountOnlyOnceTheRobotHasTurned) {
+  const Scene scene =
+      scene_of([](PlanBuilder& plan) { plan.wait(5).rotate_to(kQuarter).translate_to(2, 8); });
+  EXPECT_THAT(kinds_of(scene.violations(wait_of(2))), ElementsAre(Kind::speed));
+}
+
+TEST(AddedWaits, AreNotNeededWithinAStraightLine) {
+  const Scene scene = scene_of(
+      [](PlanBuilder& plan) { plan.wait(2).translate_to(5, 5).translate_to(7, 5, 0.5).translate_to(9, 5); });
+  EXPECT_THAT(scene.violations(wait_of(2)), IsEmpty());
+  const Scene back = scene_of([](PlanBuilder& plan) { plan.wait(2).translate_to(5, 5).translate_to(3, 5); });
+  EXPECT_THAT(kinds_of(back.violations(wait_of(2))), ElementsAre(Kind::speed));
+}
+
+TEST(AddedWaits, AreNotJudgedInCommittedActions) {
+  Scene scene = scene_of(
+      [](PlanBuilder& plan) { plan.translate_to(5, 5).rotate_to(kQuarter).wait(2).translate_to(5, 8); });
+  EXPECT_EQ(scene.violations(wait_of(2)).size(), 1U);
+  scene.robots()[0].committed = {scene.action(0)};
+  EXPECT_THAT(scene.violations(wait_of(2)), IsEmpty());
+}
+
+TEST(AddedWaits, MayHaveBegunBeforeTheCommitment) {
+  Scene scene = scene_of([](PlanBuilder& plan) { plan.wait(0.5).translate_to(5, 5); });
+  EXPECT_EQ(scene.violations(wait_of(2)).size(), 1U);
+  scene.robots()[0].committed = {scene.action(0)};
+  EXPECT_THAT(scene.violations(wait_of(2)), IsEmpty());
+}
+
+/// A robot that drives, turns and drives; the first `committed` actions are committed.
+Scene committed_to(std::size_t committed) {
+  Scene scene;
+  scene.add(robot_at(2, 5), [](PlanBuilder& plan) {
+    plan.translate_to(5, 5).rotate_to(1.0).wait(2).rotate_to(0.0).translate_to(9, 5);
+  });
+  const auto& actions = scene.plans()[0].actions;
+  scene.robots()[0].committed.assign(actions.begin(),
+                                     actions.begin() + static_cast<std::ptrdiff_t>(committed));
+  return scene;
+}
+
+CheckRules exactly() {
+  CheckRules rules;
+  rules.exact_commitments = true;
+  return rules;
+}
+
+TEST(Commitments, AreWhatThePlanBeginsWith) {
+  for (std::size_t committed = 0; committed <= 5; ++committed) {
+    EXPECT_THAT(committed_to(committed).violations(CheckRules{}), IsEmpty());
+    EXPECT_THAT(committed_to(committed).violations(exactly()), IsEmpty());
+  }
+}
+
+TEST(Commitments, AreReportedOnceIfAnyNumberChanges) {
+  Scene scene = committed_to(3);
+  scene.robots()[0].committed[1].to.theta += 0.25;
+  scene.robots()[0].committed[2].from.theta += 0.25;
+  const auto violations = scene.violations(CheckRules{});
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::committed_changed));
+  EXPECT_DOUBLE_EQ(violations[0].t, 3.0);
+  EXPECT_NEAR(violations[0].distance, 0.25, 1e-12);
+  EXPECT_EQ(violations[0].detail, "actions[1] ends with a heading 0.25 rad off the committed action");
+}
+
+TEST(Commitments, MayDifferWithinTheToleranceUnlessExact) {
+  Scene scene = committed_to(1);
+  scene.robots()[0].committed[0].t_end += 1e-8;
+  EXPECT_THAT(scene.violations(CheckRules{}), IsEmpty());
+  EXPECT_THAT(kinds_of(scene.violations(exactly())), ElementsAre(Kind::committed_changed));
+}
+
+TEST(Commitments, OfAnotherTypeOrNumberAreReported) {
+  Scene scene = committed_to(4);
+  scene.plans()[0].actions.resize(3);
+  scene.plans()[0].cost = scene.plans()[0].actions.back().t_end;
+  scene.robots()[0].goal.reset();
+  const auto violations = scene.violations(CheckRules{});
+  ASSERT_FALSE(violations.empty());
+  const auto changed = std::find_if(violations.begin(), violations.end(),
+                                    [](const Violation& v) { return v.kind == Kind::committed_changed; });
+  ASSERT_NE(changed, violations.end());
+  EXPECT_EQ(changed->detail, "the plan has 3 actions, but 4 are committed");
+
+  Scene other = committed_to(3);
+  other.robots()[0].committed[2].type = Action::Type::rotate;
+  EXPECT_THAT(kinds_of(other.violations(CheckRules{})), ElementsAre(Kind::committed_changed));
+}
+
+TEST(Commitments, AreExecutedByRobotsWithoutAPlan) {
+  Scene scene;
+  Robot robot = robot_at(2, 5);
+  robot.committed = PlanBuilder(0, robot).translate_to(6, 5).build().actions;
+  scene.stand(robot);
+  scene.stand(robot_at(6, 5.9));
+  const auto violations = scene.violations(CheckRules{});
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::robot_collision));
+  EXPECT_NEAR(violations[0].t, 4.0, 1e-9);
+}
+
+TEST(Commitments, OfParkedRobotsEndWhereTheyRest) {
+  Scene scene = committed_to(5);
+  scene.robots()[0].goal.reset();
+  EXPECT_THAT(scene.violations(CheckRules{}), IsEmpty());
+  scene.robots()[0].committed.pop_back();
+  EXPECT_THAT(kinds_of(scene.violations(CheckRules{})), ElementsAre(Kind::wrong_goal));
+}
+
+TEST(Commitments, OfTheRequestAreNotJudgedByTheSpeedOfTheRobot) {
+  Scene scene = committed_to(2);
+  scene.robots()[0].linear_speed = 0.9;
+  scene.action(4).t_end += 2.0;
+  scene.plans()[0].cost += 2.0;
+  EXPECT_THAT(scene.violations(exactly()), IsEmpty());
+  EXPECT_THAT(kinds_of(scene.violations(CheckRules{})), ElementsAre(Kind::speed));
 }
 
 }  // namespace TEST_FILE

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "core/model/most_meetings.h"
-#include "core/verify/execution/executed_fleet.h"
+#include "core/model/plan.h"
+#include "core/verify/execution.h"
 #include "core/verify/pairs/exemptions.h"
 #include "core/verify/pairs/obstacle_sweep.h"
 #include "tests/core/verify/random_fleet.h"

@@ -1,0 +1,200 @@
+#include "core/instance/instance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/segment.h"
+#include "core/geometry/tolerance.h"
+#include "core/model/radius_steps.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Cells are fine if the smallest radius is at least so many of them.
+constexpr double kFineCells = 4.0 * (1.0 - 1e-9);
+/// In units of the smallest radius; see docs/method.md.
+constexpr double kLargestSpacing = 1.0;
+
+}  // namespace
+
+double lattice_spacing(const Problem& problem, const PlanOptions& options) {
+  if (options.lattice_spacing) return *options.lattice_spacing;
+  const double resolution = problem.grid().resolution();
+  double smallest = kForever;
+  // Bounded: each goal once.
+  for (const Robot& robot : problem.robots()) {
+    smallest = std::min(smallest, robot.radius);
+    for (std::size_t k = 0; k < robot.goal_count(); ++k) {
+      smallest = std::min(smallest, robot.goal_at(k).radius_after.value_or(smallest));
+    }
+  }
+  if (smallest == kForever || smallest < kFineCells * resolution) return resolution;
+  const double shorter_side = std::min(problem.grid().width(), problem.grid().height());
+  const double cells = std::min(kLargestSpacing * smallest, shorter_side) / resolution * (1.0 + 1e-9);
+  return (2.0 * std::floor(0.5 * (cells - 1.0)) + 1.0) * resolution;
+}
+
+namespace {
+
+/// More than what a disk in contact with an obstacle overlaps it, rounding included.
+constexpr double kMostOverlap = kContactTolerance + 2.0 * kSamePosition;
+/// However much a start may overlap a wall, this fraction of the disk keeps clear of it.
+constexpr double kSmallestDisk = 1e-3;
+
+/// Bare: with which the plan of the robot begins.
+double radius_at_begin(const Robot& robot) {
+  return changes_radius(robot) ? radii_of(robot)[itinerary_of(robot).first_goal] : robot.radius;
+}
+
+std::vector<Endpoints> endpoints(const Problem& problem, const Lattice& lattice, double inflation) {
+  const auto rounding = [&](const Position& p) { return (lattice.snapped(p) - p).norm(); };
+  std::vector<Endpoints> all;
+  for (const Robot& robot : problem.robots()) {
+    const double radius = radius_at_begin(robot);
+    const double largest = largest_radius(robot);
+    Endpoints ends;
+    ends.radius = radius + inflation + robot.vicinity;
+    ends.inflation = inflation + robot.vicinity;
+    ends.start = robot.committed_end().position;
+    ends.start_rounding = rounding(ends.start);
+    ends.narrower_at_start = largest - radius;
+    ends.grows_at_start = growth_at_end(robot, itinerary_of(robot)).has_value();
+    if (robot.goal) {
+      const double last = last_radius(robot);
+      ends.goal = robot.goal->position;
+      ends.goal_rounding = rounding(*ends.goal);
+      ends.growth = last - radius;
+      ends.narrower_at_goal = largest - last;
+    }
+    all.push_back(ends);
+  }
+  return all;
+}
+
+/// By robot, null for none; or no list.
+std::vector<std::unique_ptr<const DriveZones>> drive_zones_of(const Problem& problem) {
+  std::vector<std::unique_ptr<const DriveZones>> all;
+  const bool any = std::any_of(problem.zones().begin(), problem.zones().end(),
+                               [](const Zone& zone) { return zone.type != Zone::Type::blocked; });
+  if (!any) return all;
+  for (const Robot& robot : problem.robots()) {
+    auto zones = std::make_unique<const DriveZones>(problem.zones(), all.size(), robot);
+    if (zones->empty()) zones.reset();
+    all.push_back(std::move(zones));
+  }
+  return all;
+}
+
+std::shared_ptr<const FixedReservations> fixed(const Problem& problem, double inflation,
+                                               const Contacts& contacts, const StopCondition& stop) {
+  std::vector<FixedReservations::Robot> robots;
+  for (const Robot& robot : problem.robots()) {
+    const Itinerary itinerary = itinerary_of(robot);
+    const double largest = largest_radius(robot);
+    robots.push_back({largest, robot.start.position, itinerary.pose.position, itinerary.t_begin,
+                      committed_segments(robot, itinerary), robot.vicinity, largest - radius_at_begin(robot),
+                      largest - robot.radius});
+  }
+  return std::make_shared<FixedReservations>(problem.grid().width(), problem.grid().height(), inflation,
+                                             std::move(robots), problem.obstacles(),
+                                             contacts.empty() ? nullptr : &contacts, stop);
+}
+
+}  // namespace
+
+Instance::Instance(const Problem& problem, const PlanOptions& options, const StopCondition& stop)
+    : Instance(problem, options, nullptr, stop) {
+  fixed_reservations_ = fixed(problem, options.inflation, contacts_, stop);
+}
+
+Instance::Instance(const Problem& problem, const PlanOptions& options,
+                   std::shared_ptr<const FixedReservations> fixed_reservations, const StopCondition& stop)
+    : problem_(problem),
+      options_(options),
+      lattice_(problem.grid(), options.connectivity, lattice_spacing(problem, options)),
+      drive_zones_(drive_zones_of(problem)),
+      contacts_(endpoints(problem, lattice_, options.inflation)),
+      fixed_reservations_(std::move(fixed_reservations)) {
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Robot& robot = problem.robots()[i];
+    const Itinerary& itinerary = itineraries_.emplace_back(itinerary_of(robot));
+    disks_.emplace_back();
+    if (!core::changes_radius(robot)) {
+      add_disk(i, robot.radius, robot.radius, stop);
+      continue;
+    }
+    const std::vector<double> radii = radii_of(robot);
+    const auto first = radii.begin() + static_cast<std::ptrdiff_t>(itinerary.first_goal);
+    const bool is_one = std::all_of(first, radii.end(), [&](double radius) { return radius == *first; });
+    const double largest = largest_radius(robot);
+    for (auto radius = first; radius != (is_one ? first + 1 : radii.end()); ++radius) {
+      add_disk(i, *radius, largest, stop);
+    }
+  }
+}
+
+void Instance::add_disk(std::size_t index, double radius, double largest, const StopCondition& stop) {
+  const Motion motion = motion_of(robot(index), options_, radius);
+  const StaticMap& map = *problem_.map_of(index);
+  auto& space = free_spaces_[{motion.radius, &map}];
+  if (!space) {
+    auto finer = map.finer_vertices(lattice_, motion.radius, stop);
+    space = std::make_unique<FreeSpace>(lattice_, map.sight(), motion.radius, std::move(finer));
+  }
+  disks_[index].push_back({motion, largest - radius, space.get()});
+}
+
+double Instance::largest_pair_radius(std::size_t index) const {
+  return motion_of(robot(index), options_, largest_radius(robot(index))).pair_radius;
+}
+
+const Motion& Instance::slimmest_motion(std::size_t index) const {
+  const std::vector<Disk>& all = disks_[index];
+  return std::min_element(all.begin(), all.end(),
+                          [](const Disk& a, const Disk& b) { return a.motion.radius < b.motion.radius; })
+      ->motion;
+}
+
+std::vector<TimedSegment> Instance::segments(std::size_t index, const Trajectory& trajectory) const {
+  std::vector<TimedSegment> segments = timed_segments(trajectory);
+  if (!core::changes_radius(robot(index))) return segments;
+  std::vector<Visit> visits = itineraries_[index].visited;
+  visits.insert(visits.end(), trajectory.visits.begin(), trajectory.visits.end());
+  if (robot(index).goal) visits.push_back({robot(index).via.size(), 0.0, trajectory.last_served});
+  return with_radii(std::move(segments), robot(index), radius_steps(robot(index), visits));
+}
+
+double Instance::radius_at_start(std::size_t index) const {
+  const double radius = radius_at_begin(problem_.robots()[index]);
+  const double overlap = std::max(0.0, options_.start_overlap - options_.inflation);  // of the bare disk
+  const double least = std::max(radius - overlap - kMostOverlap, kSmallestDisk * radius);
+  return sight(index).fitting_radius(itineraries_[index].pose.position, least, motion(index).radius);
+}
+
+bool Instance::is_clear_at_start(std::size_t index) const {
+  return radius_at_start(index) >= motion(index).radius - kMostOverlap;
+}
+
+bool Instance::fits_at_start(std::size_t index) const {
+  return sight(index).disk_fits(itineraries_[index].pose.position, motion(index).radius);
+}
+
+bool Instance::fits_at_goal(std::size_t index) const {
+  const std::vector<Goal>& goals = itineraries_[index].goals;
+  for (std::size_t k = 0; k < goals.size(); ++k) {
+    const double largest = std::max(motion(index, k).radius, motion(index, k + 1).radius);
+    if (!sight(index).disk_fits(goals[k].position, largest - kMostOverlap)) return false;
+  }
+  return true;
+}
+
+double Instance::longest_plan(std::size_t index) const {
+  return std::min(kLongestPlan, kLongestTravel / motion(index).linear_speed);
+}
+
+double Instance::radius_at_goal(std::size_t index, const Position& goal, std::size_t stage) const {
+  const double radius = motion(index, stage).radius;
+  return sight(index).fitting_radius(goal, radius - kMostOverlap, radius);
+}
+
+}  // namespace fleetplan::core

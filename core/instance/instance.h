@@ -1,0 +1,112 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/instance/motion.h"
+#include "core/map/free_space.h"
+#include "core/map/lattice.h"
+#include "core/model/drive_zones.h"
+#include "core/model/itinerary.h"
+#include "core/model/plan_options.h"
+#include "core/model/problem.h"
+#include "core/model/trajectory.h"
+#include "core/reservation/contacts.h"
+#include "core/reservation/fixed_reservations.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Metres between the vertices of the lattice that robots are planned on: as the options ask. By default, the
+/// map's resolution; where that is at most a quarter of the smallest radius, its largest odd multiple up to
+/// this radius, so that vertices are centres of cells as well.
+double lattice_spacing(const Problem& problem, const PlanOptions& options);
+
+/// A problem with its options, the lattice and the static feasibility of moves: what stays the same while one
+/// request is planned. Not thread-safe, because static moves are computed on first use.
+class Instance {
+ public:
+  /// If the stop condition is met while obstacles and committed motion are indexed, nothing can be planned.
+  Instance(const Problem& problem, const PlanOptions& options, const StopCondition& stop);
+  /// With the fixed reservations of another instance of the same problem and options.
+  Instance(const Problem& problem, const PlanOptions& options,
+           std::shared_ptr<const FixedReservations> fixed_reservations, const StopCondition& stop);
+
+  std::size_t size() const { return problem_.robots().size(); }
+  const Problem& problem() const { return problem_; }
+  const PlanOptions& options() const { return options_; }
+  const Robot& robot(std::size_t index) const { return problem_.robots()[index]; }
+  /// While it has the radius with which its plan begins.
+  const Motion& motion(std::size_t index) const { return disks_[index].front().motion; }
+  /// On the way to a goal that is left, by its position in Itinerary::goals; one past the last goal: at rest
+  /// there for good.
+  const Motion& motion(std::size_t index, std::size_t stage) const { return disk(index, stage).motion; }
+  /// Metres: by how much its disk is smaller than the robot ever is, see TimedSegment.
+  double narrower(std::size_t index, std::size_t stage) const { return disk(index, stage).narrower; }
+  /// Whether the robot has several radii on the way to the goals that are left, or after the last one.
+  bool changes_radius(std::size_t index) const { return disks_[index].size() > 1; }
+  /// Of the robot at any time, commitments included; metres, with inflation and vicinity.
+  double largest_pair_radius(std::size_t index) const;
+  /// The motion with the smallest radius on the way to the goals that are left.
+  const Motion& slimmest_motion(std::size_t index) const;
+  /// Contiguous segments of a trajectory from t = 0 on, with its radii.
+  std::vector<TimedSegment> segments(std::size_t index, const Trajectory& trajectory) const;
+  /// The zones that limit how the robot drives; null if there are none.
+  const DriveZones* drive_zones(std::size_t index) const {
+    return drive_zones_.empty() ? nullptr : drive_zones_[index].get();
+  }
+  /// What is left to plan for the robot after its committed actions.
+  const Itinerary& itinerary(std::size_t index) const { return itineraries_[index]; }
+  const Lattice& lattice() const { return lattice_; }
+  /// Past walls alone, and past the zones that are blocked for a robot, too.
+  const LineOfSight& sight() const { return problem_.map()->sight(); }
+  const LineOfSight& sight(std::size_t index) const { return problem_.map_of(index)->sight(); }
+  /// The pairs of robots that begin or end too near to each other.
+  const Contacts& contacts() const { return contacts_; }
+  /// Obstacles and committed motion; never null. Instances for other threads may share them.
+  const std::shared_ptr<const FixedReservations>& fixed_reservations() const { return fixed_reservations_; }
+  /// The largest disk of the robot, inflated or not, that fits where its plan begins and at a goal: its
+  /// radius, or less where a wall is nearer. At the goal of a stage, only contact is allowed for.
+  double radius_at_start(std::size_t index) const;
+  double radius_at_goal(std::size_t index, const Position& goal, std::size_t stage) const;
+  /// No plan of the robot takes so long, seconds.
+  double longest_plan(std::size_t index) const;
+  bool fits_at_start(std::size_t index) const;
+  /// Whether no wall is nearer than in contact where the robot's plan begins.
+  bool is_clear_at_start(std::size_t index) const;
+  /// Whether the robot's disk fits at all goals that are left, or is in contact with a wall.
+  bool fits_at_goal(std::size_t index) const;
+  /// Shared by all robots for which it is the same.
+  FreeSpace& free_space(std::size_t index, std::size_t stage = 0) const { return *disk(index, stage).space; }
+
+ private:
+  /// What a robot is while it has one radius.
+  struct Disk {
+    Motion motion;
+    double narrower = 0.0;
+    FreeSpace* space = nullptr;
+  };
+
+  const Disk& disk(std::size_t index, std::size_t stage) const {
+    const std::vector<Disk>& all = disks_[index];
+    return all[all.size() > 1 ? stage : 0];
+  }
+  void add_disk(std::size_t index, double radius, double largest, const StopCondition& stop);
+
+  const Problem& problem_;
+  PlanOptions options_;
+  Lattice lattice_;
+  std::vector<std::unique_ptr<const DriveZones>> drive_zones_;  // by robot, null for none; or empty
+  std::vector<Itinerary> itineraries_;
+  Contacts contacts_;
+  std::shared_ptr<const FixedReservations> fixed_reservations_;
+  using SpaceKind = std::pair<double, const StaticMap*>;  // radius and map
+  std::map<SpaceKind, std::unique_ptr<FreeSpace>> free_spaces_;
+  /// By robot: one for each stage and one for the rest at the last goal, or a single one for all.
+  std::vector<std::vector<Disk>> disks_;
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "core/geometry/angle.h"
+#include "core/model/plan_options.h"
+#include "core/model/robot.h"
+
+namespace fleetplan::core {
+
+/// How one robot moves, with the plan's options applied.
+struct Motion {
+  double radius = 0.0;            // metres, to walls, inflation included
+  double linear_speed = 0.0;      // metres per second
+  double angular_speed = 0.0;     // radians per second
+  double wait_before_move = 0.0;  // seconds
+  double pair_radius = 0.0;       // metres, to other robots: vicinity and inflation included
+  bool may_reverse = false;       // translate backwards, too
+
+  double translation_time(double distance) const { return distance / linear_speed; }
+  /// Seconds to turn from one normalised heading to another, the shorter way.
+  double rotation_time(double from, double to) const { return angle_between(from, to) / angular_speed; }
+};
+
+/// How the robot moves under these options while it has this radius (metres).
+inline Motion motion_of(const Robot& robot, const PlanOptions& options, double radius) {
+  return {radius + options.inflation,
+          robot.linear_speed,
+          robot.angular_speed,
+          options.wait_before_move,
+          radius + options.inflation + robot.vicinity,
+          robot.may_reverse};
+}
+inline Motion motion_of(const Robot& robot, const PlanOptions& options) {
+  return motion_of(robot, options, robot.radius);
+}
+
+}  // namespace fleetplan::core

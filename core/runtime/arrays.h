@@ -1,0 +1,86 @@
+#pragma once
+
+// Arrays beside those of the standard library.
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace fleetplan::core {
+
+/// A vector indexed by int, or by an enumeration over int, so that indices of different types cannot be mixed
+/// up. Indices are 0 to size() - 1.
+template <class T, class Index = int>
+class IndexedVector {
+ public:
+  IndexedVector() = default;
+  explicit IndexedVector(std::size_t size, const T& value = T()) : items_(size, value) {}
+
+  T& operator[](Index index) { return items_[position(index)]; }
+  const T& operator[](Index index) const { return items_[position(index)]; }
+  T& back() { return items_.back(); }
+  const T& back() const { return items_.back(); }
+
+  std::size_t size() const { return items_.size(); }
+  bool empty() const { return items_.empty(); }
+  /// The index of the next element that is added.
+  Index next_index() const { return static_cast<Index>(items_.size()); }
+
+  /// Adds an element and returns its index.
+  Index push_back(const T& item) {
+    items_.push_back(item);
+    return last_index();
+  }
+  Index push_back(T&& item) {
+    items_.push_back(std::move(item));
+    return last_index();
+  }
+  void resize(std::size_t size, const T& value = T()) { items_.resize(size, value); }
+  void clear() { items_.clear(); }
+
+  auto begin() { return items_.begin(); }
+  auto end() { return items_.end(); }
+  auto begin() const { return items_.begin(); }
+  auto end() const { return items_.end(); }
+
+ private:
+  Index last_index() const { return static_cast<Index>(items_.size() - 1); }
+  static std::size_t position(Index index) { return static_cast<std::size_t>(index); }
+
+  std::vector<T> items_;
+};
+
+/// An array of default values that allocates memory only for pages with accessed elements. For large arrays
+/// of which few elements are used.
+template <class T>
+class PagedArray {
+ public:
+  explicit PagedArray(std::size_t size) : books_((size >> (2 * kBits)) + 1) {}
+
+  T& operator[](std::size_t index) {
+    auto& book = books_[index >> (2 * kBits)];
+    if (!book) book = std::make_unique<Book>();
+    auto& page = (*book)[(index >> kBits) & kMask];
+    if (!page) {
+      page = std::make_unique<Page>();
+      ++pages_;
+    }
+    return (*page)[index & kMask];
+  }
+
+  /// Approximate memory in use.
+  std::size_t bytes() const { return pages_ * sizeof(Page) + books_.size() * sizeof(books_[0]); }
+
+ private:
+  static constexpr std::size_t kBits = 6;
+  static constexpr std::size_t kMask = (std::size_t{1} << kBits) - 1;
+  using Page = std::array<T, std::size_t{1} << kBits>;
+  using Book = std::array<std::unique_ptr<Page>, std::size_t{1} << kBits>;
+
+  std::vector<std::unique_ptr<Book>> books_;
+  std::size_t pages_ = 0;
+};
+
+}  // namespace fleetplan::core

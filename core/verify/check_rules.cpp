@@ -1,0 +1,43 @@
+#include "core/verify/check_rules.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::core {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+/// Relative to a coordinate or a time: the planner and the checker add up many of them.
+constexpr double kRounding = 16.0 * kEpsilon;
+/// Relative to a position at a time: both ends of a move are rounded, for each of two robots.
+constexpr double kMotionRounding = 2.0 * kEpsilon;
+/// Metres, seconds, radians: a start or goal may be this far from the vertex that stands for it.
+constexpr double kLeast = 2.0 * kSamePosition;
+
+/// Whether actions of the request may be part of the plan. They went through decimal text and world
+/// coordinates.
+bool has_given_actions(const Robot& robot) { return !robot.committed.empty() || robot.previous.has_value(); }
+
+}  // namespace
+
+std::vector<Tolerance> plan_tolerances(const OccupancyGrid& grid, const std::vector<Robot>& robots,
+                                       const std::vector<RobotPlan>& plans) {
+  const double extent = std::max(grid.width(), grid.height());
+  const double at_rest = kContactTolerance + kLeast + kRounding * extent;
+  std::vector<Tolerance> all(robots.size(), {std::min(kMostTolerance, at_rest), kLeast, kLeast});
+  for (const RobotPlan& plan : plans) {
+    if (has_given_actions(robots[plan.robot])) continue;
+    Tolerance& tolerance = all[plan.robot];
+    const double travel = plan.cost * robots[plan.robot].linear_speed;
+    tolerance.metres = std::min(kMostTolerance, at_rest + kMotionRounding * travel);
+    tolerance.seconds = kLeast + kRounding * plan.cost;
+  }
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (has_given_actions(robots[i])) all[i] = Tolerance::of_all(kMostTolerance);
+  }
+  return all;
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,186 @@
+#include "core/verify/execution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/geometry/angle.h"
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::core {
+
+Position position_at(const Leg& leg, double t) {
+  if (t <= leg.t_begin) return leg.from;
+  if (t >= leg.t_end) return leg.to;
+  const double fraction = (t - leg.t_begin) / (leg.t_end - leg.t_begin);
+  return leg.from + fraction * (leg.to - leg.from);
+}
+
+std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan) {
+  std::vector<Leg> legs;
+  double now = 0.0;
+  Position here = robot.start.position;
+  const std::vector<Action> none;
+  const std::vector<Action>& without_plan = robot.invalid ? none : robot.committed;
+  const std::vector<Action>& actions = plan != nullptr ? plan->actions : without_plan;
+  legs.reserve(actions.size() + 1);
+  for (const Action& action : actions) {
+    if (action.t_start > now) {
+      legs.push_back({now, action.t_start, here, here});
+      now = action.t_start;
+    }
+    const Leg planned{action.t_start, std::max(action.t_start, action.t_end), action.from.position,
+                      action.to.position};
+    // An action that is entirely in the past, or without duration, takes place at once.
+    const Position from = planned.t_end > now ? position_at(planned, now) : planned.from;
+    const double until = std::max(now, planned.t_end);
+    legs.push_back({now, until, from, planned.to});
+    now = until;
+    here = planned.to;
+  }
+  legs.push_back({now, std::numeric_limits<double>::infinity(), here, here});
+  return legs;
+}
+
+std::vector<Leg> legs_of(const MovingObstacle& obstacle) {
+  std::vector<Leg> legs;
+  legs.reserve(obstacle.motion.size());
+  for (std::size_t k = 0; k + 1 < obstacle.motion.size(); ++k) {
+    const MovingObstacle::Entry& from = obstacle.motion[k];
+    const MovingObstacle::Entry& to = obstacle.motion[k + 1];
+    legs.push_back({from.t, to.t, from.position, to.position});
+  }
+  if (obstacle.motion.empty()) return legs;
+  const MovingObstacle::Entry& last = obstacle.motion.back();
+  if (obstacle.after == MovingObstacle::After::stays) {
+    legs.push_back({last.t, std::numeric_limits<double>::infinity(), last.position, last.position});
+  } else if (legs.empty()) {
+    legs.push_back({last.t, last.t, last.position, last.position});
+  }
+  return legs;
+}
+
+Departure departure_of(const Robot& robot, const RobotPlan* plan) {
+  Departure departure;
+  if (!robot.invalid) departure.committed_until = robot.committed_until();
+  if (plan == nullptr) return departure;
+  for (std::size_t k = robot.committed.size(); k < plan->actions.size(); ++k) {
+    const Action& action = plan->actions[k];
+    if (action.type != Action::Type::translate || action.from.position == action.to.position) continue;
+    departure.leaves = action.t_start;
+    departure.first_move_ends = action.t_end;
+    break;
+  }
+  return departure;
+}
+
+namespace {
+
+struct Change {
+  double t;
+  double radius;
+};
+
+/// Follows the actions and serves one goal after the other.
+class Services {
+ public:
+  Services(const Robot& robot, const Tolerance& tolerance)
+      : robot_(robot),
+        metres_(std::max(tolerance.metres, kContactTolerance)),
+        radians_(std::max(tolerance.radians, kContactTolerance)),
+        seconds_(tolerance.seconds) {}
+
+  std::vector<Change> run(const std::vector<Action>& actions, bool ends_at_goal) {
+    Pose pose = robot_.start;
+    double now = 0.0;
+    serve(pose, now);
+    for (const Action& action : actions) {
+      now = std::max(now, action.t_end);
+      if (action.type != Action::Type::wait) free_from_ = now;
+      pose = action.to;
+      serve(pose, now);
+    }
+    const std::size_t last = robot_.via.size();
+    if (ends_at_goal && served_ == last && is_at(pose, *robot_.goal)) {
+      end_service(*robot_.goal, std::max(service_end(*robot_.goal), robot_.committed_until()));
+    }
+    return std::move(changes_);
+  }
+
+ private:
+  bool is_at(const Pose& pose, const Goal& goal) const {
+    return (pose.position - goal.position).norm() <= metres_ &&
+           (!goal.theta || std::abs(rotation_between(pose.theta, *goal.theta)) <= radians_);
+  }
+  double service_end(const Goal& goal) const { return std::max(free_from_, goal.not_before) + goal.service; }
+
+  /// The robot has been at rest in this pose since `free_from_`, and is until `now`.
+  void serve(const Pose& pose, double now) {
+    while (served_ < robot_.via.size() && is_at(pose, robot_.via[served_])) {
+      const Goal& goal = robot_.via[served_];
+      const double end = service_end(goal);
+      if (end > now + seconds_) return;
+      end_service(goal, end);
+      free_from_ = end;
+      ++served_;
+    }
+  }
+
+  void end_service(const Goal& goal, double t) {
+    if (goal.radius_after) changes_.push_back({t, *goal.radius_after});
+  }
+
+  const Robot& robot_;
+  double metres_;
+  double radians_;
+  double seconds_;
+  double free_from_ = 0.0;  // for the next service
+  std::size_t served_ = 0;  // goals
+  std::vector<Change> changes_;
+};
+
+std::vector<Change> changes_of(const Robot& robot, const RobotPlan* plan, const Tolerance& tolerance) {
+  const bool changes =
+      robot.goal && !robot.invalid &&
+      (robot.goal->radius_after || std::any_of(robot.via.begin(), robot.via.end(), [](const Goal& goal) {
+         return goal.radius_after.has_value();
+       }));
+  const bool does_nothing = plan == nullptr && robot.committed.empty();
+  if (!changes || does_nothing) return {};
+  return Services(robot, tolerance).run(plan != nullptr ? plan->actions : robot.committed, plan != nullptr);
+}
+
+/// Moves the legs until `t` from the begin of `legs` into a list of their own.
+std::vector<Leg> take_until(double t, std::vector<Leg>& legs) {
+  std::vector<Leg> taken;
+  std::size_t whole = 0;
+  while (whole < legs.size() && legs[whole].t_end <= t) taken.push_back(legs[whole++]);
+  legs.erase(legs.begin(), legs.begin() + static_cast<std::ptrdiff_t>(whole));
+  if (!legs.empty() && legs.front().t_begin < t) {
+    Leg& divided = legs.front();
+    const Position there = position_at(divided, t);
+    taken.push_back({divided.t_begin, t, divided.from, there});
+    divided.t_begin = t;
+    divided.from = there;
+  }
+  return taken;
+}
+
+}  // namespace
+
+std::vector<Body> bodies_of(const Robot& robot, const RobotPlan* plan, std::vector<Leg> legs,
+                            const Tolerance& tolerance) {
+  std::vector<Body> bodies;
+  double radius = robot.radius;
+  for (const Change& change : changes_of(robot, plan, tolerance)) {
+    if (change.radius != radius) {
+      std::vector<Leg> before = take_until(change.t, legs);
+      if (!before.empty()) bodies.push_back({radius, std::move(before)});
+    }
+    radius = change.radius;
+  }
+  bodies.push_back({radius, std::move(legs)});
+  return bodies;
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,98 @@
+#pragma once
+
+// How robots execute their plans, valid or not: where each one is at every time from 0 on, and when its
+// motion becomes the planner's own. A robot whose radius changes is one disk after the other. How an obstacle
+// moves.
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "core/geometry/moving_obstacle.h"
+#include "core/model/plan.h"
+#include "core/model/robot.h"
+#include "core/verify/check_rules.h"
+
+namespace fleetplan::core {
+
+/// A time interval in which a robot's centre moves straight at constant speed, or stands. Map frame, metres,
+/// seconds.
+struct Leg {
+  double t_begin = 0.0;
+  double t_end = 0.0;  // infinity for the final rest; t_begin for a leg that takes no time
+  Position from{0.0, 0.0};
+  Position to{0.0, 0.0};
+};
+
+/// The position of the centre at `t`: exactly `from` up to t_begin, exactly `to` from t_end on.
+Position position_at(const Leg& leg, double t);
+
+/// The legs of a robot from t = 0 to infinity, in order, each beginning when the previous one ends. Without a
+/// plan (null) the robot executes its committed actions, unless it is invalid. Without actions it stays at
+/// its start; otherwise it rests where its last action ends. Invalid plans are executed as follows: in a gap
+/// between actions the robot stands; of an action that begins before the previous one has ended (or before
+/// 0), the overlapping part is omitted; an action that ends before it begins takes no time. Every number of
+/// the plan (and of the committed actions) is finite.
+std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan);
+
+/// The legs of an obstacle from when it appears until it vanishes, or to infinity. One that appears for an
+/// instant only has a leg that takes no time.
+std::vector<Leg> legs_of(const MovingObstacle& obstacle);
+
+/// When the motion of a robot becomes the planner's own. Seconds.
+struct Departure {
+  double committed_until = 0.0;  // its commitment ends
+  /// It begins, and ends, its first translation after the commitment; infinity if there is none.
+  double leaves = std::numeric_limits<double>::infinity();
+  double first_move_ends = std::numeric_limits<double>::infinity();
+
+  /// Whether all of [t_begin, t_end] belongs to the commitment, or to what follows the stay at its end.
+  bool commits(double t_end) const { return t_end <= committed_until; }
+  bool plans(double t_begin) const { return t_begin >= leaves; }
+};
+
+/// `plan` is null for a robot without a plan. Every number is finite.
+Departure departure_of(const Robot& robot, const RobotPlan* plan);
+
+/// A disk of constant radius on its way.
+struct Body {
+  double radius = 0.0;  // metres
+  std::vector<Leg> legs;
+};
+
+/// The disks of a robot, each from the end of the one before, the first from t = 0, the last to infinity.
+/// `legs` are a result of `execute` for the same plan (null: none, the robot executes its commitment).
+///
+/// The radius changes at the end of the service at a goal with `radius_after`. Each goal is served as early
+/// as possible, by an uninterrupted rest in its pose after the goals before it. The last one is served by the
+/// rest at the end of the plan, after the commitment; a robot without a plan does not serve it. One that
+/// has neither a plan nor a commitment serves none.
+std::vector<Body> bodies_of(const Robot& robot, const RobotPlan* plan, std::vector<Leg> legs,
+                            const Tolerance& tolerance);
+
+/// Robots that execute their plans. All lists are in the same order; a position in them is not the index of
+/// the robot. A robot whose radius changes has several positions, one after the other, for one time each (see
+/// bodies_of).
+struct ExecutedFleet {
+  std::vector<std::size_t> robots;  // their indices, ascending
+  std::vector<double> radii;        // metres, bare
+  std::vector<double> vicinities;   // metres, added against robots
+  std::vector<double> tolerances;   // metres
+  std::vector<std::vector<Leg>> legs;
+  std::vector<Departure> departures;
+  std::vector<bool> invalid;  // see Robot::invalid
+  std::vector<bool> stays;    // without a plan or a goal: where the commitment ends, for ever
+
+  std::size_t size() const { return robots.size(); }
+  /// Whether these are the same robot.
+  bool same_robot(std::size_t one, std::size_t other) const { return robots[one] == robots[other]; }
+  double begin_of(std::size_t position) const { return legs[position].front().t_begin; }
+  double end_of(std::size_t position) const { return legs[position].back().t_end; }
+  /// The distance that two robots keep while neither begins too near nor is committed, metres. `inflation` is
+  /// added to each.
+  double kept_distance(std::size_t one, std::size_t other, double inflation) const {
+    return radii[one] + radii[other] + 2.0 * inflation + (vicinities[one] + vicinities[other]);
+  }
+};
+
+}  // namespace fleetplan::core

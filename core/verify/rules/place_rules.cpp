@@ -1,0 +1,255 @@
+#include "core/verify/rules/place_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/geometry/angle.h"
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::core {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+double time_at(const Leg& leg, double fraction) {
+  return fraction > 0.0 ? leg.t_begin + fraction * (leg.t_end - leg.t_begin) : leg.t_begin;
+}
+
+Violation overlap_with(const NearestObstacle& obstacle, std::size_t robot, double radius, double t) {
+  const double distance = obstacle.point.distance;
+  std::string detail;
+  if (distance > 0.0) {
+    detail = "the disk reaches " + metres(radius - distance) +
+             (obstacle.is_edge ? " beyond the edge of the map" : " into a blocked cell");
+  } else {
+    detail = obstacle.is_edge ? "the centre of the disk reaches the edge of the map"
+                              : "the centre of the disk reaches a blocked cell";
+  }
+  detail += " at t = " + seconds(t);
+  return {Violation::Kind::obstacle_collision, {robot}, t, distance, radius, detail};
+}
+
+}  // namespace
+
+double distance_from_walls(const ObstacleField& field, const Position& position, double reach) {
+  const auto nearest = field.nearest(position, position, reach);
+  return nearest ? nearest->point.distance : reach;
+}
+
+std::vector<double> distances_to_keep(const std::function<double(const Position&, double)>& distance_from,
+                                      const std::vector<double>& radii, const std::vector<Leg>& legs,
+                                      const Departure& departure, double tolerance, const CheckRules& rules) {
+  std::vector<double> kept = radii;
+  if (rules.inflation <= 0.0 && rules.start_overlap <= 0.0) return kept;
+  double reduced = kNone;  // what it keeps until it has been clear
+  bool planned = false;
+  for (std::size_t k = 0; k < legs.size(); ++k) {
+    const double radius = radii[k];
+    const double inflated = radius + rules.inflation;
+    const double full = departure.commits(legs[k].t_end) ? radius : inflated;
+    const bool begins_to_plan = !planned && !departure.commits(legs[k].t_end);
+    planned = planned || begins_to_plan;
+    if (k == 0 || begins_to_plan) {
+      const double here = distance_from(legs[k].from, full);
+      const bool measured = k == 0 && inflated - here <= rules.start_overlap + tolerance;
+      if (here < full && (measured || here >= radius - tolerance)) reduced = std::min(here, reduced);
+    }
+    kept[k] = std::min(full, reduced);
+    if (reduced < full && distance_from(legs[k].to, full) >= full - tolerance) reduced = kNone;
+  }
+  return kept;
+}
+
+ViolationList check_obstacles(const ObstacleField& field, std::size_t robot, const std::vector<double>& radii,
+                              const std::vector<Leg>& legs, double tolerance, const StopCondition& stop) {
+  ViolationList violations;
+  std::optional<Violation> latest;   // may continue
+  const Leg* overlapping = nullptr;  // the previous leg, if it overlaps an obstacle
+  for (std::size_t k = 0; k < legs.size(); ++k) {
+    if (stop.met()) break;
+    const Leg& leg = legs[k];
+    const double radius = radii[k];
+    const double reach = radius - tolerance;
+    const std::optional<NearestObstacle> nearest = field.nearest(leg.from, leg.to, reach);
+    if (!nearest) {
+      overlapping = nullptr;
+      continue;
+    }
+    // Along a wall only rounding makes one moment the deepest; the overlap then begins with the leg.
+    const double distance = nearest->point.distance;
+    const std::optional<NearestObstacle> at_first = field.nearest(leg.from, leg.from, reach);
+    const bool from_the_beginning = at_first && at_first->point.distance <= distance + kSamePosition;
+    const double t = time_at(leg, from_the_beginning ? 0.0 : nearest->point.fraction);
+
+    const bool continues = overlapping != nullptr && overlapping->to == leg.from && at_first;
+    overlapping = &leg;
+    if (!continues) {
+      if (latest) violations.add(std::move(*latest));
+      latest = overlap_with(*nearest, robot, radius, t);
+    } else if (distance < latest->distance - kSamePosition) {
+      latest = overlap_with(*nearest, robot, radius, t);
+    }
+  }
+  if (latest) violations.add(std::move(*latest));
+  return violations;
+}
+
+namespace {
+
+/// Stands for an infinite speed in a violation.
+constexpr double kFastest = 1e30;
+
+Rectangle box_of(const std::vector<Position>& corners) {
+  Rectangle box{corners.front(), corners.front()};
+  for (const Position& corner : corners) {
+    box.low = box.low.cwiseMin(corner);
+    box.high = box.high.cwiseMax(corner);
+  }
+  return box;
+}
+
+/// The nearest point of a segment to a zone, if that is nearer than `reach`.
+std::optional<NearestPoint> nearest_to_zone(const Position& from, const Position& to, const Zone& zone,
+                                            const Rectangle& box, double reach) {
+  if (nearest_to_rectangle(from, to, box).distance >= reach) return std::nullopt;
+  const NearestPoint nearest = nearest_to_polygon(from, to, zone.polygon);
+  return nearest.distance < reach ? std::optional(nearest) : std::nullopt;
+}
+
+/// The time at a fraction of a leg; the final rest has no end.
+double moment(const Leg& leg, double fraction) {
+  return fraction > 0.0 ? leg.t_begin + fraction * (leg.t_end - leg.t_begin) : leg.t_begin;
+}
+
+std::string blocked_text(const Zone& zone, double distance, double radius, double t) {
+  const std::string where = "blocked zone \"" + zone.id + "\" at t = " + seconds(t);
+  return distance > 0.0 ? "the disk reaches " + metres(radius - distance) + " into the " + where
+                        : "the centre of the disk reaches the " + where;
+}
+
+}  // namespace
+
+ZonesOfRobot::ZonesOfRobot(const std::vector<Zone>* zones, std::size_t robot, double own_speed)
+    : robot_(robot), own_speed_(own_speed) {
+  if (zones == nullptr) return;
+  for (std::size_t k = 0; k < zones->size(); ++k) {
+    const Zone& zone = (*zones)[k];
+    if (zone.is_for(robot)) zones_.push_back({k, &zone, box_of(zone.polygon)});
+  }
+}
+
+double ZonesOfRobot::distance_to_blocked(const Position& position, double reach) const {
+  double least = reach;
+  for (const auto& [index, zone, box] : zones_) {
+    if (zone->type != Zone::Type::blocked) continue;
+    if (const auto nearest = nearest_to_zone(position, position, *zone, box, least))
+      least = nearest->distance;
+  }
+  return least;
+}
+
+ViolationList ZonesOfRobot::check_blocked(const std::vector<double>& radii, const std::vector<Leg>& legs,
+                                          double tolerance, const StopCondition& stop) const {
+  ViolationList violations;
+  for (const auto& [index, zone, box] : zones_) {
+    if (zone->type != Zone::Type::blocked) continue;
+    std::optional<Violation> latest;  // of consecutive legs
+    for (std::size_t k = 0; k < legs.size(); ++k) {
+      if (stop.met()) return violations;
+      const Leg& leg = legs[k];
+      const auto nearest = nearest_to_zone(leg.from, leg.to, *zone, box, radii[k] - tolerance);
+      if (!nearest) {
+        if (latest) violations.add(*std::exchange(latest, std::nullopt));
+        continue;
+      }
+      if (latest && nearest->distance >= latest->distance - kSamePosition) continue;
+      const double t = moment(leg, nearest->fraction);
+      latest =
+          Violation{Violation::Kind::zone, {robot_}, t,
+                    nearest->distance,     radii[k], blocked_text(*zone, nearest->distance, radii[k], t)};
+      latest->zone = index;
+    }
+    if (latest) violations.add(std::move(*latest));
+  }
+  return violations;
+}
+
+ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions, const Tolerance& tolerance,
+                                          const StopCondition& stop) const {
+  ViolationList violations;
+  for (std::size_t k = 0; k < actions.size(); ++k) {
+    for (const ZoneBox& in : zones_) {
+      if (stop.met()) return violations;
+      const Action& action = actions[k];
+      if (in.zone->type == Zone::Type::blocked) continue;
+      if (nearest_to_rectangle(action.from.position, action.to.position, in.box).distance > 0.0) continue;
+      auto found = action.type == Action::Type::translate ? check_translation(in, action, k, tolerance, stop)
+                   : action.type == Action::Type::rotate  ? check_rotation(in, action, k, tolerance)
+                                                          : std::nullopt;
+      if (found) violations.add(std::move(*found));
+    }
+  }
+  return violations;
+}
+
+/// The slowness that is missing is measured over what lies inside of the zone, as that of whole actions is.
+std::optional<Violation> ZonesOfRobot::check_translation(const ZoneBox& in, const Action& action,
+                                                         std::size_t number, const Tolerance& tolerance,
+                                                         const StopCondition& stop) const {
+  const Position way = action.to.position - action.from.position;
+  const double length = way.norm();
+  const double duration = std::max(0.0, action.t_end - action.t_start);
+  if (length <= tolerance.metres) return std::nullopt;
+  const auto inside =
+      stretches_inside(action.from.position, action.to.position, in.zone->polygon, tolerance.metres, stop);
+  const std::string name = "actions[" + std::to_string(number) + "]";
+  for (const Stretch& stretch : inside) {
+    const double t = action.t_start + stretch.first * duration;
+    if (in.zone->type == Zone::Type::one_way) {
+      const double off = std::abs(rotation_between(in.zone->heading, std::atan2(way.y(), way.x())));
+      if (off <= in.zone->half_angle + tolerance.radians) return std::nullopt;
+      return broken(in, t, off, in.zone->half_angle,
+                    name + " moves " + radians(off) + " off the heading of the one-way zone \"" +
+                        in.zone->id + "\", which allows " + radians(in.zone->half_angle));
+    }
+    const double share = stretch.last - stretch.first;
+    const double limit = in.zone->linear_speed_for(own_speed_);
+    const double taken = share * duration;
+    const double least = share * length / limit;
+    if (taken >= least - tolerance.seconds || taken * limit >= share * length - tolerance.metres) continue;
+    const double speed = duration > 0.0 ? length / duration : kFastest;
+    return broken(in, t, std::min(speed, kFastest), limit,
+                  name + " goes at " + quantity_text(std::min(speed, kFastest), "m/s") +
+                      " through the zone \"" + in.zone->id + "\", which allows " +
+                      quantity_text(limit, "m/s"));
+  }
+  return std::nullopt;
+}
+
+std::optional<Violation> ZonesOfRobot::check_rotation(const ZoneBox& in, const Action& action,
+                                                      std::size_t number, const Tolerance& tolerance) const {
+  if (in.zone->type != Zone::Type::speed) return std::nullopt;
+  const Position& centre = action.from.position;
+  if (!is_deep_inside(in.zone->polygon, centre, tolerance.metres)) return std::nullopt;
+  const double turn = std::abs(rotation_between(action.from.theta, action.to.theta));
+  const double duration = std::max(0.0, action.t_end - action.t_start);
+  const double limit = in.zone->angular_speed;
+  if (duration >= turn / limit - tolerance.seconds || duration * limit >= turn - tolerance.radians) {
+    return std::nullopt;
+  }
+  const double speed = std::min(duration > 0.0 ? turn / duration : kFastest, kFastest);
+  return broken(in, action.t_start, speed, limit,
+                "actions[" + std::to_string(number) + "] turns at " + quantity_text(speed, "rad/s") +
+                    " in the zone \"" + in.zone->id + "\", which allows " + quantity_text(limit, "rad/s"));
+}
+
+Violation ZonesOfRobot::broken(const ZoneBox& in, double t, double measured, double required,
+                               std::string detail) const {
+  Violation violation{Violation::Kind::zone, {robot_}, t, measured, required, std::move(detail)};
+  violation.zone = in.index;
+  return violation;
+}
+
+}  // namespace fleetplan::core

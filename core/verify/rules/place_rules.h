@@ -1,0 +1,80 @@
+#pragma once
+
+// Where a disk must not be: in obstacles, and in zones against their rules.
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/action.h"
+#include "core/model/zone.h"
+#include "core/runtime/stop_condition.h"
+#include "core/verify/check_rules.h"
+#include "core/verify/execution.h"
+#include "core/verify/geometry/obstacle_field.h"
+#include "core/verify/geometry/segment_distance.h"
+#include "core/verify/violations.h"
+
+namespace fleetplan::core {
+
+/// The distance of a position from the nearest obstacle, at most `reach` metres.
+double distance_from_walls(const ObstacleField& field, const Position& position, double reach);
+
+/// The distance from obstacles that a robot has to keep during each of its legs, metres: its radius there,
+/// and after its commitment the inflated one. A robot that begins nearer, as the rules allow, comes no nearer
+/// than it is until a leg of it ends clear. `distance_from`: of a position from obstacles, at most the
+/// second argument.
+std::vector<double> distances_to_keep(const std::function<double(const Position&, double)>& distance_from,
+                                      const std::vector<double>& radii, const std::vector<Leg>& legs,
+                                      const Departure& departure, double tolerance, const CheckRules& rules);
+
+/// Reports where a disk overlaps obstacles by more than the tolerance: one violation for each leg, or one for
+/// consecutive legs through which the overlap continues. `legs` are a result of `execute`; `radii` are those
+/// of the disk in each of them. Ends early when `stop` is met.
+ViolationList check_obstacles(const ObstacleField& field, std::size_t robot, const std::vector<double>& radii,
+                              const std::vector<Leg>& legs, double tolerance, const StopCondition& stop);
+
+/// The zones of one robot.
+class ZonesOfRobot {
+ public:
+  /// `zones`: null if there are none; otherwise they outlive this object.
+  /// `own_speed`: the robot's linear speed, metres per second.
+  ZonesOfRobot(const std::vector<Zone>* zones, std::size_t robot, double own_speed);
+
+  bool empty() const { return zones_.empty(); }
+
+  /// How far a position is from the blocked zones, metres, at most `reach`; 0 inside.
+  double distance_to_blocked(const Position& position, double reach) const;
+
+  /// Reports where the disk overlaps a blocked zone by more than the tolerance (metres): for each zone one
+  /// violation for consecutive legs through which the overlap continues. `radii` are those of the disk in
+  /// each leg. Ends early when `stop` is met.
+  ViolationList check_blocked(const std::vector<double>& radii, const std::vector<Leg>& legs,
+                              double tolerance, const StopCondition& stop) const;
+
+  /// Reports the actions that are faster than a speed zone allows, and those against a one-way zone. Ends
+  /// early when `stop` is met.
+  ViolationList check_driving(const std::vector<Action>& actions, const Tolerance& tolerance,
+                              const StopCondition& stop) const;
+
+ private:
+  struct ZoneBox {
+    std::size_t index = 0;
+    const Zone* zone = nullptr;
+    Rectangle box;
+  };
+
+  std::optional<Violation> check_translation(const ZoneBox& in, const Action& action, std::size_t number,
+                                             const Tolerance& tolerance, const StopCondition& stop) const;
+  std::optional<Violation> check_rotation(const ZoneBox& in, const Action& action, std::size_t number,
+                                          const Tolerance& tolerance) const;
+  Violation broken(const ZoneBox& in, double t, double measured, double required, std::string detail) const;
+
+  std::size_t robot_;
+  double own_speed_;
+  std::vector<ZoneBox> zones_;
+};
+
+}  // namespace fleetplan::core
