@@ -1,5 +1,3 @@
-#include "api/endpoints/plan_endpoint.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "api/endpoints/endpoints.h"
 #include "api/response/error.h"
 #include "core/runtime/stop_condition.h"
 #include "tests/api/support/requests.h"

@@ -6,7 +6,7 @@
 
 #include <chrono>
 
-#include "api/endpoints/plan_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {

@@ -1,19 +1,27 @@
-#include "api/endpoints/dependencies_endpoint.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "api/endpoints/check_plans.h"
-#include "api/endpoints/plan_dependencies.h"
+#include "api/endpoints/endpoints.h"
+#include "api/endpoints/pipeline.h"
 #include "api/json/fault_list.h"
 #include "api/json/json_writer.h"
 #include "api/response/error.h"
 #include "api/response/write_dependencies.h"
+#include "api/response/write_report.h"
 
 namespace fleetplan::api {
+
+Reply validate_endpoint(std::string_view body, const RequestContext& context) {
+  return check_plans(
+      body, context,
+      [](const ValidateRequest& request, const core::VerifyReport& report,
+         const core::StopCondition&) -> Reply {
+        return {200, kJson, write_report(report, request.robots, request.obstacles, request.zones)};
+      });
+}
 
 namespace {
 
