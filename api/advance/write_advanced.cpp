@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "api/json/copy_json.h"
 #include "api/json/json_writer.h"
 
 namespace fleetplan::api {

@@ -6,9 +6,9 @@
 
 #include "api/endpoints/endpoints.h"
 #include "api/endpoints/pipeline.h"
-#include "api/json/fault_list.h"
+#include "api/json/error.h"
+#include "api/json/faults.h"
 #include "api/json/json_writer.h"
-#include "api/response/error.h"
 #include "api/response/write_dependencies.h"
 #include "api/response/write_report.h"
 

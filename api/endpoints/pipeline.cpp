@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "api/endpoints/request_context.h"
-#include "api/json/fault_text.h"
+#include "api/json/error.h"
+#include "api/json/faults.h"
 #include "api/request/parse_body.h"
-#include "api/response/error.h"
 #include "core/execution/make_dependencies.h"
 #include "core/runtime/memory_account.h"
 

@@ -8,9 +8,9 @@
 
 #include "api/endpoints/endpoints.h"
 #include "api/endpoints/pipeline.h"
-#include "api/json/fault_text.h"
+#include "api/json/error.h"
+#include "api/json/faults.h"
 #include "api/request/parse_simulate_request.h"
-#include "api/response/error.h"
 #include "api/response/write_simulation.h"
 #include "core/runtime/memory_account.h"
 #include "core/runtime/time_share.h"

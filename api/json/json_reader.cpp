@@ -5,8 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "api/json/fault_text.h"
-#include "api/json/location.h"
+#include "api/json/faults.h"
 
 namespace fleetplan::api {
 

@@ -5,7 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "api/response/error.h"
+#include "api/json/error.h"
+#include "api/response/reply.h"
 
 namespace fleetplan::api {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/request/geometry_hints.h"
 #include "api/request/ranges.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::api {

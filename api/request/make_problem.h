@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "api/json/fault.h"
+#include "api/json/faults.h"
 #include "api/request/parse_body.h"
 #include "core/map/map_cache.h"
 #include "core/model/problem.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/request/parse_metadata.h"
 #include "api/request/unit_warnings.h"
 #include "api/request/zones/parse_zones.h"

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/json/error.h"
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
 #include "api/request/map/parse_map.h"
@@ -17,7 +18,6 @@
 #include "api/request/parse_options.h"
 #include "api/request/parse_robots.h"
 #include "api/request/requested_dependencies.h"
-#include "api/response/error.h"
 #include "core/model/zone.h"
 
 namespace fleetplan::api {

@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/request/ranges.h"
 
 namespace fleetplan::api {

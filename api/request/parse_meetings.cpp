@@ -7,7 +7,7 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/request/ranges.h"
 
 namespace fleetplan::api {

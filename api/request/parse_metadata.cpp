@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "api/json/copy_json.h"
 #include "api/json/json_writer.h"
 
 namespace fleetplan::api {

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 
 namespace fleetplan::api {
 

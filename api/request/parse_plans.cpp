@@ -7,7 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/request/motion/parse_actions.h"
 #include "api/request/ranges.h"
 #include "api/request/robot_names.h"

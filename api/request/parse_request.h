@@ -5,12 +5,12 @@
 #include <string_view>
 #include <vector>
 
+#include "api/json/error.h"
 #include "api/json/result.h"
 #include "api/request/limits.h"
 #include "api/request/received_robot.h"
 #include "api/request/requested_dependencies.h"
 #include "api/request/world_frame.h"
-#include "api/response/error.h"
 #include "core/map/map_cache.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"

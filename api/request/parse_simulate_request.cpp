@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/request/motion/action_chain.h"
 #include "api/request/motion/parse_actions.h"
 #include "api/request/motion/parse_dependencies.h"

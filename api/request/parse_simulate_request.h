@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "api/json/error.h"
 #include "api/json/result.h"
 #include "api/request/limits.h"
 #include "api/request/world_frame.h"
-#include "api/response/error.h"
 #include "core/execution/simulation/simulation.h"
 #include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"

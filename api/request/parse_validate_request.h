@@ -4,10 +4,10 @@
 #include <string_view>
 #include <vector>
 
+#include "api/json/error.h"
 #include "api/json/result.h"
 #include "api/request/limits.h"
 #include "api/request/requested_dependencies.h"
-#include "api/response/error.h"
 #include "core/map/occupancy_grid.h"
 #include "core/model/moving_obstacle.h"
 #include "core/model/plan.h"

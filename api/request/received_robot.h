@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "api/json/fault.h"
+#include "api/json/faults.h"
 #include "api/request/motion/received_motion.h"
 
 namespace fleetplan::api {

@@ -1,6 +1,6 @@
 #include "api/request/robot_names.h"
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 
 namespace fleetplan::api {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 
 namespace fleetplan::api {
 

@@ -3,9 +3,9 @@
 #include <chrono>
 #include <string_view>
 
+#include "api/json/error.h"
 #include "api/json/json_writer.h"
-#include "api/response/error.h"
-#include "api/response/plan_outcome.h"
+#include "api/response/reply.h"
 #include "api/response/write_actions.h"
 #include "api/response/write_dependencies.h"
 #include "api/response/write_report.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/request/motion/parse_dependencies.h"
 #include "api/request/parse_options.h"
 #include "api/request/parse_plans.h"

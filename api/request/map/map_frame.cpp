@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/request/ranges.h"
 
 namespace fleetplan::api {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/request/map/cell_letters.h"
 
 namespace fleetplan::api {

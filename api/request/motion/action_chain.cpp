@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/request/motion/parse_actions.h"
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"

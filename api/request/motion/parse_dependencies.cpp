@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/request/ranges.h"
 #include "api/request/robot_names.h"
 #include "core/execution/executed_actions.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/request/motion/quota.h"
 #include "api/request/ranges.h"
 

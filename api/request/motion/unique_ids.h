@@ -4,7 +4,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/json/json_reader.h"
 
 namespace fleetplan::api {

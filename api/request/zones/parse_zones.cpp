@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/request/motion/quota.h"
 #include "api/request/ranges.h"
 #include "api/request/robot_names.h"

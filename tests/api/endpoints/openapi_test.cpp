@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "api/endpoints/endpoints.h"
+#include "api/json/error.h"
 #include "api/openapi/generated_parts.h"
-#include "api/response/error.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 
 namespace fleetplan::api {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/request/map/image/base64.h"
 #include "api/request/map/image/image_reader.h"
 #include "api/request/map/image/shade_rule.h"

@@ -1,4 +1,4 @@
-#include "api/response/error.h"
+#include "api/json/error.h"
 
 #include <array>
 
@@ -65,28 +65,5 @@ static_assert(is_in_order(), "every ErrorCode has its row, in the order of the e
 std::span<const ErrorRow> error_table() { return kTable; }
 
 const ErrorRow& row_of(ErrorCode code) { return kTable[static_cast<std::size_t>(code)]; }
-
-void write_errors(JsonWriter& json, const std::vector<Fault>& faults) {
-  json.key("errors").begin_array();
-  for (const Fault& fault : faults) {
-    json.begin_object();
-    json.member("pointer", fault.pointer).member("code", fault.code).member("detail", fault.detail);
-    json.end_object();
-  }
-  json.end_array();
-}
-
-Reply problem_reply(const RequestError& error, const std::string& request_id) {
-  const ErrorRow& row = row_of(error.code);
-  JsonWriter json;
-  json.begin_object();
-  // A name, not an address: there is no page behind it.
-  json.member("type", "urn:fleetplan:problem:" + std::string(row.name));
-  json.member("title", row.title).member("status", row.status).member("detail", error.detail);
-  json.member("code", row.name).member("request_id", request_id);
-  write_errors(json, error.faults);
-  json.member("errors_total", error.faults_total).end_object();
-  return {row.status, kProblemJson, json.take(), row.name};
-}
 
 }  // namespace fleetplan::api

@@ -1,6 +1,6 @@
 #pragma once
 
-// Errors as RFC 9457 problem details, from one table.
+// The errors of the service, from one table, and why a request cannot be read.
 
 #include <cstddef>
 #include <span>
@@ -8,9 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "api/json/fault.h"
-#include "api/json/json_writer.h"
-#include "api/response/reply.h"
+#include "api/json/faults.h"
 
 namespace fleetplan::api {
 
@@ -67,14 +65,5 @@ struct RequestError {
   std::vector<Fault> faults;  // those that are listed
   std::size_t faults_total = 0;
 };
-
-/// Writes the member `errors`: faults of a request's content.
-void write_errors(JsonWriter& json, const std::vector<Fault>& faults);
-
-/// The error as application/problem+json.
-Reply problem_reply(const RequestError& error, const std::string& request_id);
-inline Reply problem_reply(ErrorCode code, const std::string& detail, const std::string& request_id) {
-  return problem_reply({code, detail, {}, 0}, request_id);
-}
 
 }  // namespace fleetplan::api

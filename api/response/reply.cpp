@@ -1,4 +1,6 @@
-#include "api/response/plan_outcome.h"
+#include "api/response/reply.h"
+
+#include "api/json/json_writer.h"
 
 namespace fleetplan::api {
 
@@ -48,6 +50,29 @@ PlanOutcome outcome_of(const core::Plan& plan, std::optional<double> plan_second
     ++outcome.unplanned_by_reason[static_cast<std::size_t>(one.reason)];
   }
   return outcome;
+}
+
+void write_errors(JsonWriter& json, const std::vector<Fault>& faults) {
+  json.key("errors").begin_array();
+  for (const Fault& fault : faults) {
+    json.begin_object();
+    json.member("pointer", fault.pointer).member("code", fault.code).member("detail", fault.detail);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+Reply problem_reply(const RequestError& error, const std::string& request_id) {
+  const ErrorRow& row = row_of(error.code);
+  JsonWriter json;
+  json.begin_object();
+  // A name, not an address: there is no page behind it.
+  json.member("type", "urn:fleetplan:problem:" + std::string(row.name));
+  json.member("title", row.title).member("status", row.status).member("detail", error.detail);
+  json.member("code", row.name).member("request_id", request_id);
+  write_errors(json, error.faults);
+  json.member("errors_total", error.faults_total).end_object();
+  return {row.status, kProblemJson, json.take(), row.name};
 }
 
 }  // namespace fleetplan::api
