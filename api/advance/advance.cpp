@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "api/advance/clear_commitments.h"
-#include "api/advance/timeline.h"
 #include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"

@@ -9,8 +9,8 @@
 #include "api/json/error.h"
 #include "api/json/faults.h"
 #include "api/json/json_writer.h"
-#include "api/response/write_dependencies.h"
 #include "api/response/write_report.h"
+#include "api/response/write_response.h"
 
 namespace fleetplan::api {
 

@@ -2,12 +2,10 @@
 #include <optional>
 #include <string>
 
-#include "api/advance/parse_advance_request.h"
-#include "api/advance/write_advanced.h"
+#include "api/advance/advance_request.h"
 #include "api/endpoints/endpoints.h"
 #include "api/endpoints/pipeline.h"
-#include "api/execution/parse_retime_request.h"
-#include "api/execution/write_retimed.h"
+#include "api/execution/retime_request.h"
 #include "api/vda5050/parse_vda5050_request.h"
 #include "api/vda5050/write_orders.h"
 

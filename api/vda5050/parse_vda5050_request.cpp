@@ -10,7 +10,7 @@
 #include "api/request/parse_robots.h"
 #include "api/request/ranges.h"
 #include "api/request/robot_names.h"
-#include "api/vda5050/release.h"
+#include "api/vda5050/route.h"
 #include "core/execution/executed_actions.h"
 
 namespace fleetplan::api {

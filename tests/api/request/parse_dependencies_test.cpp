@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "api/response/write_dependencies.h"
+#include "api/response/write_response.h"
 #include "tests/api/support/requests.h"
 #include "tests/support/plan_builder.h"
 #include "tests/support/unbounded_work.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+// The request of POST /v1/advance and its answer, which is the request of a later moment.
+
 #include <string>
 #include <vector>
 
@@ -23,5 +25,11 @@ struct AdvanceRequest {
 /// Reads the root of the document. Nothing if it has faults, or if its stop is met.
 std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
                                                     core::Work& stop);
+
+/// The request of the moment: that of the body with the starts, goals, committed and previous actions of
+/// these robots, and what is left of its obstacles. Everything else is copied. The text ends anywhere once
+/// the work is met.
+std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots,
+                           core::Work& work);
 
 }  // namespace fleetplan::api

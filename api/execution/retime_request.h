@@ -1,6 +1,9 @@
 #pragma once
 
+// The request of POST /v1/retime and its answer.
+
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "api/json/json_reader.h"
@@ -25,5 +28,9 @@ struct RetimeRequest {
 /// Reads the root of the document. Nothing if it has faults, or if its stop is met.
 std::optional<RetimeRequest> parse_retime_request(const JsonReader& root, const Limits& limits,
                                                   core::Work& stop);
+
+/// The answer of POST /v1/retime. `retimed`: by robot. Nothing if the stop is met.
+std::optional<std::string> write_retimed(const RetimeRequest& request,
+                                         const std::vector<core::RetimedRobot>& retimed, core::Work& stop);
 
 }  // namespace fleetplan::api
