@@ -9,12 +9,11 @@
 #include <vector>
 
 #include "api/json/json_writer.h"
-#include "api/request/motion/parse_goals.h"
-#include "api/request/motion/parse_obstacles.h"
+#include "api/request/fleet/parse_obstacles.h"
+#include "api/request/fleet/parse_plans.h"
+#include "api/request/fleet/parse_robots.h"
 #include "api/request/parse_body.h"
-#include "api/request/parse_plans.h"
 #include "api/request/ranges.h"
-#include "api/request/robot_names.h"
 #include "core/geometry/angle.h"
 #include "core/model/drive_zones.h"
 
@@ -66,7 +65,7 @@ void parse_events(const JsonReader& root, const RobotNames& names, const Limits&
   });
   read_entries(root.find("goals"), kGoalsMembers, names, [&](const JsonReader& entry, auto robot) {
     entry.require("goals");
-    ReadGoals goals = parse_goals(entry, WorldFrame{}, quota);
+    ParsedGoals goals = parse_goals(entry, WorldFrame{}, quota);
     if (!robot) return;
     executions[*robot].goals = std::move(goals.goals);
     request.goal_metadata[*robot] = std::move(goals.metadata);
@@ -87,7 +86,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
                                                     core::Work& stop) {
   AdvanceRequest read;
   read.request = root.require("request").object(kRequestMembers);
-  const Fleet fleet = parse_fleet(read.request, limits, [&](const ReadOptions& options) {
+  const Fleet fleet = parse_fleet(read.request, limits, [&](const ParsedOptions& options) {
     stop.set_budget(effective_budget(options, limits));
   });
   read.moment.at = root.require("at").number(kDuration).value_or(0.0);
@@ -112,7 +111,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   UniqueIds unique_ids;
   auto robots = parse_robots(read.request.find("robots"), read.request.find("robot_defaults"), WorldFrame{},
                              limits, unique_ids);
-  for (ReadRobot& robot : robots) {
+  for (ParsedRobot& robot : robots) {
     const std::size_t index = read.robots.size();
     if (stop.met_after(corners)) return std::nullopt;
     if (!read.executions[index].goals) read.goal_metadata[index] = std::move(robot.goal_metadata);

@@ -13,8 +13,8 @@
 
 #include "api/endpoints/request_context.h"
 #include "api/json/json_reader.h"
-#include "api/request/parse_validate_request.h"
-#include "api/request/requested_dependencies.h"
+#include "api/request/options.h"
+#include "api/request/parse_request.h"
 #include "api/response/reply.h"
 #include "core/execution/dependency.h"
 #include "core/model/plan.h"
@@ -61,7 +61,7 @@ using MakeAnswer =
 Reply pure_endpoint(std::string_view body, const RequestContext& context,
                     std::span<const std::string_view> members, const MakeAnswer& make);
 
-/// What is made of plans that were checked, until the stop condition is met.
+/// Makes the reply of plans that were checked, until the stop condition is met.
 using AfterCheck =
     std::function<Reply(const ValidateRequest&, const core::VerifyReport&, const core::StopCondition&)>;
 

@@ -78,7 +78,7 @@ bool moves(const core::RobotPlan& plan, const core::Problem& problem) {
   return plan.actions.size() > problem.robots()[plan.robot].committed.size();
 }
 
-/// What is left of a plan when all robots that would move stay at their starts, or at the end of what is
+/// The rest of a plan when all robots that would move stay at their starts, or at the end of what is
 /// committed.
 core::Plan without_moves(const core::Plan& plan, const core::Problem& problem,
                          const core::StopCondition& stop) {
@@ -115,7 +115,7 @@ std::optional<double> told_spacing(const PlanRequest& request) {
   return is_plain ? std::nullopt : std::optional(spacing);
 }
 
-/// Those of the answer, if they are asked for. The budget of the request holds for them.
+/// The dependencies of the answer, if they are asked for. The budget of the request holds for them.
 std::optional<PlanDependencies> asked_dependencies(const core::Plan& plan, const PlanRequest& request,
                                                    const Stages& stages,
                                                    const core::StopCondition& planning) {

@@ -10,7 +10,7 @@
 #include "api/endpoints/pipeline.h"
 #include "api/json/error.h"
 #include "api/json/faults.h"
-#include "api/request/parse_simulate_request.h"
+#include "api/request/parse_request.h"
 #include "api/response/write_simulation.h"
 #include "core/runtime/memory_account.h"
 #include "core/runtime/time_share.h"

@@ -11,12 +11,10 @@
 
 #include "api/json/faults.h"
 #include "api/json/json_writer.h"
-#include "api/request/motion/parse_dependencies.h"
-#include "api/request/parse_options.h"
-#include "api/request/parse_plans.h"
-#include "api/request/parse_robots.h"
+#include "api/request/fleet/parse_plans.h"
+#include "api/request/fleet/parse_robots.h"
+#include "api/request/options.h"
 #include "api/request/ranges.h"
-#include "api/request/robot_names.h"
 #include "core/execution/executed_actions.h"
 #include "core/execution/pace.h"
 #include "core/model/served_goals.h"
@@ -110,14 +108,14 @@ std::optional<RetimeRequest> parse_retime_request(const JsonReader& root, const 
   request.rules.wait_before_move = parse_options(root.find("options")).plan.wait_before_move;
   UniqueIds ids;
   // Without the map's frame, so that no number changes.
-  std::vector<ReadRobot> robots =
+  std::vector<ParsedRobot> robots =
       parse_robots(root.require("robots"), root.find("robot_defaults"), WorldFrame{}, limits, ids);
   const JsonReader plans = root.require("plans");
   request.plans = parse_plans(plans, robots, WorldFrame{});
   request.rules.now = root.require("at").number(kDuration).value_or(0.0);
   if (root.fault_count() > 0 || stop.met()) return std::nullopt;
   check_times(plans, request.plans);
-  for (ReadRobot& robot : robots) request.robots.push_back(std::move(robot.robot));
+  for (ParsedRobot& robot : robots) request.robots.push_back(std::move(robot.robot));
   request.dependencies = parse_dependencies(root.require("dependencies"), request.robots, request.plans);
   StateReader reader(request.robots, request.plans);
   for (const JsonReader item : root.require("states").array().items()) {

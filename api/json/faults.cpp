@@ -206,7 +206,7 @@ std::size_t token_start(std::string_view body, std::size_t offset) {
   return offset;
 }
 
-/// What is wrong where the parser stopped. `start` to `stop`: the bytes that could not be placed.
+/// The fault where the parser stopped. `start` to `stop`: the bytes that could not be placed.
 std::string reason(std::string_view body, std::size_t start, std::size_t stop) {
   const std::string_view rest = body.substr(start);
   const auto last = static_cast<unsigned char>(body[stop - 1]);

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "api/json/error.h"
-#include "api/request/option_table.h"
+#include "api/request/options.h"
 #include "api/response/reply.h"
 
 namespace fleetplan::api {
@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const ReadOptions kDefaults;
+const ParsedOptions kDefaults;
 
 /// Whole numbers without a decimal point.
 Json number(double value) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "api/json/json_writer.h"
-#include "api/request/received_robot.h"
+#include "api/request/fleet/received_robot.h"
 #include "core/execution/dependency.h"
 #include "core/geometry/position.h"
 #include "core/model/action.h"

@@ -93,7 +93,12 @@ void write_order(JsonWriter& json, const OrderHeader& header, const Order& order
 std::optional<Order> next_order(const VdaRequest& request, std::size_t robot, std::size_t released) {
   const OrderProgress& progress = request.progress[robot];
   const std::string& id = request.robots[robot].id;
-  Order order{id, request.serial_numbers[robot], {}, 0, 0, released};
+  Order order{.robot = id,
+              .serial_number = request.serial_numbers[robot],
+              .order_id = {},
+              .update_id = 0,
+              .first = 0,
+              .released = released};
   if (!progress.order_id) {
     order.order_id = id + "-" + request.header.timestamp;
     return order;
