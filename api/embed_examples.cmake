@@ -28,7 +28,7 @@ foreach(file IN LISTS files)
 endforeach()
 
 file(WRITE "${OUTPUT}" "// Made by api/embed_examples.cmake from the request files; do not edit.
-#include \"api/endpoints/embedded_examples.h\"
+#include \"api/endpoints/endpoints.h\"
 
 #include <array>
 
@@ -39,7 +39,7 @@ constexpr std::array<Example, ${count}> kExamples{
 ${table}};
 }  // namespace
 
-std::span<const Example> embedded_examples() { return kExamples; }
-std::string_view embedded_index() { return ${index}; }
+std::span<const Example> examples() { return kExamples; }
+std::string_view examples_index() { return ${index}; }
 }  // namespace fleetplan::api
 ")

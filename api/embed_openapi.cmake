@@ -9,7 +9,7 @@ string(REGEX REPLACE "\n *" "" document "${document}")
 string(HEX "${document}" hex)
 char_array(kDocument "${hex}" array)
 file(WRITE "${OUTPUT}" "// Made by api/embed_openapi.cmake from api/openapi.json; do not edit.
-#include \"api/endpoints/openapi.h\"
+#include \"api/endpoints/endpoints.h\"
 
 namespace fleetplan::api {
 namespace {

@@ -14,7 +14,7 @@ namespace {
 using Type = core::Action::Type;
 
 constexpr double kTolerance = core::kContactTolerance;
-/// Radians and seconds, as the service has them (api/request/motion/action_chain.cpp).
+/// Radians and seconds, as the service has them (api/request/fleet/parse_actions.cpp).
 constexpr double kTurnTolerance = core::kSamePosition;
 constexpr double kTimeRounding = std::numeric_limits<double>::epsilon() * core::kLongestPlan;
 

@@ -3,8 +3,9 @@
 #include <string>
 #include <utility>
 
+#include "api/json/error.h"
 #include "api/json/json_writer.h"
-#include "api/response/error.h"
+#include "api/response/reply.h"
 #include "server/http/answer/event_stream.h"
 #include "server/http/exchange.h"
 #include "server/http/steps/negotiation.h"

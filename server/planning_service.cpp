@@ -1,12 +1,4 @@
-#include "api/endpoints/advance_endpoint.h"
-#include "api/endpoints/dependencies_endpoint.h"
-#include "api/endpoints/examples.h"
-#include "api/endpoints/openapi.h"
-#include "api/endpoints/plan_endpoint.h"
-#include "api/endpoints/retime_endpoint.h"
-#include "api/endpoints/simulate_endpoint.h"
-#include "api/endpoints/validate_endpoint.h"
-#include "api/endpoints/vda5050_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "server/service.h"
 
 namespace fleetplan::server {

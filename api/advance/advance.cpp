@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "api/advance/clear_commitments.h"
-#include "api/advance/timeline.h"
 #include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"
@@ -18,7 +16,7 @@ namespace {
 using core::Action;
 using Actions = std::vector<Action>;
 
-/// Of a service (seconds): rounding of times, far below what matters.
+/// The tolerance of a service, seconds: rounding of times, far below what matters.
 constexpr double kSameService = 1e-9;
 
 /// The goals that are left when a robot has executed these actions, and how many it has visited.
@@ -111,7 +109,7 @@ double horizon(const Actions& actions, const Moment& moment) {
   std::size_t move = 0;
   while (move < actions.size() && actions[move].type == Action::Type::wait) ++move;
   double until = moment.commit.value_or(move == 0 && !actions.empty() ? actions.front().t_end : 0.0);
-  // Of a wait before a move that has begun, the rest is committed, so that it counts as begun.
+  // The rest of a wait before a move that has begun is committed, so that it counts as begun.
   const bool has_begun_the_wait = move > 0 && move < actions.size() && moment.at > 0.0 &&
                                   actions[move].type == Action::Type::translate &&
                                   actions[move].t_start < moment.wait_before_move;

@@ -1,12 +1,10 @@
-#include "api/advance/clear_commitments.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
 
-#include "api/advance/timeline.h"
+#include "api/advance/advance.h"
 #include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"
 

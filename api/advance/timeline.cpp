@@ -1,9 +1,8 @@
-#include "api/advance/timeline.h"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
+#include "api/advance/advance.h"
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
 

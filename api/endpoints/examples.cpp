@@ -1,10 +1,8 @@
-#include "api/endpoints/examples.h"
-
 #include <algorithm>
 #include <string>
 #include <vector>
 
-#include "api/endpoints/embedded_examples.h"
+#include "api/endpoints/endpoints.h"
 #include "api/json/json_writer.h"
 #include "api/json/read_json.h"
 #include "api/request/limits.h"
@@ -44,7 +42,7 @@ const Example* find_example(std::string_view name) {
 /// All examples: first those of the index, in its order, then the rest.
 std::vector<Entry> entries(core::Work& work) {
   std::vector<Entry> listed;
-  const JsonDocument index = read_embedded(embedded_index(), work);
+  const JsonDocument index = read_embedded(examples_index(), work);
   for (const JsonValue item : index.root().children()) {
     const Example* example = find_example(string_member(item, "name"));
     if (example == nullptr) continue;
@@ -59,8 +57,6 @@ std::vector<Entry> entries(core::Work& work) {
 }
 
 }  // namespace
-
-std::span<const Example> examples() { return embedded_examples(); }
 
 Reply examples_endpoint() {
   core::Work work = core::Work::unbounded();  // the examples are part of the program

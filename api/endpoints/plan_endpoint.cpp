@@ -1,22 +1,180 @@
-#include "api/endpoints/plan_endpoint.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <new>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "api/endpoints/bounded_work.h"
-#include "api/endpoints/plan_answer.h"
-#include "api/endpoints/progress_reporter.h"
+#include "api/endpoints/endpoints.h"
+#include "api/endpoints/pipeline.h"
+#include "api/endpoints/plan_events.h"
+#include "api/endpoints/request_context.h"
+#include "api/json/error.h"
 #include "api/request/parse_request.h"
-#include "api/response/error.h"
+#include "api/response/reply.h"
+#include "api/response/write_response.h"
+#include "core/instance/instance.h"
+#include "core/instance/meetings.h"
+#include "core/model/plan.h"
 #include "core/replan/follow_kept.h"
 #include "core/replan/kept_plans.h"
+#include "core/runtime/stop_condition.h"
+#include "core/verify/verify.h"
 
 namespace fleetplan::api {
 
 namespace {
+
+/// The 500 for a plan that the checker rejects.
+Reply rejected(PlanOutcome outcome, const core::VerifyReport& report, const std::string& request_id) {
+  Reply reply =
+      problem_reply(ErrorCode::internal_error,
+                    "The planner made a plan that the checker rejects (" + report.violations.front().detail +
+                        "), so it is not returned. This is a bug of the service, not of the request.",
+                    request_id);
+  outcome.status = PlanOutcome::Status::refused;
+  reply.outcome = outcome;
+  return reply;
+}
+
+/// When to give up the check. A plan that was cancelled, as the service drains, may still be checked quickly.
+core::StopCondition check_stop(const core::StopCondition& planning) {
+  using Clock = core::StopCondition::Clock;
+  constexpr std::chrono::milliseconds kMostAfterPlanning{90};
+  if (planning.cancelled()) {
+    return core::StopCondition::even_if_cancelled(Clock::now() + kMostAfterPlanning / 2);
+  }
+  if (planning.deadline() == Clock::time_point::max()) return planning;
+  return planning.until(planning.deadline() + kMostAfterPlanning);
+}
+
+/// When to give up the check of an answer in which nobody moves, if there is no other: with the budget, and
+/// not too soon after it. Reading the request tells how large it is and how busy the machine.
+core::StopCondition last_stop(const Stages& stages, const core::StopCondition& planning) {
+  constexpr Stages::Clock::duration kLeast = std::chrono::milliseconds(200);
+  const auto patience = Stages::Clock::now() + std::max(kLeast, stages.parsed - stages.received);
+  if (planning.cancelled()) return core::StopCondition::even_if_cancelled(patience).despite_memory();
+  const core::StopCondition check = check_stop(planning);
+  return planning.until(std::max(patience, check.deadline())).despite_memory();
+}
+
+/// The 422 for a request whose robots and moving obstacles take too long to compare with each other.
+Reply unchecked(PlanOutcome outcome, bool has_obstacles, const std::string& request_id) {
+  std::string detail =
+      "The check that robots keep their distance was given up after the time budget. It takes longest where "
+      "many robots start near each other, as `vicinity`, `inflation` and `start_overlap` allow";
+  if (has_obstacles) detail += ", and with many entries of `motion` of obstacles";
+  detail += ". Increase options.time_budget_ms, or send fewer robots that start so";
+  detail += has_obstacles ? ", fewer entries of `motion`, or smaller obstacles." : ".";
+  Reply reply = problem_reply(ErrorCode::check_unfinished, detail, request_id);
+  outcome.status = PlanOutcome::Status::refused;
+  reply.outcome = outcome;
+  return reply;
+}
+
+bool moves(const core::RobotPlan& plan, const core::Problem& problem) {
+  return plan.actions.size() > problem.robots()[plan.robot].committed.size();
+}
+
+/// The rest of a plan when all robots that would move stay at their starts, or at the end of what is
+/// committed.
+core::Plan without_moves(const core::Plan& plan, const core::Problem& problem,
+                         const core::StopCondition& stop) {
+  core::Plan left;
+  left.deterministic = false;
+  left.search = plan.search;
+  left.unplanned = plan.unplanned;
+  if (plan.estimated) left.estimated = core::Objectives();
+  for (const core::RobotPlan& robot : plan.plans) {
+    if (!moves(robot, problem)) {
+      left.plans.push_back(robot);
+      if (left.estimated) left.estimated->flowtime += robot.cost;
+    } else {
+      left.unplanned.push_back({robot.robot,
+                                core::Unplanned::Reason::budget_exhausted,
+                                "The time budget ended before the plan was checked.",
+                                {}});
+    }
+  }
+  std::sort(left.unplanned.begin(), left.unplanned.end(),
+            [](const core::Unplanned& a, const core::Unplanned& b) { return a.robot < b.robot; });
+  // A robot that is at its goal, or has none, stays as well.
+  core::UnavoidableMeetings found =
+      core::unavoidable_meetings(problem, std::vector<bool>(problem.robots().size(), false), stop);
+  left.unavoidable = std::move(found.meetings);
+  left.meetings_known = found.finished;
+  return left;
+}
+
+/// The spacing of the lattice, if it is not simply the map's resolution.
+std::optional<double> told_spacing(const PlanRequest& request) {
+  const double spacing = core::lattice_spacing(request.problem, request.options);
+  const bool is_plain = !request.options.lattice_spacing && spacing == request.problem.grid().resolution();
+  return is_plain ? std::nullopt : std::optional(spacing);
+}
+
+/// The dependencies of the answer, if they are asked for. The budget of the request holds for them.
+std::optional<PlanDependencies> asked_dependencies(const core::Plan& plan, const PlanRequest& request,
+                                                   const Stages& stages,
+                                                   const core::StopCondition& planning) {
+  if (!request.dependencies.wanted) return std::nullopt;
+  const core::StopCondition stop = planning.until(stages.received + request.budget);
+  return plan_dependencies(request.problem.robots(), plan.plans, request.dependencies, core::kMostTolerance,
+                           !request.problem.obstacles().empty(), stop);
+}
+
+std::vector<std::string> joined(std::vector<std::string> warnings, const std::vector<std::string>& more) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
+  return warnings;
+}
+
+/// The answer with a plan: verify -> write. A plan that the checker rejects is a bug and becomes a 500. If
+/// the check is not finished soon after `stop`, by which the plan was made, no robot that moves is planned: a
+/// plan that is not checked is never returned. `stages`: those before the plan was made. `on_answer` gets the
+/// plan of the answer; may be empty.
+Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std::string& request_id,
+                  Stages stages, const core::StopCondition& stop, const AnsweredPlan& on_answer) {
+  stages.planned = Stages::Clock::now();
+  const auto& robots = request.problem.robots();
+  const auto check = [&](const core::Plan& checked, const core::StopCondition& patience) {
+    return core::check_plan(request.problem, request.options, checked, patience);
+  };
+  const bool any_moves = std::any_of(plan.plans.begin(), plan.plans.end(), [&](const core::RobotPlan& robot) {
+    return moves(robot, request.problem);
+  });
+  std::optional<core::VerifyReport> report;
+  if (any_moves && plan.meetings_known) report = check(plan, check_stop(stop).despite_memory());
+  core::Plan less;
+  const bool is_whole = report || (!any_moves && plan.meetings_known);
+  const core::StopCondition last = last_stop(stages, stop);
+  if (!is_whole) less = without_moves(plan, request.problem, last);
+  const core::Plan& answered = is_whole ? plan : less;
+  if (!report && answered.meetings_known) report = check(answered, last);
+  const PlanOutcome outcome =
+      outcome_of(answered, std::chrono::duration<double>(stages.planned - stages.started).count());
+  if (!report && stop.cancelled()) return problem_reply(ErrorCode::draining, kDrainingDetail, request_id);
+  if (!report) return unchecked(outcome, !request.problem.obstacles().empty(), request_id);
+  if (!report->valid()) return rejected(outcome, *report, request_id);
+  const auto dependencies = asked_dependencies(answered, request, stages, stop);
+  const std::vector<std::string> warnings =
+      dependencies ? joined(request.warnings, dependencies->warnings) : request.warnings;
+  stages.verified = Stages::Clock::now();
+  if (on_answer) on_answer(request.problem, answered);
+  const VerifiedPlan verified{.plan = answered,
+                              .report = *report,
+                              .robots = robots,
+                              .obstacles = request.problem.obstacles(),
+                              .received = request.received,
+                              .origin = request.frame.origin,
+                              .warnings = warnings,
+                              .metadata = request.metadata,
+                              .lattice_spacing = told_spacing(request),
+                              .dependencies = dependencies ? &dependencies->made : nullptr};
+  std::string text = write_response(verified, request_id, stages);
+  return {.status = 200, .content_type = kJson, .body = std::move(text), .outcome = outcome};
+}
 
 using Clock = RequestContext::Clock;
 
@@ -56,8 +214,11 @@ TurnNeed need_of(const PlanRequest& request, const core::StopCondition& stop, co
   const auto moving =
       std::count_if(robots.begin(), robots.end(), [](const core::Robot& robot) { return bool(robot.goal); });
   const bool is_short = moving <= kFewRobots && grid.columns() <= kFewCells / grid.rows();
-  return {TurnNeed::Kind::plan, stop, context.received_at + request.budget,
-          static_cast<double>(std::max<std::ptrdiff_t>(1, moving)), is_short};
+  return {.kind = TurnNeed::Kind::plan,
+          .stop = stop,
+          .answer_by = context.received_at + request.budget,
+          .work = static_cast<double>(std::max<std::ptrdiff_t>(1, moving)),
+          .is_short = is_short};
 }
 
 /// So long may a check take beyond the budget if there are previous plans: it decides whether they are kept.
@@ -84,7 +245,7 @@ core::Plan plan_or_none(const Planner& planner, const PlanRequest& request, cons
 
 Reply planned(const Planner& planner, std::string_view body, const RequestContext& context,
               core::Work& work) {
-  Stages stages{context.received_at, {}, {}, {}, {}};
+  Stages stages{.received = context.received_at, .parsed = {}, .started = {}, .planned = {}, .verified = {}};
   const auto begin = Clock::now();
   const auto request = parse_request(body, context.limits, work, context.maps);
   if (!request) return problem_reply(request.failure(), context.request_id);

@@ -1,5 +1,3 @@
-#include "api/endpoints/simulate_endpoint.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -8,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "api/endpoints/bounded_work.h"
-#include "api/endpoints/unfinished_reply.h"
-#include "api/json/fault_text.h"
-#include "api/request/parse_simulate_request.h"
-#include "api/response/error.h"
+#include "api/endpoints/endpoints.h"
+#include "api/endpoints/pipeline.h"
+#include "api/json/error.h"
+#include "api/json/faults.h"
+#include "api/request/parse_request.h"
 #include "api/response/write_simulation.h"
 #include "core/runtime/memory_account.h"
 #include "core/runtime/stop_condition.h"
@@ -32,7 +30,11 @@ core::StopCondition end_of_runs(const core::Work& work, const SimulateRequest& r
 
 TurnNeed need_of(const SimulateRequest& request, const core::StopCondition& stop) {
   const double work = work_of(request.robots.size(), request.plans);
-  return {TurnNeed::Kind::simulation, stop, stop.deadline(), work, false};
+  return {.kind = TurnNeed::Kind::simulation,
+          .stop = stop,
+          .answer_by = stop.deadline(),
+          .work = work,
+          .is_short = false};
 }
 
 /// The dependencies, whose robots become positions in the list of plans.

@@ -5,8 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "api/json/fault_text.h"
-#include "api/json/location.h"
+#include "api/json/faults.h"
 
 namespace fleetplan::api {
 
@@ -20,7 +19,7 @@ std::string range_text(const Range& range) {
   return "from " + number_text(range.least) + " to " + number_text(range.most) + ' ' + unit;
 }
 
-/// Of UTF-8: all bytes but those that continue a character.
+/// The characters of UTF-8: all bytes but those that continue a character.
 std::size_t characters_of(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
     return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;

@@ -75,12 +75,12 @@ class JsonReader {
   void fault(const char* code, const std::string& detail) const {
     fault(code, [&] { return detail; });
   }
-  /// The same for a value of which there may be many: makes the text only if it will be listed.
+  /// Adds a fault at a value of which there may be many: makes the text only if it will be listed.
   template <std::invocable MakeDetail>
   void fault(const char* code, const MakeDetail& make_detail) const {
     document_->faults.add(value_->begins(), [&] { return Fault{pointer(), code, make_detail()}; });
   }
-  /// The same with the detail "<name> must be <wanted>, not <value><note>."
+  /// Adds a fault with the detail "<name> must be <wanted>, not <value><note>."
   void must_be(const char* code, std::string_view wanted, std::string_view note = {}) const {
     must_be(
         code, [&] { return wanted; }, note);

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "api/json/json_value.h"
+
 namespace fleetplan::api {
 
 template <typename T>
@@ -55,5 +57,9 @@ class JsonWriter {
 
   std::string text_;
 };
+
+/// Writes a value of a document with all that is in it. Numbers keep their values, whole ones up to 2^64 - 1
+/// exactly.
+void copy_json(JsonWriter& json, const JsonValue& value);
 
 }  // namespace fleetplan::api

@@ -2,10 +2,12 @@
 
 // Strict JSON: UTF-8, no NaN, no comments, nothing after the document, no key twice, bounded depth.
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
-#include "api/json/fault_list.h"
+#include "api/json/faults.h"
 #include "api/json/json_value.h"
 #include "api/json/result.h"
 #include "core/runtime/work.h"
@@ -37,5 +39,16 @@ struct JsonError {
 /// Reads a body; arrays and objects may nest up to `max_depth` deep. Of two members with the same key the
 /// first counts, and the later is a fault. Uses no stack that grows with the body.
 Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, core::Work& work);
+
+/// The values of a text that is JSON, read several times as fast as by the general parser, which megabytes of
+/// numbers or a large image need. Nothing if it is not JSON, nests deeper than `max_depth`, has more than
+/// `max_values` values or a number beyond the range of doubles or of 18 digits, or if the stop is met: then
+/// the general parser has the answer, and says what is wrong.
+std::optional<JsonTape> parse_valid_json(std::string_view text, std::size_t max_depth, std::size_t max_values,
+                                         core::Work& stop);
+
+/// How many bytes from the begin are characters of a JSON string as they are (RFC 8259, section 7): valid
+/// UTF-8 without quotes, backslashes and control characters.
+std::size_t plain_length(std::string_view text);
 
 }  // namespace fleetplan::api

@@ -1,17 +1,89 @@
 #include "api/request/parse_body.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <string>
+#include <vector>
 
-#include "api/json/fault_text.h"
-#include "api/request/parse_metadata.h"
-#include "api/request/unit_warnings.h"
+#include "api/json/faults.h"
+#include "api/json/json_reader.h"
+#include "api/request/fleet/parse_robots.h"
+#include "api/request/shared_members.h"
 #include "api/request/zones/parse_zones.h"
 #include "core/map/lattice.h"
 
 namespace fleetplan::api {
 
 namespace {
+
+/// A heading beyond a turn either way is probably in degrees.
+constexpr double kUsualHeading = 6.2831853071795865;  // radians
+/// Beyond any robot: three turns a second, and 72 km/h.
+constexpr double kUsualAngularSpeed = 20.0;  // radians per second
+constexpr double kUsualLinearSpeed = 20.0;   // metres per second
+
+/// Numbers of one kind that are larger than usual: how many, and the first of them.
+class Unusual {
+ public:
+  explicit Unusual(double usual) : usual_(usual) {}
+
+  template <typename Name>
+  void look_at(double number, const Name& name) {
+    if (!(std::abs(number) > usual_)) return;
+    if (count_ == 0) first_ = name() + " is " + number_text(number);
+    ++count_;
+  }
+  template <typename Name>
+  void look_at(const JsonReader& member, const Name& name) {
+    if (member.is_number()) look_at(*member.value().number(), name);
+  }
+
+  void tell(std::vector<std::string>& warnings, const std::string& unit, const std::string& advice) const {
+    if (count_ == 0) return;
+    const std::string others = count_ == 1 ? "" : " (and " + std::to_string(count_ - 1) + " more like it)";
+    warnings.push_back("The " + first_ + ' ' + unit + others + advice);
+  }
+
+ private:
+  double usual_;
+  std::size_t count_ = 0;
+  std::string first_;
+};
+
+/// Warnings about valid numbers that are probably in other units: headings of starts, goals and one-way
+/// zones, and speeds of robots; a sentence for each kind, with the first place and their number. `zones` is
+/// the member of the request, or absent. Costs less than reading the request.
+std::vector<std::string> unit_warnings(const std::vector<ParsedRobot>& robots, const JsonReader& zones) {
+  Unusual headings(kUsualHeading);
+  Unusual turning(kUsualAngularSpeed);
+  Unusual driving(kUsualLinearSpeed);
+  const auto of = [](const char* what, const std::string& id) {
+    return [what, &id] { return std::string(what) + in_quotes(id); };
+  };
+  for (const ParsedRobot& read : robots) {
+    if (read.start && read.start.stop().met_after(1)) break;
+    const std::string& id = read.robot.id;
+    headings.look_at(read.start.find("theta"), of("heading at the start of robot ", id));
+    for (const JsonReader& goal : read.goals) {
+      headings.look_at(goal.find("theta"), of("heading at a goal of robot ", id));
+    }
+    turning.look_at(read.robot.angular_speed, of("angular speed of robot ", id));
+    driving.look_at(read.robot.linear_speed, of("linear speed of robot ", id));
+  }
+  if (zones && zones.value().is_array()) {
+    for (const JsonReader zone : zones.items()) {
+      if (zone.stop().met_after(1)) break;
+      const std::string id(zone.find("id").string().value_or(""));
+      headings.look_at(zone.find("heading"), of("heading of zone ", id));
+    }
+  }
+  std::vector<std::string> warnings;
+  headings.tell(warnings, "rad", ", more than a whole turn. Headings are in radians: is it in degrees?");
+  turning.tell(warnings, "rad/s", ", more than any robot turns. Is it in degrees per second?");
+  driving.tell(warnings, "m/s", ", more than any robot drives. Is it in millimetres per second?");
+  return warnings;
+}
 
 ErrorCode code_of(JsonError::Kind kind) {
   switch (kind) {
@@ -27,10 +99,10 @@ ErrorCode code_of(JsonError::Kind kind) {
 }
 
 /// A fleet that is planned anew while it drives needs no start kept free: its plans begin where robots are.
-void set_default_start_safe_interval(const JsonReader& options, const std::vector<ReadRobot>& robots,
+void set_default_start_safe_interval(const JsonReader& options, const std::vector<ParsedRobot>& robots,
                                      core::PlanOptions& plan) {
   const bool is_given = options && options.find("start_safe_interval");
-  const bool in_motion = std::any_of(robots.begin(), robots.end(), [](const ReadRobot& read) {
+  const bool in_motion = std::any_of(robots.begin(), robots.end(), [](const ParsedRobot& read) {
     return read.committed || read.robot.previous;
   });
   // Within a horizon, robots that leave their places in time save repairs: 1000 robots in rounds of 5 s
@@ -100,14 +172,14 @@ RequestError unfinished(const core::Work& stop) {
 
 RequestedDependencies requested_dependencies(const Fleet& fleet) {
   RequestedDependencies requested{fleet.options.dependencies, fleet.options.dependency_slack, {}};
-  for (const ReadRobot& read : fleet.robots) {
+  for (const ParsedRobot& read : fleet.robots) {
     requested.margins.push_back(read.execution_margin.value_or(fleet.options.execution_margin));
   }
   return requested;
 }
 
 Fleet parse_fleet(const JsonReader& root, const Limits& limits,
-                  const std::function<void(const ReadOptions&)>& set_budget) {
+                  const std::function<void(const ParsedOptions&)>& set_budget) {
   Fleet fleet;
   fleet.options = parse_options(root.find("options"));
   set_budget(fleet.options);

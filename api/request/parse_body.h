@@ -10,14 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "api/json/error.h"
 #include "api/json/json_reader.h"
+#include "api/request/fleet/parse_obstacles.h"
+#include "api/request/fleet/parse_robots.h"
 #include "api/request/limits.h"
 #include "api/request/map/parse_map.h"
-#include "api/request/motion/parse_obstacles.h"
-#include "api/request/parse_options.h"
-#include "api/request/parse_robots.h"
-#include "api/request/requested_dependencies.h"
-#include "api/response/error.h"
+#include "api/request/options.h"
 #include "core/model/zone.h"
 
 namespace fleetplan::api {
@@ -26,10 +25,10 @@ namespace fleetplan::api {
 /// could be read.
 struct Fleet {
   std::optional<WorldMap> map;
-  std::vector<ReadRobot> robots;
+  std::vector<ParsedRobot> robots;
   std::vector<core::MovingObstacle> obstacles;
   std::vector<core::Zone> zones;  // robots: indices into `robots`
-  ReadOptions options;
+  ParsedOptions options;
   std::string metadata;  // see parse_metadata
 };
 
@@ -38,7 +37,7 @@ RequestedDependencies requested_dependencies(const Fleet& fleet);
 
 /// Reads them from the root of the document. `set_budget` gets the options, which are read first.
 Fleet parse_fleet(const JsonReader& root, const Limits& limits,
-                  const std::function<void(const ReadOptions&)>& set_budget);
+                  const std::function<void(const ParsedOptions&)>& set_budget);
 
 RequestError request_error(const JsonError& error, const core::Work& stop);
 /// The error with the faults that are listed, and the number of all. There must be one.

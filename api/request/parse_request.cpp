@@ -1,30 +1,192 @@
 #include "api/request/parse_request.h"
 
+#include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <utility>
+#include <variant>
+#include <vector>
 
-#include "api/request/make_problem.h"
+#include "api/json/faults.h"
+#include "api/request/fleet/geometry_faults.h"
 #include "api/request/parse_body.h"
+#include "core/map/static_map.h"
+#include "core/model/problem.h"
 
 namespace fleetplan::api {
 
 namespace {
 
+struct MadeProblem {
+  core::Problem problem;
+  /// Why each robot is invalid; empty lists for the others, or no lists at all.
+  std::vector<std::vector<Fault>> errors;
+};
+
+/// What it costs to look up a robot of a zone, in bytes of text.
+constexpr std::size_t kWorkOfAZoneRobot = 4;
+
+bool is_of_a_pair(const core::ProblemFault& found) {
+  using Kind = core::ProblemFault::Kind;
+  return found.kind != Kind::start_in_obstacle && found.kind != Kind::goal_in_obstacle &&
+         found.other != found.robot;
+}
+
+/// Makes the problem, if need be again and again with more robots that are invalid.
+class ProblemMaker {
+ public:
+  ProblemMaker(Fleet& fleet, const JsonReader& root, core::Work& stop, core::MapCache* maps)
+      : fleet_(fleet),
+        root_(root),
+        stop_(stop),
+        map_(maps != nullptr ? maps->map_of(std::move(fleet.map->grid), stop.reading())
+                             : core::static_map(std::move(fleet.map->grid), stop.reading())),
+        reports_(reports()) {
+    // What could not be read may be what would make committed motion valid.
+    const bool poses_only = root.fault_count() > 0;
+    for (std::size_t index = 0; index < fleet.robots.size(); ++index) {
+      if (!fleet.robots[index].placed) continue;
+      robots_.push_back(taken(fleet.robots[index], poses_only));
+      indices_.push_back(index);
+    }
+    if (reports_) errors_.resize(robots_.size());
+  }
+
+  std::optional<MadeProblem> run() {
+    if (!map_) stop_.look();
+    while (map_) {
+      core::ProblemConditions made_of = conditions();
+      if (stop_.met()) break;
+      auto made = core::Problem::create(map_, reports_ ? robots_ : std::move(robots_), std::move(made_of),
+                                        stop_.reading());
+      if (auto* problem = std::get_if<core::Problem>(&made)) {
+        return MadeProblem{std::move(*problem), std::move(errors_)};
+      }
+      const auto& faults = std::get<core::ProblemFaults>(made);
+      if (!faults.finished) stop_.look();
+      if (reports_ && faults.finished && mark_invalid(faults)) continue;
+      report(faults);
+      root_.count_more_faults(faults.total - faults.listed.size());
+      return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  void report(const core::ProblemFaults& faults) {
+    std::string cause = common_cause(faults, fleet_, indices_, *map_, stop_.reading());
+    for (const auto& found : faults.listed) {
+      const GeometryFault fault = describe(found, fleet_, indices_, map_->grid());
+      fault.place.fault(fault.code, fault.detail + std::exchange(cause, ""));
+    }
+  }
+
+  /// A request with other faults is refused anyway.
+  bool reports() const {
+    return fleet_.options.invalid_robots == InvalidRobots::report && root_.fault_count() == 0;
+  }
+
+  static core::Robot taken(ParsedRobot& read, bool poses_only) {
+    core::Robot robot = std::move(read.robot);
+    read.robot.id = robot.id;  // for messages
+    if (!poses_only) return robot;
+    robot.committed.clear();
+    robot.previous.reset();
+    return robot;
+  }
+
+  core::ProblemConditions conditions() {
+    const core::PlanOptions& options = fleet_.options.plan;
+    core::ProblemConditions conditions;
+    conditions.pair_overlap = std::max(0.0, options.start_overlap - 2.0 * options.inflation);
+    conditions.wall_overlap = std::max(0.0, options.start_overlap - options.inflation);
+    conditions.list_faults_of_every_robot = reports_;
+    conditions.obstacles = reports_ ? fleet_.obstacles : std::move(fleet_.obstacles);
+    conditions.zones = zones();
+    return conditions;
+  }
+
+  /// The zones with the robots that are placed. One that is for none of these is for nobody.
+  std::vector<core::Zone> zones() const {
+    std::vector<core::Zone> zones = fleet_.zones;
+    for (core::Zone& zone : zones) {
+      if (stop_.met_after(kWorkOfAZoneRobot * zone.robots.size())) break;
+      if (zone.robots.empty()) continue;
+      std::vector<std::size_t> placed;
+      for (const std::size_t robot : zone.robots) {
+        const auto index = std::lower_bound(indices_.begin(), indices_.end(), robot);
+        if (index != indices_.end() && *index == robot) {
+          placed.push_back(static_cast<std::size_t>(index - indices_.begin()));
+        }
+      }
+      if (placed.empty()) placed.push_back(fleet_.robots.size());
+      zone.robots = std::move(placed);
+    }
+    return zones;
+  }
+
+  /// Makes the robots at fault invalid; false if all of them were before.
+  bool mark_invalid(const core::ProblemFaults& faults) {
+    bool any = false;
+    for (const core::ProblemFault& found : faults.listed) {
+      const GeometryFault fault = describe(found, fleet_, indices_, map_->grid());
+      if (stop_.look()) return false;
+      const Fault error = fault.place.described_fault(fault.code, fault.detail);
+      any = make_invalid(found.robot, error) || any;
+      if (is_of_a_pair(found)) any = make_invalid(found.other, error) || any;
+    }
+    return any;
+  }
+
+  bool make_invalid(std::size_t index, const Fault& error) {
+    errors_[index].push_back(error);
+    core::Robot& robot = robots_[index];
+    if (robot.invalid) return false;
+    robot.invalid = true;
+    robot.goal.reset();
+    robot.via.clear();
+    robot.committed.clear();
+    robot.previous.reset();
+    return true;
+  }
+
+  Fleet& fleet_;
+  const JsonReader& root_;
+  core::Work& stop_;
+  std::shared_ptr<const core::StaticMap> map_;
+  bool reports_;
+  std::vector<core::Robot> robots_;   // that are placed
+  std::vector<std::size_t> indices_;  // of each of them in the fleet
+  std::vector<std::vector<Fault>> errors_;
+};
+
+/// The problem of a fleet with a map, and of its robots whose radius and start could be read; the faults of
+/// other robots hide none of these. Takes the map, the actions, the goals and the obstacles out of the fleet.
+/// Poses in obstacles, overlapping starts or last goals and committed motion that collides are faults; then
+/// there is no problem, nor if the stop is met. If invalid robots are to be reported, there is one: these
+/// robots are in it as invalid ones, which stand at their starts. `maps` has those of earlier requests; may
+/// be null.
+std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, core::Work& stop,
+                                        core::MapCache* maps) {
+  return ProblemMaker(fleet, root, stop, maps).run();
+}
+
 constexpr std::array<std::string_view, 7> kPlanRequestMembers{
     "map", "robot_defaults", "robots", "obstacles", "zones", "options", "metadata"};
 
 /// `errors`: of each robot, or none.
-std::vector<ReceivedRobot> received(std::vector<ReadRobot>& robots, std::vector<std::vector<Fault>> errors) {
+std::vector<ReceivedRobot> received(std::vector<ParsedRobot>& robots,
+                                    std::vector<std::vector<Fault>> errors) {
   std::vector<ReceivedRobot> received(robots.size());
   for (std::size_t index = 0; index < robots.size(); ++index) {
-    ReadRobot& read = robots[index];
-    received[index] = {std::move(read.received_committed),
-                       std::move(read.received_previous),
-                       read.lists_visits,
-                       errors.empty() ? std::vector<Fault>{} : std::move(errors[index]),
-                       std::move(read.metadata),
-                       std::move(read.goal_metadata)};
+    ParsedRobot& read = robots[index];
+    received[index] = {.committed = std::move(read.received_committed),
+                       .previous = std::move(read.received_previous),
+                       .lists_visits = read.lists_visits,
+                       .errors = errors.empty() ? std::vector<Fault>{} : std::move(errors[index]),
+                       .metadata = std::move(read.metadata),
+                       .goal_metadata = std::move(read.goal_metadata)};
   }
   return received;
 }
@@ -34,7 +196,7 @@ std::vector<ReceivedRobot> received(std::vector<ReadRobot>& robots, std::vector<
 Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits, core::Work& stop,
                                                 core::MapCache* maps) {
   const auto parse = [&](const JsonReader& root, core::Work& reading) -> std::optional<PlanRequest> {
-    Fleet fleet = parse_fleet(root, limits, [&](const ReadOptions& options) {
+    Fleet fleet = parse_fleet(root, limits, [&](const ParsedOptions& options) {
       reading.set_budget(effective_budget(options, limits));
     });
     if (!fleet.map || reading.met()) return std::nullopt;
@@ -42,14 +204,14 @@ Result<PlanRequest, RequestError> parse_request(std::string_view body, const Lim
     if (!made) return std::nullopt;
     std::vector<std::string> warnings = std::move(fleet.options.warnings);
     if (auto warning = budget_warning(fleet.options, limits)) warnings.push_back(std::move(*warning));
-    return PlanRequest{std::move(made->problem),
-                       fleet.options.plan,
-                       effective_budget(fleet.options, limits),
-                       fleet.map->frame,
-                       std::move(warnings),
-                       received(fleet.robots, std::move(made->errors)),
-                       std::move(fleet.metadata),
-                       requested_dependencies(fleet)};
+    return PlanRequest{.problem = std::move(made->problem),
+                       .options = fleet.options.plan,
+                       .budget = effective_budget(fleet.options, limits),
+                       .frame = fleet.map->frame,
+                       .warnings = std::move(warnings),
+                       .received = received(fleet.robots, std::move(made->errors)),
+                       .metadata = std::move(fleet.metadata),
+                       .dependencies = requested_dependencies(fleet)};
   };
   return parse_body<PlanRequest>(body, limits, stop, kPlanRequestMembers, parse);
 }

@@ -1,24 +1,75 @@
-#include "api/request/parse_simulate_request.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 #include <utility>
 
-#include "api/json/fault_text.h"
-#include "api/request/motion/action_chain.h"
-#include "api/request/motion/parse_actions.h"
-#include "api/request/motion/parse_dependencies.h"
+#include "api/json/faults.h"
+#include "api/json/json_reader.h"
+#include "api/request/fleet/parse_actions.h"
+#include "api/request/fleet/parse_plans.h"
 #include "api/request/parse_body.h"
-#include "api/request/parse_disturbance.h"
-#include "api/request/parse_meetings.h"
-#include "api/request/parse_plans.h"
+#include "api/request/parse_request.h"
 #include "api/request/ranges.h"
+#include "core/execution/simulation/disturbance.h"
 
 namespace fleetplan::api {
 
 namespace {
+
+constexpr std::array<std::string_view, 5> kDisturbanceMembers{"speed", "turn", "stops", "start_delay",
+                                                              "cross_track"};
+constexpr std::array<std::string_view, 2> kRangeMembers{"min", "max"};
+constexpr std::array<std::string_view, 2> kStopsMembers{"rate_per_hour", "mean_s"};
+constexpr std::array<std::string_view, 2> kCrossTrackMembers{"sigma", "correlation_length"};
+
+constexpr Range kFactor{1e-3, 1e3, "times the planned speed"};
+constexpr double kLongestDelay = 1e6;  // seconds, eleven days
+constexpr Range kDelay{0.0, kLongestDelay, "seconds"};
+/// Ten a second: more would not let a robot move.
+constexpr Range kStopsRate{0.0, 36'000.0, "stops in an hour of motion"};
+
+core::UniformRange parse_range(const JsonReader& member, const Range& allowed,
+                               const core::UniformRange& absent) {
+  const JsonReader json = member.object(kRangeMembers);
+  if (!json) return absent;
+  const auto min = json.require("min").number(allowed);
+  const auto max = json.require("max").number(allowed);
+  if (!min || !max) return absent;
+  if (*max < *min) {
+    json.find("max").fault(fault::kOutOfRange, "max is " + number_text(*max) + ", less than min, " +
+                                                   number_text(*min) + "; it must be at least min.");
+  }
+  return {*min, *max};
+}
+
+core::Disturbance::Stops parse_stops(const JsonReader& member) {
+  const JsonReader json = member.object(kStopsMembers);
+  if (!json) return {};
+  return {json.require("rate_per_hour").number(kStopsRate).value_or(0.0),
+          json.require("mean_s").number(kDelay).value_or(0.0)};
+}
+
+core::Disturbance::CrossTrack parse_cross_track(const JsonReader& member) {
+  const JsonReader json = member.object(kCrossTrackMembers);
+  if (!json) return {};
+  return {json.require("sigma").number(kLengthOrZero).value_or(0.0),
+          json.require("correlation_length").number(kLength).value_or(1.0)};
+}
+
+/// Reads the member `disturbance` of a request to simulate; what is left out disturbs nothing.
+core::Disturbance parse_disturbance(const JsonReader& member) {
+  core::Disturbance disturbance;
+  const JsonReader json = member.object(kDisturbanceMembers);
+  if (!json) return disturbance;
+  disturbance.speed = parse_range(json.find("speed"), kFactor, disturbance.speed);
+  disturbance.turn = parse_range(json.find("turn"), kFactor, disturbance.turn);
+  disturbance.stops = parse_stops(json.find("stops"));
+  disturbance.start_delay = parse_range(json.find("start_delay"), kDelay, disturbance.start_delay);
+  disturbance.cross_track = parse_cross_track(json.find("cross_track"));
+  return disturbance;
+}
 
 // The members of a request to simulate, then those that an answer of /v1/plan adds, which are ignored.
 constexpr std::array<std::string_view, 31> kSimulateRequestMembers{
@@ -121,7 +172,7 @@ void take_fleet(Fleet& fleet, const Limits& limits, SimulateRequest& request) {
     request.warnings.emplace_back(
         "Moving obstacles are not simulated: figures are of robots and walls only.");
   }
-  for (ReadRobot& read : fleet.robots) {
+  for (ParsedRobot& read : fleet.robots) {
     request.body_radii.push_back(read.body_radius.value_or(read.robot.radius));
     request.robots.push_back(std::move(read.robot));
   }
@@ -132,14 +183,18 @@ void take_fleet(Fleet& fleet, const Limits& limits, SimulateRequest& request) {
 Result<SimulateRequest, RequestError> parse_simulate_request(std::string_view body, const Limits& limits,
                                                              core::Work& stop) {
   const auto parse = [&](const JsonReader& root, core::Work& reading) -> std::optional<SimulateRequest> {
-    Fleet fleet = parse_fleet(root, limits, [&](const ReadOptions& options) {
+    Fleet fleet = parse_fleet(root, limits, [&](const ParsedOptions& options) {
       reading.set_budget(effective_budget(options, limits));
     });
     const WorldFrame frame = fleet.map ? fleet.map->frame : WorldFrame{};
     const JsonReader list = root.require("plans");
     auto plans = parse_plans(list, fleet.robots, frame);
     if (!fleet.map || reading.met()) return std::nullopt;
-    SimulateRequest request{std::move(fleet.map->grid), frame, {}, std::move(plans), {}};
+    SimulateRequest request{.grid = std::move(fleet.map->grid),
+                            .frame = frame,
+                            .robots = {},
+                            .plans = std::move(plans),
+                            .body_radii = {}};
     parse_policy(root, request);
     parse_runs(root, limits, request);
     request.settings.disturbance = parse_disturbance(root.find("disturbance"));

@@ -1,13 +1,11 @@
-#include "api/request/parse_validate_request.h"
-
 #include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
 
+#include "api/request/fleet/parse_plans.h"
 #include "api/request/parse_body.h"
-#include "api/request/parse_meetings.h"
-#include "api/request/parse_plans.h"
+#include "api/request/parse_request.h"
 #include "api/request/ranges.h"
 #include "core/verify/check_rules.h"
 
@@ -27,7 +25,7 @@ constexpr double kLargestTolerance = 1e9;
 constexpr Range kTolerance{0.0, kLargestTolerance, "(metres, seconds and radians)"};
 
 /// At least the default budget: the options may be those of the plan's request, which allowed less.
-std::chrono::nanoseconds check_budget(ReadOptions options, const Limits& limits) {
+std::chrono::nanoseconds check_budget(ParsedOptions options, const Limits& limits) {
   const auto least = static_cast<double>(limits.default_budget_ms);
   if (options.budget_ms) options.budget_ms = std::max(*options.budget_ms, least);
   return effective_budget(options, limits);
@@ -48,8 +46,9 @@ core::CheckRules rules_of(const core::PlanOptions& options, std::vector<core::Me
 Result<ValidateRequest, RequestError> parse_validate_request(std::string_view body, const Limits& limits,
                                                              core::Work& stop) {
   const auto parse = [&](const JsonReader& root, core::Work& reading) -> std::optional<ValidateRequest> {
-    Fleet fleet = parse_fleet(
-        root, limits, [&](const ReadOptions& options) { reading.set_budget(check_budget(options, limits)); });
+    Fleet fleet = parse_fleet(root, limits, [&](const ParsedOptions& options) {
+      reading.set_budget(check_budget(options, limits));
+    });
     const double tolerance = root.find("tolerance").number(kTolerance).value_or(kDefaultTolerance);
     const WorldFrame frame = fleet.map ? fleet.map->frame : WorldFrame{};
     auto plans = parse_plans(root.require("plans"), fleet.robots, frame);
@@ -58,16 +57,20 @@ Result<ValidateRequest, RequestError> parse_validate_request(std::string_view bo
     RequestedDependencies dependencies = requested_dependencies(fleet);
     std::vector<core::Robot> robots;
     robots.reserve(fleet.robots.size());
-    for (ReadRobot& robot : fleet.robots) robots.push_back(std::move(robot.robot));
+    for (ParsedRobot& robot : fleet.robots) robots.push_back(std::move(robot.robot));
     if (fleet.options.invalid_robots == InvalidRobots::report) {
       mark_invalid_robots(root.find("unplanned"), robots);
     }
     core::CheckRules rules = rules_of(fleet.options.plan, std::move(meetings));
     rules.tolerances.assign(robots.size(), core::Tolerance::of_all(tolerance));
-    return ValidateRequest{std::move(fleet.map->grid), std::move(robots),
-                           std::move(fleet.obstacles), std::move(fleet.zones),
-                           std::move(plans),           std::move(dependencies),
-                           std::move(rules),           check_budget(fleet.options, limits)};
+    return ValidateRequest{.grid = std::move(fleet.map->grid),
+                           .robots = std::move(robots),
+                           .obstacles = std::move(fleet.obstacles),
+                           .zones = std::move(fleet.zones),
+                           .plans = std::move(plans),
+                           .dependencies = std::move(dependencies),
+                           .rules = std::move(rules),
+                           .budget = check_budget(fleet.options, limits)};
   };
   return parse_body<ValidateRequest>(body, limits, stop, kValidateRequestMembers, parse);
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+// Pictures of plans: draw_plan.cpp writes SVG, paint_plan.cpp pixels.
+
 #include <optional>
 #include <string>
 
@@ -14,5 +16,12 @@ namespace fleetplan::api {
 /// Nothing if the stop is met first.
 std::optional<std::string> draw_plan(const core::Problem& problem, const core::Plan& plan,
                                      const core::StopCondition& stop);
+
+/// The picture of draw_plan as a PNG, whose longer side has kPaintedSide pixels, without names. Nothing if
+/// the stop is met first.
+std::optional<std::string> paint_plan(const core::Problem& problem, const core::Plan& plan,
+                                      const core::StopCondition& stop);
+
+inline constexpr int kPaintedSide = 1600;
 
 }  // namespace fleetplan::api

@@ -1,5 +1,3 @@
-#include "api/response/paint_plan.h"
-
 #include <png.h>
 
 #include <algorithm>
@@ -8,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "api/response/draw_plan.h"
 
 namespace fleetplan::api {
 

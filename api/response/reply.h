@@ -1,13 +1,44 @@
 #pragma once
 
+// Answers without a socket, and what metrics and the log need to know about them.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "api/response/plan_outcome.h"
+#include "api/json/error.h"
+#include "core/model/plan.h"
 
 namespace fleetplan::api {
+
+/// The outcome of a valid request to plan, for metrics and the log.
+struct PlanOutcome {
+  /// solved: every robot has a plan; partial: some have; none: no robot has. refused: by the checker, a bug.
+  enum class Status { solved, partial, none, refused };
+  Status status = Status::none;
+  std::size_t planned = 0;      // robots
+  std::size_t unplanned = 0;    // robots
+  std::int64_t expansions = 0;  // search labels
+  double flowtime = 0.0;        // seconds, of the planned robots
+  /// Time for planning, without parsing, checking and writing; none when the budget was spent before.
+  std::optional<double> plan_seconds = std::nullopt;
+  std::array<std::size_t, core::kUnplannedReasons> unplanned_by_reason = {};  // by Unplanned::Reason
+};
+
+/// As in answers, metrics and the log, e.g. "solved".
+std::string_view name_of(PlanOutcome::Status status);
+
+/// As in answers and metrics, e.g. "goal_blocked".
+std::string_view name_of(core::Unplanned::Reason reason);
+
+/// The status of a plan that the checker accepts.
+PlanOutcome::Status status_of(const core::Plan& plan);
+
+PlanOutcome outcome_of(const core::Plan& plan, std::optional<double> plan_seconds);
 
 inline constexpr const char* kJson = "application/json";
 inline constexpr const char* kProblemJson = "application/problem+json";
@@ -25,5 +56,16 @@ struct Reply {
   /// What was needed to make the answer, to be freed once it is sent; null: nothing.
   std::shared_ptr<const void> leftovers = nullptr;
 };
+
+class JsonWriter;
+
+/// Writes the member `errors`: faults of a request's content.
+void write_errors(JsonWriter& json, const std::vector<Fault>& faults);
+
+/// The error as application/problem+json, the problem details of RFC 9457.
+Reply problem_reply(const RequestError& error, const std::string& request_id);
+inline Reply problem_reply(ErrorCode code, const std::string& detail, const std::string& request_id) {
+  return problem_reply({code, detail, {}, 0}, request_id);
+}
 
 }  // namespace fleetplan::api

@@ -1,14 +1,18 @@
 #pragma once
 
+// The answer with a plan, and the parts of it that other answers have as well.
+
 #include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "api/request/received_robot.h"
+#include "api/json/json_writer.h"
+#include "api/request/fleet/received_robot.h"
 #include "core/execution/dependency.h"
-#include "core/geometry/moving_obstacle.h"
 #include "core/geometry/position.h"
+#include "core/model/action.h"
+#include "core/geometry/moving_obstacle.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/verify/verify.h"
@@ -43,5 +47,15 @@ struct VerifiedPlan {
 
 /// The answer of POST /v1/plan. Writing ends with the timings, so that they include it.
 std::string write_response(const VerifiedPlan& verified, const std::string& request_id, const Stages& stages);
+
+/// Writes the member `actions` of a robot. Committed actions, and previous ones that the plan repeats, have
+/// the numbers received; what follows begins with the position in which they end. `origin`: of the map in the
+/// world.
+void write_actions(JsonWriter& json, const std::vector<core::Action>& actions, const core::Robot& robot,
+                   const ReceivedRobot& received, const core::Position& origin);
+
+/// Writes the members `dependencies` and `tight`; without dependencies (null), both are null.
+void write_dependencies(JsonWriter& json, const core::Dependencies* dependencies,
+                        const std::vector<core::Robot>& robots);
 
 }  // namespace fleetplan::api

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "api/json/json_writer.h"
-#include "api/response/write_actions.h"
+#include "api/response/write_response.h"
 
 namespace fleetplan::api {
 

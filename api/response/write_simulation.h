@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "api/request/parse_simulate_request.h"
+#include "api/request/parse_request.h"
 #include "core/execution/simulation/simulation.h"
 
 namespace fleetplan::api {

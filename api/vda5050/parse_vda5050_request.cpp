@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "api/json/fault_text.h"
-#include "api/request/motion/parse_dependencies.h"
-#include "api/request/parse_options.h"
-#include "api/request/parse_plans.h"
-#include "api/request/parse_robots.h"
+#include "api/json/faults.h"
+#include "api/request/fleet/parse_plans.h"
+#include "api/request/fleet/parse_robots.h"
+#include "api/request/options.h"
 #include "api/request/ranges.h"
-#include "api/request/robot_names.h"
-#include "api/vda5050/release.h"
+#include "api/vda5050/route.h"
 #include "core/execution/executed_actions.h"
 
 namespace fleetplan::api {
@@ -161,11 +159,11 @@ std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Li
   const double wait_before_move = parse_options(root.find("options")).plan.wait_before_move;
   UniqueIds ids;
   // Without the map's frame: orders are in the client's world.
-  std::vector<ReadRobot> robots =
+  std::vector<ParsedRobot> robots =
       parse_robots(root.require("robots"), root.find("robot_defaults"), WorldFrame{}, limits, ids);
   request.plans = parse_plans(root.require("plans"), robots, WorldFrame{});
   if (root.fault_count() > 0 || stop.met()) return std::nullopt;
-  for (ReadRobot& robot : robots) request.robots.push_back(std::move(robot.robot));
+  for (ParsedRobot& robot : robots) request.robots.push_back(std::move(robot.robot));
   request.dependencies = parse_dependencies(
       root.require("dependencies",
                    "; make them with POST /v1/dependencies, or with options.dependencies of POST /v1/plan"),

@@ -1,5 +1,7 @@
 #pragma once
 
+// Orders of VDA 5050: what a robot may do now (the base), and what comes later (the horizon).
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,13 +12,33 @@
 
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
-#include "api/vda5050/order.h"
+#include "api/vda5050/route.h"
 #include "core/execution/dependency.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/runtime/work.h"
 
 namespace fleetplan::api {
+
+enum class VdaVersion : std::uint8_t { v2_1, v3_0 };
+
+/// What all orders of an answer have.
+struct OrderHeader {
+  VdaVersion version = VdaVersion::v2_1;
+  std::string manufacturer;
+  std::string timestamp;  // ISO 8601
+  std::string map_id;
+};
+
+/// An order, or an update of one, of a robot's route from a node on.
+struct Order {
+  std::string robot;
+  std::string serial_number;
+  std::string order_id;
+  std::uint64_t update_id = 0;
+  std::size_t first = 0;     // index of its first node
+  std::size_t released = 1;  // the number of nodes of the whole route that are released, > first
+};
 
 /// How far a robot is, and the order that it has.
 struct OrderProgress {

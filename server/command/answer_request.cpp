@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "api/response/draw_plan.h"
-#include "api/response/paint_plan.h"
 #include "core/runtime/stop_condition.h"
 #include "server/command/files.h"
 

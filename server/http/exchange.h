@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "api/response/plan_outcome.h"
+#include "api/response/reply.h"
 #include "server/http/guard/body_memory.h"
 #include "server/http/guard/request_head.h"
 #include "server/http/guard/socket.h"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "api/response/error.h"
+#include "api/json/error.h"
 #include "server/http/answer/internal_error.h"
 #include "server/http/guard/gzip.h"
 #include "server/http/steps/negotiation.h"

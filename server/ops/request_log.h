@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "api/response/plan_outcome.h"
+#include "api/response/reply.h"
 #include "server/ops/log_queue.h"
 
 namespace spdlog {

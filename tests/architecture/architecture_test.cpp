@@ -69,8 +69,8 @@ TEST(Headers, DefineTypesOfDifferentNames) {
 TEST(SourceRules, AllowCoreOnlyItselfEigenAndTheStandardLibrary) {
   EXPECT_THAT(violations("core/a.cpp", "#include \"core/a.h\"\n#include <Eigen/Core>\n#include <vector>\n"),
               IsEmpty());
-  EXPECT_THAT(violations("core/a.cpp", "#include \"api/response/error.h\"\n"),
-              ElementsAre("core/a.cpp must not include \"api/response/error.h\""));
+  EXPECT_THAT(violations("core/a.cpp", "#include \"api/json/error.h\"\n"),
+              ElementsAre("core/a.cpp must not include \"api/json/error.h\""));
   EXPECT_THAT(violations("core/a.cpp", "  #  include <nlohmann/json.hpp>"),
               ElementsAre(HasSubstr("<nlohmann/json.hpp>"), HasSubstr("use nlohmann")));
   EXPECT_THAT(violations("core/a.cpp", "#include <unistd.h>\n"), ElementsAre(HasSubstr("<unistd.h>")));
@@ -84,8 +84,8 @@ TEST(SourceRules, AllowPublicHeadersOnlyEachOtherAndTheStandardLibrary) {
               ElementsAre(HasSubstr("core/model/robot.h")));
   EXPECT_THAT(violations(path, "#pragma once\nthread_local int x;\n"),
               ElementsAre(HasSubstr("thread_local")));
-  EXPECT_THAT(violations("library/a.cpp", "#include \"api/response/error.h\"\n"),
-              ElementsAre(HasSubstr("api/response/error.h")));
+  EXPECT_THAT(violations("library/a.cpp", "#include \"api/json/error.h\"\n"),
+              ElementsAre(HasSubstr("api/json/error.h")));
 }
 
 TEST(SourceRules, AllowApiToIncludeCoreButNotTheServer) {
@@ -94,6 +94,14 @@ TEST(SourceRules, AllowApiToIncludeCoreButNotTheServer) {
   EXPECT_THAT(violations("api/a.cpp", "#include \"server/routes.h\"\n"),
               ElementsAre(HasSubstr("\"server/routes.h\"")));
   EXPECT_THAT(violations("api/a.cpp", "#include <sys/socket.h>\n"), ElementsAre(HasSubstr("<sys/socket.h>")));
+}
+
+TEST(SourceRules, AllowAnswersToIncludeRequestsButNotTheOtherWay) {
+  EXPECT_THAT(violations("api/response/a.cpp", "#include \"api/request/a.h\"\n"), IsEmpty());
+  EXPECT_THAT(violations("api/request/a.cpp", "#include \"api/response/a.h\"\n"),
+              ElementsAre(HasSubstr("\"api/response/a.h\"")));
+  EXPECT_THAT(violations("api/json/a.cpp", "#include \"api/request/a.h\"\n"),
+              ElementsAre(HasSubstr("\"api/request/a.h\"")));
 }
 
 TEST(SourceRules, AllowTheServerEverythingExceptTests) {

@@ -63,6 +63,10 @@ const std::vector<Layer>& layers() {
 const std::vector<FolderRule>& folder_rules() {
   static const std::vector<string_view> all_robots = {"core/prioritized/", "core/lns/"};
   static const std::vector<FolderRule> all = {
+      // JSON knows nothing of the service; requests know nothing of answers, which may repeat parts of them.
+      {"api/json/", {"api/request/", "api/response/", "api/endpoints/"}, {}},
+      {"api/request/", {"api/response/", "api/endpoints/"}, {}},
+      {"api/response/", {"api/endpoints/"}, {}},
       // The facade is for callers of core; the rest of core does not include it.
       {"core/", {"core/planner.h"}, "core/planner.cpp"},
       // Folders for the planning of one robot do not depend on the planning of all robots.

@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "api/endpoints/plan_endpoint.h"
-#include "api/endpoints/validate_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "tests/bench/alone.h"
 #include "tests/bench/median.h"
 #include "tests/bench/process.h"

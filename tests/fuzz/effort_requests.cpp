@@ -7,13 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "api/endpoints/advance_endpoint.h"
-#include "api/endpoints/dependencies_endpoint.h"
-#include "api/endpoints/plan_endpoint.h"
-#include "api/endpoints/retime_endpoint.h"
-#include "api/endpoints/simulate_endpoint.h"
-#include "api/endpoints/validate_endpoint.h"
-#include "api/endpoints/vda5050_endpoint.h"
+#include "api/endpoints/endpoints.h"
 
 namespace fleetplan::fuzz {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "api/endpoints/advance_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "api/request/parse_request.h"
 #include "tests/fuzz/refusals.h"
 #include "tests/fuzz/require.h"

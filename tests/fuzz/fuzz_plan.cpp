@@ -6,8 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "api/endpoints/plan_endpoint.h"
-#include "api/endpoints/validate_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "tests/fuzz/refusals.h"
 #include "tests/fuzz/require.h"
 #include "tests/fuzz/small_limits.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "api/endpoints/validate_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "api/request/parse_request.h"
 #include "tests/fuzz/refusals.h"
 #include "tests/fuzz/require.h"

@@ -12,9 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "api/endpoints/examples.h"
-#include "api/endpoints/plan_endpoint.h"
-#include "api/endpoints/validate_endpoint.h"
+#include "api/endpoints/endpoints.h"
 
 namespace fleetplan::api {
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "api/endpoints/openapi.h"
+#include "api/endpoints/endpoints.h"
 #include "tests/server/support/declared_routes.h"
 
 namespace fleetplan::server {

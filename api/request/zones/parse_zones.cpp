@@ -9,12 +9,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include "api/json/fault_text.h"
-#include "api/request/motion/quota.h"
+#include "api/json/faults.h"
+#include "api/request/fleet/parse_robots.h"
 #include "api/request/ranges.h"
-#include "api/request/robot_names.h"
-#include "api/request/zones/parse_mask.h"
-#include "api/request/zones/parse_polygon.h"
+#include "api/request/shared_members.h"
+#include "api/request/zones/zone_shapes.h"
 #include "core/geometry/angle.h"
 
 namespace fleetplan::api {
@@ -32,7 +31,7 @@ constexpr Range kHalfAngle{kLeastHalfAngle, std::numbers::pi, "radians"};
 
 class ZoneReader {
  public:
-  ZoneReader(const WorldMap* map, const Limits& limits, const std::vector<ReadRobot>& robots)
+  ZoneReader(const WorldMap* map, const Limits& limits, const std::vector<ParsedRobot>& robots)
       : map_(map), corners_(limits.max_zone_corners, "corners of zones"), names_(robots) {}
 
   /// The zone, or the parts of its mask.
@@ -157,7 +156,7 @@ class ZoneReader {
 }  // namespace
 
 std::vector<core::Zone> parse_zones(const JsonReader& member, const WorldMap* map, const Limits& limits,
-                                    const std::vector<ReadRobot>& robots) {
+                                    const std::vector<ParsedRobot>& robots) {
   const JsonReader items = member.array();
   if (!items) return {};
   Quota quota(limits.max_zones, "zones");

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "api/json/json_reader.h"
+#include "api/request/fleet/parse_robots.h"
 #include "api/request/limits.h"
-#include "api/request/map/map_frame.h"
-#include "api/request/parse_robots.h"
+#include "api/request/map/parse_map.h"
 #include "core/model/zone.h"
 
 namespace fleetplan::api {
@@ -14,6 +14,6 @@ namespace fleetplan::api {
 /// indices into `robots`. A mask becomes several zones of one id, which follow each other. Without a map
 /// (null), masks are not read.
 std::vector<core::Zone> parse_zones(const JsonReader& member, const WorldMap* map, const Limits& limits,
-                                    const std::vector<ReadRobot>& robots);
+                                    const std::vector<ParsedRobot>& robots);
 
 }  // namespace fleetplan::api

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <utility>
 
-#include "api/json/fault_text.h"
-#include "api/json/json_string.h"
+#include "api/json/faults.h"
 #include "api/json/json_writer.h"
+#include "api/json/read_json.h"
 #include "server/command/map2request/read_number.h"
 
 namespace fleetplan::server {

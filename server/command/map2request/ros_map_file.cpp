@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "api/json/fault_text.h"
+#include "api/json/faults.h"
 #include "api/json/json_writer.h"
 #include "api/request/limits.h"
 #include "server/command/map2request/read_number.h"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "api/response/error.h"
+#include "api/json/error.h"
 #include "api/response/reply.h"
 #include "server/http/exchange.h"
 

@@ -1,6 +1,6 @@
 #include "server/http/answer/internal_error.h"
 
-#include "api/response/error.h"
+#include "api/json/error.h"
 
 namespace fleetplan::server {
 

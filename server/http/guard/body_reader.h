@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "api/response/error.h"
+#include "api/json/error.h"
 #include "server/http/guard/body_memory.h"
 #include "server/http/guard/request_head.h"
 

@@ -8,7 +8,7 @@
 #include <exception>
 #include <utility>
 
-#include "api/response/error.h"
+#include "api/json/error.h"
 #include "server/http/answer/answer_text.h"
 #include "server/http/answer/internal_error.h"
 #include "server/http/library/exchange_stream.h"

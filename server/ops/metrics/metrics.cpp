@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "api/response/error.h"
+#include "api/json/error.h"
 #include "server/ops/metrics/metrics_text.h"
 #include "server/ops/metrics/process_stats.h"
 #include "server/ops/version.h"

@@ -1,9 +1,9 @@
-#include "api/advance/timeline.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "api/advance/advance.h"
 
 namespace fleetplan::api {
 namespace TEST_FILE {

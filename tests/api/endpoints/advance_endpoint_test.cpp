@@ -1,11 +1,9 @@
-#include "api/endpoints/advance_endpoint.h"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <string>
 
-#include "api/endpoints/plan_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "tests/api/support/requests.h"
 #include "tests/api/support/test_turn.h"
 

@@ -1,13 +1,11 @@
-#include "api/endpoints/bounded_work.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "api/endpoints/plan_endpoint.h"
-#include "api/endpoints/validate_endpoint.h"
+#include "api/endpoints/endpoints.h"
+#include "api/endpoints/pipeline.h"
 #include "core/runtime/memory_account.h"
 #include "tests/api/support/requests.h"
 

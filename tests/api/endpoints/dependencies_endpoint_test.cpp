@@ -1,13 +1,9 @@
-#include "api/endpoints/dependencies_endpoint.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "api/endpoints/plan_endpoint.h"
-#include "api/endpoints/retime_endpoint.h"
-#include "api/endpoints/validate_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {

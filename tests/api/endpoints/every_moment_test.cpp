@@ -9,13 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "api/endpoints/advance_endpoint.h"
-#include "api/endpoints/dependencies_endpoint.h"
-#include "api/endpoints/plan_endpoint.h"
-#include "api/endpoints/retime_endpoint.h"
-#include "api/endpoints/simulate_endpoint.h"
-#include "api/endpoints/validate_endpoint.h"
-#include "api/endpoints/vda5050_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "core/runtime/work.h"
 #include "tests/api/support/motion_requests.h"
 #include "tests/support/sanitized.h"

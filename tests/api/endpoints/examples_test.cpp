@@ -1,5 +1,3 @@
-#include "api/endpoints/examples.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "api/endpoints/endpoints.h"
 #include "api/request/parse_request.h"
 #include "tests/api/support/requests.h"
 #include "tests/support/unbounded_work.h"

@@ -5,9 +5,7 @@
 
 #include <string>
 
-#include "api/endpoints/advance_endpoint.h"
-#include "api/endpoints/plan_endpoint.h"
-#include "api/endpoints/validate_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "tests/api/support/fault_case.h"
 
 namespace fleetplan::api {

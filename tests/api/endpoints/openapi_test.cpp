@@ -1,5 +1,3 @@
-#include "api/endpoints/openapi.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,9 +9,9 @@
 #include <string>
 #include <string_view>
 
-#include "api/endpoints/examples.h"
+#include "api/endpoints/endpoints.h"
+#include "api/json/error.h"
 #include "api/openapi/generated_parts.h"
-#include "api/response/error.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {

@@ -1,5 +1,3 @@
-#include "api/endpoints/plan_endpoint.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "api/response/error.h"
+#include "api/endpoints/endpoints.h"
+#include "api/json/error.h"
 #include "core/runtime/stop_condition.h"
 #include "tests/api/support/requests.h"
 #include "tests/api/support/test_turn.h"

@@ -7,9 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "api/endpoints/plan_endpoint.h"
-#include "api/endpoints/progress_reporter.h"
-#include "api/endpoints/validate_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {

@@ -15,8 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "api/endpoints/advance_endpoint.h"
-#include "api/endpoints/plan_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "core/planner.h"
 #include "tests/api/support/fleet_json.h"
 #include "tests/support/step_limit.h"

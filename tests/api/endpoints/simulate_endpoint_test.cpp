@@ -1,5 +1,3 @@
-#include "api/endpoints/simulate_endpoint.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "api/endpoints/plan_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "tests/api/support/requests.h"
 #include "tests/api/support/test_turn.h"
 #include "tests/support/step_limit.h"

@@ -1,12 +1,10 @@
-#include "api/endpoints/validate_endpoint.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <stop_token>
 
-#include "api/endpoints/plan_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "tests/api/support/requests.h"
 #include "tests/api/support/test_turn.h"
 

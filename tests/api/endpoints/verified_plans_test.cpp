@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "api/endpoints/plan_endpoint.h"
-#include "api/endpoints/validate_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "core/verify/check_rules.h"
 #include "tests/api/support/requests.h"
 #include "tests/support/random_problem.h"

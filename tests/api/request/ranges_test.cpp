@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "api/endpoints/validate_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {

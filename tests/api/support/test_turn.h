@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "api/endpoints/turn.h"
+#include "api/endpoints/request_context.h"
 
 namespace fleetplan::api {
 

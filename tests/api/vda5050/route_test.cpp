@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "api/vda5050/release.h"
 #include "tests/support/plan_builder.h"
 
 namespace fleetplan::api {

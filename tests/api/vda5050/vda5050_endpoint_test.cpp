@@ -1,5 +1,3 @@
-#include "api/endpoints/vda5050_endpoint.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "api/endpoints/examples.h"
-#include "api/endpoints/plan_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "tests/api/support/fault_case.h"
 
 namespace fleetplan::api {

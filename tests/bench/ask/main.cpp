@@ -6,8 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "api/endpoints/plan_endpoint.h"
-#include "api/endpoints/simulate_endpoint.h"
+#include "api/endpoints/endpoints.h"
 
 namespace fleetplan::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "api/endpoints/plan_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "tests/bench/lifelong/fleet.h"
 #include "tests/bench/lifelong/fleet_request.h"
 #include "tests/bench/process.h"

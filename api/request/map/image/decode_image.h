@@ -1,14 +1,74 @@
 #pragma once
 
+// How map_server of ROS makes occupancy of the pixels of a map's image (nav2_map_server/src/map_io.cpp), from
+// the text of the request to the raster.
+
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "api/json/json_reader.h"
-#include "api/request/map/raster.h"
+#include "api/json/result.h"
+#include "api/request/map/image/image_reader.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
+
+inline constexpr std::int8_t kUnknownOccupancy = -1;
+
+/// Occupancy of cells as in nav_msgs/OccupancyGrid: 0 to 100 percent, or -1 where it is unknown.
+struct Raster {
+  int columns = 0;
+  int rows = 0;
+  std::vector<std::int8_t> occupancy;  // row by row from the bottom, each from the left
+
+  std::int8_t at(int column, int row) const {
+    return occupancy[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                     static_cast<std::size_t>(column)];
+  }
+};
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// The bytes of a base64 text of RFC 4648, section 4: padded, without line breaks. The failure says what is
+/// wrong, after "it ". When the stop is met, what was decoded so far.
+Result<Bytes, std::string> decode_base64(std::string_view text, core::Work& stop);
+
+inline constexpr std::int8_t kFullOccupancy = 100;
+
+enum class ShadeMode { trinary, scale, raw };
+
+/// The members of a map.yaml that say what a shade means.
+struct ShadeRule {
+  ShadeMode mode = ShadeMode::trinary;
+  bool negate = false;            // white is occupied
+  double occupied_thresh = 0.65;  // occupied above; 0 to 1
+  double free_thresh = 0.196;     // free below; at most occupied_thresh
+};
+
+/// The occupancy of pixels of one image: 0 to 100 percent, or kUnknownOccupancy.
+class OccupancyOfPixels {
+ public:
+  OccupancyOfPixels(const ShadeRule& rule, const ImageHeader& image);
+
+  /// `channels`: of one pixel.
+  std::int8_t of(std::span<const std::uint16_t> channels) const {
+    return known_.empty() ? computed(channels) : known_[channels[0]];
+  }
+
+ private:
+  std::int8_t computed(std::span<const std::uint16_t> channels) const;
+
+  ShadeRule rule_;
+  double largest_;
+  bool has_alpha_;
+  std::vector<std::int8_t> known_;  // of each gray, if that saves time
+};
 
 /// The members of an image that decode_image reads.
 inline constexpr std::array<std::string_view, 6> kImageMembers{

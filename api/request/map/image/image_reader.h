@@ -39,7 +39,7 @@ class ImageReader {
   ImageHeader header_;
 };
 
-/// What is wrong with the header of an image, in a sentence.
+/// A fault of the header of an image, in a sentence.
 struct ImageFault {
   std::string detail;
   bool too_large = false;  // more pixels than wanted, or too many in a row or column; otherwise damaged

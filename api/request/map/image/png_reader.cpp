@@ -210,7 +210,7 @@ class PngReader final : public ImageReader {
   int row_ = 0;  // the next one of an interlaced image
 };
 
-/// What is wrong with the first bytes.
+/// The fault of the first bytes.
 std::optional<ImageFault> beginning_fault(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < kSignature.size() || !std::equal(kSignature.begin(), kSignature.end(), bytes.begin()))
     return ImageFault{"It does not begin as a PNG image."};

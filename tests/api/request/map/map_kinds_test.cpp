@@ -6,7 +6,7 @@
 #include <ostream>
 #include <string>
 
-#include "api/endpoints/plan_endpoint.h"
+#include "api/endpoints/endpoints.h"
 #include "tests/api/support/maps.h"
 #include "tests/support/unbounded_work.h"
 

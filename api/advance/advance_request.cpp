@@ -1,0 +1,277 @@
+#include "api/advance/advance_request.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "api/json/json_writer.h"
+#include "api/request/fleet/parse_obstacles.h"
+#include "api/request/fleet/parse_plans.h"
+#include "api/request/fleet/parse_robots.h"
+#include "api/request/parse_body.h"
+#include "api/request/ranges.h"
+#include "core/geometry/angle.h"
+#include "core/model/drive_zones.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+constexpr std::array<std::string_view, 7> kRequestMembers{"map",   "robot_defaults", "robots",  "obstacles",
+                                                          "zones", "options",        "metadata"};
+constexpr std::array<std::string_view, 4> kPoseMembers{"robot", "x", "y", "theta"};
+constexpr std::array<std::string_view, 2> kHoldMembers{"robot", "until"};
+constexpr std::array<std::string_view, 2> kGoalsMembers{"robot", "goals"};
+
+/// Reads a list of entries of robots, at most one for each. `read` gets an entry and its robot's index.
+template <typename Read>
+void read_entries(const JsonReader& list, std::span<const std::string_view> members, const RobotNames& names,
+                  const Read& read) {
+  std::unordered_set<std::size_t> seen;
+  for (const JsonReader item : list.array().items()) {
+    const JsonReader entry = item.object(members);
+    const JsonReader robot = entry.require("robot");
+    const auto index = names.find(robot);
+    if (index && !seen.insert(*index).second) {
+      robot.fault(fault::kDuplicate, "This robot already has an entry in this list; give only one.");
+    }
+    read(entry, index);
+  }
+}
+
+std::optional<core::Pose> parse_measured(const JsonReader& entry) {
+  const auto x = entry.require("x").number(kCoordinate);
+  const auto y = entry.require("y").number(kCoordinate);
+  const auto theta = entry.require("theta").number(kAnyAngle);
+  if (!x || !y || !theta) return std::nullopt;
+  return core::Pose{{*x, *y}, core::normalize_angle(*theta)};
+}
+
+void parse_events(const JsonReader& root, const RobotNames& names, const Limits& limits,
+                  AdvanceRequest& request) {
+  std::vector<Execution>& executions = request.executions;
+  Quota quota(limits.max_goals, "goals");
+  read_entries(root.find("poses"), kPoseMembers, names, [&](const JsonReader& entry, auto robot) {
+    const auto pose = parse_measured(entry);
+    if (robot) executions[*robot].measured = pose;
+  });
+  read_entries(root.find("holds"), kHoldMembers, names, [&](const JsonReader& entry, auto robot) {
+    const auto until = entry.require("until").number(kDuration);
+    if (robot) executions[*robot].hold = until;
+  });
+  read_entries(root.find("goals"), kGoalsMembers, names, [&](const JsonReader& entry, auto robot) {
+    entry.require("goals");
+    ParsedGoals goals = parse_goals(entry, WorldFrame{}, quota);
+    if (!robot) return;
+    executions[*robot].goals = std::move(goals.goals);
+    request.goal_metadata[*robot] = std::move(goals.metadata);
+  });
+}
+
+std::vector<core::Zone> in_world(std::vector<core::Zone> zones, const WorldFrame& frame) {
+  // Bounded: each corner once.
+  for (core::Zone& zone : zones) {
+    for (core::Position& corner : zone.polygon) corner = frame.to_world(corner);
+  }
+  return zones;
+}
+
+}  // namespace
+
+std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
+                                                    core::Work& stop) {
+  AdvanceRequest read;
+  read.request = root.require("request").object(kRequestMembers);
+  const Fleet fleet = parse_fleet(read.request, limits, [&](const ParsedOptions& options) {
+    stop.set_budget(effective_budget(options, limits));
+  });
+  read.moment.at = root.require("at").number(kDuration).value_or(0.0);
+  read.moment.commit = root.find("commit").number(kDuration);
+  if (const auto tolerance = root.find("pose_tolerance").number(kLengthOrZero)) {
+    read.moment.pose_tolerance = *tolerance;
+  }
+  read.moment.wait_before_move = fleet.options.plan.wait_before_move;
+  read.moment.inflation = fleet.options.plan.inflation;
+  read.executions.resize(fleet.robots.size());
+  read.goal_metadata.resize(fleet.robots.size());
+  parse_events(root, RobotNames(fleet.robots, "robots of the request"), limits, read);
+  // Without the map's frame, so that no number changes.
+  for (core::RobotPlan& plan : parse_plans(root.require("plans"), fleet.robots, WorldFrame{})) {
+    read.executions[plan.robot].actions = std::move(plan.actions);
+    read.executions[plan.robot].planned = true;
+  }
+  if (!read.request || root.fault_count() > 0 || stop.met()) return std::nullopt;
+  if (fleet.map) read.moment.zones = in_world(fleet.zones, fleet.map->frame);
+  std::size_t corners = fleet.zones.size();
+  for (const core::Zone& zone : fleet.zones) corners += zone.polygon.size();
+  UniqueIds unique_ids;
+  auto robots = parse_robots(read.request.find("robots"), read.request.find("robot_defaults"), WorldFrame{},
+                             limits, unique_ids);
+  for (ParsedRobot& robot : robots) {
+    const std::size_t index = read.robots.size();
+    if (stop.met_after(corners)) return std::nullopt;
+    if (!read.executions[index].goals) read.goal_metadata[index] = std::move(robot.goal_metadata);
+    // A robot that is off its path turns back as slowly as it has to anywhere.
+    const core::DriveZones zones(fleet.zones, index, robot.robot);
+    robot.robot.angular_speed = zones.least_angular_speed();
+    read.robots.push_back(std::move(robot.robot));
+  }
+  read.obstacles = parse_obstacles(read.request.find("obstacles"), WorldFrame{}, limits, unique_ids);
+  for (std::size_t k = 0; k < read.robots.size(); ++k) {
+    if (!read.executions[k].planned) read.executions[k].actions = read.robots[k].committed;
+  }
+  return stop.met() ? std::nullopt : std::optional(std::move(read));
+}
+
+namespace {
+
+// The members of a robot that depend on the moment.
+constexpr std::array<std::string_view, 5> kChanging{"start", "goal", "goals", "committed", "previous"};
+
+void write_pose(JsonWriter& json, std::string_view key, const core::Pose& pose) {
+  json.key(key).begin_object();
+  json.member("x", pose.position.x()).member("y", pose.position.y()).member("theta", pose.theta);
+  json.end_object();
+}
+
+void write_goal(JsonWriter& json, const core::Goal& goal, const std::string& metadata) {
+  json.begin_object().member("x", goal.position.x()).member("y", goal.position.y());
+  if (goal.theta) json.member("theta", *goal.theta);
+  if (goal.service > 0.0) json.member("service", goal.service);
+  if (goal.not_before > 0.0) json.member("not_before", goal.not_before);
+  if (goal.radius_after) json.member("radius_after", *goal.radius_after);
+  if (!metadata.empty()) json.key("metadata").json(metadata);
+  json.end_object();
+}
+
+void write_actions(JsonWriter& json, std::string_view key, const std::vector<core::Action>& actions,
+                   core::Work& work) {
+  constexpr std::size_t kWorkOfAnAction = 512;  // bytes of text
+  constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};
+  json.key(key).begin_array();
+  for (const core::Action& action : actions) {
+    if (work.met_after(kWorkOfAnAction)) break;
+    json.begin_object().member("type", kTypes[static_cast<std::size_t>(action.type)]);
+    json.member("t_start", action.t_start).member("t_end", action.t_end);
+    write_pose(json, "from", action.from);
+    write_pose(json, "to", action.to);
+    if (action.goal) json.member("goal", *action.goal);
+    if (action.reverse) json.member("reverse", true);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+/// The metadata of the goals that are left: the last ones of those that the robot had.
+class GoalMetadata {
+ public:
+  GoalMetadata(const AdvanceRequest& request, std::size_t index, const core::Robot& left)
+      : all_(request.goal_metadata[index]) {
+    const Execution& execution = request.executions[index];
+    const std::size_t had = execution.goals ? execution.goals->size() : request.robots[index].goal_count();
+    visited_ = had - left.goal_count();
+  }
+
+  const std::string& of(std::size_t goal) const {
+    static const std::string none;
+    return visited_ + goal < all_.size() ? all_[visited_ + goal] : none;
+  }
+
+ private:
+  const std::vector<std::string>& all_;
+  std::size_t visited_ = 0;
+};
+
+/// As one goal if the request gave one goal, otherwise as a list.
+void write_goals(JsonWriter& json, const core::Robot& robot, const GoalMetadata& metadata, bool as_one) {
+  if (!robot.goal) return;
+  if (as_one && robot.via.empty()) {
+    json.key("goal");
+    return write_goal(json, *robot.goal, metadata.of(0));
+  }
+  json.key("goals").begin_array();
+  for (std::size_t k = 0; k < robot.goal_count(); ++k) write_goal(json, robot.goal_at(k), metadata.of(k));
+  json.end_array();
+}
+
+/// `radius`: that the robot had.
+void write_robot(JsonWriter& json, const JsonValue& given, double radius, const core::Robot& robot,
+                 const GoalMetadata& metadata, core::Work& work) {
+  const bool has_other_radius = robot.radius != radius;
+  json.begin_object();
+  for (const JsonValue member : given.children()) {
+    if (std::find(kChanging.begin(), kChanging.end(), member.key()) != kChanging.end()) continue;
+    if (has_other_radius && member.key() == "radius") continue;
+    json.key(member.key());
+    copy_json(json, member);
+  }
+  if (has_other_radius) json.member("radius", robot.radius);
+  write_pose(json, "start", robot.start);
+  write_goals(json, robot, metadata, given.find("goal").has_value());
+  if (!robot.committed.empty()) write_actions(json, "committed", robot.committed, work);
+  if (robot.previous) write_actions(json, "previous", *robot.previous, work);
+  json.end_object();
+}
+
+void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest& request,
+                  const std::vector<core::Robot>& robots, core::Work& work) {
+  json.begin_array();
+  std::size_t index = 0;
+  for (const JsonValue robot : given.children()) {
+    write_robot(json, robot, request.robots[index].radius, robots[index],
+                GoalMetadata(request, index, robots[index]), work);
+    ++index;
+  }
+  json.end_array();
+}
+
+void write_obstacles(JsonWriter& json, const JsonValue& given, const AdvanceRequest& request) {
+  json.begin_array();
+  auto read = request.obstacles.begin();
+  // Bounded: the text of the request, which is copied.
+  for (const JsonValue obstacle : given.children()) {
+    // One that had left at the start is not among those that were read.
+    if (read == request.obstacles.end() || obstacle.find("id")->string() != read->id) continue;
+    const auto left = advanced(*read++, request.moment.at);
+    if (!left) continue;
+    json.begin_object();
+    for (const JsonValue member : obstacle.children()) {
+      if (member.key() == "motion") continue;
+      json.key(member.key());
+      copy_json(json, member);
+    }
+    json.key("motion").begin_array();
+    for (const auto& entry : left->motion) {
+      json.begin_object().member("t", entry.t);
+      json.member("x", entry.position.x()).member("y", entry.position.y()).end_object();
+    }
+    json.end_array().end_object();
+  }
+  json.end_array();
+}
+
+}  // namespace
+
+std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots,
+                           core::Work& work) {
+  JsonWriter json;
+  json.begin_object();
+  for (const JsonValue member : request.request.value().children()) {
+    json.key(member.key());
+    if (member.key() == "robots") {
+      write_robots(json, member, request, robots, work);
+    } else if (member.key() == "obstacles") {
+      write_obstacles(json, member, request);
+    } else {
+      copy_json(json, member);
+    }
+  }
+  json.end_object();
+  return json.take();
+}
+
+}  // namespace fleetplan::api

@@ -1,0 +1,35 @@
+#pragma once
+
+// The request of POST /v1/advance and its answer, which is the request of a later moment.
+
+#include <string>
+#include <vector>
+
+#include "api/advance/advance.h"
+#include "api/json/json_reader.h"
+#include "api/request/limits.h"
+
+namespace fleetplan::api {
+
+/// A readable body of POST /v1/advance, in the client's world.
+struct AdvanceRequest {
+  Moment moment;
+  std::vector<core::Robot> robots;
+  std::vector<Execution> executions;  // by robot
+  /// By robot: the metadata of its goals, or of those that replace them, see ParsedGoals.
+  std::vector<std::vector<std::string>> goal_metadata;
+  std::vector<core::MovingObstacle> obstacles;
+  JsonReader request;  // the member of the body
+};
+
+/// Reads the root of the document. Nothing if it has faults, or if its stop is met.
+std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
+                                                    core::Work& stop);
+
+/// The request of the moment: that of the body with the starts, goals, committed and previous actions of
+/// these robots, and what is left of its obstacles. Everything else is copied. The text ends anywhere once
+/// the work is met.
+std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots,
+                           core::Work& work);
+
+}  // namespace fleetplan::api

@@ -1,0 +1,68 @@
+#pragma once
+
+// All endpoints that need the planner or its data: functions from a body to a reply, without any socket.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "api/endpoints/request_context.h"
+#include "api/response/reply.h"
+#include "core/planner.h"
+
+namespace fleetplan::api {
+
+/// The planner: core::plan, or a stub in tests.
+using Planner = std::function<core::Plan(const core::Problem&, const core::PlanOptions&,
+                                         const core::StopCondition&, core::Observer*)>;
+
+/// POST /v1/plan: parse -> plan -> verify -> write. Never throws for what a client sent; a plan that the
+/// checker rejects becomes a 500. Reports progress to the context's events.
+Reply plan_endpoint(std::string_view body, const RequestContext& context);
+
+/// POST /v1/plan with any planner.
+Reply plan_with(const Planner& planner, std::string_view body, const RequestContext& context);
+
+/// POST /v1/validate: checks any plan from anywhere.
+Reply validate_endpoint(std::string_view body, const RequestContext& context);
+
+/// POST /v1/simulate: executes plans many times with other disturbances. Reports progress to the context's
+/// events.
+Reply simulate_endpoint(std::string_view body, const RequestContext& context);
+
+/// POST /v1/advance: the request of a later moment, when robots have executed a part of their plans.
+Reply advance_endpoint(std::string_view body, const RequestContext& context);
+
+/// POST /v1/dependencies: the dependencies of any plan that POST /v1/validate accepts.
+Reply dependencies_endpoint(std::string_view body, const RequestContext& context);
+
+/// POST /v1/retime: when robots that execute a plan with dependencies will arrive, and because of whom.
+Reply retime_endpoint(std::string_view body, const RequestContext& context);
+
+/// POST /v1/export/vda5050: a plan as orders of VDA 5050, a pure function of the body.
+Reply vda5050_endpoint(std::string_view body, const RequestContext& context);
+
+/// An example request of GET /v1/examples.
+struct Example {
+  std::string_view name;  // file name in tests/scenarios without .json
+  std::string_view body;  // the request, JSON
+};
+
+/// All examples by name: the request files of tests/scenarios, embedded at build time (embed_examples.cmake).
+std::span<const Example> examples();
+
+/// The index.json of tests/scenarios: `[{"name", "title", "description"}]` in the order of display; empty if
+/// there is none.
+std::string_view examples_index();
+
+/// GET /v1/examples: `{"examples": [{"name", "title", "description", "robots", "columns", "rows"}]}`.
+Reply examples_endpoint();
+
+/// The OpenAPI 3.1 document of the whole service: api/openapi.json, embedded at build time.
+std::string_view openapi_document();
+
+/// GET /v1/openapi.json.
+inline Reply openapi_endpoint() { return {200, kJson, std::string(openapi_document())}; }
+
+}  // namespace fleetplan::api

@@ -1,0 +1,83 @@
+#pragma once
+
+// The steps that endpoints share: bounded work, the turn, the check of plans, and the replies when one of
+// these fails.
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/endpoints/request_context.h"
+#include "api/json/json_reader.h"
+#include "api/request/options.h"
+#include "api/request/parse_request.h"
+#include "api/response/reply.h"
+#include "core/execution/dependency.h"
+#include "core/model/plan.h"
+#include "core/model/robot.h"
+#include "core/runtime/stop_condition.h"
+#include "core/runtime/work.h"
+#include "core/verify/verify.h"
+
+namespace fleetplan::api {
+
+/// The reply of an endpoint, all of whose work is bounded by the Work that it gets: from the first byte of
+/// the body to the last byte of the answer's text. It is granted `max_plan_memory`; the reply is 422
+/// `memory_exceeded` if it needs more. The reply has the memory that is still in use, if it is much.
+Reply bounded_work(const RequestContext& context, const std::function<Reply(core::Work&)>& endpoint);
+
+/// The 422 for a request that needs more memory than it is granted.
+Reply memory_exceeded(const RequestContext& context);
+
+/// Asks for the turn of a request that has been read, and waits for it. True at once without a Turn.
+bool take_turn(Turn* turn, const TurnNeed& need, core::Work& work);
+
+/// TurnNeed::work of plans that are checked or executed.
+double work_of(std::size_t robots, const std::vector<core::RobotPlan>& plans);
+
+/// The answer to a request that gets no turn.
+Reply too_busy(const std::string& request_id);
+
+/// The reply when a check or a simulation of plans was stopped before it had an answer. `what` begins the
+/// sentence: "The plans could not be checked".
+Reply unfinished_reply(std::string_view what, std::chrono::nanoseconds budget,
+                       const core::StopCondition& stop, const RequestContext& context);
+
+/// Waits for the turn of a request whose body has been read and has no fault so far. False: the answer is not
+/// to be made.
+using AwaitTurn = std::function<bool()>;
+
+/// The JSON answer to a body, of which it gets the root. Nothing only when it reported faults, when its work
+/// was stopped, or when it got no turn.
+using MakeAnswer =
+    std::function<std::optional<std::string>(const JsonReader&, core::Work&, const AwaitTurn&)>;
+
+/// The reply of an endpoint whose answer depends on nothing but the body, and refers to what was read of it.
+/// `members`: of the body's root.
+Reply pure_endpoint(std::string_view body, const RequestContext& context,
+                    std::span<const std::string_view> members, const MakeAnswer& make);
+
+/// Makes the reply of plans that were checked, until the stop condition is met.
+using AfterCheck =
+    std::function<Reply(const ValidateRequest&, const core::VerifyReport&, const core::StopCondition&)>;
+
+/// Reads a body with plans, waits for its turn and checks them. The reply is that of `after`, or the problem.
+Reply check_plans(std::string_view body, const RequestContext& context, const AfterCheck& after);
+
+/// The dependencies of a plan that has passed the check, and what to tell about them.
+struct PlanDependencies {
+  std::optional<core::Dependencies> made;  // nothing: time or memory did not suffice
+  std::vector<std::string> warnings;
+};
+
+/// `tolerance`: metres, of the check.
+PlanDependencies plan_dependencies(const std::vector<core::Robot>& robots,
+                                   const std::vector<core::RobotPlan>& plans,
+                                   const RequestedDependencies& requested, double tolerance,
+                                   bool has_obstacles, const core::StopCondition& stop);
+
+}  // namespace fleetplan::api

@@ -1,0 +1,254 @@
+#include "api/request/fleet/geometry_faults.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <set>
+
+#include "api/json/faults.h"
+#include "api/request/ranges.h"
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+using core::Position;
+using FaultKind = core::ProblemFault::Kind;
+
+/// If this share of the robots is at fault, with at least so many faults, they are rather described wrongly
+/// than placed wrongly.
+constexpr double kShareOfAll = 0.5;
+constexpr std::size_t kFewestFaults = 2;
+/// Poses between two looks at the stop condition.
+constexpr std::size_t kPosesBetweenStops = 16;
+
+/// The position of a pose in the request, which may have faults, in the world.
+std::optional<Position> position_of(const JsonReader& pose) {
+  const JsonReader x = pose.find("x");
+  const JsonReader y = pose.find("y");
+  if (!x.is_number() || !y.is_number()) return std::nullopt;
+  return Position(*x.value().number(), *y.value().number());
+}
+
+bool is_on(const core::OccupancyGrid& grid, const Position& position) {
+  return position.x() >= 0.0 && position.x() <= grid.width() && position.y() >= 0.0 &&
+         position.y() <= grid.height();
+}
+
+std::string interval(double low, double length) {
+  return number_text(low) + " to " + number_text(low + length) + " m";
+}
+
+/// The unit in which the position would be on the map, for a sentence; empty if there is none.
+std::string fitting_unit(const Position& world, const core::OccupancyGrid& grid, const WorldFrame& frame) {
+  // Pixels count from the corner of the map.
+  const bool is_pixel = grid.resolution() < 1.0 && is_on(grid, world * grid.resolution());
+  if (is_pixel) return "pixels of " + number_text(grid.resolution()) + " m";
+  struct Unit {
+    double metres;
+    const char* name;
+  };
+  for (const Unit& unit : {Unit{0.01, "centimetres"}, Unit{0.001, "millimetres"}}) {
+    if (is_on(grid, frame.to_map(world * unit.metres))) return unit.name;
+  }
+  return "";
+}
+
+/// The phrase of a fault about a pose whose centre is not on the map, and about its probable unit:
+/// "is at (52.5, 3), outside the map, which ...". Empty if the pose is on the map.
+std::string outside_text(const JsonReader& pose, const core::OccupancyGrid& grid, const WorldFrame& frame) {
+  const auto world = position_of(pose);
+  if (!world || is_on(grid, frame.to_map(*world))) return "";
+  const std::string unit = fitting_unit(*world, grid, frame);
+  return "is at (" + number_text(world->x()) + ", " + number_text(world->y()) +
+         "), outside the map, which reaches from " + interval(frame.origin.x(), grid.width()) +
+         " in x and from " + interval(frame.origin.y(), grid.height()) + " in y. " +
+         (unit.empty() ? "Move it onto the map, or correct the origin and resolution of the map."
+                       : "Give it in metres: in " + unit + " it would be on the map.");
+}
+
+/// Whether the disks of the starts and goals of all robots would fit with other positions or radii.
+class Trial {
+ public:
+  Trial(const Fleet& fleet, const std::vector<std::size_t>& indices, const core::StaticMap& map,
+        const core::StopCondition& stop)
+      : fleet_(fleet), indices_(indices), map_(map), stop_(stop) {}
+
+  bool all_fit(bool mirrored, double radius_factor) {
+    std::size_t looks = 0;
+    const auto fits = [&](const JsonReader& pose, double radius) {
+      if (++looks % kPosesBetweenStops == 0 && stop_.met()) return false;
+      const auto world = position_of(pose);
+      if (!world) return true;  // has a fault of its own
+      Position position = fleet_.map->frame.to_map(*world);
+      if (mirrored) position.y() = map_.grid().height() - position.y();
+      return map_.sight().disk_fits(position, radius_factor * radius - core::kContactTolerance);
+    };
+    for (const std::size_t index : indices_) {
+      const ParsedRobot& read = fleet_.robots[index];
+      double radius = read.robot.radius;
+      if (!fits(read.start, radius)) return false;
+      for (const JsonReader& goal : read.goals) {
+        const JsonReader after = goal.find("radius_after");
+        const double leaves = after.is_number() ? *after.value().number() : radius;
+        if (!fits(goal, std::max(radius, leaves))) return false;
+        radius = leaves;
+      }
+    }
+    return true;
+  }
+
+ private:
+  const Fleet& fleet_;
+  const std::vector<std::size_t>& indices_;
+  const core::StaticMap& map_;
+  const core::StopCondition& stop_;
+};
+
+bool is_of_pair(FaultKind kind) {
+  return kind == FaultKind::starts_overlap || kind == FaultKind::goals_overlap;
+}
+
+bool is_of_wall(const core::ProblemFault& found) {
+  return (found.kind == FaultKind::start_in_obstacle || found.kind == FaultKind::goal_in_obstacle) &&
+         !found.zone;
+}
+
+}  // namespace
+
+std::string common_cause(const core::ProblemFaults& faults, const Fleet& fleet,
+                         const std::vector<std::size_t>& indices, const core::StaticMap& map,
+                         const core::StopCondition& stop) {
+  std::set<std::size_t> at_fault;
+  bool any_wall = false;
+  bool all_of_walls = true;
+  bool half_parts_pairs = true;  // with half the radii, the disks of the pairs would not overlap
+  for (const core::ProblemFault& found : faults.listed) {
+    if (!is_of_wall(found) && !is_of_pair(found.kind)) return "";
+    at_fault.insert(found.robot);
+    any_wall = any_wall || is_of_wall(found);
+    if (!is_of_pair(found.kind)) continue;
+    all_of_walls = false;
+    at_fault.insert(found.other);
+    const double sum =
+        fleet.robots[indices[found.robot]].robot.radius + fleet.robots[indices[found.other]].robot.radius;
+    half_parts_pairs = half_parts_pairs && found.gap + 0.5 * sum >= -core::kContactTolerance;
+  }
+  const bool is_whole = faults.total == faults.listed.size();
+  const bool are_many =
+      faults.total >= kFewestFaults &&
+      static_cast<double>(at_fault.size()) >= kShareOfAll * static_cast<double>(indices.size());
+  Trial trial(fleet, indices, map, stop);
+  if (are_many && half_parts_pairs && (is_whole || all_of_walls) && trial.all_fit(false, 0.5)) {
+    return " With half the radii, all starts and goals would fit: is radius given as the diameter?";
+  }
+  if (any_wall && all_of_walls && trial.all_fit(true, 1.0)) {
+    return " With y mirrored, all starts and goals would fit: y points up, and the first of rows is the top "
+           "one.";
+  }
+  return "";
+}
+
+namespace {
+
+/// With three significant digits: a gap may be as small as a nanometre.
+std::string short_text(double number) {
+  std::array<char, 32> buffer{};
+  const auto result =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), number, std::chars_format::general, 3);
+  return {buffer.data(), result.ptr};
+}
+
+std::string metres(double length) { return short_text(length) + " m"; }
+
+/// The robot's id, or its number when it has none.
+std::string name_of(const std::vector<ParsedRobot>& robots, std::size_t index) {
+  const std::string& id = robots[index].robot.id;
+  return id.empty() ? "number " + std::to_string(index) : in_quotes(id);
+}
+
+/// What the robot overlaps: the zone, if it is one.
+std::string obstacle_name(const core::ProblemFault& found, const std::vector<core::Zone>& zones) {
+  return found.zone ? "the blocked zone " + in_quotes(zones[*found.zone].id)
+                    : "a blocked cell or the edge of the map";
+}
+
+/// `outside`: see outside_text.
+std::string in_obstacle(const std::string& pose, const std::string& robot, double radius, double gap,
+                        const std::string& obstacle, const std::string& outside) {
+  if (!outside.empty()) return "The " + pose + " of robot " + robot + ' ' + outside;
+  return "The " + pose + " of robot " + robot + " does not fit: its disk overlaps " + obstacle + " by " +
+         metres(-gap) + " (radius " + number_text(radius) + " m). Move it or make the robot smaller.";
+}
+
+std::string overlap(const char* poses, const std::string& earlier, const std::string& later, double gap) {
+  return "The " + std::string(poses) + " of robots " + earlier + " and " + later +
+         " overlap: the gap between their disks is " + metres(gap) + "; move them apart.";
+}
+
+std::string goal_name(const ParsedRobot& read, std::size_t goal) {
+  return read.goals.size() < 2 ? "goal" : "goal " + std::to_string(goal) + " (from 0)";
+}
+
+/// The action that is executed at the time, or begins then, as it stands in the request; the start of a robot
+/// without any.
+JsonReader action_at(const ParsedRobot& read, double t, bool begins = false) {
+  JsonReader place = read.start;
+  for (const JsonReader item : read.committed.items()) {
+    place = item;
+    const double t_end = item.find("t_end").number(kDuration).value_or(0.0);
+    if (begins ? t_end > t : t_end >= t) break;
+  }
+  return place;
+}
+
+std::string collision(const core::ProblemFault& found, const std::string& robot, const std::string& other,
+                      const std::string& obstacle) {
+  const std::string at = " at t = " + number_text(found.t) + " s";
+  if (found.other == found.robot) {
+    return "The committed motion of robot " + robot + " overlaps " + obstacle + " by " + metres(-found.gap) +
+           at + "; correct the actions or the " + (found.zone ? "zone." : "map.");
+  }
+  return "The committed motion of robot " + robot + " meets robot " + other + at +
+         ": the gap between their disks is " + metres(found.gap) +
+         "; commit fewer actions of one of them, or stop one of them earlier.";
+}
+
+}  // namespace
+
+GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
+                       const std::vector<std::size_t>& indices, const core::OccupancyGrid& grid) {
+  using Kind = core::ProblemFault::Kind;
+  const std::vector<ParsedRobot>& robots = fleet.robots;
+  const std::string obstacle = obstacle_name(found, fleet.zones);
+  const ParsedRobot& read = robots[indices[found.robot]];
+  const std::string name = name_of(robots, indices[found.robot]);
+  const std::string other = name_of(robots, indices[found.other]);
+  const auto outside = [&](const JsonReader& pose) { return outside_text(pose, grid, fleet.map->frame); };
+  switch (found.kind) {
+    case Kind::start_in_obstacle:
+      return {read.start, fault::kStartInObstacle,
+              in_obstacle("start", name, read.robot.radius, found.gap, obstacle, outside(read.start))};
+    case Kind::goal_in_obstacle:
+      return {read.goals[found.goal], fault::kGoalInObstacle,
+              in_obstacle(goal_name(read, found.goal), name, found.radius, found.gap, obstacle,
+                          outside(read.goals[found.goal]))};
+    case Kind::starts_overlap:
+      return {read.start, fault::kStartsOverlap, overlap("starts", other, name, found.gap)};
+    case Kind::goals_overlap:
+      return {read.goals.back(), fault::kGoalsOverlap, overlap("goals", other, name, found.gap)};
+    case Kind::committed_in_zone:
+      return {action_at(read, found.t, true), fault::kCommittedInZone,
+              "This committed action of robot " + name + " breaks the rule of the zone " +
+                  in_quotes(fleet.zones[*found.zone].id) +
+                  ": it is faster than the zone allows, or against its direction. Correct the action or the "
+                  "zone."};
+    case Kind::committed_collision:
+      break;
+  }
+  return {action_at(read, found.t), fault::kCommittedCollision, collision(found, name, other, obstacle)};
+}
+
+}  // namespace fleetplan::api

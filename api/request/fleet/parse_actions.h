@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/json/json_reader.h"
+#include "api/request/fleet/received_robot.h"
+#include "api/request/world_frame.h"
+#include "core/model/action.h"
+#include "core/model/robot.h"
+
+namespace fleetplan::api {
+
+/// Reads one action, in the world and with its headings as given. Where it has a fault, the value is 0.
+core::Action parse_action(const JsonReader& item, const Range& times);
+
+/// The action in the map frame, with normalised headings.
+core::Action to_map(const core::Action& world, const WorldFrame& frame);
+
+/// The robot that executes actions, as far as it is known; what could not be read is not compared.
+struct ActionsOwner {
+  std::optional<core::Pose> start;      // in the map frame
+  std::optional<double> linear_speed;   // metres per second
+  std::optional<double> angular_speed;  // radians per second
+  std::optional<bool> may_reverse = {};
+};
+
+/// The actions of a robot from t = 0 in its start. Each begins exactly when and where the one before ends.
+struct ParsedActions {
+  std::vector<core::Action> actions;  // in the map frame
+  ReceivedMotion received;
+};
+
+/// Reads `committed` or `previous` of a robot. Actions that are not contiguous in time and space, contradict
+/// their types or are faster than the robot are faults; then there are none.
+std::optional<ParsedActions> parse_actions(const JsonReader& list, const ActionsOwner& owner,
+                                           const WorldFrame& frame);
+
+/// Joins the actions of a robot one after the other, in the map frame, and reports those that do not fit.
+/// Differences up to core::kContactTolerance (metres, seconds, radians) are accepted and removed, so that the
+/// core gets actions without gaps.
+class ActionChain {
+ public:
+  explicit ActionChain(const ActionsOwner& owner);
+
+  /// The action as it goes on from the one before. Faults are reported at `item`.
+  core::Action append(core::Action action, const JsonReader& item);
+  /// The next action could not be read: what follows it is not compared with what precedes it.
+  void skip();
+
+ private:
+  void check_times(const core::Action& action, const JsonReader& item) const;
+  void check_begin(const core::Action& action, const JsonReader& item) const;
+  void check_type(const core::Action& action, const JsonReader& item) const;
+  void check_speed(const core::Action& action, const JsonReader& item) const;
+  void check_reverse(const core::Action& action, const JsonReader& item) const;
+  core::Action joined(core::Action action) const;
+  std::string name() const;
+
+  std::optional<double> linear_speed_;
+  std::optional<double> angular_speed_;
+  std::optional<bool> may_reverse_;
+  std::optional<double> now_ = 0.0;  // seconds; none: unknown, as is the pose
+  std::optional<core::Pose> pose_;
+  std::size_t count_ = 0;  // of the actions before
+};
+
+}  // namespace fleetplan::api

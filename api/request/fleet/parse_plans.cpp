@@ -1,0 +1,272 @@
+#include "api/request/fleet/parse_plans.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "api/json/faults.h"
+#include "api/request/fleet/parse_actions.h"
+#include "api/request/fleet/parse_robots.h"
+#include "api/request/ranges.h"
+#include "core/execution/executed_actions.h"
+#include "core/geometry/segment.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+// `lower_bound`, `estimated_cost`, `ends_at` and `metadata` belong to an answer of /v1/plan and are ignored.
+constexpr std::array<std::string_view, 8> kPlanMembers{"robot",   "cost",    "lower_bound", "estimated_cost",
+                                                       "ends_at", "actions", "visits",      "metadata"};
+constexpr std::array<std::string_view, 4> kVisitMembers{"goal", "t_arrive", "t_leave", "metadata"};
+
+// A plan that begins before 0 is a violation to report, not a fault of the request.
+constexpr Range kPlanTime{-kLongestTime, kLongestTime, "seconds"};
+
+core::Visit parse_visit(const JsonReader& item) {
+  const JsonReader json = item.object(kVisitMembers);
+  core::Visit visit;
+  visit.goal = json.require("goal").natural(kGreatestIndex).value_or(0);
+  visit.t_arrive = json.require("t_arrive").number(kPlanTime).value_or(0.0);
+  const JsonReader leaves = json.require("t_leave", "; give null for the last goal");
+  visit.t_leave = leaves.is_null() ? core::kForever : leaves.number(kPlanTime).value_or(0.0);
+  return visit;
+}
+
+core::RobotPlan parse_plan(const JsonReader& json, const WorldFrame& frame) {
+  core::RobotPlan plan;
+  const JsonReader actions = json.require("actions").array();
+  const std::size_t before = json.fault_count();
+  for (const JsonReader item : actions.items()) {
+    const core::Action action = to_map(parse_action(item, kPlanTime), frame);
+    // After the first fault only faults matter: items may be many more than actions of that size.
+    if (json.fault_count() == before) plan.actions.push_back(action);
+  }
+  const double end = plan.actions.empty() ? 0.0 : plan.actions.back().t_end;
+  plan.cost = json.find("cost").number(kPlanTime).value_or(end);
+  for (const JsonReader item : json.find("visits").array().items()) {
+    const core::Visit visit = parse_visit(item);
+    if (json.fault_count() == before) plan.visits.push_back(visit);
+  }
+  return plan;
+}
+
+/// The robots by id, and which of them have a plan already.
+class Roster {
+ public:
+  explicit Roster(const std::vector<ParsedRobot>& robots) : names_(robots) {}
+
+  /// The index of the robot that a plan is for, if there is one that has no plan yet.
+  std::optional<std::size_t> assign(const JsonReader& robot) {
+    const auto index = names_.find(robot);
+    if (!index) return std::nullopt;
+    if (!planned_.insert(*index).second) {
+      robot.fault(fault::kDuplicate, [&] {
+        return "Robot " + in_quotes(*robot.string()) + " already has a plan; give only one.";
+      });
+      return std::nullopt;
+    }
+    return index;
+  }
+
+ private:
+  RobotNames names_;
+  std::unordered_set<std::size_t> planned_;
+};
+
+}  // namespace
+
+std::vector<core::RobotPlan> parse_plans(const JsonReader& member, const std::vector<ParsedRobot>& robots,
+                                         const WorldFrame& frame) {
+  std::vector<core::RobotPlan> plans;
+  Roster roster(robots);
+  for (const JsonReader item : member.array().items()) {
+    const JsonReader json = item.object(kPlanMembers);
+    core::RobotPlan plan = parse_plan(json, frame);
+    if (const auto owner = roster.assign(json.require("robot"))) {
+      plan.robot = *owner;
+      plans.push_back(std::move(plan));
+    }
+  }
+  return plans;
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 3> kDependencyMembers{"gate", "until", "slack"};
+constexpr std::array<std::string_view, 3> kProgressMembers{"robot", "action", "progress"};
+constexpr Range kSlack{-kLongestTime, kLongestTime, "seconds"};
+
+/// Seconds: what a slack that went through decimal text, or was made for rounded times, may be off.
+constexpr double kSameSlack = 1e-6;
+
+class DependencyReader {
+ public:
+  DependencyReader(const std::vector<core::Robot>& robots, const std::vector<core::RobotPlan>& plans)
+      : actions_(core::executed_actions(robots, plans)), names_(robots) {}
+
+  std::optional<core::Dependency> read(const JsonReader& item) const {
+    const JsonReader json = item.object(kDependencyMembers);
+    const JsonReader gate_member = json.require("gate");
+    const JsonReader until_member = json.require("until");
+    const auto gate = read_progress(gate_member);
+    const auto until = read_progress(until_member);
+    const JsonReader slack_member = json.find("slack");
+    const auto slack = slack_member.number(kSlack);
+    if (!gate || !until) return std::nullopt;
+    if (gate->robot == until->robot) {
+      until_member.find("robot").fault(
+          fault::kDependency, "gate and until are of the same robot; a robot depends on others only.");
+      return std::nullopt;
+    }
+    const double planned = time_of(*gate) - time_of(*until);
+    if (planned <= 0.0) {
+      item.fault(fault::kDependency, [&] {
+        return "By the plans, the gate is passed at " + number_text(time_of(*gate)) +
+               " s, not after until, which is reached at " + number_text(time_of(*until)) +
+               " s: the dependencies belong to other plans; send those made for these.";
+      });
+    } else if (slack && std::abs(*slack - planned) > kSameSlack) {
+      slack_member.fault(fault::kDependency, [&] {
+        return "By the plans, the slack is " + number_text(planned) + " s, not " + number_text(*slack) +
+               " s: the dependencies belong to other plans; send those made for these.";
+      });
+    }
+    return core::Dependency{*gate, *until, planned};
+  }
+
+ private:
+  double time_of(const core::ActionProgress& progress) const {
+    return core::planned_time(actions_[progress.robot], progress.action, progress.fraction);
+  }
+
+  std::optional<core::ActionProgress> read_progress(const JsonReader& member) const {
+    const JsonReader json = member.object(kProgressMembers);
+    const JsonReader robot_member = json.require("robot");
+    const JsonReader action_member = json.require("action");
+    const auto robot = names_.find(robot_member);
+    const auto action = action_member.natural(kGreatestIndex);
+    const auto fraction = json.require("progress").number(kFraction);
+    if (!robot || !action || !fraction) return std::nullopt;
+    const std::size_t count = actions_[*robot].size();
+    if (*action >= count) {
+      action_member.fault(fault::kDependency, [&] {
+        return "Robot " + in_quotes(*robot_member.string()) + " has " + std::to_string(count) +
+               " actions, numbered from 0: the dependencies belong to other plans; send those made for "
+               "these.";
+      });
+      return std::nullopt;
+    }
+    return core::ActionProgress{*robot, *action, *fraction};
+  }
+
+  std::vector<core::Actions> actions_;
+  RobotNames names_;
+};
+
+}  // namespace
+
+std::vector<core::Dependency> parse_dependencies(const JsonReader& member,
+                                                 const std::vector<core::Robot>& robots,
+                                                 const std::vector<core::RobotPlan>& plans) {
+  std::vector<core::Dependency> dependencies;
+  if (!member) return dependencies;
+  const DependencyReader reader(robots, plans);
+  const std::size_t before = member.fault_count();
+  for (const JsonReader item : member.array().items()) {
+    const auto dependency = reader.read(item);
+    // After the first fault only faults matter.
+    if (dependency && member.fault_count() == before) dependencies.push_back(*dependency);
+  }
+  return dependencies;
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 4> kMeetingMembers{"robots", "robot", "obstacle", "t"};
+
+/// Robots or obstacles by id.
+using Names = std::unordered_map<std::string_view, std::size_t>;
+
+/// The index of the robot or obstacle with the id in `member`, which may be absent.
+std::optional<std::size_t> find(const JsonReader& member, const Names& names, const char* code,
+                                const char* kind) {
+  const auto id = member.name();
+  if (!id) return std::nullopt;
+  const auto found = names.find(*id);
+  if (found != names.end()) return found->second;
+  member.fault(code, [&] { return std::string("There is no ") + kind + ' ' + in_quotes(*id) + "."; });
+  return std::nullopt;
+}
+
+class MeetingReader {
+ public:
+  explicit MeetingReader(const Fleet& fleet) {
+    for (std::size_t k = 0; k < fleet.robots.size(); ++k) robots_.emplace(fleet.robots[k].robot.id, k);
+    for (std::size_t k = 0; k < fleet.obstacles.size(); ++k) obstacles_.emplace(fleet.obstacles[k].id, k);
+  }
+
+  core::Meeting read(const JsonReader& item) const {
+    const JsonReader json = item.object(kMeetingMembers);
+    core::Meeting meeting;
+    meeting.t = json.require("t").number(kDuration).value_or(0.0);
+    if (const JsonReader pair = json.find("robots")) {
+      read_pair(pair, meeting);
+      return meeting;
+    }
+    meeting.robot = robot(json.require("robot", "; give it with \"obstacle\", or \"robots\"")).value_or(0);
+    meeting.obstacle = find(json.require("obstacle"), obstacles_, fault::kUnknownObstacle, "obstacle");
+    return meeting;
+  }
+
+ private:
+  std::optional<std::size_t> robot(const JsonReader& member) const {
+    return find(member, robots_, fault::kUnknownRobot, "robot");
+  }
+
+  void read_pair(const JsonReader& member, core::Meeting& meeting) const {
+    const JsonReader pair = member.array();
+    if (pair && pair.size() != 2) pair.fault(fault::kOutOfRange, "robots must be the ids of two robots.");
+    if (!pair || pair.size() != 2) return;
+    meeting.robot = robot(pair.item(0)).value_or(0);
+    meeting.other = robot(pair.item(1));
+  }
+
+  Names robots_;
+  Names obstacles_;
+};
+
+}  // namespace
+
+std::vector<core::Meeting> parse_meetings(const JsonReader& member, const Fleet& fleet) {
+  std::vector<core::Meeting> meetings;
+  if (!member) return meetings;
+  const MeetingReader reader(fleet);
+  const std::size_t before = member.fault_count();
+  for (const JsonReader item : member.array().items()) {
+    const core::Meeting meeting = reader.read(item);
+    if (member.fault_count() == before) meetings.push_back(meeting);
+  }
+  return meetings;
+}
+
+void mark_invalid_robots(const JsonReader& unplanned, std::vector<core::Robot>& robots) {
+  Names names;
+  for (std::size_t k = 0; k < robots.size(); ++k) names.emplace(robots[k].id, k);
+  for (const JsonReader item : unplanned.items()) {
+    if (item.find("reason").string() != std::string_view("invalid")) continue;
+    const auto found = names.find(item.find("robot").string().value_or(""));
+    if (found == names.end()) continue;
+    core::Robot& robot = robots[found->second];
+    robot.invalid = true;
+    robot.committed.clear();
+  }
+}
+
+}  // namespace fleetplan::api

@@ -1,0 +1,38 @@
+#pragma once
+
+// The plans of a request, and what belongs to them: dependencies, meetings that the check exempts, and robots
+// that an answer calls invalid.
+
+#include <vector>
+
+#include "api/json/json_reader.h"
+#include "api/request/fleet/parse_robots.h"
+#include "api/request/world_frame.h"
+#include "core/execution/dependency.h"
+#include "core/model/plan.h"
+#include "core/model/robot.h"
+
+namespace fleetplan::api {
+
+struct Fleet;
+
+/// Reads the member `plans` of a request to validate: at most one for each robot, in any order. The checker
+/// decides later whether the plans are valid.
+std::vector<core::RobotPlan> parse_plans(const JsonReader& member, const std::vector<ParsedRobot>& robots,
+                                         const WorldFrame& frame);
+
+/// Reads `dependencies`: those that the service has made for these plans. Robots and actions that do not
+/// exist, and times that contradict the plans, are faults. Whoever obeys dependencies without a fault never
+/// waits for ever, because every `until` is planned before its `gate`.
+std::vector<core::Dependency> parse_dependencies(const JsonReader& member,
+                                                 const std::vector<core::Robot>& robots,
+                                                 const std::vector<core::RobotPlan>& plans);
+
+/// Reads `unavoidable` of a request to validate (may be absent): meetings that the check exempts.
+std::vector<core::Meeting> parse_meetings(const JsonReader& member, const Fleet& fleet);
+
+/// Makes those robots invalid that `unplanned` of an answer lists as such. Whatever else it contains is
+/// ignored.
+void mark_invalid_robots(const JsonReader& unplanned, std::vector<core::Robot>& robots);
+
+}  // namespace fleetplan::api

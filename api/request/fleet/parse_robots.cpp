@@ -1,0 +1,270 @@
+#include "api/request/fleet/parse_robots.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "api/json/faults.h"
+#include "api/request/fleet/parse_actions.h"
+#include "api/request/ranges.h"
+#include "api/request/shared_members.h"
+#include "core/geometry/angle.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+constexpr std::array<std::string_view, 7> kGoalMembers{
+    "x", "y", "theta", "service", "not_before", "radius_after", "metadata"};
+
+/// Adds the goal if it is valid.
+void add_goal(const JsonReader& member, const WorldFrame& frame, ParsedGoals& read) {
+  const std::size_t before = member.fault_count();
+  const JsonReader json = member.object(kGoalMembers);
+  auto goal = parse_pose(json, frame);
+  const auto service = json.find("service").number(kDuration);
+  const auto not_before = json.find("not_before").number(kDuration);
+  const auto radius_after = json.find("radius_after").number(kLength);
+  std::string metadata = parse_metadata(json);
+  if (!goal || member.fault_count() != before) return;
+  goal->service = service.value_or(0.0);
+  goal->not_before = not_before.value_or(0.0);
+  goal->radius_after = radius_after;
+  if (service || not_before || radius_after || !metadata.empty()) read.lists_visits = true;
+  if (!metadata.empty()) {
+    read.metadata.resize(read.goals.size());
+    read.metadata.push_back(std::move(metadata));
+  }
+  read.goals.push_back(*goal);
+  read.places.push_back(member);
+}
+
+}  // namespace
+
+std::optional<core::Goal> parse_pose(const JsonReader& pose, const WorldFrame& frame) {
+  const std::size_t before = pose.fault_count();
+  const auto x = pose.require("x").number(kCoordinate);
+  const auto y = pose.require("y").number(kCoordinate);
+  const auto theta = pose.find("theta").number(kAnyAngle);
+  if (!x || !y || pose.fault_count() != before) return std::nullopt;
+  core::Goal read;
+  read.position = frame.to_map({*x, *y});
+  if (theta) read.theta = core::normalize_angle(*theta);
+  return read;
+}
+
+ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota& quota) {
+  ParsedGoals read;
+  const JsonReader single = robot.find("goal");
+  const JsonReader several = robot.find("goals");
+  if (single && several) {
+    several.fault(fault::kDuplicate,
+                  "The robot has both goal and goals; give one of them: goal is short for a list of one.");
+  }
+  if (single) add_goal(single, frame, read);
+  const JsonReader list = several.array();
+  if (single || !list || !quota.take(list)) return read;
+  read.lists_visits = true;
+  for (const JsonReader item : list.items()) add_goal(item, frame, read);
+  return read;
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 14> kRobotMembers{
+    "id",          "radius", "linear_speed", "angular_speed", "vicinity",  "execution_margin", "may_reverse",
+    "body_radius", "start",  "goal",         "goals",         "committed", "previous",         "metadata"};
+constexpr std::array<std::string_view, 3> kStartMembers{"x", "y", "theta"};
+
+constexpr std::array<std::string_view, 7> kDefaults{
+    "radius", "linear_speed", "angular_speed", "vicinity", "execution_margin", "may_reverse", "body_radius"};
+
+/// A number that `robot_defaults` can give as well.
+struct Trait {
+  bool given = false;
+  std::optional<double> value;  // if it is valid
+};
+
+struct Traits {
+  Trait radius;
+  Trait linear_speed;
+  Trait angular_speed;
+  Trait vicinity;
+  Trait execution_margin;
+  std::optional<bool> may_reverse;
+  std::optional<double> body_radius;
+};
+
+struct TraitRow {
+  std::string_view name;
+  Range range;
+  Trait Traits::*field;
+  bool required;
+};
+
+constexpr std::array<TraitRow, 5> kTraitTable{{
+    {.name = "radius", .range = kLength, .field = &Traits::radius, .required = true},
+    {.name = "linear_speed", .range = kLinearSpeed, .field = &Traits::linear_speed, .required = true},
+    {.name = "angular_speed", .range = kAngularSpeed, .field = &Traits::angular_speed, .required = true},
+    {.name = "vicinity", .range = kLengthOrZero, .field = &Traits::vicinity, .required = false},
+    {.name = "execution_margin",
+     .range = kLengthOrZero,
+     .field = &Traits::execution_margin,
+     .required = false},
+}};
+
+Traits parse_traits(const JsonReader& json) {
+  Traits traits;
+  for (const TraitRow& row : kTraitTable) {
+    const JsonReader member = json.find(row.name);
+    traits.*row.field = {.given = static_cast<bool>(member), .value = member.number(row.range)};
+  }
+  traits.may_reverse = json.find("may_reverse").boolean();
+  traits.body_radius = json.find("body_radius").number(kLength);
+  return traits;
+}
+
+/// A robot's traits, completed by the defaults. What neither gives is missing; an invalid default is a fault
+/// already.
+Traits parse_traits(const JsonReader& robot, const Traits& defaults) {
+  Traits traits = parse_traits(robot);
+  if (!traits.may_reverse) traits.may_reverse = defaults.may_reverse;
+  if (!traits.body_radius) traits.body_radius = defaults.body_radius;
+  for (const TraitRow& row : kTraitTable) {
+    Trait& trait = traits.*row.field;
+    const Trait& standard = defaults.*row.field;
+    if (trait.given) continue;
+    if (standard.given) {
+      trait.value = standard.value;
+    } else if (row.required) {
+      robot.require(row.name, ", here and in robot_defaults; give it in one of them");
+    }
+  }
+  return traits;
+}
+
+/// Reads one robot after the other; counts their goals and actions.
+class RobotReader {
+ public:
+  RobotReader(const Traits& defaults, const WorldFrame& frame, const Limits& limits)
+      : defaults_(defaults),
+        frame_(frame),
+        goals_(limits.max_goals, "goals"),
+        actions_(limits.max_actions, "actions in committed and previous") {}
+
+  ParsedRobot read(const JsonReader& item) {
+    const JsonReader json = item.object(kRobotMembers);
+    ParsedRobot read;
+    if (!json) return read;
+    core::Robot& robot = read.robot;
+    robot.id = json.require("id").name().value_or("");
+    const Traits traits = parse_traits(json, defaults_);
+    robot.radius = traits.radius.value.value_or(1.0);
+    robot.linear_speed = traits.linear_speed.value.value_or(1.0);
+    robot.angular_speed = traits.angular_speed.value.value_or(1.0);
+    robot.vicinity = traits.vicinity.value.value_or(0.0);
+    read.execution_margin = traits.execution_margin.value;
+    robot.may_reverse = traits.may_reverse.value_or(false);
+    read.body_radius = traits.body_radius;
+    read.metadata = parse_metadata(json);
+    ActionsOwner owner{.start = std::nullopt,
+                       .linear_speed = traits.linear_speed.value,
+                       .angular_speed = traits.angular_speed.value,
+                       .may_reverse = robot.may_reverse};
+    read.start = json.require("start", "; give {\"x\", \"y\"} and optionally \"theta\"");
+    if (const auto start = parse_pose(read.start.object(kStartMembers), frame_)) {
+      robot.start = {start->position, start->theta.value_or(0.0)};
+      owner.start = robot.start;
+    }
+    read.placed = owner.start && traits.radius.value;
+    read_goals(json, read);
+    read_actions(json, owner, read);
+    return read;
+  }
+
+ private:
+  void read_goals(const JsonReader& json, ParsedRobot& read) {
+    ParsedGoals goals = parse_goals(json, frame_, goals_);
+    read.goals = std::move(goals.places);
+    read.lists_visits = goals.lists_visits;
+    read.goal_metadata = std::move(goals.metadata);
+    if (goals.goals.empty()) return;
+    read.robot.goal = goals.goals.back();
+    goals.goals.pop_back();
+    read.robot.via = std::move(goals.goals);
+  }
+
+  void read_actions(const JsonReader& json, const ActionsOwner& owner, ParsedRobot& read) {
+    read.committed = json.find("committed");
+    if (auto committed = parse(read.committed, owner)) {
+      read.robot.committed = std::move(committed->actions);
+      read.received_committed = std::move(committed->received);
+    }
+    if (auto previous = parse(json.find("previous"), owner)) {
+      read.robot.previous = std::move(previous->actions);
+      read.received_previous = std::move(previous->received);
+    }
+  }
+
+  std::optional<ParsedActions> parse(const JsonReader& member, const ActionsOwner& owner) {
+    const JsonReader list = member.array();
+    if (!list || !actions_.take(list)) return std::nullopt;
+    return parse_actions(list, owner, frame_);
+  }
+
+  const Traits& defaults_;
+  const WorldFrame& frame_;
+  Quota goals_;
+  Quota actions_;
+};
+
+}  // namespace
+
+std::vector<ParsedRobot> parse_robots(const JsonReader& robots, const JsonReader& defaults,
+                                      const WorldFrame& frame, const Limits& limits, UniqueIds& ids) {
+  if (!robots) return {};
+  const Traits common = parse_traits(defaults.object(kDefaults));
+  const JsonReader items = robots.array();
+  if (!items) return {};
+  if (items.size() == 0) items.fault(fault::kEmpty, "robots must contain at least one robot.");
+  if (items.size() > limits.max_robots) {
+    items.fault(fault::kOutOfRange, "There are " + std::to_string(items.size()) +
+                                        " robots; this service accepts at most " +
+                                        std::to_string(limits.max_robots) + ".");
+    return {};
+  }
+  std::vector<ParsedRobot> read;
+  read.reserve(items.size());
+  RobotReader reader(common, frame, limits);
+  for (const JsonReader item : items.items()) {
+    read.push_back(reader.read(item));
+    ids.check(UniqueIds::Kind::robot, read.back().robot.id, read.size() - 1, item);
+  }
+  return read;
+}
+
+RobotNames::RobotNames(const std::vector<core::Robot>& robots, std::string_view place) : place_(place) {
+  for (std::size_t index = 0; index < robots.size(); ++index) robots_.emplace(robots[index].id, index);
+}
+
+RobotNames::RobotNames(const std::vector<ParsedRobot>& robots, std::string_view place) : place_(place) {
+  for (std::size_t index = 0; index < robots.size(); ++index) robots_.emplace(robots[index].robot.id, index);
+}
+
+std::optional<std::size_t> RobotNames::find(const JsonReader& id) const {
+  const auto name = id.name();
+  if (!name) return std::nullopt;
+  if (const auto index = index_of(*name)) return index;
+  id.fault(fault::kUnknownRobot,
+           [&] { return "There is no robot " + in_quotes(*name) + " in " + place_ + "."; });
+  return std::nullopt;
+}
+
+std::optional<std::size_t> RobotNames::index_of(std::string_view id) const {
+  const auto found = robots_.find(std::string(id));
+  return found != robots_.end() ? std::optional(found->second) : std::nullopt;
+}
+
+}  // namespace fleetplan::api

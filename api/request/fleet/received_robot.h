@@ -1,0 +1,50 @@
+#pragma once
+
+// What an answer repeats of a robot of the request.
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "api/json/faults.h"
+#include "core/model/action.h"
+
+namespace fleetplan::api {
+
+/// The actions of a request as they were received, in the world and with their headings as given. Only those
+/// are kept that the core's numbers do not give back: the map's origin rounds them, or they were joined to
+/// the action before.
+class ReceivedMotion {
+ public:
+  /// `index`: of the action; ascending.
+  void keep(std::size_t index, const core::Action& world) { kept_.push_back({index, world}); }
+
+  /// The action as received, or null if the core's numbers give it back.
+  const core::Action* find(std::size_t index) const {
+    const auto found =
+        std::lower_bound(kept_.begin(), kept_.end(), index,
+                         [](const Kept& kept, std::size_t wanted) { return kept.index < wanted; });
+    return found != kept_.end() && found->index == index ? &found->world : nullptr;
+  }
+
+ private:
+  struct Kept {
+    std::size_t index;
+    core::Action world;
+  };
+  std::vector<Kept> kept_;
+};
+
+/// What the answer needs to know about a robot of the request beside the core's robot.
+struct ReceivedRobot {
+  ReceivedMotion committed;
+  ReceivedMotion previous;
+  bool lists_visits = false;  // its plan tells when each goal is visited
+  std::vector<Fault> errors;  // why it is invalid; empty if it is not
+  /// See parse_metadata: of the robot, and of its goals by their number, as in ParsedGoals.
+  std::string metadata = {};
+  std::vector<std::string> goal_metadata = {};
+};
+
+}  // namespace fleetplan::api

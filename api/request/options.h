@@ -1,0 +1,132 @@
+#pragma once
+
+// The options of a request in one table. The parser, the schema PlanOptions of api/openapi.json, and through
+// that the page and the documentation, follow it.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "api/json/json_reader.h"
+#include "api/request/limits.h"
+#include "core/model/plan_options.h"
+
+namespace fleetplan::api {
+
+/// What becomes of robots whose poses are at fault: the request is refused, or they are reported as invalid
+/// and all others are planned.
+enum class InvalidRobots { refuse, report };
+
+/// The member `options` of a request.
+struct ParsedOptions {
+  core::PlanOptions plan;
+  InvalidRobots invalid_robots = InvalidRobots::refuse;
+  bool dependencies = false;          // of the answer
+  double dependency_slack = 0.1;      // seconds, > 0
+  double execution_margin = 0.0;      // metres, >= 0; that of a robot goes first
+  std::optional<double> budget_ms;    // as requested, >= 1; none: the service's default
+  std::vector<std::string> warnings;  // of options that are accepted, but without the expected effect
+};
+
+/// A member of the plan options.
+template <typename Value>
+using OptionField = Value core::PlanOptions::*;
+
+/// A real number.
+struct RealOption {
+  Range range;
+  OptionField<double> field;
+};
+
+/// A real number whose default is a setting of the service.
+struct ServiceOption {
+  using Field = std::optional<double> ParsedOptions::*;
+  Range range;
+  Field field;
+  double example;
+};
+
+/// A whole number from 0 to `most`.
+struct NaturalOption {
+  std::uint64_t most;
+  OptionField<std::uint64_t> field;
+};
+
+/// A whole number from 0 to `most`, or null, the default, for no bound.
+struct BoundOption {
+  std::uint64_t most;
+  OptionField<std::optional<std::int64_t>> field;
+};
+
+/// A real number, or null, the default, if the planner is to choose.
+struct ChosenOption {
+  Range range;
+  OptionField<std::optional<double>> field;
+};
+
+/// One of a few numbers.
+struct CountOption {
+  std::span<const int> values;
+  OptionField<int> field;
+};
+
+struct BooleanOption {
+  OptionField<bool> field;
+};
+
+/// A real number and a boolean for what is made of the plan.
+struct AnswerRealOption {
+  Range range;
+  double ParsedOptions::*field;
+};
+struct AnswerBooleanOption {
+  bool ParsedOptions::*field;
+};
+
+/// One of a few words, each with what it means, in the order of the enumeration.
+struct WordOption {
+  struct Word {
+    std::string_view name;
+    std::string_view meaning;
+  };
+  std::span<const Word> words;
+  std::size_t (*get)(const ParsedOptions&);
+  void (*set)(ParsedOptions&, std::size_t);
+};
+
+struct OptionRow {
+  std::string_view name;
+  std::string_view title;  // for a form
+  std::string_view unit;   // symbol, e.g. "ms"; empty: none
+  std::variant<RealOption, ChosenOption, ServiceOption, NaturalOption, BoundOption, CountOption,
+               BooleanOption, AnswerRealOption, AnswerBooleanOption, WordOption>
+      type;
+  std::string_view description;  // CommonMark
+};
+
+/// All options. The defaults are those of ParsedOptions.
+std::span<const OptionRow> option_table();
+
+/// Reads the member `options`, by the table of options; what is left out has its default.
+ParsedOptions parse_options(const JsonReader& member);
+
+/// The requested budget, or the default one, but at most the service's maximum.
+std::chrono::nanoseconds effective_budget(const ParsedOptions& options, const Limits& limits);
+
+/// The warning of a budget that is less than requested.
+std::optional<std::string> budget_warning(const ParsedOptions& options, const Limits& limits);
+
+/// Whether and which dependencies the answer is to have.
+struct RequestedDependencies {
+  bool wanted = false;          // with a plan
+  double slack = 0.1;           // seconds, > 0
+  std::vector<double> margins;  // by robot: metres, >= 0
+};
+
+}  // namespace fleetplan::api

@@ -1,0 +1,82 @@
+#pragma once
+
+// What several members of a request have in common: quotas, ids that are unique, and metadata.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "api/json/faults.h"
+#include "api/json/json_reader.h"
+
+namespace fleetplan::api {
+
+/// How many things of one kind a request may contain in total, wherever they are.
+class Quota {
+ public:
+  /// `what`: in the plural, for the fault.
+  Quota(std::size_t most, std::string_view what) : left_(most), most_(most), what_(what) {}
+
+  /// Whether all items of the array are within the limit. Only the first array beyond it is a fault; then
+  /// nothing more is.
+  bool take(const JsonReader& array) { return take(array.size(), array); }
+  /// Whether so many items, which come from the value `place`, are within the limit.
+  bool take(std::size_t count, const JsonReader& place) {
+    if (exceeded_) return false;
+    exceeded_ = count > left_;
+    if (exceeded_) {
+      place.fault(fault::kOutOfRange, "The request has more than " + std::to_string(most_) + " " +
+                                          std::string(what_) + ", the maximum of this service; send fewer.");
+      return false;
+    }
+    left_ -= count;
+    return true;
+  }
+
+  /// So many more fit.
+  std::size_t left() const { return exceeded_ ? 0 : left_; }
+
+ private:
+  std::size_t left_;
+  std::size_t most_;
+  std::string_view what_;
+  bool exceeded_ = false;
+};
+
+/// Reports every id that an earlier robot or obstacle has.
+class UniqueIds {
+ public:
+  enum class Kind { robot, obstacle };
+
+  /// `item`: of the robot or obstacle with this index. All robots come before the obstacles.
+  void check(Kind kind, const std::string& id, std::size_t index, const JsonReader& item) {
+    if (id.empty()) return;
+    const auto [first, is_new] = owner_.emplace(id, Owner{kind, index});
+    if (is_new) return;
+    item.find("id").fault(fault::kDuplicate, [&, earlier = first->second] {
+      const std::string last = std::to_string(index);
+      const std::string pair = earlier.kind == kind
+                                   ? (kind == Kind::robot ? "Robots " : "Obstacles ") +
+                                         std::to_string(earlier.index) + " and " + last
+                                   : "Robot " + std::to_string(earlier.index) + " and obstacle " + last;
+      return pair + " (from 0) both have the id " + in_quotes(id) + "; ids must be unique.";
+    });
+  }
+
+ private:
+  struct Owner {
+    Kind kind;
+    std::size_t index;
+  };
+  std::unordered_map<std::string, Owner> owner_;  // of each id, the first one that has it
+};
+
+/// The most bytes of one object of metadata, written without spaces.
+inline constexpr std::size_t kMostMetadataBytes = 16'384;
+
+/// Reads `metadata` of a request, a robot or a goal: an object that the answer repeats and that means nothing
+/// here. Returns it as JSON text, or an empty text if it is absent or at fault.
+std::string parse_metadata(const JsonReader& owner);
+
+}  // namespace fleetplan::api
