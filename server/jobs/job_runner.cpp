@@ -1,3 +1,4 @@
+
 #include "server/jobs/job_runner.h"
 
 #include <algorithm>
@@ -11,8 +12,8 @@
 
 #include "api/response/error.h"
 #include "server/http/answer/internal_error.h"
-#include "server/http/guard/gzip.h"
-#include "server/http/steps/negotiation.h"
+#include "server/http/request/gzip.h"
+#include "server/http/request/negotiation.h"
 #include "server/jobs/client_of.h"
 
 namespace fleetplan::server {

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "core/map/map_cache.h"
+#include "server/http/answer/unsent_answers.h"
 #include "server/http/exchange.h"
-#include "server/http/guard/unsent_answers.h"
 #include "server/http/route_table.h"
 #include "server/jobs/worker_load.h"
 #include "server/ops/metrics/metric_types.h"

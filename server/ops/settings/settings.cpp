@@ -1,3 +1,4 @@
+
 #include "server/ops/settings/settings.h"
 
 #include <unistd.h>
@@ -10,9 +11,8 @@
 #include <optional>
 #include <sstream>
 
+#include "server/http/request/access.h"
 #include "server/http/static_files.h"
-#include "server/http/steps/allowed_hosts.h"
-#include "server/http/steps/cors.h"
 #include "server/ops/settings/config_file.h"
 #include "server/ops/settings/cpu_count.h"
 #include "server/ops/version.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "api/request/limits.h"
-#include "server/http/steps/access_token.h"
+#include "server/http/request/access.h"
 #include "server/ops/settings/address_range.h"
 
 namespace fleetplan::server {
