@@ -1,3 +1,4 @@
+
 #include "server/connections/library_server.h"
 
 #include <fcntl.h>
@@ -14,10 +15,10 @@
 
 #include "api/response/error.h"
 #include "server/http/answer/answer_text.h"
-#include "server/http/answer/internal_error.h"
 #include "server/http/exchange.h"
 #include "server/http/http_library.h"
 #include "server/http/request/negotiation.h"
+#include "server/ops/request_log.h"
 
 namespace fleetplan::server {
 

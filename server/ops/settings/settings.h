@@ -9,7 +9,7 @@
 
 #include "api/request/limits.h"
 #include "server/http/request/access.h"
-#include "server/ops/settings/address_range.h"
+#include "server/ops/settings/client_address.h"
 
 namespace fleetplan::server {
 

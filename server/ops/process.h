@@ -1,6 +1,12 @@
 #pragma once
 
+// The process and the system: its descriptors, its memory, and what it uses of both.
+
 namespace fleetplan::server {
+
+/// Opens the null device as each of the descriptors 0 to 2 that is closed. Otherwise a connection could get
+/// that number and receive the log. Call it before anything else is opened.
+void open_standard_descriptors();
 
 /// Makes the process return unused memory to the system instead of keeping the peak of each of many threads.
 /// Call it before any other thread is started.
@@ -11,5 +17,16 @@ void keep_memory_small(int workers);
 /// were of 100 bytes, freed in random order; the next time a tenth of that (glibc 2.36, AMD EPYC). Threads
 /// that allocate from the same arena wait meanwhile.
 void give_memory_back();
+
+/// Resources that this process uses at the moment.
+struct ProcessStats {
+  double cpu_seconds = 0.0;     // user and system, of all threads
+  double resident_bytes = 0.0;  // physical memory
+  double virtual_bytes = 0.0;
+  double open_fds = 0.0;
+  double max_fds = 0.0;
+};
+
+ProcessStats process_stats();
 
 }  // namespace fleetplan::server

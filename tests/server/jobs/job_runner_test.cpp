@@ -1,4 +1,5 @@
-#include "server/jobs/disposal.h"
+
+#include "server/jobs/job_runner.h"
 
 #include <gtest/gtest.h>
 

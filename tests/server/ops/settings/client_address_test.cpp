@@ -1,4 +1,5 @@
-#include "server/jobs/client_of.h"
+
+#include "server/ops/settings/client_address.h"
 
 #include <gtest/gtest.h>
 

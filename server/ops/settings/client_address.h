@@ -1,9 +1,12 @@
 #pragma once
 
+// The address of a client, also behind proxies that an operator trusts.
+
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace fleetplan::server {
 
@@ -27,5 +30,13 @@ class AddressRange {
   IpAddress first_;
   unsigned bits_;
 };
+
+/// The client that sent a request, as far as shares of the server are concerned: its address, of IPv6 the
+/// network of 64 bits, which one client may use alone. Behind trusted proxies, it is the last address that
+/// they forwarded and that is not a trusted proxy itself.
+///
+/// `peer`: see Socket::peer. `forwarded`: the values of X-Forwarded-For.
+std::string client_of(const std::string& peer, const std::string& forwarded,
+                      const std::vector<AddressRange>& trusted_proxies);
 
 }  // namespace fleetplan::server
