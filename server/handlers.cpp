@@ -1,3 +1,4 @@
+
 #include "server/handlers.h"
 
 #include <string>
@@ -8,7 +9,7 @@
 #include "api/response/reply.h"
 #include "server/http/answer/event_stream.h"
 #include "server/http/exchange.h"
-#include "server/http/steps/negotiation.h"
+#include "server/http/request/negotiation.h"
 #include "server/http/text.h"
 #include "server/ops/metrics/metrics_text.h"
 #include "server/ops/version.h"

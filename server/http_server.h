@@ -8,15 +8,14 @@
 #include <string>
 #include <utility>
 
-#include "server/http/guard/body_memory.h"
-#include "server/http/guard/connection.h"
-#include "server/http/guard/stop_signal.h"
-#include "server/http/guard/unsent_answers.h"
-#include "server/http/library/library_server.h"
-#include "server/http/listener/listener.h"
+#include "server/connections/connection.h"
+#include "server/connections/library_server.h"
+#include "server/connections/listener.h"
+#include "server/connections/steps.h"
+#include "server/http/answer/unsent_answers.h"
+#include "server/http/request/access.h"
+#include "server/http/request/body_reader.h"
 #include "server/http/static_files.h"
-#include "server/http/steps/cors.h"
-#include "server/http/steps/steps.h"
 #include "server/jobs/job_runner.h"
 #include "server/ops/metrics/metrics.h"
 #include "server/ops/request_log.h"

@@ -4,8 +4,8 @@
 
 #include "server/command/commands.h"
 #include "server/ops/health_probe.h"
+#include "server/ops/process.h"
 #include "server/ops/settings/settings.h"
-#include "server/ops/standard_descriptors.h"
 #include "server/run.h"
 #include "server/service.h"
 

@@ -1,3 +1,4 @@
+
 #include "server/run.h"
 
 #include <sys/resource.h>
@@ -11,7 +12,7 @@
 #include <utility>
 
 #include "server/http_server.h"
-#include "server/ops/memory.h"
+#include "server/ops/process.h"
 #include "server/ops/version.h"
 
 namespace fleetplan::server {

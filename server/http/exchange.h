@@ -7,11 +7,11 @@
 #include <string_view>
 
 #include "api/response/reply.h"
-#include "server/http/guard/body_memory.h"
-#include "server/http/guard/request_head.h"
-#include "server/http/guard/socket.h"
-#include "server/http/guard/unsent_answers.h"
+#include "server/http/answer/unsent_answers.h"
+#include "server/http/request/body_reader.h"
+#include "server/http/request/request_head.h"
 #include "server/http/route_table.h"
+#include "server/http/socket.h"
 
 namespace fleetplan::server {
 

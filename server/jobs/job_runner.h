@@ -1,13 +1,16 @@
 #pragma once
 
+#include <condition_variable>
+#include <memory>
+#include <mutex>
 #include <stop_token>
+#include <thread>
 #include <vector>
 
 #include "api/endpoints/plan_events.h"
 #include "api/response/reply.h"
 #include "core/map/static_map.h"
 #include "server/http/exchange.h"
-#include "server/jobs/disposal.h"
 #include "server/jobs/parse_slots.h"
 #include "server/jobs/peer_watch.h"
 #include "server/jobs/workers.h"
@@ -16,6 +19,28 @@
 #include "server/service.h"
 
 namespace fleetplan::server {
+
+/// Frees memory in a thread of its own, so that answers need not wait for it. Thread-safe.
+class Disposal {
+ public:
+  Disposal();
+  ~Disposal();
+  Disposal(const Disposal&) = delete;
+  Disposal& operator=(const Disposal&) = delete;
+
+  /// Frees the object soon, or at once in this thread while another one is being freed: at most one is left.
+  void take(std::shared_ptr<const void> object);
+
+ private:
+  void work();
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::shared_ptr<const void> object_;  // to be freed next
+  bool busy_ = false;                   // freeing one
+  bool stopping_ = false;
+  std::thread thread_;
+};
 
 /// Runs jobs, which are the requests that take time: a plan, or the check of one. Accepts no more than the
 /// queue holds and stops those whose client has left. A job waits for a slot, in which its body is decoded

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/http/guard/socket.h"
+#include "server/http/socket.h"
 
 namespace fleetplan::server {
 

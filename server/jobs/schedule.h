@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "server/jobs/worker_load.h"
+#include "server/ops/metrics/worker_load.h"
 
 namespace fleetplan::server {
 

@@ -1,6 +1,7 @@
+
 #include "server/ops/health_probe.h"
 
-#include "server/http/library/http_library.h"
+#include "server/http/http_library.h"
 
 namespace fleetplan::server {
 

@@ -12,8 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "server/http/guard/connection.h"
-#include "server/http/guard/stop_signal.h"
+#include "server/connections/connection.h"
 #include "server/routes.h"
 #include "tests/fuzz/require.h"
 #include "tests/fuzz/target.h"

@@ -1,3 +1,4 @@
+
 #include "server/ops/metrics/metrics.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 
 #include "api/json/error.h"
 #include "server/ops/metrics/metrics_text.h"
-#include "server/ops/metrics/process_stats.h"
+#include "server/ops/process.h"
 #include "server/ops/version.h"
 
 namespace fleetplan::server {
@@ -40,34 +41,8 @@ std::string_view rejection(const Exchange& exchange) {
 
 double as_double(std::uint64_t count) { return static_cast<double>(count); }
 
-void write_process(MetricsText& text, std::chrono::system_clock::time_point started_at) {
-  const ProcessStats stats = process_stats();
-  const auto gauge = [&](std::string_view name, double value, std::string_view help) {
-    text.metric(name, "gauge", help).sample(value);
-  };
-  text.metric("process_cpu_seconds_total", "counter", "User and system CPU time.").sample(stats.cpu_seconds);
-  gauge("process_resident_memory_bytes", stats.resident_bytes, "Physical memory.");
-  gauge("process_virtual_memory_bytes", stats.virtual_bytes, "Virtual memory.");
-  gauge("process_open_fds", stats.open_fds, "Open file descriptors.");
-  gauge("process_max_fds", stats.max_fds, "Maximum number of open file descriptors.");
-  const std::chrono::duration<double> since_1970 = started_at.time_since_epoch();
-  gauge("process_start_time_seconds", since_1970.count(), "Start of the process, seconds since 1970.");
-}
-
-void write_jobs(MetricsText& text, const WorkerLoad& jobs) {
-  static constexpr std::array<std::string_view, kRefusals> kReasons{"queue_full", "share", "too_late"};
-  text.metric("fleetplan_jobs_refused_total", "counter",
-              "Jobs that found no place, or would get no turn in time.");
-  for (std::size_t reason = 0; reason < kReasons.size(); ++reason) {
-    text.sample(as_double(jobs.refused[reason]), {{"reason", kReasons[reason]}});
-  }
-  text.metric("fleetplan_improvements_paused", "gauge",
-              "Anytime plans and simulations that wait while others compute.")
-      .sample(as_double(jobs.paused));
-  text.metric("fleetplan_improvements_ended_total", "counter",
-              "Anytime plans returned before their time, as others waited.")
-      .sample(as_double(jobs.ended_early));
-}
+/// The values of Refusal, in their order.
+constexpr std::array<std::string_view, kRefusals> kRefusalNames{"queue_full", "share", "too_late"};
 
 }  // namespace
 
@@ -115,18 +90,7 @@ void Metrics::count_plan(const api::PlanOutcome& outcome) {
   if (outcome.plan_seconds) plan_seconds_.observe(*outcome.plan_seconds);
 }
 
-std::string Metrics::text(const Gauges& now) const {
-  MetricsText text;
-  const auto counter = [&](std::string_view name, const Counter& value, std::string_view help) {
-    text.metric(name, "counter", help).sample(as_double(value.value()));
-  };
-  const auto gauge = [&](std::string_view name, std::size_t value, std::string_view help) {
-    text.metric(name, "gauge", help).sample(as_double(value));
-  };
-
-  text.metric("fleetplan_build_info", "gauge", "The build that runs; always 1.")
-      .sample(1.0, {{"version", kVersion}, {"compiler", kCompiler}});
-  text.metric("fleetplan_requests_total", "counter", "Requests answered.");
+void Metrics::write_requests(MetricsText& text) const {
   for (const Requests& requests : requests_) {
     for (int status = kFirstStatus; status < kFirstStatus + kStatuses; ++status) {
       const auto count = requests.by_status[static_cast<std::size_t>(status - kFirstStatus)].value();
@@ -134,61 +98,151 @@ std::string Metrics::text(const Gauges& now) const {
       text.sample(as_double(count), {{"route", requests.label}, {"status", std::to_string(status)}});
     }
   }
-  text.metric("fleetplan_request_seconds", "histogram",
-              "From a request's first byte to the end of its answer.");
-  for (const Requests& requests : requests_) text.histogram(requests.seconds, {{"route", requests.label}});
-  text.metric("fleetplan_rejected_total", "counter",
-              "Requests answered with a problem, except the 503 of /readyz.");
-  for (const auto& [reason, count] : rejected_) {
-    text.sample(as_double(count.value()), {{"reason", reason}});
+}
+
+/// What is not counted, but looked up when the text is written.
+struct Metrics::Moment {
+  const Gauges& load;
+  const ProcessStats process;
+};
+
+/// A metric: either one sample without labels, or those that a function writes.
+struct Metrics::Row {
+  using Value = double (*)(const Metrics& all, const Moment& now);
+  using Samples = void (*)(const Metrics& all, const Moment& now, MetricsText& text);
+
+  constexpr Row(std::string_view row_name, std::string_view row_type, std::string_view row_help, Value one)
+      : name(row_name), type(row_type), help(row_help), value(one) {}
+  constexpr Row(std::string_view row_name, std::string_view row_type, std::string_view row_help, Samples all)
+      : name(row_name), type(row_type), help(row_help), samples(all) {}
+
+  std::string_view name;
+  std::string_view type;
+  std::string_view help;
+  Value value = nullptr;
+  Samples samples = nullptr;
+};
+
+/// All metrics, in the order of their text.
+std::span<const Metrics::Row> Metrics::table() {
+  using M = const Metrics&;
+  using N = const Moment&;
+  using T = MetricsText&;
+  static constexpr Row kRows[] = {
+      {"fleetplan_build_info", "gauge", "The build that runs; always 1.",
+       [](M, N, T text) {
+         text.sample(1.0, {{"version", kVersion}, {"compiler", kCompiler}});
+       }},
+      {"fleetplan_requests_total", "counter", "Requests answered.",
+       [](M all, N, T text) { all.write_requests(text); }},
+      {"fleetplan_request_seconds", "histogram", "From a request's first byte to the end of its answer.",
+       [](M all, N, T text) {
+         for (const Requests& of : all.requests_) text.histogram(of.seconds, {{"route", of.label}});
+       }},
+      {"fleetplan_rejected_total", "counter", "Requests answered with a problem, except the 503 of /readyz.",
+       [](M all, N, T text) {
+         for (const auto& [reason, count] : all.rejected_) {
+           text.sample(as_double(count.value()), {{"reason", reason}});
+         }
+       }},
+      {"fleetplan_connections", "gauge", "Open connections.",
+       [](M, N now, T text) {
+         text.sample(as_double(now.load.connections), {{"port", "main"}})
+             .sample(as_double(now.load.admin_connections), {{"port", "admin"}});
+       }},
+      {"fleetplan_workers", "gauge", "Plans and checks that can be computed at a time.",
+       [](M, N now) { return as_double(now.load.workers); }},
+      {"fleetplan_workers_busy", "gauge", "Plans and checks being computed.",
+       [](M, N now) { return as_double(now.load.jobs.running); }},
+      {"fleetplan_queue_depth", "gauge", "Jobs that wait for a worker.",
+       [](M, N now) { return as_double(now.load.jobs.waiting); }},
+      {"fleetplan_queue_wait_seconds", "histogram", "How long jobs waited for a worker.",
+       [](M all, N, T text) { text.histogram(all.queue_seconds_); }},
+      {"fleetplan_queue_lost_seconds_total", "counter", "Waiting of jobs that got no turn.",
+       [](M all, N) { return all.queue_lost_seconds_.value(); }},
+      {"fleetplan_jobs_refused_total", "counter", "Jobs that found no place, or would get no turn in time.",
+       [](M, N now, T text) {
+         for (std::size_t reason = 0; reason < kRefusals; ++reason) {
+           text.sample(as_double(now.load.jobs.refused[reason]), {{"reason", kRefusalNames[reason]}});
+         }
+       }},
+      {"fleetplan_improvements_paused", "gauge",
+       "Anytime plans and simulations that wait while others compute.",
+       [](M, N now) { return as_double(now.load.jobs.paused); }},
+      {"fleetplan_improvements_ended_total", "counter",
+       "Anytime plans returned before their time, as others waited.",
+       [](M, N now) { return as_double(now.load.jobs.ended_early); }},
+      {"fleetplan_late_seconds", "histogram",
+       "How long after the end of their budget answers were made, of those that were late.",
+       [](M all, N, T text) { text.histogram(all.late_seconds_); }},
+      {"fleetplan_plans_total", "counter", "Plans returned.",
+       [](M all, N, T text) {
+         for (const Status status : {Status::solved, Status::partial, Status::none}) {
+           const double count = as_double(all.plans_[static_cast<std::size_t>(status)].value());
+           text.sample(count, {{"outcome", api::name_of(status)}});
+         }
+       }},
+      {"fleetplan_plans_refused_total", "counter", "Plans that the checker rejected; each is a bug.",
+       [](M all, N) { return as_double(all.plans_[static_cast<std::size_t>(Status::refused)].value()); }},
+      {"fleetplan_plans_cancelled_total", "counter", "Plans whose client left before the answer.",
+       [](M all, N) { return as_double(all.cancelled_.value()); }},
+      {"fleetplan_plan_seconds", "histogram", "Time that planning took, of plans that were started.",
+       [](M all, N, T text) { text.histogram(all.plan_seconds_); }},
+      {"fleetplan_robots_total", "counter", "Robots of the plans.",
+       [](M all, N, T text) {
+         text.sample(as_double(all.planned_robots_.value()), {{"outcome", "planned"}});
+         text.sample(as_double(all.unplanned_robots_.value()), {{"outcome", "unplanned"}});
+       }},
+      {"fleetplan_unplanned_robots_total", "counter", "Unplanned robots of the plans.",
+       [](M all, N, T text) {
+         for (std::size_t reason = 0; reason < all.unplanned_by_reason_.size(); ++reason) {
+           text.sample(as_double(all.unplanned_by_reason_[reason].value()),
+                       {{"reason", api::name_of(static_cast<core::Unplanned::Reason>(reason))}});
+         }
+       }},
+      {"fleetplan_expansions_total", "counter", "Search labels expanded.",
+       [](M all, N) { return as_double(all.expansions_.value()); }},
+      {"fleetplan_map_cache_hits_total", "counter", "Maps of requests that were kept from earlier ones.",
+       [](M, N now) { return as_double(now.load.maps.hits); }},
+      {"fleetplan_map_cache_misses_total", "counter", "Maps of requests that had to be made.",
+       [](M, N now) { return as_double(now.load.maps.misses); }},
+      {"fleetplan_map_cache_maps", "gauge", "Maps that are kept or in use.",
+       [](M, N now) { return as_double(now.load.maps.maps); }},
+      {"fleetplan_map_cache_bytes", "gauge", "Memory of the maps that are kept or in use.",
+       [](M, N now) { return as_double(now.load.maps.bytes); }},
+      {"fleetplan_unsent_bytes", "gauge", "Memory of answers that clients have not accepted yet.",
+       [](M, N now) { return as_double(now.load.unsent.bytes); }},
+      {"fleetplan_unsent_dropped_total", "counter",
+       "Answers dropped as their clients did not read them and others needed the memory.",
+       [](M, N now) { return as_double(now.load.unsent.dropped); }},
+      {"fleetplan_log_lines_dropped_total", "counter", "Log lines dropped: stderr was not read.",
+       [](M, N now) { return as_double(now.load.log_dropped); }},
+      {"process_cpu_seconds_total", "counter", "User and system CPU time.",
+       [](M, N now) { return now.process.cpu_seconds; }},
+      {"process_resident_memory_bytes", "gauge", "Physical memory.",
+       [](M, N now) { return now.process.resident_bytes; }},
+      {"process_virtual_memory_bytes", "gauge", "Virtual memory.",
+       [](M, N now) { return now.process.virtual_bytes; }},
+      {"process_open_fds", "gauge", "Open file descriptors.", [](M, N now) { return now.process.open_fds; }},
+      {"process_max_fds", "gauge", "Maximum number of open file descriptors.",
+       [](M, N now) { return now.process.max_fds; }},
+      {"process_start_time_seconds", "gauge", "Start of the process, seconds since 1970.",
+       [](M all, N) { return std::chrono::duration<double>(all.started_at_.time_since_epoch()).count(); }},
+  };
+  return kRows;
+}
+
+std::string Metrics::text(const Gauges& load) const {
+  const Moment now{load, process_stats()};
+  MetricsText text;
+  for (const Row& row : table()) {
+    text.metric(row.name, row.type, row.help);
+    if (row.value != nullptr) {
+      text.sample(row.value(*this, now));
+    } else {
+      row.samples(*this, now, text);
+    }
   }
-  text.metric("fleetplan_connections", "gauge", "Open connections.")
-      .sample(as_double(now.connections), {{"port", "main"}})
-      .sample(as_double(now.admin_connections), {{"port", "admin"}});
-  gauge("fleetplan_workers", now.workers, "Plans and checks that can be computed at a time.");
-  gauge("fleetplan_workers_busy", now.jobs.running, "Plans and checks being computed.");
-  gauge("fleetplan_queue_depth", now.jobs.waiting, "Jobs that wait for a worker.");
-  text.metric("fleetplan_queue_wait_seconds", "histogram", "How long jobs waited for a worker.")
-      .histogram(queue_seconds_);
-  text.metric("fleetplan_queue_lost_seconds_total", "counter", "Waiting of jobs that got no turn.")
-      .sample(queue_lost_seconds_.value());
-  write_jobs(text, now.jobs);
-  text.metric("fleetplan_late_seconds", "histogram",
-              "How long after the end of their budget answers were made, of those that were late.")
-      .histogram(late_seconds_);
-  text.metric("fleetplan_plans_total", "counter", "Plans returned.");
-  for (const Status status : {Status::solved, Status::partial, Status::none}) {
-    const double count = as_double(plans_[static_cast<std::size_t>(status)].value());
-    text.sample(count, {{"outcome", api::name_of(status)}});
-  }
-  counter("fleetplan_plans_refused_total", plans_[static_cast<std::size_t>(Status::refused)],
-          "Plans that the checker rejected; each is a bug.");
-  counter("fleetplan_plans_cancelled_total", cancelled_, "Plans whose client left before the answer.");
-  text.metric("fleetplan_plan_seconds", "histogram", "Time that planning took, of plans that were started.")
-      .histogram(plan_seconds_);
-  text.metric("fleetplan_robots_total", "counter", "Robots of the plans.");
-  text.sample(as_double(planned_robots_.value()), {{"outcome", "planned"}});
-  text.sample(as_double(unplanned_robots_.value()), {{"outcome", "unplanned"}});
-  text.metric("fleetplan_unplanned_robots_total", "counter", "Unplanned robots of the plans.");
-  for (std::size_t reason = 0; reason < unplanned_by_reason_.size(); ++reason) {
-    text.sample(as_double(unplanned_by_reason_[reason].value()),
-                {{"reason", api::name_of(static_cast<core::Unplanned::Reason>(reason))}});
-  }
-  counter("fleetplan_expansions_total", expansions_, "Search labels expanded.");
-  text.metric("fleetplan_map_cache_hits_total", "counter",
-              "Maps of requests that were kept from earlier ones.")
-      .sample(as_double(now.maps.hits));
-  text.metric("fleetplan_map_cache_misses_total", "counter", "Maps of requests that had to be made.")
-      .sample(as_double(now.maps.misses));
-  gauge("fleetplan_map_cache_maps", now.maps.maps, "Maps that are kept or in use.");
-  gauge("fleetplan_map_cache_bytes", now.maps.bytes, "Memory of the maps that are kept or in use.");
-  gauge("fleetplan_unsent_bytes", now.unsent.bytes, "Memory of answers that clients have not accepted yet.");
-  text.metric("fleetplan_unsent_dropped_total", "counter",
-              "Answers dropped as their clients did not read them and others needed the memory.")
-      .sample(as_double(now.unsent.dropped));
-  text.metric("fleetplan_log_lines_dropped_total", "counter", "Log lines dropped: stderr was not read.")
-      .sample(as_double(now.log_dropped));
-  write_process(text, started_at_);
   return text.take();
 }
 

@@ -6,16 +6,17 @@
 #include <deque>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "core/map/static_map.h"
+#include "server/http/answer/unsent_answers.h"
 #include "server/http/exchange.h"
-#include "server/http/guard/unsent_answers.h"
 #include "server/http/route_table.h"
-#include "server/jobs/worker_load.h"
-#include "server/ops/metrics/metric_types.h"
+#include "server/ops/metrics/metrics_text.h"
+#include "server/ops/metrics/worker_load.h"
 
 namespace fleetplan::server {
 
@@ -41,7 +42,7 @@ class Metrics {
 
   /// The answer to GET /metrics, see MetricsText. All series exist from the start, except those of statuses
   /// that are unusual on their route.
-  std::string text(const Gauges& now) const;
+  std::string text(const Gauges& load) const;
 
  private:
   static constexpr int kFirstStatus = 100;
@@ -59,6 +60,12 @@ class Metrics {
     Histogram seconds = {};
   };
 
+  struct Moment;
+  struct Row;
+
+  static std::span<const Row> table();
+
+  void write_requests(MetricsText& text) const;
   Requests& requests_of(const Route* route);
   void count_plan(const api::PlanOutcome& outcome);
 

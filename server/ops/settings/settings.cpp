@@ -6,14 +6,18 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <sstream>
+#include <string>
+#include <system_error>
+#include <vector>
 
+#include "server/http/request/access.h"
 #include "server/http/static_files.h"
-#include "server/http/steps/allowed_hosts.h"
-#include "server/http/steps/cors.h"
-#include "server/ops/settings/config_file.h"
+#include "server/http/text.h"
 #include "server/ops/settings/cpu_count.h"
 #include "server/ops/version.h"
 
@@ -28,6 +32,42 @@ constexpr std::int64_t kMaxMs = 86'400'000;        // a day
 constexpr std::size_t kMostItems = 1'000'000'000;  // of a request
 
 constexpr std::string_view kEnvironmentPrefix = "FLEETPLAN_";
+
+/// Throws an exception of CLI11 when the value is not valid for the option.
+std::optional<std::string> apply(CLI::App& app, const CLI::ConfigItem& item) {
+  CLI::Option* option =
+      item.parents.empty() ? app.get_option_no_throw("--" + item.name) : nullptr;  // there are no sections
+  if (option == nullptr || !option->get_configurable()) {
+    return "there is no setting " + in_quotes(item.fullname());
+  }
+  // A line without '=' is reported as "true", which newer versions of CLI11 convert to the number 1.
+  if (item.inputs == std::vector<std::string>{"true"}) return in_quotes(item.name) + " has no value";
+  if (option->count() > 0) return std::nullopt;
+  option->add_result(item.inputs);
+  option->run_callback();
+  return std::nullopt;
+}
+
+/// Gives options of `app` that are not set yet the values of a file of `flag = value` lines, `#` for comments
+/// (TOML, as far as CLI11 reads it). Call it after `app` has parsed flags and environment, which have
+/// precedence. The fault of the file, if there is one.
+std::optional<std::string> apply_config_file(CLI::App& app, const std::string& path) {
+  const auto fault = [&](const std::string& what) { return "--config: " + path + ": " + what; };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return fault("it is a folder");
+  std::set<std::string> seen;
+  try {
+    for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_file(path)) {
+      if (!seen.insert(item.fullname()).second) return fault(in_quotes(item.name) + " is set twice");
+      if (const auto wrong = apply(app, item)) return fault(*wrong);
+    }
+  } catch (const CLI::FileError&) {
+    return fault("it cannot be read");
+  } catch (const std::exception& error) {  // newer versions of CLI11 throw others for broken syntax
+    return fault(error.what());
+  }
+  return std::nullopt;
+}
 
 std::string environment_name(std::string flag) {
   for (char& c : flag) c = c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "api/request/limits.h"
-#include "server/http/steps/access_token.h"
-#include "server/ops/settings/address_range.h"
+#include "server/http/request/access.h"
+#include "server/ops/settings/client_address.h"
 
 namespace fleetplan::server {
 

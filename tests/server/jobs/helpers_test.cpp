@@ -1,7 +1,5 @@
 // Idle workers run tasks of jobs.
 
-#include "server/jobs/helpers.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -14,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/jobs/workers.h"
 #include "tests/server/support/worker_jobs.h"
 
 namespace fleetplan::server {

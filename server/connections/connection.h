@@ -1,0 +1,142 @@
+#pragma once
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <functional>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "server/connections/steps.h"
+#include "server/http/answer/answer_text.h"
+#include "server/http/answer/unsent_answers.h"
+#include "server/http/exchange.h"
+#include "server/http/request/body_reader.h"
+#include "server/ops/settings/settings.h"
+
+namespace fleetplan::server {
+
+/// A flag that threads waiting in poll() can see: its descriptor stays readable once raised.
+class StopSignal {
+ public:
+  StopSignal() : fd_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    if (fd_ < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
+  }
+  ~StopSignal() { ::close(fd_); }
+  StopSignal(const StopSignal&) = delete;
+  StopSignal& operator=(const StopSignal&) = delete;
+
+  void raise() {
+    raised_ = true;
+    ::eventfd_write(fd_, 1);
+  }
+  bool raised() const { return raised_; }
+  int fd() const { return fd_; }
+
+ private:
+  int fd_;
+  std::atomic<bool> raised_{false};
+};
+
+/// What all connections of a port share.
+struct ConnectionContext {
+  const Settings& settings;
+  const Steps& steps;
+  BodyMemory& body_memory;
+  UnsentAnswers& unsent_answers;
+  const std::atomic<bool>& draining;
+  std::atomic<std::size_t>& exchanges;  // under way
+  const StopSignal& stop;
+  std::function<Sent(Exchange&)> answer;  // has the library answer a request that passed all steps
+};
+
+/// Counts something as under way as long as it lives.
+class UnderWay {
+ public:
+  explicit UnderWay(std::atomic<std::size_t>& count) : count_(count) { ++count_; }
+  ~UnderWay() { --count_; }
+  UnderWay(const UnderWay&) = delete;
+  UnderWay& operator=(const UnderWay&) = delete;
+
+ private:
+  std::atomic<std::size_t>& count_;
+};
+
+/// One client's connection: reads its requests strictly and takes each through the steps. Sends the answers
+/// that need no handler itself.
+///
+/// It never waits for the client: where it would have to, it returns, and goes on once there is something to
+/// do. So a client that is idle or slow, in either direction, occupies no thread.
+class Connection {
+ public:
+  using Clock = Socket::Clock;
+
+  /// What has to happen before a connection can go on.
+  struct Wait {
+    bool for_input;              // or else for room to send
+    Clock::time_point deadline;  // goes on at this time, whatever has happened
+    Clock::time_point since;     // when the client's turn began
+    bool stopped;                // the stop signal has been seen; until then, it goes on with the signal, too
+  };
+
+  /// Takes the socket over.
+  Connection(int fd, ConnectionContext context);
+
+  /// Goes on until it has to wait; none: it is over, because the client left, was idle for too long, or the
+  /// server stops. Not from several threads at a time.
+  std::optional<Wait> go_on();
+
+  /// What go_on() has returned; before the first time, what has to happen first.
+  Wait wait() const;
+
+  int fd() const { return socket_.fd(); }
+
+ private:
+  enum class Phase { idle, head, body, sending, dropping, lingering, over };
+  enum class Input { some, nothing, end, timeout, stopped };
+
+  // Each continues its phase: true to go on with the phase that follows, false to wait.
+  bool idle();
+  bool head();
+  bool body();
+  bool sending();
+  bool dropping();
+  bool lingering();
+
+  void begin(Phase phase, Clock::time_point deadline);
+  void begin_exchange();
+  void judge_head(HeadScanner::State state);
+  void begin_body();
+  void set_body_deadline();
+  void end_body();
+  void refuse(api::ErrorCode code, const std::string& detail);
+  void refuse(const BodyFault& fault);
+  void answer_directly(const DirectAnswer& answer);
+  void answer();
+  void send_rest(const Sent& sent);
+  void end_exchange();
+  Input receive();
+
+  ConnectionContext context_;
+  Socket socket_;
+  const std::string peer_;
+  std::string input_;  // read and not used yet
+  Phase phase_ = Phase::idle;
+  Clock::time_point since_;     // when the phase began
+  Clock::time_point deadline_;  // of the phase
+  bool stop_seen_ = false;
+  bool unread_ = false;  // the client may still be sending
+
+  std::optional<Exchange> exchange_;  // from the first byte of a request to the last one of its answer
+  std::optional<UnderWay> under_way_;
+  HeadScanner scanner_;
+  std::optional<BodyReader> body_;  // of the exchange; later the body of one that was refused, to be dropped
+  std::uint64_t body_bytes_ = 0;    // read, chunk sizes included
+  Sent sent_;
+  std::optional<WritePatience> write_patience_;
+};
+
+}  // namespace fleetplan::server

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "server/connections/connection.h"
+#include "server/connections/request_threads.h"
+
+namespace fleetplan::server {
+
+/// What a failed accept() means for the listener.
+enum class AcceptFault {
+  none_waiting,     // there is no connection to accept
+  connection_lost,  // that connection is gone; the next one may be fine
+  exhausted,        // no descriptors or no memory for now
+  broken,           // the listening socket is not one, or no longer
+};
+
+/// By the error number that accept() has set (accept(2)).
+AcceptFault accept_fault(int error);
+
+/// Accepts a connection on a listening socket that does not block: its descriptor, which is closed on exec
+/// and sends small answers at once; or -1 with errno set.
+int accept_connection(int listening_fd);
+
+/// Accepts the connections of a port and keeps those that wait for their clients, with one thread for all of
+/// them (epoll). A connection that can go on gets a thread until it has to wait again.
+class Listener {
+ public:
+  struct Context {
+    std::size_t threads;  // requests that are read or answered at a time
+    std::size_t
+        connections;         // open at a time; beyond, the one whose client has let it wait longest is closed
+    const StopSignal& stop;  // once raised, connections do not wait for input any more
+    std::function<std::unique_ptr<Connection>(int fd)> connect;  // takes the descriptor over
+    std::function<void(const std::string& what)> report;         // a fault of one connection
+    std::function<void(const std::string& why)> failed;          // no more connections are accepted
+    std::function<int(int listening_fd)> accept = accept_connection;
+  };
+
+  explicit Listener(Context context);
+  ~Listener();
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+
+  /// Accepts until stop() and serves until all connections have ended.
+  void run(int listening_fd);
+
+  /// Ends run(); raise the stop signal before. May be called from any thread.
+  void stop();
+
+  /// Open connections.
+  std::size_t connections() const;
+
+ private:
+  using Clock = Connection::Clock;
+  using Id = std::uint64_t;
+
+  /// A connection. While it waits for its client it is `parked`; otherwise a thread has it.
+  struct Held {
+    std::unique_ptr<Connection> connection;
+    std::optional<Connection::Wait> parked = std::nullopt;
+  };
+
+  void handle_events(int listening_fd);
+  void accept_some(int listening_fd);
+  void pause_accepting(int listening_fd);
+  void accept_again(int listening_fd);
+  void end_accepting(int listening_fd);
+
+  /// Closes the connection whose client has let it wait longest; false if none waits.
+  bool make_room();
+  void add(int fd);
+
+  /// Has a thread go on with a connection that is not parked.
+  void start(Id id, Connection& connection);
+  void serve(Id id, Connection& connection);
+
+  /// False: it must go on first, to see the stop signal.
+  bool park(Id id, const Connection::Wait& wait);
+  void unpark(Id id, Held& held);
+  void resume(Id id);
+  void resume_parked(Clock::time_point until);
+  void tell_all_of_stop();
+  void end(Id id);
+
+  Context context_;
+  int epoll_fd_;
+  StopSignal wake_;                                               // for stop()
+  std::optional<Clock::time_point> paused_until_ = std::nullopt;  // accepting is
+  RequestThreads threads_;
+
+  mutable std::mutex mutex_;  // guards all below
+  bool stop_told_ = false;    // to those that were parked
+  Id next_id_;
+  std::unordered_map<Id, Held> held_;
+  std::set<std::pair<Clock::time_point, Id>> by_deadline_;  // of those parked
+  std::set<std::pair<Clock::time_point, Id>> by_since_;     // of those parked
+};
+
+}  // namespace fleetplan::server

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/http/socket.h"
+
+namespace fleetplan::server {
+
+/// Bounds the memory of answers that clients have not accepted yet, of all connections together. When an
+/// answer has no room, others are dropped: first that of the client which has accepted nothing for the
+/// longest time. The newest is kept whatever its size. Thread-safe.
+class UnsentAnswers {
+ public:
+  class Answer;
+
+  /// `most`: bytes of all answers together, or of the newest alone if that is larger.
+  explicit UnsentAnswers(std::size_t most) : most_(most) {}
+
+  struct Stats {
+    std::size_t bytes = 0;      // held now
+    std::uint64_t dropped = 0;  // answers, since the start
+  };
+  Stats stats() const;
+
+ private:
+  void keep(Answer& answer, std::string_view rest);
+  void accepted(Answer& answer);
+  void forget(Answer& answer);
+  void forget_locked(Answer& answer);
+  void make_room(std::size_t bytes, const Answer& newest);
+
+  const std::size_t most_;
+  mutable std::mutex mutex_;  // guards all below; locked before that of an answer
+  Stats stats_;
+  std::vector<Answer*> held_;
+};
+
+/// What a connection has to send. A dropped answer ends its connection. Used by one thread at a time.
+class UnsentAnswers::Answer {
+ public:
+  Answer(UnsentAnswers& all, Socket& socket) : all_(all), socket_(socket) {}
+  ~Answer() { all_.forget(*this); }
+  Answer(const Answer&) = delete;
+  Answer& operator=(const Answer&) = delete;
+
+  /// Sends what the client accepts at once, and keeps the rest. False when the client is gone, or what it has
+  /// not accepted was dropped.
+  bool send(std::string_view data);
+
+  /// Sends more of the rest: the number of bytes; none when the client is gone, or the rest was dropped.
+  std::optional<std::size_t> send_rest();
+
+  /// False when everything was accepted. A dropped rest counts.
+  bool has_rest() const;
+
+  /// Bytes that are left.
+  std::size_t rest() const;
+
+ private:
+  friend class UnsentAnswers;
+  using Clock = Socket::Clock;
+
+  UnsentAnswers& all_;
+  Socket& socket_;
+  // Guarded by the mutex of `all_`.
+  bool is_held_ = false;
+  std::size_t counted_ = 0;  // bytes
+  Clock::time_point accepted_at_ = {};
+
+  mutable std::mutex mutex_;  // guards all below
+  std::string text_;
+  std::size_t sent_ = 0;  // of the text
+  bool dropped_ = false;
+};
+
+}  // namespace fleetplan::server

@@ -1,0 +1,90 @@
+#pragma once
+
+// Who may use the service: clients with the token, under allowed host names, from pages of allowed origins.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "server/http/request/request_head.h"
+
+namespace fleetplan::server {
+
+/// The secret that requests must send. It is never logged.
+class AccessToken {
+ public:
+  /// `text`: visible ASCII. Otherwise the fault, without the text.
+  static std::variant<AccessToken, std::string> from_text(std::string_view text);
+
+  /// The only line of a file; line ends behind it are dropped.
+  static std::variant<AccessToken, std::string> from_file(const std::string& path);
+
+  /// True when an Authorization field (empty: absent) contains the token: as `Bearer TOKEN`, or as the
+  /// password of `Basic` with any user name, for which browsers show a dialog. The time does not depend on
+  /// how much of the token is right.
+  bool admits(std::string_view authorization) const;
+
+ private:
+  explicit AccessToken(std::string_view token) : token_(token) {}
+  bool equals(std::string_view shown) const;
+
+  std::string token_;
+};
+
+/// RFC 4648, with or without padding; none when it is not base64.
+std::optional<std::string> base64_decoded(std::string_view text);
+
+/// The names by which requests may address a service that listens on loopback. A page on the web can have the
+/// name of its own server resolved to 127.0.0.1 ("DNS rebinding"); the browser then treats this service as
+/// the page's own server, but the Host field still has the page's name.
+class AllowedHosts {
+ public:
+  /// `listening`: the address of the service; only if it is a local name, requests are restricted. `names`:
+  /// those that are allowed besides local names, without port; `*` for any.
+  AllowedHosts(std::string_view listening, const std::vector<std::string>& names);
+
+  /// Also true for a request without Host (HTTP/1.0), which no browser sends.
+  bool admits(const RequestHead& head) const;
+
+ private:
+  bool any_;
+  std::vector<std::string> names_;  // in lower case
+};
+
+/// Why AllowedHosts does not accept this name; none when it does.
+std::optional<std::string> host_name_fault(std::string_view name);
+
+/// The pages of other origins that may use the service and read answers in a browser (the Fetch standard's
+/// CORS protocol). Without credentials of the browser: a page sends the token itself.
+class CrossOrigin {
+ public:
+  /// `origins`: each `scheme://host[:port]`, or `*` for any. Empty: no page of another origin.
+  explicit CrossOrigin(std::vector<std::string> origins);
+
+  /// Header fields of every answer to this request.
+  HeaderFields answer_fields(const RequestHead& head) const;
+
+  /// True when the request is not one of a page of another origin, or that page is allowed. A page whose
+  /// origin has the host and port of the request is the service's own: with a proxy that terminates TLS, the
+  /// schemes differ.
+  bool admits(const RequestHead& head) const;
+
+  /// True for the preflight that a browser sends before the request of a page that is allowed.
+  bool is_preflight(const RequestHead& head) const;
+
+  /// Header fields of the answer to a preflight; `methods`: those of the resource.
+  static HeaderFields preflight_fields(std::string_view methods);
+
+ private:
+  bool allows(std::string_view origin) const;
+
+  std::vector<std::string> origins_;
+  bool any_;
+};
+
+/// Why CrossOrigin does not accept this origin; none when it does.
+std::optional<std::string> origin_fault(std::string_view origin);
+
+}  // namespace fleetplan::server

@@ -1,0 +1,122 @@
+#pragma once
+
+// The body of a request as it arrives: the memory it may take, its chunks, and the reader of both.
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "api/json/error.h"
+#include "server/http/request/request_head.h"
+
+namespace fleetplan::server {
+
+/// Bounds the memory of the heads and bodies of all requests together, in bytes as sent and as decoded, so
+/// that too many large ones at the same time are rejected. Small ones have a part of their own: other clients
+/// are served even while a few occupy the rest. Memory for their content, such as parsed JSON, is not
+/// counted. Thread-safe.
+class BodyMemory {
+ public:
+  /// Enough for `requests` (at least one) bodies of `max_body` bytes (up to 1 TiB), of which one is being
+  /// decoded, besides `small` ones of kSmall bytes.
+  BodyMemory(std::uint64_t max_body, std::size_t requests, std::size_t small);
+
+  /// The memory of one request, until its end.
+  class Share {
+   public:
+    explicit Share(BodyMemory& memory) : memory_(memory) {}
+    ~Share();
+    Share(const Share&) = delete;
+    Share& operator=(const Share&) = delete;
+
+    /// True when the request may hold so many bytes.
+    bool grow_to(std::uint64_t bytes);
+
+   private:
+    BodyMemory& memory_;
+    std::int64_t held_ = 0;
+    std::int64_t held_small_ = 0;
+  };
+
+  static constexpr std::uint64_t kSmall = 64 * 1024;
+  /// The detail of the problem when there is no more.
+  static constexpr const char* kFull = "Too many large requests are being received: try again later.";
+
+ private:
+  std::atomic<std::int64_t> left_;
+  std::atomic<std::int64_t> small_left_;
+};
+
+/// The line before a chunk of a body (RFC 9112, 7.1).
+struct ChunkLine {
+  std::uint64_t size;             // bytes of the chunk; 0: the last one
+  std::uint64_t extension_bytes;  // of the line, after the size
+};
+
+/// `line`: without its CR LF. None unless it is a hexadecimal number of up to 16 digits, followed by nothing
+/// but extensions `;name`, `;name=token` or `;name="text"`.
+std::optional<ChunkLine> parse_chunk_line(std::string_view line);
+
+/// Why there is no body.
+struct BodyFault {
+  enum class Kind { malformed, too_large, no_room, too_slow, stopped };
+  Kind kind;
+  std::string detail;
+};
+
+api::ErrorCode code_of(BodyFault::Kind kind);
+BodyFault malformed_body(std::string detail);
+BodyFault too_large_body(const std::string& size, std::uint64_t limit);
+
+/// Reads the body of a request as it was sent, still content-coded, by Content-Length or chunked (RFC 9112,
+/// 6 and 7), as its bytes arrive. Rejects malformed framing; chunk extensions and trailers are checked and
+/// dropped.
+class BodyReader {
+ public:
+  enum class State { incomplete, complete, failed };
+
+  /// `limit`: bytes of body. `share`: of the memory of all bodies, to hold this one; null: the body is
+  /// dropped instead.
+  BodyReader(const RequestHead& head, std::uint64_t limit, BodyMemory::Share* share);
+
+  /// Takes what has arrived off `input`; what follows the body stays there.
+  State take(std::string& input);
+
+  /// Once complete.
+  std::string&& take_body() { return std::move(body_); }
+
+  /// Bytes of the body so far.
+  std::uint64_t size() const { return size_; }
+
+  /// Once failed.
+  const BodyFault& fault() const { return fault_; }
+
+ private:
+  enum class Part { data, data_end, size_line, trailers, end };
+
+  // `complete` means the part, see part_.
+  State fail(BodyFault fault);
+  State take_parts(std::string_view input);
+  State take_data(std::string_view input);
+  State take_line(std::string_view input);
+  State begin_chunk(std::string_view line);
+  State take_trailer(std::string_view line);
+
+  const bool chunked_;
+  const std::uint64_t limit_;
+  BodyMemory::Share* const share_;
+  Part part_;
+  std::uint64_t left_ = 0;  // of the chunk, or of the body that is not chunked
+  std::uint64_t size_ = 0;  // of the body so far
+  std::uint64_t extensions_ = 0;
+  std::size_t trailers_ = 0;
+  std::size_t taken_ = 0;  // of the input
+  std::string body_;
+  BodyFault fault_{};
+};
+
+}  // namespace fleetplan::server

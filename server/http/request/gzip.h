@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "core/runtime/stop_condition.h"
+#include "server/http/request/body_reader.h"
+
+namespace fleetplan::server {
+
+/// The text as one gzip member. None when the stop condition is met.
+std::optional<std::string> gzip(std::string_view text, const core::StopCondition& stop);
+
+/// Decodes a body of gzip members (RFC 1952, 2.2), which are one text together. Every member must be complete
+/// with its checksum and length, and nothing else may follow. `limit`: decoded bytes. `share`: holds both
+/// forms of the body. Stopped when the stop condition is met.
+std::variant<std::string, BodyFault> gunzip(std::string_view coded, std::uint64_t limit,
+                                            BodyMemory::Share& share, const core::StopCondition& stop);
+
+}  // namespace fleetplan::server
