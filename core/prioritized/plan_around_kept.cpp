@@ -4,9 +4,8 @@
 #include <chrono>
 #include <utility>
 
-#include "core/prioritized/ordering_result.h"
+#include "core/prioritized/orderings.h"
 #include "core/prioritized/partial_plan.h"
-#include "core/prioritized/repair.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

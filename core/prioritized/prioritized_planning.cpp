@@ -4,10 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/prioritized/ordering_result.h"
+#include "core/prioritized/orderings.h"
 #include "core/prioritized/partial_plan.h"
-#include "core/prioritized/repair_or_restart.h"
-#include "core/prioritized/restarts.h"
 
 namespace fleetplan::core {
 namespace {

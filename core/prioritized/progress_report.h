@@ -11,7 +11,11 @@ namespace fleetplan::core {
 class ProgressReport {
  public:
   /// Counts the robots that follow a trajectory in `state`. `observer` may be null.
-  ProgressReport(const PlanState& state, Observer* observer);
+  ProgressReport(const PlanState& state, Observer* observer) : state_(state), observer_(observer) {
+    for (std::size_t robot = 0; robot < state.instance().size(); ++robot) {
+      if (!state.instance().robot(robot).goal) ++parked_;
+    }
+  }
 
   /// Another attempt at planning all robots begins.
   void next_attempt() {
@@ -31,7 +35,10 @@ class ProgressReport {
   Observer* observer() const { return observer_; }
 
  private:
-  void notify();
+  void notify() {
+    progress_.planned = parked_ + state_.planned_count();
+    observer_->progressed(progress_);
+  }
 
   const PlanState& state_;
   Observer* observer_;

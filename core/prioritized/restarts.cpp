@@ -1,8 +1,8 @@
-#include "core/prioritized/restarts.h"
-
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include "core/prioritized/orderings.h"
 
 namespace fleetplan::core {
 namespace {

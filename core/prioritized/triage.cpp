@@ -1,10 +1,18 @@
 #include "core/prioritized/triage.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <set>
+#include <string>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
-#include "core/prioritized/disk_index.h"
-#include "core/prioritized/without_way.h"
+#include "core/geometry/position.h"
+#include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {
 namespace {
@@ -14,6 +22,79 @@ using Reason = Unplanned::Reason;
 /// The effort for paths on the map, expansions of all robots together: about a tenth of a second. Other paths
 /// are tested when a robot is planned for the first time.
 constexpr std::int64_t kMaxMapExpansions = 50'000;
+
+/// Disks of robots, inflation and vicinity included, by place: finds those that overlap another one.
+class DiskIndex {
+ public:
+  /// The robots' disks where their plans begin, or where they rest at their last goals.
+  enum class At : std::uint8_t { start, goal };
+  DiskIndex(const Instance& instance, At at);
+
+  /// One disk for each robot at most.
+  void add(std::size_t robot, const Position& center);
+
+  /// The robots but `robot` whose disks overlap the disk that `robot` has `at` this position, ascending.
+  /// Contact is no overlap.
+  std::vector<std::size_t> overlapping(std::size_t robot, At at, const Position& center) const;
+
+ private:
+  struct Disk {
+    std::size_t robot;
+    Position center;
+  };
+
+  std::int64_t bucket(double coordinate) const;
+  static std::uint64_t key(std::int64_t column, std::int64_t row);
+
+  double radius(std::size_t robot, At at) const;
+
+  const Instance& instance_;
+  const At at_;
+  double size_;  // of a bucket, metres; two disks that overlap are in the same or in neighbouring ones
+  std::unordered_map<std::uint64_t, std::vector<Disk>> buckets_;
+};
+
+DiskIndex::DiskIndex(const Instance& instance, At at) : instance_(instance), at_(at), size_(0.0) {
+  for (std::size_t i = 0; i < instance.size(); ++i) {
+    size_ = std::max(size_, 2.0 * instance.largest_pair_radius(i));
+  }
+}
+
+double DiskIndex::radius(std::size_t robot, At at) const {
+  const std::size_t stage = at == At::start ? 0 : instance_.itinerary(robot).goals.size();
+  return instance_.motion(robot, stage).pair_radius;
+}
+
+std::int64_t DiskIndex::bucket(double coordinate) const {
+  return static_cast<std::int64_t>(std::floor(coordinate / size_));
+}
+
+std::uint64_t DiskIndex::key(std::int64_t column, std::int64_t row) {
+  return (static_cast<std::uint64_t>(column) << 32) ^ static_cast<std::uint64_t>(row);
+}
+
+void DiskIndex::add(std::size_t robot, const Position& center) {
+  buckets_[key(bucket(center.x()), bucket(center.y()))].push_back({robot, center});
+}
+
+std::vector<std::size_t> DiskIndex::overlapping(std::size_t robot, At at, const Position& center) const {
+  std::vector<std::size_t> found;
+  const double mine = radius(robot, at);
+  // Bounded: the robots, each at most once.
+  for (std::int64_t column = bucket(center.x()) - 1; column <= bucket(center.x()) + 1; ++column) {
+    for (std::int64_t row = bucket(center.y()) - 1; row <= bucket(center.y()) + 1; ++row) {
+      const auto disks = buckets_.find(key(column, row));
+      if (disks == buckets_.end()) continue;
+      for (const Disk& disk : disks->second) {
+        const double reach = mine + radius(disk.robot, at_) - kContactTolerance;
+        const bool overlap = (disk.center - center).squaredNorm() < reach * reach;
+        if (overlap && disk.robot != robot) found.push_back(disk.robot);
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
 
 class Triage {
  public:
@@ -155,7 +236,36 @@ class Triage {
   std::set<std::size_t> next_;     // and in the next one
 };
 
+std::string metres(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2f m", value);
+  return text.data();
+}
+
+std::string missed_by_lattice(double radius, const Way& way) {
+  std::string text = "The lattice has no way from the start to the goal for this robot";
+  if (way.widest) {
+    text += ", which needs " + metres(2.0 * radius) + "; the widest way between the obstacles has " +
+            metres(*way.widest);
+  }
+  return text + ". A finer resolution, a smaller radius or connectivity 16 or 32 may give it one.";
+}
+
 }  // namespace
+
+Unplanned unplanned_without_way(std::size_t robot, double radius, const Way& way) {
+  using Reason = Unplanned::Reason;
+  if (!way.closed_by.empty()) {
+    return {robot, Reason::blocked_by_robots,
+            "Robots that stay where they are leave no way from the start to the goal.", way.closed_by};
+  }
+  const bool closed = way.kind == Way::Kind::closed;
+  return {robot,
+          Reason::goal_unreachable,
+          closed ? "No way leads from the start to the goal that is wide enough for the robot."
+                 : missed_by_lattice(radius, way),
+          {}};
+}
 
 std::vector<std::optional<Unplanned>> triage(PlanState& state, const StopCondition& stop,
                                              const std::vector<bool>& kept) {

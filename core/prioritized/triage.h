@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -15,5 +16,8 @@ namespace fleetplan::core {
 /// that are left to be planned.
 std::vector<std::optional<Unplanned>> triage(PlanState& state, const StopCondition& stop,
                                              const std::vector<bool>& kept = {});
+
+/// The reason of a robot of this radius (metres, inflation included) that has no way to its goal.
+Unplanned unplanned_without_way(std::size_t robot, double radius, const Way& way);
 
 }  // namespace fleetplan::core

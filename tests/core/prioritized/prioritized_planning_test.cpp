@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/prioritized/repair_or_restart.h"
+#include "core/prioritized/orderings.h"
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/prioritized/repair_or_restart.h"
+#include "core/prioritized/orderings.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 

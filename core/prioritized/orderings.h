@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/prioritized/plan_state.h"
+#include "core/prioritized/priority_order.h"
+#include "core/prioritized/progress_report.h"
+#include "core/runtime/random.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Called when the stop condition of an attempt is met, with its unsolved and given up robots. Returns
+/// whether the attempt goes on, with the same reservations; then the stop condition is no longer met.
+using OnStop =
+    std::function<bool(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up)>;
+
+/// The outcome of planning robots in one or more priority orders. The trajectories are in the PlanState.
+struct OrderingResult {
+  std::vector<std::size_t> unsolved;  // without a trajectory, by priority; to be planned once more
+  std::vector<std::size_t> given_up;  // no path among robots that stay, or failed too often; at their starts
+  /// Those of given_up that have no path even if all others that may move are absent, now and in any order.
+  std::vector<std::size_t> hopeless;
+  std::int64_t attempts = 1;  // times that robots were ordered and planned
+  bool cut_off = false;       // the stop condition was met first
+};
+
+/// Plans all robots of `order` and raises the priority of those that fail (paper, section Prioritized
+/// planning), but repairs the plan instead of starting again:
+///
+/// 1. A robot that fails among all others is planned among those of higher priority only.
+/// 2. If that fails, it gets the highest priority. It is planned among the robots that had a higher priority
+///    and are at least as large, and if that fails, among only those that stay at their starts.
+/// 3. The trajectories that conflict with its own are removed, and their robots are planned again.
+///
+/// After several failures the fleet counts as a dense crowd: then a failed robot is not raised, but planned
+/// so that it conflicts with few others (EjectionSearch), and those are planned next.
+///
+/// If robots raise each other again and again, the priorities of those involved are shuffled, and a start
+/// delay is tried. A robot that fails at step 2, or too often, is given up: it stays at its start. Returns
+/// none as soon as `max_failures` attempts have failed. When `stop` is met, `on_stop` decides, if there is
+/// one, whether to go on.
+std::optional<OrderingResult> repair(PlanState& state, const PriorityOrder& order, std::int64_t max_failures,
+                                     Random& random, const StopCondition& stop, ProgressReport& progress,
+                                     const OnStop& on_stop = nullptr);
+
+/// The same from a state in which some robots of `order` follow trajectories already: they do so until a
+/// robot with a higher priority needs their way.
+OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
+                             const StopCondition& stop, ProgressReport& progress,
+                             const OnStop& on_stop = nullptr);
+
+/// Plans all robots of `order`, which have no reservations, with repairs (see repair()). If the robots differ
+/// in size and many attempts fail, starts again once in an order with larger robots first, as small robots
+/// find other paths more easily. `unsolved` is empty unless `stop` was met.
+OrderingResult repair_or_restart(PlanState& state, const PriorityOrder& order, Random& random,
+                                 const StopCondition& stop, ProgressReport& progress,
+                                 const OnStop& on_stop = nullptr);
+
+/// Plans all robots of `order` from the beginning, with repairs only; for further attempts.
+OrderingResult repair_once(PlanState& state, const PriorityOrder& order, Random& random,
+                           const StopCondition& stop, ProgressReport& progress);
+
+/// Plans all robots of `order`; whenever one fails, starts again in another order (paper, section Prioritized
+/// planning). Ends when all have a trajectory, all orders have failed, or `stop` is met, and leaves the state
+/// of the attempt that planned the most robots. If all orders fail, tries some random ones in which the first
+/// robot starts late. When `stop` is met, `on_stop` decides, if there is one, whether to go on.
+OrderingResult plan_with_restarts(PlanState& state, PriorityOrder order, Random& random,
+                                  const StopCondition& stop, ProgressReport& progress,
+                                  const OnStop& on_stop = nullptr);
+
+}  // namespace fleetplan::core
