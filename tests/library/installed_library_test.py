@@ -33,7 +33,7 @@ class InstalledLibrary(unittest.TestCase):
         """Builds a project from a copy of its folder; returns the folder of the build."""
         copy, build = self.folder / name, self.folder / name / "build"
         shutil.copytree(source, copy)
-        run(ARGUMENTS.cmake, "-S", copy, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}",
+        run(ARGUMENTS.cmake, "-G", "Ninja", "-S", copy, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}",
             f"-DCMAKE_CXX_COMPILER={ARGUMENTS.compiler}")
         run(ARGUMENTS.cmake, "--build", build)
         return build
