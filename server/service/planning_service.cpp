@@ -7,7 +7,7 @@
 #include "api/endpoints/simulate_endpoint.h"
 #include "api/endpoints/validate_endpoint.h"
 #include "api/endpoints/vda5050_endpoint.h"
-#include "server/service.h"
+#include "server/service/service.h"
 
 namespace fleetplan::server {
 
