@@ -21,7 +21,7 @@
 #include "server/ops/request_log.h"
 #include "server/ops/settings/settings.h"
 #include "server/routes.h"
-#include "server/service.h"
+#include "server/service/service.h"
 
 namespace fleetplan::server {
 

@@ -9,7 +9,7 @@
 #include "server/http/route_table.h"
 #include "server/http/static_files.h"
 #include "server/ops/settings/settings.h"
-#include "server/service.h"
+#include "server/service/service.h"
 
 namespace fleetplan::server {
 

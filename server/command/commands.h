@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "server/command/streams.h"
-#include "server/service.h"
+#include "server/command/command_io.h"
+#include "server/service/service.h"
 
 namespace fleetplan::server {
 

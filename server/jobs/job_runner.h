@@ -16,7 +16,7 @@
 #include "server/jobs/workers.h"
 #include "server/ops/request_log.h"
 #include "server/ops/settings/settings.h"
-#include "server/service.h"
+#include "server/service/service.h"
 
 namespace fleetplan::server {
 

@@ -20,6 +20,7 @@ namespace TEST_FILE {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::UnorderedElementsAreArray;
 
 namespace fs = std::filesystem;
 
@@ -49,6 +50,25 @@ TEST_P(Layer, FollowsItsRules) {
 INSTANTIATE_TEST_SUITE_P(Of, Layer,
                          testing::Values("include", "library", "examples", "core", "api", "server", "tests"),
                          [](const auto& layer) { return layer.param; });
+
+/// This list may only shrink.
+const std::vector<std::string> kFoldersThatIncludeEachOther = {
+    "api/request and api/response",
+    "core and core/bounds",
+    "core and core/lns",
+    "core and core/model",
+    "core and core/prioritized",
+    "core and core/replan",
+    "core/model and core/reservation",
+    "core/model and core/runtime",
+};
+
+TEST(Folders, DoNotIncludeEachOther) {
+  std::map<std::string, std::string> sources;
+  for (const std::string layer : {"core", "api", "server"}) sources.merge(sources_in(layer));
+  EXPECT_THAT(mutual_includes(sources), UnorderedElementsAreArray(kFoldersThatIncludeEachOther))
+      << "a new pair: move the header that causes it; a pair that is gone: remove it from the list";
+}
 
 /// Two types of one name in one namespace are undefined behaviour, which no compiler reports.
 TEST(Headers, DefineTypesOfDifferentNames) {
@@ -213,6 +233,18 @@ TEST(SourceRules, RejectLoopsInLoopsThatNothingBounds) {
   EXPECT_THAT(
       loops_of("int f() {\n  // Bounded: eight neighbours.\n  for (int i : all)\n    for (;;) h();\n}\n"),
       IsEmpty());
+}
+
+TEST(SourceRules, FindFoldersThatIncludeEachOther) {
+  const std::string of_map = "#include \"core/map/deep/b.h\"\n";
+  const std::string of_model = "#include \"core/model/a.h\"\n";
+  const std::string of_api = "#include \"api/c.h\"\n";
+  EXPECT_THAT(mutual_includes({{"core/model/a.h", of_map}, {"core/map/deep/b.h", of_model}}),
+              ElementsAre("core/map and core/model"));
+  EXPECT_THAT(mutual_includes({{"api/c.h", "#include \"api/json/d.h\"\n"}, {"api/json/d.h", of_api}}),
+              ElementsAre("api and api/json"));
+  EXPECT_THAT(mutual_includes({{"core/model/a.h", of_map + of_model}, {"core/map/b.h", "// " + of_model}}),
+              IsEmpty());
 }
 
 TEST(SourceRules, RejectOtherFolders) {

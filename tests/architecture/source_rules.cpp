@@ -5,7 +5,9 @@
 #include <cctype>
 #include <optional>
 #include <regex>
+#include <set>
 #include <span>
+#include <utility>
 
 #include "tests/architecture/loop_rules.h"
 
@@ -199,6 +201,13 @@ bool makes_a_stop_condition(string_view path, const std::string& code) {
   return std::regex_search(std::regex_replace(code, function, ""), made);
 }
 
+/// The folder below a layer that a file is in, such as "core/map"; the layer, if the file lies loose.
+string_view folder_of(string_view path) {
+  const std::size_t layer_end = std::min(path.find('/'), path.size());
+  const std::size_t folder_end = path.find('/', layer_end + 1);
+  return path.substr(0, folder_end == string_view::npos ? layer_end : folder_end);
+}
+
 /// Whether only blanks and comments come before it; comments are blanked out in `code`.
 bool begins_with_pragma_once(string_view code) {
   const std::size_t first = code.find_first_not_of(" \t\r\n");
@@ -239,6 +248,24 @@ std::vector<std::string> violations(string_view path, string_view text) {
     if (code.find("using namespace") != std::string::npos) report("must not use ", "using namespace");
   }
   return found;
+}
+
+std::vector<std::string> mutual_includes(const std::map<std::string, std::string>& sources) {
+  static constexpr std::array<string_view, 3> kLayers{"core/", "api/", "server/"};
+  std::set<std::pair<std::string, std::string>> includes;
+  for (const auto& [path, text] : sources) {
+    const std::string code = code_only(text);
+    for (const string_view line : lines_of(code)) {
+      const auto include = included(line);
+      if (!include || !starts_with_any(include->substr(1), kLayers)) continue;
+      includes.emplace(folder_of(path), folder_of(include->substr(1, include->size() - 2)));
+    }
+  }
+  std::vector<std::string> pairs;
+  for (const auto& [from, to] : includes) {
+    if (from < to && includes.contains({to, from})) pairs.push_back(from + " and " + to);
+  }
+  return pairs;
 }
 
 }  // namespace fleetplan::architecture

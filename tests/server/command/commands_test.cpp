@@ -1,3 +1,4 @@
+
 #include "server/command/commands.h"
 
 #include <gmock/gmock.h>
@@ -9,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "server/service.h"
+#include "server/service/service.h"
 #include "tests/support/temporary_file.h"
 #include "tests/support/temporary_folder.h"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "server/command/streams.h"
+#include "server/command/command_io.h"
 
 namespace fleetplan::server {
 

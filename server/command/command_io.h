@@ -1,14 +1,32 @@
 #pragma once
 
+// What commands read and write: streams, files, faults of input, exit codes.
+
 #include <cstddef>
 #include <iosfwd>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "api/json/result.h"
-#include "server/command/streams.h"
 
 namespace fleetplan::server {
+
+/// The streams of a process.
+struct Streams {
+  std::istream& in;
+  std::ostream& out;
+  std::ostream& err;
+  bool shows_progress = false;  // `err` is a terminal
+};
+
+/// Exit codes of commands.
+inline constexpr int kSolved = 0;     // also: valid, or what was asked for
+inline constexpr int kFailed = 1;     // not by the request's fault: out of time or memory, a file, a bug
+inline constexpr int kPartial = 2;    // some robots have no plan; plans are not valid
+inline constexpr int kNone = 3;       // no robot has a plan
+inline constexpr int kBadInput = 64;  // the request or the command line, as EX_USAGE of sysexits.h
 
 /// Why input cannot be used, as a line for people: "map.yaml:3: resolution is missing; give ...".
 struct InputFault {
@@ -34,5 +52,8 @@ int write_output(const std::string& name, const std::string& text, const Streams
 
 /// Reports why a command fails; returns the exit code.
 int fail(const Streams& streams, int code, const std::string& message);
+
+/// A finite number with a point, such as "-1.5e3" or "+2"; nothing if the text is anything else.
+std::optional<double> read_number(std::string_view text);
 
 }  // namespace fleetplan::server

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "server/command/commands.h"
-#include "server/service.h"
+#include "server/service/service.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fleetplan::server {

@@ -1,5 +1,5 @@
 #include "api/endpoints/endpoints.h"
-#include "server/service.h"
+#include "server/service/service.h"
 
 namespace fleetplan::server {
 

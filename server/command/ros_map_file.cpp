@@ -1,4 +1,5 @@
-#include "server/command/map2request/ros_map_file.h"
+
+#include "server/command/ros_map_file.h"
 
 #include <yaml-cpp/yaml.h>
 
@@ -14,7 +15,7 @@
 #include "api/json/faults.h"
 #include "api/json/json_writer.h"
 #include "api/request/limits.h"
-#include "server/command/map2request/read_number.h"
+#include "server/command/command_io.h"
 
 namespace fleetplan::server {
 

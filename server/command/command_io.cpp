@@ -1,6 +1,8 @@
-#include "server/command/files.h"
+#include "server/command/command_io.h"
 
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <fstream>
 #include <istream>
 #include <ostream>
@@ -50,6 +52,14 @@ int write_output(const std::string& name, const std::string& text, const Streams
 int fail(const Streams& streams, int code, const std::string& message) {
   streams.err << "fleetplan: " << message << '\n';
   return code;
+}
+
+std::optional<double> read_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_whole = error == std::errc() && end == text.data() + text.size();
+  return is_whole && std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace fleetplan::server

@@ -1,19 +1,33 @@
-#include "server/command/map2request/robot_table.h"
+#include "server/command/map_to_request.h"
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstddef>
 #include <optional>
+#include <ostream>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "api/json/faults.h"
-#include "api/json/json_writer.h"
 #include "api/json/read_json.h"
-#include "server/command/map2request/read_number.h"
+#include "api/json/json_writer.h"
+#include "api/request/parse_request.h"
+#include "server/command/command_io.h"
+#include "server/command/ros_map_file.h"
 
 namespace fleetplan::server {
 
 namespace {
+
+/// A table of robots as CSV.
+struct RobotTable {
+  std::string file;                // its name
+  std::string json;                // the member `robots` of a request
+  std::vector<std::size_t> lines;  // of the file, from 1, by robot
+};
 
 /// Two thousand robots, which a server accepts by default, have 200 kB.
 constexpr std::size_t kMostTable = std::size_t{4} << 20;
@@ -211,12 +225,80 @@ class TableReader {
   std::optional<InputFault> fault_;
 };
 
-}  // namespace
-
+/// Reads a table with a header line (docs/command_line.md has the columns): RFC 4180 without line breaks in
+/// fields, with commas, semicolons or tabs. Fields that are empty are left out of the request.
 api::Result<RobotTable, InputFault> read_robot_table(const std::string& file, std::istream& in) {
   const auto text = read_file(file, in, kMostTable);
   if (!text) return text.failure();
   return TableReader(file).read(*text);
+}
+
+constexpr std::string_view kOfImage = "/map/image/";
+constexpr std::string_view kOfRobots = "/robots/";
+
+std::string request_of(const RosMapFile& map, const RobotTable& table) {
+  api::JsonWriter json;
+  json.begin_object().key("map").begin_object().key("image").json(map.json).end_object();
+  json.key("robots").json(table.json).end_object();
+  return json.take() + '\n';
+}
+
+/// The fault of a robot: its line and, if it is one, its column.
+InputFault fault_of_robot(const api::Fault& fault, const RobotTable& table) {
+  const std::string_view steps = std::string_view(fault.pointer).substr(kOfRobots.size());
+  std::size_t robot = 0;
+  const auto [end, error] = std::from_chars(steps.data(), steps.data() + steps.size(), robot);
+  const std::size_t line = error == std::errc() && robot < table.lines.size() ? table.lines[robot] : 0;
+  std::string column(end, steps.data() + steps.size());
+  if (!column.empty()) column.erase(0, 1);
+  std::replace(column.begin(), column.end(), '/', '_');
+  return input_fault(table.file, line, column.empty() ? fault.detail : column + ": " + fault.detail);
+}
+
+/// A fault of the request at the place in the files that it comes from.
+InputFault in_files(const api::Fault& fault, const RosMapFile& map, const RobotTable& table) {
+  const std::string_view pointer = fault.pointer;
+  if (pointer.starts_with(kOfRobots)) return fault_of_robot(fault, table);
+  if (!pointer.starts_with("/map")) return input_fault(table.file, 0, fault.detail);
+  if (!pointer.starts_with(kOfImage)) return input_fault(map.yaml, 0, fault.detail);
+  std::string_view member = pointer.substr(kOfImage.size());
+  member = member.substr(0, member.find('/'));
+  if (member == "pgm" || member == "png") return input_fault(map.image, 0, fault.detail);
+  const auto line = map.lines.find(member);
+  return input_fault(map.yaml, line == map.lines.end() ? 0 : line->second, fault.detail);
+}
+
+int refuse(const InputFault& fault, const Streams& streams) {
+  streams.err << fault.line << '\n';
+  return kBadInput;
+}
+
+int refuse(const api::RequestError& error, const RosMapFile& map, const RobotTable& table,
+           const Streams& streams) {
+  if (error.faults.empty()) return refuse(input_fault(map.yaml, 0, error.detail), streams);
+  for (const api::Fault& fault : error.faults) refuse(in_files(fault, map, table), streams);
+  if (error.faults_total > error.faults.size()) {
+    streams.err << "and " << error.faults_total - error.faults.size() << " more faults\n";
+  }
+  return kBadInput;
+}
+
+}  // namespace
+
+int map_to_request(const std::string& yaml, const std::string& robots, const std::string& output,
+                   const Streams& streams) {
+  const auto map = read_ros_map(yaml, streams.in);
+  if (!map) return refuse(map.failure(), streams);
+  const auto table = read_robot_table(robots, streams.in);
+  if (!table) return refuse(table.failure(), streams);
+  const std::string body = request_of(*map, *table);
+  core::Work work(core::Work::Bounds{});
+  const auto request = api::parse_request(body, {}, work);
+  if (!request) return refuse(request.failure(), *map, *table, streams);
+  for (const std::string& line : map->ignored) streams.err << line << '\n';
+  for (const std::string& warning : request->warnings)
+    streams.err << input_fault(robots, 0, warning).line << '\n';
+  return write_output(output, body, streams);
 }
 
 }  // namespace fleetplan::server

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "server/command/files.h"
+#include "server/command/command_io.h"
 
 namespace fleetplan::server {
 
