@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
-#include "api/json/json_writer.h"
 #include "api/json/error.h"
+#include "api/json/json_writer.h"
 #include "server/http/answer/event_stream.h"
 #include "server/http/exchange.h"
 #include "server/http/request/negotiation.h"

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "api/json/faults.h"
-#include "api/json/read_json.h"
 #include "api/json/json_writer.h"
+#include "api/json/read_json.h"
 #include "api/request/parse_request.h"
 #include "server/command/command_io.h"
 #include "server/command/ros_map_file.h"

@@ -14,8 +14,8 @@
 #include <thread>
 #include <utility>
 
-#include "api/json/json_writer.h"
 #include "api/json/error.h"
+#include "api/json/json_writer.h"
 
 namespace fleetplan::server {
 
