@@ -19,7 +19,7 @@ namespace fleetplan::api {
 namespace {
 
 /// Less is freed at once: within about a millisecond.
-constexpr std::int64_t kMuch = 4 << 20;
+constexpr std::int64_t kMuchMemory = 4 << 20;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ Reply bounded_work(const RequestContext& context, const std::function<Reply(core
   try {
     const core::MemoryScope scope(work.memory().get());
     Reply reply = endpoint(work);
-    if (work.memory()->used() > kMuch) reply.leftovers = work.memory();
+    if (work.memory()->used() > kMuchMemory) reply.leftovers = work.memory();
     return reply;
   } catch (const std::bad_alloc&) {
     return memory_exceeded(context);
