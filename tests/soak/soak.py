@@ -68,7 +68,8 @@ def main():
     if not arguments.binary and not arguments.url:
         parser.error("--binary or --url is required")
 
-    server = Server(arguments.binary, arguments.url)
+    # A connection may be idle while its client, on a busy machine, waits for the answers of others.
+    server = Server(arguments.binary, arguments.url, ["--idle-timeout-ms", "600000"])
     print(f"seed {arguments.seed}, {arguments.processes} x {arguments.connections} connections, {server.url}")
     memory = [server.resident_kib()]
     limits = server.get("/v1/limits")
