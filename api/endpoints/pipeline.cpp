@@ -55,13 +55,6 @@ double work_of(std::size_t robots, const std::vector<core::RobotPlan>& plans) {
   return static_cast<double>(work);
 }
 
-Reply too_busy(const std::string& request_id) {
-  return problem_reply(ErrorCode::overloaded,
-                       "All workers are busy, and the request's time budget would be spent in the queue: try "
-                       "again later, or with a larger options.time_budget_ms.",
-                       request_id);
-}
-
 Reply unfinished_reply(std::string_view what, std::chrono::nanoseconds budget,
                        const core::StopCondition& stop, const RequestContext& context) {
   if (stop.cancelled()) return problem_reply(ErrorCode::draining, kDrainingDetail, context.request_id);

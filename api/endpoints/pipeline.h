@@ -39,9 +39,6 @@ bool take_turn(Turn* turn, const TurnNeed& need, core::Work& work);
 /// TurnNeed::work of plans that are checked or executed.
 double work_of(std::size_t robots, const std::vector<core::RobotPlan>& plans);
 
-/// The answer to a request that gets no turn.
-Reply too_busy(const std::string& request_id);
-
 /// The reply when a check or a simulation of plans was stopped before it had an answer. `what` begins the
 /// sentence: "The plans could not be checked".
 Reply unfinished_reply(std::string_view what, std::chrono::nanoseconds budget,

@@ -75,4 +75,11 @@ Reply problem_reply(const RequestError& error, const std::string& request_id) {
   return {row.status, kProblemJson, json.take(), row.name};
 }
 
+Reply too_busy(const std::string& request_id) {
+  return problem_reply(ErrorCode::overloaded,
+                       "All workers are busy, and the request's time budget would be spent in the queue: try "
+                       "again later, or with a larger options.time_budget_ms.",
+                       request_id);
+}
+
 }  // namespace fleetplan::api

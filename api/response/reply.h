@@ -68,4 +68,7 @@ inline Reply problem_reply(ErrorCode code, const std::string& detail, const std:
   return problem_reply({code, detail, {}, 0}, request_id);
 }
 
+/// The answer to a request that gets no turn to compute.
+Reply too_busy(const std::string& request_id);
+
 }  // namespace fleetplan::api

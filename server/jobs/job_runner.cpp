@@ -9,7 +9,6 @@
 #include <utility>
 #include <variant>
 
-#include "api/endpoints/pipeline.h"
 #include "api/json/error.h"
 #include "server/http/request/gzip.h"
 #include "server/http/request/negotiation.h"
