@@ -100,7 +100,7 @@ class Crowd {
   explicit Crowd(const Recipe& recipe) : workload_(generate(recipe, 1)), table_(table_of(workload_)) {
     std::vector<core::Robot> robots(workload_.robots.begin(), workload_.robots.begin() + kCrowd);
     const auto made = core::Problem::create(workload_.grid, robots, core::StopCondition::never());
-    const core::Plan plan = core::plan(std::get<core::Problem>(made), {}, {});
+    const core::Plan plan = core::plan(std::get<core::Problem>(made), {}, core::StopCondition::never());
     for (const core::RobotPlan& robot : plan.plans)
       table_.commit(robot.robot, reservations(workload_.robots[robot.robot], robot));
   }
