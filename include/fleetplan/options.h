@@ -6,7 +6,8 @@
 
 namespace fleetplan {
 
-/// How to plan. The defaults are those of the service, and so are the meanings: docs/plan_request.md, Options.
+/// How to plan. The defaults are those of the service, and so are the meanings: docs/plan_request.md,
+/// Options.
 struct Options {
   enum class Mode {
     first,    // returns the first plan
