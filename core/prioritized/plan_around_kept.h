@@ -12,7 +12,7 @@ namespace fleetplan::core {
 
 /// Plans those of `movers` (ascending) that follow no trajectory in `state` around those that do. These keep
 /// their trajectories unless another robot cannot be planned otherwise: then the plan is repaired (see
-/// repair.h), and if that does not plan all, made anew if that plans more.
+/// orderings.h), and if that does not plan all, made anew if that plans more.
 ///
 /// Robots that can follow their trajectories while all others of `movers` stay where they are remain planned
 /// in every case, also if `time` is over before planning begins: those of which `certain` (by robot, may be

@@ -17,7 +17,7 @@ constexpr int kFailuresBeforeShuffle = 3;
 constexpr int kMaxFailuresOfRobot = 40;
 /// From this failure on the fleet counts as a dense crowd, in which robots are ejected. Robots of one size in
 /// the paper's crowds are planned sooner so. Where sizes differ, planning starts again with larger robots
-/// first before that (repair_or_restart.cpp); then no fleet in the paper's halls fails so often.
+/// first before that (repair_or_restart); then no fleet in the paper's halls fails so often.
 constexpr std::int64_t kFirstEjection = 3;
 constexpr std::int64_t kFirstEjectionOfSizes = 20;
 /// The same in mode `anytime`. Twice the expansions of the first plan are well spent there: with 180 robots

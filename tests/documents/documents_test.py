@@ -348,29 +348,6 @@ class ManualPage(unittest.TestCase):
         self.assertEqual(done.stderr, "")
 
 
-class ArchitecturePage(unittest.TestCase):
-    """What the page names in backticks is in the sources."""
-
-    NAMES = set(re.findall(r"`([^`\n]+)`", DOCUMENTS["docs/architecture.md"]))
-
-    def test_files_and_folders_exist(self):
-        tracked = ("core", "api", "server", "library", "include", "tests", "web", "scripts", "docs", "deploy", "examples")
-        paths = {name for name in self.NAMES if re.fullmatch(r"[\w.-]+(/[\w.-]+)+/?", name)
-                 and name.split("/")[0] in tracked}
-        self.assertGreater(len(paths), 50)
-        self.assertEqual([path for path in sorted(paths) if not (PROJECT / path).exists()], [])
-
-    def test_members_of_classes_exist(self):
-        sources = "\n".join(path.read_text() for folder in ("core", "api", "server", "library", "include")
-                            for path in (PROJECT / folder).rglob("*.h"))
-        members = {name for name in self.NAMES if re.fullmatch(r"(\w+::)+\w+", name) and not name.startswith("std::")}
-        self.assertGreater(len(members), 10)
-        for name in sorted(members):
-            *scopes, member = name.split("::")
-            for word in [scopes[-1], member]:
-                self.assertRegex(sources, rf"\b{word}\b", name)
-
-
 class Names(unittest.TestCase):
     def test_the_readme_is_short(self):
         self.assertLessEqual(len(DOCUMENTS["README.md"].splitlines()), 120)
@@ -397,6 +374,17 @@ class Names(unittest.TestCase):
                 continue
             for path in re.findall(rf"(?<![\w/.@-])((?:{folders})/[\w./-]*\w)", text):
                 self.assertTrue((PROJECT / path).exists(), f"{name} names {path}")
+
+    def test_members_of_classes_that_the_architecture_page_names_exist(self):
+        sources = "\n".join(path.read_text() for folder in ("core", "api", "server", "library", "include")
+                            for path in (PROJECT / folder).rglob("*.h"))
+        names = set(re.findall(r"`([^`\n]+)`", DOCUMENTS["docs/architecture.md"]))
+        members = {name for name in names if re.fullmatch(r"(\w+::)+\w+", name) and not name.startswith("std::")}
+        self.assertGreater(len(members), 10)
+        for name in sorted(members):
+            *scopes, member = name.split("::")
+            for word in [scopes[-1], member]:
+                self.assertRegex(sources, rf"\b{word}\b", name)
 
     def test_the_constants_of_the_method_are_in_the_files_that_it_names(self):
         for constant, _, file, _ in table("docs/method.md", ["constant", "value", "file"]):
