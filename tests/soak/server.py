@@ -32,6 +32,14 @@ class Server:
         """Resident memory; None if the server is not a child process or has ended."""
         return self._status("VmRSS")
 
+    def kept_maps_kib(self):
+        """Memory of the maps that are kept for later requests, which --map-cache bounds."""
+        return self.metric("fleetplan_map_cache_bytes") / 1024
+
+    def metric(self, name):
+        with urllib.request.urlopen(f"{self.url}/metrics", timeout=30) as response:
+            return float(re.search(rf"^{name} (\S+)$", response.read().decode(), re.MULTILINE).group(1))
+
     def peak_kib(self):
         return self._status("VmHWM")
 

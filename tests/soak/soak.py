@@ -4,7 +4,8 @@
 Usage: soak.py [--binary FLEETPLAN | --url URL] [--minutes N] [--costly]
 
 Prints a table. The exit status is 1 if an answer was wrong or lost, if the server ended, or if its resident memory grew by
-more than 5 % after the first minute. Memory is measured in a pause of all clients after each round of a minute.
+more than 5 % after the first minute. Memory is measured in a pause of all clients after each round of a minute, without
+the maps that are kept for later requests: which ones those are, up to --map-cache, depends on the last requests.
 """
 
 import argparse
@@ -71,7 +72,7 @@ def main():
     # A connection may be idle while its client, on a busy machine, waits for the answers of others.
     server = Server(arguments.binary, arguments.url, ["--idle-timeout-ms", "600000"])
     print(f"seed {arguments.seed}, {arguments.processes} x {arguments.connections} connections, {server.url}")
-    memory = [server.resident_kib()]
+    memory, kept_maps = [server.resident_kib()], [0.0]
     limits = server.get("/v1/limits")
     costly = costly_requests() if arguments.costly else []
     records, begin = [], time.monotonic()
@@ -81,16 +82,19 @@ def main():
         records += run_round(server, arguments, arguments.seed + len(memory), limits, min(left, ROUND_S), costly)
         time.sleep(PAUSE_S)
         memory.append(server.resident_kib())
+        kept_maps.append(server.kept_maps_kib() if memory[-1] else 0.0)
         print(f"{time.monotonic() - begin:7.0f} s  {sum(sum(r.statuses.values()) for r in records):9} answers"
-              + (f"  {memory[-1] / 1024:7.1f} MiB" if memory[-1] else ""), flush=True)
+              + (f"  {memory[-1] / 1024:7.1f} MiB, {kept_maps[-1] / 1024:.1f} of them kept maps" if memory[-1] else ""),
+              flush=True)
         if not server.alive():
             failures.append("the server ended")
     print_report(records, time.monotonic() - begin)
 
     if memory[-1]:
-        growth = memory[-1] / memory[1] - 1
+        growth = (memory[-1] - kept_maps[-1]) / (memory[1] - kept_maps[1]) - 1
         print(f"resident memory: {memory[0] / 1024:.1f} MiB at the start, {memory[1] / 1024:.1f} MiB after the first round, "
-              f"{memory[-1] / 1024:.1f} MiB at the end ({100 * growth:+.1f} %), {server.peak_kib() / 1024:.1f} MiB at most")
+              f"{memory[-1] / 1024:.1f} MiB at the end ({100 * growth:+.1f} % without kept maps), "
+              f"{server.peak_kib() / 1024:.1f} MiB at most")
         if len(memory) > 2 and growth > MAX_GROWTH:
             failures.append(f"resident memory grew by {100 * growth:.1f} %")
     if code := server.end():
