@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/sipp/search_limits.h"
+#include "core/sipp/aa_sipp.h"
 
 namespace fleetplan::core {
 namespace {

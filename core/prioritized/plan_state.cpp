@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/runtime/memory_account.h"
+#include "core/sipp/goals.h"
 
 namespace fleetplan::core {
 namespace {
@@ -217,7 +218,7 @@ SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, co
     SearchLimits within = limits;
     within.bound = std::min(limits.bound, instance_.longest_plan(robot));
     within.horizon = instance_.options().horizon.value_or(kForever);
-    return search_.run(robot, *space, within, stop);
+    return search_.run(*space, within, stop);
   };
   const std::int64_t shortages = memory_shortages();
   SearchResult result = within_memory(no_memory(), search_once);
@@ -231,8 +232,8 @@ SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, co
 /// Whether the robot may rest at its goal from some time on: if not, a search need not be prepared.
 bool PlanState::goal_stays_free(std::size_t robot) const {
   const std::size_t at_rest = instance_.itinerary(robot).goals.size();
-  const auto safe =
-      table_.safe_intervals(robot, instance_.robot(robot).goal->position, instance_.narrower(robot, at_rest));
+  const Footprint footprint(robot, instance_.narrower(robot, at_rest));
+  const auto safe = table_.safe_intervals(footprint, instance_.robot(robot).goal->position);
   return !safe.empty() && safe.back().end == kForever;
 }
 
@@ -343,7 +344,7 @@ Trajectory PlanState::plan_alone(std::size_t robot, const StopCondition& stop) {
     SearchSpace* space = search_spaces_.of(robot, stop);
     if (space == nullptr) return {};
     AaSipp search(empty);
-    return search.run(robot, *space, {.horizon = instance_.options().horizon.value_or(kForever)}, stop);
+    return search.run(*space, {.horizon = instance_.options().horizon.value_or(kForever)}, stop);
   });
   return result.trajectory ? std::move(*result.trajectory) : staying(robot);
 }

@@ -22,9 +22,9 @@ using Occupant = SegmentIndex::Occupant;
 /// The distance of the centres below which a robot on a straight path, or standing, collides with others.
 class CollisionDistance {
  public:
-  CollisionDistance(const SegmentIndex& index, std::size_t robot, const Segment& path, double narrower)
-      : robot_(robot), radius_(index.radius(robot) - narrower), contacts_(index.contacts()) {
-    if (contacts_ != nullptr) endpoint_ = contacts_->endpoint(robot, path, narrower);
+  CollisionDistance(const SegmentIndex& index, const Footprint& mine, const Segment& path)
+      : robot_(mine.robot), radius_(index.radius(mine.robot) - mine.narrower), contacts_(index.contacts()) {
+    if (contacts_ != nullptr) endpoint_ = contacts_->endpoint(mine.robot, path, mine.narrower);
   }
 
   double operator()(const Occupant& other) const {
@@ -125,17 +125,18 @@ class ReservationTable::Departure {
   bool delayed_ = true;
 };
 
-/// The same for obstacles and committed motion.
+/// The distance of the centres below which a robot on a straight path, or standing, collides with obstacles
+/// and committed motion.
 class ReservationTable::FixedDistance {
  public:
-  FixedDistance(const ReservationTable& table, std::size_t robot, const Segment& path, double narrower)
+  FixedDistance(const ReservationTable& table, const Footprint& mine, const Segment& path)
       : fixed_(*table.fixed_),
         index_(*table.index_),
-        robot_(robot),
-        narrower_(narrower),
-        departs_(fixed_.departs(robot, path.from)),
-        stays_(departs_ && path.from == path.to && narrower == fixed_.robot(robot).narrower) {
-    if (index_.contacts() != nullptr) endpoint_ = index_.contacts()->endpoint(robot, path, narrower);
+        robot_(mine.robot),
+        narrower_(mine.narrower),
+        departs_(fixed_.departs(robot_, path.from)),
+        stays_(departs_ && path.from == path.to && narrower_ == fixed_.robot(robot_).narrower) {
+    if (index_.contacts() != nullptr) endpoint_ = index_.contacts()->endpoint(robot_, path, narrower_);
   }
 
   /// Inflation is for pairs of robots that may choose: a robot that still stands where its commitment ends
@@ -197,12 +198,13 @@ void ReservationTable::remove(std::size_t robot) { index_->remove(robot); }
 
 void ReservationTable::ignore(std::size_t robot, bool ignored) { index_->ignore(robot, ignored); }
 
-std::vector<SafeInterval> ReservationTable::safe_intervals(std::size_t robot, const Position& position,
-                                                           double narrower) const {
+std::vector<SafeInterval> ReservationTable::safe_intervals(const Footprint& footprint,
+                                                           const Position& position) const {
+  const std::size_t robot = footprint.robot;
   std::vector<UnsafeInterval> unsafe;
   const MarginAtRest margin{margin_, departs(robot, position) ? departure(robot) : 0.0};
   const Segment here{position, position};
-  const CollisionDistance collision_distance(*index_, robot, here, narrower);
+  const CollisionDistance collision_distance(*index_, footprint, here);
   index_->visit(robot, index_->grid().at(position), -1.0, kForever, [&](const Occupant& other) {
     const UnsafeInterval hit = unsafe_interval(position, other.disk, collision_distance(other));
     if (!hit.empty()) unsafe.push_back(margin.widened(hit));
@@ -210,7 +212,7 @@ std::vector<SafeInterval> ReservationTable::safe_intervals(std::size_t robot, co
   });
   if (fixed_ != nullptr) {
     if (!fixed_->known()) return {};
-    const FixedDistance fixed_distance(*this, robot, here, narrower);
+    const FixedDistance fixed_distance(*this, footprint, here);
     const MovingDisk mine({here, 0.0, kForever});
     fixed_->visit(robot, mine, index_->radius(robot), 0.0, [&](const FixedReservations::Occupant& other) {
       const UnsafeInterval hit = unsafe_interval(position, other.disk, fixed_distance(other));
@@ -229,11 +231,12 @@ std::vector<SafeInterval> ReservationTable::safe_intervals(std::size_t robot, co
   return safe;
 }
 
-std::optional<double> ReservationTable::earliest_departure(std::size_t robot, const Segment& path,
-                                                           double duration, double t_min, double t_max,
-                                                           double narrower) const {
+std::optional<double> ReservationTable::earliest_departure(const Footprint& footprint, const Segment& path,
+                                                           double duration, double t_min,
+                                                           double t_max) const {
   const SegmentIndex& index = *index_;
-  const CollisionDistance collision_distance(index, robot, path, narrower);
+  const std::size_t robot = footprint.robot;
+  const CollisionDistance collision_distance(index, footprint, path);
   Departure departure(path, duration, t_min, t_max);
   const MovingDisk& mine = departure.move();
   const auto visit = [&](const Occupant& other) {
@@ -250,16 +253,17 @@ std::optional<double> ReservationTable::earliest_departure(std::size_t robot, co
       return true;
     });
     if (departure.is_never()) return std::nullopt;
-    if (fixed_ != nullptr && !delay_past_fixed(robot, path, narrower, departure)) return std::nullopt;
+    if (fixed_ != nullptr && !delay_past_fixed(footprint, path, departure)) return std::nullopt;
   }
   return mine.t_start;
 }
 
 /// Returns false if the move is never possible.
-bool ReservationTable::delay_past_fixed(std::size_t robot, const Segment& path, double narrower,
+bool ReservationTable::delay_past_fixed(const Footprint& footprint, const Segment& path,
                                         Departure& departure) const {
   if (!fixed_->known()) return false;
-  const FixedDistance fixed_distance(*this, robot, path, narrower);
+  const std::size_t robot = footprint.robot;
+  const FixedDistance fixed_distance(*this, footprint, path);
   const auto visit = [&](const FixedReservations::Occupant& other) {
     return departure.delay_past(other.disk, fixed_distance(other), other.is_obstacle ? 0.0 : margin_);
   };
@@ -274,7 +278,7 @@ std::vector<std::size_t> ReservationTable::robots_hit(std::size_t robot,
   std::vector<std::size_t> hit;
   for (const TimedSegment& segment : segments) {
     const MovingDisk mine(segment);
-    const CollisionDistance collision_distance(*index_, robot, segment.path, segment.narrower);
+    const CollisionDistance collision_distance(*index_, {robot, segment.narrower}, segment.path);
     const bool moving = mine.velocity.squaredNorm() > 0.0;
     const double duration = moving ? segment.duration() : 0.0;
     const double margin = margin_of(robot, segment);
@@ -299,7 +303,7 @@ std::vector<std::size_t> ReservationTable::robots_certainly_hit(
   for (const TimedSegment& segment : segments) {
     const MovingDisk mine(segment);
     const double margin = margin_of(robot, segment);
-    const FixedDistance fixed_distance(*this, robot, segment.path, segment.narrower);
+    const FixedDistance fixed_distance(*this, {robot, segment.narrower}, segment.path);
     fixed_->visit(robot, mine, index_->radius(robot), margin, [&](const FixedReservations::Occupant& other) {
       if (!other.is_obstacle && meet(mine, other.disk, fixed_distance(other), margin))
         hit.push_back(other.robot);
@@ -321,7 +325,7 @@ std::vector<std::size_t> ReservationTable::obstacles_hit(std::size_t robot,
   if (fixed_ == nullptr) return hit;
   for (const TimedSegment& segment : segments) {
     const MovingDisk mine(segment);
-    const FixedDistance fixed_distance(*this, robot, segment.path, segment.narrower);
+    const FixedDistance fixed_distance(*this, {robot, segment.narrower}, segment.path);
     fixed_->visit(robot, mine, index_->radius(robot), 0.0, [&](const FixedReservations::Occupant& other) {
       if (other.is_obstacle && collide(mine, other.disk, fixed_distance(other)))
         hit.push_back(other.obstacle);

@@ -13,6 +13,18 @@ class Contacts;
 class FixedReservations;
 class SegmentIndex;
 
+/// The disk with which a robot stands or moves somewhere. Robots whose radius does not change have one.
+struct Footprint {
+  std::size_t robot = 0;
+  /// Metres: by how much the disk is smaller than the robot ever is, see TimedSegment.
+  double narrower = 0.0;
+
+  Footprint() = default;
+  /// A robot as large as it ever is, or by so many metres smaller.
+  Footprint(std::size_t of_robot, double smaller = 0.0)  // NOLINT(google-explicit-constructor)
+      : robot(of_robot), narrower(smaller) {}
+};
+
 /// The reserved trajectories, which all other robots avoid, and what a search asks about them: safe
 /// intervals, earliest departures, conflicts.
 ///
@@ -41,15 +53,14 @@ class ReservationTable {
   bool is_costly() const;
 
   /// When the robot may stand at `position` (paper, "Computing intervals"); ascending, without intervals
-  /// shorter than 1e-9 s. `narrower`: by how much its disk is smaller then, see TimedSegment.
-  std::vector<SafeInterval> safe_intervals(std::size_t robot, const Position& position,
-                                           double narrower = 0.0) const;
+  /// shorter than 1e-9 s.
+  std::vector<SafeInterval> safe_intervals(const Footprint& footprint, const Position& position) const;
 
   /// The earliest departure in [t_min, t_max] at which the robot can make the straight move of `duration`
   /// seconds (> 0) without a collision on the way; none if there is none. The caller ensures that the robot
   /// is in safe intervals before and after the move.
-  std::optional<double> earliest_departure(std::size_t robot, const Segment& path, double duration,
-                                           double t_min, double t_max, double narrower = 0.0) const;
+  std::optional<double> earliest_departure(const Footprint& footprint, const Segment& path, double duration,
+                                           double t_min, double t_max) const;
 
   /// The robots whose reservations come nearer to these segments of `robot` than they are kept apart,
   /// ascending; those that they only touch, up to rounding, are left out, as departures are delayed until
@@ -65,7 +76,7 @@ class ReservationTable {
   class Departure;
   class FixedDistance;
 
-  bool delay_past_fixed(std::size_t robot, const Segment& path, double narrower, Departure& departure) const;
+  bool delay_past_fixed(const Footprint& footprint, const Segment& path, Departure& departure) const;
   double margin_of(std::size_t robot, const TimedSegment& segment) const;
   bool departs(std::size_t robot, const Position& from) const;
   double departure(std::size_t robot) const;

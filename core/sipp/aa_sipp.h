@@ -1,49 +1,104 @@
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
 
+#include "core/geometry/segment.h"
+#include "core/model/trajectory.h"
 #include "core/reservation/reservation_table.h"
 #include "core/runtime/stop_condition.h"
-#include "core/sipp/search_limits.h"
 #include "core/sipp/search_space.h"
 #include "core/sipp/search_state.h"
 
 namespace fleetplan::core {
 
+/// Asked by a long search whether it can end, because there is no path.
+class NoPathTest {
+ public:
+  NoPathTest() = default;
+  virtual ~NoPathTest() = default;
+  NoPathTest(const NoPathTest&) = delete;
+  NoPathTest& operator=(const NoPathTest&) = delete;
+
+  virtual bool no_path(std::int64_t expansions) = 0;
+};
+
+/// The parameters of the search for one robot: limits of cost and effort, and the accepted suboptimality.
+struct SearchLimits {
+  double bound = kForever;        // seconds; only trajectories that cost less are accepted
+  double heuristic_weight = 1.2;  // >= 1; weight of h in f = g + weight * h (weighted A*; Pohl, 1970)
+  double suboptimality = 0.01;    // accepts a path to the goal that costs at most (1 + this) * the smallest f
+  double suboptimality_growth = 1e-4;  // added to `suboptimality` with every expansion
+  /// An arrival also counts as dominated, whatever its heading, if it is later than another one in the same
+  /// safe interval, or earlier by less than the time to translate by this many lattice spacings. 0: exact
+  /// dominance.
+  double dominance_slack = 0.5;
+  /// Seconds: a path may also end from this time on wherever the robot may rest for good, at the estimated
+  /// cost of its static way from there. kForever: only at the goal.
+  double horizon = kForever;
+  double start_delay = 0.0;  // seconds, >= 0; the robot stays where it begins at least this long
+  /// Search again with exact dominance if the quick search finds nothing. The quick search applies
+  /// `dominance_slack`, and keeps only one label per safe interval while f is below the time from which the
+  /// goal is free.
+  bool thorough = true;
+  /// Of both searches together; a search that needs more ends as not complete.
+  std::int64_t max_expansions = std::numeric_limits<std::int64_t>::max();
+  /// May be null. Asked after kFirstTest expansions and whenever their number has doubled.
+  NoPathTest* no_path_test = nullptr;
+  static constexpr std::int64_t kFirstTest = 512;
+};
+
+/// The result of a search for one robot.
+struct SearchResult {
+  std::optional<Trajectory> trajectory;
+  /// Without a trajectory: false if the stop condition or max_expansions ended the search. True otherwise;
+  /// with `thorough`, then no trajectory costs less than the bound (except those that dominance loses, see
+  /// docs/method.md).
+  bool complete = true;
+  std::int64_t expansions = 0;
+};
+
 /// AA-SIPP with headings: any-angle safe-interval path planning for one robot among reservations (paper,
 /// section "Individual planner: enhanced AA-SIPP"; Phillips and Likhachev, ICRA 2011; Yakovlev and
 /// Andreychuk, ICAPS 2017).
 ///
-/// Terms. A *place* is a vertex with its safe intervals. A *label* is a settled node of the search: a place,
-/// one of its safe intervals and a heading, with the arrival g. An *entry* of OPEN is a move into one safe
-/// interval that has no label yet. Its g is a lower bound until the entry is *timed*, that is, tested against
-/// the reservations; from then on its g is exact. An entry starts at the label that was expanded (*local*
-/// edge) or, any-angle, at that label's parent (*shortcut*). See search_state.h and open_list.h.
+/// Terms. A *stage* leads to the next goal of the robot (Goals). A *place* is a vertex in a stage, with its
+/// safe intervals. A *label* is a settled node of the search: a place, one of its safe intervals and a
+/// heading, with the arrival g. An *edge* leads from a label to a neighbour of its place, straight to the
+/// goal, or by a service into the next stage (Successors). An *entry* of OPEN is a move along an edge into
+/// one safe interval that has no label yet. Its g is a lower bound until the entry is *timed*, that is,
+/// tested against the reservations; from then on its g is exact. A move starts at the label that was expanded
+/// (*local*) or, any-angle, at that label's parent (*shortcut*). See search_state.h.
 ///
-/// Pseudo-code, with the subsections of the paper in brackets:
+/// Pseudo-code, with the functions that do it, and the subsections of the paper in brackets:
 ///
-///     label the start and expand it
-///     while OPEN is not empty:
-///       if the best timed entry at the goal costs at most (1 + suboptimality) * min f: settle it, stop
-///       entry <- OPEN.pop()                          smallest f = g + heuristic_weight * h
-///       if entry is not timed:                       its g is a lower bound (lazy, as in Lazy Theta*)
+///     label the start and expand it                          label_start
+///     while OPEN is not empty:                               run
+///       if the best timed entry at the end costs at most (1 + suboptimality) * min f: settle it, stop
+///                                                            goal_suffices
+///       with a horizon: if no entry promises more than the best label to rest at, stop there
+///                                                            rest_suffices
+///       entry <- OPEN.pop()                                  smallest f = g + heuristic_weight * h
+///       if entry is not timed:                               time_entry: lazy, as in Lazy Theta*
+///         if it is a shortcut, test the line of sight        Successors::test_sight
+///                                                              ["... w.r.t. static obstacles"]
 ///         offer the same edge into the target's next safe interval   ["Computing intervals"]
-///         if it is a shortcut, test the line of sight                ["... w.r.t. static obstacles"]
 ///         if an arrival in the same interval dominates g: continue
-///         g <- earliest arrival: rotate, wait, translate             ["... w.r.t. dynamic obstacles and
-///                                     computing earliest arrival time", "Handling rotations"]
+///         g <- earliest arrival: rotate, wait, translate     Successors::earliest_departure
+///                                     ["... w.r.t. dynamic obstacles and computing earliest arrival time"]
 ///         if g rose above its lower bound, or there is no departure:
 ///           if it is a shortcut, offer the local edge
 ///           if there is a departure and the arrival is not dominated: push the timed entry
 ///           continue
 ///       else if the entry is dominated by now: continue
-///       label <- settle (vertex, safe interval, heading) with g      ["High-level overview"]
-///       if label is at the goal in its last safe interval: stop
-///       with a horizon: stop at the best label from there on in a safe interval without end
+///       label <- (place, safe interval, heading) with g      settle ["High-level overview"]
+///       if label is at the last goal in its last safe interval: stop       Goals::is_end
+///       with a horizon: remember it if the robot may rest there for good   Goals::may_rest_at
 ///       expand label:
-///         if the goal is in sight (any-angle): offer the straight move to it
-///         for each neighbour: offer the shortcut from the label's parent (any-angle), or else the local
-///           edge, into the first safe interval that one of them can reach
+///         if it is at the goal of its stage: push its service              Successors::visit_services
+///         for each edge to the goal in sight or to a neighbour:            Successors::visit_edges
+///           offer it into the first safe interval that it can reach        ["Handling rotations"]
 ///     offer: push an entry with the lower bound of g, unless it is impossible, too expensive or dominated
 ///
 /// DominanceTable defines "dominates". A timed entry takes part in dominance as if it were a label. The paper
@@ -56,10 +111,9 @@ class AaSipp {
  public:
   explicit AaSipp(const ReservationTable& table) : table_(table) {}
 
-  /// Plans `robot` from the end of its committed actions, or its start, to its goal (which it has). The robot
-  /// holds no reservation.
-  SearchResult run(std::size_t robot, SearchSpace& space, const SearchLimits& limits,
-                   const StopCondition& stop);
+  /// Plans the robot of this space from the end of its committed actions, or its start, to its goal (which it
+  /// has). The robot holds no reservation.
+  SearchResult run(SearchSpace& space, const SearchLimits& limits, const StopCondition& stop);
 
   /// Frees what is kept for the next search.
   void release_memory() { state_ = SearchState(); }

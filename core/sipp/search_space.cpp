@@ -1,10 +1,151 @@
 #include "core/sipp/search_space.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <tuple>
+#include <utility>
+
+#include "core/geometry/tolerance.h"
+#include "core/map/refinement.h"
+#include "core/map/way_to_lattice.h"
 
 namespace fleetplan::core {
+namespace {
+
+/// Own vertices are linked to vertices within this distance, in lattice spacings.
+constexpr double kLinkDistance = 2.0;
+/// A start that is too near to others is linked to vertices within this distance if the robot is clear of
+/// them only there, in lattice spacings.
+constexpr double kLongestLink = 12.0;
+/// Comparisons of own vertices and links between two checks of the stop condition.
+constexpr std::size_t kWorkBetweenPolls = 16 * 1024;
+
+}  // namespace
+
+Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop)
+    : stage_(stage),
+      motion_(instance.motion(robot, stage)),
+      zones_(instance.drive_zones(robot)),
+      slowest_motion_(motion_),
+      lattice_(instance.lattice()),
+      grid_(instance.problem().grid()),
+      space_(instance.free_space(robot, stage)),
+      finer_(space_.finer()),
+      first_own_(lattice_.vertex_count() + finer_.count()),
+      any_angle_(instance.options().any_angle),
+      start_pose_(instance.itinerary(robot).pose),
+      start_(instance.motion(robot).radius == motion_.radius ? add_start(instance, robot) : -1) {
+  if (limit_speeds()) slowest_motion_.angular_speed = zones_->least_angular_speed();
+  if (start_ >= 0 && !instance.is_clear_at_start(robot)) never_entered_ = start_;
+  // Committed actions that end in contact with the goal end there: a service goes on, without a move.
+  double same = instance.robot(robot).committed.empty() ? kSamePosition : kContactTolerance;
+  const std::vector<Goal>& goals = instance.itinerary(robot).goals;
+  std::size_t work = 0;  // since the last check
+  for (std::size_t k = 0; k < goals.size(); ++k) {
+    work += 1 + 2 * own_.size() + (own_.empty() ? 0 : own_.back().links.size());
+    if (work >= kWorkBetweenPolls) {
+      work = 0;
+      if (stop.met()) {
+        finished_ = false;
+        return;
+      }
+    }
+    const Goal& goal = goals[k];
+    const bool is_here = instance.motion(robot, k).radius == motion_.radius ||
+                         instance.motion(robot, k + 1).radius == motion_.radius;
+    const bool at_start = start_ >= 0 && (goal.position - start_pose_.position).norm() <= same;
+    const int vertex = at_start ? start_ : is_here ? add_goal(instance, robot, goal.position) : -1;
+    goals_.push_back({vertex, goal.theta});
+    same = kSamePosition;
+  }
+}
+
+int Vertices::add_start(const Instance& instance, std::size_t robot) {
+  const Position& position = start_pose_.position;
+  const double radius = instance.radius_at_start(robot);
+  const double deficit = std::max(motion_.radius - radius, instance.contacts().deficit(robot));
+  const int vertex = vertex_at(position);
+  if (vertex >= 0 && radius == motion_.radius && deficit <= kContactTolerance) return vertex;
+  // Two metres for one that is missing: the way need not lead straight away from the others.
+  const double reach = std::min(kLinkDistance * lattice_.spacing() + 2.0 * deficit,
+                                std::max(kLinkDistance, kLongestLink) * lattice_.spacing());
+  return add({position, radius, deficit <= kContactTolerance ? kForever : reach, {}}, reach);
+}
+
+int Vertices::vertex_at(const Position& position) const {
+  const int vertex = lattice_.vertex_at(position);
+  if (vertex >= 0 || finer_.count() == 0) return vertex;
+  const std::vector<int> near = finer_.near(position, kSamePosition);
+  return near.empty() ? -1 : near.front();
+}
+
+int Vertices::own_vertex_at(const Position& position) const {
+  const auto own = std::find_if(own_.begin(), own_.end(), [&](const OwnVertex& vertex) {
+    return is_same_position(vertex.position, position);
+  });
+  return own == own_.end() ? -1 : first_own_ + static_cast<int>(own - own_.begin());
+}
+
+int Vertices::add_goal(const Instance& instance, std::size_t robot, const Position& position) {
+  const double radius = instance.radius_at_goal(robot, position, stage_);
+  const int vertex = vertex_at(position);
+  if (vertex >= 0 && radius == motion_.radius) return vertex;
+  const int own = own_vertex_at(position);
+  if (own >= 0) return own;
+  return add({position, radius, kForever, {}}, kLinkDistance * lattice_.spacing());
+}
+
+int Vertices::add(const OwnVertex& own, double reach) {
+  const int id = add_linked(own, reach);
+  if (!own_.back().links.empty() ||
+      !may_need_refinement(grid_, lattice_, motion_.radius, space_.among_polygons()))
+    return id;
+  const FineLattice nodes(grid_, lattice_, motion_.radius);
+  for (const Position& place : way_to_lattice(own.position, own.radius, nodes, lattice_, space_)) {
+    add_linked({place, motion_.radius, kForever, {}}, reach);
+  }
+  return id;
+}
+
+int Vertices::add_linked(OwnVertex own, double reach) {
+  std::vector<int> all = lattice_.vertices_near(own.position, reach);
+  for (const int near : finer_.near(own.position, reach)) all.push_back(near);
+  for (const int near : all) {
+    const Position to = position(near);
+    if (is_same_position(to, own.position)) continue;
+    const bool clear = own.radius == motion_.radius || space_.disk_fits(to, motion_.radius);
+    if (clear && may_move(own, to, motion_.radius)) own.links.push_back(near);
+  }
+  const int id = count();
+  for (std::size_t k = 0; k < own_.size(); ++k) {  // start and goal near each other
+    const bool near = (own_[k].position - own.position).norm() <= reach;
+    if (!near || !may_move(own, own_[k].position, own_[k].radius)) continue;
+    own.links.push_back(first_own_ + static_cast<int>(k));
+    own_[k].links.push_back(id);
+  }
+  own_.push_back(std::move(own));
+  return id;
+}
+
+/// `radius`: at the other end.
+bool Vertices::may_move(const OwnVertex& own, const Position& to, double radius) const {
+  const bool within_reach = (to - own.position).norm() <= own.reach;
+  return space_.may_sweep(own.position, to, within_reach ? std::min(own.radius, radius) : motion_.radius);
+}
+
+bool Vertices::linked(const OwnVertex& own, int vertex) {
+  if (own.links.empty() || vertex < own.links.front() || vertex > own.links.back()) return false;
+  return std::binary_search(own.links.begin(), own.links.end(), vertex);
+}
+
+bool Vertices::is_free(int from, int to) const {
+  if (is_own(from)) return may_move(own_[own_index(from)], position(to), radius(to));
+  if (is_own(to)) return may_move(own_[own_index(to)], position(from), motion_.radius);
+  return space_.may_sweep(position(from), position(to), motion_.radius);
+}
+
+std::uint32_t Vertices::free_steps(int vertex) const { return space_.steps_from(vertex); }
 
 SearchSpace::SearchSpace(const Instance& instance, std::size_t robot, const StopCondition& stop)
     : instance_(instance),

@@ -1,16 +1,172 @@
 #pragma once
 
+// What a search for one robot needs besides the reservations of others: its view of the static map, its
+// goals, and what it costs to get to them.
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "core/geometry/position.h"
 #include "core/instance/instance.h"
+#include "core/instance/motion.h"
+#include "core/map/free_space.h"
+#include "core/map/lattice.h"
+#include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
+#include "core/reservation/reservation_table.h"
+#include "core/runtime/stop_condition.h"
 #include "core/sipp/cost_to_go.h"
-#include "core/sipp/vertices.h"
 
 namespace fleetplan::core {
+
+/// One robot's view of the static map: the vertices that it may stop at and the straight moves between them.
+/// Vertices are those of the lattice, those that refine it for its radius, and its own start and goals where
+/// they lie off the lattice; these are linked to every lattice vertex in sight within two cells. A start or
+/// goal that is too near to a wall or to another robot's start is an own vertex, too. At such a vertex the
+/// robot keeps the distance from walls that it has there, and from a start it is linked to vertices that are
+/// far enough away to be clear. A start that is too near to a wall is left once, and never entered again.
+///
+/// A robot whose radius changes has one view for each of its radii.
+class Vertices {
+ public:
+  /// With the radius that the robot has in a stage: on the way to one of the goals that are left, or at rest
+  /// at the last one. See Instance::motion.
+  /// Not finished(), and not to be used, if `stop` is met first.
+  Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop);
+
+  bool finished() const { return finished_; }
+
+  const Motion& motion() const { return motion_; }
+  /// The zones that limit how the robot drives; null if there are none.
+  const DriveZones* zones() const { return zones_; }
+  /// The motion with the least angular speed of all zones.
+  const Motion& slowest_motion() const { return slowest_motion_; }
+  /// Whether the search may leave the lattice's directions.
+  bool any_angle() const { return any_angle_; }
+  double spacing() const { return lattice_.spacing(); }
+  /// The length of a straight line by that of lattice moves between its ends, at least.
+  double least_straight() const { return lattice_.least_straight(); }
+
+  int count() const { return first_own_ + static_cast<int>(own_.size()); }
+  /// -1 if the robot has another radius there.
+  int start() const { return start_; }
+  /// The end of the committed actions, or the robot's start without any.
+  const Pose& start_pose() const { return start_pose_; }
+  /// The pose of a goal; without a heading, any will do.
+  struct GoalPose {
+    int vertex = -1;
+    std::optional<double> heading;
+    bool operator==(const GoalPose&) const = default;
+  };
+  /// Of the goals that are left to visit, in their order. None for a parked robot. Those at which the robot
+  /// neither arrives nor leaves with this radius have no vertex.
+  const std::vector<GoalPose>& goals() const { return goals_; }
+  /// The vertex of the last one, -1 for a parked robot.
+  int goal() const { return goals_.empty() ? -1 : goals_.back().vertex; }
+
+  Position position(int vertex) const {
+    if (vertex < lattice_.vertex_count()) return lattice_.position(vertex);
+    return is_own(vertex) ? own_[own_index(vertex)].position : finer_.position(vertex);
+  }
+
+  /// From one vertex to another.
+  Displacement between(int from, int to) const {
+    const bool on_lattice = from < lattice_.vertex_count() && to < lattice_.vertex_count();
+    return on_lattice ? lattice_.between(from, to) : Displacement::between(position(from), position(to));
+  }
+
+  /// Seconds of the straight move, which is so long, from one vertex to another.
+  double translation_time(int from, int to, double length) const {
+    return limit_speeds() ? zones_->translation_time(position(from), position(to))
+                          : motion_.translation_time(length);
+  }
+  /// Seconds to turn at a vertex.
+  double rotation_time(int vertex, double from, double to) const {
+    return limit_speeds() ? angle_between(from, to) / zones_->angular_speed_at(position(vertex))
+                          : motion_.rotation_time(from, to);
+  }
+  /// The greatest linear speed at a vertex, metres per second.
+  double linear_speed(int vertex) const {
+    return limit_speeds() ? zones_->linear_speed_at(position(vertex)) : motion_.linear_speed;
+  }
+  bool limit_speeds() const { return zones_ != nullptr && zones_->limit_speeds(); }
+  /// Returns whether the straight move does not lead back to a start that is too near to a wall, and one-way
+  /// zones allow it.
+  bool allow(int from, int to) const {
+    if (to == never_entered_ && from != to) return false;
+    return zones_ == nullptr || zones_->allow(position(from), position(to));
+  }
+
+  /// Returns whether obstacles leave the straight line between two vertices free for the robot (paper,
+  /// "Estimating the feasibility of the move w.r.t. static obstacles"), and the move is allowed.
+  bool in_sight(int from, int to) const { return is_free(from, to) && allow(from, to); }
+
+  /// Calls visit(vertex) for every neighbour that one lattice move or link reaches from `vertex`.
+  template <class Visit>
+  void for_each_neighbour(int vertex, Visit&& visit) const {
+    if (is_own(vertex)) {
+      for (const int link : own_[own_index(vertex)].links) visit(link);
+      return;
+    }
+    std::uint32_t mask = vertex < lattice_.vertex_count() ? free_steps(vertex) : 0;
+    for (std::size_t k = 0; mask != 0; ++k, mask >>= 1) {
+      if ((mask & 1u) != 0)
+        visit(vertex + lattice_.steps()[k].rows * lattice_.columns() + lattice_.steps()[k].columns);
+    }
+    for (const auto& [from, to] : finer_.links_from(vertex)) visit(to);
+    for (std::size_t k = 0; k < own_.size(); ++k) {
+      if (linked(own_[k], vertex)) visit(first_own_ + static_cast<int>(k));
+    }
+  }
+
+ private:
+  bool is_free(int from, int to) const;
+  struct OwnVertex {
+    Position position;
+    double radius = 0.0;     // metres; less than the robot's if a wall is nearer
+    double reach = 0.0;      // metres; the longest move to or from it with this radius
+    std::vector<int> links;  // ascending
+  };
+
+  /// Of the robot's disk there.
+  double radius(int vertex) const { return is_own(vertex) ? own_[own_index(vertex)].radius : motion_.radius; }
+  bool is_own(int vertex) const { return vertex >= first_own_; }
+  std::size_t own_index(int vertex) const { return static_cast<std::size_t>(vertex - first_own_); }
+  static bool linked(const OwnVertex& own, int vertex);
+  int add_start(const Instance& instance, std::size_t robot);
+  int add_goal(const Instance& instance, std::size_t robot, const Position& position);
+  /// The vertex of the refined lattice at this position, or -1.
+  int vertex_at(const Position& position) const;
+  /// An own vertex at this position, or -1.
+  int own_vertex_at(const Position& position) const;
+  /// Adds an own vertex with links to those within `reach` metres.
+  int add_linked(OwnVertex own, double reach);
+  /// Where that has no links, adds vertices that lead to others, too.
+  int add(const OwnVertex& own, double reach);
+  bool may_move(const OwnVertex& own, const Position& to, double radius) const;
+  /// Bit k is set if step k of the lattice is free of obstacles.
+  std::uint32_t free_steps(int vertex) const;
+
+  const std::size_t stage_;
+  const Motion& motion_;
+  const DriveZones* zones_;
+  Motion slowest_motion_;
+  const Lattice& lattice_;
+  const OccupancyGrid& grid_;
+  FreeSpace& space_;
+  const FinerVertices& finer_;
+  int first_own_;
+  bool any_angle_;
+  Pose start_pose_;
+  std::vector<OwnVertex> own_;
+  int start_ = -1;
+  int never_entered_ = -1;  // the start, if it is too near to a wall
+  std::vector<GoalPose> goals_;
+  bool finished_ = true;
+};
 
 /// What a search for one robot needs besides reservations: where and when its plan begins, its goals, its
 /// view of the static map, and the costs to go to each of its goals.
@@ -45,7 +201,7 @@ class SearchSpace {
   }
   /// Metres, in a stage, or with goal_count() at rest at the last goal.
   double radius(std::size_t stage) const { return instance_.motion(robot_, stage).radius; }
-  double narrower(std::size_t stage) const { return instance_.narrower(robot_, stage); }
+  Footprint footprint(std::size_t stage) const { return {robot_, instance_.narrower(robot_, stage)}; }
   /// The committed actions end at rest in the pose of the first goal.
   bool begins_in_goal_pose() const { return begins_in_goal_pose_; }
 

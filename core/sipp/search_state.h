@@ -1,20 +1,26 @@
 #pragma once
 
+// The nodes of the search for one robot: places, labels and edges, the open list, and dominance.
+
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <vector>
 
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
+#include "core/instance/motion.h"
 #include "core/runtime/arrays.h"
 #include "core/sipp/cost_to_go.h"
-#include "core/sipp/dominance_table.h"
-#include "core/sipp/edge_timing.h"
-#include "core/sipp/open_list.h"
-#include "core/sipp/stage.h"
 
 namespace fleetplan::core {
 
 enum class PlaceId : int { none = -1 };
 enum class LabelId : int { none = -1 };
+enum class EdgeId : int {};
+enum class EntryId : int { none = -1 };
+enum class ArrivalId : int { none = -1 };
 
 /// A vertex that the search has reached in a stage, with its safe intervals (paper, "Computing intervals").
 struct Place {
@@ -44,6 +50,34 @@ struct Label {
   bool reverse;         // backwards
 };
 
+/// A straight move from a label, into any safe interval of its target. It departs after the rotation and the
+/// added wait, within the label's safe interval, and arrives within the target's. A move in the direction of
+/// the translation before it may depart at once: then both form one translation, which has one added wait.
+struct Move {
+  double heading = 0.0;             // of the robot
+  double duration = 0.0;            // seconds, > 0
+  double ready = 0.0;               // earliest departure after the rotation and the added wait
+  double latest = 0.0;              // latest departure: the end of the label's safe interval
+  bool reverse = false;             // backwards
+  bool continues_straight = false;  // without added wait, from `arrival` on
+  double arrival = kForever;        // of the robot at the label
+
+  double latest_into(const SafeInterval& target) const { return std::min(latest, target.end - duration); }
+  double ready_for(const SafeInterval& target) const { return std::max(ready, target.begin - duration); }
+  bool may_continue_into(const SafeInterval& target) const {
+    return continues_straight && arrival + duration >= target.begin && arrival <= latest_into(target);
+  }
+  /// A lower bound of the departure, without regard to robots on the way; kForever if the move is impossible.
+  double earliest_into(const SafeInterval& target) const {
+    if (may_continue_into(target)) return arrival;
+    return ready_for(target) <= latest_into(target) ? ready_for(target) : kForever;
+  }
+};
+
+/// Where an edge starts: at the label that is expanded, or at its parent (any-angle). A service leads from a
+/// stage to the next one, at the same vertex.
+enum class EdgeKind : std::uint8_t { local, shortcut, service };
+
 /// The two ways to reach a place when a label is expanded: a local move from the label or, any-angle, a
 /// shortcut from its parent.
 struct Edge {
@@ -58,9 +92,106 @@ struct Edge {
   const Move& move(EdgeKind kind) const { return kind == EdgeKind::shortcut ? shortcut : local; }
 };
 
-/// The state of one search.
+/// A move along an edge into one safe interval of its target.
+struct OpenEntry {
+  double arrival;    // g; a lower bound until the edge is timed
+  double departure;  // from the source
+  EdgeId edge;
+  int interval;
+  ArrivalId timed_arrival;  // in the dominance table; none until the edge is timed
+  EdgeKind kind;
+  bool next_interval_follows;  // the move into the target's next interval is offered when this one is popped
+
+  bool timed() const { return timed_arrival != ArrivalId::none; }
+};
+
+/// The open list of A*: the smallest f first, then the smallest h, then the oldest entry.
+class OpenList {
+ public:
+  bool empty() const { return heap_.empty(); }
+  double min_f() const { return heap_.front().f; }
+
+  EntryId push(const OpenEntry& entry, double f, double h) {
+    const EntryId id = entries_.push_back(entry);
+    heap_.push_back({f, h, id});
+    std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+    return id;
+  }
+
+  OpenEntry pop() {
+    const EntryId id = heap_.front().entry;
+    std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+    heap_.pop_back();
+    return entries_[id];
+  }
+
+  /// An entry that was pushed, popped ones included.
+  const OpenEntry& operator[](EntryId id) const { return entries_[id]; }
+
+  void clear() {
+    heap_.clear();
+    entries_.clear();
+  }
+
+ private:
+  struct Key {
+    double f;
+    double h;
+    EntryId entry;
+    bool operator>(const Key& other) const {
+      if (f != other.f) return f > other.f;
+      if (h != other.h) return h > other.h;
+      return entry > other.entry;
+    }
+  };
+
+  std::vector<Key> heap_;
+  IndexedVector<OpenEntry, EntryId> entries_;
+};
+
+/// The arrivals of one robot in safe intervals that no other arrival dominates. Arrival a dominates arrival b
+/// in the same interval if a's time, plus the rotation from a's heading to b's, plus the added wait before a
+/// move, is no later than b's time.
+class DominanceTable {
+ public:
+  /// Removes all arrivals and intervals, for a search with this motion. `slack` > 0: an arrival also
+  /// dominates others that precede it by less than `slack` seconds, whatever their heading.
+  void reset(const Motion& motion, double slack);
+
+  /// Intervals are numbered from 0. The count never decreases until reset().
+  void set_interval_count(std::size_t count) { first_.resize(count, ArrivalId::none); }
+
+  bool empty(int interval) const { return first_[interval] == ArrivalId::none; }
+
+  /// The time from which arrivals with this heading are dominated. The added wait is included: an earlier
+  /// arrival may need it, a later one that continues straight does not.
+  double dominated_from(int interval, double heading) const;
+
+  /// Returns whether an arrival at the same time with the same heading is in the table.
+  bool contains(int interval, double time, double heading) const;
+
+  /// Adds an arrival and removes those that it dominates (without the slack).
+  ArrivalId add(int interval, double time, double heading);
+
+  /// Returns whether this arrival was removed because one added after it dominates it.
+  bool is_dominated(ArrivalId arrival) const { return arrivals_[arrival].dominated; }
+
+ private:
+  struct Arrival {
+    double time;
+    double heading;
+    ArrivalId next;  // in the same interval
+    bool dominated;
+  };
+
+  const Motion* motion_ = nullptr;
+  double slack_ = 0.0;
+  IndexedVector<ArrivalId> first_;  // by interval
+  IndexedVector<Arrival, ArrivalId> arrivals_;
+};
+
+/// What the search for one robot has reached. Kept from search to search for its memory.
 struct SearchState {
-  IndexedVector<Stage> stages;
   IndexedVector<PlaceId> place_of_vertex;  // the latest; none for vertices that were not reached
   IndexedVector<Place, PlaceId> places;
   IndexedVector<SafeInterval> intervals;  // of all places
@@ -68,31 +199,21 @@ struct SearchState {
   IndexedVector<Edge, EdgeId> edges;
   OpenList open;
   DominanceTable dominance;
-  PlaceId goal = PlaceId::none;             // the last one, in the last stage
-  double horizon = kForever;                // see SearchLimits
-  double release = 0.0;                     // estimate: no path ends earlier; see Stage
-  EntryId best_goal_entry = EntryId::none;  // the cheapest timed entry into the goal's last safe interval
-  double best_goal_cost = kForever;
-  LabelId rest_label = LabelId::none;  // the best label to rest at beyond the horizon
-  double best_rest = kForever;         // its f
-  LabelId goal_label = LabelId::none;
-  bool incomplete = false;  // the quick pass discarded an arrival that the complete pass may keep
 
-  /// Prepares for another search; keeps the memory.
-  void clear() {
+  const Place& place_at(LabelId label) const { return places[labels[label].place]; }
+  LabelId source_of(const Edge& edge, EdgeKind kind) const {
+    return kind == EdgeKind::shortcut ? labels[edge.via].parent : edge.via;
+  }
+
+  /// Prepares for a search among so many vertices.
+  void clear(std::size_t vertex_count) {
     for (const Place& place : places) place_of_vertex[place.number] = PlaceId::none;
+    place_of_vertex.resize(std::max(place_of_vertex.size(), vertex_count), PlaceId::none);
     places.clear();
     intervals.clear();
     labels.clear();
     edges.clear();
     open.clear();
-    goal = PlaceId::none;
-    best_goal_entry = EntryId::none;
-    best_goal_cost = kForever;
-    rest_label = LabelId::none;
-    best_rest = kForever;
-    goal_label = LabelId::none;
-    incomplete = false;
   }
 };
 

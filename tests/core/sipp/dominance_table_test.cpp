@@ -1,8 +1,7 @@
-#include "core/sipp/dominance_table.h"
-
 #include <gtest/gtest.h>
 
 #include "core/geometry/segment.h"
+#include "core/sipp/search_state.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {

@@ -1,5 +1,3 @@
-#include "core/sipp/times_from_start.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "core/sipp/vertices.h"
+#include "core/sipp/cost_to_go.h"
+#include "core/sipp/search_space.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 

@@ -1,10 +1,9 @@
-#include "core/sipp/vertices.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
 
+#include "core/sipp/search_space.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 

@@ -1,4 +1,4 @@
-#include "core/sipp/dominance_table.h"
+#include "core/sipp/search_state.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/sipp/way_to_lattice.h"
+#include "core/map/way_to_lattice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace fleetplan::core {
 namespace {
 
 /// Lattice spacings: how far from the position nodes are searched, and how far from them vertices.
-constexpr double kFarthest = 4.0;
+constexpr double kFarthestNodes = 4.0;
 constexpr double kVertexDistance = 1.5;
 /// The first nodes are within this many pitches of the position.
 constexpr double kFirstNodes = 2.0;
@@ -68,7 +68,7 @@ class Brushfire {
     const bool is_first = before < 0;
     const Position& last = is_first ? from_ : reached_[static_cast<std::size_t>(before)].position;
     const double most = is_first ? kFirstNodes * nodes_.pitch : kForever;
-    if ((there - last).norm() > most || (there - from_).norm() > kFarthest * lattice_.spacing()) return;
+    if ((there - last).norm() > most || (there - from_).norm() > kFarthestNodes * lattice_.spacing()) return;
     if (is_first && !space_.disk_fits(there, nodes_.radius)) return;
     if (!space_.may_sweep(last, there, is_first ? std::min(radius_, nodes_.radius) : nodes_.radius)) return;
     known_.insert({column, row});

@@ -1,0 +1,248 @@
+#include "core/sipp/goals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/geometry/angle.h"
+#include "core/geometry/tolerance.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Ways that are estimated between two checks of the stop condition.
+constexpr int kGoalsBetweenPolls = 16;
+/// Seconds; far more than the tolerances of times and headings with which a rest counts as a service.
+constexpr double kClearlyBefore = 1e-3;
+
+/// Estimates the way from one goal to the next one, seconds. A heading that is free is the best one.
+double estimated_leg(SearchSpace& space, std::size_t from, const StopCondition& stop) {
+  const Motion& motion = space.vertices().motion();
+  const Vertices::GoalPose& here = space.vertices(from + 1).goals()[from];
+  const Vertices::GoalPose& next = space.goal(from + 1);
+  if (here.vertex == next.vertex) {
+    return here.heading && next.heading ? motion.rotation_time(*here.heading, *next.heading) : 0.0;
+  }
+  const CostToGo::Estimate estimate = space.cost_to_go(from + 1).from(here.vertex, stop);
+  return here.heading ? estimate.with_rotation(*here.heading, motion) : estimate.least();
+}
+
+/// A stage with the radius that the robot has in it.
+Stage stage_at(const SearchSpace& space, std::size_t index) {
+  Stage stage;
+  stage.vertices = &space.vertices(index);
+  stage.first_vertex = space.first_vertex(index);
+  stage.footprint = space.footprint(index);
+  return stage;
+}
+
+/// The stages of a robot with a goal, without the releases; none if `stop` is met first.
+IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
+  const std::vector<Goal>& goals = space.itinerary().goals;
+  IndexedVector<Stage> stages(goals.size());
+  const int last = static_cast<int>(goals.size()) - 1;
+  for (int k = last; k >= 0; --k) {
+    if ((last - k) % kGoalsBetweenPolls == kGoalsBetweenPolls - 1 && stop.met()) return {};
+    const auto index = static_cast<std::size_t>(k);
+    const Goal& goal = goals[index];
+    stages[k] = stage_at(space, index);
+    Stage& stage = stages[k];
+    stage.goal = space.goal(index);
+    stage.service = goal.service;
+    stage.not_before = goal.not_before;
+    stage.after = goal.service;
+    stage.radius_changes = space.changes_radius() && space.radius(index) != space.radius(index + 1);
+    if (k < last) stage.after += estimated_leg(space, index, stop) + stages[k + 1].after;
+  }
+  if (!space.rests_with_other_radius()) return stages;
+  Stage rest = stage_at(space, goals.size());
+  rest.goal = rest.vertices->goals().back();
+  rest.is_rest = true;
+  stages.push_back(rest);
+  return stages;
+}
+
+/// `last_free_from`: when the last goal becomes free for good, seconds.
+void set_releases(IndexedVector<Stage>& stages, double last_free_from) {
+  double release = stages.back().service_end(last_free_from);
+  for (int k = static_cast<int>(stages.size()) - 1; k >= 0; --k) {
+    const bool is_last = &stages[k] == &stages.back();
+    if (!is_last) release = std::max(release, stages[k].not_before + stages[k].after);
+    stages[k].release = release;
+  }
+}
+
+/// The labels from the start to `last`.
+std::vector<LabelId> path_to(LabelId last, const SearchState& state) {
+  std::vector<LabelId> path;
+  for (LabelId id = last; id != LabelId::none; id = state.labels[id].parent) path.push_back(id);
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+void append(Trajectory& trajectory, const TimedSegment& move, bool reverse) {
+  trajectory.moves.push_back(move);
+  if (!reverse) return;
+  trajectory.reverse.resize(trajectory.moves.size(), false);
+  trajectory.reverse.back() = true;
+}
+
+/// Appends the pieces of the move to a label. The first one that continues the last move, at the same speed,
+/// is joined to that.
+void append_pieces(Trajectory& trajectory, const std::vector<DriveZones::Piece>& pieces, const Label& to,
+                   bool continues) {
+  constexpr double kSameSpeed = 1e-9;  // relative; far above rounding
+  for (const DriveZones::Piece& piece : pieces) {
+    const double t_end = &piece == &pieces.back() ? to.arrival : to.departure + piece.end;
+    const bool goes_on = continues || &piece != &pieces.front();
+    if (goes_on && &piece == &pieces.front()) {
+      TimedSegment& last = trajectory.moves.back();
+      const double speed = last.path.length() / last.duration();
+      if (std::abs(speed - piece.linear_speed) <= kSameSpeed * speed) {
+        last.path.to = piece.path.to;
+        last.t_end = t_end;
+        continue;
+      }
+    }
+    append(trajectory, {piece.path, to.departure + piece.begin, t_end}, to.reverse);
+    if (!goes_on) continue;
+    trajectory.goes_on.resize(trajectory.moves.size(), false);
+    trajectory.goes_on.back() = true;
+  }
+}
+
+}  // namespace
+
+double estimated_end(SearchSpace& space, const StopCondition& stop) {
+  IndexedVector<Stage> stages = stages_of(space, stop);
+  if (stages.empty()) return 0.0;
+  set_releases(stages, 0.0);
+  const Stage& first = stages[0];
+  const int start = space.vertices().start();
+  const bool leaves = start != first.goal.vertex;
+  const double leg = leaves ? space.cost_to_go(0).from(start, stop).least() : 0.0;
+  return std::max(first.release, space.itinerary().t_begin + leg + first.after);
+}
+
+Goals::Goals(SearchSpace& space, double horizon, SearchState& state)
+    : space_(space),
+      horizon_(horizon),
+      state_(state),
+      changes_radius_(space.changes_radius()),
+      last_stage_(static_cast<int>(space.goal_count()) - (space.rests_with_other_radius() ? 0 : 1)) {}
+
+bool Goals::begin(const StopCondition& stop) {
+  stages_ = stages_of(space_, stop);
+  last_ = PlaceId::none;
+  return !stages_.empty();
+}
+
+bool Goals::end_at(PlaceId place) {
+  last_ = place;
+  const Place& goal = state_.places[place];
+  const bool stays_free = !goal.never_safe() && state_.intervals[goal.end_interval - 1].end == kForever;
+  const double free_from = stays_free ? state_.intervals[goal.end_interval - 1].begin : kForever;
+  if (!stays_free && !has_horizon()) return false;
+  set_releases(stages_, std::min(free_from, horizon_));
+  return true;
+}
+
+bool Goals::can_serve(int stage, const Place& place) const {
+  const double done = stage == 0 ? space_.itinerary().service_done : 0.0;
+  for (int k = place.first_interval; k < place.end_interval; ++k) {
+    const SafeInterval& safe = state_.intervals[k];
+    if (stages_[stage].service_end(safe.begin) - done <= safe.end) return true;
+  }
+  return false;
+}
+
+ServiceStop Goals::service_stop(const Label& label) const {
+  const Stage& stage = stages_[state_.places[label.place].stage];
+  const bool at_start = label.parent == LabelId::none;
+  ServiceStop stop{label.arrival, 0.0, label.heading};
+  if (at_start && space_.begins_in_goal_pose()) {
+    stop.t_rest = space_.itinerary().arrived;
+  } else {
+    if (at_start) stop.t_rest = space_.itinerary().t_begin;  // also if it has to stay there for longer
+    if (stage.goal.heading) {
+      stop.t_rest += stage.vertices->rotation_time(stage.goal.vertex, label.heading, *stage.goal.heading);
+      stop.heading = *stage.goal.heading;
+    }
+  }
+  stop.t_end = stage.service_end(stop.t_rest);
+  return stop;
+}
+
+double Goals::latest_departure(const Label& label) const {
+  const Place& place = state_.places[label.place];
+  const double safe_until = state_.intervals[label.interval].end;
+  if (place.stage + 1 >= static_cast<int>(space_.goal_count())) return safe_until;
+  const Stage& stage = stages_[place.stage];
+  const Position goal = stage.vertices->position(stage.goal.vertex);
+  if ((place.position - goal).norm() > kContactTolerance) return safe_until;
+  return std::min(safe_until, service_stop(label).t_end - kClearlyBefore);
+}
+
+bool Goals::may_rest_at(const Label& label) const {
+  if (state_.intervals[label.interval].end != kForever) return false;
+  if (!changes_radius_) return true;
+  const Place& place = state_.places[label.place];
+  const Stage& stage = stages_[place.stage];
+  const Position goal = stage.vertices->position(stage.goal.vertex);
+  return !place.is_window && (place.position - goal).norm() > kContactTolerance;
+}
+
+Trajectory Goals::trajectory_to(LabelId end) const {
+  const std::vector<LabelId> path = path_to(end, state_);
+  Trajectory trajectory = space_.itinerary().committed;
+  if (trajectory.moves.empty()) trajectory.start = state_.place_at(path.front()).position;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Label& from = state_.labels[path[i - 1]];
+    const Label& to = state_.labels[path[i]];
+    if (to.by_translation) {
+      append_move(trajectory, from, to);
+    } else {
+      append_service(trajectory, from, to);
+    }
+  }
+  const Label& last = state_.labels[end];
+  if (!is_end(last.place, last.interval)) {  // at rest beyond the horizon
+    const Place& place = state_.places[last.place];
+    const double left = place.any_heading
+                            ? place.estimate.seconds
+                            : place.estimate.with_rotation(last.heading, space_.vertices().motion());
+    trajectory.stops_at = std::max(last.arrival, horizon_);
+    trajectory.cost = *trajectory.stops_at + left;
+    return trajectory;
+  }
+  trajectory.cost =
+      stages_.back().is_rest ? trajectory.last_served : std::max(service_stop(last).t_end, last.arrival);
+  return trajectory;
+}
+
+void Goals::append_service(Trajectory& trajectory, const Label& from, const Label& to) const {
+  const int stage = state_.places[from.place].stage;
+  const ServiceStop stop = service_stop(from);
+  if (state_.places[to.place].stage == static_cast<int>(space_.goal_count())) {
+    trajectory.last_served = std::max(stop.t_end, space_.itinerary().t_begin);
+    return;
+  }
+  trajectory.visits.push_back(
+      {space_.itinerary().first_goal + static_cast<std::size_t>(stage), stop.t_rest, stop.t_end});
+}
+
+void Goals::append_move(Trajectory& trajectory, const Label& from, const Label& to) const {
+  const bool continues = from.by_translation && to.departure == from.arrival && from.reverse == to.reverse &&
+                         angle_between(from.heading, to.heading) <= kSameHeading;
+  const Segment way{state_.places[from.place].position, state_.places[to.place].position};
+  if (space_.vertices().limit_speeds()) {
+    append_pieces(trajectory, space_.vertices().zones()->pieces(way.from, way.to), to, continues);
+  } else if (continues) {
+    trajectory.moves.back().path.to = way.to;
+    trajectory.moves.back().t_end = to.arrival;
+  } else {
+    append(trajectory, {way, to.departure, to.arrival}, to.reverse);
+  }
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,105 @@
+#pragma once
+
+// The goals of one robot in a search: the stages on the way to them, services, and rests.
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/model/trajectory.h"
+#include "core/runtime/arrays.h"
+#include "core/runtime/stop_condition.h"
+#include "core/sipp/search_space.h"
+#include "core/sipp/search_state.h"
+
+namespace fleetplan::core {
+
+/// A part of the way of a robot: from the goal before, or from where its plan begins, to the next goal. A
+/// robot that has another radius after its last service has one more stage, in which it rests.
+struct Stage {
+  Vertices::GoalPose goal;
+  double service = 0.0;     // seconds
+  double not_before = 0.0;  // seconds
+  /// Estimate: seconds from rest in the goal's pose to the end of the last service, without waiting for any
+  /// `not_before`. The service at this goal is included.
+  double after = 0.0;
+  /// Estimate: no path ends earlier, because of this `not_before` and the later ones.
+  double release = 0.0;
+
+  const Vertices* vertices = nullptr;
+  int first_vertex = 0;  // see SearchSpace
+  Footprint footprint;
+  bool radius_changes = false;  // at the end of this stage
+  bool is_rest = false;         // after the last service, with another radius
+
+  double service_end(double t_rest) const { return std::max(t_rest, not_before) + service; }
+};
+
+/// A stop in the pose of a goal.
+struct ServiceStop {
+  double t_rest;   // seconds; from then on at rest in the pose
+  double t_end;    // of the service
+  double heading;  // in which the robot leaves
+};
+
+/// Estimates when a robot ends its last service if it is alone on the static map; seconds. 0 if `stop` is met
+/// first.
+double estimated_end(SearchSpace& space, const StopCondition& stop);
+
+/// What the search for one robot has to reach: the goals in their order, served, and in the end a rest for
+/// good; at the last goal or, with a horizon, wherever the robot may stay from then on.
+class Goals {
+ public:
+  /// `horizon`: see SearchLimits. All arguments outlive this object.
+  Goals(SearchSpace& space, double horizon, SearchState& state);
+
+  /// Makes the stages of a pass; false if `stop` is met first.
+  bool begin(const StopCondition& stop);
+  /// Makes this place, the last goal in the last stage, the end of all paths. Returns whether the robot may
+  /// stay there from some time on or, with a horizon, somewhere else.
+  bool end_at(PlaceId place);
+  /// Whether the goal of a stage, which is this place, is ever free for long enough to be served.
+  bool can_serve(int stage, const Place& place) const;
+
+  int last_stage() const { return last_stage_; }
+  const Stage& stage(int k) const { return stages_[k]; }
+  /// The place of the last goal.
+  PlaceId last() const { return last_; }
+  /// Estimate: no path ends earlier, because a goal is not free yet or has to wait. Seconds.
+  double release() const { return stages_[0].release; }
+  double last_release() const { return stages_.back().release; }
+
+  /// Whether a robot that is here in this interval has reached its end.
+  bool is_end(PlaceId place, int interval) const {
+    return place == last_ && state_.intervals[interval].end == kForever;
+  }
+
+  /// The service of a robot that has this label at the goal of its stage.
+  ServiceStop service_stop(const Label& label) const;
+  /// When a robot whose radius changes has to leave. A rest in the pose of a goal serves it as soon as it is
+  /// long enough, whatever the search has in mind: the robot leaves before, or after the service. Seconds.
+  double latest_departure(const Label& label) const;
+
+  bool has_horizon() const { return horizon_ != kForever; }
+  double horizon() const { return horizon_; }
+  /// Whether the robot may stay for good in this label, wherever it is. A rest in the pose of a goal at which
+  /// the radius changes would serve it.
+  bool may_rest_at(const Label& label) const;
+
+  /// The committed moves of the robot and the path of labels to `end`. Moves of the path that continue
+  /// straight without a stop are joined.
+  Trajectory trajectory_to(LabelId end) const;
+
+ private:
+  void append_move(Trajectory& trajectory, const Label& from, const Label& to) const;
+  void append_service(Trajectory& trajectory, const Label& from, const Label& to) const;
+
+  SearchSpace& space_;
+  const double horizon_;
+  SearchState& state_;
+  const bool changes_radius_;
+  const int last_stage_;
+  IndexedVector<Stage> stages_;
+  PlaceId last_ = PlaceId::none;
+};
+
+}  // namespace fleetplan::core

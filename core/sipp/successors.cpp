@@ -1,0 +1,189 @@
+#include "core/sipp/successors.h"
+
+#include <cmath>
+
+namespace fleetplan::core {
+
+Successors::Successors(const ReservationTable& table, SearchSpace& space, const Goals& goals,
+                       SearchState& state, const StopCondition& stop)
+    : table_(table),
+      space_(space),
+      goals_(goals),
+      state_(state),
+      stop_(stop),
+      motion_(space.vertices().motion()),
+      vertices_(space.vertices()),
+      zones_(space.vertices().limit_speeds() ? space.vertices().zones() : nullptr),
+      changes_radius_(space.changes_radius()) {}
+
+PlaceId Successors::place_of(int vertex, int stage) {
+  const int number = changes_radius_ ? goals_.stage(stage).first_vertex + vertex : vertex;
+  PlaceId& latest = state_.place_of_vertex[number];
+  PlaceId known = latest;
+  while (known != PlaceId::none && state_.places[known].stage != stage) {
+    known = state_.places[known].other_stage;
+  }
+  if (known != PlaceId::none) return known;
+  const Stage& at = goals_.stage(stage);
+  Place place{
+      vertex, stage, number, vertices(stage).position(vertex), {}, false, state_.intervals.next_index(),
+      0,      latest};
+  if (vertex != at.goal.vertex) {
+    place.estimate = space_.cost_to_go(static_cast<std::size_t>(stage)).from(vertex, stop_);
+    place.estimate.seconds += at.after;
+    place.estimate.reverse_seconds += at.after;
+  } else {
+    place.estimate = {at.after, at.goal.heading.value_or(0.0), false};
+    place.any_heading = !at.goal.heading;
+  }
+  append_intervals(place);
+  latest = state_.places.push_back(place);
+  return latest;
+}
+
+/// The safe intervals of a vertex are the same in all stages with the same radius.
+void Successors::append_intervals(Place& place) {
+  const Stage& at = goals_.stage(place.stage);
+  if (at.radius_changes && place.vertex == at.goal.vertex) {
+    // A robot that begins in the place of its goal may be there outside a window.
+    place.is_window = place.stage > 0 || place.vertex != at.vertices->start();
+  }
+  PlaceId same = place.other_stage;
+  while (same != PlaceId::none && state_.places[same].is_window) same = state_.places[same].other_stage;
+  if (place.is_window) {
+    append_windows(place);
+  } else if (same != PlaceId::none) {
+    const Place& other = state_.places[same];
+    for (int k = other.first_interval; k < other.end_interval; ++k) {
+      state_.intervals.push_back(SafeInterval(state_.intervals[k]));
+    }
+  } else {
+    for (const SafeInterval& safe : table_.safe_intervals(at.footprint, place.position)) {
+      state_.intervals.push_back(safe);
+    }
+  }
+  place.end_interval = state_.intervals.next_index();
+  state_.dominance.set_interval_count(state_.intervals.size());
+}
+
+/// The arrivals at a goal from which the robot may be served there with the radius that it has, and be there
+/// with the next one when the service ends. A rotation before the service only ends it later.
+void Successors::append_windows(const Place& place) {
+  const Stage& at = goals_.stage(place.stage);
+  const Stage& next = goals_.stage(place.stage + 1);
+  const std::vector<SafeInterval> after = table_.safe_intervals(next.footprint, place.position);
+  auto begin = after.begin();
+  // Bounded: the intervals, which are ascending: each is left behind once, or overlaps another one.
+  for (const SafeInterval& before : table_.safe_intervals(at.footprint, place.position)) {
+    while (begin != after.end() && begin->end < before.begin) ++begin;
+    for (auto later = begin; later != after.end() && later->begin <= before.end; ++later) {
+      const SafeInterval& then = *later;
+      if (next.is_rest && then.end != kForever) continue;
+      double first = before.begin;
+      if (at.service_end(first) < then.begin) first = std::max(first, then.begin - at.service);
+      const double last = std::min(before.end, then.end);
+      if (at.service_end(first) <= last) state_.intervals.push_back({first, last});
+    }
+  }
+}
+
+/// The robot rests, in this heading, until the service ends.
+EdgeId Successors::add_service(LabelId from, PlaceId next, double heading) {
+  Move at_rest;
+  at_rest.heading = heading;
+  return state_.edges.push_back({at_rest, {}, from, next, Edge::Sight::blocked});
+}
+
+EdgeId Successors::add_edge(LabelId via, PlaceId target, bool with_shortcut, bool reverse) {
+  const Move local = move_between(via, target, reverse);
+  Move shortcut = with_shortcut ? move_between(state_.labels[via].parent, target, reverse) : Move{};
+  // Past a slow zone, the way round may be the faster one.
+  const bool is_slower =
+      zones_ != nullptr && shortcut.ready + shortcut.duration > local.ready + local.duration + kSameTime;
+  with_shortcut = with_shortcut && !is_slower;
+  if (!with_shortcut) shortcut = Move{};
+  return state_.edges.push_back(
+      {local, shortcut, via, target, with_shortcut ? Edge::Sight::unknown : Edge::Sight::blocked});
+}
+
+/// The rotation, the added wait and the translation from a label (paper, "Handling rotations").
+inline Move Successors::move_between(LabelId from, PlaceId target, bool reverse) const {
+  const Label& label = state_.labels[from];
+  const Place& here = state_.places[label.place];
+  const Place& there = state_.places[target];
+  const Displacement d = vertices(here.stage).between(here.vertex, there.vertex);
+  Move move;
+  move.heading = reverse ? opposite_heading(d.heading) : d.heading;
+  move.reverse = reverse;
+  double rotation = 0.0;
+  if (zones_ == nullptr) {
+    move.duration = motion_.translation_time(d.length);
+    rotation = motion_.rotation_time(label.heading, move.heading);
+  } else {
+    move.duration = zones_->translation_time(here.position, there.position);
+    rotation = angle_between(label.heading, move.heading) / zones_->angular_speed_at(here.position);
+  }
+  move.ready = label.arrival + rotation + motion_.wait_before_move;
+  move.latest = changes_radius_ ? goals_.latest_departure(label) : state_.intervals[label.interval].end;
+  move.continues_straight = label.by_translation && label.reverse == reverse &&
+                            motion_.wait_before_move > 0.0 &&
+                            angle_between(label.heading, move.heading) <= kSameHeading;
+  move.arrival = label.arrival;
+  return move;
+}
+
+void Successors::test_sight(Edge& edge) const {
+  if (edge.shortcut_sight != Edge::Sight::unknown) return;
+  const int from = state_.place_at(state_.source_of(edge, EdgeKind::shortcut)).vertex;
+  const Place& target = state_.places[edge.target];
+  const bool free = vertices(target.stage).in_sight(from, target.vertex);
+  edge.shortcut_sight = free ? Edge::Sight::free : Edge::Sight::blocked;
+}
+
+std::optional<double> Successors::earliest_departure(const OpenEntry& entry,
+                                                     const SafeInterval& target) const {
+  const Edge& edge = state_.edges[entry.edge];
+  if (entry.kind == EdgeKind::shortcut && edge.shortcut_sight == Edge::Sight::blocked) return std::nullopt;
+  const Move& move = edge.move(entry.kind);
+  const Segment path{state_.place_at(state_.source_of(edge, entry.kind)).position,
+                     state_.places[edge.target].position};
+  const Footprint& footprint = goals_.stage(state_.places[edge.target].stage).footprint;
+  if (move.may_continue_into(target)) {
+    const auto at_once = departure(path, move.duration, move.arrival, move.arrival, footprint);
+    if (at_once) return at_once;
+  }
+  const double begin = move.ready_for(target), latest = move.latest_into(target);
+  if (begin > latest) return std::nullopt;
+  return departure(path, move.duration, begin, latest, footprint);
+}
+
+std::optional<double> Successors::departure(const Segment& path, double duration, double t_min, double t_max,
+                                            const Footprint& footprint) const {
+  if (zones_ != nullptr) {
+    const std::vector<DriveZones::Piece> pieces = zones_->pieces(path.from, path.to);
+    if (pieces.size() > 1) return departure_of(pieces, t_min, t_max, footprint);
+  }
+  return table_.earliest_departure(footprint, path, duration, t_min, t_max);
+}
+
+/// The earliest departure of a move of several pieces, which follow each other without a stop.
+std::optional<double> Successors::departure_of(const std::vector<DriveZones::Piece>& pieces, double t_min,
+                                               double t_max, const Footprint& footprint) const {
+  double t = t_min;
+  for (std::size_t k = 0; k < pieces.size();) {
+    const auto& [path, speed, begin, end] = pieces[k];
+    const auto earliest = table_.earliest_departure(footprint, path, end - begin, t + begin, t_max + begin);
+    if (!earliest) return std::nullopt;
+    if (*earliest <= t + begin) {
+      ++k;
+      continue;
+    }
+    // Later: then the pieces before it may meet others.
+    t = std::max(*earliest - begin, std::nextafter(t, kForever));
+    if (t > t_max) return std::nullopt;
+    k = 0;
+  }
+  return t;
+}
+
+}  // namespace fleetplan::core
