@@ -5,17 +5,26 @@ import { readFile } from "node:fs/promises";
 
 const SOURCE = await readFile(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
 
-/** Fails with every element of the page that violates a rule of axe-core; `state` says what the page shows. */
-export async function assertAccessible(page, state) {
+/** The rules that the colours of a page decide. */
+export const COLOUR_RULES = ["color-contrast", "link-in-text-block"];
+
+/**
+ * Fails with every element of the page that violates one of these rules of axe-core, or all of its rules for pages;
+ * `state` says what the page shows.
+ */
+export async function assertAccessible(page, state, rules = null) {
   if (!(await page.evaluate(() => "axe" in window))) await page.evaluate(SOURCE);
-  const found = await page.evaluate(async () => {
+  const found = await page.evaluate(async (values) => {
     // Details of violations only, which takes a fraction of the time.
-    const { violations, passes } = await /** @type {any} */ (window).axe.run({ resultTypes: ["violations"] });
+    const { violations, passes } = await /** @type {any} */ (window).axe.run({
+      resultTypes: ["violations"],
+      ...(values && { runOnly: { type: "rule", values } }),
+    });
     const faults = violations.flatMap(({ id, nodes }) =>
       nodes.map(({ target, failureSummary }) => `${id}: ${target.join(" ")}: ${failureSummary}`),
     );
     return { faults, passed: passes.length };
-  });
+  }, rules);
   assert.ok(found.passed > 0, "rules were applied");
   assert.deepEqual(found.faults, [], state);
 }
