@@ -8,21 +8,9 @@ ARG DEBIAN_SUITE=trixie
 FROM debian:${DEBIAN_SUITE}-slim AS build
 WORKDIR /src
 COPY scripts/lib.sh scripts/
-RUN bash -euo pipefail -c '. scripts/lib.sh; need_packages "${BUILD_PACKAGES[@]}" libgtest-dev libgmock-dev python3'
-COPY CMakeLists.txt CMakePresets.json ./
-COPY cmake cmake
-COPY web web
-COPY include include
-COPY core core
-COPY library library
-COPY examples examples
-COPY api api
-COPY server server
-COPY tests tests
-RUN bash -euo pipefail -c '. scripts/lib.sh; build release'
-RUN ctest --preset release -j "$(nproc)" --timeout 600 --no-tests=error --exclude-regex '^Documents$'
-COPY LICENSE NOTICE ./
-COPY deploy/image deploy/image
+RUN bash -euo pipefail -c '. scripts/lib.sh; need_packages "${BUILD_PACKAGES[@]}" "${UNIT_TEST_PACKAGES[@]}"'
+COPY . .
+RUN scripts/test --quick
 RUN deploy/image/make-root build/release /image
 
 FROM scratch

@@ -42,7 +42,6 @@ class InstalledLibrary(unittest.TestCase):
         output = run(self.build(PROJECT / "examples", "example") / "plan")
         self.assertRegex(output, r"(?s)\Aeast-bound arrives after .*flowtime \d+\.\d+ s, no collisions\n\Z")
 
-    @unittest.skipUnless((PROJECT / "docs").exists(), "the image is built without documents")
     def test_the_program_of_the_document_runs(self):
         (program,) = re.findall(r"^```cpp\n(.*?)^```$", (PROJECT / "docs/library.md").read_text(), re.M | re.S)
         source = self.folder / "document.cpp"
