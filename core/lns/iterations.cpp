@@ -8,10 +8,11 @@ namespace {
 
 /// A delay below this is rounding, seconds.
 constexpr double kLeastDelay = 1e-9;
-/// The search that finds a cheaper path if one of the others can.
+/// The limits of a search that finds a cheaper path if any of the searches can.
 constexpr SearchLimits kProof{
     .heuristic_weight = 1.0, .suboptimality = 0.0, .suboptimality_growth = 0.0, .dominance_slack = 0.0};
-/// The effort for these tests: expansions at first, and as a share of those of the search.
+/// The effort for tests whether a robot can become cheaper: expansions at first, and as a share of those of
+/// the search.
 constexpr std::int64_t kFirstProofExpansions = 1'000;
 constexpr std::int64_t kProofShare = 8;
 
@@ -34,7 +35,7 @@ bool Exhaustion::nothing_left() const {
 bool Exhaustion::at_lower_bound() const {
   const std::vector<std::size_t>& planned = incumbent_.planned();
   if (planned.empty()) return true;
-  if (!for_makespan_) return false;  // then no robot is delayed
+  if (!for_makespan_) return false;  // for the flowtime, no robot is delayed then
   double bound = 0.0;
   for (const std::size_t robot : planned) bound = std::max(bound, bounds_[robot]);
   return incumbent_.makespan() <= bound + kLeastDelay;
