@@ -47,11 +47,11 @@ struct ErrorRow {
   ErrorCode code;
   int status;
   std::string_view name;         // `code` of the answer
-  std::string_view title;        // of RFC 9110 where the status says it all
-  std::string_view description;  // when it is returned, for the OpenAPI document
+  std::string_view title;        // as in RFC 9110 where the status says it all
+  std::string_view description;  // when the error is returned, for the OpenAPI document
 };
 
-/// The table, in the order of ErrorCode. api/openapi.json has a response for each status in it.
+/// Returns the table, in the order of ErrorCode. api/openapi.json has a response for each status in it.
 std::span<const ErrorRow> error_table();
 
 const ErrorRow& row_of(ErrorCode code);
@@ -62,7 +62,7 @@ inline std::string_view name_of(ErrorCode code) { return row_of(code).name; }
 struct RequestError {
   ErrorCode code = ErrorCode::invalid_request;
   std::string detail;
-  std::vector<Fault> faults;  // those that are listed
+  std::vector<Fault> faults;  // the listed faults
   std::size_t faults_total = 0;
 };
 

@@ -19,7 +19,7 @@ namespace {
 using core::PlanOptions;
 using Word = WordOption::Word;
 
-// A longer budget is clamped to the service's maximum.
+// The range of the budget. A longer one is clamped to the service's maximum.
 constexpr Range kBudget{1.0, std::numeric_limits<double>::max(), "milliseconds"};
 constexpr std::uint64_t kMostSeed = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint64_t kMostIterations = std::numeric_limits<std::int64_t>::max();
@@ -143,7 +143,7 @@ std::span<const OptionRow> option_table() { return kTable; }
 
 namespace {
 
-/// "4, 8, 16 or 32".
+/// Returns numbers as alternatives: "4, 8, 16 or 32".
 std::string alternatives(std::span<const int> values) {
   std::string text;
   for (std::size_t index = 0; index < values.size(); ++index) {

@@ -151,7 +151,7 @@ std::vector<Change> changes_of(const Robot& robot, const RobotPlan* plan, const 
   return Services(robot, tolerance).run(plan != nullptr ? plan->actions : robot.committed, plan != nullptr);
 }
 
-/// Moves the legs that begin before `t` from `legs` into a list of their own, and returns that list.
+/// Moves the legs until `t` from the begin of `legs` into a list of their own, and returns that list.
 std::vector<Leg> take_until(double t, std::vector<Leg>& legs) {
   std::vector<Leg> taken;
   std::size_t whole = 0;

@@ -21,7 +21,7 @@
 
 namespace fleetplan::support {
 
-/// What became of an execution.
+/// The outcome of an execution.
 struct OwnPace {
   std::vector<core::RobotPlan> executed;  // of every robot that has actions
   bool everyone_arrived = true;
