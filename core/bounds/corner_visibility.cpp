@@ -204,7 +204,7 @@ void CornerVisibility::find_corners() {
   // The rows on both sides of a line, and what is outside the map beside them.
   std::vector<std::uint8_t> below(columns + 2, 1);
   std::vector<std::uint8_t> above(columns + 2, 1);
-  std::vector<std::uint8_t> blocked(columns + 1);  // of the four cells around each grid point of the line
+  std::vector<std::uint8_t> blocked(columns + 1);  // among the four cells around each grid point
   for (int line = 0; line <= grid_.rows() && !stopped_at_step(); ++line) {
     std::swap(below, above);
     if (line < grid_.rows()) {

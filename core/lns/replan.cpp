@@ -75,7 +75,7 @@ class Replanning {
       return now - std::max(kLeastGain, options_.min_gain_share * (now - bounds_[queue_[position]]));
     }
     if (options_.gain == ReplanOptions::Gain::first) return kForever;
-    double possible_gain = 0.0;  // of the robots that follow in the queue
+    double possible_gain = 0.0;  // by the robots that follow in the queue
     for (std::size_t k = position + 1; k < queue_.size(); ++k) {
       possible_gain += std::max(0.0, cost(queue_[k]) - bounds_[queue_[k]]);
     }

@@ -12,7 +12,7 @@ namespace fleetplan::core {
 struct Progress {
   std::int64_t attempts = 0;       // begun so far, as in SearchStatistics
   std::size_t planned = 0;         // robots that have a plan now, parked ones included; may decrease
-  std::optional<Objectives> best;  // of the plan that would be returned now; nullopt before the first plan
+  std::optional<Objectives> best;  // objectives of the present plan; nullopt before the first
 };
 
 /// Receives the progress of a planner. The thread that called the planner calls it and waits for it. It

@@ -60,7 +60,7 @@ struct Rules {
 struct Verification {
   bool finished = false;                   // false if the time budget ended, or a stop was requested
   std::vector<Violation> violations = {};  // by time; the first 10,000
-  std::size_t violation_count = 0;         // of all violations, listed or not
+  std::size_t violation_count = 0;         // number of all violations, listed or not
   /// Metres: the smallest gap between two disks over all time; none for fewer than two robots.
   std::optional<double> min_clearance = {};
 

@@ -20,8 +20,7 @@ namespace fleetplan::server {
 /// - **First plans before improvements.** A job that has its first plan and improves it gives its turn to a
 ///   job that waits for its first, and gets one again when no such job waits. At most as many improvements
 ///   are paused as there are workers; further ones end with what they have.
-/// - **Long turns are shared.** A job that goes on for long, such as a simulation, gives its turn to a job
-/// that
+/// - **Long turns are shared.** A job that goes on for long, such as a simulation, gives its turn to one that
 ///   waits and gets one again in the order of turns, as if it had just asked. Nothing is lost of what it has
 ///   done. It keeps its turn while as many jobs are paused or interrupted as there are workers.
 /// - **Order.** Turns go round the clients: next is the client with the fewest turns, then the one whose last

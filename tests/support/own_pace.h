@@ -23,7 +23,7 @@ namespace fleetplan::support {
 
 /// The outcome of an execution.
 struct OwnPace {
-  std::vector<core::RobotPlan> executed;  // of every robot that has actions
+  std::vector<core::RobotPlan> executed;  // by every robot that has actions
   bool everyone_arrived = true;
 };
 

@@ -138,7 +138,7 @@ class Lines {
   explicit Lines(std::string_view text) : rest_(text) {}
 
   bool at_end() const { return ended_; }
-  std::size_t number() const { return number_; }  // of the line that was read last, from 1
+  std::size_t number() const { return number_; }  // number of the line read last, from 1
 
   std::string_view next() {
     ++number_;

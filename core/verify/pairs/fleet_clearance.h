@@ -45,7 +45,7 @@ class OverlapList {
 
 struct FleetClearance {
   std::optional<double> least;    // metres: smallest gap between two bodies; none for fewer than two robots
-  std::vector<Overlap> overlaps;  // of positions in the list of radii, first < second, in no particular order
+  std::vector<Overlap> overlaps;  // pairs of positions in the list of radii, first < second; in no order
 };
 
 /// The radii of robots, metres.

@@ -13,7 +13,7 @@ namespace fleetplan::server {
 /// An answer without a handler: a refusal, or the reply to a browser's preflight.
 struct DirectAnswer {
   api::Reply reply;
-  HeaderFields fields = {};  // of this answer only
+  HeaderFields fields = {};  // header fields of this answer only
 };
 
 /// Returns a problem in answer to the exchange.
