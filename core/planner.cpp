@@ -191,7 +191,7 @@ PrioritizedResult first_plan(PlanState& state, const KeptPlans& previous,
 }
 
 /// Returns the robots that large neighbourhood search may plan again.
-std::vector<std::size_t> those_that_may_change(const PlanState& state, std::vector<std::size_t> movers) {
+std::vector<std::size_t> changeable_robots(const PlanState& state, std::vector<std::size_t> movers) {
   if (state.instance().options().replan == PlanOptions::Replan::where_needed) {
     std::erase_if(movers, [&](std::size_t robot) { return state.trajectory(robot)->is_previous; });
   }
@@ -308,8 +308,8 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
     BeforeRound before_round;
     if (observer != nullptr) before_round = ImprovementReport(state, progress, current_plan);
     if (!stop.is_over()) state.resume();
-    lns = large_neighbourhood_search(state, those_that_may_change(state, movers), bounds, random, executor,
-                                     stop, before_round);
+    lns = large_neighbourhood_search(state, changeable_robots(state, movers), bounds, random, executor, stop,
+                                     before_round);
   }
 
   Plan plan = current_plan(lns);

@@ -111,7 +111,7 @@ core::Plan without_moves(const core::Plan& plan, const core::Problem& problem,
 }
 
 /// Returns the spacing of the lattice, metres; none if it is simply the map's resolution.
-std::optional<double> told_spacing(const PlanRequest& request) {
+std::optional<double> reported_spacing(const PlanRequest& request) {
   const double spacing = core::lattice_spacing(request.problem, request.options);
   const bool is_plain = !request.options.lattice_spacing && spacing == request.problem.grid().resolution();
   return is_plain ? std::nullopt : std::optional(spacing);
@@ -119,9 +119,9 @@ std::optional<double> told_spacing(const PlanRequest& request) {
 
 /// Returns the dependencies of the answer; none if they are not asked for. They have to be made within the
 /// budget.
-std::optional<PlanDependencies> asked_dependencies(const core::Plan& plan, const PlanRequest& request,
-                                                   const Stages& stages,
-                                                   const core::StopCondition& planning) {
+std::optional<PlanDependencies> answer_dependencies(const core::Plan& plan, const PlanRequest& request,
+                                                    const Stages& stages,
+                                                    const core::StopCondition& planning) {
   if (!request.dependencies.wanted) return std::nullopt;
   const core::StopCondition stop = planning.until(stages.received + request.budget);
   return plan_dependencies(request.problem.robots(), plan.plans, request.dependencies, core::kMostTolerance,
@@ -160,7 +160,7 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   if (!report && stop.cancelled()) return problem_reply(ErrorCode::draining, kDrainingDetail, request_id);
   if (!report) return unchecked(outcome, !request.problem.obstacles().empty(), request_id);
   if (!report->valid()) return rejected(outcome, *report, request_id);
-  const auto dependencies = asked_dependencies(answered, request, stages, stop);
+  const auto dependencies = answer_dependencies(answered, request, stages, stop);
   const std::vector<std::string> warnings =
       dependencies ? joined(request.warnings, dependencies->warnings) : request.warnings;
   stages.verified = Stages::Clock::now();
@@ -173,7 +173,7 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
                               .origin = request.frame.origin,
                               .warnings = warnings,
                               .metadata = request.metadata,
-                              .lattice_spacing = told_spacing(request),
+                              .lattice_spacing = reported_spacing(request),
                               .dependencies = dependencies ? &dependencies->made : nullptr};
   std::string text = write_response(verified, request_id, stages);
   return {.status = 200, .content_type = kJson, .body = std::move(text), .outcome = outcome};

@@ -65,8 +65,8 @@ core::SimulatedFleet fleet_of(const SimulateRequest& request) {
 
 /// Returns the text of the requested trace. None, with a warning, if it has too many actions for an answer,
 /// or is not made in half of the time: the rest is for the runs.
-std::optional<std::string> asked_trace(const core::SimulatedFleet& fleet, SimulateRequest& request,
-                                       const Limits& limits, const core::StopCondition& stop) {
+std::optional<std::string> requested_trace(const core::SimulatedFleet& fleet, SimulateRequest& request,
+                                           const Limits& limits, const core::StopCondition& stop) {
   // A small request may have a million stops and bends; its answer is in proportion to its plans.
   constexpr std::size_t kActionsOfAny = 20'000;
   constexpr std::size_t kActionsOfOne = 200;
@@ -142,7 +142,7 @@ Reply simulated(std::string_view body, const RequestContext& context, core::Work
   }
   const auto waited = Clock::now() - asked;
   const core::SimulatedFleet fleet = fleet_of(*request);
-  const auto trace = asked_trace(fleet, *request, context.limits, stop);
+  const auto trace = requested_trace(fleet, *request, context.limits, stop);
   Runs runs = run_all(fleet, *request, stop, context);
   runs.waited += waited;
   const core::SimulationProgress& totals = runs.report.totals;

@@ -31,7 +31,7 @@ struct Section {
   }
 
   /// Returns the x within [from, to] at which the region has any y.
-  std::optional<ConflictRegion::Range> meeting(double from, double to) const {
+  std::optional<ConflictRegion::Range> reached_within(double from, double to) const {
     const double reach = distance * across.norm();
     const double at_zero = cross_product(offset, across);
     const double slope = cross_product(along, across);
@@ -56,7 +56,7 @@ struct Section {
   std::optional<ConflictRegion::Range> extent(double from, double to) const {
     if (!(from < to)) return std::nullopt;
     if (across.squaredNorm() == 0.0) return standing(from, to);
-    const auto met = meeting(from, to);
+    const auto met = reached_within(from, to);
     if (!met) return std::nullopt;
     ConflictRegion::Range found = roots(met->least);
     const auto include = [&](double x) {

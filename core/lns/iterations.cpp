@@ -88,7 +88,7 @@ Iteration Iterations::choose() {
   iteration.seed = random_.seed();
   if (for_makespan_) iteration.options.cost_limit = incumbent_.makespan();
   if (for_makespan_ && random_.below(2) == 0) {
-    iteration.options.gain = ReplanOptions::Gain::first;
+    iteration.options.gain = NeighbourhoodOptions::Gain::first;
     iteration.first = incumbent_.last_to_arrive();
   } else {
     iteration.first = choose_delayed();
@@ -116,7 +116,7 @@ void Iterations::run(Iteration& iteration, Workspace& workspace) const {
   const AdaptiveParameters::Choice& parameters = iteration.parameters;
   const auto robots = workspace.neighbourhoods().select(iteration.first, parameters.neighbourhood(),
                                                         parameters.robots(), random);
-  iteration.result = replan(workspace.state(), robots, bounds_, iteration.options, stop_);
+  iteration.result = plan_neighbourhood(workspace.state(), robots, bounds_, iteration.options, stop_);
 }
 
 bool Iterations::accept(Iteration& iteration, Workspace& workspace) {
@@ -129,7 +129,7 @@ bool Iterations::accept(Iteration& iteration, Workspace& workspace) {
 }
 
 void Iterations::learn(const Iteration& iteration) {
-  const ReplanResult& result = iteration.result;
+  const NeighbourhoodResult& result = iteration.result;
   const double gain = result.change ? std::max(0.0, result.change->gain) : 0.0;
   parameters_.learn(iteration.parameters, gain, result.searches, result.expansions);
   first_robots_.learn(iteration.first, result.change.has_value());

@@ -10,7 +10,7 @@
 #include "core/bounds/taut_path_bounds.h"
 #include "core/lns/adaptive_choice.h"
 #include "core/lns/incumbent.h"
-#include "core/lns/replan.h"
+#include "core/lns/plan_neighbourhood.h"
 #include "core/lns/workspace_pool.h"
 #include "core/prioritized/plan_state.h"
 #include "core/runtime/random.h"
@@ -67,9 +67,9 @@ struct Iteration {
   std::int64_t version = 0;  // version of the incumbent that it begins with
   AdaptiveParameters::Choice parameters;
   std::size_t first = 0;  // the robot that is to become cheaper
-  ReplanOptions options;
+  NeighbourhoodOptions options;
   std::uint64_t seed = 0;
-  ReplanResult result;
+  NeighbourhoodResult result;
 };
 
 /// The steps of an iteration: choose, run, accept. While one runs, others may be chosen and accepted.

@@ -38,7 +38,7 @@ std::vector<std::size_t> NeighbourhoodSelection::select(std::size_t first, Neigh
   switch (kind) {
     case Neighbourhood::conflicting:
       return conflicting_with(first, size, random);
-    case Neighbourhood::meeting:
+    case Neighbourhood::nearest:
       return nearest_to(first, size, distances_at(random.unit() * state_.trajectory(first)->cost, first));
     case Neighbourhood::at_goal:
       return nearest_to(first, size, distances_to_goal(first, random));

@@ -15,7 +15,7 @@ namespace fleetplan::core {
 enum class Neighbourhood : std::uint8_t {
   conflicting,  // robots that conflict with the path that it would take alone on the map; then those that
                 // conflict with such paths of these robots
-  meeting,      // robots nearest to it at a random time
+  nearest,      // robots nearest to it at a random time
   at_goal,      // robots that pass near its goal
   random,
 };

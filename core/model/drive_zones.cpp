@@ -78,7 +78,7 @@ DriveZones::DriveZones(const std::vector<Zone>& zones, std::size_t index, const 
   }
 }
 
-std::optional<std::size_t> DriveZones::that_forbids(const Position& from, const Position& to) const {
+std::optional<std::size_t> DriveZones::forbidding_zone(const Position& from, const Position& to) const {
   const Position way = to - from;
   for (const OneWayZone& zone : one_way_) {
     if (!zone.polygon.box_meets(from, to)) continue;
@@ -112,7 +112,7 @@ std::optional<std::size_t> DriveZones::broken_by(const Action& action) const {
       if (share * duration * zone.linear_speed < share * length - kContactTolerance) return zone.index;
     }
   }
-  return length > kContactTolerance ? that_forbids(from, to) : std::nullopt;
+  return length > kContactTolerance ? forbidding_zone(from, to) : std::nullopt;
 }
 
 std::vector<DriveZones::Piece> DriveZones::pieces(const Position& from, const Position& to) const {

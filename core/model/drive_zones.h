@@ -36,8 +36,8 @@ class DriveZones {
   bool limit_speeds() const { return !speed_.empty(); }
 
   /// Returns the index of a one-way zone that forbids the straight move; none if it may be made.
-  std::optional<std::size_t> that_forbids(const Position& from, const Position& to) const;
-  bool allow(const Position& from, const Position& to) const { return !that_forbids(from, to); }
+  std::optional<std::size_t> forbidding_zone(const Position& from, const Position& to) const;
+  bool allow(const Position& from, const Position& to) const { return !forbidding_zone(from, to); }
 
   /// Returns the pieces of a straight move of length > 0 at the greatest speeds; at least one. Neighbouring
   /// pieces differ in speed.

@@ -57,7 +57,7 @@ class Sides {
 
   /// Returns two sides that meet elsewhere than at their common corner, the earlier one first; none if there
   /// are none, or if the reading is stopped.
-  std::optional<std::pair<std::size_t, std::size_t>> that_meet(core::Work& stop) const {
+  std::optional<std::pair<std::size_t, std::size_t>> touching_sides(core::Work& stop) const {
     std::vector<std::size_t> order(corners_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return left(i) < left(j); });
@@ -134,7 +134,7 @@ std::vector<core::Position> parse_polygon(const JsonReader& member, const WorldF
   }
   Corners read = parse_corners(list, frame);
   if (read.empty()) return {};
-  if (const auto met = Sides(read).that_meet(list.stop())) {
+  if (const auto met = Sides(read).touching_sides(list.stop())) {
     const std::string first = std::to_string(met->first);
     const std::string second = std::to_string(met->second);
     list.fault(fault::kBadPolygon,

@@ -18,11 +18,11 @@ struct Change {
     Trajectory trajectory;
   };
   std::vector<Part> parts;
-  double gain = 0.0;  // seconds, see ReplanOptions::Gain
+  double gain = 0.0;  // seconds, see NeighbourhoodOptions::Gain
 };
 
 /// Which changes of a neighbourhood are accepted, and the effort for them.
-struct ReplanOptions {
+struct NeighbourhoodOptions {
   enum class Gain : std::uint8_t {
     sum,    // the sum of all costs has to fall
     first,  // the cost of the first robot has to fall, whatever the others' become
@@ -34,7 +34,7 @@ struct ReplanOptions {
   SearchLimits limits;           // limits of every search; the bound follows from the other members
 };
 
-struct ReplanResult {
+struct NeighbourhoodResult {
   std::optional<Change> change;
   std::int64_t searches = 0;
   std::int64_t expansions = 0;
@@ -45,7 +45,8 @@ struct ReplanResult {
 /// conflict with further robots of `robots` are accepted only if there is no other. A search ends when no
 /// trajectory can bring the required gain any more. All of `robots` have trajectories and bounds. The state
 /// is left unchanged.
-ReplanResult replan(PlanState& state, const std::vector<std::size_t>& robots, const TautPathBounds& bounds,
-                    const ReplanOptions& options, const StopCondition& stop);
+NeighbourhoodResult plan_neighbourhood(PlanState& state, const std::vector<std::size_t>& robots,
+                                       const TautPathBounds& bounds, const NeighbourhoodOptions& options,
+                                       const StopCondition& stop);
 
 }  // namespace fleetplan::core
