@@ -28,7 +28,7 @@ struct TautPathResult {
 /// Arimoto, IJRR 1992), with the straight cost as the heuristic.
 ///
 /// Paths that can be deformed into each other, without crossing obstacles grown by the radius, form a class.
-/// The taut path of a class has the least length and the least total rotation of the class (docs/method.md,
+/// The taut path of a class has the least length and the least total rotation of the class (docs/proofs.md,
 /// Lemma 2). If it bends, and k of its straight pieces lie between bends of opposite sense, every path of the
 /// class has at least k + 2 translations, each with an added wait (Lemma 3). So no plan costs less than the
 /// cheapest taut path.

@@ -2,7 +2,7 @@
 
 // Dependencies between robots, by which they can execute a plan at their own pace: the idea of action
 // dependency graphs (Hoenig et al., RA-L 2019) and of RMTRACK (Cap, Gregoire, Frazzoli, IROS 2016), for
-// any-angle motion in continuous time (docs/method.md, Dependencies).
+// any-angle motion in continuous time (docs/proofs.md, Dependencies).
 
 #include <cstddef>
 #include <optional>

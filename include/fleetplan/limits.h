@@ -3,7 +3,7 @@
 namespace fleetplan {
 
 // The ranges of numbers, within which real fleets stay. Within them the planner and its check keep positions
-// to far less than a micrometre, whatever the numbers of other robots (docs/method.md, Tolerances). A number
+// to far less than a micrometre, whatever the numbers of other robots (docs/checker.md, Tolerances). A number
 // outside of its range is a fault of the problem. The service accepts the same ranges.
 
 /// The smallest radius, resolution and lattice spacing, metres.
