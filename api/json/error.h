@@ -40,7 +40,7 @@ enum class ErrorCode {
 /// Ends the detail of a body that is too large: nearly always its map.
 inline constexpr const char* kLargeMapRemedy =
     " A large map is smallest as a PNG, in map.image.png; see GET /v1/limits.";
-/// The detail of `draining`.
+
 inline constexpr const char* kDrainingDetail = "The service is shutting down: try another replica.";
 
 struct ErrorRow {

@@ -31,7 +31,6 @@ struct ExecutedCollision {
   double depth = 0.0;           // metres: the largest overlap
 };
 
-/// The collisions of an execution.
 struct ExecutionCollisions {
   std::optional<ExecutedCollision> first;                  // the earliest one
   std::vector<std::pair<std::size_t, std::size_t>> pairs;  // robots that collide, ascending
