@@ -32,8 +32,9 @@ Objectives including(const Objectives& objectives, double cost) {
   return {objectives.flowtime + cost, std::max(objectives.makespan, cost)};
 }
 
-/// The search may let a robot rest for long enough in a goal's pose and serve the goal when it comes back.
-/// The goal counts as served by the first rest, so the later wait is for none.
+/// Removes goals from waits that serve none. The search may let a robot rest for long enough in a goal's pose
+/// and serve the goal when it comes back. The goal counts as served by the first rest, so the later wait is
+/// for none.
 void remove_wrong_goals(std::vector<Action>& actions, const std::vector<Visit>& visits, std::size_t first) {
   for (std::size_t i = first; i < actions.size(); ++i) {
     std::optional<std::size_t>& goal = actions[i].goal;
@@ -60,7 +61,7 @@ RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
   return plan;
 }
 
-/// The costs of the robots' trajectories, by robot; infinite for robots without one.
+/// Returns the costs of the robots' trajectories, by robot; infinite for robots without one.
 std::vector<double> costs_of(const PlanState& state) {
   std::vector<double> costs(state.instance().size(), kForever);
   for (std::size_t i = 0; i < costs.size(); ++i) {
@@ -69,7 +70,7 @@ std::vector<double> costs_of(const PlanState& state) {
   return costs;
 }
 
-/// The objectives of the robots that follow a trajectory.
+/// Returns the objectives of the robots that follow a trajectory.
 Objectives objectives_of(const PlanState& state) {
   Objectives objectives;
   for (std::size_t i = 0; i < state.instance().size(); ++i) {
@@ -112,10 +113,10 @@ std::vector<std::size_t> robots_to_plan(const Instance& instance,
   return movers;
 }
 
-/// The check of previous plans is not part of the budget. It takes about 10 ms for 500 robots; the limit is
-/// for plans in which many robots meet in one small area, and for a busy machine.
+/// The most time for the check of previous plans, which is not part of the budget. It takes about 10 ms for
+/// 500 robots; the limit is for plans in which many robots meet in one small area, and for a busy machine.
 constexpr std::chrono::milliseconds kMostForPrevious{500};
-/// Without the meetings of what is certain, no plan can be checked.
+/// The most time for finding unavoidable collisions. Without them, no plan can be checked.
 constexpr std::chrono::milliseconds kMostForMeetings{150};
 
 StopCondition beyond_budget(const StopCondition& stop, std::chrono::milliseconds most) {
@@ -126,8 +127,9 @@ StopCondition beyond_budget(const StopCondition& stop, std::chrono::milliseconds
   return stop.until(std::max(stop.deadline(), now) + most).despite_memory();
 }
 
-/// Robots without a plan are in the way of others, so a budget that is spent would cost plans that hold. A
-/// few robots are planned around hundreds of others in less than this.
+/// Returns a condition that leaves at least a little time for planning. Robots without a plan are in the way
+/// of others, so a budget that is spent would cost plans that hold. A few robots are planned around hundreds
+/// of others in less than this.
 StopCondition with_least_time(const StopCondition& stop) {
   using Clock = StopCondition::Clock;
   constexpr std::chrono::milliseconds kLeastTime{40};
@@ -135,8 +137,8 @@ StopCondition with_least_time(const StopCondition& stop) {
   return stop.until(Clock::now() + kLeastTime);
 }
 
-/// Whether all robots keep their previous plans, and no search can change that. A robot that has a goal and
-/// yet stays, as no plan is possible, may be in the way of others.
+/// Whether all robots keep their previous plans, and no search can change that. A robot with a goal that
+/// stays nevertheless, as no plan is possible, may be in the way of others.
 bool is_final(const KeptPlans& previous, const Problem& problem, const PlanOptions& options,
               const StopCondition& stop) {
   const bool may_improve =
@@ -149,9 +151,9 @@ bool is_final(const KeptPlans& previous, const Problem& problem, const PlanOptio
          });
 }
 
-/// The previous plans from which planning begins. With a horizon, robots that keep theirs would be in the way
-/// of others for good: nobody fails who could wait before them, and so nobody is raised above them. So either
-/// all robots keep their plans, or with PlanOptions::Replan::all none.
+/// Returns the previous plans from which planning begins. With a horizon, robots that keep theirs would be in
+/// the way of others for good: no robot fails that could wait before them, and so no robot is raised above
+/// them. So either all robots keep their plans, or, with PlanOptions::Replan::all, none.
 KeptPlans plans_to_begin_with(const Problem& problem, const PlanOptions& options, const StopCondition& stop) {
   KeptPlans previous = keep_previous_plans(problem, options, stop);
   if (!options.horizon || options.replan == PlanOptions::Replan::where_needed) return previous;
@@ -162,7 +164,7 @@ KeptPlans plans_to_begin_with(const Problem& problem, const PlanOptions& options
   return previous;
 }
 
-/// The plans that are kept in every case; not known if the check takes too long.
+/// Returns the plans that are kept in every case; none if the check takes too long.
 KeptPlans certain_plans(const KeptPlans& previous, const Instance& instance, const StopCondition& stop) {
   if (std::count(previous.kept.begin(), previous.kept.end(), true) == 0) return {};
   KeptPlans certain = keep_if_others_stay(instance.problem(), instance.options(), previous,
@@ -188,16 +190,16 @@ PrioritizedResult first_plan(PlanState& state, const KeptPlans& previous,
   return result;
 }
 
-/// The robots that large neighbourhood search may plan again.
-std::vector<std::size_t> those_that_may_change(const PlanState& state, std::vector<std::size_t> movers) {
+/// Returns the robots that large neighbourhood search may plan again.
+std::vector<std::size_t> changeable_robots(const PlanState& state, std::vector<std::size_t> movers) {
   if (state.instance().options().replan == PlanOptions::Replan::where_needed) {
     std::erase_if(movers, [&](std::size_t robot) { return state.trajectory(robot)->is_previous; });
   }
   return movers;
 }
 
-/// The meetings of what is certain. A robot that has no way, or no goal, and stays where something passes is
-/// in its way.
+/// Finds the unavoidable collisions, and names them in `unplanned` as the reason of robots that have no way,
+/// or no goal, and stay where something passes.
 UnavoidableMeetings find_meetings(const PlanState& state, std::vector<std::optional<Unplanned>>& unplanned,
                                   const StopCondition& stop) {
   const Instance& instance = state.instance();
@@ -221,7 +223,7 @@ UnavoidableMeetings find_meetings(const PlanState& state, std::vector<std::optio
   return found;
 }
 
-/// The largest parts of the memory of a plan.
+/// The parts of the memory of a plan that are large.
 struct PlanMemory {
   PlanMemory(const Problem& problem, const PlanOptions& options, const StopCondition& stop)
       : instance(problem, options, stop), state(instance) {}
@@ -230,7 +232,7 @@ struct PlanMemory {
   PlanState state;
 };
 
-/// The plan of a job that has been short of memory: says so of the robots that it could not plan.
+/// Returns the plan of a job that has been short of memory, with that as the reason of robots without a plan.
 Plan with_spent_memory_named(Plan plan) {
   plan.deterministic = false;
   for (Unplanned& robot : plan.unplanned) {
@@ -306,8 +308,8 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
     BeforeRound before_round;
     if (observer != nullptr) before_round = ImprovementReport(state, progress, current_plan);
     if (!stop.is_over()) state.resume();
-    lns = large_neighbourhood_search(state, those_that_may_change(state, movers), bounds, random, executor,
-                                     stop, before_round);
+    lns = large_neighbourhood_search(state, changeable_robots(state, movers), bounds, random, executor, stop,
+                                     before_round);
   }
 
   Plan plan = current_plan(lns);

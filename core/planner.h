@@ -25,15 +25,13 @@ inline constexpr const char* kMemorySpent =
 /// 4. Large neighbourhood search, in mode `anytime`: improves the plan until the stop condition is met.
 /// 5. Collects the trajectories as actions.
 ///
-/// The same problem, options and build give the same plan unless `deterministic` is false. The executor's
-/// threads make `anytime` faster; neither they nor the observer, which may be null, change the plan.
-///
-/// When the job is short of memory, planning goes on without what was too large: a safe partial plan. Throws
-/// std::bad_alloc if the memory does not even suffice for that.
+/// Plans depend only on the problem, the options and the build, unless `deterministic` is false. The
+/// executor's threads make `anytime` faster; neither they nor the observer, which may be null, change the
+/// plan.
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop, Executor& executor,
           Observer* observer = nullptr);
 
-/// In the caller's thread, without an observer.
+/// Plans in the caller's thread, without an observer.
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop);
 
 }  // namespace fleetplan::core

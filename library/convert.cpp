@@ -10,7 +10,8 @@ namespace fleetplan::library {
 
 namespace {
 
-/// The values of two enumerations are in the same order; these are their last ones.
+/// Whether two enumerations have equal values. These are the last ones of each, and the values are in the
+/// same order.
 template <typename A, typename B>
 constexpr bool same(A a, B b) {
   return static_cast<int>(a) == static_cast<int>(b);
@@ -120,7 +121,7 @@ core::PlanOptions options_of(const Options& options, bool in_motion) {
   made.seed = options.seed;
   made.priority = static_cast<core::PlanOptions::Priority>(options.priority);
   made.reordering = static_cast<core::PlanOptions::Reordering>(options.reordering);
-  // As the service does, see api/request/parse_body.cpp.
+  // The service has the same default, see api/request/parse_body.cpp.
   const double in_motion_interval = options.horizon ? 1.0 : 0.0;
   made.start_safe_interval =
       options.start_safe_interval.value_or(in_motion ? in_motion_interval : made.start_safe_interval);

@@ -1,7 +1,7 @@
 #pragma once
 
-// The values of the public headers as those of core, and back. Core has positions relative to the lower left
-// corner of the map.
+// Converts values of the public headers to those of core, and back. Core has positions relative to the lower
+// left corner of the map.
 
 #include <fleetplan/action.h>
 #include <fleetplan/map.h>
@@ -22,7 +22,7 @@
 
 namespace fleetplan::library {
 
-/// Where the lower left corner of the map is.
+/// The place of the map's lower left corner, and conversions by it.
 class Frame {
  public:
   explicit Frame(const Map& map) : origin_(map.origin().x, map.origin().y) {}
@@ -38,17 +38,17 @@ class Frame {
 };
 
 core::OccupancyGrid grid_of(const Map& map);
-/// Without its committed and previous actions.
+/// Converts a robot without its committed and previous actions.
 core::Robot robot_of(const Robot& robot, const Frame& frame);
 core::MovingObstacle obstacle_of(const MovingObstacle& obstacle, const Frame& frame);
 core::Zone zone_of(const Zone& zone, const Frame& frame);
-/// `in_motion`: whether any robot has committed actions or a previous plan.
+/// Converts options. `in_motion`: whether any robot has committed actions or a previous plan.
 core::PlanOptions options_of(const Options& options, bool in_motion);
 
 core::RobotPlan plan_of(const RobotPlan& plan, const Frame& frame);
 std::vector<core::Meeting> meetings_of(const std::vector<Meeting>& meetings);
 
-/// Without whether it is verified, and how long it took.
+/// Converts a plan, except whether it is verified and how long it took.
 Plan plan_of(const core::Plan& plan, const Frame& frame);
 Verification verification_of(core::VerifyReport report);
 

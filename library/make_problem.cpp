@@ -87,7 +87,7 @@ void check_zone(const Zone& zone, std::size_t robots, const std::string& place, 
   }
 }
 
-/// A fault of the geometry, as core finds it.
+/// Returns a fault of the geometry in the words of the library.
 Fault described(const core::ProblemFault& found) {
   using Kind = core::ProblemFault::Kind;
   const std::string robot = item("robots", found.robot);

@@ -26,7 +26,6 @@ inline constexpr std::size_t kMostFaults = 20;
 
 ReadFleet read_fleet(const Problem& problem);
 
-/// The faults of options.
 std::vector<Fault> faults_of(const Options& options, const Map& map);
 
 /// Whether any robot has committed actions or a previous plan.

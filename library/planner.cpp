@@ -22,10 +22,10 @@ namespace {
 
 using Clock = core::StopCondition::Clock;
 
-/// The check and the decision whether previous plans are kept may take so long after the time budget.
+/// The most time after the budget for the check, and for the decision whether previous plans are kept.
 constexpr std::chrono::milliseconds kPatience{500};
 
-/// The end of a time budget that may be very long.
+/// Returns the end of a time budget that may be very long.
 Clock::time_point end_of(std::chrono::nanoseconds budget, Clock::time_point begin) {
   const auto left = Clock::time_point::max() - begin;
   return budget >= left ? Clock::time_point::max() : begin + budget;
@@ -59,7 +59,7 @@ core::Plan planned(const core::Problem& problem, const core::PlanOptions& option
   return core::plan(problem, options, stop, thread, &reporter);
 }
 
-/// What is returned if a stop is requested while the problem is read.
+/// Returns the plan of a call whose stop is requested while the problem is read.
 Plan nothing_planned(std::size_t robots) {
   Plan plan;
   plan.deterministic = false;

@@ -29,19 +29,19 @@ inline constexpr Range kDuration{0.0, kLongestTime, " s"};
 inline constexpr Range kAngle{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
                               " rad"};
 
-/// The shortest text of a number.
+/// Returns the shortest text of a number.
 inline std::string number_text(double number) {
   char buffer[32];
   const auto result = std::to_chars(buffer, buffer + sizeof buffer, number);
   return {buffer, result.ptr};
 }
 
-/// "robots[3]".
+/// Returns the place of an item of a list: "robots[3]".
 inline std::string item(const std::string& list, std::size_t index) {
   return list + '[' + std::to_string(index) + ']';
 }
 
-/// Collects faults, the first ones of many.
+/// Collects faults, and keeps the first ones of many.
 class FaultList {
  public:
   explicit FaultList(std::size_t most) : most_(most) {}

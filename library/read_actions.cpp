@@ -14,7 +14,7 @@ namespace {
 using Type = core::Action::Type;
 
 constexpr double kTolerance = core::kContactTolerance;
-/// Radians and seconds, as the service has them (api/request/fleet/parse_actions.cpp).
+/// Radians and seconds by which actions may deviate, as in the service (api/request/fleet/parse_actions.cpp).
 constexpr double kTurnTolerance = core::kSamePosition;
 constexpr double kTimeRounding = std::numeric_limits<double>::epsilon() * core::kLongestPlan;
 
@@ -29,7 +29,7 @@ bool in_range(const Action& action) {
          is_pose(action.to);
 }
 
-/// Why an action cannot follow a pose and a time; null if it can.
+/// Returns why an action cannot follow a pose and a time; null if it can.
 const char* gap(const core::Action& action, const core::Pose& before, double now) {
   if (std::abs(action.t_start - now) > kTolerance) return "does not start when the one before ends";
   if (action.t_end < action.t_start - kTolerance) return "ends before it starts";
@@ -41,7 +41,7 @@ const char* gap(const core::Action& action, const core::Pose& before, double now
   return moves || turns ? "contradicts its type: only translations move, and only rotations turn" : nullptr;
 }
 
-/// Why a robot cannot execute an action; null if it can.
+/// Returns why a robot cannot execute an action; null if it can.
 const char* impossible(const core::Action& action, const core::Robot& robot) {
   const double duration = action.t_end - action.t_start;
   if (action.type == Type::rotate) {

@@ -12,8 +12,9 @@
 
 namespace fleetplan::library {
 
-/// Committed or previous actions of a robot. Differences within the contact tolerance are removed, so that
-/// they are exactly contiguous; larger ones, and actions that the robot cannot execute, are faults.
+/// Reads the committed or previous actions of a robot. Differences within the contact tolerance are removed,
+/// so that the actions are exactly contiguous; larger ones, and actions that the robot cannot execute, are
+/// faults.
 std::vector<core::Action> read_actions(const std::vector<Action>& actions, const core::Robot& robot,
                                        const Frame& frame, const std::string& place, FaultList& faults);
 

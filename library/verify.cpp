@@ -16,7 +16,7 @@ namespace {
 
 using Clock = core::StopCondition::Clock;
 
-/// The end of the time budget, which may be very long.
+/// Returns the end of the time budget, which may be very long.
 core::StopCondition end_of(const Rules& rules) {
   const auto now = Clock::now();
   const bool ends = rules.time_budget < Clock::time_point::max() - now;

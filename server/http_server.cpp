@@ -7,10 +7,11 @@ namespace fleetplan::server {
 
 namespace {
 
-/// Of the admin port: enough for probes and scrapers, and for a few that hang.
+/// The most connections of the admin port: enough for probes and scrapers, and for a few that hang.
 constexpr std::size_t kAdminConnections = 64;
 
-/// Connections that may be open, for each that may be served at a time: the others wait for their clients.
+/// The connections that may be open, for each that may be served at a time: the others wait for their
+/// clients.
 constexpr std::size_t kOpenPerServed = 4;
 
 }  // namespace

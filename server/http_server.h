@@ -34,27 +34,27 @@ class HttpServer {
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  /// Binds the ports; returns the reason if that fails.
+  /// Binds the ports. Returns the reason if that fails.
   std::optional<std::string> bind();
 
-  /// The bound port, also if the setting was 0.
+  /// The bound port, even if the setting was 0.
   int port() const { return main_.library.port(); }
   std::optional<int> admin_port() const;
 
-  /// Serves until stop(); after bind().
+  /// Serves until stop(). Call it after bind().
   void run();
 
-  /// Calls this when a port cannot accept connections any more; set it before run(). Connections that are
-  /// open are still served.
+  /// Sets a function that is called when a port cannot accept connections any more; call this before run().
+  /// Connections that are open are still served.
   void on_failure(std::function<void()> call) { on_failure_ = std::move(call); }
 
-  /// Whether that has happened.
+  /// Whether a port cannot accept connections any more.
   bool failed() const { return failed_; }
 
-  /// /readyz answers 503 from now on; everything is still served.
+  /// Makes /readyz answer 503 from now on; everything is still served.
   void announce_end() { ready_ = false; }
 
-  /// As announce_end. New jobs are refused; those that were accepted continue.
+  /// Makes /readyz answer 503, and refuses new jobs; those that were accepted continue.
   void begin_drain() {
     ready_ = false;
     draining_ = true;
@@ -62,7 +62,7 @@ class HttpServer {
 
   const RequestLog& log() const { return log_; }
 
-  /// No request of the main port is being read, computed or answered.
+  /// Whether no request of the main port is being read, computed or answered.
   bool idle() const { return main_.exchanges == 0; }
 
   /// Requests a stop of all jobs, now and later, and ends waiting for requests that are still being sent.
@@ -97,7 +97,7 @@ class HttpServer {
   std::atomic<bool> draining_{false};
   std::atomic<bool> failed_{false};
   std::function<void()> on_failure_;
-  BodyMemory body_memory_;  // of as many large bodies as there may be jobs
+  BodyMemory body_memory_;  // for as many large bodies as there may be jobs
   UnsentAnswers unsent_answers_;
   JobRunner jobs_;
   const Backend backend_;

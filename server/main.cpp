@@ -27,7 +27,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kDrainCheck{20};
 constexpr std::chrono::seconds kHousekeeping{5};
-/// Cancelled jobs must end within this; otherwise the process ends without them.
+/// The time within which cancelled jobs must end; otherwise the process ends without them.
 constexpr std::chrono::seconds kStopGrace{5};
 
 /// Waits for SIGTERM and SIGINT. Construct it before any other thread is started.
@@ -40,7 +40,7 @@ class EndSignals {
     pthread_sigmask(SIG_BLOCK, &set_, nullptr);
   }
 
-  /// False when none arrived within that time.
+  /// Waits for a signal. Returns false when none arrived within that time.
   bool wait(std::chrono::seconds patience) const {
     const timespec time{patience.count(), 0};
     return sigtimedwait(&set_, nullptr, &time) > 0;
@@ -60,7 +60,7 @@ class EndSignals {
   sigset_t set_{};
 };
 
-/// Every connection needs a descriptor; the usual soft limit of 1024 is too low.
+/// Raises the limit of descriptors: every connection needs one, and the usual soft limit of 1024 is too low.
 void raise_descriptor_limit() {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -68,7 +68,7 @@ void raise_descriptor_limit() {
   setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-/// True when all requests were answered by the deadline.
+/// Waits until all requests are answered. Returns false if some are not by the deadline.
 bool await_idle(const HttpServer& server, const EndSignals& signals, Clock::time_point deadline) {
   while (!server.idle()) {
     if (Clock::now() >= deadline) return false;

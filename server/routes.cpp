@@ -35,8 +35,8 @@ api::Reply problem_reply(ErrorCode code, const std::string& detail, const Exchan
   return api::problem_reply(code, detail, exchange.request_id);
 }
 
-/// The endpoint's answer as JSON, or as a stream of events if the client prefers that. `last`: the name of
-/// the event with the answer.
+/// Returns the endpoint's answer as JSON, or as a stream of events if the client prefers that. `last`: the
+/// name of the event with the answer.
 api::Reply answer_or_events(const Backend& backend, Exchange& exchange, const Service::Endpoint& endpoint,
                             const char* last) {
   if (plan_form(exchange.head.field("accept")) == PlanForm::json) {
@@ -48,21 +48,21 @@ api::Reply answer_or_events(const Backend& backend, Exchange& exchange, const Se
   return reply;
 }
 
-/// A plan as JSON, or as a stream of events if the client prefers that.
+/// Returns a plan as JSON, or as a stream of events if the client prefers that.
 Handler plan(const Backend& backend) {
   return [&backend](Exchange& exchange) {
     return answer_or_events(backend, exchange, backend.service.plan, "plan");
   };
 }
 
-/// The figures of a simulation, as JSON or as a stream of events.
+/// Returns the figures of a simulation, as JSON or as a stream of events.
 Handler simulate(const Backend& backend) {
   return [&backend](Exchange& exchange) {
     return answer_or_events(backend, exchange, backend.service.simulate, "simulation");
   };
 }
 
-/// What an endpoint of the backend's service computes, without progress.
+/// Returns what an endpoint of the backend's service computes, without progress.
 Handler compute(const Backend& backend, const Service::Endpoint& endpoint) {
   return [&backend, &endpoint](Exchange& exchange) { return backend.run_job(exchange, endpoint, nullptr); };
 }
@@ -71,7 +71,7 @@ Handler example_list(const Backend& backend) {
   return [&backend](Exchange& /*exchange*/) { return backend.service.example_list(); };
 }
 
-/// The named example, or a 404 that lists the names there are.
+/// Returns the named example, or a 404 that lists the names there are.
 Handler example(const Backend& backend) {
   return [&backend](Exchange& exchange) -> api::Reply {
     std::string names;
@@ -86,7 +86,7 @@ Handler example(const Backend& backend) {
   };
 }
 
-/// The limits of requests, under the names of the settings.
+/// Returns the limits of requests, under the names of the settings.
 Handler limits(const Backend& backend) {
   return [&settings = backend.settings](Exchange& /*exchange*/) {
     const api::Limits& limits = settings.limits;
@@ -117,7 +117,7 @@ Handler health() {
   };
 }
 
-/// 200, or 503 once the server is shutting down.
+/// Returns 200, or 503 once the server is shutting down.
 Handler readiness(const Backend& backend) {
   return [&backend](Exchange& exchange) {
     if (!backend.is_ready()) {
@@ -129,14 +129,14 @@ Handler readiness(const Backend& backend) {
   };
 }
 
-/// The format of Prometheus.
+/// Returns the metrics in the format of Prometheus.
 Handler metrics(const Backend& backend) {
   return [&backend](Exchange& /*exchange*/) -> api::Reply {
     return {200, kMetricsType, backend.metrics_text()};
   };
 }
 
-/// A file of the page.
+/// Returns a file of the page.
 Handler page(const Backend& backend) {
   return [&files = backend.files](Exchange& exchange) -> api::Reply {
     auto file = files.read(exchange.parameter);

@@ -13,7 +13,7 @@
 
 namespace fleetplan::server {
 
-/// What the handlers delegate to.
+/// The objects and functions that the handlers delegate to.
 struct Backend {
   const Settings& settings;
   const Service& service;
@@ -25,10 +25,10 @@ struct Backend {
   std::function<std::string()> metrics_text = {};
 };
 
-/// Of the main port. The backend has to outlive the routes, here and below.
+/// Returns the routes of the main port. The backend has to outlive the routes, here and below.
 RouteTable main_routes(const Backend& backend);
 
-/// Of the admin port: some of the main port's.
+/// Returns the routes of the admin port: some of the main port's.
 RouteTable admin_routes(const Backend& backend);
 
 }  // namespace fleetplan::server

@@ -25,7 +25,8 @@ Reply validate_endpoint(std::string_view body, const RequestContext& context) {
 
 namespace {
 
-/// The action of a robot during which something happens, or its plan, or the robot if it has none.
+/// Returns a JSON Pointer to the action of a robot at time `t`, to its plan if there is none, or to the robot
+/// if it has no plan.
 std::string pointer_to(std::size_t robot, double t, const std::vector<core::RobotPlan>& plans) {
   const auto plan = std::find_if(plans.begin(), plans.end(),
                                  [robot](const core::RobotPlan& one) { return one.robot == robot; });
@@ -38,7 +39,7 @@ std::string pointer_to(std::size_t robot, double t, const std::vector<core::Robo
   return pointer + "/actions/" + std::to_string(action - plan->actions.begin());
 }
 
-/// The 422 for plans that the check rejects, with its violations as faults.
+/// Returns the 422 for plans that the check rejects, with its violations as faults.
 RequestError invalid_plans(const ValidateRequest& request, const core::VerifyReport& report) {
   RequestError error;
   error.detail = "The plans are not valid, so there are no dependencies; see errors and /v1/validate.";

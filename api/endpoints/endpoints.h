@@ -24,23 +24,24 @@ Reply plan_endpoint(std::string_view body, const RequestContext& context);
 /// POST /v1/plan with any planner.
 Reply plan_with(const Planner& planner, std::string_view body, const RequestContext& context);
 
-/// POST /v1/validate: checks any plan from anywhere.
+/// POST /v1/validate: checks plans from any source.
 Reply validate_endpoint(std::string_view body, const RequestContext& context);
 
 /// POST /v1/simulate: executes plans many times with other disturbances. Reports progress to the context's
 /// events.
 Reply simulate_endpoint(std::string_view body, const RequestContext& context);
 
-/// POST /v1/advance: the request of a later moment, when robots have executed a part of their plans.
+/// POST /v1/advance: returns the request of a later moment, when robots have executed a part of their plans.
 Reply advance_endpoint(std::string_view body, const RequestContext& context);
 
-/// POST /v1/dependencies: the dependencies of any plan that POST /v1/validate accepts.
+/// POST /v1/dependencies: returns the dependencies of any plan that POST /v1/validate accepts.
 Reply dependencies_endpoint(std::string_view body, const RequestContext& context);
 
-/// POST /v1/retime: when robots that execute a plan with dependencies will arrive, and because of whom.
+/// POST /v1/retime: returns when robots that execute a plan with dependencies will arrive, and because of
+/// whom.
 Reply retime_endpoint(std::string_view body, const RequestContext& context);
 
-/// POST /v1/export/vda5050: a plan as orders of VDA 5050, a pure function of the body.
+/// POST /v1/export/vda5050: returns a plan as orders of VDA 5050, a pure function of the body.
 Reply vda5050_endpoint(std::string_view body, const RequestContext& context);
 
 /// An example request of GET /v1/examples.
@@ -49,20 +50,21 @@ struct Example {
   std::string_view body;  // the request, JSON
 };
 
-/// All examples by name: the request files of tests/scenarios, embedded at build time (embed_examples.cmake).
+/// Returns all examples by name: the request files of tests/scenarios, embedded at build time
+/// (embed_examples.cmake).
 std::span<const Example> examples();
 
-/// The index.json of tests/scenarios: `[{"name", "title", "description"}]` in the order of display; empty if
-/// there is none.
+/// Returns the index.json of tests/scenarios: `[{"name", "title", "description"}]` in the order of display;
+/// empty if there is none.
 std::string_view examples_index();
 
 /// GET /v1/examples: `{"examples": [{"name", "title", "description", "robots", "columns", "rows"}]}`.
 Reply examples_endpoint();
 
-/// The OpenAPI 3.1 document of the whole service: api/openapi.json, embedded at build time.
+/// Returns the OpenAPI 3.1 document of the whole service: api/openapi.json, embedded at build time.
 std::string_view openapi_document();
 
-/// GET /v1/openapi.json.
+/// GET /v1/openapi.json: returns the document.
 inline Reply openapi_endpoint() { return {200, kJson, std::string(openapi_document())}; }
 
 }  // namespace fleetplan::api

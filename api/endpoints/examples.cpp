@@ -19,7 +19,7 @@ struct Entry {
   std::string description;
 };
 
-/// Reads an embedded file, which the tests check; null if it is not JSON.
+/// Reads an embedded file, which the tests check. Its root is null if it is not JSON.
 JsonDocument read_embedded(std::string_view text, core::Work& work) {
   auto document = read_json(text, Limits{}.max_depth, work);
   return document ? std::move(*document) : std::move(*read_json("null", 1, work));
@@ -39,7 +39,7 @@ const Example* find_example(std::string_view name) {
   return found != all.end() ? &*found : nullptr;
 }
 
-/// All examples: first those of the index, in its order, then the rest.
+/// Returns all examples: first those of the index, in its order, then the rest.
 std::vector<Entry> entries(core::Work& work) {
   std::vector<Entry> listed;
   const JsonDocument index = read_embedded(examples_index(), work);

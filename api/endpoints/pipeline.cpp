@@ -18,7 +18,7 @@ namespace fleetplan::api {
 
 namespace {
 
-/// Less is freed at once: within about a millisecond.
+/// The memory, in bytes, above which a reply keeps it: less is freed at once, within about a millisecond.
 constexpr std::int64_t kMuchMemory = 4 << 20;
 
 }  // namespace

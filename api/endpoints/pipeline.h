@@ -25,53 +25,55 @@
 
 namespace fleetplan::api {
 
-/// The reply of an endpoint, all of whose work is bounded by the Work that it gets: from the first byte of
-/// the body to the last byte of the answer's text. It is granted `max_plan_memory`; the reply is 422
-/// `memory_exceeded` if it needs more. The reply has the memory that is still in use, if it is much.
+/// Runs an endpoint and returns its reply. All of its work is bounded by the Work that it gets: from the
+/// first byte of the body to the last byte of the answer's text. It is granted `max_plan_memory`; the reply
+/// is 422 `memory_exceeded` if it needs more. The reply keeps the memory that is still in use, if it is much.
 Reply bounded_work(const RequestContext& context, const std::function<Reply(core::Work&)>& endpoint);
 
-/// The 422 for a request that needs more memory than it is granted.
+/// Returns the 422 for a request that needs more memory than it is granted.
 Reply memory_exceeded(const RequestContext& context);
 
-/// Asks for the turn of a request that has been read, and waits for it. True at once without a Turn.
+/// Asks for the turn of a request that has been read, and waits for it. Returns whether it came; true at once
+/// without a Turn.
 bool take_turn(Turn* turn, const TurnNeed& need, core::Work& work);
 
-/// TurnNeed::work of plans that are checked or executed.
+/// Returns the TurnNeed::work of plans that are to be checked or executed.
 double work_of(std::size_t robots, const std::vector<core::RobotPlan>& plans);
 
-/// The reply when a check or a simulation of plans was stopped before it had an answer. `what` begins the
-/// sentence: "The plans could not be checked".
+/// Returns the reply when a check or a simulation of plans was stopped before it had an answer. `what` begins
+/// the sentence: "The plans could not be checked".
 Reply unfinished_reply(std::string_view what, std::chrono::nanoseconds budget,
                        const core::StopCondition& stop, const RequestContext& context);
 
-/// Waits for the turn of a request whose body has been read and has no fault so far. False: the answer is not
-/// to be made.
+/// Waits for the turn of a request whose body has been read and has no fault so far. Returns false if the
+/// answer is not to be made.
 using AwaitTurn = std::function<bool()>;
 
-/// The JSON answer to a body, of which it gets the root. Nothing only when it reported faults, when its work
-/// was stopped, or when it got no turn.
+/// Makes the JSON answer to a body from the body's root. Returns none only when it reported faults, when its
+/// work was stopped, or when it got no turn.
 using MakeAnswer =
     std::function<std::optional<std::string>(const JsonReader&, core::Work&, const AwaitTurn&)>;
 
-/// The reply of an endpoint whose answer depends on nothing but the body, and refers to what was read of it.
-/// `members`: of the body's root.
+/// Returns the reply of an endpoint whose answer depends on nothing but the body. `members` are those that
+/// the body's root may have.
 Reply pure_endpoint(std::string_view body, const RequestContext& context,
                     std::span<const std::string_view> members, const MakeAnswer& make);
 
-/// Makes the reply of plans that were checked, until the stop condition is met.
+/// Makes the reply after plans have been checked, until the stop condition is met.
 using AfterCheck =
     std::function<Reply(const ValidateRequest&, const core::VerifyReport&, const core::StopCondition&)>;
 
-/// Reads a body with plans, waits for its turn and checks them. The reply is that of `after`, or the problem.
+/// Reads a body with plans, waits for its turn and checks them. Returns the reply that `after` makes, or the
+/// problem.
 Reply check_plans(std::string_view body, const RequestContext& context, const AfterCheck& after);
 
-/// The dependencies of a plan that has passed the check, and what to tell about them.
+/// The dependencies of a plan that has passed the check, and warnings about them.
 struct PlanDependencies {
-  std::optional<core::Dependencies> made;  // nothing: time or memory did not suffice
+  std::optional<core::Dependencies> made;  // none: time or memory did not suffice
   std::vector<std::string> warnings;
 };
 
-/// `tolerance`: metres, of the check.
+/// Makes the dependencies of plans that have passed a check with this `tolerance` (metres).
 PlanDependencies plan_dependencies(const std::vector<core::Robot>& robots,
                                    const std::vector<core::RobotPlan>& plans,
                                    const RequestedDependencies& requested, double tolerance,

@@ -27,7 +27,7 @@ namespace fleetplan::api {
 
 namespace {
 
-/// The 500 for a plan that the checker rejects.
+/// Returns the 500 for a plan that the checker rejects.
 Reply rejected(PlanOutcome outcome, const core::VerifyReport& report, const std::string& request_id) {
   Reply reply =
       problem_reply(ErrorCode::internal_error,
@@ -39,7 +39,8 @@ Reply rejected(PlanOutcome outcome, const core::VerifyReport& report, const std:
   return reply;
 }
 
-/// When to give up the check. A plan that was cancelled, as the service drains, may still be checked quickly.
+/// Returns when to give up the check. A plan that was cancelled, as the service drains, may still be checked
+/// quickly.
 core::StopCondition check_stop(const core::StopCondition& planning) {
   using Clock = core::StopCondition::Clock;
   constexpr std::chrono::milliseconds kMostAfterPlanning{90};
@@ -50,8 +51,9 @@ core::StopCondition check_stop(const core::StopCondition& planning) {
   return planning.until(planning.deadline() + kMostAfterPlanning);
 }
 
-/// When to give up the check of an answer in which nobody moves, if there is no other: with the budget, and
-/// not too soon after it. Reading the request tells how large it is and how busy the machine.
+/// Returns when to give up the check of an answer in which no robot moves, if there is no other answer: with
+/// the budget, and not too soon after it. The time for reading the request tells how large it is and how busy
+/// the machine.
 core::StopCondition last_stop(const Stages& stages, const core::StopCondition& planning) {
   constexpr Stages::Clock::duration kLeast = std::chrono::milliseconds(200);
   const auto patience = Stages::Clock::now() + std::max(kLeast, stages.parsed - stages.received);
@@ -60,7 +62,7 @@ core::StopCondition last_stop(const Stages& stages, const core::StopCondition& p
   return planning.until(std::max(patience, check.deadline())).despite_memory();
 }
 
-/// The 422 for a request whose robots and moving obstacles take too long to compare with each other.
+/// Returns the 422 for a request whose robots and moving obstacles take too long to compare with each other.
 Reply unchecked(PlanOutcome outcome, bool has_obstacles, const std::string& request_id) {
   std::string detail =
       "The check that robots keep their distance was given up after the time budget. It takes longest where "
@@ -78,8 +80,8 @@ bool moves(const core::RobotPlan& plan, const core::Problem& problem) {
   return plan.actions.size() > problem.robots()[plan.robot].committed.size();
 }
 
-/// The rest of a plan when all robots that would move stay at their starts, or at the end of what is
-/// committed.
+/// Returns what is left of a plan when all robots that would move stay at their starts, or at the end of what
+/// is committed.
 core::Plan without_moves(const core::Plan& plan, const core::Problem& problem,
                          const core::StopCondition& stop) {
   core::Plan left;
@@ -100,7 +102,7 @@ core::Plan without_moves(const core::Plan& plan, const core::Problem& problem,
   }
   std::sort(left.unplanned.begin(), left.unplanned.end(),
             [](const core::Unplanned& a, const core::Unplanned& b) { return a.robot < b.robot; });
-  // A robot that is at its goal, or has none, stays as well.
+  // A robot that is at its goal, or has none, stays, too.
   core::UnavoidableMeetings found =
       core::unavoidable_meetings(problem, std::vector<bool>(problem.robots().size(), false), stop);
   left.unavoidable = std::move(found.meetings);
@@ -108,17 +110,18 @@ core::Plan without_moves(const core::Plan& plan, const core::Problem& problem,
   return left;
 }
 
-/// The spacing of the lattice, if it is not simply the map's resolution.
-std::optional<double> told_spacing(const PlanRequest& request) {
+/// Returns the spacing of the lattice, metres; none if it is simply the map's resolution.
+std::optional<double> reported_spacing(const PlanRequest& request) {
   const double spacing = core::lattice_spacing(request.problem, request.options);
   const bool is_plain = !request.options.lattice_spacing && spacing == request.problem.grid().resolution();
   return is_plain ? std::nullopt : std::optional(spacing);
 }
 
-/// The dependencies of the answer, if they are asked for. The budget of the request holds for them.
-std::optional<PlanDependencies> asked_dependencies(const core::Plan& plan, const PlanRequest& request,
-                                                   const Stages& stages,
-                                                   const core::StopCondition& planning) {
+/// Returns the dependencies of the answer; none if they are not asked for. They have to be made within the
+/// budget.
+std::optional<PlanDependencies> answer_dependencies(const core::Plan& plan, const PlanRequest& request,
+                                                    const Stages& stages,
+                                                    const core::StopCondition& planning) {
   if (!request.dependencies.wanted) return std::nullopt;
   const core::StopCondition stop = planning.until(stages.received + request.budget);
   return plan_dependencies(request.problem.robots(), plan.plans, request.dependencies, core::kMostTolerance,
@@ -130,10 +133,10 @@ std::vector<std::string> joined(std::vector<std::string> warnings, const std::ve
   return warnings;
 }
 
-/// The answer with a plan: verify -> write. A plan that the checker rejects is a bug and becomes a 500. If
-/// the check is not finished soon after `stop`, by which the plan was made, no robot that moves is planned: a
-/// plan that is not checked is never returned. `stages`: those before the plan was made. `on_answer` gets the
-/// plan of the answer; may be empty.
+/// Checks a plan and writes the answer. A plan that the checker rejects is a bug and becomes a 500. If the
+/// check is not finished soon after `stop`, by which the plan was made, the answer has no plan for robots
+/// that move: a plan that is not checked is never returned. `stages`: those before the plan was made.
+/// `on_answer`, which may be empty, gets the plan of the answer.
 Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std::string& request_id,
                   Stages stages, const core::StopCondition& stop, const AnsweredPlan& on_answer) {
   stages.planned = Stages::Clock::now();
@@ -157,7 +160,7 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   if (!report && stop.cancelled()) return problem_reply(ErrorCode::draining, kDrainingDetail, request_id);
   if (!report) return unchecked(outcome, !request.problem.obstacles().empty(), request_id);
   if (!report->valid()) return rejected(outcome, *report, request_id);
-  const auto dependencies = asked_dependencies(answered, request, stages, stop);
+  const auto dependencies = answer_dependencies(answered, request, stages, stop);
   const std::vector<std::string> warnings =
       dependencies ? joined(request.warnings, dependencies->warnings) : request.warnings;
   stages.verified = Stages::Clock::now();
@@ -170,7 +173,7 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
                               .origin = request.frame.origin,
                               .warnings = warnings,
                               .metadata = request.metadata,
-                              .lattice_spacing = told_spacing(request),
+                              .lattice_spacing = reported_spacing(request),
                               .dependencies = dependencies ? &dependencies->made : nullptr};
   std::string text = write_response(verified, request_id, stages);
   return {.status = 200, .content_type = kJson, .body = std::move(text), .outcome = outcome};
@@ -178,8 +181,8 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
 
 using Clock = RequestContext::Clock;
 
-/// The part of the budget for the dependencies of the answer: several times what fleets have needed so far,
-/// at most a quarter.
+/// Returns the part of the budget for the dependencies of the answer: several times what fleets have needed
+/// so far, at most a quarter.
 Clock::duration for_dependencies(const PlanRequest& request) {
   if (!request.dependencies.wanted) return Clock::duration::zero();
   constexpr std::chrono::milliseconds kForARobot{4};
@@ -187,10 +190,11 @@ Clock::duration for_dependencies(const PlanRequest& request) {
   return std::min<Clock::duration>(request.budget / 4, robots * kForARobot);
 }
 
-/// The part of the budget after planning, to check the plan and write the answer: a twentieth of the budget,
-/// but at most what a thousand robots need; or a quarter of what reading the request took, which tells how
-/// large it is and how busy the machine. The meetings of robots and moving obstacles, and their check, take
-/// up to half as long as reading them; the check of a very large map takes up to as long.
+/// Returns the part of the budget after planning, to check the plan and write the answer: a twentieth of the
+/// budget, but at most what a thousand robots need; or a quarter of what reading the request took, which
+/// tells how large it is and how busy the machine. The unavoidable collisions of robots with moving
+/// obstacles, and their check, take up to half as long as reading them; the check of a very large map takes
+/// up to as long.
 Clock::duration kept_for_answer(const PlanRequest& request, Clock::duration reading) {
   constexpr Clock::duration kMostForTheAnswer = std::chrono::milliseconds(25);
   constexpr int kManyCells = 4'000'000;
@@ -205,7 +209,7 @@ Clock::duration kept_for_answer(const PlanRequest& request, Clock::duration read
          std::max(std::min<Clock::duration>(budget / 20, kMostForTheAnswer), for_the_check());
 }
 
-/// What the request asks of the server. A few robots on a small map take milliseconds, as a rule.
+/// Returns what the request needs of the server. A few robots on a small map take milliseconds, as a rule.
 TurnNeed need_of(const PlanRequest& request, const core::StopCondition& stop, const RequestContext& context) {
   constexpr std::ptrdiff_t kFewRobots = 16;
   constexpr int kFewCells = 100'000;
@@ -221,16 +225,16 @@ TurnNeed need_of(const PlanRequest& request, const core::StopCondition& stop, co
           .is_short = is_short};
 }
 
-/// So long may a check take beyond the budget if there are previous plans: it decides whether they are kept.
+/// The most time after the budget for the check of previous plans, which decides whether they are kept.
 constexpr std::chrono::milliseconds kMostForPrevious{500};
 
-/// The end of planning, after which the answer is checked; later if there are previous plans.
+/// Returns the end of planning, after which the answer is checked; later if there are previous plans.
 core::StopCondition end_of_planning(const core::StopCondition& stop, const PlanRequest& request) {
   if (!core::have_previous_plans(request.problem.robots())) return stop;
   return stop.until(std::max(stop.deadline(), Clock::now()) + kMostForPrevious);
 }
 
-/// The planner's plan, or one that needs no search if the memory does not suffice for any other.
+/// Returns the planner's plan, or one that needs no search if the memory does not suffice for any other.
 core::Plan plan_or_none(const Planner& planner, const PlanRequest& request, const core::StopCondition& stop,
                         core::Observer* observer) {
   try {

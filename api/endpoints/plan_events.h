@@ -14,11 +14,11 @@
 
 namespace fleetplan::api {
 
-/// The progress of a request's plan, or of a simulation.
+/// The progress of planning a request, or of a simulation.
 struct PlanProgress {
-  std::size_t robots = 0;  // of the request
+  std::size_t robots = 0;  // robots of the request
   core::Progress planner = {};
-  std::optional<core::SimulationProgress> simulation = {};  // instead of the planner's
+  std::optional<core::SimulationProgress> simulation = {};  // instead of the planner's progress
 };
 
 /// Receives the events while a plan is made or simulated (`text/event-stream`). Called by the planning
@@ -30,17 +30,18 @@ class PlanEvents {
   PlanEvents& operator=(const PlanEvents&) = delete;
   virtual ~PlanEvents() = default;
 
-  /// The request is valid: from now on, every outcome is an event. Called at most once, before the others.
+  /// Called when the request is valid: from now on, every outcome is an event. Called at most once, before
+  /// the others.
   virtual void begin(const PlanProgress& progress) = 0;
 
-  /// The newest state, called often; it replaces the earlier ones.
+  /// Called often, with the newest state, which replaces the earlier ones.
   virtual void progress(const PlanProgress& progress) = 0;
 
-  /// A better plan was found: a whole answer, as JSON, whose plan has passed the check.
+  /// Called when a better plan was found, with a whole answer as JSON. Its plan has passed the check.
   virtual void incumbent(std::string answer) = 0;
 };
 
-/// The data of `event: progress`. `elapsed_ms`: since the last byte of the request.
+/// Returns the data of `event: progress`. `elapsed_ms`: since the last byte of the request.
 std::string write_progress(const PlanProgress& progress, double elapsed_ms);
 
 /// Turns the planner's progress into events, and its better plans into answers: at most one a second, less
@@ -50,7 +51,8 @@ class ProgressReporter final : public core::Observer {
   using Clock = std::chrono::steady_clock;
   using MakeAnswer = std::function<Reply(const core::Plan&)>;
 
-  /// The pause after an answer is at least this, and at least so many times as long as making it took.
+  /// The least pause after an answer, and the least factor of the pause to the time that making the answer
+  /// took.
   static constexpr std::chrono::seconds kLeastPause{1};
   static constexpr int kLeastPauseFactor = 10;
   /// No answer is made in this last part of the time for planning.
@@ -64,7 +66,7 @@ class ProgressReporter final : public core::Observer {
   bool wants_plan() override;
   void show(const core::Plan& plan) override;
 
-  /// The 500 for a plan that the checker rejected.
+  /// The 500 for a plan that the checker rejected; none if it rejected none.
   const std::optional<Reply>& rejection() const { return rejection_; }
 
  private:

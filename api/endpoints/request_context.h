@@ -26,7 +26,7 @@ struct TurnNeed {
   enum class Kind { plan, check, simulation, conversion };
 
   Kind kind = Kind::plan;
-  core::StopCondition stop;  // of the computation
+  core::StopCondition stop;  // ends the computation
   core::StopCondition::Clock::time_point answer_by = core::StopCondition::Clock::time_point::max();
   double work = 1.0;      // proportional to the expected time, for the kind
   bool is_short = false;  // takes milliseconds at most, as far as can be told
@@ -40,16 +40,16 @@ class Turn {
   Turn& operator=(const Turn&) = delete;
   virtual ~Turn() = default;
 
-  /// Asks for the turn, once, when the request is known to be valid. False when the server is too busy for
-  /// it; returns at once.
+  /// Asks for the turn, once, when the request is known to be valid. Returns at once; false when the server
+  /// is too busy for it.
   virtual bool request(const TurnNeed& need) = 0;
 
-  /// Waits for the turn that was granted. False when the need's `stop` was met before, or when so little of
-  /// the time is left that the server gives up.
+  /// Waits for the turn that was granted. Returns false when the need's `stop` was met before, or when so
+  /// little of the time is left that the server gives up.
   virtual bool await() = 0;
 
-  /// To be called now and then by what takes long once it has its turn: others may get it meanwhile, and this
-  /// waits for the next. False when the need's `stop` was met before.
+  /// Lets others have the turn meanwhile, and waits for the next one. To be called now and then by what takes
+  /// long once it has its turn. Returns false when the need's `stop` was met before.
   virtual bool let_others() = 0;
 };
 
@@ -62,13 +62,13 @@ struct RequestContext {
 
   std::string request_id;
   Clock::time_point received_at = Clock::now();  // last byte of the body in
-  std::stop_token stop;                          // the client is gone or the server drains
+  std::stop_token stop;                          // requested when the client is gone or the server drains
   Limits limits;
-  core::Executor* executor = nullptr;  // of further threads; null: the caller's alone
+  core::Executor* executor = nullptr;  // runs further threads; null: the caller's alone
   PlanEvents* events = nullptr;        // receives the progress of a plan; may be null
   AnsweredPlan answered;               // gets the plan that is returned; may be empty
-  Turn* turn = nullptr;                // to compute; null: at once
-  core::MapCache* maps = nullptr;      // that earlier requests had; null: none
+  Turn* turn = nullptr;                // turn to compute; null: it may compute at once
+  core::MapCache* maps = nullptr;      // the maps of earlier requests; null: none
   core::Work::CpuClock cpu_clock = core::Work::thread_cpu_time;
 };
 

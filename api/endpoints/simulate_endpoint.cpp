@@ -21,7 +21,7 @@ namespace {
 
 using Clock = RequestContext::Clock;
 
-/// When no further run is made: a part of the budget is for the answer.
+/// Returns when no further run is made: a part of the budget is for the answer.
 core::StopCondition end_of_runs(const core::Work& work, const SimulateRequest& request) {
   constexpr std::chrono::milliseconds kAnswerTime{50};
   const auto answer = std::min<std::chrono::nanoseconds>(request.budget / 10, kAnswerTime);
@@ -37,7 +37,7 @@ TurnNeed need_of(const SimulateRequest& request, const core::StopCondition& stop
           .is_short = false};
 }
 
-/// The dependencies, whose robots become positions in the list of plans.
+/// Returns the dependencies with positions in the list of plans as robots.
 std::vector<core::Dependency> by_plan(const SimulateRequest& request) {
   std::vector<std::size_t> plan_of(request.robots.size(), 0);
   for (std::size_t k = 0; k < request.plans.size(); ++k) plan_of[request.plans[k].robot] = k;
@@ -63,10 +63,10 @@ core::SimulatedFleet fleet_of(const SimulateRequest& request) {
   return {request.grid, request.robots, request.body_radii, std::move(execution)};
 }
 
-/// The text of the trace that is asked for. None, with a warning, if it has too many actions for an answer,
+/// Returns the text of the requested trace. None, with a warning, if it has too many actions for an answer,
 /// or is not made in half of the time: the rest is for the runs.
-std::optional<std::string> asked_trace(const core::SimulatedFleet& fleet, SimulateRequest& request,
-                                       const Limits& limits, const core::StopCondition& stop) {
+std::optional<std::string> requested_trace(const core::SimulatedFleet& fleet, SimulateRequest& request,
+                                           const Limits& limits, const core::StopCondition& stop) {
   // A small request may have a million stops and bends; its answer is in proportion to its plans.
   constexpr std::size_t kActionsOfAny = 20'000;
   constexpr std::size_t kActionsOfOne = 200;
@@ -84,13 +84,14 @@ std::optional<std::string> asked_trace(const core::SimulatedFleet& fleet, Simula
   return text;
 }
 
-/// The runs of a simulation, and how long it waited meanwhile as others had their turn.
+/// The runs of a simulation, and how long it waited meanwhile for others that had their turn.
 struct Runs {
   core::SimulationReport report;
   Clock::duration waited = Clock::duration::zero();
 };
 
-/// The runs in the caller's thread and, if they are idle, in others. Lets others have their turns in between.
+/// Executes the runs in the caller's thread and, if they are idle, in others. Lets others have their turns in
+/// between.
 Runs run_all(const core::SimulatedFleet& fleet, const SimulateRequest& request,
              const core::StopCondition& stop, const RequestContext& context) {
   core::CallerThread callers_thread;
@@ -107,7 +108,7 @@ Runs run_all(const core::SimulatedFleet& fleet, const SimulateRequest& request,
   return runs;
 }
 
-/// What to tell of runs that were not finished.
+/// Returns the warning about runs that were not finished.
 std::string cut_warning(const Runs& runs, const SimulateRequest& request) {
   constexpr std::chrono::milliseconds kMuch{10};
   const auto ms = [](std::chrono::nanoseconds time) {
@@ -141,7 +142,7 @@ Reply simulated(std::string_view body, const RequestContext& context, core::Work
   }
   const auto waited = Clock::now() - asked;
   const core::SimulatedFleet fleet = fleet_of(*request);
-  const auto trace = asked_trace(fleet, *request, context.limits, stop);
+  const auto trace = requested_trace(fleet, *request, context.limits, stop);
   Runs runs = run_all(fleet, *request, stop, context);
   runs.waited += waited;
   const core::SimulationProgress& totals = runs.report.totals;

@@ -25,10 +25,10 @@ namespace {
 constexpr std::array<std::string_view, 5> kStateMembers{"robot", "action", "progress", "speed_factor",
                                                         "held_s"};
 constexpr Range kSpeedFactor{1e-3, 1e3, ""};
-/// Seconds: what times that went through decimal text may be off.
+/// Seconds by which times that went through decimal text may be off.
 constexpr double kContiguous = 1e-6;
 
-/// Reports actions that are not contiguous in time. `plans`: in the order of the items of the list.
+/// Reports actions that are not contiguous in time. `plans` are in the order of the items of the list.
 void check_times(const JsonReader& list, const std::vector<core::RobotPlan>& plans) {
   std::size_t plan = 0;
   // Bounded: items are read until the Work ends.
@@ -106,7 +106,7 @@ std::optional<RetimeRequest> parse_retime_request(const JsonReader& root, const 
   RetimeRequest request;
   request.rules.wait_before_move = parse_options(root.find("options")).plan.wait_before_move;
   UniqueIds ids;
-  // Without the map's frame, so that no number changes.
+  // The map's frame is not applied, so that no number changes.
   std::vector<ParsedRobot> robots =
       parse_robots(root.require("robots"), root.find("robot_defaults"), WorldFrame{}, limits, ids);
   const JsonReader plans = root.require("plans");
@@ -126,7 +126,7 @@ std::optional<RetimeRequest> parse_retime_request(const JsonReader& root, const 
 
 namespace {
 
-/// The new time of a planned one; nothing if that is past.
+/// Returns the new time of a planned one; none if that is past.
 std::optional<double> new_time(const core::Pace& pace, const core::RetimedRobot& retimed, double planned) {
   const double progress = pace.progress_at(planned);
   const auto action = static_cast<std::size_t>(progress);

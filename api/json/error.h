@@ -40,18 +40,18 @@ enum class ErrorCode {
 /// Ends the detail of a body that is too large: nearly always its map.
 inline constexpr const char* kLargeMapRemedy =
     " A large map is smallest as a PNG, in map.image.png; see GET /v1/limits.";
-/// The detail of `draining`.
+
 inline constexpr const char* kDrainingDetail = "The service is shutting down: try another replica.";
 
 struct ErrorRow {
   ErrorCode code;
   int status;
   std::string_view name;         // `code` of the answer
-  std::string_view title;        // of RFC 9110 where the status says it all
-  std::string_view description;  // when it is returned, for the OpenAPI document
+  std::string_view title;        // as in RFC 9110 where the status says it all
+  std::string_view description;  // when the error is returned, for the OpenAPI document
 };
 
-/// The table, in the order of ErrorCode. api/openapi.json has a response for each status in it.
+/// Returns the table, in the order of ErrorCode. api/openapi.json has a response for each status in it.
 std::span<const ErrorRow> error_table();
 
 const ErrorRow& row_of(ErrorCode code);
@@ -62,7 +62,7 @@ inline std::string_view name_of(ErrorCode code) { return row_of(code).name; }
 struct RequestError {
   ErrorCode code = ErrorCode::invalid_request;
   std::string detail;
-  std::vector<Fault> faults;  // those that are listed
+  std::vector<Fault> faults;  // the listed faults
   std::size_t faults_total = 0;
 };
 

@@ -85,7 +85,7 @@ std::string lower(std::string_view text) {
   return lowered;
 }
 
-/// Levenshtein's distance: how many letters to insert, remove or replace.
+/// Returns Levenshtein's distance: how many letters to insert, remove or replace.
 std::size_t edit_distance(std::string_view left, std::string_view right) {
   std::vector<std::size_t> row(right.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -189,7 +189,7 @@ bool in_word(char c) {
          c == '.' || c == '_';
 }
 
-/// Where the string, word or sign begins that the byte at `offset` belongs to.
+/// Returns where the string, word or sign begins that the byte at `offset` belongs to.
 std::size_t token_start(std::string_view body, std::size_t offset) {
   std::size_t at = 0;
   // Bounded: each byte is passed once.
@@ -206,7 +206,7 @@ std::size_t token_start(std::string_view body, std::size_t offset) {
   return offset;
 }
 
-/// The fault where the parser stopped. `start` to `stop`: the bytes that could not be placed.
+/// Returns the fault where the parser stopped. `start` to `stop`: the bytes that could not be placed.
 std::string reason(std::string_view body, std::size_t start, std::size_t stop) {
   const std::string_view rest = body.substr(start);
   const auto last = static_cast<unsigned char>(body[stop - 1]);

@@ -39,11 +39,11 @@ inline constexpr const char* kStartInObstacle = "start_in_obstacle";
 inline constexpr const char* kGoalInObstacle = "goal_in_obstacle";
 inline constexpr const char* kStartsOverlap = "starts_overlap";
 inline constexpr const char* kGoalsOverlap = "goals_overlap";
-inline constexpr const char* kDiscontinuity = "discontinuity";  // of committed and previous actions
+inline constexpr const char* kDiscontinuity = "discontinuity";  // committed and previous actions
 inline constexpr const char* kSpeed = "speed";                  // faster than possible
 inline constexpr const char* kCommittedCollision = "committed_collision";
 inline constexpr const char* kCommittedInZone = "committed_in_zone";
-inline constexpr const char* kDependency = "dependency";     // of other plans
+inline constexpr const char* kDependency = "dependency";     // dependencies of other plans
 inline constexpr const char* kInvalidPlan = "invalid_plan";  // plans that the check rejects
 }  // namespace fault
 
@@ -54,7 +54,7 @@ class FaultList {
  public:
   static constexpr std::size_t kMostListed = 20;
 
-  /// Adds what `make_fault` returns, or only counts it.
+  /// Adds the fault that `make_fault` returns, or only counts it.
   template <typename MakeFault>
   void add(JsonPlace place, const MakeFault& make_fault) {
     ++count_;
@@ -78,41 +78,41 @@ class FaultList {
 
   std::vector<Placed> placed_;  // in the order of the document
   std::size_t count_ = 0;
-  std::size_t bytes_ = 0;  // of the texts in placed_
+  std::size_t bytes_ = 0;  // bytes of the texts in placed_
 };
 
-/// The text in double quotes, cut to a readable length (at a character of UTF-8).
+/// Returns the text in double quotes, cut to a readable length (at a character of UTF-8).
 std::string in_quotes(std::string_view text);
 
-/// The shortest decimal text that reads back as the same double.
+/// Returns the shortest decimal text that reads back as the same double.
 std::string number_text(double number);
 
-/// A value in words: `the string "abc"`, `-1`, `an array`.
+/// Returns a value in words: `the string "abc"`, `-1`, `an array`.
 std::string described(const JsonValue& value);
 
-/// `"a", "b", "c"`.
+/// Returns words as a list: `"a", "b", "c"`.
 std::string listed(std::span<const std::string_view> words);
 
-/// `"a", "b" or "c"`.
+/// Returns words as alternatives: `"a", "b" or "c"`.
 std::string alternatives(std::span<const std::string_view> words);
 
-/// `; did you mean "radius"?` when one of the words is close enough to the text, or nothing.
+/// Returns `; did you mean "radius"?` when one of the words is close enough to the text; otherwise nothing.
 std::string suggestion(std::string_view text, std::span<const std::string_view> words);
 
-/// Where a value stands in its document.
+/// The place of a value in its document.
 struct Location {
   std::string pointer;  // RFC 6901: "" for the whole document, "/robots/0/start" below it
-  std::string name;     // of the last step, for messages: the key, "item 3" or "the document"
+  std::string name;     // name of the last step, for messages: the key, "item 3" or "the document"
 };
 
 /// Finds a value of the document with this root, by its place in it.
 Location locate(const JsonValue& root, const JsonValue& value);
 
-/// One step of a JSON Pointer: "/" and the key, with ~ and / escaped.
+/// Returns one step of a JSON Pointer: "/" and the key, with ~ and / escaped.
 std::string pointer_step(std::string_view key);
 
-/// Where and why a body is not JSON: line, column and byte (each from 1; columns in bytes) and the text
-/// there. `position`: how many bytes had been read when the parser stopped.
+/// Returns where and why a body is not JSON: line, column and byte (each from 1; columns in bytes) and the
+/// text there. `position`: how many bytes had been read when the parser stopped.
 std::string explain_malformed(std::string_view body, std::size_t position);
 
 }  // namespace fleetplan::api

@@ -19,7 +19,7 @@ std::string range_text(const Range& range) {
   return "from " + number_text(range.least) + " to " + number_text(range.most) + ' ' + unit;
 }
 
-/// The characters of UTF-8: all bytes but those that continue a character.
+/// Returns the number of characters of UTF-8: of all bytes but those that continue a character.
 std::size_t characters_of(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
     return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
@@ -91,7 +91,7 @@ JsonReader JsonReader::find(std::string_view key) const {
 JsonReader JsonReader::require(std::string_view key, std::string_view remedy) const {
   if (!value_ || !value_->is_object()) return {};
   if (const JsonReader member = find(key)) return member;
-  // After the members that are there.
+  // The fault is placed after the members that are there.
   document_->faults.add(value_->ends(), [&] {
     return Fault{pointer() + pointer_step(key), fault::kMissing,
                  std::string(key) + " is missing" + std::string(remedy) + "."};

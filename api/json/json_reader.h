@@ -20,7 +20,7 @@ struct Range {
   std::string_view unit;
 };
 
-/// An answer repeats names as often as robots conflict.
+/// The most characters of a name. An answer repeats names as often as robots conflict.
 inline constexpr std::size_t kLongestName = 256;  // characters
 
 /// A value of a document, or the absence of one, with typed access. What is wrong with the value becomes a
@@ -29,7 +29,7 @@ inline constexpr std::size_t kLongestName = 256;  // characters
 class JsonReader {
  public:
   JsonReader() = default;  // absent
-  /// The root of the document.
+  /// Reads the root of a document.
   explicit JsonReader(JsonDocument& document) : JsonReader(document, document.root()) {}
 
   explicit operator bool() const { return value_.has_value(); }
@@ -41,30 +41,32 @@ class JsonReader {
 
   /// The value itself if it is an object, otherwise absent. Members that are not `known` are faults.
   JsonReader object(std::span<const std::string_view> known) const;
-  /// A member of an object.
+  /// Returns a member of an object; absent if it is not there.
   JsonReader find(std::string_view key) const;
-  /// A member that an object must have. `remedy` ends the fault's sentence: "; give ...".
+  /// Returns a member that an object must have. `remedy` ends the fault's sentence: "; give ...".
   JsonReader require(std::string_view key, std::string_view remedy = {}) const;
 
   /// The value itself if it is an array, otherwise absent.
   JsonReader array() const;
-  std::size_t size() const;  // of the array; 0 when absent
-  /// One item; takes time in proportion to the index.
+  std::size_t size() const;  // of an array; 0 when absent
+  /// Returns one item of an array, in time proportional to the index.
   JsonReader item(std::size_t index) const { return at(value_->item(index)); }
-  /// All items of the array, for a range-based loop; ends early when the reading of the document is stopped.
+  /// Returns all items of the array, for a range-based loop; ends early when the reading of the document is
+  /// stopped.
   class Items;
   Items items() const;
-  /// All members of the object, likewise; their keys are value().key(). For objects of many: `find` looks at
-  /// all members that come before.
+  /// Returns all members of the object, for a range-based loop that ends early in the same way; their keys
+  /// are value().key(). It is meant for objects of many members, as `find` looks at all members that come
+  /// before.
   Items members() const;
 
   std::optional<double> number(const Range& range) const;
-  /// A whole number from 0 to `most`.
+  /// Returns a whole number from 0 to `most`; anything else is a fault.
   std::optional<std::uint64_t> natural(std::uint64_t most) const;
   std::optional<bool> boolean() const;
-  /// A string of 1 to kLongestName characters.
+  /// Returns a string of 1 to kLongestName characters; anything else is a fault.
   std::optional<std::string> name() const;
-  /// The index of the word that the string is.
+  /// Returns the index of the word that the string is; anything else is a fault.
   std::optional<std::size_t> word(std::span<const std::string_view> words) const;
 
   /// The value, which must be there.
@@ -75,7 +77,7 @@ class JsonReader {
   void fault(const char* code, const std::string& detail) const {
     fault(code, [&] { return detail; });
   }
-  /// Adds a fault at a value of which there may be many: makes the text only if it will be listed.
+  /// Adds a fault at a value. There may be many such values, so the text is made only if it will be listed.
   template <std::invocable MakeDetail>
   void fault(const char* code, const MakeDetail& make_detail) const {
     document_->faults.add(value_->begins(), [&] { return Fault{pointer(), code, make_detail()}; });
@@ -89,15 +91,15 @@ class JsonReader {
   void must_be(const char* code, const MakeWanted& make_wanted, std::string_view note = {}) const {
     document_->faults.add(value_->begins(), [&] { return unwanted(code, make_wanted(), note); });
   }
-  /// A fault at the value, which must be there, that is not added to those of the document.
+  /// Returns a fault at the value, which must be there, without adding it to those of the document.
   Fault described_fault(const char* code, std::string detail) const {
     return {pointer(), code, std::move(detail)};
   }
-  /// When to end reading the document, which must be there.
+  /// The work that ends the reading of the document, which must be there.
   core::Work& stop() const { return *document_->work; }
   /// Counts faults of the document that are not described.
   void count_more_faults(std::size_t faults) const { document_->faults.count_more(faults); }
-  /// Faults of the document so far.
+  /// The number of faults of the document so far.
   std::size_t fault_count() const { return document_ != nullptr ? document_->faults.count() : 0; }
 
  private:
@@ -110,7 +112,7 @@ class JsonReader {
   std::string_view note_on_null() const;
 
   JsonDocument* document_ = nullptr;
-  std::optional<JsonValue> value_;  // in the document; none: absent
+  std::optional<JsonValue> value_;  // the value in the document; none: absent
 };
 
 class JsonReader::Items {
@@ -124,14 +126,14 @@ class JsonReader::Items {
       ++*at_;
       return *this;
     }
-    /// Also true when the reading is stopped; to be compared with the end only.
+    /// Whether the loop ends, which is also true when the reading is stopped. Compare it with the end only.
     bool operator==(const Iterator& end) const {
       return !end.at_ || *at_ == *end.at_ || document_->work->met_after(kWorkOfAValue);
     }
 
    private:
     JsonDocument* document_;
-    std::optional<JsonValue::Children::Iterator> at_;  // none: of an absent array
+    std::optional<JsonValue::Children::Iterator> at_;  // none: the array is absent
   };
 
   explicit Items(const JsonReader& container);
@@ -139,7 +141,7 @@ class JsonReader::Items {
   Iterator end() const { return end_; }
 
  private:
-  // What an item costs that is read, in bytes of text.
+  // The work of reading an item, in bytes of text.
   static constexpr std::size_t kWorkOfAValue = 64;
 
   Iterator begin_;

@@ -99,7 +99,7 @@ std::optional<JsonValue> JsonValue::find(std::string_view key) const {
 }
 
 JsonPlace JsonValue::ends() const {
-  // After all that is inside; of two values that end together, the inner one ends first.
+  // This is after all that is inside; of two values that end together, the inner one ends first.
   return (JsonPlace{held().next} << 33U) - 1 - node_;
 }
 

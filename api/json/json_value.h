@@ -14,7 +14,7 @@ namespace fleetplan::api {
 
 class JsonValue;
 
-/// Where something is in its document; comparable, otherwise meaningless.
+/// The place of something in its document; comparable, otherwise meaningless.
 using JsonPlace = std::uint64_t;
 
 /// The nodes of a document. The text has to outlive it.
@@ -29,7 +29,7 @@ class JsonTape {
   void add_natural(std::uint64_t number) { add(Kind::natural, {.natural = number}); }
   void add_integer(std::int64_t number) { add(Kind::integer, {.integer = number}); }
   void add_real(double number) { add(Kind::real, {.real = number}); }
-  /// A string or a key, whose characters end before `end` in the text if they have no escapes.
+  /// Adds a string or a key, whose characters end before `end` in the text if they have no escapes.
   void add_string(std::string_view string, std::size_t end);
   /// Begins an array or object; returns its node.
   std::uint32_t open(Kind kind);
@@ -37,7 +37,7 @@ class JsonTape {
 
   std::size_t size() const { return nodes_.size(); }
   JsonValue root() const;
-  /// The value at a node; of a key, its string.
+  /// Returns the value at a node; at the node of a key, its string.
   JsonValue value(std::uint32_t node) const;
 
  private:
@@ -58,7 +58,7 @@ class JsonTape {
   struct Node {
     Kind kind;
     std::uint32_t next;  // the node after this one and all that is in it
-    Data data;           // of an array or object: the number of items or members
+    Data data;           // for an array or object: the number of items or members
   };
   static_assert(sizeof(Node) == 16);
 
@@ -78,23 +78,23 @@ class JsonValue {
 
   bool is_null() const { return held().kind == JsonTape::Kind::null; }
   std::optional<bool> boolean() const;
-  /// Any number as a double; infinite when it was too large for one.
+  /// Returns any number as a double; infinite when it was too large for one.
   std::optional<double> number() const;
-  /// A number that is a whole one from 0 to 2^64 - 1 (also when written like 5.0).
+  /// Returns a whole number from 0 to 2^64 - 1, also when written like 5.0; none for other values.
   std::optional<std::uint64_t> natural() const;
-  /// A number that is written as a whole one from -2^63 to -1.
+  /// Returns a number that is written as a whole one from -2^63 to -1; none for other values.
   std::optional<std::int64_t> integer() const;
   std::optional<std::string_view> string() const;
   bool is_array() const { return held().kind == JsonTape::Kind::array; }
   bool is_object() const { return held().kind == JsonTape::Kind::object; }
-  /// Items of an array or members of an object; 0 for another value.
+  /// The number of items of an array or members of an object; 0 for another value.
   std::size_t size() const { return is_array() || is_object() ? held().data.natural : 0; }
 
-  /// The items of an array, or the values of the members of an object.
+  /// Returns the items of an array, or the values of the members of an object.
   Children children() const;
-  /// An item of an array; takes time in proportion to the index.
+  /// Returns an item of an array, in time proportional to the index.
   JsonValue item(std::size_t index) const;
-  /// The first member of that name of an object.
+  /// Returns the first member of that name of an object.
   std::optional<JsonValue> find(std::string_view key) const;
   /// The key of a value that is a member of an object.
   std::string_view key() const { return tape_->string(tape_->nodes_[node_ - 1]); }
@@ -132,8 +132,8 @@ class JsonValue::Children {
 
    private:
     const JsonTape* tape_;
-    std::uint32_t node_;  // of the value, or of its key
-    std::uint32_t keys_;  // before each value: 1 in an object
+    std::uint32_t node_;  // the node of the value, or of its key
+    std::uint32_t keys_;  // nodes of a key before each value: 1 in an object
   };
 
   Children(Iterator begin, Iterator end) : begin_(begin), end_(end) {}

@@ -10,8 +10,8 @@ namespace fleetplan::api {
 
 namespace {
 
-/// At the begin of a text that is not valid UTF-8: the bytes up to the first that cannot continue the
-/// character, at least one.
+/// Returns the number of bytes, at the begin of a text that is not valid UTF-8, up to the first byte that
+/// cannot continue the character; at least one.
 std::size_t invalid_bytes(std::string_view text) {
   const auto byte = [&](std::size_t index) { return static_cast<unsigned char>(text[index]); };
   const unsigned lead = byte(0);
@@ -124,7 +124,7 @@ void JsonWriter::append_string(std::string_view text) {
   text_ += '"';
 }
 
-// The depth of a document is limited when it is read.
+// The recursion ends, as the depth of a document is limited when it is read.
 void copy_json(JsonWriter& json, const JsonValue& value) {  // NOLINT(misc-no-recursion)
   if (value.is_object()) {
     json.begin_object();

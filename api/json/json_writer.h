@@ -38,16 +38,16 @@ class JsonWriter {
     return raw(std::to_string(number));
   }
 
-  /// A value that is JSON text.
+  /// Writes a value that is JSON text.
   JsonWriter& json(std::string_view text) { return raw(text); }
-  /// A member: its key and its value.
+  /// Writes a member: its key and its value.
   template <typename Value>
   JsonWriter& member(std::string_view name, const Value& held) {
     return key(name).value(held);
   }
 
   void reserve(std::size_t bytes) { text_.reserve(bytes); }
-  /// The text so far; leaves the writer empty.
+  /// Returns the text so far, and leaves the writer empty.
   std::string take() { return std::move(text_); }
 
  private:

@@ -28,7 +28,7 @@ std::uint32_t byte_at(std::string_view text, std::size_t at) {
   return at < text.size() ? static_cast<unsigned char>(text[at]) : 0U;
 }
 
-/// The length of the character of UTF-8 at the offset, which is not ASCII; 0 if it is invalid.
+/// Returns the length of the character of UTF-8 at the offset, which is not ASCII; 0 if it is invalid.
 std::size_t character_length(std::string_view text, std::size_t at) {
   const auto continues = [&](std::size_t offset) { return (byte_at(text, at + offset) & 0xC0U) == 0x80U; };
   const std::uint32_t first = byte_at(text, at);
@@ -64,7 +64,7 @@ void append_utf8(std::string& text, std::uint32_t code) {
   }
 }
 
-/// The number of four hexadecimal digits.
+/// Returns the number that four hexadecimal digits stand for.
 std::optional<std::uint32_t> hexadecimal(std::string_view text, std::size_t at) {
   std::uint32_t number = 0;
   for (std::size_t index = at; index < at + 4; ++index) {
@@ -81,7 +81,7 @@ std::optional<std::uint32_t> hexadecimal(std::string_view text, std::size_t at) 
   return number;
 }
 
-/// Appends the character of an escape that begins with \u; its length, or 0.
+/// Appends the character of an escape that begins with \u. Returns the length of the escape, or 0.
 std::size_t append_coded(std::string& text, std::string_view from, std::size_t at) {
   const auto code = hexadecimal(from, at + 2);
   if (!code || (*code >= 0xDC00U && *code <= 0xDFFFU)) return 0;
@@ -96,7 +96,7 @@ std::size_t append_coded(std::string& text, std::string_view from, std::size_t a
   return 12;
 }
 
-/// Appends the character of an escape; its length, or 0.
+/// Appends the character of an escape. Returns the length of the escape, or 0.
 std::size_t append_escaped(std::string& text, std::string_view from, std::size_t at) {
   constexpr std::string_view kLetters = "\"\\/bfnrt";
   constexpr std::string_view kMeant = "\"\\/\b\f\n\r\t";
@@ -141,7 +141,7 @@ struct DecodedString {
   std::size_t length = 0;
 };
 
-/// The string at the begin of a text, as far as its quote. Nothing if it is not valid.
+/// Returns the string at the begin of a text, as far as its quote; none if it is not valid.
 std::optional<DecodedString> decode_string(std::string_view text) {
   DecodedString decoded;
   std::size_t at = 0;
@@ -199,7 +199,7 @@ class Parser {
     std::size_t size = 0;
   };
 
-  /// Reports what was read, a stride at a time.
+  /// Reports what was read to the Work, a stride at a time. Returns true when reading has to end.
   bool pause() {
     for (; static_cast<std::size_t>(at_ - looked_at_) > core::Work::kStride;
          looked_at_ += core::Work::kStride) {
@@ -208,7 +208,7 @@ class Parser {
     return false;
   }
 
-  /// False at the end of the text.
+  /// Skips white space. Returns false at the end of the text.
   bool skip_space() {
     while (at_ != end_ && (*at_ == ' ' || *at_ == '\n' || *at_ == '\r' || *at_ == '\t')) ++at_;
     return at_ != end_;
@@ -222,7 +222,8 @@ class Parser {
     frames_.pop_back();
   }
 
-  /// A value; of an array or object that is not empty, as far as its first one that is neither.
+  /// Reads a value. If it is an array or object that is not empty, reads as far as its first value that is
+  /// neither.
   bool value() {
     while (skip_space()) {
       if (!frames_.empty()) ++frames_.back().size;
@@ -306,7 +307,7 @@ class Parser {
     return true;
   }
 
-  /// A number with a fraction or an exponent, by the grammar of JSON.
+  /// Reads a number with a fraction or an exponent, by the grammar of JSON.
   bool real(const char* first) {
     if (is_digit(*at_)) return false;
     if (*at_ == '.' && !digits_after(1)) return false;

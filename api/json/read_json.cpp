@@ -21,7 +21,7 @@ namespace fleetplan::api {
 
 namespace {
 
-// Up to here comparing all pairs is faster than sorting.
+// The number of members up to which comparing all pairs is faster than sorting.
 constexpr std::size_t kFewMembers = 16;
 
 class DuplicateKeys {
@@ -38,8 +38,8 @@ class DuplicateKeys {
 
  private:
   struct Member {
-    std::uint32_t hash;  // of the key
-    std::uint32_t node;  // of the value
+    std::uint32_t hash;  // hash of the key
+    std::uint32_t node;  // node of the value
   };
 
   std::string_view key(const Member& member) const { return document_.tape.value(member.node).key(); }
@@ -68,7 +68,7 @@ class DuplicateKeys {
     }
   }
 
-  /// Sorts by key, and equal ones in the order of the document; false if it was stopped.
+  /// Sorts members by key, and equal ones in the order of the document. Returns false if it was stopped.
   bool sort(std::vector<Member>& members) {
     const auto before = [this](const Member& a, const Member& b) {
       if (a.hash != b.hash) return a.hash < b.hash;
@@ -93,7 +93,7 @@ class DuplicateKeys {
 /// Takes n log n time for n members, whatever their keys.
 void report_duplicate_keys(JsonDocument& document) { DuplicateKeys(document).report(); }
 
-// No request comes near: 32 MiB of actions are 4 million values.
+// The most values of a document. No request comes near: 32 MiB of actions are 4 million values.
 constexpr std::size_t kMostValues = 5'000'000;
 
 /// A text as the parser reads it: as a stream, which ends early when the reading is stopped.
@@ -253,7 +253,8 @@ bool Builder::added() {
   return !too_many();
 }
 
-/// Where a number ends that begins at the offset, by the grammar of JSON; what follows is not looked at.
+/// Returns where a number ends that begins at the offset, by the grammar of JSON; what follows is not looked
+/// at.
 std::size_t number_end(std::string_view text, std::size_t at) {
   const auto skip = [&](std::string_view any_of) {
     if (at >= text.size() || any_of.find(text[at]) == std::string_view::npos) return false;
@@ -280,8 +281,8 @@ struct Tamed {
   std::vector<std::size_t> overflowing;
 };
 
-/// The parser stops at a number that is too large; to report it together with all other faults, a body that
-/// has one is read a second time without them.
+/// Replaces numbers that are too large. The parser stops at such a number; to report it together with all
+/// other faults, a body that has one is read a second time without them.
 Tamed tame_overflowing(std::string_view body, core::Work& stop) {
   Tamed tamed{std::string(body), {}};
   std::string& text = tamed.body;

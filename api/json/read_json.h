@@ -19,7 +19,7 @@ namespace fleetplan::api {
 struct JsonDocument {
   JsonTape tape;
   FaultList faults;
-  core::Work* work = nullptr;  // that is done when the document is read
+  core::Work* work = nullptr;  // counts the work of reading the document
 
   JsonValue root() const { return tape.root(); }
 };
@@ -36,19 +36,19 @@ struct JsonError {
   std::string detail;
 };
 
-/// Reads a body; arrays and objects may nest up to `max_depth` deep. Of two members with the same key the
-/// first counts, and the later is a fault. Uses no stack that grows with the body.
+/// Reads a body. Arrays and objects may nest up to `max_depth` deep. Of two members with the same key the
+/// first counts, and the later one is a fault. Uses no stack that grows with the body.
 Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, core::Work& work);
 
-/// The values of a text that is JSON, read several times as fast as by the general parser, which megabytes of
-/// numbers or a large image need. Nothing if it is not JSON, nests deeper than `max_depth`, has more than
-/// `max_values` values or a number beyond the range of doubles or of 18 digits, or if the stop is met: then
-/// the general parser has the answer, and says what is wrong.
+/// Returns the values of a text that is JSON. Reads them several times as fast as the general parser, which
+/// megabytes of numbers or a large image need. Returns none if the text is not JSON, nests deeper than
+/// `max_depth`, has more than `max_values` values or a number beyond the range of doubles or of 18 digits, or
+/// if the stop is met. Then the general parser has the answer, and says what is wrong.
 std::optional<JsonTape> parse_valid_json(std::string_view text, std::size_t max_depth, std::size_t max_values,
                                          core::Work& stop);
 
-/// How many bytes from the begin are characters of a JSON string as they are (RFC 8259, section 7): valid
-/// UTF-8 without quotes, backslashes and control characters.
+/// Returns how many bytes from the begin are characters of a JSON string as they are (RFC 8259, section 7):
+/// valid UTF-8 without quotes, backslashes and control characters.
 std::size_t plain_length(std::string_view text);
 
 }  // namespace fleetplan::api

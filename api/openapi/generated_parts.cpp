@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 
 const ParsedOptions kDefaults;
 
-/// Whole numbers without a decimal point.
+/// Returns a number as JSON; whole numbers have no decimal point.
 Json number(double value) {
   constexpr double kLargestWhole = 1e15;
   if (std::abs(value) > kLargestWhole || std::floor(value) != value) return value;
@@ -105,8 +105,8 @@ Json schema_of(const OptionRow& row) {
   return schema;
 }
 
-/// The schema PlanOptions, from the table of options. `x-unit`: the unit's symbol; `x-enumDescriptions`: what
-/// each word means.
+/// Returns the schema PlanOptions, from the table of options. `x-unit`: the unit's symbol;
+/// `x-enumDescriptions`: what each word means.
 Json options_schema() {
   Json properties;
   for (const OptionRow& row : option_table()) properties[std::string(row.name)] = schema_of(row);
@@ -224,7 +224,7 @@ Json examples_of(int status) {
   return examples;
 }
 
-/// When a status is returned: by code, where it has several.
+/// Returns when a status is returned: by code, where it has several.
 std::string description_of(const std::vector<ErrorRow>& rows) {
   if (rows.size() == 1) return std::string(rows.front().description);
   std::string text;
@@ -257,7 +257,7 @@ Json response_of(const Response& response) {
       {"description", description_of(rows)}, {"headers", headers}, {"content", {{kProblemJson, content}}}};
 }
 
-/// The document's `components.responses`, from the table of errors: one for each status.
+/// Returns the document's `components.responses`, from the table of errors: one for each status.
 Json error_responses() {
   Json responses;
   for (const Response& response : kResponses)
@@ -269,7 +269,7 @@ constexpr std::size_t kLineLength = 110;
 
 std::string key_text(const std::string& key) { return Json(key).dump() + ": "; }
 
-/// Prettier writes exponents without a plus sign.
+/// Returns the text of a number as Prettier writes it: exponents have no plus sign.
 std::string number_text(const Json& number) {
   std::string text = number.dump();
   std::erase(text, '+');
@@ -286,7 +286,8 @@ std::string on_one_line(const Json& value) {
   return value.is_object() ? "{ " + text + " }" : "[" + text + "]";
 }
 
-/// Prettier gives every item its line where several items have several members each.
+/// Whether Prettier gives every item a line of its own: it does where several items have several members
+/// each.
 bool needs_lines(const Json& value) {
   if (!value.is_structured()) return false;
   const auto has_several = [](const Json& item) { return item.is_structured() && item.size() > 1; };
@@ -295,9 +296,9 @@ bool needs_lines(const Json& value) {
          std::any_of(value.begin(), value.end(), needs_lines);
 }
 
-/// The text of a value in the layout of Prettier: two spaces of indent, lines of at most 110 characters,
-/// values that fit on one line. `indent`: of the line on which it begins; `used`: characters on that line
-/// before it.
+/// Returns the text of a value in the layout of Prettier: two spaces of indent, lines of at most 110
+/// characters, values that fit on one line. `indent`: of the line on which it begins; `used`: characters on
+/// that line before it.
 std::string document_text(const Json& value, std::size_t indent, std::size_t used) {
   std::string line = on_one_line(value);
   const bool fits = used + line.size() <= kLineLength && !needs_lines(value);

@@ -19,7 +19,7 @@ namespace {
 using core::PlanOptions;
 using Word = WordOption::Word;
 
-// A longer budget is clamped to the service's maximum.
+// The range of the budget. A longer one is clamped to the service's maximum.
 constexpr Range kBudget{1.0, std::numeric_limits<double>::max(), "milliseconds"};
 constexpr std::uint64_t kMostSeed = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint64_t kMostIterations = std::numeric_limits<std::int64_t>::max();
@@ -102,22 +102,21 @@ constexpr std::array<OptionRow, 21> kTable{{
     {"max_iterations", "Improvement steps", "", BoundOption{kMostIterations, &PlanOptions::max_iterations},
      "Bounds `anytime` by a number of improvement steps instead of the clock."},
     {"replan", "Previous plans", "", one_of<&PlanOptions::replan>(kReplans),
-     "What becomes of `previous` plans that still hold. `all`: the search begins with them and improves "
-     "them. `where_needed`: they are kept, unless a robot could not be planned otherwise."},
+     "How `previous` plans that still hold are used. `all`: the search begins with them and improves them. "
+     "`where_needed`: they are kept, unless a robot could not be planned otherwise."},
     {"horizon", "Horizon", "s", ChosenOption{kHorizon, &PlanOptions::horizon},
      "Seconds up to which conflicts are resolved. A plan may stop there before its goal, with `ends_at` "
      "`horizon` and its `estimated_cost`, where the robot may rest for good; the next plan goes on from it. "
-     "By "
-     "default, whole ways are planned."},
+     "By default, whole ways are planned."},
     {"interval_margin", "Time margin", "s", RealOption{kDuration, &PlanOptions::interval_margin},
-     "Seconds by which robots may be early or late without meeting: any two keep clear of each other at "
+     "Seconds by which robots may be early or late without a collision: any two keep clear of each other at "
      "times that differ by up to so much. Not between committed motions, nor of robots that have not left "
      "their start or the end of their committed actions."},
     {"start_overlap", "Overlap at the start", "m", RealOption{kLengthOrZero, &PlanOptions::start_overlap},
      "Metres by which measured starts may overlap each other or a wall, inflation included. Such robots come "
      "no nearer until they are clear."},
     {"invalid_robots", "Invalid robots", "", one_of_invalid_robots(),
-     "What becomes of robots whose poses or committed actions collide: `refuse` answers 422; `report` lists "
+     "What to do with robots whose poses or committed actions collide: `refuse` answers 422; `report` lists "
      "them in `unplanned` with the reason `invalid` and their `errors`, as obstacles at their starts, and "
      "plans the others."},
     {"lattice_spacing", "Lattice spacing", "m", ChosenOption{kLength, &PlanOptions::lattice_spacing},
@@ -125,8 +124,8 @@ constexpr std::array<OptionRow, 21> kTable{{
      "resolution of the map; on a map whose cells are at most a quarter of the smallest radius, about that "
      "radius. Clearance to obstacles is exact in any case."},
     {"dependencies", "Dependencies", "", AnswerBooleanOption{&ParsedOptions::dependencies},
-     "Adds `dependencies` and `tight` to the answer: what robots must ask of each other so that they can "
-     "execute the plan at their own pace. See docs/execution.md."},
+     "Adds `dependencies` and `tight` to the answer: which robot has to wait for which other one, and where, "
+     "when robots execute the plan at their own pace. See docs/execution.md."},
     {"dependency_slack", "Slack of dependencies", "s",
      AnswerRealOption{kSlackInTime, &ParsedOptions::dependency_slack},
      "Seconds by which a robot on time reaches what another one must wait for before that one comes there; "
@@ -143,7 +142,7 @@ std::span<const OptionRow> option_table() { return kTable; }
 
 namespace {
 
-/// "4, 8, 16 or 32".
+/// Returns numbers as alternatives: "4, 8, 16 or 32".
 std::string alternatives(std::span<const int> values) {
   std::string text;
   for (std::size_t index = 0; index < values.size(); ++index) {

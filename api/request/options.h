@@ -19,19 +19,19 @@
 
 namespace fleetplan::api {
 
-/// What becomes of robots whose poses are at fault: the request is refused, or they are reported as invalid
-/// and all others are planned.
+/// What to do with robots whose poses are at fault: refuse the request, or report them as invalid and plan
+/// all others.
 enum class InvalidRobots { refuse, report };
 
 /// The member `options` of a request.
 struct ParsedOptions {
   core::PlanOptions plan;
   InvalidRobots invalid_robots = InvalidRobots::refuse;
-  bool dependencies = false;          // of the answer
+  bool dependencies = false;          // the answer has dependencies
   double dependency_slack = 0.1;      // seconds, > 0
-  double execution_margin = 0.0;      // metres, >= 0; that of a robot goes first
-  std::optional<double> budget_ms;    // as requested, >= 1; none: the service's default
-  std::vector<std::string> warnings;  // of options that are accepted, but without the expected effect
+  double execution_margin = 0.0;      // metres, >= 0; a robot's own margin takes precedence
+  std::optional<double> budget_ms;    // milliseconds, as requested, >= 1; none: the service's default
+  std::vector<std::string> warnings;  // about options that are accepted, but have not the expected effect
 };
 
 /// A member of the plan options.
@@ -80,7 +80,7 @@ struct BooleanOption {
   OptionField<bool> field;
 };
 
-/// A real number and a boolean for what is made of the plan.
+/// A real number, and below a boolean, that affect not the plan but the answer with it.
 struct AnswerRealOption {
   Range range;
   double ParsedOptions::*field;
@@ -102,7 +102,7 @@ struct WordOption {
 
 struct OptionRow {
   std::string_view name;
-  std::string_view title;  // for a form
+  std::string_view title;  // title of the field in a form
   std::string_view unit;   // symbol, e.g. "ms"; empty: none
   std::variant<RealOption, ChosenOption, ServiceOption, NaturalOption, BoundOption, CountOption,
                BooleanOption, AnswerRealOption, AnswerBooleanOption, WordOption>
@@ -110,21 +110,21 @@ struct OptionRow {
   std::string_view description;  // CommonMark
 };
 
-/// All options. The defaults are those of ParsedOptions.
+/// Returns all options. The defaults are those of ParsedOptions.
 std::span<const OptionRow> option_table();
 
 /// Reads the member `options`, by the table of options; what is left out has its default.
 ParsedOptions parse_options(const JsonReader& member);
 
-/// The requested budget, or the default one, but at most the service's maximum.
+/// Returns the requested budget, or the default one, but at most the service's maximum.
 std::chrono::nanoseconds effective_budget(const ParsedOptions& options, const Limits& limits);
 
-/// The warning of a budget that is less than requested.
+/// Returns the warning of a budget that is less than requested; none if it is not.
 std::optional<std::string> budget_warning(const ParsedOptions& options, const Limits& limits);
 
-/// Whether and which dependencies the answer is to have.
+/// Whether the answer is to have dependencies, and which.
 struct RequestedDependencies {
-  bool wanted = false;          // with a plan
+  bool wanted = false;          // the answer with a plan has dependencies
   double slack = 0.1;           // seconds, > 0
   std::vector<double> margins;  // by robot: metres, >= 0
 };

@@ -17,9 +17,9 @@ namespace fleetplan::api {
 
 namespace {
 
-/// A heading beyond a turn either way is probably in degrees.
+/// The greatest usual heading, radians: one beyond a turn either way is probably in degrees.
 constexpr double kUsualHeading = 6.2831853071795865;  // radians
-/// Beyond any robot: three turns a second, and 72 km/h.
+/// The greatest usual speeds, beyond those of any robot: three turns a second, and 72 km/h.
 constexpr double kUsualAngularSpeed = 20.0;  // radians per second
 constexpr double kUsualLinearSpeed = 20.0;   // metres per second
 
@@ -51,9 +51,9 @@ class Unusual {
   std::string first_;
 };
 
-/// Warnings about valid numbers that are probably in other units: headings of starts, goals and one-way
-/// zones, and speeds of robots; a sentence for each kind, with the first place and their number. `zones` is
-/// the member of the request, or absent. Costs less than reading the request.
+/// Returns warnings about valid numbers that are probably in other units: headings of starts, goals and
+/// one-way zones, and speeds of robots; a sentence for each kind, with the first place and their number.
+/// `zones` is the member of the request, or absent. Costs less than reading the request.
 std::vector<std::string> unit_warnings(const std::vector<ParsedRobot>& robots, const JsonReader& zones) {
   Unusual headings(kUsualHeading);
   Unusual turning(kUsualAngularSpeed);
@@ -98,7 +98,8 @@ ErrorCode code_of(JsonError::Kind kind) {
   return ErrorCode::invalid_request;
 }
 
-/// A fleet that is planned anew while it drives needs no start kept free: its plans begin where robots are.
+/// Sets the default of start_safe_interval. A fleet that is planned anew while it drives needs no start kept
+/// free: its plans begin where robots are.
 void set_default_start_safe_interval(const JsonReader& options, const std::vector<ParsedRobot>& robots,
                                      core::PlanOptions& plan) {
   const bool is_given = options && options.find("start_safe_interval");

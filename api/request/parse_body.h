@@ -1,6 +1,6 @@
 #pragma once
 
-// What the requests of both endpoints share: reading the body, and the map, the robots and the options in it.
+// The parts that requests share: reading the body, and the map, the robots and the options in it.
 
 #include <functional>
 #include <optional>
@@ -27,23 +27,23 @@ struct Fleet {
   std::optional<WorldMap> map;
   std::vector<ParsedRobot> robots;
   std::vector<core::MovingObstacle> obstacles;
-  std::vector<core::Zone> zones;  // robots: indices into `robots`
+  std::vector<core::Zone> zones;  // their robots are indices into `robots`
   ParsedOptions options;
   std::string metadata;  // see parse_metadata
 };
 
-/// With the margins of the options for robots that have none.
+/// Returns which dependencies are requested. Robots without a margin have that of the options.
 RequestedDependencies requested_dependencies(const Fleet& fleet);
 
-/// Reads them from the root of the document. `set_budget` gets the options, which are read first.
+/// Reads the fleet from the root of the document. `set_budget` gets the options, which are read first.
 Fleet parse_fleet(const JsonReader& root, const Limits& limits,
                   const std::function<void(const ParsedOptions&)>& set_budget);
 
 RequestError request_error(const JsonError& error, const core::Work& stop);
-/// The error with the faults that are listed, and the number of all. There must be one.
+/// Returns the error with the listed faults, of which there must be one, and the number of all.
 RequestError request_error(const FaultList& faults);
 
-/// The error of a request whose reading was stopped.
+/// Returns the error of a request whose reading was stopped.
 RequestError unfinished(const core::Work& stop);
 
 /// Reads a body whose root has these members. `parse` gets a reader of the root and the stop, which it may

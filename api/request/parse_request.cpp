@@ -20,11 +20,11 @@ namespace {
 
 struct MadeProblem {
   core::Problem problem;
-  /// Why each robot is invalid; empty lists for the others, or no lists at all.
+  /// The faults of each invalid robot; empty lists for the others, or no lists at all.
   std::vector<std::vector<Fault>> errors;
 };
 
-/// What it costs to look up a robot of a zone, in bytes of text.
+/// The work of looking up a robot of a zone, in bytes of text.
 constexpr std::size_t kWorkOfAZoneRobot = 4;
 
 bool is_of_a_pair(const core::ProblemFault& found) {
@@ -43,7 +43,7 @@ class ProblemMaker {
         map_(maps != nullptr ? maps->map_of(std::move(fleet.map->grid), stop.reading())
                              : core::static_map(std::move(fleet.map->grid), stop.reading())),
         reports_(reports()) {
-    // What could not be read may be what would make committed motion valid.
+    // A part that could not be read may be what would make committed motion valid.
     const bool poses_only = root.fault_count() > 0;
     for (std::size_t index = 0; index < fleet.robots.size(); ++index) {
       if (!fleet.robots[index].placed) continue;
@@ -82,14 +82,14 @@ class ProblemMaker {
     }
   }
 
-  /// A request with other faults is refused anyway.
+  /// Whether invalid robots are reported. A request with other faults is refused anyway.
   bool reports() const {
     return fleet_.options.invalid_robots == InvalidRobots::report && root_.fault_count() == 0;
   }
 
   static core::Robot taken(ParsedRobot& read, bool poses_only) {
     core::Robot robot = std::move(read.robot);
-    read.robot.id = robot.id;  // for messages
+    read.robot.id = robot.id;  // id for messages
     if (!poses_only) return robot;
     robot.committed.clear();
     robot.previous.reset();
@@ -107,7 +107,7 @@ class ProblemMaker {
     return conditions;
   }
 
-  /// The zones with the robots that are placed. One that is for none of these is for nobody.
+  /// Returns the zones with the robots that are placed. A zone that is for none of these is for no robot.
   std::vector<core::Zone> zones() const {
     std::vector<core::Zone> zones = fleet_.zones;
     for (core::Zone& zone : zones) {
@@ -126,7 +126,7 @@ class ProblemMaker {
     return zones;
   }
 
-  /// Makes the robots at fault invalid; false if all of them were before.
+  /// Makes the robots at fault invalid. Returns false if all of them were invalid before.
   bool mark_invalid(const core::ProblemFaults& faults) {
     bool any = false;
     for (const core::ProblemFault& found : faults.listed) {
@@ -156,17 +156,17 @@ class ProblemMaker {
   core::Work& stop_;
   std::shared_ptr<const core::StaticMap> map_;
   bool reports_;
-  std::vector<core::Robot> robots_;   // that are placed
-  std::vector<std::size_t> indices_;  // of each of them in the fleet
+  std::vector<core::Robot> robots_;   // the robots that are placed
+  std::vector<std::size_t> indices_;  // index of each of these robots in the fleet
   std::vector<std::vector<Fault>> errors_;
 };
 
-/// The problem of a fleet with a map, and of its robots whose radius and start could be read; the faults of
-/// other robots hide none of these. Takes the map, the actions, the goals and the obstacles out of the fleet.
-/// Poses in obstacles, overlapping starts or last goals and committed motion that collides are faults; then
-/// there is no problem, nor if the stop is met. If invalid robots are to be reported, there is one: these
-/// robots are in it as invalid ones, which stand at their starts. `maps` has those of earlier requests; may
-/// be null.
+/// Makes the problem of a fleet with a map, and of its robots whose radius and start could be read; the
+/// faults of other robots hide none of these. Takes the map, the actions, the goals and the obstacles out of
+/// the fleet. Poses in obstacles, overlapping starts or last goals and committed motion that collides are
+/// faults; then there is no problem, nor if the stop is met. If invalid robots are to be reported, there is a
+/// problem, in which they are invalid and stand at their starts. `maps`, which may be null, has those of
+/// earlier requests.
 std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, core::Work& stop,
                                         core::MapCache* maps) {
   return ProblemMaker(fleet, root, stop, maps).run();
@@ -175,7 +175,7 @@ std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, co
 constexpr std::array<std::string_view, 7> kPlanRequestMembers{
     "map", "robot_defaults", "robots", "obstacles", "zones", "options", "metadata"};
 
-/// `errors`: of each robot, or none.
+/// Returns what answers repeat of the robots. `errors` are those of each robot, or none.
 std::vector<ReceivedRobot> received(std::vector<ParsedRobot>& robots,
                                     std::vector<std::vector<Fault>> errors) {
   std::vector<ReceivedRobot> received(robots.size());

@@ -1,6 +1,6 @@
 #pragma once
 
-// The bodies of requests to plan, to validate and to simulate. Each has its source.
+// The bodies of requests to plan, to validate and to simulate. Each kind has its own source file.
 
 #include <chrono>
 #include <cstddef>
@@ -31,23 +31,23 @@ namespace fleetplan::api {
 
 /// A valid body of POST /v1/plan.
 struct PlanRequest {
-  core::Problem problem;  // in the map frame
+  core::Problem problem;  // problem in the map frame
   core::PlanOptions options;
-  std::chrono::nanoseconds budget;  // the smaller of the request's and the service's
+  std::chrono::nanoseconds budget;  // the smaller one of the request's budget and the service's
   WorldFrame frame;
   std::vector<std::string> warnings;
-  std::vector<ReceivedRobot> received;  // of each robot
+  std::vector<ReceivedRobot> received;  // by robot
   std::string metadata;                 // see parse_metadata
   RequestedDependencies dependencies;
 };
 
-/// Reads a body of POST /v1/plan; ends with `parse_unfinished` or `draining` when the stop is met. `maps` has
-/// those of earlier requests; may be null.
+/// Reads a body of POST /v1/plan; ends with `parse_unfinished` or `draining` when the stop is met. `maps`,
+/// which may be null, has those of earlier requests.
 Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits, core::Work& stop,
                                                 core::MapCache* maps = nullptr);
 
-/// A readable body of POST /v1/validate. Robots may overlap obstacles and each other: the checker reports
-/// that.
+/// A readable body of POST /v1/validate. Robots may overlap obstacles and each other, which the checker
+/// reports.
 struct ValidateRequest {
   core::OccupancyGrid grid;
   std::vector<core::Robot> robots;
@@ -56,7 +56,7 @@ struct ValidateRequest {
   std::vector<core::RobotPlan> plans;
   RequestedDependencies dependencies;
   core::CheckRules rules;             // the tolerance is in metres, seconds and radians
-  std::chrono::nanoseconds budget{};  // of the check
+  std::chrono::nanoseconds budget{};  // time for the check
 };
 
 /// Reads a body of POST /v1/validate; ends with `parse_unfinished` or `draining` when the stop is met.
@@ -67,7 +67,7 @@ Result<ValidateRequest, RequestError> parse_validate_request(std::string_view bo
 inline constexpr std::size_t kMostRuns = 100'000;
 
 /// A readable body of POST /v1/simulate. The actions of every plan are contiguous from the start of its robot
-/// on; whether plans collide is not judged. Robots without a plan have their committed actions as one.
+/// on; whether plans collide is not judged. A robot without a plan has its committed actions as its plan.
 struct SimulateRequest {
   core::OccupancyGrid grid;
   WorldFrame frame;
@@ -75,7 +75,7 @@ struct SimulateRequest {
   std::vector<core::RobotPlan> plans;
   std::vector<double> body_radii;  // metres, by robot
   core::ExecutionPolicy policy = core::ExecutionPolicy::open_loop;
-  double max_delay = 0.0;                           // seconds, of clock_stop
+  double max_delay = 0.0;                           // seconds, for clock_stop
   double wait_before_move = 0.0;                    // seconds, see PlanOptions
   std::vector<core::Dependency> dependencies = {};  // by robot
   core::SimulationSettings settings = {};

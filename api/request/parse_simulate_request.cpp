@@ -27,7 +27,7 @@ constexpr std::array<std::string_view, 2> kCrossTrackMembers{"sigma", "correlati
 constexpr Range kFactor{1e-3, 1e3, "times the planned speed"};
 constexpr double kLongestDelay = 1e6;  // seconds, eleven days
 constexpr Range kDelay{0.0, kLongestDelay, "seconds"};
-/// Ten a second: more would not let a robot move.
+/// The range of the rate of stops: more than ten a second would not let a robot move.
 constexpr Range kStopsRate{0.0, 36'000.0, "stops in an hour of motion"};
 
 core::UniformRange parse_range(const JsonReader& member, const Range& allowed,
@@ -85,9 +85,9 @@ constexpr std::array<std::string_view, 31> kSimulateRequestMembers{
 constexpr std::array<std::string_view, 4> kPolicies{"open_loop", "absorb_waits", "dependencies",
                                                     "clock_stop"};
 constexpr std::size_t kDefaultRuns = 100;
-constexpr std::uint64_t kMostSimulationSeed = std::numeric_limits<std::uint64_t>::max();  // as of the options
+constexpr std::uint64_t kMostSimulationSeed = std::numeric_limits<std::uint64_t>::max();  // like the options'
 
-/// Reports actions that do not go on from one another, and removes what is within the tolerance of that.
+/// Removes the gaps within the tolerance between the actions of each plan, and reports larger ones.
 void join_actions(const JsonReader& member, const std::vector<core::Robot>& robots,
                   std::vector<core::RobotPlan>& plans) {
   auto plan = plans.begin();
@@ -117,7 +117,7 @@ void parse_policy(const JsonReader& root, SimulateRequest& request) {
   }
 }
 
-/// A robot without a plan executes what is committed.
+/// Makes plans of the committed actions of robots that have no plan.
 void add_commitments(SimulateRequest& request) {
   std::vector<bool> has_plan(request.robots.size(), false);
   for (const core::RobotPlan& plan : request.plans) has_plan[plan.robot] = true;
@@ -138,7 +138,8 @@ void parse_all_dependencies(const JsonReader& root, SimulateRequest& request) {
   if (is_given) request.dependencies = parse_dependencies(member, request.robots, request.plans);
 }
 
-/// `runs`, `seed` and `trace`. Fewer runs if their figures would take more than a quarter of the memory.
+/// Reads `runs`, `seed` and `trace`. Runs are limited if their figures would take more than a quarter of the
+/// memory.
 void parse_runs(const JsonReader& root, const Limits& limits, SimulateRequest& request) {
   constexpr Range kRuns{1.0, static_cast<double>(kMostRuns), "runs"};
   const JsonReader member = root.find("runs");

@@ -24,14 +24,16 @@ constexpr double kDefaultTolerance = core::kMostTolerance;  // metres, seconds, 
 constexpr double kLargestTolerance = 1e9;
 constexpr Range kTolerance{0.0, kLargestTolerance, "(metres, seconds and radians)"};
 
-/// At least the default budget: the options may be those of the plan's request, which allowed less.
+/// Returns the budget of a check: at least the default one, as the options may be those of the plan's
+/// request, which allowed less.
 std::chrono::nanoseconds check_budget(ParsedOptions options, const Limits& limits) {
   const auto least = static_cast<double>(limits.default_budget_ms);
   if (options.budget_ms) options.budget_ms = std::max(*options.budget_ms, least);
   return effective_budget(options, limits);
 }
 
-/// Inflation and added waits are the planner's business: what it returns is checked with bare radii.
+/// Returns the rules of a check. Inflation and added waits are left out, as they are the planner's business:
+/// plans are checked with bare radii.
 core::CheckRules rules_of(const core::PlanOptions& options, std::vector<core::Meeting> meetings) {
   core::CheckRules rules;
   rules.interval_margin = options.interval_margin;

@@ -9,7 +9,7 @@
 
 namespace fleetplan::api {
 
-// The numbers that requests may have are those of the library.
+// The ranges of numbers in requests are those of the library.
 inline constexpr Range kLength{kShortestLength, kLargestExtent, "metres"};
 inline constexpr Range kLengthOrZero{0.0, kLargestExtent, "metres"};
 inline constexpr Range kCoordinate{-kFarthestCoordinate, kFarthestCoordinate, "metres"};
@@ -17,11 +17,11 @@ inline constexpr Range kLinearSpeed{kLeastLinearSpeed, kMostLinearSpeed, "metres
 inline constexpr Range kAngularSpeed{kLeastAngularSpeed, kMostAngularSpeed, "radians per second"};
 inline constexpr Range kDuration{0.0, kLongestTime, "seconds"};
 inline constexpr Range kHorizon{kShortestHorizon, kLongestTime, "seconds"};
-inline constexpr Range kSlackInTime{1e-3, kLongestTime, "seconds"};  // of dependencies
+inline constexpr Range kSlackInTime{1e-3, kLongestTime, "seconds"};  // slack of dependencies
 inline constexpr Range kAnyAngle{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
                                  "radians"};
-inline constexpr Range kFraction{0.0, 1.0, ""};  // of an action
-/// The number of an action or a goal of a robot; far beyond any limit of a request.
+inline constexpr Range kFraction{0.0, 1.0, ""};  // fraction of an action
+/// The greatest number of an action or a goal of a robot; far beyond any limit of a request.
 inline constexpr std::uint64_t kGreatestIndex = 1'000'000'000;
 
 }  // namespace fleetplan::api

@@ -15,13 +15,13 @@ namespace fleetplan::api {
 /// How many things of one kind a request may contain in total, wherever they are.
 class Quota {
  public:
-  /// `what`: in the plural, for the fault.
+  /// A quota of `most` things. `what` names them, in the plural, for the fault.
   Quota(std::size_t most, std::string_view what) : left_(most), most_(most), what_(what) {}
 
-  /// Whether all items of the array are within the limit. Only the first array beyond it is a fault; then
-  /// nothing more is.
+  /// Takes the items of an array from the quota. Returns whether all are within it. Only the first array
+  /// beyond it is a fault; all later ones are not.
   bool take(const JsonReader& array) { return take(array.size(), array); }
-  /// Whether so many items, which come from the value `place`, are within the limit.
+  /// Takes so many items, which come from the value `place`. Returns whether they are within the quota.
   bool take(std::size_t count, const JsonReader& place) {
     if (exceeded_) return false;
     exceeded_ = count > left_;
@@ -34,7 +34,7 @@ class Quota {
     return true;
   }
 
-  /// So many more fit.
+  /// The number of things that still fit.
   std::size_t left() const { return exceeded_ ? 0 : left_; }
 
  private:
@@ -49,7 +49,8 @@ class UniqueIds {
  public:
   enum class Kind { robot, obstacle };
 
-  /// `item`: of the robot or obstacle with this index. All robots come before the obstacles.
+  /// Checks the id of the robot or obstacle with this index, at its `item`. All robots come before the
+  /// obstacles.
   void check(Kind kind, const std::string& id, std::size_t index, const JsonReader& item) {
     if (id.empty()) return;
     const auto [first, is_new] = owner_.emplace(id, Owner{kind, index});
@@ -69,7 +70,7 @@ class UniqueIds {
     Kind kind;
     std::size_t index;
   };
-  std::unordered_map<std::string, Owner> owner_;  // of each id, the first one that has it
+  std::unordered_map<std::string, Owner> owner_;  // the first owner of each id
 };
 
 /// The most bytes of one object of metadata, written without spaces.

@@ -27,7 +27,7 @@ class Picture {
           << "\" fill=\"#fff\" stroke=\"#555\" stroke-width=\"" << std::max(width, height_) / 500 << "\"/>\n";
   }
 
-  /// Blocked cells; those beside each other in a row become one rectangle.
+  /// Draws the blocked cells; those beside each other in a row become one rectangle.
   void add_map() {
     const core::OccupancyGrid& grid = problem_.grid();
     const double side = grid.resolution();
@@ -59,7 +59,7 @@ class Picture {
 
   void add_planned(const core::RobotPlan& plan) {
     const Robot& robot = problem_.robots()[plan.robot];
-    // By the golden angle, so that neighbours in the list differ.
+    // Hues go on by the golden angle, so that neighbours in the list differ.
     const double hue = std::fmod(137.508 * static_cast<double>(plan.robot), 360.0);
     std::ostringstream colour;
     colour << "hsl(" << std::setprecision(4) << hue << ",70%,40%)";
@@ -98,7 +98,7 @@ class Picture {
           << "\" fill=\"" << fill << "\"/>";
   }
 
-  /// A disk with a line from its centre in the direction of its heading.
+  /// Draws a disk with a line from its centre in the direction of its heading.
   void add_standing(const Pose& pose, double radius, const std::string& fill) {
     add_disk(pose.position, radius, fill);
     text_ << "<path stroke=\"#fff\" d=\"M" << pose.position.x() << ' ' << height_ - pose.position.y() << 'l'

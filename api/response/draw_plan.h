@@ -11,14 +11,14 @@
 
 namespace fleetplan::api {
 
-/// A picture of a plan as SVG, one unit a metre: blocked cells, zones, and for each robot its disk at the
-/// start as a ring, its way, and its disk at the end with its heading. Robots without a plan are gray.
-/// Nothing if the stop is met first.
+/// Returns a picture of a plan as SVG, one unit a metre: blocked cells, zones, and for each robot its disk at
+/// the start as a ring, its way, and its disk at the end with its heading. Robots without a plan are gray.
+/// Returns none if the stop is met first.
 std::optional<std::string> draw_plan(const core::Problem& problem, const core::Plan& plan,
                                      const core::StopCondition& stop);
 
-/// The picture of draw_plan as a PNG, whose longer side has kPaintedSide pixels, without names. Nothing if
-/// the stop is met first.
+/// Returns the picture of draw_plan as a PNG, whose longer side has kPaintedSide pixels, without names.
+/// Returns none if the stop is met first.
 std::optional<std::string> paint_plan(const core::Problem& problem, const core::Plan& plan,
                                       const core::StopCondition& stop);
 

@@ -26,7 +26,8 @@ constexpr Colour kHeading{255, 255, 255};
 constexpr double kZoneOpacity = 0.2;
 constexpr double kThinnest = 0.7;  // pixels: half the width of a line, so that it has no gaps
 
-/// By the golden angle, so that neighbours in the list differ. Of 70 % saturation and 40 % lightness.
+/// Returns the colour of a robot, of 70 % saturation and 40 % lightness. Hues go on by the golden angle, so
+/// that neighbours in the list differ.
 Colour colour_of(std::size_t robot) {
   const double sixths = std::fmod(137.508 * static_cast<double>(robot), 360.0) / 60.0;
   const auto channel = [&](double shift) {
@@ -50,7 +51,7 @@ class Canvas {
   double pixel() const { return 1.0 / scale_; }
   bool stopped() const { return stop_.met(); }
 
-  /// Paints the pixels, at least one, of a box whose insides are told by their centres.
+  /// Paints the pixels, at least one, of a box whose centres `inside` accepts.
   template <typename Inside>
   void paint(const Position& low, const Position& high, const Colour& colour, const Inside& inside) {
     const int left = std::clamp(static_cast<int>(std::floor(low.x() * scale_)), 0, columns_ - 1);
@@ -64,9 +65,9 @@ class Canvas {
     }
   }
 
-  /// The inside of a polygon, row by row between its sides.
+  /// Paints the inside of a polygon, row by row between its sides.
   void paint(const std::vector<Position>& polygon, const Colour& colour, double opacity) {
-    std::vector<double> sides;  // where they cross the row
+    std::vector<double> sides;  // columns where sides cross the row
     for (int row = 0; row < rows_ && !stop_.met(); ++row) {
       const double y = centre(0, row).y();
       sides.clear();
@@ -85,7 +86,7 @@ class Canvas {
     }
   }
 
-  /// The image as a file; empty if the library fails.
+  /// Returns the image as a file; empty if the library fails.
   std::string png() const {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
@@ -104,7 +105,7 @@ class Canvas {
     return {(column + 0.5) / scale_, top_ - (row + 0.5) / scale_};
   }
 
-  /// The first column whose centre is not left of x.
+  /// Returns the first column whose centre is not left of x.
   int column_from(double x) const {
     return static_cast<int>(std::clamp(std::ceil(x * scale_ - 0.5), 0.0, static_cast<double>(columns_)));
   }
@@ -126,7 +127,7 @@ class Canvas {
   std::vector<std::uint8_t> pixels_;
 };
 
-/// A line with round ends, in pieces so small that their boxes have few pixels outside of it.
+/// Paints a line with round ends, in pieces so small that their boxes have few pixels outside of it.
 /// Bounded: asks the stop condition of the canvas; a line has at most as many pieces as the canvas pixels.
 void paint_line(Canvas& canvas, const Position& from, const Position& to, double width,
                 const Colour& colour) {
@@ -147,7 +148,7 @@ void paint_line(Canvas& canvas, const Position& from, const Position& to, double
   }
 }
 
-/// A disk without its inside up to `hole` metres from the centre.
+/// Paints a disk without its inside up to `hole` metres from the centre.
 void paint_disk(Canvas& canvas, const Position& centre, double radius, double hole, const Colour& colour) {
   const Position margin(radius, radius);
   canvas.paint(centre - margin, centre + margin, colour, [&](const Position& p) {
@@ -170,7 +171,7 @@ void paint_map(Canvas& canvas, const core::OccupancyGrid& grid) {
       const auto end = std::find(begin, cells.end(), 0);
       const Position low(static_cast<double>(begin - cells.begin()) * side, row * side);
       const Position high(static_cast<double>(end - cells.begin()) * side, (row + 1) * side);
-      // By less than a pixel, so that rounding does not add one.
+      // The inset is less than a pixel, so that rounding does not add one.
       const Position inset = Position::Constant(1e-6 * canvas.pixel());
       canvas.paint(low + inset, high - inset, kWall, [](const Position& /*p*/) { return true; });
       begin = std::find(end, cells.end(), 1);

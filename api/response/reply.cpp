@@ -66,7 +66,7 @@ Reply problem_reply(const RequestError& error, const std::string& request_id) {
   const ErrorRow& row = row_of(error.code);
   JsonWriter json;
   json.begin_object();
-  // A name, not an address: there is no page behind it.
+  // The type is a name, not an address: there is no page behind it.
   json.member("type", "urn:fleetplan:problem:" + std::string(row.name));
   json.member("title", row.title).member("status", row.status).member("detail", error.detail);
   json.member("code", row.name).member("request_id", request_id);

@@ -29,13 +29,13 @@ struct PlanOutcome {
   std::array<std::size_t, core::kUnplannedReasons> unplanned_by_reason = {};  // by Unplanned::Reason
 };
 
-/// As in answers, metrics and the log, e.g. "solved".
+/// Returns the status as it is in answers, metrics and the log, e.g. "solved".
 std::string_view name_of(PlanOutcome::Status status);
 
-/// As in answers and metrics, e.g. "goal_blocked".
+/// Returns the reason as it is in answers and metrics, e.g. "goal_blocked".
 std::string_view name_of(core::Unplanned::Reason reason);
 
-/// The status of a plan that the checker accepts.
+/// Returns the status of a plan that the checker accepts.
 PlanOutcome::Status status_of(const core::Plan& plan);
 
 PlanOutcome outcome_of(const core::Plan& plan, std::optional<double> plan_seconds);
@@ -49,11 +49,11 @@ struct Reply {
   std::string content_type = kJson;
   std::string body;
 
-  // For metrics and the log, not for the client.
+  // The members below are for metrics and the log, not for the client.
   std::string_view problem = {};  // the error's code, e.g. "not_found"; empty: none
   std::optional<PlanOutcome> outcome = std::nullopt;
 
-  /// What was needed to make the answer, to be freed once it is sent; null: nothing.
+  /// The objects that were needed to make the answer, to be freed once it is sent; null: nothing.
   std::shared_ptr<const void> leftovers = nullptr;
 };
 
@@ -62,13 +62,13 @@ class JsonWriter;
 /// Writes the member `errors`: faults of a request's content.
 void write_errors(JsonWriter& json, const std::vector<Fault>& faults);
 
-/// The error as application/problem+json, the problem details of RFC 9457.
+/// Returns the error as application/problem+json, the problem details of RFC 9457.
 Reply problem_reply(const RequestError& error, const std::string& request_id);
 inline Reply problem_reply(ErrorCode code, const std::string& detail, const std::string& request_id) {
   return problem_reply({code, detail, {}, 0}, request_id);
 }
 
-/// The answer to a request that gets no turn to compute.
+/// Returns the answer to a request that gets no turn to compute.
 Reply too_busy(const std::string& request_id);
 
 }  // namespace fleetplan::api

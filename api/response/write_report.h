@@ -10,12 +10,12 @@
 
 namespace fleetplan::api {
 
-/// The smallest clearance as answers report it, metres: contact, an overlap of at most kContactTolerance, is
-/// 0.
+/// Returns the smallest clearance as answers report it, metres: contact, an overlap of at most
+/// kContactTolerance, is 0.
 std::optional<double> reported_clearance(const core::VerifyReport& report);
 
-/// The answer of POST /v1/validate. It contains at most the first twenty violations and the
-/// number of all, with `"truncated": true` if there are more.
+/// Returns the answer of POST /v1/validate. It contains at most the first twenty violations and the number of
+/// all, with `"truncated": true` if there are more.
 std::string write_report(const core::VerifyReport& report, const std::vector<core::Robot>& robots,
                          const std::vector<core::MovingObstacle>& obstacles,
                          const std::vector<core::Zone>& zones);

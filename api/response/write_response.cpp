@@ -56,7 +56,7 @@ class ActionWriter {
     core::Position world;
   };
 
-  /// The action of the request that this one repeats, if it differs in the world; otherwise null.
+  /// Returns the action of the request that this one repeats, if it differs in the world; otherwise null.
   const core::Action* as_received(const core::Action& action, std::size_t index) const {
     if (index < robot_.committed.size() && same(action, robot_.committed[index])) {
       return received_.committed.find(index);
@@ -95,7 +95,7 @@ class ActionWriter {
   const core::Robot& robot_;
   const ReceivedRobot& received_;
   const core::Position& origin_;
-  std::optional<End> end_;  // of the last action with the numbers received
+  std::optional<End> end_;  // the end of the last action with the numbers received
 };
 
 }  // namespace
@@ -149,7 +149,7 @@ void write_metadata(JsonWriter& json, const std::string& metadata) {
   if (!metadata.empty()) json.key("metadata").json(metadata);
 }
 
-/// `metadata`: of the goals by their number, or none.
+/// Writes the member `visits`. `metadata` is that of the goals by their number, or none.
 void write_visits(JsonWriter& json, const std::vector<core::Visit>& visits,
                   const std::vector<std::string>& metadata) {
   json.key("visits").begin_array();
@@ -216,7 +216,7 @@ void write_timings(JsonWriter& json, const Stages& stages) {
   json.end_object();
 }
 
-/// The members about the plan as a whole.
+/// Writes the members about the plan as a whole.
 void write_summary(JsonWriter& json, const VerifiedPlan& verified) {
   const core::Plan& plan = verified.plan;
   json.member("flowtime", plan.objectives.flowtime).member("makespan", plan.objectives.makespan);

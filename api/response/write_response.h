@@ -25,7 +25,7 @@ struct Stages {
   using Time = Clock::time_point;
   Time received;  // last byte of the body in
   Time parsed;
-  Time started;  // its turn among others had come
+  Time started;  // the request has got its turn
   Time planned;
   Time verified;
 };
@@ -36,21 +36,21 @@ struct VerifiedPlan {
   const core::VerifyReport& report;
   const std::vector<core::Robot>& robots;
   const std::vector<core::MovingObstacle>& obstacles;
-  const std::vector<ReceivedRobot>& received;  // of each robot
-  const core::Position& origin;                // of the map in the world
+  const std::vector<ReceivedRobot>& received;  // by robot
+  const core::Position& origin;                // origin of the map in the world
   const std::vector<std::string>& warnings;
-  const std::string& metadata;            // of the request, as JSON; empty: none
+  const std::string& metadata;            // metadata of the request, as JSON; empty: none
   std::optional<double> lattice_spacing;  // metres; none: neither asked for nor chosen
-  /// Null: not asked for. Nothing in it: not made in time.
+  /// The dependencies of the answer; null if they were not asked for, none if they were not made in time.
   const std::optional<core::Dependencies>* dependencies = nullptr;
 };
 
-/// The answer of POST /v1/plan. Writing ends with the timings, so that they include it.
+/// Returns the answer of POST /v1/plan. Writing ends with the timings, so that they include it.
 std::string write_response(const VerifiedPlan& verified, const std::string& request_id, const Stages& stages);
 
 /// Writes the member `actions` of a robot. Committed actions, and previous ones that the plan repeats, have
-/// the numbers received; what follows begins with the position in which they end. `origin`: of the map in the
-/// world.
+/// the numbers received; what follows begins with the position in which they end. `origin` is that of the map
+/// in the world.
 void write_actions(JsonWriter& json, const std::vector<core::Action>& actions, const core::Robot& robot,
                    const ReceivedRobot& received, const core::Position& origin);
 

@@ -8,11 +8,11 @@
 
 namespace fleetplan::api {
 
-/// The `trace` of the answer. Returns none if `stop` is met first.
+/// Returns the `trace` of the answer; none if `stop` is met first.
 std::optional<std::string> write_trace(const core::SimulationTrace& trace, const SimulateRequest& request,
                                        const core::StopCondition& stop);
 
-/// The answer of POST /v1/simulate. `trace`: its text, if there is one.
+/// Returns the answer of POST /v1/simulate. `trace`: its text, if there is one.
 std::string write_simulation(const core::SimulationReport& report, const SimulateRequest& request,
                              const std::optional<std::string>& trace, const std::string& request_id);
 

@@ -135,7 +135,7 @@ class ProgressReader {
   std::vector<bool> seen_;
 };
 
-/// Ends early when the stop is met.
+/// Returns the routes of all robots. Ends early when the stop is met.
 std::vector<Route> routes_of(const VdaRequest& request, const std::vector<core::Actions>& actions,
                              double wait_before_move, core::Work& stop) {
   // A node is as much work as reading so many bytes.
@@ -158,7 +158,7 @@ std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Li
   request.header = read_header(root);
   const double wait_before_move = parse_options(root.find("options")).plan.wait_before_move;
   UniqueIds ids;
-  // Without the map's frame: orders are in the client's world.
+  // The map's frame is not applied, as orders are in the client's world.
   std::vector<ParsedRobot> robots =
       parse_robots(root.require("robots"), root.find("robot_defaults"), WorldFrame{}, limits, ids);
   request.plans = parse_plans(root.require("plans"), robots, WorldFrame{});

@@ -22,7 +22,7 @@ namespace fleetplan::api {
 
 enum class VdaVersion : std::uint8_t { v2_1, v3_0 };
 
-/// What all orders of an answer have.
+/// The members that all orders of an answer have.
 struct OrderHeader {
   VdaVersion version = VdaVersion::v2_1;
   std::string manufacturer;
@@ -44,7 +44,7 @@ struct Order {
 struct OrderProgress {
   core::ActionPlace at;
   std::optional<std::string> order_id;  // none: it has no order yet
-  std::uint64_t update_id = 0;          // of the last message
+  std::uint64_t update_id = 0;          // update of the last message
   std::uint64_t last_released = 0;      // the sequence id of the last node of the base
 };
 
@@ -63,7 +63,7 @@ inline constexpr std::array<std::string_view, 13> kVdaMembers{
     "version",  "map",          "map_id",         "robots",    "robot_defaults", "plans",   "dependencies",
     "progress", "manufacturer", "serial_numbers", "timestamp", "options",        "metadata"};
 
-/// Reads the root of the document. Nothing if it has faults, or if its stop is met.
+/// Reads the root of the document. Returns none if it has faults, or if its stop is met.
 std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Limits& limits,
                                                 core::Work& stop);
 

@@ -63,7 +63,7 @@ class RouteMaker {
     }
   }
 
-  /// `duration`: of the service, or of an added wait that ends with it.
+  /// Adds the service at a goal. `duration`: of the service, or of an added wait that ends with it.
   void serve(std::size_t number, double duration) {
     assume_heading();
     const core::Goal& goal = robot_.goal_at(number);
@@ -74,7 +74,7 @@ class RouteMaker {
     if (more > 0.0) stops.insert(stops.end() - 1, {{}, more, 0.0});
   }
 
-  /// Sees to it that the last node has the heading of now.
+  /// Makes the robot assume its present heading at the last node.
   void assume_heading() {
     const bool is_fixed = is_first() || !last().stops.empty();
     if (is_fixed && turned_) {
@@ -119,7 +119,7 @@ class RouteMaker {
   std::vector<core::ActionPlace>::const_iterator cuts_end_;
   Route route_;
   double heading_ = 0.0;
-  bool turned_ = false;  // since the last node's heading was fixed
+  bool turned_ = false;  // it has turned since the last node's heading was fixed
   double rotation_speed_ = 0.0;
 };
 

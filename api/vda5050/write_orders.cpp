@@ -89,7 +89,8 @@ void write_order(JsonWriter& json, const OrderHeader& header, const Order& order
   OrderWriter(json, header, order, route).write();
 }
 
-/// The order to send to a robot; nothing if it has no actions, or nothing more is released than it knows.
+/// Returns the order to send to a robot; none if it has no actions, or if nothing more is released than it
+/// knows.
 std::optional<Order> next_order(const VdaRequest& request, std::size_t robot, std::size_t released) {
   const OrderProgress& progress = request.progress[robot];
   const std::string& id = request.robots[robot].id;
@@ -114,7 +115,7 @@ void write_progress(JsonWriter& json, const Route& route, std::size_t first) {
   json.key("nodes").begin_array();
   for (std::size_t k = first; k < route.nodes.size(); ++k) {
     const core::ActionPlace& at = route.nodes[k].at;
-    // The end of an action is its progress 1.
+    // At the end of an action, its progress is 1.
     const bool is_end = at.fraction == 0.0 && at.action > 0;
     json.begin_object().member("sequence_id", 2 * k);
     json.member("action", is_end ? at.action - 1 : at.action);
@@ -126,7 +127,7 @@ void write_progress(JsonWriter& json, const Route& route, std::size_t first) {
 }  // namespace
 
 std::optional<std::string> write_orders(const VdaRequest& request, core::Work& stop) {
-  // The text of a node and its edge.
+  // The work of writing a node and its edge, in bytes of text.
   constexpr std::size_t kWorkOfANode = 1024;
   const std::vector<Route>& routes = request.routes;
   std::vector<core::ActionPlace> reached;

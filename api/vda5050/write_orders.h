@@ -7,9 +7,9 @@
 
 namespace fleetplan::api {
 
-/// The answer of POST /v1/export/vda5050: an order for each robot with actions that has none, and an update
-/// for each one of whose order more nodes can be released. With each, what its nodes mean for the plan.
-/// Nothing if the stop is met.
+/// Returns the answer of POST /v1/export/vda5050: an order for each robot with actions that has none, and an
+/// update for each one of whose order more nodes can be released. With each, it tells what its nodes mean for
+/// the plan. Returns none if the stop is met.
 std::optional<std::string> write_orders(const VdaRequest& request, core::Work& stop);
 
 }  // namespace fleetplan::api

@@ -58,7 +58,8 @@ class CornerVisibility::View {
  public:
   View(CornerVisibility& corners, double x, double y) : corners_(corners), x_(x), y_(y) {}
 
-  /// All that are visible, or all to which tangents lead from bends around this corner (at the viewpoint).
+  /// Returns the corners visible from the viewpoint, ascending. With `bend`, the corner at the viewpoint,
+  /// returns only those to which tangents lead from its bends.
   std::vector<int> find(const Corner* bend) {
     const int right_above = bend == nullptr ? 0 : -bend->away_x * bend->away_y;
     scan(true, right_above);
@@ -203,7 +204,7 @@ void CornerVisibility::find_corners() {
   // The rows on both sides of a line, and what is outside the map beside them.
   std::vector<std::uint8_t> below(columns + 2, 1);
   std::vector<std::uint8_t> above(columns + 2, 1);
-  std::vector<std::uint8_t> blocked(columns + 1);  // of the four cells around each grid point of the line
+  std::vector<std::uint8_t> blocked(columns + 1);  // among the four cells around each grid point
   for (int line = 0; line <= grid_.rows() && !stopped_at_step(); ++line) {
     std::swap(below, above);
     if (line < grid_.rows()) {

@@ -31,19 +31,19 @@ struct Corner {
 /// nor straight away from it. Not thread-safe.
 class CornerVisibility {
  public:
-  /// For disks of radii from `least_radius` to `most_radius` (metres, >= 0).
+  /// Finds corners for disks with radii from `least_radius` to `most_radius` (metres, >= 0).
   CornerVisibility(const OccupancyGrid& grid, double least_radius, double most_radius,
                    const StopCondition& stop);
 
-  /// Whether the stop condition was met: corners and what is visible may be incomplete from then on.
+  /// Whether the stop condition was met. From then on corners and what is visible may be incomplete.
   bool stopped() const { return stop_.met(); }
-  /// Like stopped(), for loops over corners: asks the stop condition once in a while.
+  /// Whether the stop condition was met, for loops over corners: asks it only once in a while.
   bool stopped_at_step() { return stop_.met_at_step(); }
 
   const OccupancyGrid& grid() const { return grid_; }
   int count() const { return corners_.next_index(); }
   const Corner& corner(int index) const { return corners_[index]; }
-  /// Metres.
+  /// The position of a corner, metres.
   Position position(int index) const {
     return grid_.resolution() * Position(corner(index).x, corner(index).y);
   }

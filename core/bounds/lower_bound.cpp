@@ -65,7 +65,8 @@ double lower_bound(const Robot& robot, const Motion& motion) {
 
 namespace {
 
-/// Radians; beside the direction by more, the robot goes away from it.
+/// The most, in radians, by which the line of a robot may be beside the direction: beyond that, the robot
+/// goes away from the goal.
 constexpr double kMostAside = std::numbers::pi / 2.0;
 
 /// Rotations and length when the robot's line comes within `aside` radians of the direction, at `end`.

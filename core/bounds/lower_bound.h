@@ -14,7 +14,7 @@ namespace fleetplan::core {
 
 /// The cost from a pose to the goal without obstacles, seconds: the straight line, the rotation into its
 /// direction and from there to the goal heading. The wait before moves is not included. No path costs less;
-/// docs/method.md, Lemma 1, proves it. For a robot that may reverse: a lower bound of the cost of all paths,
+/// docs/proofs.md, Lemma 1, proves it. For a robot that may reverse: a lower bound of the cost of all paths,
 /// also of those that go forwards and backwards beside the line (see reverse_bound).
 double straight_cost(const Pose& from, const Goal& goal, const Motion& motion);
 
@@ -42,7 +42,7 @@ double lower_bound(const Robot& robot, const Motion& motion);
 
 /// A lower bound of the cost of a robot that may reverse and gets `distance` metres (> 0) in a direction,
 /// from one heading to another one (none: any), seconds. Obstacles and waits are left out. The robot need not
-/// turn into the direction: it may go forwards and backwards beside it, on a longer way. docs/method.md,
+/// turn into the direction: it may go forwards and backwards beside it, on a longer way. docs/proofs.md,
 /// Lemma 4.
 double reverse_bound(double distance, double direction, std::optional<double> from_heading,
                      std::optional<double> to_heading, const Motion& motion);

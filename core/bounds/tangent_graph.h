@@ -62,11 +62,12 @@ struct Quadrant {
 /// A circle that a tangent touches, or a point where it ends.
 struct TangentEnd {
   Position center;
-  double offset;             // of the circle's centre to the left of the move, metres; 0: a point
+  double offset;             // metres from the move to the circle's centre, > 0 on the left; 0: a point
   const Quadrant* quadrant;  // null: a point
 };
 
-/// `offset` as in TangentEnd; `corner` is at `center`.
+/// Returns the end of a tangent that touches the circle around `corner`, which is at `center`. `offset`: as
+/// in TangentEnd.
 TangentEnd circle_around(const Corner& corner, const Position& center, double offset);
 inline TangentEnd at_point(const Position& point) { return {point, 0.0, nullptr}; }
 
@@ -108,19 +109,20 @@ class TangentGraph {
   /// that neither that nor rounding makes a path of the robot impossible for the disk.
   static constexpr double kRadiusReduction = 1e-7;
 
-  /// `radius` > 2 kRadiusReduction is the robot's, metres.
-  /// `stops_at_cell_centers`: as for TightGaps.
+  /// The graph for a robot of `radius` metres (> 2 kRadiusReduction). `stops_at_cell_centers`: whether
+  /// centres of cells are the only vertices of its lattice; otherwise no gap is tight.
   TangentGraph(CornerVisibility& corners, const LineOfSight& sight, double radius,
                bool stops_at_cell_centers = true);
 
-  /// Metres, reduced.
+  /// The radius of the disk, metres: that of the robot less kRadiusReduction.
   double radius() const { return radius_; }
   int bend_count() const { return 2 * corners_.count(); }
   static int index(const Bend& bend) { return 2 * bend.corner + (bend.left ? 1 : 0); }
 
   // Tangents that are returned may cross obstacles: see `is_free`.
 
-  /// All from a bend to others, by descending leave_angle; valid until the next call.
+  /// Returns the tangents from a bend to other bends, by descending leave_angle. They may cross obstacles,
+  /// see is_free(). The span is valid until the next call.
   std::span<const Tangent> from(const Bend& bend);
   std::optional<Tangent> from_point(const Position& point, const Bend& to);
   std::optional<Tangent> to_point(const Bend& from, const Position& point);
@@ -128,8 +130,8 @@ class TangentGraph {
   bool is_free(const Tangent& tangent);
   /// Whether the k-th tangent in `from(bend)` is free; the result is stored.
   bool is_free(const Bend& bend, int k);
-  /// Whether the disk can follow the arc between two places on the bend. True as well where obstacles reach
-  /// less than a piece of 5.6 degrees into it.
+  /// Whether the disk can follow the arc between two places on the bend. Obstacles that reach less than a
+  /// piece of 5.6 degrees into the arc may be overlooked.
   bool is_arc_free(const Bend& bend, double from_angle, double to_angle);
 
   /// The work done so far, in steps of 10 to 20 ns.
@@ -137,7 +139,7 @@ class TangentGraph {
 
  private:
   enum class Freedom : std::uint8_t { unknown, blocked, free };
-  struct Links {     // in tangents_
+  struct Links {     // a range of tangents_
     int begin = -1;  // not yet computed
     int end = -1;
   };
@@ -157,7 +159,7 @@ class TangentGraph {
   TightGaps tight_gaps_;
   IndexedVector<Links> links_;       // by bend
   IndexedVector<Tangent> tangents_;  // between bends
-  IndexedVector<Freedom> freedom_;   // of tangents_
+  IndexedVector<Freedom> freedom_;   // whether each of tangents_ is free
   IndexedVector<Arc> arcs_;          // by corner
   std::int64_t work_ = 0;
 };

@@ -95,7 +95,7 @@ void TautPathSearch::expand(int index) {
 /// Puts the arrivals by tangents from the bend on the open list.
 void TautPathSearch::expand_tangents(const Arrival& arrival) {
   const std::span<const Tangent> tangents = graph_.from(arrival.bend);
-  int k = -1;  // of the tangent
+  int k = -1;  // index of the tangent
   for (const Tangent& tangent : tangents) {
     ++k;
     if (tangent.leave_angle < arrival.angle - kSameAngle) break;  // the others leave before the arrival
@@ -183,8 +183,9 @@ bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) 
   return fits_at_begin && fits_at(goals[leg]);
 }
 
-/// A robot that may reverse need not turn as much as a taut path does: only its length and waits, and the
-/// difference of the headings at its ends, bound the cost.
+/// The motion whose cost the taut path of a robot that may reverse bounds. Such a robot need not turn as much
+/// as a taut path does: only the length and waits of the path, and the difference of the headings at its
+/// ends, bound its cost.
 Motion without_turns_if_reversing(Motion motion) {
   if (!motion.may_reverse) return motion;
   motion.angular_speed = std::numeric_limits<double>::infinity();
@@ -213,7 +214,7 @@ struct TautPathBounds::Way {
   Way(const Itinerary& itinerary, const Motion& motion) : legs(legs_of(itinerary)) {
     for (const GoalLeg& leg : legs) seconds.push_back(lower_bound(leg, motion));
   }
-  /// At most so much does the leg take in the cheapest plan, if there is one of this cost.
+  /// The most seconds that the leg takes in the cheapest plan, if there is a plan of this cost.
   double most_seconds(const Itinerary& itinerary, std::size_t leg, double cost) const {
     double others = itinerary.t_begin - itinerary.service_done;
     for (std::size_t k = 0; k < legs.size(); ++k) {
@@ -235,7 +236,7 @@ TautPathBounds::TautPathBounds(const Instance& instance, const std::vector<std::
 
 void TautPathBounds::bound(const Instance& instance, const std::vector<std::size_t>& robots,
                            const std::vector<double>& costs, const StopCondition& stop) {
-  LegsByRadius out_of_sight;  // to share tangents
+  LegsByRadius out_of_sight;  // legs of robots of one radius share their tangents
   std::vector<Way> ways;
   std::int64_t tested = 0;
   for (const std::size_t robot : robots) {
@@ -266,7 +267,7 @@ void TautPathBounds::improve(const Instance& instance, const LegsByRadius& out_o
   if (cut_off_) return;
   for (const auto& [radius, group] : out_of_sight) {
     TautPathSearch search(corners, instance.sight(), radius, stops_at_cell_centers(instance));
-    work -= corners.count();  // for the memory that the search allocates
+    work -= corners.count();  // the memory that the search allocates counts as work
     for (const LegIndex& index : group) {
       if (corners.stopped() || stop.met()) {
         cut_off_ = true;
@@ -284,7 +285,7 @@ void TautPathBounds::improve(const Instance& instance, const LegsByRadius& out_o
       const double turn = instance.motion(index.robot).may_reverse && leg.heading && leg.to.theta
                               ? instance.motion(index.robot).rotation_time(*leg.heading, *leg.to.theta)
                               : 0.0;
-      // Never below what holds without obstacles.
+      // The bound without obstacles holds as well.
       way.seconds[index.leg] = std::max(way.seconds[index.leg], result.seconds + turn);
       seconds_[index.robot] = end_after(itinerary, way.seconds);
       cut_off_ = cut_off_ || result.cut_off;

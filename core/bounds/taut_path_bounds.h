@@ -28,20 +28,21 @@ struct TautPathResult {
 /// Arimoto, IJRR 1992), with the straight cost as the heuristic.
 ///
 /// Paths that can be deformed into each other, without crossing obstacles grown by the radius, form a class.
-/// The taut path of a class has the least length and the least total rotation of the class (docs/method.md,
+/// The taut path of a class has the least length and the least total rotation of the class (docs/proofs.md,
 /// Lemma 2). If it bends, and k of its straight pieces lie between bends of opposite sense, every path of the
 /// class has at least k + 2 translations, each with an added wait (Lemma 3). So no plan costs less than the
 /// cheapest taut path.
 class TautPathSearch {
  public:
-  /// For robots of one radius.
+  /// Searches taut paths of robots of one radius (metres).
   TautPathSearch(CornerVisibility& corners, const LineOfSight& sight, double radius,
                  bool stops_at_cell_centers = true)
       : corners_(corners), graph_(corners, sight, radius, stops_at_cell_centers) {}
 
-  /// `motion` has the radius; the leg ends out of sight of its begin. Paths that cost more
-  /// than `known_cost`, that of a known path in seconds (infinite for none), are not explored. After
-  /// `max_work`, or when `stop` is met, returns the bound that is proved by then.
+  /// Returns the lower bound for a leg whose end is not in sight of its begin. `motion` has the robot's
+  /// radius and speeds. Paths that cost more than `known_cost`, the cost of a known path in seconds (infinite
+  /// for none), are not explored. After `max_work`, or when `stop` is met, returns the bound that is proved
+  /// by then.
   TautPathResult run(const GoalLeg& leg, const Motion& motion, double known_cost, std::int64_t max_work,
                      const StopCondition& stop);
 
@@ -49,11 +50,11 @@ class TautPathSearch {
   std::int64_t work() const { return steps_ * kStepWork + graph_.work() + corners_.work(); }
 
  private:
-  static constexpr int kStepWork = 3;  // of examining a tangent; measured
+  static constexpr int kStepWork = 3;  // work of examining one tangent; measured
 
   struct Arrival {
     double seconds = 0.0;
-    double angle = 0.0;  // on the bend
+    double angle = 0.0;  // the place on the bend
     Bend bend;
     int untested = -1;  // in from_start_: the move by which it arrives, if it is not known to be free
     int next = -1;      // the next one in the list of tested arrivals at the same bend, or -1
@@ -80,7 +81,7 @@ class TautPathSearch {
   TangentGraph graph_;
   std::int64_t steps_ = 0;  // tangents examined
 
-  // Of the current search; members to reuse their memory.
+  // The members below belong to the current search. They are members so that their memory is used again.
   const GoalLeg* leg_ = nullptr;
   const Motion* motion_ = nullptr;
   double bend_time_ = 0.0;            // seconds for a radian of an arc
@@ -103,7 +104,7 @@ class TautPathBounds {
   TautPathBounds(const Instance& instance, const std::vector<std::size_t>& robots,
                  const std::vector<double>& costs, const StopCondition& stop);
 
-  /// 0 for a robot that was not among `robots`.
+  /// The lower bound of a robot's cost, seconds; 0 for a robot that was not among `robots`.
   double operator[](std::size_t robot) const { return seconds_[robot]; }
   /// Whether `stop` or a lack of memory weakened a bound.
   bool cut_off() const { return cut_off_; }

@@ -30,16 +30,16 @@ inline ActionPlace place_of(const ActionProgress& progress) {
   return {progress.action + 1, 0.0};
 }
 
-/// The robot of `gate` may reach that progress, but not pass it until the robot of `until` has reached its
-/// own.
+/// One robot waits for another: the robot of `gate` may reach the progress `gate`, but may not pass it until
+/// the robot of `until` has reached the progress `until`.
 struct Dependency {
   ActionProgress gate;
   ActionProgress until;
   double slack = 0.0;  // seconds: the planned time of `gate` less that of `until`
 };
 
-/// Two robots that the plan leads past each other with less slack than required. There the clock has to be
-/// kept.
+/// Two robots that the plan leads past each other with less slack than required. Keeping the order does not
+/// suffice for them: they have to keep the clock.
 struct TightPair {
   std::size_t first = 0;
   std::size_t second = 0;  // > first

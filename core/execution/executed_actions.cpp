@@ -62,7 +62,7 @@ class Radii {
     if (changes_radius(robot)) visits_ = visits_of(robot, actions);
   }
 
-  /// The largest one during an action, its end included; those of later actions are asked later.
+  /// Returns the largest radius during an action, its end included. Call it for the actions in their order.
   double during(const Action& action, bool is_last) {
     while (served_ < visits_.size() && visits_[served_].t_leave <= action.t_start) ++served_;
     double largest = radii_[served_];
@@ -74,12 +74,12 @@ class Radii {
     return largest;
   }
 
-  /// After the last action.
+  /// The radius after the last action.
   double at_rest() const { return radii_[visits_.size()]; }
 
  private:
   std::vector<double> radii_;  // by the number of goals served
-  std::vector<Visit> visits_;  // to all of them, in order
+  std::vector<Visit> visits_;  // the visits to all goals, in order
   std::size_t served_ = 0;
 };
 

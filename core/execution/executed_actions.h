@@ -19,8 +19,8 @@ namespace fleetplan::core {
 /// The actions of one robot.
 using Actions = std::span<const Action>;
 
-/// By robot: those of its plan, or the committed ones without a plan (none if it is invalid). They refer to
-/// the arguments.
+/// Returns by robot the actions that it executes: those of its plan; without a plan the committed ones, or
+/// none if the robot is invalid. The spans refer to the arguments.
 std::vector<Actions> executed_actions(const std::vector<Robot>& robots, const std::vector<RobotPlan>& plans);
 
 /// The planned time of a progress in these actions, seconds. An action without duration happens when it ends.
@@ -32,8 +32,9 @@ struct WaitPurpose {
   double not_before = 0.0;  // seconds: these do not begin earlier
 };
 
-/// By action; of actions that do not wait, nothing. `wait_before_move`: of PlanOptions, seconds; 0 if added
-/// waits may be shortened. A service at the end of a longer added wait counts towards it.
+/// Returns by action what its wait is for; an action that does not wait has no purpose. `wait_before_move`:
+/// PlanOptions::wait_before_move in seconds, or 0 if added waits may be shortened. A service at the end of a
+/// longer added wait counts towards it.
 std::vector<WaitPurpose> wait_purposes(const Robot& robot, Actions actions, double wait_before_move);
 
 /// A translation, or consecutive actions in one place.
@@ -41,23 +42,25 @@ struct PlannedStretch {
   TimedSegment planned;   // the last one has no end: the robot rests
   double begin = 0.0;     // whole progress
   double length = 0.0;    // the number of actions; 0 of a rest after the last action
-  double radius = 0.0;    // metres, of the space that the robot takes
+  double radius = 0.0;    // metres, of the disk that the robot occupies
   bool separates = true;  // whether it keeps others away in ways that those beside it do not
 };
 
-/// When a robot is planned to make which whole progress.
+/// The planned progress of one robot over time, and the inverse.
 class Pace {
  public:
   explicit Pace(Actions actions) : actions_(actions) {}
 
-  /// The progress at this time: 0 before the first action.
+  /// Returns the whole progress at time `t`; 0 before the first action.
   double progress_at(double t) const;
-  /// The time of this progress, seconds.
+  /// Returns the time of a whole progress, seconds.
   double time_at(double progress) const;
 
-  /// As a gate, which is not passed: at the begin of an action rather than at the end of the one before.
+  /// Returns the progress as a gate, which the robot may not pass: between two actions, the begin of the
+  /// later one.
   ActionProgress gate(std::size_t robot, double progress) const;
-  /// As what must be reached: at the end of an action.
+  /// Returns the progress as a point that the robot must reach: between two actions, the end of the earlier
+  /// one.
   ActionProgress until(std::size_t robot, double progress) const;
 
  private:

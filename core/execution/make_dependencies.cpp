@@ -19,7 +19,7 @@ struct WholeDependency {
   double t_until = 0.0;  // the planned time of `until`, seconds
 };
 
-/// Each takes two searches in a sorted list.
+/// Comparisons, each of two binary searches, between two checks of the stop condition.
 constexpr std::size_t kComparisonsBetweenPolls = 256;
 
 /// The dependencies of one robot on another: a range of the list.
@@ -93,9 +93,10 @@ class Implications {
   std::vector<PairRange> pairs_;
 };
 
-/// The dependencies that no two others imply. A waits for C if A waits for B, which must first pass a gate of
-/// its own to C: the progress of B that A waits for is strictly beyond that gate. `all`: of each pair of
-/// robots in ascending order of both progresses. Nothing if the stop condition is met.
+/// Returns the dependencies that no two others imply. A waits for C if A waits for B, which must first pass a
+/// gate of its own to C: the progress of B that A waits for is strictly beyond that gate. `all` contains the
+/// dependencies of each pair of robots in ascending order of both progresses. Returns none if the stop
+/// condition is met.
 std::optional<std::vector<WholeDependency>> without_implied(std::vector<WholeDependency> all,
                                                             const StopCondition& stop) {
   std::vector<WholeDependency> kept;
@@ -116,7 +117,7 @@ std::optional<std::vector<WholeDependency>> without_implied(std::vector<WholeDep
   return kept;
 }
 
-/// Compares each robot with those near it, and leaves out what others imply.
+/// Compares each robot with the robots near it, and leaves out dependencies that others imply.
 class DependencyMaker {
  public:
   DependencyMaker(const std::vector<Robot>& robots, const std::vector<RobotPlan>& plans,
@@ -147,8 +148,8 @@ class DependencyMaker {
     return true;
   }
 
-  /// A robot with those that are near it somewhere. False if the stop condition is met, or if too many are
-  /// found.
+  /// Adds the dependencies between a robot and those that are near it somewhere. Returns false if the stop
+  /// condition is met, or if too many are found.
   bool compare(std::size_t robot, const std::vector<NearRobot>& near) {
     for (const auto& [other, pairs] : near) {
       const auto pair =
@@ -185,7 +186,8 @@ class DependencyMaker {
     return planned_time(actions_[progress.robot], progress.action, progress.fraction);
   }
 
-  /// By the planned times of the gates.
+  /// Writes the kept dependencies to the result, by the planned times of their gates, and sorts the tight
+  /// pairs.
   void write(const std::vector<WholeDependency>& kept) {
     std::vector<std::pair<double, Dependency>> timed;
     timed.reserve(kept.size());

@@ -11,7 +11,7 @@ namespace fleetplan::core {
 namespace {
 
 constexpr std::size_t kLooksBetweenPolls = 1024;
-/// To bound memory on huge maps.
+/// The most buckets, which bounds memory on huge maps.
 constexpr double kMostBuckets = 2.5e5;
 
 double largest_radius(const std::vector<std::vector<PlannedStretch>>& by_robot) {
@@ -23,7 +23,7 @@ double largest_radius(const std::vector<std::vector<PlannedStretch>>& by_robot) 
   return largest;
 }
 
-/// Covers all places of all robots.
+/// Returns a grid that covers all places of all robots.
 BucketGrid grid_of(const std::vector<std::vector<PlannedStretch>>& by_robot, double radius) {
   double width = 0.0;
   double height = 0.0;
@@ -76,7 +76,7 @@ bool NearStretches::find_near(std::size_t robot, std::size_t stretch,
           {static_cast<std::uint32_t>(entry.stretch), static_cast<std::uint32_t>(stretch)});
     }
   };
-  // Only the place matters: as if it took a second.
+  // Only the place matters, so the stretch is given a duration of one second.
   grid_.cover(MovingDisk({mine.planned.path, 0.0, 1.0}), mine.radius + largest_radius_, look_into);
   return !stopped_;
 }
@@ -104,7 +104,7 @@ bool NearStretches::stops_after(std::size_t looks, const StopCondition& stop) {
 
 namespace {
 
-/// When two robots that follow their plans are nearest during two stretches.
+/// The time at which two robots that follow their plans are nearest during two stretches, and their distance.
 struct NearestInTime {
   double t = 0.0;
   double distance = kForever;
@@ -121,22 +121,25 @@ NearestInTime nearest_in_time(const MovingDisk& first, const MovingDisk& second)
   return {begin + after, (offset + after * velocity).norm()};
 }
 
-/// Metres, as a share: a region whose border the plan touches lies beside the plan despite rounding.
+/// A share of a distance: a region that is smaller by this share lies beside the plan that touches its
+/// border, despite rounding.
 constexpr double kJustLess = 1.0 - 1e-9;
 
-/// Seconds: stretches so far apart in time are in that order, whatever the rounding of their ends.
+/// Seconds: two stretches that are farther apart in time than this are ordered, whatever the rounding of
+/// their ends.
 constexpr double kSurely = 1e-3;
 constexpr std::size_t kPairsBetweenPolls = 256;
 
-/// The regions of two robots, without those that matter no more. One through which the first robot goes first
-/// says: while I have not left this stretch, do not enter that one of yours. Another one of a later stretch
-/// of the first robot and an earlier one of the second robot says more at all times.
+/// The regions of two robots that still matter. A region that the first robot passes first means: while that
+/// robot has not left its stretch, the second one does not enter its own. A region of a later stretch of the
+/// first robot and an earlier stretch of the second one implies this at all times; then the first region is
+/// left out.
 class PairRegions {
  public:
   PairRegions(const PacedRobot& first, const PacedRobot& second, double tolerance)
       : first_(first), second_(second), tolerance_(tolerance) {}
 
-  /// False if the stop condition is met.
+  /// Adds the regions of pairs of stretches. Returns false if the stop condition is met.
   bool add(std::span<const NearPair> near, const StopCondition& stop) {
     return add_first_goes(near, stop) && add_second_goes(near, stop);
   }
@@ -144,11 +147,11 @@ class PairRegions {
   const std::vector<PassedRegion>& first_goes() const { return first_goes_; }
   const std::vector<PassedRegion>& second_goes() const { return second_goes_; }
 
-  /// When the plan brings the two nearer than they should be.
+  /// The times at which the plan brings the two nearer than they should be.
   const std::vector<Tightness>& too_near() const { return too_near_; }
 
  private:
-  /// By ascending stretches of the second robot.
+  /// Adds the regions that the first robot passes first, by ascending stretches of the second robot.
   bool add_first_goes(std::span<const NearPair> near, const StopCondition& stop) {
     std::uint32_t stretch = 0;
     std::uint32_t reached = 0;  // the last stretch of the first robot in a region with an earlier one
@@ -171,7 +174,7 @@ class PairRegions {
     return true;
   }
 
-  /// By descending stretches of the second robot.
+  /// Adds the regions that the second robot passes first, by descending stretches of the second robot.
   bool add_second_goes(std::span<const NearPair> near, const StopCondition& stop) {
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     std::uint32_t stretch = kNone;
@@ -199,7 +202,8 @@ class PairRegions {
     return a.planned.t_end + kSurely < b.planned.t_start;
   }
 
-  /// What the two have to keep, as far as the plan does. `too_near`: where to note that it does not.
+  /// Returns the distance that the two have to keep, metres; less if the plan itself does not keep it, which
+  /// is then noted in `too_near` (null: not noted).
   double distance(const PlannedStretch& a, const PlannedStretch& b, std::vector<Tightness>* too_near) const {
     const double wanted = a.radius + b.radius - tolerance_;
     const NearestInTime planned = nearest_in_time(MovingDisk(a.planned), MovingDisk(b.planned));
@@ -208,7 +212,7 @@ class PairRegions {
     return planned.distance * kJustLess;
   }
 
-  /// Where they are nearest, if that is within the distance.
+  /// Returns where the two are nearest, if they are nearer than `distance` there.
   static std::optional<NearestShares> crossing(const PlannedStretch& a, const PlannedStretch& b,
                                                double distance) {
     if (!a.separates || !b.separates) return std::nullopt;
@@ -236,7 +240,7 @@ class PairRegions {
   std::vector<Tightness> too_near_;
 };
 
-/// In order of time; of several within `apart` seconds of each other, the least.
+/// Returns the entries in order of time; of several within `apart` seconds of each other, only the least one.
 std::vector<Tightness> merged(std::vector<Tightness> all, double apart) {
   std::sort(all.begin(), all.end(), [](const Tightness& a, const Tightness& b) { return a.t < b.t; });
   std::vector<Tightness> kept;

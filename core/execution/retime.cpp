@@ -100,7 +100,7 @@ class Forward {
     if (planned < rules_.now - kOnTime) one.because_of = state.robot;
   }
 
-  /// False if the stop condition is met.
+  /// Prepares the robots, and begins the first move of each. Returns false if the stop condition is met.
   bool begin(const StopCondition& stop) {
     for (Traveller& one : travellers_) {
       if (stop.met()) return false;
@@ -114,7 +114,8 @@ class Forward {
     return true;
   }
 
-  /// Goes on to the next action, gate or place that somebody waits for, unless it has to wait itself.
+  /// Begins the way of a robot to its next action, to its next gate or to the next progress that another
+  /// robot waits for, whichever comes first; or makes it wait at a gate.
   void go_on(std::size_t robot, double t) {
     Traveller& one = travellers_[robot];
     one.heading_for = one.at;
@@ -133,7 +134,7 @@ class Forward {
     arrivals_.emplace(t_reached(robot, next), robot);
   }
 
-  /// When a robot gets from where it is to a progress in the same action.
+  /// Returns when a robot gets from where it is to a progress in the same action, seconds.
   double t_reached(std::size_t robot, double progress) const {
     const Traveller& one = travellers_[robot];
     const Action& action = one.action();
@@ -143,7 +144,7 @@ class Forward {
     if (action.type != Action::Type::wait) {
       return std::max(one.now, one.held_until) + (planned - from) / one.speed_factor;
     }
-    // Of a wait, only what must be waited counts: it lies at its end.
+    // A wait takes only its purpose, which lies at its end.
     const WaitPurpose& purpose = one.purposes[static_cast<std::size_t>(one.at)];
     const double left = std::min(action.t_end - from, purpose.least);
     const double earliest_end = purpose.not_before + purpose.least;
@@ -175,7 +176,7 @@ class Forward {
     }
   }
 
-  /// Lets those go on that waited for this.
+  /// Marks the dependencies on a robot's progress as met, and lets the robots go on that waited for it.
   void tell(std::size_t robot, double t) {
     Traveller& one = travellers_[robot];
     for (; one.next_awaited < one.awaited.size() && one.awaited[one.next_awaited].progress <= one.at;

@@ -1,6 +1,6 @@
 #pragma once
 
-// When robots will arrive that execute a plan with dependencies, and of whom a late one is late.
+// When robots that execute a plan with dependencies will arrive, and which robots make late ones late.
 
 #include <cstddef>
 #include <optional>
@@ -16,34 +16,34 @@ namespace fleetplan::core {
 /// Where a robot is, and how it goes on.
 struct ObservedState {
   std::size_t robot = 0;
-  std::size_t action = 0;     // under way
-  double fraction = 0.0;      // of it
-  double speed_factor = 1.0;  // > 0: of its planned speeds, from now on
-  double held = 0.0;          // seconds, >= 0: so long it does not move
+  std::size_t action = 0;     // the action under way
+  double fraction = 0.0;      // the executed part of the action
+  double speed_factor = 1.0;  // > 0: share of its planned speeds that it makes from now on
+  double held = 0.0;          // seconds, >= 0, for which it does not move
 };
 
 struct RetimeRules {
   double now = 0.0;               // seconds from the start of the plan
-  double wait_before_move = 0.0;  // seconds: a robot stands so long before a translation, if it is planned to
+  double wait_before_move = 0.0;  // seconds that a robot stands before a translation, if it is planned to
 };
 
 /// The new times of a robot's actions.
 struct RetimedRobot {
   std::size_t first = 0;     // the action under way; the number of all if it has arrived
-  std::vector<double> ends;  // seconds, of the actions from `first` on
-  double begin = 0.0;        // seconds, of what is left of the action under way: now
+  std::vector<double> ends;  // seconds: the ends of the actions from `first` on
+  double begin = 0.0;        // seconds: now, the begin of what is left of the action under way
   double delay = 0.0;        // seconds: by how much it arrives later than planned, or earlier if negative
-  /// For a robot that arrives late: the one it waited for last, and the one whose delay is at the root of
-  /// that; itself if it is late by its own doing.
+  /// For a robot that arrives late: the robot it waited for last, and the robot whose delay is the root
+  /// cause; itself if it is late by its own doing.
   std::optional<std::size_t> waits_for = {};
   std::optional<std::size_t> because_of = {};
 };
 
-/// Robots without a state are as planned. Everybody goes on: moves take their planned time divided by the
-/// speed factor, services last as long as planned and begin no earlier than they may, other waits end when
-/// planned, or at once if that has passed. Without delays these are the planned times. `dependencies`: each
-/// `until` is planned before its `gate`. `actions`: contiguous in time, ascending. Nothing if the stop
-/// condition is met.
+/// Returns by robot the new times of its actions, if every robot goes on: moves take their planned time
+/// divided by the speed factor, services last as long as planned and begin no earlier than they may, and
+/// other waits end when planned, or at once if that time has passed. Without delays these are the planned
+/// times. Robots without a state are as planned. `dependencies`: each `until` is planned before its `gate`.
+/// `actions`: contiguous in time, ascending. Returns none if the stop condition is met.
 std::optional<std::vector<RetimedRobot>> retime(const std::vector<Robot>& robots,
                                                 const std::vector<Actions>& actions,
                                                 const std::vector<Dependency>& dependencies,

@@ -10,17 +10,17 @@
 namespace fleetplan::core {
 namespace {
 
-/// Sines of angles between lines up to this are those of parallel lines: rounding.
+/// Lines whose angle has a sine of at most this are parallel: rounding.
 constexpr double kParallel = 1e-12;
 
-/// The region |offset + x along - y across| < distance, of which x is cut to an interval.
+/// The region |offset + x along - y across| < distance, whose x is limited to an interval.
 struct Section {
   Position offset;
   Position along;
   Position across;
   double distance;
 
-  /// The roots y of |offset + x along - y across| = distance, for an x at which there are any.
+  /// Returns the roots y of |offset + x along - y across| = distance for an x that has any.
   ConflictRegion::Range roots(double x) const {
     const Position w = offset + x * along;
     const double square = across.squaredNorm();
@@ -30,8 +30,8 @@ struct Section {
     return {middle - half, middle + half};
   }
 
-  /// The x within [from, to] at which the line across meets the region.
-  std::optional<ConflictRegion::Range> meeting(double from, double to) const {
+  /// Returns the x within [from, to] at which the region has any y.
+  std::optional<ConflictRegion::Range> reached_within(double from, double to) const {
     const double reach = distance * across.norm();
     const double at_zero = cross_product(offset, across);
     const double slope = cross_product(along, across);
@@ -43,8 +43,8 @@ struct Section {
     return met.least < met.most ? std::optional(met) : std::nullopt;
   }
 
-  /// The x at which the least or the greatest y of the whole region is: there the distance is perpendicular
-  /// to `along`. `sign` tells the two apart, in no order. Not for parallel lines.
+  /// Returns the x of the least or the greatest y of the whole region, where the distance is perpendicular to
+  /// `along`. `sign` selects one of the two, in no order. The lines are not parallel.
   double extreme(double sign) const {
     const double length = along.norm();
     const Position normal(-along.y() / length, along.x() / length);
@@ -52,11 +52,11 @@ struct Section {
     return -(offset - y * across).dot(along) / (length * length);
   }
 
-  /// The y of all points with x in [from, to], cut to [0, 1].
+  /// Returns the y of all points with x in [from, to], limited to [0, 1].
   std::optional<ConflictRegion::Range> extent(double from, double to) const {
     if (!(from < to)) return std::nullopt;
     if (across.squaredNorm() == 0.0) return standing(from, to);
-    const auto met = meeting(from, to);
+    const auto met = reached_within(from, to);
     if (!met) return std::nullopt;
     ConflictRegion::Range found = roots(met->least);
     const auto include = [&](double x) {
@@ -73,7 +73,7 @@ struct Section {
   }
 
  private:
-  /// The other robot stands: any y, if the line comes near it at all.
+  /// Returns the y if the other robot stands: all, if the line comes near it, otherwise none.
   std::optional<ConflictRegion::Range> standing(double from, double to) const {
     const double square = along.squaredNorm();
     const double nearest = square > 0.0 ? std::clamp(-offset.dot(along) / square, from, to) : from;
@@ -127,11 +127,11 @@ NearestShares nearest_shares(const Segment& first, const Segment& second) {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// Whole progress: far above the rounding of a region's border, except on lines of some micrometres.
+/// Rounding of the border of a region in whole progress: far above it, except on lines of some micrometres.
 constexpr double kRounding = 1e-3;
 constexpr std::size_t kRegionsBetweenPolls = 256;
 
-/// Keys in an order; finds the next one that is greater than a value, in logarithmic time.
+/// Keys in a fixed order. Finds the next key that is greater than a value, in logarithmic time.
 class NextGreater {
  public:
   explicit NextGreater(const std::vector<double>& keys)
@@ -143,7 +143,8 @@ class NextGreater {
     }
   }
 
-  /// The first position from `position` on whose key is greater; the number of keys if there is none.
+  /// Returns the first position from `position` on whose key is greater than `value`; the number of keys if
+  /// there is none.
   std::size_t from(std::size_t position, double value) const {
     if (position >= count_) return count_;
     std::size_t node = leaves_ + position;
@@ -166,19 +167,19 @@ class NextGreater {
   std::vector<double> tree_;  // the greatest key below each node
 };
 
-/// Regions by a bound of what is sought, the best one first; those that have nothing are passed over.
+/// Regions, sorted by the best value that each may give. Skips regions that have no point.
 class RegionOrder {
  public:
-  /// The regions with the least v first, among those with points beyond a u.
+  /// Sorts regions by their least v, for the points beyond a given u.
   static RegionOrder by_second(const std::vector<PassedRegion>& regions) {
     return RegionOrder(regions, &PassedRegion::least_second, 1.0, &PassedRegion::most_first, 1.0);
   }
-  /// The regions with the greatest u first, among those with points up to a v, which is asked for as -v.
+  /// Sorts regions by their greatest u, largest first, for the points up to a given v, which is passed as -v.
   static RegionOrder by_first(const std::vector<PassedRegion>& regions) {
     return RegionOrder(regions, &PassedRegion::most_first, -1.0, &PassedRegion::least_second, -1.0);
   }
 
-  /// Calls visit(region) until it returns false, for regions whose key is greater than the value.
+  /// Calls visit(region) for the regions whose key is greater than `value`, until it returns false.
   template <class Visit>
   void for_each(double value, Visit&& visit) const {
     for (std::size_t k = keys_.from(0, value); k < order_.size(); k = keys_.from(k + 1, value)) {
@@ -250,7 +251,7 @@ class StaircaseSearch {
   }
 
  private:
-  /// The least v at which u must be beyond this.
+  /// Returns the least v at which u must be beyond `first`.
   double gate_after(double first) {
     double least = kNever;
     by_second_.for_each(first, [&](const PassedRegion& region) {
@@ -261,7 +262,7 @@ class StaircaseSearch {
     return least;
   }
 
-  /// What u must reach before v may be at most this.
+  /// Returns the u that must be reached before v may be `second`.
   double needed_until(double second) {
     double most = 0.0;
     by_first_.for_each(-second, [&](const PassedRegion& region) {
@@ -307,7 +308,7 @@ PassedRegion::PassedRegion(const ConflictRegion& shares, const Part& first, cons
   const double least = second_after(-kNever);
   const double most = first_before(kNever);
   is_open_ = least < kNever && most > -kNever;
-  // Without the region's own border, that of its stretches, which are exact.
+  // Where the region has no border of its own, the border of its stretches holds, which is exact.
   least_second_ = least < kNever ? std::max(second.begin, least - kRounding) : second.begin;
   if (most > -kNever) most_first_ = std::min(most_first_, most + kRounding);
 }

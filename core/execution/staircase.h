@@ -12,7 +12,7 @@
 
 namespace fleetplan::core {
 
-/// Shares of two lines: how far one robot is along the first, another one along the second. In [0, 1].
+/// How far one robot is along a first line and another one along a second line, as shares in [0, 1].
 struct Shares {
   double first = 0.0;
   double second = 0.0;
@@ -30,10 +30,11 @@ class ConflictRegion {
     double least = 0.0;
     double most = 0.0;
   };
-  /// The shares of the second line that belong to the part of the region with `from` <= u <= 1; nothing if
-  /// that is empty.
+  /// Returns the shares of the second line in the part of the region with `from` <= u <= 1; none if that part
+  /// is empty.
   std::optional<Range> second_beyond(double from) const;
-  /// The shares of the first line that belong to the part of the region with 0 <= v <= `to`.
+  /// Returns the shares of the first line in the part of the region with 0 <= v <= `to`; none if that part is
+  /// empty.
   std::optional<Range> first_up_to(double to) const;
 
  private:
@@ -43,7 +44,7 @@ class ConflictRegion {
   double distance_;
 };
 
-/// Where two segments are nearest.
+/// Where two segments are nearest to each other, and their distance there, metres.
 struct NearestShares {
   Shares at;
   double distance = 0.0;
@@ -54,7 +55,7 @@ NearestShares nearest_shares(const Segment& first, const Segment& second);
 /// another one enters.
 class PassedRegion {
  public:
-  /// Where a stretch begins in whole progress, and its length.
+  /// A stretch in whole progress: where it begins, and its length.
   struct Part {
     double begin = 0.0;
     double length = 1.0;
@@ -62,16 +63,16 @@ class PassedRegion {
 
   PassedRegion(const ConflictRegion& shares, const Part& first, const Part& second);
 
-  /// The least v of points with more than this u; infinity if there are none.
+  /// Returns the least v of the points with more than this u; infinity if there are none.
   double second_after(double first) const;
-  /// The greatest u of points with at most this v; minus infinity if there are none.
+  /// Returns the greatest u of the points with at most this v; minus infinity if there are none.
   double first_before(double second) const;
 
   /// Bounds that rounding respects: second_after is never less than `least_second`, and infinite from
   /// `most_first` on; first_before is never more than `most_first`, and infinite up to `least_second`.
   double least_second() const { return least_second_; }
   double most_first() const { return most_first_; }
-  /// Whether there are points for all u up to its begin, and for all v from its end on.
+  /// Whether the region continues for all u before its first stretch, and for all v after its second one.
   bool is_open() const { return is_open_; }
 
  private:
@@ -89,7 +90,7 @@ struct Step {
   double until = 0.0;
 };
 
-/// When there is less slack than required, and how much. Seconds.
+/// A lack of slack: the planned time of it, and the slack that there is, seconds.
 struct Tightness {
   double t = 0.0;
   double slack = 0.0;
@@ -97,13 +98,13 @@ struct Tightness {
 
 struct Staircase {
   std::vector<Step> steps;       // both ascending
-  std::vector<Tightness> tight;  // one for each uninterrupted lack of slack; the least one
+  std::vector<Tightness> tight;  // one for each uninterrupted lack of slack, at its least
 };
 
-/// The fewest steps that keep (u, v) out of all regions, each with the planned slack (seconds, > 0), or with
-/// half of it where the whole would mean many small steps. Where the plan has less, a step demands what the
-/// plan has, so that everybody can go on; then the regions are not excluded, and the staircase is tight
-/// there. Nothing if the stop condition is met.
+/// Returns the fewest steps that keep (u, v) out of all regions, each with the planned slack (seconds, > 0),
+/// or with half of it where the whole slack would mean many small steps. Where the plan has less slack, a
+/// step demands what the plan has, so that both robots can go on; the regions are not excluded there, and the
+/// staircase is tight. Returns none if the stop condition is met.
 std::optional<Staircase> staircase_of(const std::vector<PassedRegion>& regions, const Pace& first,
                                       const Pace& second, double slack, const StopCondition& stop);
 

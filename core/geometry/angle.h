@@ -5,7 +5,7 @@
 
 namespace fleetplan::core {
 
-/// The same heading in (-pi, pi]. Any finite angle is accepted.
+/// Returns the equivalent heading in (-pi, pi]. Any finite angle is accepted.
 inline double normalize_angle(double angle) {
   constexpr double kPi = std::numbers::pi;
   if (angle > -kPi && angle <= kPi) return angle;

@@ -38,12 +38,12 @@ struct MovingDisk {
 /// feasibility of the move w.r.t. dynamic obstacles").
 bool collide(const MovingDisk& a, const MovingDisk& b, double reach);
 
-/// The times at which `b` is closer than `reach` to the point `p`; empty if there are none.
+/// Returns the times at which `b` is closer than `reach` to the point `p`; empty if there are none.
 UnsafeInterval unsafe_interval(const Position& p, const MovingDisk& b, double reach);
 
-/// The departure times t of the move (from, velocity, duration > 0) for which it comes closer than `reach` to
-/// `b`. An end of the interval may be forbidden itself; then a neighbouring segment of `b` or a safe interval
-/// of the move covers it. Use it on contiguous trajectories only.
+/// Returns the departure times t of the move (from, velocity, duration > 0) for which it comes closer than
+/// `reach` to `b`. An end of the interval may be forbidden itself; then a neighbouring segment of `b` or a
+/// safe interval of the move covers it. Use it on contiguous trajectories only.
 UnsafeInterval forbidden_departures(const Position& from, const Position& velocity, double duration,
                                     const MovingDisk& b, double reach);
 
@@ -53,11 +53,13 @@ struct OverlapTime {
   double end = 0.0;
 };
 
-/// The time during which `a` and `b` are closer than `reach` while both last; none if they never are. Unlike
-/// for a search, a common instant counts: a disk that is there for one instant only may overlap another one.
+/// Returns the time during which `a` and `b` are closer than `reach` while both last; none if they never are.
+/// Unlike for a search, a common instant counts: a disk that is there for one instant only may overlap
+/// another one.
 std::optional<OverlapTime> overlap(const MovingDisk& a, const MovingDisk& b, double reach);
 
-/// The least distance of the centres while both last; kForever if they have no common time.
+/// Returns the least distance of the centres while both segments last, metres; kForever if they have no
+/// common time.
 double least_distance(const MovingDisk& a, const MovingDisk& b);
 
 }  // namespace fleetplan::core

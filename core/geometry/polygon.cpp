@@ -15,7 +15,7 @@ double squared_distance(const Position& point, const Position& a, const Position
   return (point - a - nearest_share({a, b}, point) * (b - a)).squaredNorm();
 }
 
-/// Whether the segments cross each other in their insides. Those that only touch may give either answer.
+/// Whether the segments cross each other in their insides. Segments that only touch may give either answer.
 bool cross_each_other(const Position& a, const Position& b, const Position& c, const Position& d) {
   const auto side = [](const Position& p, const Position& q, const Position& r) {
     return cross_product(q - p, r - p);
@@ -123,7 +123,7 @@ double Polygon::distance_to_border(const Position& point) const {
 
 namespace {
 
-/// For a segment near more squares than this, all polygons are tested.
+/// The most squares that are looked up for a segment; near more squares, all polygons are tested.
 constexpr int kMostSquares = 16;
 
 }  // namespace
@@ -154,7 +154,7 @@ void BlockedPolygons::for_each_square(const Polygon& polygon, const Visit& visit
   }
 }
 
-/// The border squares reach beyond the map.
+/// Returns the squares that a box overlaps. The border squares reach beyond the map.
 BlockedPolygons::Squares BlockedPolygons::squares(const Position& low, const Position& high) const {
   const auto square = [&](double coordinate, int axis) {
     return static_cast<int>(std::clamp(std::floor(coordinate * squares_per_metre_[axis]), 0.0, kSide - 1.0));

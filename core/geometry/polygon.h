@@ -17,7 +17,7 @@ class Polygon {
   const std::vector<Position>& corners() const { return corners_; }
   const Position& low() const { return low_; }
   const Position& high() const { return high_; }
-  /// Twice the area; > 0 if the corners are in counter-clockwise order.
+  /// Twice the area in square metres; > 0 if the corners are in counter-clockwise order.
   double twice_signed_area() const;
 
   /// Whether a point is inside, by the even-odd rule. Either answer is possible on the border.
@@ -31,8 +31,7 @@ class Polygon {
   /// Whether some point of the segment from `from` to `to` (possibly equal) is nearer than `distance` (> 0,
   /// metres) to the polygon.
   bool comes_near(const Position& from, const Position& to, double distance) const;
-  /// The parts of the segment from `from` to `to` (not equal) inside, as fractions of it, ascending. A part
-  /// within kSamePosition of the border is left out.
+  /// The parts of a segment inside, as fractions of it.
   struct Span {
     double first = 0.0;
     double last = 1.0;
@@ -46,23 +45,23 @@ class Polygon {
   const Position& corner_after(std::size_t k) const { return corners_[k + 1 < corners_.size() ? k + 1 : 0]; }
 
   std::vector<Position> corners_;
-  Position low_;  // of the bounding box
+  Position low_;  // lower left corner of the bounding box
   Position high_;
 };
 
 /// Polygons that are blocked like walls, with an index of where they are.
 class BlockedPolygons {
  public:
-  /// None.
+  /// No polygons.
   BlockedPolygons() = default;
-  /// The map is [0, width] x [0, height] metres.
+  /// Indexes polygons on a map of [0, width] x [0, height] metres.
   BlockedPolygons(std::vector<Polygon> polygons, double width, double height);
 
   bool empty() const { return polygons_.empty(); }
   const std::vector<Polygon>& polygons() const { return polygons_; }
 
   /// Whether some point of the segment from `from` to `to` (possibly equal) is nearer than `distance` (> 0,
-  /// metres) to one of them.
+  /// metres) to one of the polygons.
   bool come_near(const Position& from, const Position& to, double distance) const;
 
  private:

@@ -19,14 +19,14 @@ struct Segment {
   double length() const { return (to - from).norm(); }
 };
 
-/// The share of the segment, in [0, 1], at which it is nearest to a point.
+/// Returns the share of the segment, in [0, 1], at which it is nearest to a point.
 inline double nearest_share(const Segment& segment, const Position& point) {
   const Position way = segment.to - segment.from;
   const double square = way.squaredNorm();
   return square > 0.0 ? std::clamp((point - segment.from).dot(way) / square, 0.0, 1.0) : 0.0;
 }
 
-/// The distance of a point from the segment, metres.
+/// Returns the distance of a point from the segment, metres.
 inline double distance_to_segment(const Position& point, const Segment& segment) {
   return (segment.from + nearest_share(segment, point) * (segment.to - segment.from) - point).norm();
 }
@@ -37,7 +37,8 @@ struct TimedSegment {
   Segment path;
   double t_start = 0.0;
   double t_end = 0.0;
-  /// Metres: by how much the disk is smaller than the robot ever is, see Goal::radius_after.
+  /// By how much the disk is smaller than the largest one that the robot ever has, metres; see
+  /// Goal::radius_after.
   double narrower = 0.0;
 
   double duration() const { return t_end - t_start; }

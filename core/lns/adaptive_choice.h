@@ -21,7 +21,7 @@ class AdaptiveChoice {
 
   std::size_t choose(Random& random) const;
 
-  /// The gain (>= 0) and effort (> 0) of one try of the alternative, in any units.
+  /// Records one try of the alternative: its gain (>= 0) and its effort (> 0), in any units.
   void learn(std::size_t alternative, double gain, double effort);
 
  private:
@@ -30,7 +30,7 @@ class AdaptiveChoice {
     double effort = 0.0;  // 0: not tried yet
   };
 
-  /// Gain per effort.
+  /// The gain per effort of an alternative.
   double rate(const Record& record) const;
   std::vector<double> weights() const;
 
@@ -41,14 +41,14 @@ class AdaptiveChoice {
 /// (cost minus lower bound) and falls with its recent failures.
 class DelayedChoice {
  public:
-  /// For robots 0 to count - 1.
+  /// Chooses among robots 0 to count - 1.
   explicit DelayedChoice(std::size_t count) : failures_(count, 0.0) {}
 
   /// Returns one of `robots` (not empty); delays[k] >= 0 is the delay of robots[k] in seconds.
   std::size_t choose(const std::vector<std::size_t>& robots, const std::vector<double>& delays,
                      Random& random) const;
 
-  /// Whether an iteration made the robot cheaper.
+  /// Records whether an iteration made the robot cheaper.
   void learn(std::size_t robot, bool gained);
 
  private:
@@ -59,7 +59,7 @@ class DelayedChoice {
 /// Each is chosen by its recent gain per effort (see AdaptiveChoice).
 class AdaptiveParameters {
  public:
-  /// Positions in the lists of possible values.
+  /// The choice of each parameter, as positions in the lists of possible values.
   struct Choice {
     std::size_t kind = 0;
     std::size_t size = 0;
@@ -73,7 +73,8 @@ class AdaptiveParameters {
   AdaptiveParameters();
 
   Choice choose(Random& random) const;
-  /// `gain` in seconds, >= 0.
+  /// Records the result of an iteration: `gain` in seconds, >= 0, and the searches and expansions that it
+  /// took.
   void learn(const Choice& choice, double gain, std::int64_t searches, std::int64_t expansions);
 
  private:

@@ -19,7 +19,7 @@ class Incumbent {
   /// The trajectories in `state`; only those of the robots of `planned` may be replaced.
   Incumbent(const PlanState& state, std::vector<std::size_t> planned);
 
-  /// Robots with and without a trajectory.
+  /// The number of robots, with and without a trajectory.
   std::size_t robot_count() const { return trajectories_.size(); }
   const std::vector<std::size_t>& planned() const { return planned_; }
   /// All robots with a trajectory, ascending.
@@ -51,7 +51,7 @@ class BestPlan {
   explicit BestPlan(Incumbent& incumbent) : incumbent_(incumbent) {}
 
   void replace(std::size_t robot, Trajectory trajectory);
-  /// To be called after the replacements of a change: `gain` is by how much the objective fell, seconds;
+  /// Records a change; call it after its replacements. `gain` is by how much the objective fell, seconds;
   /// negative if it rose. Returns whether the incumbent is better than any plan before.
   bool changed(double gain);
 
@@ -63,7 +63,7 @@ class BestPlan {
  private:
   Incumbent& incumbent_;
   std::map<std::size_t, Trajectory> differences_;
-  double loss_ = 0.0;  // seconds; of the incumbent against the best plan
+  double loss_ = 0.0;  // seconds by which the incumbent is worse than the best plan
 };
 
 }  // namespace fleetplan::core

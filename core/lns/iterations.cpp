@@ -8,10 +8,11 @@ namespace {
 
 /// A delay below this is rounding, seconds.
 constexpr double kLeastDelay = 1e-9;
-/// The search that finds a cheaper path if one of the others can.
+/// The limits of a search that finds a cheaper path if any of the searches can.
 constexpr SearchLimits kProof{
     .heuristic_weight = 1.0, .suboptimality = 0.0, .suboptimality_growth = 0.0, .dominance_slack = 0.0};
-/// The effort for these tests: expansions at first, and as a share of those of the search.
+/// The effort for tests whether a robot can become cheaper: expansions at first, and as a share of those of
+/// the search.
 constexpr std::int64_t kFirstProofExpansions = 1'000;
 constexpr std::int64_t kProofShare = 8;
 
@@ -34,7 +35,7 @@ bool Exhaustion::nothing_left() const {
 bool Exhaustion::at_lower_bound() const {
   const std::vector<std::size_t>& planned = incumbent_.planned();
   if (planned.empty()) return true;
-  if (!for_makespan_) return false;  // then no robot is delayed
+  if (!for_makespan_) return false;  // for the flowtime, no robot is delayed then
   double bound = 0.0;
   for (const std::size_t robot : planned) bound = std::max(bound, bounds_[robot]);
   return incumbent_.makespan() <= bound + kLeastDelay;
@@ -87,7 +88,7 @@ Iteration Iterations::choose() {
   iteration.seed = random_.seed();
   if (for_makespan_) iteration.options.cost_limit = incumbent_.makespan();
   if (for_makespan_ && random_.below(2) == 0) {
-    iteration.options.gain = ReplanOptions::Gain::first;
+    iteration.options.gain = NeighbourhoodOptions::Gain::first;
     iteration.first = incumbent_.last_to_arrive();
   } else {
     iteration.first = choose_delayed();
@@ -115,7 +116,7 @@ void Iterations::run(Iteration& iteration, Workspace& workspace) const {
   const AdaptiveParameters::Choice& parameters = iteration.parameters;
   const auto robots = workspace.neighbourhoods().select(iteration.first, parameters.neighbourhood(),
                                                         parameters.robots(), random);
-  iteration.result = replan(workspace.state(), robots, bounds_, iteration.options, stop_);
+  iteration.result = plan_neighbourhood(workspace.state(), robots, bounds_, iteration.options, stop_);
 }
 
 bool Iterations::accept(Iteration& iteration, Workspace& workspace) {
@@ -128,7 +129,7 @@ bool Iterations::accept(Iteration& iteration, Workspace& workspace) {
 }
 
 void Iterations::learn(const Iteration& iteration) {
-  const ReplanResult& result = iteration.result;
+  const NeighbourhoodResult& result = iteration.result;
   const double gain = result.change ? std::max(0.0, result.change->gain) : 0.0;
   parameters_.learn(iteration.parameters, gain, result.searches, result.expansions);
   first_robots_.learn(iteration.first, result.change.has_value());

@@ -1,6 +1,6 @@
 #pragma once
 
-// What an iteration tries and what came of it, and what is left to gain.
+// The iterations of large neighbourhood search, their results, and what the search has left to gain.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include "core/bounds/taut_path_bounds.h"
 #include "core/lns/adaptive_choice.h"
 #include "core/lns/incumbent.h"
-#include "core/lns/replan.h"
+#include "core/lns/plan_neighbourhood.h"
 #include "core/lns/workspace_pool.h"
 #include "core/prioritized/plan_state.h"
 #include "core/runtime/random.h"
@@ -25,25 +25,25 @@ class Exhaustion {
   /// A search for a cheaper trajectory of a delayed robot, as if no other planned robot were there.
   struct Test {
     std::size_t robot = 0;
-    std::int64_t version = 0;  // of its trajectory
+    std::int64_t version = 0;  // version of the robot's trajectory
     SearchLimits limits;
     SearchResult result{std::nullopt, false, 0};
   };
 
-  /// `for_makespan`: the objective. The arguments outlive this object.
+  /// `for_makespan`: whether the objective is the makespan. The arguments outlive this object.
   Exhaustion(const Incumbent& incumbent, const TautPathBounds& bounds, bool for_makespan)
       : incumbent_(incumbent),
         bounds_(bounds),
         for_makespan_(for_makespan),
         cheapest_(incumbent.robot_count()) {}
 
-  /// Cost minus lower bound, seconds, >= 0.
+  /// The delay of a robot, seconds: cost minus lower bound, >= 0.
   double delay(std::size_t robot) const;
   /// Whether the objective is equal to its lower bound, or no delayed robot can become cheaper.
   bool nothing_left() const;
 
-  /// The next robot's test; none if no robot needs one, while one runs, or if the tests have had their share
-  /// of the effort. `expansions`: of the search so far.
+  /// Returns the next test; none if no robot needs one, while one runs, or if the tests have had their share
+  /// of the effort. `expansions`: the expansions of the search so far.
   std::optional<Test> next_test(std::int64_t expansions);
   void run(Test& test, PlanState& state, const StopCondition& stop) const;
   void learn(const Test& test);
@@ -57,25 +57,25 @@ class Exhaustion {
   const TautPathBounds& bounds_;
   const bool for_makespan_;
   std::vector<std::optional<std::int64_t>> cheapest_;  // by robot: the version known to be the cheapest
-  std::size_t next_to_test_ = 0;                       // of planned()
+  std::size_t next_to_test_ = 0;                       // position in planned()
   bool is_testing_ = false;
-  std::int64_t expansions_ = 0;  // of the tests
+  std::int64_t expansions_ = 0;  // expansions of the tests
 };
 
-/// What an iteration of large neighbourhood search tries, and what came of it.
+/// An iteration of large neighbourhood search: what it tries, and the result.
 struct Iteration {
-  std::int64_t version = 0;  // of the incumbent that it begins with
+  std::int64_t version = 0;  // version of the incumbent that it begins with
   AdaptiveParameters::Choice parameters;
   std::size_t first = 0;  // the robot that is to become cheaper
-  ReplanOptions options;
+  NeighbourhoodOptions options;
   std::uint64_t seed = 0;
-  ReplanResult result;
+  NeighbourhoodResult result;
 };
 
 /// The steps of an iteration: choose, run, accept. While one runs, others may be chosen and accepted.
 class Iterations {
  public:
-  /// The arguments outlive this object. `for_makespan`: the objective.
+  /// `for_makespan`: whether the objective is the makespan. The arguments outlive this object.
   Iterations(Incumbent& incumbent, const Exhaustion& exhaustion, const TautPathBounds& bounds, Random& random,
              const StopCondition& stop, bool for_makespan)
       : incumbent_(incumbent),
@@ -89,10 +89,11 @@ class Iterations {
 
   /// Chooses what to try next, by recent success.
   Iteration choose();
-  /// Destroys and repairs, in a workspace with the incumbent at the time of choose(). On any thread.
+  /// Plans the neighbourhood again, in a workspace with the incumbent at the time of choose(). May run on any
+  /// thread.
   void run(Iteration& iteration, Workspace& workspace) const;
-  /// Learns from the result and makes its change to the incumbent, unless changes made since choose() stand
-  /// against it. Returns whether that is the best plan so far. The workspace may be updated.
+  /// Learns from the result and makes its change to the incumbent, unless changes made since choose()
+  /// conflict with it. Returns whether the incumbent is the best plan so far. The workspace may be updated.
   bool accept(Iteration& iteration, Workspace& workspace);
 
   BestPlan& best() { return best_; }

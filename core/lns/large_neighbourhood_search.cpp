@@ -24,12 +24,12 @@ namespace {
 constexpr std::size_t kRobotsPerLag = 10;
 constexpr std::size_t kLeastLag = 4;
 constexpr std::size_t kMostLag = 16;
-/// Each needs about as much memory as the plan itself.
+/// The most threads; each needs about as much memory as the plan itself.
 constexpr std::size_t kMaxThreads = 4;
 /// Steps of a round with a report before it, and without: at its end, threads wait for each other.
 constexpr std::size_t kReportedRound = 32;
 constexpr std::size_t kRound = 1024;
-/// After so many iterations without an improvement it is tested whether one is possible.
+/// Iterations without an improvement after which it is tested whether one is possible.
 constexpr int kVainIterations = 32;
 
 /// An iteration, or a test whether a robot can become cheaper.
@@ -104,7 +104,7 @@ class LargeNeighbourhoodSearch {
     if (!may_improve_) is_over_ = true;
   }
 
-  /// On any thread. Steps are begun and completed by one thread at a time.
+  /// Runs one step, on any thread. Steps are begun and completed by one thread at a time.
   void run_step() {
     std::unique_ptr<Workspace> workspace = workspaces_.take();
     if (!workspace) return;
@@ -182,9 +182,9 @@ class LargeNeighbourhoodSearch {
   std::int64_t iterations_left_ = 0;
   int vain_iterations_ = 0;
   LnsResult result_;
-  std::atomic<bool> is_over_ = false;  // the round
-  bool may_improve_ = true;            // what the executor has said
-  bool may_help_ = true;               // threads of the executor
+  std::atomic<bool> is_over_ = false;  // the round is over
+  bool may_improve_ = true;            // the last answer of the executor
+  bool may_help_ = true;               // threads of the executor may help
   std::int64_t shortages_ = memory_shortages();
 };
 

@@ -27,17 +27,17 @@ using BeforeRound = std::function<void(const LnsResult& so_far)>;
 /// Pisinger, 2006). An iteration
 ///
 /// 1. chooses a delayed robot, the neighbourhood, its size and the search effort by their recent success,
-/// 2. destroys: selects the neighbourhood (see neighbourhood.h),
-/// 3. repairs: plans its robots again (see replan.h), and
+/// 2. selects the robots of the neighbourhood (see neighbourhood.h),
+/// 3. plans them again (see plan_neighbourhood.h), and
 /// 4. accepts the change if the objective falls: the flowtime; or the makespan, or the flowtime without a
 ///    longer makespan. The flowtime may also rise a little, which leads out of local optima (threshold
 ///    accepting; Dueck and Scheuer, 1990). The best plan is kept (see incumbent.h).
 ///
-/// Success is measured per expansion, not per second. Ends when `stop` is met, after the options'
+/// Success is measured per expansion, not per second. The search ends when `stop` is met, after the options'
 /// max_iterations, or when nothing is left to try: when the objective is equal to its lower bound, or no
 /// delayed robot has a cheaper path even if it is alone with the robots that stay. That is tested, robot by
-/// robot, while iterations bring nothing (see iterations.h). Replans those of `movers` that have a
-/// trajectory, and `bounds` has their lower bounds. All other robots keep their trajectories, or stay at
+/// robot, while iterations bring nothing (see iterations.h). Only robots of `movers` that have a trajectory
+/// are planned again; `bounds` has their lower bounds. All other robots keep their trajectories, or stay at
 /// their starts.
 ///
 /// A few iterations overlap (see pipeline.h), on any number of threads of the executor: each begins with the

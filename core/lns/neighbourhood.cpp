@@ -38,7 +38,7 @@ std::vector<std::size_t> NeighbourhoodSelection::select(std::size_t first, Neigh
   switch (kind) {
     case Neighbourhood::conflicting:
       return conflicting_with(first, size, random);
-    case Neighbourhood::meeting:
+    case Neighbourhood::nearest:
       return nearest_to(first, size, distances_at(random.unit() * state_.trajectory(first)->cost, first));
     case Neighbourhood::at_goal:
       return nearest_to(first, size, distances_to_goal(first, random));
@@ -64,7 +64,7 @@ std::vector<std::size_t> NeighbourhoodSelection::conflicting_with(std::size_t fi
   return selected;
 }
 
-/// `distances` as in planned_.
+/// Returns `first` and the robots of the least `distances`, which are in the order of planned_.
 std::vector<std::size_t> NeighbourhoodSelection::nearest_to(std::size_t first, std::size_t size,
                                                             const std::vector<double>& distances) const {
   std::vector<std::pair<double, std::size_t>> others;

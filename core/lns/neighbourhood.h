@@ -11,21 +11,20 @@
 
 namespace fleetplan::core {
 
-/// How to select the robots that are replanned together with a delayed one.
+/// How to select the robots that are planned again together with a delayed one.
 enum class Neighbourhood : std::uint8_t {
   conflicting,  // robots that conflict with the path that it would take alone on the map; then those that
                 // conflict with such paths of these robots
-  meeting,      // robots nearest to it at a random time
+  nearest,      // robots nearest to it at a random time
   at_goal,      // robots that pass near its goal
   random,
 };
 inline constexpr std::size_t kNeighbourhoods = 4;
 
-/// The destroy step of large neighbourhood search: selects robots to be replanned together (Li et al.,
-/// MAPF-LNS, IJCAI 2021).
+/// Selects the robots that large neighbourhood search plans again together (Li et al., MAPF-LNS, IJCAI 2021).
 class NeighbourhoodSelection {
  public:
-  /// From the robots of `planned`, which have trajectories.
+  /// Selects from the robots of `planned`, which have trajectories.
   NeighbourhoodSelection(PlanState& state, std::vector<std::size_t> planned, const StopCondition& stop)
       : state_(state),
         planned_(std::move(planned)),
@@ -35,7 +34,7 @@ class NeighbourhoodSelection {
     for (const std::size_t robot : planned_) is_planned_[robot] = true;
   }
 
-  /// `first` and at most size - 1 others (size >= 1).
+  /// Returns `first` and at most size - 1 other robots (size >= 1).
   std::vector<std::size_t> select(std::size_t first, Neighbourhood kind, std::size_t size, Random& random);
 
  private:

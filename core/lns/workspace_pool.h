@@ -19,10 +19,10 @@ namespace fleetplan::core {
 /// What one thread needs to search on its own: a plan state with the incumbent's trajectories.
 class Workspace {
  public:
-  /// With the caller's state, which follows the incumbent already.
+  /// A workspace with the caller's state, which follows the incumbent already.
   Workspace(PlanState& state, const Incumbent& incumbent, const StopCondition& stop);
-  /// With an instance like this one and a state of its own. Robots that are not in the incumbent stay at
-  /// their starts.
+  /// A workspace with an instance like this one and a state of its own. Robots that are not in the incumbent
+  /// stay at their starts.
   Workspace(const Instance& instance, const Incumbent& incumbent, const StopCondition& stop);
 
   PlanState& state() { return *state_; }
@@ -32,7 +32,8 @@ class Workspace {
   void update();
   /// Updates with other trajectories for some robots, until the next update.
   void update(const std::map<std::size_t, Trajectory>& others);
-  /// The trajectories of the state may be others than those of the last update, or missing.
+  /// To be called when the trajectories of the state may differ from those of the last update, or may be
+  /// missing.
   void invalidate();
 
  private:
@@ -40,21 +41,23 @@ class Workspace {
   std::unique_ptr<PlanState> own_state_;
   PlanState* state_;
   const Incumbent& incumbent_;
-  std::vector<std::int64_t> versions_;  // of the incumbent's trajectories, by robot
+  std::vector<std::int64_t> versions_;  // versions of the incumbent's trajectories, by robot
   NeighbourhoodSelection neighbourhoods_;
 };
 
-/// As many workspaces as threads use at the same time. Thread-safe, also while the incumbent changes.
+/// A pool of as many workspaces as threads use at the same time. Thread-safe, also while the incumbent
+/// changes.
 class WorkspacePool {
  public:
-  /// The first workspace uses `state`, which follows the incumbent.
+  /// The pool of a search. Its first workspace uses `state`, which follows the incumbent.
   WorkspacePool(PlanState& state, const Incumbent& incumbent, const StopCondition& stop);
 
-  /// A workspace for the exclusive use of the caller, to be updated; null if the job has no memory for it.
+  /// Returns a workspace for the exclusive use of the caller, to be updated; null if the job has no memory
+  /// for it.
   std::unique_ptr<Workspace> take();
   void give_back(std::unique_ptr<Workspace> workspace);
-  /// Updates the workspace with the caller's state, with other trajectories for some robots; all have been
-  /// given back, and the incumbent does not change.
+  /// Updates the workspace with the caller's state, with other trajectories for some robots. All workspaces
+  /// have been given back, and the incumbent does not change.
   void update_callers_state(const std::map<std::size_t, Trajectory>& others);
   /// Frees all workspaces but that with the caller's state; returns false if there was no other.
   bool release_others();

@@ -71,7 +71,8 @@ DistanceTransform::DistanceTransform(const OccupancyGrid& grid, const StopCondit
   finished_ = scan_columns(grid, stops) && scan_rows(stops) && make_tiles(stops);
 }
 
-/// The distance to the nearest blocked cell of the same column.
+/// Computes for each cell the distance to the nearest blocked cell of the same column. Returns false if
+/// `stop` is met.
 bool DistanceTransform::scan_columns(const OccupancyGrid& grid, StopStride& stop) {
   for (int row = 0; row < rows_; ++row) {
     if (stop.met_at_step()) return false;
@@ -101,7 +102,7 @@ bool DistanceTransform::scan_rows(StopStride& stop) {
   return true;
 }
 
-/// From row by row to tiles.
+/// Arranges the distances, which are stored row by row, in tiles. Returns false if `stop` is met.
 bool DistanceTransform::make_tiles(StopStride& stop) {
   std::vector<std::uint16_t> rows(kTileRows * stride_);
   for (std::size_t begin = 0; begin < squared_.size(); begin += rows.size()) {

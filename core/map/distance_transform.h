@@ -16,12 +16,13 @@ class DistanceTransform {
   /// Longer distances are cut off: 255 cells.
   static constexpr std::uint16_t kMostSquared = 255 * 255;
 
-  /// Not finished(), and not to be used, if `stop` is met first.
+  /// Computes the distances. If `stop` is met first, the object is not finished() and must not be used.
   DistanceTransform(const OccupancyGrid& grid, const StopCondition& stop);
 
   bool finished() const { return finished_; }
 
-  /// Of the centres, in cells, at most kMostSquared; 0 for a blocked cell. `cell` is inside the map.
+  /// The squared distance of the centre of a cell from the centre of the nearest blocked cell, in cells, at
+  /// most kMostSquared; 0 for a blocked cell. `cell` is inside the map.
   std::uint16_t squared(Cell cell) const {
     const auto column = static_cast<std::size_t>(cell.column);
     const auto row = static_cast<std::size_t>(cell.row);

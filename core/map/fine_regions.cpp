@@ -10,9 +10,10 @@
 namespace fleetplan::core {
 namespace {
 
-/// Cells; far above the rounding of positions. Closer cases are left to LineOfSight.
+/// The difference, in cells, below which cases are left to LineOfSight: far above the rounding of positions.
 constexpr double kUnclear = 1e-7;
-/// Cells: for larger disks, all steps are left to LineOfSight.
+/// The largest radius, in cells, whose steps are tested here; for larger disks all steps are left to
+/// LineOfSight.
 constexpr double kLargestDisk = 64.0;
 /// Half the longest step, in pitches; a little more than half the square root of 2.
 constexpr double kHalfDiagonal = 0.7072;
@@ -47,7 +48,7 @@ FineNodes::FineNodes(const OccupancyGrid& grid, const LineOfSight& sight, double
   }
 }
 
-/// For disks at (x, y) from the centre of a cell; all in cells.
+/// Returns the limits for disks at (x, y) from the centre of a cell; all in cells.
 FineNodes::Limits FineNodes::limits(double x, double y, double radius, double ample) {
   Limits limits{0, std::numeric_limits<int>::max(), 0};
   const double most = std::sqrt(static_cast<double>(DistanceTransform::kMostSquared)) - 2.0;
@@ -68,7 +69,8 @@ FineNodes::Limits FineNodes::limits(double x, double y, double radius, double am
   return limits;
 }
 
-/// The cells, from the one at the origin, that a disk overlaps on the way but perhaps not at its ends.
+/// Returns the cells, from the cell at the origin, that a disk overlaps on the way but perhaps not at its
+/// ends.
 std::vector<Cell> FineNodes::cells_between(const Position& from, const Position& to, double radius) {
   std::vector<Cell> between;
   const Segment way{from, to};
@@ -95,7 +97,7 @@ Cell FineNodes::nearest(const Position& position) const {
           static_cast<int>(std::floor(position.y() / pitch_ + shift))};
 }
 
-/// A node on a grid line belongs to the cell to its right or above.
+/// The cell of a node. A node on a grid line belongs to the cell to its right or above.
 Cell FineNodes::cell_of(int column, int row) const {
   return half_ ? Cell{column / 2, row / 2} : Cell{column, row};
 }
@@ -130,9 +132,9 @@ bool FineNodes::is_ample(int column, int row) const {
 
 namespace {
 
-/// Nodes; smaller blocks fit walls better, larger ones are fewer.
+/// The least side of a block, in nodes: smaller blocks fit walls better, larger ones are fewer.
 constexpr unsigned kLeastSide = 8;
-/// A node has a vertex within so many spacings, along steps between nodes.
+/// The longest way of a node to its vertex, in spacings, along steps between nodes.
 constexpr double kFarthest = 2.5;
 /// Nodes between two checks of the stop condition; fewer where each of them takes long.
 constexpr int kBlocksBetweenPolls = 1024;
@@ -181,7 +183,7 @@ bool FineRegions::find(const StopCondition& condition) {
   return !stop.met();
 }
 
-/// Adds vertices to a block where the disk fits but nothing leads to a vertex.
+/// Adds vertices to a block where the disk fits but no way leads to a vertex.
 void FineRegions::add_vertices(int block, StopStride& stop) {
   const Cell begin = begin_of_block_[static_cast<std::size_t>(block)];
   for (int k = 0; k < side_ * side_ && !stop.met_at_step(); ++k) {
@@ -223,8 +225,8 @@ void FineRegions::classify(int block_column, int block_row, StopStride& stop) {
   searched_.insert(searched_.end(), found.begin(), found.end());
 }
 
-/// For every column of nodes, or row, the nearest column or row of the lattice among those within the same
-/// blocks; -1 if there is none.
+/// Returns for every column (or row) of nodes the nearest column (or row) of the lattice among those within
+/// the same blocks; -1 if there is none.
 std::vector<int> FineRegions::nearest_in_blocks(int nodes, int vertices) const {
   const auto along_axis = [&](int node) { return nodes_.position(node, node).x(); };
   const double rounding = 1e-6 * nodes_.pitch();
@@ -243,7 +245,7 @@ std::vector<int> FineRegions::nearest_in_blocks(int nodes, int vertices) const {
   return nearest;
 }
 
-/// The vertex of the lattice nearest to a node of an open block, if the block has one.
+/// Returns the vertex of the lattice nearest to a node of an open block, if the block has one.
 std::optional<int> FineRegions::vertex_in_open_block(const Cell& node) const {
   if (!in_open_block(node)) return std::nullopt;
   const int column = nearest_column_[static_cast<std::size_t>(node.column)];
@@ -258,7 +260,7 @@ int FineRegions::length_to(const Cell& node, int vertex) const {
   return static_cast<int>(up_to_next);
 }
 
-/// Begins at the vertices of the lattice in a block.
+/// Begins the brushfire at the vertices of the lattice in a block.
 void FineRegions::begin_at_vertices(int block, StopStride& stop) {
   const Cell begin = begin_of_block_[static_cast<std::size_t>(block)];
   const Position low = nodes_.position(begin.column, begin.row);
@@ -284,7 +286,7 @@ void FineRegions::begin_at_vertices(int block, StopStride& stop) {
   }
 }
 
-/// Begins at the nodes of a block beside open blocks.
+/// Begins the brushfire at the nodes of a block beside open blocks.
 void FineRegions::begin_at_open_blocks(int block, StopStride& stop) {
   const Cell begin = begin_of_block_[static_cast<std::size_t>(block)];
   for (int k = 0; k < side_ * side_; ++k) {
@@ -302,7 +304,7 @@ void FineRegions::begin_at_open_blocks(int block, StopStride& stop) {
   }
 }
 
-/// Reaches a node, unless it was reached on a way that is as short.
+/// Reaches a node, unless it was reached before on a way that is no longer.
 void FineRegions::put(const Cell& here, int vertex, int length, int step) {
   Node& node = *find_node(here);
   if (length > limit_ || (node.vertex >= 0 && node.length <= length)) return;

@@ -21,7 +21,7 @@ namespace fleetplan::core {
 /// cells, or also the middles between them. Exact; the distance transform decides nearly always.
 class FineNodes {
  public:
-  /// `half`: also the middles between cells. `radius` in metres.
+  /// The nodes for a disk of `radius` metres. `half`: whether the middles between cells are nodes, too.
   FineNodes(const OccupancyGrid& grid, const LineOfSight& sight, double radius, bool half);
 
   int columns() const { return columns_; }
@@ -36,7 +36,8 @@ class FineNodes {
 
   /// Whether the disk fits at the node.
   bool fits(int column, int row) const;
-  /// Whether the disk fits at all places within half the longest step, too. True only where that is obvious.
+  /// Whether the disk fits at all places within half the longest step from the node. True only where that is
+  /// obvious.
   bool is_ample(int column, int row) const;
   /// Whether tests take up to thousands of times as long as usual: of large disks, or among polygons.
   bool are_costly() const { return !between_known_ || !sight_.polygons().empty(); }
@@ -44,14 +45,15 @@ class FineNodes {
   bool may_step(const Cell& from, const Cell& to) const;
 
  private:
-  /// Squared distances from the centre of the cell of a node to that of the nearest blocked one.
+  /// Squared distances, from the centre of the cell of a node to the centre of the nearest blocked cell, that
+  /// decide whether the disk fits at the node.
   struct Limits {
     int fits_from = 0;      // the disk fits
-    int blocked_below = 0;  // it does not
+    int blocked_below = 0;  // the disk does not fit
     int ample_from = 0;
   };
 
-  static constexpr int kSteps = 9;  // to the neighbours and, unused, to the node itself
+  static constexpr int kSteps = 9;  // steps to the neighbours and, unused, to the node itself
 
   static Limits limits(double x, double y, double radius, double ample);
   static std::vector<Cell> cells_between(const Position& from, const Position& to, double radius);
@@ -59,7 +61,7 @@ class FineNodes {
     return 3 * static_cast<std::size_t>(rows + 1) + static_cast<std::size_t>(columns + 1);
   }
   Cell cell_of(int column, int row) const;
-  /// Of nodes on grid lines, and of centres of cells.
+  /// The kind of a node, 0 to 3: on both grid lines, on a vertical one, on a horizontal one, or on none.
   std::size_t kind_of(int column, int row) const {
     return half_ ? static_cast<std::size_t>((column % 2) * 2 + row % 2) : 3;
   }
@@ -107,20 +109,20 @@ class FineRegions {
 
   FineRegions(const FineNodes& nodes, const Lattice& lattice, double radius, const LineOfSight& sight);
 
-  /// False if the stop condition was met first.
+  /// Finds the regions. Returns false if the stop condition was met first.
   bool find(const StopCondition& condition);
 
-  /// Additional vertices; their ids follow those of the lattice.
+  /// The additional vertices; their ids follow those of the lattice.
   const std::vector<Position>& added() const { return added_; }
-  /// Of a vertex of the lattice or an additional one.
+  /// The position of a vertex of the lattice or of an additional one, metres.
   Position position(int vertex) const;
 
-  /// Calls visit(touch) for all places where regions touch, until the stop condition is met. Whether the step
-  /// between them is free is not tested.
+  /// Calls visit(touch) for all places where regions touch, until the stop condition is met. Does not test
+  /// whether the step between them is free.
   template <class Visit>
   void for_each_touch(StopStride& stop, Visit&& visit) const;
 
-  /// The nodes from one to its vertex, both included.
+  /// Returns the nodes on the way from a node to its vertex, both included.
   std::vector<Position> way_from(Cell here) const;
 
  private:
@@ -156,7 +158,7 @@ class FineRegions {
     return static_cast<std::size_t>(node.row >> side_bits_) * static_cast<std::size_t>(block_columns_) +
            static_cast<std::size_t>(node.column >> side_bits_);
   }
-  /// Null in open and closed blocks.
+  /// Returns the node; null in open and closed blocks.
   Node* find_node(const Cell& node) { return const_cast<Node*>(std::as_const(*this).find_node(node)); }
   const Node* find_node(const Cell& node) const {
     const std::int32_t begin = blocks_[block_of(node)];
@@ -173,16 +175,16 @@ class FineRegions {
   double radius_;
   const LineOfSight& sight_;
   int side_bits_;
-  int side_;   // of a block, nodes: 2 to the power of side_bits_
+  int side_;   // nodes along a side of a block: 2 to the power of side_bits_
   int limit_;  // length of the longest way to a vertex
   int block_columns_;
   int block_rows_;
-  std::vector<int> nearest_column_;   // of the lattice, for each column of nodes; see nearest_in_blocks
-  std::vector<int> nearest_row_;      // the same for each row
+  std::vector<int> nearest_column_;   // by column of nodes: the nearest column of the lattice
+  std::vector<int> nearest_row_;      // by row of nodes: the nearest row of the lattice
   std::vector<std::int32_t> blocks_;  // kClosed, kOpen, or its number in searched_
-  std::vector<Cell> begin_of_block_;  // that is searched: its first node
+  std::vector<Cell> begin_of_block_;  // first node of each block that is searched
   std::vector<Node> searched_;
-  std::vector<std::vector<Cell>> front_;  // by length
+  std::vector<std::vector<Cell>> front_;  // nodes by length of their way
   std::vector<Position> added_;
 };
 

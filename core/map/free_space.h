@@ -17,21 +17,22 @@
 namespace fleetplan::core {
 
 /// The vertices that refine a lattice for robots of one radius, where the way past the obstacles is too
-/// narrow for it, and their links. Their ids follow those of the lattice.
+/// narrow for the lattice, and their links. Their ids follow those of the lattice.
 class FinerVertices {
  public:
-  /// From a vertex to another one, both of the lattice or finer ones.
+  /// A link from a vertex to another one; both may be vertices of the lattice or finer ones.
   using Link = std::pair<int, int>;
 
   /// No vertices.
   FinerVertices() = default;
-  /// `first`: the id of the first one, after those of the lattice. `links` in one direction or both.
+  /// `first` is the id of the first finer vertex, after those of the lattice. `links` may be given in one
+  /// direction or in both.
   FinerVertices(int first, std::vector<Position> positions, std::vector<Link> links);
 
   int count() const { return static_cast<int>(positions_.size()); }
   int first() const { return first_; }
   const Position& position(int vertex) const { return positions_[static_cast<std::size_t>(vertex - first_)]; }
-  /// From a vertex, by their ends.
+  /// Returns the links from a vertex, by their ends.
   std::span<const Link> links_from(int vertex) const;
   /// All links, in both directions.
   std::span<const Link> links() const { return links_; }
@@ -39,7 +40,7 @@ class FinerVertices {
     return positions_.capacity() * sizeof(Position) + links_.capacity() * sizeof(Link) +
            blocks_.capacity() * sizeof(std::int32_t) + by_x_.capacity() * sizeof(int);
   }
-  /// Finer vertices within `distance` metres of a position, ascending.
+  /// Returns the finer vertices within `distance` metres of a position, ascending.
   std::vector<int> near(const Position& position, double distance) const;
 
  private:
@@ -48,15 +49,15 @@ class FinerVertices {
   int first_ = 0;
   std::vector<Position> positions_;
   std::vector<Link> links_;           // ascending
-  std::vector<std::int32_t> blocks_;  // where the links of 64 vertices begin
-  std::vector<int> by_x_;             // vertices
+  std::vector<std::int32_t> blocks_;  // begin of the links of each 64 vertices
+  std::vector<int> by_x_;             // vertices by x
 };
 
 /// Where robots of one radius may stand and move, without regard to other robots. Their lattice moves are
 /// computed on first use. Not thread-safe.
 class FreeSpace {
  public:
-  /// `finer`: null if the lattice is not refined.
+  /// The free space for robots of `radius` metres. `finer`: null if the lattice is not refined.
   FreeSpace(const Lattice& lattice, const LineOfSight& sight, double radius,
             std::shared_ptr<const FinerVertices> finer = nullptr);
 
@@ -70,10 +71,10 @@ class FreeSpace {
   /// Whether there are blocked polygons.
   bool among_polygons() const { return !sight_.polygons().empty(); }
 
-  /// The vertices that refine the lattice; may be none.
+  /// The vertices that refine the lattice; there may be none.
   const FinerVertices& finer() const { return *finer_; }
 
-  /// Bit k is set if step k of the lattice from `vertex` is free.
+  /// Returns the free steps of the lattice from `vertex`: bit k is set if step k is free.
   std::uint32_t steps_from(int vertex);
 
  private:

@@ -11,7 +11,8 @@ namespace {
 /// Columns and rows of the table of displacements: moves are rarely longer, and it fits into a CPU's cache.
 constexpr int kMaxTableSize = 96;
 
-/// The moves in angular order; each doubling inserts the sum of every two neighbours.
+/// Returns the moves in angular order. Each doubling of the connectivity inserts the sum of every two
+/// neighbours.
 std::vector<Lattice::Step> neighbourhood(int connectivity) {
   std::vector<Lattice::Step> steps{{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   // Bounded: the connectivity, which is small.
@@ -27,7 +28,7 @@ std::vector<Lattice::Step> neighbourhood(int connectivity) {
   return steps;
 }
 
-/// The angle between the first two moves is the largest of all.
+/// Returns the cosine of half the angle between the first two moves, which is the largest such angle.
 double cosine_of_half(const Lattice::Step& second) {
   return std::cos(0.5 * std::atan2(second.rows, second.columns));
 }
@@ -54,7 +55,7 @@ Lattice::Lattice(const OccupancyGrid& grid, int connectivity, double spacing)
   }
 }
 
-/// The square of the last one may reach beyond the map, but not its centre.
+/// The square of the last vertex may reach beyond the map, but not its centre.
 std::int64_t Lattice::vertices_along(double length, double spacing) {
   return static_cast<std::int64_t>(std::floor(length / spacing + 0.5));
 }

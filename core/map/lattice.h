@@ -19,7 +19,7 @@ struct Displacement {
   double heading = 0.0;
   double length = 0.0;
 
-  /// Between any two positions.
+  /// Returns the displacement between any two positions.
   static Displacement between(const Position& from, const Position& to);
 };
 
@@ -34,13 +34,14 @@ class Lattice {
     int rows;
   };
 
-  /// `connectivity` is 4, 8, 16 or 32: the moves of the 2^k neighbourhood (Rivera, Hernandez, Baier, AAAI
-  /// 2017).
+  /// The lattice of the cells. `connectivity` is 4, 8, 16 or 32: the moves of the 2^k neighbourhood (Rivera,
+  /// Hernandez, Baier, AAAI 2017).
   Lattice(const OccupancyGrid& grid, int connectivity);
-  /// `spacing` in metres: > 0, and at most twice the width and the height of the map.
+  /// A lattice with `spacing` metres between its vertices: > 0, and at most twice the width and the height of
+  /// the map.
   Lattice(const OccupancyGrid& grid, int connectivity, double spacing);
 
-  /// The vertices along a side of the map of `length` metres.
+  /// Returns the number of vertices along a side of the map of `length` metres.
   static std::int64_t vertices_along(double length, double spacing);
 
   int columns() const { return columns_; }
@@ -48,7 +49,7 @@ class Lattice {
   double spacing() const { return spacing_; }
   int vertex_count() const { return columns_ * rows_; }
   std::span<const Step> steps() const { return steps_; }
-  /// The length of a straight line by that of lattice moves between its ends, at least, without obstacles:
+  /// The least length of a straight line as a share of the lattice moves between its ends, without obstacles:
   /// the cosine of half the angle between neighbouring moves.
   double least_straight() const { return least_straight_; }
 
@@ -58,7 +59,7 @@ class Lattice {
     return {(column + 0.5) * spacing_, (row + 0.5) * spacing_};
   }
   int vertex(int column, int row) const { return row * columns_ + column; }
-  /// From one vertex to another.
+  /// Returns the displacement from one vertex to another.
   Displacement between(int from, int to) const {
     const int columns = to % columns_ - from % columns_;
     const int rows = to / columns_ - from / columns_;
@@ -71,14 +72,14 @@ class Lattice {
     if (rows < 0) d.heading = -d.heading;
     return d;
   }
-  /// The vertex within kSamePosition of a position, or -1.
+  /// Returns the vertex within kSamePosition of a position, or -1.
   int vertex_at(const Position& position) const;
-  /// The position of the vertex at a position, or the position itself if there is none.
+  /// Returns the position of the vertex at a position, or the position itself if there is none.
   Position snapped(const Position& position) const {
     const int vertex = vertex_at(position);
     return vertex >= 0 ? this->position(vertex) : position;
   }
-  /// Vertices within `distance` metres of a position, ascending.
+  /// Returns the vertices within `distance` metres of a position, ascending.
   std::vector<int> vertices_near(const Position& position, double distance) const;
 
  private:
@@ -89,7 +90,7 @@ class Lattice {
   double spacing_;
   std::vector<Step> steps_;
   double least_straight_;
-  // Heading and length of displacements by fewer columns and rows than these; by row, then column.
+  // Headings and lengths of displacements by fewer columns and rows than these; by row, then column.
   int table_columns_;
   int table_rows_;
   std::vector<Displacement> first_quadrant_;

@@ -11,30 +11,33 @@ namespace fleetplan::core {
 namespace {
 
 constexpr int kBand = 64;  // rows
-/// Cells: for a larger disk, squares of kBand x kBand cells are looked at before cells.
+/// The radius, in cells, from which on squares of kBand x kBand cells are looked at before cells.
 constexpr double kLargeDisk = 128.0;
 
 int bands(int cells) { return (cells + kBand - 1) / kBand; }
-/// Cells; far above the rounding of positions. Closer cases are left to the exact test.
+/// The difference, in cells, below which cases are left to the exact test: far above the rounding of
+/// positions.
 constexpr double kBoundsRounding = 1e-7;
-/// Cells: shorter steps along a move are not worth their cost, and so far the exact test looks then.
+/// The shortest step along a move, in cells, that is worth its cost; otherwise the exact test decides about
+/// the next kStepInDoubt cells.
 constexpr double kShortestStep = 0.5;
 constexpr double kStepInDoubt = 2.0;
-/// The next point to look at is so much farther than what is known to be clear, of the distance that the last
-/// one was clear. Most often the clear disks of both points meet.
+/// The next point of a move that is looked at is farther than what is known to be clear, by this share of the
+/// distance that the last point was clear. Most often the clear disks of both points meet.
 constexpr double kRelaxation = 0.8;
-/// Cells: smaller disks are tested in rectangles of cells, as they fit where the bounds do not tell.
+/// The radius, in cells, below which disks are tested in rectangles of cells, as they fit where the bounds do
+/// not tell.
 constexpr double kSmallDisk = 3.0;
-/// The exact test of a capsule of so few columns is cheaper than halving it once more.
+/// The number of columns up to which the exact test of a capsule is cheaper than halving it once more.
 constexpr int kNarrowColumns = 4;
-/// Words that are looked at for one rectangle.
+/// The most words that are looked at for one rectangle.
 constexpr int kMostWords = 64;
-/// Cells: from the centre of a cell to its corners, rounded up, and to its sides.
+/// The distance, in cells, from the centre of a cell to its corners, rounded up, and to its sides.
 constexpr double kToCorner = 0.7072;
 constexpr double kToSide = 0.5;
 
 int floor_int(double x) { return static_cast<int>(std::floor(x)); }
-/// The last cell that an open set with upper end x overlaps.
+/// Returns the last cell that an open set with upper end x overlaps.
 int last_cell(double x) { return static_cast<int>(std::ceil(x)) - 1; }
 
 /// The upper boundary of the capsule from a to b (a.x <= b.x) of radius r.
@@ -168,7 +171,7 @@ double LineOfSight::fitting_radius(const Position& center, double least, double 
   return std::max(least, fits - kMargin);
 }
 
-/// The transform has the distance between centres of cells. `point` is on the map.
+/// Returns the bounds for a point on the map, from the transform's distances between centres of cells.
 LineOfSight::Bounds LineOfSight::distance_from_cells(const Position& point) const {
   const int column = std::min(columns_ - 1, static_cast<int>(point.x()));
   const int row = std::min(rows_ - 1, static_cast<int>(point.y()));
@@ -190,9 +193,9 @@ bool LineOfSight::free_of_cells(const Capsule& capsule) const {
     const Position to = end < length ? Position(capsule.from + end * step) : capsule.to;
     return columns_free({capsule.from + begin * step, to, capsule.radius});
   };
-  double followed = 0.0;       // so far the move is followed
-  double in_doubt_from = 0.0;  // and so far it is clear
-  double at = 0.0;             // where to look, at least `followed`
+  double followed = 0.0;       // distance to which the move is followed
+  double in_doubt_from = 0.0;  // distance to which it is clear
+  double at = 0.0;             // distance to look at next, at least `followed`
   do {
     const Bounds distance = distance_from_cells(capsule.from + at * step);
     if (distance.most < capsule.radius - kBoundsRounding) return false;
@@ -255,7 +258,7 @@ bool LineOfSight::columns_free(const Capsule& capsule) const {
   const double lowest_at = b.y() >= a.y() ? a.x() : b.x();
   const UpperBoundary above(a, b, r);
   const UpperBoundary below({a.x(), -a.y()}, {b.x(), -b.y()}, r);
-  // The first and the last row that the capsule overlaps in so many columns.
+  // Returns the first and the last row that the capsule overlaps in so many columns.
   const auto rows_of = [&](int column, int columns) {
     const double x_min = std::max<double>(column, left);
     const double x_max = std::min<double>(column + columns, right);

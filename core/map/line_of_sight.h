@@ -24,9 +24,11 @@ namespace fleetplan::core {
 /// highest, clamped to the column.
 class LineOfSight {
  public:
-  /// Not finished(), and not to be used, if `stop` is met first.
+  /// Derives what the tests need from the grid. If `stop` is met first, the object is not finished() and must
+  /// not be used.
   LineOfSight(const OccupancyGrid& grid, const StopCondition& stop);
-  /// With polygons that are blocked, too. What is derived from the grid is shared.
+  /// The line of sight among the walls of `walls` and further polygons. What is derived from the grid is
+  /// shared.
   LineOfSight(const LineOfSight& walls, BlockedPolygons polygons);
 
   bool finished() const { return cells_->finished; }
@@ -35,26 +37,28 @@ class LineOfSight {
   /// allowed.
   bool disk_fits(const Position& center, double radius) const { return may_sweep(center, center, radius); }
 
-  /// The largest radius of a disk that may stand at `center`, to within 1e-11 m, but at most `most` and at
-  /// least `least` (metres), even if that does not fit. Rounding does not keep such a disk from moving away.
+  /// Returns the largest radius of a disk that may stand at `center`, to within 1e-11 m, but at most `most`
+  /// and at least `least` (metres), even if that does not fit. Rounding does not keep such a disk from moving
+  /// away.
   double fitting_radius(const Position& center, double least, double most) const;
 
   /// Returns whether a disk may sweep the segment, ends included. `radius` > 0 in metres.
   bool may_sweep(const Position& from, const Position& to, double radius) const;
 
-  /// A disk may move so far from `center` in any direction, metres. A bound that is within about a cell of
-  /// the truth and quickly known; negative if the disk does not fit or may not.
+  /// Returns a distance that a disk may move from `center` in any direction, metres. The bound is quickly
+  /// known and within about a cell of the truth; negative if the disk does not fit, or may not fit.
   double surely_free(const Position& center, double radius) const;
-  /// Likewise, no disk fits anywhere so near to `center`; negative if it fits or may fit.
+  /// Returns a distance from `center` within which no disk of this radius fits, metres; negative if the disk
+  /// fits, or may fit.
   double surely_blocked(const Position& center, double radius) const;
 
   const BlockedPolygons& polygons() const { return polygons_; }
-  /// Returns whether such a sweep is clear of the polygons alone.
+  /// Returns whether such a sweep is clear of the polygons, without regard to the walls.
   bool clears_polygons(const Position& from, const Position& to, double radius) const;
 
-  /// From blocked cells.
+  /// The distances from blocked cells.
   const DistanceTransform& distances() const { return cells_->distances; }
-  /// Of what is derived from the grid.
+  /// The memory of what is derived from the grid.
   std::size_t bytes() const;
 
  private:
@@ -68,11 +72,11 @@ class LineOfSight {
 
     DistanceTransform distances;
     std::vector<std::uint64_t> blocked;  // a bit for each of 64 rows; by band of rows, then column
-    /// Whether any cell is blocked in a square of 64 x 64; by band of rows, then square.
+    /// Whether any cell is blocked in a square of 64 x 64 cells; by band of rows, then square.
     std::vector<std::uint8_t> blocked_squares;
     bool finished = false;
   };
-  /// The distance of a point from the nearest blocked cell, in cells.
+  /// Bounds of the distance of a point from the nearest blocked cell, in cells.
   struct Bounds {
     double least;
     double most;

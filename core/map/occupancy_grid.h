@@ -33,10 +33,10 @@ class OccupancyGrid {
   bool inside(Cell cell) const {
     return cell.column >= 0 && cell.column < columns_ && cell.row >= 0 && cell.row < rows_;
   }
-  /// True for cells outside the map too.
+  /// Whether the cell is blocked; true for cells outside the map, too.
   bool blocked(Cell cell) const { return !inside(cell) || blocked_[index(cell)] != 0; }
   void block(Cell cell) { blocked_[index(cell)] = 1; }
-  /// The cells of a row, 1 for those blocked.
+  /// The cells of a row, 1 for blocked ones.
   std::span<const std::uint8_t> row(int row) const {
     return std::span(blocked_).subspan(index({0, row}), static_cast<std::size_t>(columns_));
   }
@@ -44,11 +44,11 @@ class OccupancyGrid {
   Position center(Cell cell) const {
     return {(cell.column + 0.5) * resolution_, (cell.row + 0.5) * resolution_};
   }
-  /// The cell of a position; on a border, the cell to the right or above. May be outside the map.
+  /// Returns the cell of a position; on a border, the cell to the right or above. It may be outside the map.
   Cell cell_at(const Position& position) const;
 
   bool operator==(const OccupancyGrid&) const = default;
-  /// The hash of all that the grid consists of.
+  /// Returns the hash of the sizes, the resolution and all cells.
   std::size_t hash() const;
 
   std::size_t index(Cell cell) const {
@@ -63,8 +63,8 @@ class OccupancyGrid {
   std::vector<std::uint8_t> blocked_;  // row by row from the bottom, 1 = blocked
 };
 
-/// The distance in metres from a position to the nearest blocked cell or edge of the map, at most `limit` (>
-/// 0, metres). Outside the map it is minus the distance to the map.
+/// Returns the distance in metres from a position to the nearest blocked cell or edge of the map, at most
+/// `limit` (> 0, metres). Outside the map it is minus the distance to the map.
 double obstacle_distance(const OccupancyGrid& grid, const Position& position, double limit);
 
 }  // namespace fleetplan::core

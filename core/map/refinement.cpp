@@ -25,20 +25,21 @@ namespace {
 constexpr double kCoarseCells = 1.5;
 /// A lattice that is finer than this, in cells, misses nothing.
 constexpr double kFinestCells = 0.75;
-/// A gap between cells is passed on a grid line if the disk has so much play there, in cells. Lower bounds
-/// leave out gaps that are tighter; see TightGaps.
+/// The least play of a disk in a gap between cells, in cells, with which it is passed on a grid line. Lower
+/// bounds leave out gaps that are tighter; see TightGaps.
 constexpr double kLeastPlay = 0.05;
 /// Vertices whose regions touch are joined if the way between them on the lattice is longer than their bridge
 /// by more than this factor and so many spacings.
 constexpr double kLongWay = 1.5;
 constexpr double kWayRound = 2.0;
-/// The same for the lattice of the cells, whose plans are to change only where it matters.
+/// The spacings by which a way may be longer on the lattice of the cells, whose plans are to change only
+/// where it matters.
 constexpr double kWayRoundCells = 8.0;
-/// Spacings: links from additional vertices.
+/// The longest links from additional vertices, in spacings.
 constexpr double kLinkDistance = 1.5;
 /// Paths bend around corners by turns of this at vertices that are placed for it, radians.
 constexpr double kTurnAtCorner = 0.25 * std::numbers::pi;
-/// Of several vertices at corners that lie in one square of this size, in radii, one suffices.
+/// The side of a square, in radii, of whose vertices at corners one suffices.
 constexpr double kCornerSize = 0.35;
 /// Nodes, corners, links or bridges between two checks of the stop condition; fewer where each takes long.
 constexpr int kNodesBetweenPolls = 64;
@@ -72,10 +73,10 @@ class Refinement {
 
   /// Adds vertices around the convex corners of obstacles, where the shortest paths bend.
   void add_corners(const OccupancyGrid& grid);
-  /// The same around those of polygons.
+  /// Adds vertices around the convex corners of a polygon.
   void add_corners(const Polygon& polygon);
 
-  /// None if the stop condition was met.
+  /// Refines the lattice. Returns none if the stop condition was met.
   std::optional<FinerVertices> run() {
     const std::vector<Bridge> bridges = find_bridges();
     for (const Bridge& bridge : bridges) {
@@ -128,7 +129,8 @@ class Refinement {
   std::unordered_map<int, std::vector<int>> linked_;
 };
 
-/// The shortest bridge between every two vertices that have one but no move between them, shorter ones first.
+/// Returns the shortest bridge between every two vertices that have one but no move between them, shorter
+/// ones first.
 std::vector<Refinement::Bridge> Refinement::find_bridges() {
   std::unordered_map<std::uint64_t, Bridge> shortest;
   regions_.for_each_touch(stop_, [&](const FineRegions::Touch& touch) {

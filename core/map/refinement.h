@@ -14,8 +14,8 @@ namespace fleetplan::core {
 /// follow the centres of the cells wherever they fit, unless polygons are blocked, too.
 bool may_need_refinement(const OccupancyGrid& grid, const Lattice& lattice, double radius, bool polygons);
 
-/// The fine lattice, for a disk of this radius: the centres of the cells or, for a lattice of these, also the
-/// middles between them.
+/// The fine lattice for a disk of one radius: the centres of the cells; for the lattice of the cells, also
+/// the middles between them.
 struct FineLattice {
   double pitch = 0.0;
   double first = 0.0;   // both coordinates of the first node
@@ -24,10 +24,9 @@ struct FineLattice {
   FineLattice(const OccupancyGrid& grid, const Lattice& lattice, double robot_radius);
 };
 
-/// The vertices that the lattice lacks for robots of one radius: wherever these may go from one of its
-/// vertices to another over the centres of the cells (on the lattice of the cells themselves: and the middles
-/// between them), they can on the refined lattice, and not only by a long way round. None if the stop
-/// condition was met first.
+/// Returns the vertices that the lattice lacks for robots of one radius. With them, robots get from one
+/// vertex to another wherever they can over the centres of the cells (on the lattice of the cells: and the
+/// middles between them), and not only by a long way round. Returns none if the stop condition was met first.
 std::optional<FinerVertices> refine(const OccupancyGrid& grid, const LineOfSight& sight,
                                     const Lattice& lattice, double radius, const StopCondition& stop);
 

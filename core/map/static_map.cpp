@@ -32,7 +32,7 @@ std::shared_ptr<const StaticMap> static_map(OccupancyGrid grid, const StopCondit
   return map->finished() ? map : nullptr;
 }
 
-/// Computed without the lock, so that no request waits for another one.
+/// The vertices are computed without the lock, so that no request waits for another one.
 std::shared_ptr<const FinerVertices> StaticMap::finer_vertices(const Lattice& lattice, double radius,
                                                                const StopCondition& stop) const {
   if (!may_need_refinement(*grid_, lattice, radius, !sight_.polygons().empty()))
@@ -51,7 +51,7 @@ std::shared_ptr<const FinerVertices> StaticMap::finer_vertices(const Lattice& la
 
 namespace {
 
-/// Counts bytes that were allocated before on the job of this thread.
+/// Counts bytes that were allocated before on the account of this thread's job.
 void charge(std::size_t bytes) {
   MemoryAccount* account = MemoryScope::current();
   if (account != nullptr && !account->reserve(static_cast<std::int64_t>(bytes))) throw std::bad_alloc();
@@ -66,7 +66,7 @@ class MapCache::Shelf {
 
   explicit Shelf(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// The map that equals the grid, which gets one more user, or null.
+  /// Returns the map that equals the grid and counts one more user of it; null if there is none.
   Map take(std::size_t hash, const OccupancyGrid& grid) {
     const std::lock_guard lock(mutex_);
     Map found = take_known(hash, grid);
@@ -74,7 +74,7 @@ class MapCache::Shelf {
     return found;
   }
 
-  /// Keeps a map, with its first user, unless there is an equal one by now; returns the one that is kept.
+  /// Keeps a map, with its first user, unless an equal one is there by now. Returns the map that is kept.
   Map put(std::size_t hash, Map map) {
     const MemoryScope of_no_job(nullptr);
     const std::lock_guard lock(mutex_);
@@ -83,7 +83,7 @@ class MapCache::Shelf {
     return map;
   }
 
-  /// A user is done with a map of the shelf.
+  /// Counts one user less of a map of the shelf.
   void give_back(const StaticMap* map) {
     const MemoryScope of_no_job(nullptr);  // the maps that are destroyed were counted elsewhere
     std::list<Entry> leaving;

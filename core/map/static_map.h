@@ -23,17 +23,17 @@ namespace fleetplan::core {
 /// share it. What only some requests need is computed on first use.
 class StaticMap {
  public:
-  /// Not finished(), and not to be used, if `stop` is met first.
+  /// The map of a grid. If `stop` is met first, the object is not finished() and must not be used.
   StaticMap(OccupancyGrid grid, const StopCondition& stop);
-  /// Another map (not null) with polygons that are blocked, too.
+  /// The map `walls` (not null) with further polygons that are blocked.
   StaticMap(std::shared_ptr<const StaticMap> walls, std::vector<Polygon> polygons);
 
   bool finished() const { return sight_.finished(); }
   const OccupancyGrid& grid() const { return *grid_; }
   const LineOfSight& sight() const { return sight_; }
 
-  /// What refines a lattice for robots of this radius; never null. No vertices if there are none, or if the
-  /// stop condition was met first.
+  /// Returns the vertices that refine a lattice for robots of this radius; never null. There are none if the
+  /// lattice needs none, or if the stop condition was met first.
   std::shared_ptr<const FinerVertices> finer_vertices(const Lattice& lattice, double radius,
                                                       const StopCondition& stop) const;
 
@@ -41,21 +41,21 @@ class StaticMap {
   std::size_t bytes() const { return own_bytes_ + finer_bytes_.load(std::memory_order_relaxed); }
 
  private:
-  using Kind = std::tuple<double, int, double>;  // of lattice and robot: spacing, connectivity, radius
+  using Kind = std::tuple<double, int, double>;  // spacing and connectivity of the lattice, robot's radius
 
   std::shared_ptr<const FinerVertices> known(const Kind& kind) const;
 
-  std::shared_ptr<const StaticMap> walls_;  // of a map with polygons
+  std::shared_ptr<const StaticMap> walls_;  // the map without polygons; null if there are none
   std::shared_ptr<const OccupancyGrid> grid_;
   LineOfSight sight_;
   std::size_t own_bytes_ = 0;
-  // Computed on first use.
+  // The members below are computed on first use.
   mutable std::mutex mutex_;
   mutable std::map<Kind, std::shared_ptr<const FinerVertices>> finer_;
   mutable std::atomic<std::size_t> finer_bytes_{0};
 };
 
-/// The map of a grid; null if `stop` is met first.
+/// Returns the map of a grid; null if `stop` is met first.
 std::shared_ptr<const StaticMap> static_map(OccupancyGrid grid, const StopCondition& stop);
 
 /// Keeps maps, with what has been derived from them, for later requests on the same map: one of the same size
@@ -66,17 +66,17 @@ std::shared_ptr<const StaticMap> static_map(OccupancyGrid grid, const StopCondit
 class MapCache {
  public:
   struct Stats {
-    std::uint64_t hits = 0;    // since the start
-    std::uint64_t misses = 0;  // likewise
+    std::uint64_t hits = 0;    // maps found since the start
+    std::uint64_t misses = 0;  // maps not found since the start
     std::size_t maps = 0;
-    std::size_t bytes = 0;  // of the maps, those in use included
+    std::size_t bytes = 0;  // memory of the maps, those in use included
   };
 
-  /// 0 bytes: keeps no map and counts nothing.
+  /// A cache of at most so many bytes. With 0 bytes it keeps no map and counts nothing.
   explicit MapCache(std::size_t most_bytes);
 
-  /// The map of a grid; null if `stop` is met before it is made. It may outlive the cache. Throws
-  /// std::bad_alloc if the job of this thread is not granted the memory.
+  /// Returns the map of a grid; null if `stop` is met before it is made. The map may outlive the cache.
+  /// Throws std::bad_alloc if the job of this thread is not granted the memory.
   std::shared_ptr<const StaticMap> map_of(OccupancyGrid grid, const StopCondition& stop);
 
   Stats stats() const;

@@ -16,10 +16,10 @@ struct Action {
   double t_end = 0.0;
   Pose from;
   Pose to;
-  /// Of a wait: the goal of the robot (see Robot::goal_at) that is served during it, or whose `not_before` is
-  /// awaited.
+  /// The goal of the robot (see Robot::goal_at) that is served during this wait, or whose `not_before` is
+  /// awaited; nullopt for other waits and actions.
   std::optional<std::size_t> goal = {};
-  /// Of a translation: backwards; the heading is opposite to the direction of motion.
+  /// Whether the robot translates backwards: the heading is opposite to the direction of motion.
   bool reverse = false;
 };
 

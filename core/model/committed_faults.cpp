@@ -18,7 +18,7 @@
 namespace fleetplan::core {
 namespace {
 
-/// Pairs of robots whose faults are found; where more collide, nobody reads all of them.
+/// The most pairs of robots whose faults are found.
 constexpr std::size_t kMostPairs = 10'000;
 /// However much a start may overlap a wall, this fraction of the disk keeps clear of it.
 constexpr double kSmallestDisk = 1e-3;
@@ -62,8 +62,8 @@ struct Collision {
 /// The distance that two disks keep, in contact at the nearest.
 double reach_of(const Disk& a, const Disk& b) { return a.radius + b.radius - kContactTolerance; }
 
-/// For a pair that begins nearer than it should be: it comes no nearer until it is clear, and then keeps
-/// away.
+/// Returns the first collision of a pair that begins nearer than it should be: the pair may come no nearer
+/// until it is clear, and then keeps the whole distance.
 std::optional<Collision> collision_after_leaving(const std::vector<Disk>& a, const std::vector<Disk>& b) {
   const double at_first = (a.front().motion.from - b.front().motion.from).norm() - kContactTolerance;
   const double reach_at_first = reach_of(a.front(), b.front());
@@ -137,7 +137,8 @@ class CommittedFaults {
     }
   }
 
-  /// `own`: the robot's radius; `radius`: what it has to keep.
+  /// Adds a collision of a translation with a wall. `own` is the robot's radius, `radius` the one that it has
+  /// to keep, metres.
   void add_wall(std::size_t index, const Action& action, double own, double radius) {
     const LineOfSight& sight = maps_.of(index)->sight();
     const Position way = action.to.position - action.from.position;
@@ -165,7 +166,7 @@ class CommittedFaults {
     faults_.push_back(fault);
   }
 
-  /// Adds the first action that breaks the rule of a zone. Slower than allowed is no fault.
+  /// Adds the first action that breaks the rule of a zone. An action that is slower than allowed is no fault.
   void check_zones(std::size_t index) {
     const DriveZones zones(conditions_.zones, index, robots_[index]);
     if (zones.empty()) return;
@@ -207,7 +208,7 @@ class CommittedFaults {
     }
   }
 
-  /// A pair of two robots with commitments is compared once.
+  /// Compares the disks of two robots. Each pair of robots with commitments is compared once.
   void compare(std::size_t robot, const Disk& mine, std::size_t other, const Disk& theirs) {
     if (other == robot || (other > robot && is_committed(other))) return;
     const auto hit = overlap(mine.motion, theirs.motion, reach_of(mine, theirs));
@@ -239,7 +240,7 @@ class CommittedFaults {
   const StopCondition& stop_;
   std::vector<std::vector<Disk>> motions_;  // by robot
   std::map<Pair, Collision> pairs_;
-  std::set<Pair> leaving_;  // that have been compared
+  std::set<Pair> leaving_;  // pairs that have been compared
   std::vector<ProblemFault> faults_;
 };
 

@@ -9,7 +9,7 @@
 namespace fleetplan::core {
 namespace {
 
-/// Metres: shorter pieces are joined with a neighbour, at the lower one of their speeds.
+/// The length, in metres, below which a piece is joined with a neighbour, at the lower one of their speeds.
 constexpr double kShortestPiece = 1e-6;
 
 /// A part of a move with one speed; it begins where the one before ends.
@@ -18,10 +18,10 @@ struct Part {
   double speed;
 };
 
-/// Joins neighbours of one speed, and those that are too short.
+/// Returns the parts after neighbours of one speed, and parts that are too short, have been joined.
 std::vector<Part> joined(const std::vector<Part>& parts, double length) {
   std::vector<Part> result;
-  double first = 0.0;  // of the last one in the result
+  double first = 0.0;  // begin of the last part in the result
   for (const Part& part : parts) {
     if (result.empty()) {
       result.push_back(part);
@@ -39,7 +39,7 @@ std::vector<Part> joined(const std::vector<Part>& parts, double length) {
   return result;
 }
 
-/// The parts of the segment from `from` to `to` with their times.
+/// Returns the parts of the segment from `from` to `to` with their times.
 std::vector<DriveZones::Piece> timed(const std::vector<Part>& parts, const Position& from,
                                      const Position& to) {
   const double length = (to - from).norm();
@@ -78,7 +78,7 @@ DriveZones::DriveZones(const std::vector<Zone>& zones, std::size_t index, const 
   }
 }
 
-std::optional<std::size_t> DriveZones::that_forbids(const Position& from, const Position& to) const {
+std::optional<std::size_t> DriveZones::forbidding_zone(const Position& from, const Position& to) const {
   const Position way = to - from;
   for (const OneWayZone& zone : one_way_) {
     if (!zone.polygon.box_meets(from, to)) continue;
@@ -112,7 +112,7 @@ std::optional<std::size_t> DriveZones::broken_by(const Action& action) const {
       if (share * duration * zone.linear_speed < share * length - kContactTolerance) return zone.index;
     }
   }
-  return length > kContactTolerance ? that_forbids(from, to) : std::nullopt;
+  return length > kContactTolerance ? forbidding_zone(from, to) : std::nullopt;
 }
 
 std::vector<DriveZones::Piece> DriveZones::pieces(const Position& from, const Position& to) const {

@@ -35,25 +35,25 @@ class DriveZones {
   bool empty() const { return speed_.empty() && one_way_.empty(); }
   bool limit_speeds() const { return !speed_.empty(); }
 
-  /// The index of a one-way zone that forbids the straight move; none if it may be made.
-  std::optional<std::size_t> that_forbids(const Position& from, const Position& to) const;
-  bool allow(const Position& from, const Position& to) const { return !that_forbids(from, to); }
+  /// Returns the index of a one-way zone that forbids the straight move; none if it may be made.
+  std::optional<std::size_t> forbidding_zone(const Position& from, const Position& to) const;
+  bool allow(const Position& from, const Position& to) const { return !forbidding_zone(from, to); }
 
-  /// The pieces of a straight move of length > 0 at the greatest speeds; at least one. Next to each other
-  /// they differ in speed.
+  /// Returns the pieces of a straight move of length > 0 at the greatest speeds; at least one. Neighbouring
+  /// pieces differ in speed.
   std::vector<Piece> pieces(const Position& from, const Position& to) const;
-  /// Seconds of the straight move at the greatest speeds.
+  /// Returns the seconds that the straight move takes at the greatest speeds.
   double translation_time(const Position& from, const Position& to) const;
 
-  /// The index of a zone whose rule an action breaks, by more than contact: a translation against its
-  /// direction, or an action that is faster than it allows.
+  /// Returns the index of a zone whose rule an action breaks, by more than contact: a translation against its
+  /// direction, or an action that is faster than it allows. None if no rule is broken.
   std::optional<std::size_t> broken_by(const Action& action) const;
 
   /// The greatest linear speed at a position, metres per second.
   double linear_speed_at(const Position& position) const;
   /// The greatest angular speed at a position, radians per second.
   double angular_speed_at(const Position& position) const;
-  /// The least of these anywhere.
+  /// The least angular speed at any position, radians per second.
   double least_angular_speed() const { return least_angular_speed_; }
 
  private:

@@ -35,7 +35,7 @@ class GoalService {
  private:
   std::size_t next() const { return served_.visits.size(); }
 
-  /// At rest in this pose from `arrived_` to `now_`.
+  /// Serves the goals in this pose, in which the robot is at rest from `arrived_` to `now_`.
   void rest(const Pose& pose) {
     done_ = 0.0;
     for (; next() < robot_.goal_count() && is_in_pose(pose, robot_.goal_at(next()));) {
@@ -51,9 +51,9 @@ class GoalService {
 
   const Robot& robot_;
   ServedGoals served_;
-  double arrived_ = 0.0;  // at rest since then, or since the service of another goal in the same pose
+  double arrived_ = 0.0;  // begin of the rest, or end of the service of another goal in the same pose
   double now_ = 0.0;
-  double done_ = 0.0;  // of the service of the next goal
+  double done_ = 0.0;  // seconds of the service of the next goal
 };
 
 }  // namespace

@@ -86,8 +86,8 @@ inline Unplanned unplanned_invalid(std::size_t robot) {
 /// The number of reasons; Reason::invalid is the last one.
 inline constexpr std::size_t kUnplannedReasons = static_cast<std::size_t>(Unplanned::Reason::invalid) + 1;
 
-/// A collision that no plan avoids: a robot that cannot leave its place in time from where the committed
-/// motion of another robot, or an obstacle, will pass. The check of a plan exempts these pairs.
+/// An unavoidable collision, which no plan prevents: a robot cannot leave its place in time before the
+/// committed motion of another robot, or an obstacle, passes there. The check of a plan exempts these pairs.
 struct Meeting {
   std::size_t robot = 0;
   std::optional<std::size_t> other;     // another robot, or
@@ -95,8 +95,8 @@ struct Meeting {
   double t = 0.0;                       // seconds; the begin of the overlap
 };
 
-/// A robot has at most so many meetings in a plan, the first ones. If it has so many, later collisions of
-/// what it certainly does are exempt, too. So the list grows with the robots only.
+/// The most meetings of one robot in a plan; later ones are not listed. If a robot has so many, later
+/// collisions of what it certainly does are exempt, too. So the list grows with the robots only.
 inline constexpr std::size_t kMostMeetingsOfRobot = 8;
 
 /// The sum (flowtime) and the maximum (makespan) of the planned robots' costs, or of their lower bounds, in
@@ -121,10 +121,10 @@ struct SearchStatistics {
 struct Plan {
   std::vector<RobotPlan> plans;
   std::vector<Unplanned> unplanned;
-  std::vector<Meeting> unavoidable = {};  // by time; at most kMostMeetingsOfRobot of a robot
+  std::vector<Meeting> unavoidable = {};  // by time; at most kMostMeetingsOfRobot for each robot
   bool meetings_known = true;  // false if finding them was given up: then the plan cannot be checked
   Objectives objectives;
-  std::optional<Objectives> estimated = {};  // with a horizon: of estimated costs, where plans stop there
+  std::optional<Objectives> estimated = {};  // with a horizon: the objectives by RobotPlan::estimated_cost
   Objectives lower_bound;
   bool deterministic = true;  // false if the clock or the load influenced the plan
   SearchStatistics search;

@@ -23,8 +23,8 @@ struct PlanOptions {
   double wait_before_move = 0.0;     // seconds, >= 0
   bool any_angle = true;
   int connectivity = 8;  // 4, 8, 16 or 32
-  /// What becomes of previous plans that hold: the search begins with them, or changes them only where
-  /// another robot could not be planned otherwise.
+  /// How previous plans that hold are used: the search begins with them, or changes them only where another
+  /// robot could not be planned otherwise.
   Replan replan = Replan::all;
   /// Seconds, >= 0: |p_i(t) - p_j(t + d)| >= r_i + r_j for all |d| <= interval_margin.
   double interval_margin = 0.0;
@@ -35,7 +35,7 @@ struct PlanOptions {
   /// Seconds, > 0: conflicts are resolved up to this time; then a robot may rest anywhere for good and has
   /// its static way before it. nullopt: whole ways are planned.
   std::optional<double> horizon = {};
-  std::optional<std::int64_t> max_iterations;  // of `anytime`; nullopt: until the stop condition is met
+  std::optional<std::int64_t> max_iterations;  // steps of `anytime`; nullopt: until the stop condition is met
 };
 
 }  // namespace fleetplan::core

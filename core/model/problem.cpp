@@ -55,7 +55,7 @@ class FaultSearch {
     return kind != ProblemFault::Kind::start_in_obstacle && kind != ProblemFault::Kind::goal_in_obstacle;
   }
 
-  /// Whether a fault of these robots is listed; counts it.
+  /// Counts a fault of these robots. Returns whether it is to be listed.
   bool is_listed(std::size_t robot, std::size_t other) {
     if (listed_of_robot_.empty()) return faults_.listed.size() < ProblemFaults::kMostListed;
     std::size_t& of_robot = listed_of_robot_[robot];
@@ -66,7 +66,7 @@ class FaultSearch {
     return true;
   }
 
-  /// The start and the goals of a robot against obstacles and the edge of the map.
+  /// Compares the start and the goals of a robot with obstacles and the edge of the map.
   void check_obstacles(std::size_t index) {
     const Robot& robot = robots_[index];
     if (robot.invalid) return;
@@ -99,7 +99,7 @@ class FaultSearch {
     }
   }
 
-  /// The starts and the goals of two robots against each other.
+  /// Compares the starts and the goals of two robots with each other.
   void check_pair(std::size_t other, std::size_t index) {
     const Robot& a = robots_[other];
     const Robot& b = robots_[index];

@@ -20,11 +20,11 @@ namespace fleetplan::core {
 struct ProblemFault {
   enum class Kind {
     start_in_obstacle,  // the robot's disk at its start overlaps a blocked cell or zone, or leaves the map
-    goal_in_obstacle,   // likewise at its goal
+    goal_in_obstacle,   // the robot's disk at a goal overlaps a blocked cell or zone, or leaves the map
     starts_overlap,     // the starts of `robot` and `other` (< robot) overlap
     goals_overlap,      // the last goals of `robot` and `other` (< robot) overlap
-    /// The committed motion of `robot`, to its own end, meets that of another robot, a robot that stands at
-    /// its start, a wall, a blocked zone or the edge of the map.
+    /// The committed motion of `robot`, to its own end, collides with that of another robot, a robot that
+    /// stands at its start, a wall, a blocked zone or the edge of the map.
     committed_collision,
     committed_in_zone,  // the committed motion of `robot` breaks the rule of `zone`, which is not blocked
   };
@@ -32,10 +32,10 @@ struct ProblemFault {
   std::size_t robot = 0;
   std::size_t other = 0;  // pairs only; for committed_collision with a wall, the robot itself
   double gap = 0.0;       // metres, negative: the overlap of the disks, or of the disk and the obstacle
-  std::size_t goal = 0;   // of goal_in_obstacle: its number
-  double t = 0.0;         // of committed_collision and committed_in_zone: seconds
+  std::size_t goal = 0;   // goal_in_obstacle: number of the goal
+  double t = 0.0;         // committed_collision and committed_in_zone: seconds
   double radius = 0.0;    // metres, of the disk that does not fit at a start or goal
-  std::optional<std::size_t> zone = {};  // its index, if a zone is the obstacle, or the rule is its
+  std::optional<std::size_t> zone = {};  // index of the zone that is the obstacle, or whose rule is broken
 };
 
 /// The faults of a map and a set of robots.
@@ -65,7 +65,7 @@ struct ProblemConditions {
 /// Robots with Robot::invalid are exempt.
 class Problem {
  public:
-  /// The problem, or its faults. `robots` have positive finite radii and speeds.
+  /// Returns the problem, or its faults. `robots` have positive finite radii and speeds.
   static std::variant<Problem, ProblemFaults> create(OccupancyGrid grid, std::vector<Robot> robots,
                                                      const StopCondition& stop) {
     return create(std::move(grid), std::move(robots), {}, stop);
@@ -76,9 +76,9 @@ class Problem {
                                                      std::vector<Robot> robots, ProblemConditions conditions,
                                                      const StopCondition& stop);
 
-  /// Never null.
+  /// The static map without zones; never null.
   const std::shared_ptr<const StaticMap>& map() const { return maps_.map(); }
-  /// With the zones that are blocked for the robot; never null.
+  /// The static map with the zones that are blocked for the robot; never null.
   const std::shared_ptr<const StaticMap>& map_of(std::size_t robot) const { return maps_.of(robot); }
   const OccupancyGrid& grid() const { return map()->grid(); }
   const std::vector<Robot>& robots() const { return robots_; }

@@ -12,7 +12,7 @@ namespace fleetplan::core {
 struct Progress {
   std::int64_t attempts = 0;       // begun so far, as in SearchStatistics
   std::size_t planned = 0;         // robots that have a plan now, parked ones included; may decrease
-  std::optional<Objectives> best;  // of the plan that would be returned now; nullopt before the first
+  std::optional<Objectives> best;  // objectives of the present plan; nullopt before the first
 };
 
 /// Receives the progress of a planner. The thread that called the planner calls it and waits for it. It
@@ -31,7 +31,8 @@ class Observer {
   /// is better than the one shown last.
   virtual bool wants_plan() = 0;
 
-  /// The plan that would be returned now; `deterministic` is false, as the observer chose the moment.
+  /// Receives the plan that would be returned now; `deterministic` is false, as the observer chose the
+  /// moment.
   virtual void show(const Plan& plan) = 0;
 };
 

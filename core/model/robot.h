@@ -34,18 +34,20 @@ struct Robot {
   Pose start;                  // at t = 0
   std::optional<Goal> goal;    // nullopt: parked, it stays at its start or its committed end
   std::vector<Goal> via = {};  // visited before `goal`
-  /// Executed whatever is planned: contiguous from t = 0 in `start`. The plan goes on from their end.
+  /// The actions that the robot executes whatever is planned: contiguous from t = 0 in `start`. The plan goes
+  /// on from their end.
   std::vector<Action> committed = {};
-  /// Of an earlier plan, from t = 0 in `start`, the committed ones included; nullopt if there is none.
+  /// The actions of an earlier plan, from t = 0 in `start`, the committed ones included; nullopt if there is
+  /// none.
   std::optional<std::vector<Action>> previous = {};
-  /// Its geometry is at fault: it stands at its start for ever, as an obstacle.
+  /// Whether the robot's geometry is at fault. It stands at its start for ever then, as an obstacle.
   bool invalid = false;
   bool may_reverse = false;  // it may translate backwards
   double vicinity = 0.0;     // metres, >= 0, added to its radius against other robots only
 
   std::size_t goal_count() const { return via.size() + (goal ? 1 : 0); }
   const Goal& goal_at(std::size_t index) const { return index < via.size() ? via[index] : *goal; }
-  /// Where and when the committed actions end: the start and 0 without any.
+  /// The pose in which the committed actions end, and the time of it in seconds: the start and 0 without any.
   Pose committed_end() const { return committed.empty() ? start : committed.back().to; }
   double committed_until() const { return committed.empty() ? 0.0 : committed.back().t_end; }
 };

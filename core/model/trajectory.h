@@ -11,7 +11,7 @@ namespace fleetplan::core {
 /// A visit of a robot to one of its goals. Seconds.
 struct Visit {
   std::size_t goal = 0;   // see Robot::goal_at
-  double t_arrive = 0.0;  // from then on at rest in the goal pose
+  double t_arrive = 0.0;  // begin of the rest in the goal pose
   double t_leave = 0.0;   // the end of the service; kForever at the last goal, where the robot stays
 };
 
@@ -21,11 +21,11 @@ struct Trajectory {
   Position start{0.0, 0.0};
   std::vector<TimedSegment> moves;  // in order of time, each from the end of the previous one; lengths > 0
   double cost = 0.0;  // seconds until it rests in the goal pose, the last rotation and service included
-  std::vector<Visit> visits = {};  // to goals of Robot::via that are served after the committed actions
-  std::vector<bool> reverse = {};  // by move: backwards; those that are missing are not
+  std::vector<Visit> visits = {};  // to goals of Robot::via, after the committed actions
+  std::vector<bool> reverse = {};  // by move: whether it is backwards; missing ones are not
   /// Seconds: the end of the service at the last goal, if the robot has another radius from then on.
   double last_served = kForever;
-  /// By move: goes on straight from the one before, at another speed; those that are missing do not.
+  /// By move: whether it goes on straight from the move before, at another speed; missing ones do not.
   std::vector<bool> goes_on = {};
   /// Seconds: the plan stops here, at or after the horizon, with goals left. `cost` is then an estimate: it
   /// includes the static way that is left.

@@ -24,16 +24,16 @@ struct Zone {
   /// A simple polygon: at least three corners in order, map frame, metres. Its border belongs to a blocked
   /// zone, not to the others.
   std::vector<Position> polygon = {};
-  double linear_speed = kNoLimit;        // of `speed`: metres per second, > 0
-  double linear_speed_share = kNoLimit;  // of `speed`: of the robot's own linear speed, > 0
-  double angular_speed = kNoLimit;       // of `speed`: radians per second, > 0
-  double heading = 0.0;                  // of `one_way`: radians
-  double half_angle = 0.0;               // of `one_way`: radians, > 0
-  std::vector<std::size_t> robots = {};  // that it is for, ascending; empty: all of them
+  double linear_speed = kNoLimit;        // for `speed`: metres per second, > 0
+  double linear_speed_share = kNoLimit;  // for `speed`: share of the robot's own linear speed, > 0
+  double angular_speed = kNoLimit;       // for `speed`: radians per second, > 0
+  double heading = 0.0;                  // for `one_way`: radians
+  double half_angle = 0.0;               // for `one_way`: radians, > 0
+  std::vector<std::size_t> robots = {};  // the robots that it is for, ascending; empty: all robots
 
   bool is_for(std::size_t robot) const;
 
-  /// Its limit, metres per second, for a robot with this linear speed of its own.
+  /// Returns the limit, metres per second, for a robot with this linear speed of its own.
   double linear_speed_for(double own_speed) const {
     return std::min(linear_speed, linear_speed_share * own_speed);
   }

@@ -15,13 +15,14 @@ namespace fleetplan::core {
 /// Robots with the same zones share theirs.
 class ZoneMaps {
  public:
-  /// `map` is not null. Not finished(), and not to be used, if `stop` is met first.
+  /// Makes the maps of so many robots. `map` is not null. If `stop` is met first, the object is not
+  /// finished() and must not be used.
   ZoneMaps(std::shared_ptr<const StaticMap> map, const std::vector<Zone>& zones, std::size_t robots,
            const StopCondition& stop);
 
   bool finished() const { return finished_; }
 
-  /// Without zones. Never null.
+  /// The map without zones; never null.
   const std::shared_ptr<const StaticMap>& map() const { return maps_.front(); }
   const std::shared_ptr<const StaticMap>& of(std::size_t robot) const {
     return map_of_.empty() ? maps_.front() : maps_[map_of_[robot]];
@@ -33,10 +34,10 @@ class ZoneMaps {
   bool finished_ = true;
 };
 
-/// How far a position is from a zone, metres; 0 inside.
+/// Returns the distance of a position from a zone, metres; 0 inside.
 double distance_to_zone(const Zone& zone, const Position& position);
 
-/// The blocked zone for the robot that is nearest to a position, if one is nearer than `reach` metres.
+/// The blocked zone that is nearest to a position.
 struct NearestZone {
   std::size_t index = 0;
   double distance = 0.0;  // metres

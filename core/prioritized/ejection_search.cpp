@@ -44,7 +44,7 @@ SearchResult EjectionSearch::plan(std::size_t robot, Robots planned, const std::
   return state_.plan_ignoring(planned, robot, {}, stop_);
 }
 
-/// Those to be ejected first come first; equals at random.
+/// Sorts robots so that those to be ejected first come first; equals are in random order.
 void EjectionSearch::sort_by_ejection(Robots& planned, const std::vector<int>& failures) {
   random_.shuffle(planned);
   std::stable_sort(planned.begin(), planned.end(), [&](std::size_t a, std::size_t b) {
@@ -52,7 +52,7 @@ void EjectionSearch::sort_by_ejection(Robots& planned, const std::vector<int>& f
   });
 }
 
-/// Ascending, without the protected robots.
+/// Returns how many robots to ignore in each attempt, ascending; none of them is protected.
 std::vector<std::size_t> EjectionSearch::counts_to_ignore(const Robots& planned) const {
   const auto most = static_cast<std::size_t>(
       std::count_if(planned.begin(), planned.end(), [&](std::size_t other) { return !is_protected(other); }));
@@ -64,8 +64,8 @@ std::vector<std::size_t> EjectionSearch::counts_to_ignore(const Robots& planned)
   return counts;
 }
 
-/// Improves a path: tries to do without half of the robots that it conflicts with, then with a quarter, and
-/// so on down to single ones; first those at the end of `planned`.
+/// Improves a path: tries to do without half of the robots that it conflicts with, then without a quarter,
+/// and so on down to single ones, beginning with those at the end of `planned`.
 SearchResult EjectionSearch::eject_fewer(std::size_t robot, SearchResult result, const Robots& planned) {
   const Robots conflicting = state_.conflicting_robots(robot, *result.trajectory);
   Robots candidates;

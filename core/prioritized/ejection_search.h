@@ -39,7 +39,7 @@ class EjectionSearch {
   Random& random_;
   const StopCondition& stop_;
   std::int64_t calls_ = 0;
-  std::vector<std::int64_t> protected_until_;  // by robot: the call from which on it may be ejected again
+  std::vector<std::int64_t> protected_until_;  // by robot: the call from which on others may eject it again
 };
 
 }  // namespace fleetplan::core

@@ -20,12 +20,12 @@ constexpr std::int64_t kCellsPerStep = 8;
 /// The effort for the robots that close a way, in floods.
 constexpr std::int64_t kMaxFloods = 24;
 
-/// Of the width of a way, metres.
+/// The accuracy of the width of a way, metres.
 constexpr double kGapAccuracy = 0.001;
 
 }  // namespace
 
-/// Where a cell was reached from.
+/// The end of the way from which a cell was reached.
 enum class Enclosure::Side : std::uint8_t { none, start, goal };
 
 /// The cells that were reached from the start and from the goal.
@@ -36,7 +36,7 @@ struct Enclosure::Flood {
   PagedArray<Side> reached;
   static constexpr std::array<Side, 2> kSides{Side::start, Side::goal};
   std::array<std::vector<Cell>, 2> cells;     // in order of distance, by side
-  std::array<std::size_t, 2> expanded{};      // of the cells
+  std::array<std::size_t, 2> expanded{};      // number of cells that are expanded
   std::array<std::vector<Disk*>, 2> closing;  // disks at borders that are not crossable
   std::size_t closed_side = 0;
 };
@@ -46,10 +46,10 @@ Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vec
   const Itinerary& itinerary = instance.itinerary(robot);
   const Position& start = itinerary.pose.position;
   for (const std::size_t other : staying) {
-    // Until a robot has arrived where it stays, it closes no way.
+    // A robot closes no way before it has arrived where it stays.
     if (other == robot || instance.itinerary(other).t_begin > itinerary.t_begin) continue;
     const Position& center = instance.itinerary(other).pose.position;
-    // A robot that starts too near to another one may leave, but come no nearer.
+    // A robot that starts too near to another one may leave, but may come no nearer.
     const double reach =
         std::min(instance.slimmest_motion(robot).pair_radius + instance.motion(other).pair_radius,
                  (start - center).norm());
@@ -60,8 +60,8 @@ Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vec
             [](const Disk& a, const Disk& b) { return a.center.x() < b.center.x(); });
 }
 
-/// The smallest radius that it has on its way, or less if the robot is nearer to an obstacle at its start or
-/// goal.
+/// Returns the distance that the robot's centre keeps from obstacles on its way, metres: its smallest radius,
+/// or less if the robot is nearer to an obstacle at its start or goal.
 double Enclosure::required_clearance() const {
   const Robot& robot = instance_.robot(robot_);
   double clearance = instance_.slimmest_motion(robot_).radius;
@@ -103,7 +103,8 @@ std::optional<double> Enclosure::widest_way(double limit, std::int64_t max_steps
   return 2.0 * open;
 }
 
-/// Puts the removed disks back, one by one, if the way remains open with them.
+/// Puts the removed disks back, one by one, if the way remains open with them. Returns the robots of the
+/// others.
 std::vector<std::size_t> Enclosure::necessary(const std::vector<Disk*>& removed, std::int64_t max_steps) {
   std::vector<std::size_t> robots;
   std::int64_t floods = 0;
@@ -146,7 +147,7 @@ void Enclosure::expand(Flood& flood, std::size_t side) {
   const Cell cell = flood.cells[side][flood.expanded[side]++];
   struct Neighbour {
     int columns, rows;
-    int begin_column, begin_row;  // of the border, from the cell
+    int begin_column, begin_row;  // begin of the border, counted from the cell
   };
   constexpr std::array<Neighbour, 4> kNeighbours{{{1, 0, 1, 0}, {-1, 0, 0, 0}, {0, 1, 0, 1}, {0, -1, 0, 0}}};
   const double half = 0.5 * grid_.resolution();
@@ -196,7 +197,7 @@ bool Enclosure::crossable(const Border& border, Flood& flood, std::size_t side) 
   return false;
 }
 
-/// The disks that may cover a part of the border.
+/// Returns the disks that may cover a part of the border.
 std::vector<Enclosure::Disk*> Enclosure::disks_near(const Border& border) {
   const double length = grid_.resolution();
   const Position end = border.begin + length * Position(border.vertical ? 0.0 : 1.0,  //
@@ -211,7 +212,8 @@ std::vector<Enclosure::Disk*> Enclosure::disks_near(const Border& border) {
   return near;
 }
 
-/// The lowest and the highest of the cells that may cover a part of the border. Counts as their examination.
+/// Returns the lowest and the highest of the cells that may cover a part of the border. Counts as their
+/// examination.
 std::pair<Cell, Cell> Enclosure::cells_near(const Border& border) {
   const double far = clearance_ + grid_.resolution();
   const Cell low = grid_.cell_at(border.begin - Position(clearance_, clearance_));

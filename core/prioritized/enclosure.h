@@ -23,30 +23,31 @@ class Enclosure {
   enum class Answer : std::uint8_t { open, closed, unknown };
   struct Result {
     Answer answer = Answer::unknown;
-    /// If closed: robots without which the way would be open, none of them superfluous; ascending. None if
-    /// obstacles alone close the way.
+    /// If closed: the robots without which the way would be open, none of them superfluous; ascending. Empty
+    /// if obstacles alone close the way.
     std::vector<std::size_t> robots;
   };
 
   /// `robot` has a goal; `staying` are the robots that stay where their plans would begin.
   Enclosure(const Instance& instance, std::size_t robot, const std::vector<std::size_t>& staying);
 
-  /// The answer is unknown after `max_steps` steps, about 50 ns each. To find the robots may take a few times
-  /// as many; beyond that, more robots than necessary are returned.
+  /// Finds out whether the robot is closed off. The answer is unknown after `max_steps` steps, about 50 ns
+  /// each. To find the robots may take a few times as many; beyond that, more robots than necessary are
+  /// returned.
   Result find(std::int64_t max_steps);
 
-  /// The width of the widest way between obstacles, up to `limit` metres; at least what the robot needs.
-  /// None if no way is found within `max_steps` steps.
+  /// Returns the width of the widest way between obstacles, up to `limit` metres; at least what the robot
+  /// needs. None if no way is found within `max_steps` steps.
   std::optional<double> widest_way(double limit, std::int64_t max_steps);
 
  private:
   struct Disk {
     std::size_t robot;
     Position center;
-    double reach;  // the robot's centre has to be at least so far away, metres
+    double reach;  // metres; the robot's centre has to be at least so far away
     bool removed;
   };
-  struct Covered {  // of a border: an open interval of metres from its begin
+  struct Covered {  // a part of a border: an open interval of metres from its begin
     double begin;
     double end;
   };
@@ -71,11 +72,11 @@ class Enclosure {
   const Instance& instance_;
   const OccupancyGrid& grid_;
   const std::size_t robot_;
-  double clearance_;              // from obstacles, metres
-  double longest_reach_ = 0.0;    // of disks_
+  double clearance_;              // metres; the distance to keep from obstacles
+  double longest_reach_ = 0.0;    // metres; the longest reach among disks_
   std::vector<Disk> disks_;       // by abscissa
-  std::vector<Covered> covered_;  // of the border that is examined
-  std::int64_t steps_ = 0;        // of the flood that runs
+  std::vector<Covered> covered_;  // the covered parts of the border that is examined
+  std::int64_t steps_ = 0;        // steps of the present flood
 };
 
 }  // namespace fleetplan::core

@@ -14,23 +14,25 @@
 
 namespace fleetplan::core {
 
-/// Called when the stop condition of an attempt is met, with its unsolved and given up robots. Returns
-/// whether the attempt goes on, with the same reservations; then the stop condition is no longer met.
+/// Called when the stop condition of an attempt is met, with the robots that are unsolved and those that are
+/// given up. Returns whether the attempt goes on, with the same reservations; then the stop condition is no
+/// longer met.
 using OnStop =
     std::function<bool(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up)>;
 
 /// The outcome of planning robots in one or more priority orders. The trajectories are in the PlanState.
 struct OrderingResult {
-  std::vector<std::size_t> unsolved;  // without a trajectory, by priority; to be planned once more
-  std::vector<std::size_t> given_up;  // no path among robots that stay, or failed too often; at their starts
-  /// Those of given_up that have no path even if all others that may move are absent, now and in any order.
+  std::vector<std::size_t> unsolved;  // robots without a trajectory, by priority; to be planned once more
+  std::vector<std::size_t> given_up;  // at their starts: no path among robots that stay, or too many failures
+  /// The robots of given_up that have no path even if all others that may move are absent, now and in any
+  /// order.
   std::vector<std::size_t> hopeless;
   std::int64_t attempts = 1;  // times that robots were ordered and planned
   bool cut_off = false;       // the stop condition was met first
 };
 
 /// Plans all robots of `order` and raises the priority of those that fail (paper, section Prioritized
-/// planning), but repairs the plan instead of starting again:
+/// planning). Repairs the plan after a failure instead of starting again:
 ///
 /// 1. A robot that fails among all others is planned among those of higher priority only.
 /// 2. If that fails, it gets the highest priority. It is planned among the robots that had a higher priority
@@ -48,8 +50,8 @@ std::optional<OrderingResult> repair(PlanState& state, const PriorityOrder& orde
                                      Random& random, const StopCondition& stop, ProgressReport& progress,
                                      const OnStop& on_stop = nullptr);
 
-/// The same from a state in which some robots of `order` follow trajectories already: they do so until a
-/// robot with a higher priority needs their way.
+/// Plans the robots of `order` as repair() does, from a state in which some of them follow trajectories
+/// already. They keep these until a robot with a higher priority needs their way.
 OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
                              const StopCondition& stop, ProgressReport& progress,
                              const OnStop& on_stop = nullptr);
@@ -61,7 +63,7 @@ OrderingResult repair_or_restart(PlanState& state, const PriorityOrder& order, R
                                  const StopCondition& stop, ProgressReport& progress,
                                  const OnStop& on_stop = nullptr);
 
-/// Plans all robots of `order` from the beginning, with repairs only; for further attempts.
+/// Plans all robots of `order` from the beginning, with repairs only, for further attempts.
 OrderingResult repair_once(PlanState& state, const PriorityOrder& order, Random& random,
                            const StopCondition& stop, ProgressReport& progress);
 

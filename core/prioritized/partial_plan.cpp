@@ -26,7 +26,7 @@ std::size_t rounds_of(Effort effort) {
   return effort == Effort::full ? kRounds.size() : kRounds.size() - 1;
 }
 
-/// About a tenth of a second.
+/// The expansions for all searches of blocking robots together: about a tenth of a second.
 constexpr std::int64_t kMostBlockingExpansions = 20'000;
 
 /// Finds the robots that keep another one from its goal. The effort for all calls together is limited, to
@@ -35,10 +35,11 @@ class BlockingRobots {
  public:
   BlockingRobots(PlanState& state, const StopCondition& stop) : state_(state), stop_(stop) {}
 
-  /// For a robot that stays at its start and has no path among the others. Begins with the robots that
-  /// conflict with the path that it would take alone on the map, and removes one after the other as long as
-  /// ignoring the rest still gives it a path. Ascending. Returns more robots than necessary if the effort or
-  /// `stop` ends this early; none if `stop` is met already.
+  /// Returns the robots that keep `robot` from its goal, ascending. The robot stays at its start and has no
+  /// path among the others. The search begins with the robots that conflict with the path that it would take
+  /// alone on the map, and removes one after the other as long as ignoring the rest still gives it a path.
+  /// Returns more robots than necessary if the effort or `stop` ends this early; none if `stop` is met
+  /// already.
   std::vector<std::size_t> find(std::size_t robot);
 
  private:
@@ -112,7 +113,8 @@ class SafePlanner {
     }
   }
 
-  /// Shortest first: they seldom cross the starts of others.
+  /// Sorts the robots that stay by the length of their way, shortest first: they seldom cross the starts of
+  /// others.
   void sort_by_distance() {
     const auto distance = [&](std::size_t robot) {
       const Robot& r = state_.instance().robot(robot);
@@ -122,7 +124,7 @@ class SafePlanner {
                      [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
   }
 
-  /// Tries each robot that stays once; returns whether another round may help.
+  /// Plans each robot that stays once. Returns whether another round may help.
   bool plan_staying_robots(const SearchLimits& limits) {
     const std::vector<std::size_t> robots = staying_;
     for (const std::size_t robot : robots) {
@@ -132,7 +134,8 @@ class SafePlanner {
     return staying_.size() < robots.size() && !staying_.empty() && !stop_.met();
   }
 
-  /// Robots that crossed the start of a robot that has left it may follow their earlier trajectories again.
+  /// Lets robots that crossed the start of `robot`, which has left it, follow their earlier trajectories
+  /// again.
   void resume_those_waiting_for(std::size_t robot) {
     std::vector<std::size_t> left{robot};
     // Bounded: a robot waits for one other, and goes on once.
@@ -175,9 +178,9 @@ class SafePlanner {
   const std::size_t rounds_;
   const StopCondition& stop_;
   ProgressReport& progress_;
-  std::vector<bool> has_no_path_;                      // by robot; according to its last search
-  std::vector<std::optional<Trajectory>> earlier_;     // of robots that were stopped
-  std::vector<std::vector<std::size_t>> waiting_for_;  // by robot: those stopped as they cross its start
+  std::vector<bool> has_no_path_;                      // by robot, according to its last search
+  std::vector<std::optional<Trajectory>> earlier_;     // trajectories of robots that were stopped
+  std::vector<std::vector<std::size_t>> waiting_for_;  // by robot: those stopped for crossing its start
   std::vector<std::size_t> staying_;
   SafePlan result_;
 };

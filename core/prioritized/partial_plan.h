@@ -35,14 +35,14 @@ SafePlan make_safe(PlanState& state, const std::vector<std::size_t>& unsolved,
                    const std::vector<std::size_t>& given_up, Effort effort, const StopCondition& stop,
                    ProgressReport& progress);
 
-/// A safe plan with its reservations, to return to.
+/// A safe plan with its reservations, which a state can return to.
 struct KeptPlan {
   SafePlan plan;
   PlanState::Reservations reservations;
 };
 
-/// Puts the plan back into `state`. Returns whether searches may follow: not when the time is over, and then
-/// it takes none.
+/// Puts the plan back into `state`. Returns whether searches may follow, which is not so when the time is
+/// over.
 bool return_to(PlanState& state, const KeptPlan& kept, const StopCondition& stop);
 
 struct PartialPlan {
@@ -50,10 +50,11 @@ struct PartialPlan {
   bool cut_off = false;              // the stop condition decided something
 };
 
-/// The reasons of the robots that stay in `state`, and the robots that block them.
+/// Returns the reasons of the robots that stay in `state`, and the robots that block them.
 PartialPlan explain(PlanState& state, const SafePlan& plan, const StopCondition& stop);
 
-/// Both, with full effort.
+/// Makes the plan in `state` safe, with full effort, and explains the robots that stay: make_safe() and
+/// explain().
 PartialPlan make_partial_plan(PlanState& state, const std::vector<std::size_t>& unsolved,
                               const std::vector<std::size_t>& given_up, const StopCondition& stop,
                               ProgressReport& progress);

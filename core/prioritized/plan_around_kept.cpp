@@ -11,11 +11,11 @@
 namespace fleetplan::core {
 namespace {
 
-/// To keep a safe plan and to return to where planning was takes some 0.1 s for 500 robots. In less time than
-/// this, repairs of the plan are better left to run.
+/// The least time that is divided in two parts. Keeping a safe plan and returning to where planning was takes
+/// some 0.1 s for 500 robots; in less time, repairs of the plan are better left to run.
 constexpr std::chrono::milliseconds kLeastFirstPart{250};
 
-/// Of the time, if robots that gave way return where they can at the end.
+/// The share of the time for planning, if the rest is for robots that gave way and may return.
 constexpr double kShareOfPlanning = 0.95;
 
 bool has_time_for_two_parts(const PlanningTime& time) {
@@ -50,7 +50,7 @@ class PlanningAroundKept {
   }
 
  private:
-  /// The plan that needs no search: those that can do so follow their trajectories, all others stay.
+  /// Keeps the plan that needs no search: robots that can do so follow their trajectories, all others stay.
   void keep_without_search() {
     const std::vector<bool> stays = robots_that_may_have_to_stay();
     best_ = KeptPlan{{}, kept_};
@@ -85,7 +85,7 @@ class PlanningAroundKept {
     return stays;
   }
 
-  /// Returns whether all robots are planned, by repairs of the plan.
+  /// Repairs the plan. Returns whether all robots are planned.
   bool repaired() {
     const OnStop keep_plan = [this](const auto& unsolved, const auto& given_up) {
       return keep_safe_plan(unsolved, given_up);
@@ -100,7 +100,7 @@ class PlanningAroundKept {
     return best_.plan.staying.empty();
   }
 
-  /// The robots with trajectories first.
+  /// Returns the robots by priority, those with trajectories first.
   PriorityOrder order() {
     PriorityOrder order = initial_order(state_.instance(), movers_, random_);
     std::stable_partition(order.begin(), order.end(),
@@ -108,7 +108,8 @@ class PlanningAroundKept {
     return order;
   }
 
-  /// At the end of the first part of the time: keeps a safe plan, then goes on where planning was.
+  /// Keeps a safe plan at the end of the first part of the time, and returns to where planning was. Returns
+  /// whether planning goes on.
   bool keep_safe_plan(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
     if (in_second_part_ || time_.all.met()) return false;
     in_second_part_ = true;
@@ -120,7 +121,7 @@ class PlanningAroundKept {
     return !stop_.met();
   }
 
-  /// Keeps the plan in the state if it plans more robots, and all those that are certain.
+  /// Keeps the plan in the state if it plans more robots, among them all that are certain.
   void keep_if_better(SafePlan plan) {
     result_.cut_off = result_.cut_off || plan.cut_off;
     if (best_.plan.staying.size() <= plan.staying.size() || !plans_all_certain()) return;
@@ -132,7 +133,8 @@ class PlanningAroundKept {
                        [&](std::size_t robot) { return state_.trajectory(robot).has_value(); });
   }
 
-  /// Returns whether all robots are planned, without regard to the trajectories that others had.
+  /// Plans all robots from the beginning, without regard to earlier trajectories. Returns whether all are
+  /// planned.
   bool planned_anew() {
     if (!others_may_help_ || time_.all.met()) return false;
     for (const std::size_t robot : movers_) state_.remove(robot);
@@ -168,7 +170,7 @@ class PlanningAroundKept {
     result_.unplanned = std::move(partial.unplanned);
   }
 
-  /// The robots with a trajectory other than that which they had at first.
+  /// Returns the robots whose trajectory is not the one that they had at first.
   std::vector<std::size_t> robots_that_gave_way() const {
     std::vector<std::size_t> robots;
     for (const std::size_t robot : movers_) {
@@ -182,7 +184,7 @@ class PlanningAroundKept {
     return state_.instance().options().replan == PlanOptions::Replan::where_needed;
   }
 
-  /// Robots that gave way may have their first trajectories back where these are free again.
+  /// Gives robots that gave way their first trajectories back where these are free again.
   void return_to_kept() {
     state_.resume();
     return_together();
@@ -193,7 +195,7 @@ class PlanningAroundKept {
     }
   }
 
-  /// As many as possible at a time.
+  /// Gives as many robots as possible at a time their first trajectories back.
   void return_together() {
     std::vector<std::size_t> changed = robots_that_gave_way();
     while (!changed.empty() && !end_.met()) {
@@ -206,7 +208,8 @@ class PlanningAroundKept {
     }
   }
 
-  /// Plans them again: those whose first trajectories are free follow them, the others among these.
+  /// Plans robots again: those whose first trajectories are free follow them, the others are planned around
+  /// these. Returns whether all are planned.
   bool returned_together(const std::vector<std::size_t>& robots) {
     for (const std::size_t robot : robots) state_.remove(robot);
     std::vector<std::size_t> left;
@@ -228,18 +231,18 @@ class PlanningAroundKept {
 
   PlanState& state_;
   const std::vector<std::size_t>& movers_;
-  const std::vector<bool>& is_certain_;  // by robot, or empty
+  const std::vector<bool>& is_certain_;  // by robot; may be empty
   Random& random_;
   const StopCondition end_;
-  const PlanningTime time_;  // until robots that gave way return
+  const PlanningTime time_;  // ends when robots that gave way return
   ProgressReport& progress_;
-  StopCondition stop_;                  // of the repairs
-  const PlanState::Reservations kept_;  // at first
-  std::vector<std::size_t> others_;     // without a trajectory at first
+  StopCondition stop_;                  // ends the repairs
+  const PlanState::Reservations kept_;  // reservations at first
+  std::vector<std::size_t> others_;     // robots without a trajectory at first
   std::vector<std::size_t> certain_;    // robots that remain planned in every case
   KeptPlan best_;
-  bool in_second_part_ = false;   // of the time
-  bool others_may_help_ = false;  // other orders
+  bool in_second_part_ = false;   // the second part of the time has begun
+  bool others_may_help_ = false;  // another order may plan more robots
   PrioritizedResult result_;
 };
 

@@ -10,14 +10,15 @@
 
 namespace fleetplan::core {
 
-/// Plans those of `movers` (ascending) that follow no trajectory in `state` around those that do. These keep
-/// their trajectories unless another robot cannot be planned otherwise: then the plan is repaired (see
-/// orderings.h), and if that does not plan all, made anew if that plans more.
+/// Plans the robots of `movers` (ascending) that have no trajectory in `state` around those that have one.
+/// Robots with a trajectory keep it unless another robot cannot be planned otherwise: then the plan is
+/// repaired (see orderings.h), and if that does not plan all robots, it is made anew, which counts if it
+/// plans more.
 ///
 /// Robots that can follow their trajectories while all others of `movers` stay where they are remain planned
-/// in every case, also if `time` is over before planning begins: those of which `certain` (by robot, may be
-/// empty) says so, or if it says so of none, those that cross no other. Leaves the best safe plan in the
-/// state.
+/// in every case, also if `time` is over before planning begins. `certain` tells by robot which ones these
+/// are. If it is empty, they are the robots that cross no place where another one may have to stay. Leaves
+/// the best safe plan in the state.
 PrioritizedResult plan_around_kept(PlanState& state, const std::vector<std::size_t>& movers,
                                    const std::vector<bool>& certain, Random& random, const PlanningTime& time,
                                    ProgressReport& progress);

@@ -10,7 +10,7 @@
 namespace fleetplan::core {
 namespace {
 
-/// For at most so many robots all orders are tried: unlike repair, that ends where there is no solution and
+/// The most robots for which all orders are tried. Unlike repair, that ends where there is no solution, and
 /// proves it for prioritized planning.
 constexpr std::size_t kFewRobots = 4;
 /// Attempts in random orders, each with repairs, if no deadline ends them.
@@ -19,7 +19,7 @@ constexpr int kMaxOrdersWithoutDeadline = 10;
 constexpr double kFirstShare = 0.5;
 constexpr double kKeepingShare = 0.9;
 
-/// Plans every robot once, in this order.
+/// Plans every robot once, in the given order.
 OrderingResult plan_each_once(PlanState& state, const PriorityOrder& order, const StopCondition& stop,
                               ProgressReport& progress) {
   progress.next_attempt();
@@ -101,7 +101,8 @@ class PrioritizedPlanning {
     return repair_or_restart(state_, order_, random_, stop_, progress_, keep_plan);
   }
 
-  /// At the end of the first part of the time: keeps a safe plan, then goes on where planning was.
+  /// Keeps a safe plan at the end of the first part of the time, and returns to where planning was. Returns
+  /// whether planning goes on.
   bool keep_safe_plan(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
     if (best_ || time_.all.met()) return false;
     const PlanState::Reservations before = state_.reservations();
@@ -155,7 +156,7 @@ class PrioritizedPlanning {
   const PlanningTime& time_;
   ProgressReport& progress_;
   const PriorityOrder order_;
-  StopCondition stop_;  // of the first attempt
+  StopCondition stop_;  // ends the first attempt
   std::optional<KeptPlan> best_;
   PrioritizedResult result_;
 };

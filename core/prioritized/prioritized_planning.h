@@ -23,11 +23,11 @@ struct PrioritizedResult {
 
 /// The use of a time budget.
 struct PlanningTime {
-  StopCondition first_part;  // when it is met, a safe partial plan is made and kept, in case the rest is vain
+  StopCondition first_part;  // when it is met, a safe partial plan is made and kept
   StopCondition keeping;     // ends the making of that plan
   StopCondition all;
 
-  /// Shares of the time that remains until `stop` is met.
+  /// Divides the time that remains until `stop` is met.
   static PlanningTime until(const StopCondition& stop);
 };
 

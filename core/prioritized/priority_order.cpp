@@ -14,7 +14,7 @@ namespace {
 /// halls a quarter gave the cheapest first solutions; travel time fails more often in crowds.
 constexpr double kSpeedWeight = 0.25;
 
-/// The number of orders of `count` robots, or `limit` if that is less.
+/// Returns the number of orders of `count` robots, or `limit` if that is less.
 std::size_t permutations(std::size_t count, std::size_t limit) {
   std::size_t product = 1;
   for (std::size_t i = 2; i <= count && product < limit; ++i) product *= i;
@@ -48,7 +48,7 @@ PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& op
     case PlanOptions::Priority::shortest_first:
       std::stable_sort(robots.begin(), robots.end(),
                        [&](auto a, auto b) { return weighted_distance(a) < weighted_distance(b); });
-      // With a horizon, no search fails that would raise a robot above one that is in its way for good.
+      // With a horizon, no search fails, so no robot would be raised above one that is in its way for good.
       if (options.horizon) {
         std::stable_partition(robots.begin(), robots.end(), [&](auto i) { return !has_arrived(all[i]); });
       }

@@ -12,9 +12,9 @@ namespace fleetplan::core {
 /// Robots by index, the highest priority first.
 using PriorityOrder = std::vector<std::size_t>;
 
-/// The first order of these robots (ascending, with goals), by the options' priority: by straight distance
-/// from start to goal, where a faster robot counts as slightly nearer, as listed, or at random. Shortest
-/// first with a horizon, robots that have arrived come last, so that they make way. Ties keep the
+/// Returns the first order of these robots (ascending, with goals), by the options' priority: by straight
+/// distance from start to goal, where a faster robot counts as slightly nearer, as listed, or at random.
+/// Shortest first with a horizon, robots that have arrived come last, so that they make way. Ties keep the
 /// order of the list.
 PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> robots, Random& random);
 PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& options,
@@ -23,8 +23,8 @@ PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& op
 /// Whether the robots of the order differ in size, inflation and vicinity included.
 bool differ_in_size(const Instance& instance, const PriorityOrder& order);
 
-/// A start delay that may give other robots time to get out of the way, seconds: uniform up to the lower
-/// bound of a random robot of the order.
+/// Returns a start delay that may give other robots time to get out of the way, seconds: uniform up to the
+/// lower bound of a random robot of the order.
 double random_start_delay(const Instance& instance, const PriorityOrder& order, Random& random);
 
 /// The orders to try, none of them twice (paper, section Prioritized planning).
@@ -46,7 +46,7 @@ class OrderSequence {
   void drop(std::size_t robot);
 
  private:
-  /// Returns false if the current order has been tried already.
+  /// Marks the current order as tried. Returns false if it has been tried already.
   bool mark_tried() { return tried_.insert(current_).second; }
 
   PlanOptions::Reordering reordering_;

@@ -10,23 +10,23 @@ namespace fleetplan::core {
 /// Reports the progress of planning to an observer, if there is one.
 class ProgressReport {
  public:
-  /// Counts the robots that follow a trajectory in `state`. `observer` may be null.
+  /// Reports the robots that follow a trajectory in `state` as planned. `observer` may be null.
   ProgressReport(const PlanState& state, Observer* observer) : state_(state), observer_(observer) {
     for (std::size_t robot = 0; robot < state.instance().size(); ++robot) {
       if (!state.instance().robot(robot).goal) ++parked_;
     }
   }
 
-  /// Another attempt at planning all robots begins.
+  /// Reports that another attempt at planning all robots begins.
   void next_attempt() {
     ++progress_.attempts;
     update();
   }
-  /// The number of robots with a trajectory may have changed.
+  /// Reports the number of robots with a trajectory if it has changed.
   void update() {
     if (observer_ != nullptr) notify();
   }
-  /// There is a plan, or a better one.
+  /// Reports that there is a plan, or a better one.
   void plan_found(const Objectives& best) {
     progress_.best = best;
     update();

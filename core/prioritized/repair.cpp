@@ -10,35 +10,35 @@
 namespace fleetplan::core {
 namespace {
 
-/// A robot that fails more often than this may be in a cycle of robots that raise each other.
+/// The failures of a robot after which it may be in a cycle of robots that raise each other.
 constexpr int kFailuresBeforeShuffle = 3;
-/// A robot that fails more often than this is given up. In the paper's halls with 300 robots none failed
-/// more than 5 times.
+/// The failures of a robot after which it is given up. In the paper's halls with 300 robots none failed more
+/// than 5 times.
 constexpr int kMaxFailuresOfRobot = 40;
-/// From this failure on the fleet counts as a dense crowd, in which robots are ejected. Robots of one size in
-/// the paper's crowds are planned sooner so. Where sizes differ, planning starts again with larger robots
-/// first before that (repair_or_restart); then no fleet in the paper's halls fails so often.
+/// The failure from which on the fleet counts as a dense crowd, in which robots are ejected. Robots of one
+/// size in the paper's crowds are planned sooner so. Where sizes differ, planning starts again with larger
+/// robots first before that (repair_or_restart); then no fleet in the paper's halls fails so often.
 constexpr std::int64_t kFirstEjection = 3;
 constexpr std::int64_t kFirstEjectionOfSizes = 20;
-/// The same in mode `anytime`. Twice the expansions of the first plan are well spent there: with 180 robots
-/// in the paper's hall with rectangles, its flowtime is 0.96 of that without, and 0.97 after 5,000
-/// iterations.
+/// The first ejection in mode `anytime` where sizes differ. Twice the expansions of the first plan are well
+/// spent there: with 180 robots in the paper's hall with rectangles, its flowtime is 0.96 of that without,
+/// and 0.97 after 5,000 iterations.
 constexpr std::int64_t kFirstEjectionOfSizesInAnytime = 1;
-/// For a robot that fails more often than this, others are no longer ejected: it may be in a cycle that only
-/// a start delay breaks. In crowds that fill two fifths of the floor hardly any robot fails so often.
+/// The failures of a robot after which others are no longer ejected for it: it may be in a cycle that only a
+/// start delay breaks. In crowds that fill two fifths of the floor hardly any robot fails so often.
 constexpr int kMaxEjectionsForRobot = 10;
-/// A quick search that takes more expansions than this, and than half of the vertices, has failed: most often
+/// The expansions after which a quick search has failed, if they exceed half of the vertices, too: most often
 /// there is no path. In the paper's crowds none takes 5,000.
 constexpr std::int64_t kMaxQuickExpansions = 20'000;
-/// After so many expansions in all, a fleet is so large that the time matters more than the last percents of
-/// its cost: a search that takes more than kFewExpansions is then made again with the greater weight. 1000
+/// The expansions in all from which on a fleet is so large that the time matters more than the last percents
+/// of its cost: a search that takes more than kFewExpansions is then made again with the greater weight. 1000
 /// robots on den520d take 0.7 of the time by it, for 1.02 of the flowtime.
 constexpr std::int64_t kManyExpansions = 400'000;
 constexpr std::int64_t kFewExpansions = 500;
 constexpr double kGreedyWeight = 4.0;
 /// The weight in a dense crowd, where most robots are planned several times.
 constexpr double kCrowdWeight = 2.0;
-/// The first search of a robot is incomplete: when it fails, others follow.
+/// Returns the limits of the first search of a robot. It is incomplete: when it fails, others follow.
 SearchLimits quick_search(const Lattice& lattice) {
   SearchLimits limits;
   limits.thorough = false;
@@ -116,7 +116,7 @@ class Repair {
     return !stop_.met() || (on_stop_ && on_stop_(unsolved(), result_.given_up));
   }
 
-  /// By priority.
+  /// Returns the robots without a trajectory, by priority.
   std::vector<std::size_t> unsolved() const {
     std::vector<std::size_t> robots;
     robots.reserve(pending_.size());
@@ -133,7 +133,7 @@ class Repair {
     std::vector<std::size_t> conflicting = state_.conflicting_robots(robot, trajectory);
     state_.follow(robot, std::move(trajectory));
     std::erase_if(conflicting, [&](std::size_t other) { return !state_.trajectory(other); });
-    if (ejects(robot)) {  // those are planned next
+    if (ejects(robot)) {  // the ejected robots are planned next
       for (const std::size_t other : conflicting) rank_[other] = --highest_rank_;
     } else if (!conflicting.empty() && failures_[robot] > kFailuresBeforeShuffle) {
       conflicting = shuffle_ranks(robot, std::move(conflicting));
@@ -166,7 +166,7 @@ class Repair {
     return !result.trajectory && (result.complete || result.expansions >= quick_search_.max_expansions);
   }
 
-  /// For a robot that failed among all others.
+  /// Plans a robot that failed among all others.
   SearchResult plan_failed(std::size_t robot) {
     ++result_.attempts;
     progress_.next_attempt();
@@ -175,7 +175,8 @@ class Repair {
     return ejection_.plan(robot, planned_robots([](std::size_t) { return true; }), failures_);
   }
 
-  /// Steps 1 and 2. Smaller robots are ignored before larger ones, as they find another path more easily.
+  /// Plans a robot among fewer others: steps 1 and 2 of repair(). Smaller robots are ignored before larger
+  /// ones, as they find another path more easily.
   SearchResult plan_among_fewer(std::size_t robot) {
     const double radius = state_.instance().motion(robot).pair_radius;
     const auto is_lower = [&](std::size_t other) { return rank_[other] > rank_[robot]; };
@@ -201,7 +202,7 @@ class Repair {
     return state_.plan_ignoring(all, robot, {}, stop_);
   }
 
-  /// The robots with a trajectory that satisfy the condition, by order.
+  /// Returns the robots with a trajectory that satisfy the condition, by order.
   template <class Condition>
   std::vector<std::size_t> planned_robots(Condition&& condition) const {
     std::vector<std::size_t> found;
@@ -252,7 +253,7 @@ class Repair {
   OrderingResult result_;
 };
 
-/// After so many failed attempts it is faster to start again with larger robots first: measured in the
+/// The failed attempts after which it is faster to start again with larger robots first: measured in the
 /// paper's hall with rectangles and 240 to 300 robots, where 10 to 20 made no difference.
 constexpr std::int64_t kMaxFailures = 15;
 constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();

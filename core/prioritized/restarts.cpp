@@ -13,7 +13,7 @@ constexpr int kDelayedOrders = 40;
 /// The result of planning in one order.
 struct Attempt {
   PriorityOrder order;
-  std::vector<Trajectory> trajectories;  // of the first robots of the order
+  std::vector<Trajectory> trajectories;  // trajectories of the first robots of the order
   std::optional<std::size_t> failed;  // the robot without a path; none if all are planned or it was stopped
 
   bool solved() const { return trajectories.size() == order.size(); }
@@ -42,7 +42,7 @@ Attempt try_order(PlanState& state, const PriorityOrder& order, double start_del
   return attempt;
 }
 
-/// Returns the robots without a trajectory.
+/// Restores the state of an attempt. Returns the robots without a trajectory.
 std::vector<std::size_t> restore(PlanState& state, Attempt best) {
   for (const std::size_t robot : best.order) state.remove(robot);
   const std::size_t planned = best.trajectories.size();
@@ -77,7 +77,7 @@ class Restarts {
   }
 
  private:
-  /// Returns whether a robot failed.
+  /// Plans in the present order. Returns whether a robot failed.
   bool attempt(double start_delay) {
     ++result_.attempts;
     Attempt attempt = try_order(state_, orders_.current(), start_delay, stop_, progress_);

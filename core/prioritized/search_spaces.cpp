@@ -8,10 +8,10 @@
 namespace fleetplan::core {
 namespace {
 
-/// Memory for the search spaces of all robots.
+/// The most memory for the search spaces of all robots.
 constexpr std::size_t kMaxBytes = std::size_t{384} << 20;
 
-/// Whether so many bytes are too much to keep: half of the job's memory is for the rest.
+/// Whether so many bytes are too much to keep. Half of the job's memory is for the rest.
 bool is_too_much(std::size_t bytes) {
   const MemoryAccount* account = MemoryScope::current();
   return bytes >= kMaxBytes || (account != nullptr && account->used() > account->limit() / 2);
@@ -36,7 +36,7 @@ void SearchSpaces::discard_all() {
   for (Entry& entry : entries_) entry.space.reset();
 }
 
-/// If there is too much, discards half of it.
+/// Discards half of what is kept if it is too much.
 void SearchSpaces::make_room() {
   std::size_t bytes = 0;
   std::vector<Entry*> kept;

@@ -18,14 +18,15 @@ class SearchSpaces {
   /// `instance` outlives this object.
   explicit SearchSpaces(const Instance& instance);
 
-  /// Valid until the next call for another robot; null if `stop` is met before it is made.
+  /// Returns the search space of a robot, valid until the next call for another robot; null if `stop` is met
+  /// before it is made.
   SearchSpace* of(std::size_t robot, const StopCondition& stop);
   void discard_all();
 
  private:
   struct Entry {
     std::unique_ptr<SearchSpace> space;
-    std::int64_t last_use = 0;  // the number of that call
+    std::int64_t last_use = 0;  // the number of the last call for it
   };
 
   void make_room();

@@ -19,7 +19,7 @@ namespace {
 
 using Reason = Unplanned::Reason;
 
-/// The effort for paths on the map, expansions of all robots together: about a tenth of a second. Other paths
+/// The most expansions of all robots together for paths on the map: about a tenth of a second. Other paths
 /// are tested when a robot is planned for the first time.
 constexpr std::int64_t kMaxMapExpansions = 50'000;
 
@@ -30,11 +30,11 @@ class DiskIndex {
   enum class At : std::uint8_t { start, goal };
   DiskIndex(const Instance& instance, At at);
 
-  /// One disk for each robot at most.
+  /// Adds the disk of a robot; at most one for each robot.
   void add(std::size_t robot, const Position& center);
 
-  /// The robots but `robot` whose disks overlap the disk that `robot` has `at` this position, ascending.
-  /// Contact is no overlap.
+  /// Returns the robots, other than `robot`, whose disks overlap the disk that `robot` has `at` this
+  /// position, ascending. Contact is no overlap.
   std::vector<std::size_t> overlapping(std::size_t robot, At at, const Position& center) const;
 
  private:
@@ -50,7 +50,7 @@ class DiskIndex {
 
   const Instance& instance_;
   const At at_;
-  double size_;  // of a bucket, metres; two disks that overlap are in the same or in neighbouring ones
+  double size_;  // metres: side of a bucket; disks that overlap are in the same or in neighbouring buckets
   std::unordered_map<std::uint64_t, std::vector<Disk>> buckets_;
 };
 
@@ -134,7 +134,7 @@ class Triage {
     }
   }
   bool is_kept(std::size_t robot) const { return !kept_.empty() && kept_[robot]; }
-  /// Where the robot is when its plan begins, and where it stays without one.
+  /// The place where the robot is when its plan begins, and where it stays without one.
   const Position& place(std::size_t robot) const { return instance_.itinerary(robot).pose.position; }
   void stay(std::size_t robot) {
     stays_[robot] = true;
@@ -145,7 +145,8 @@ class Triage {
     unplanned_[robot] = Unplanned{robot, reason, detail, std::move(blocked_by)};
     stay(robot);
   }
-  /// The robots whose disks in the index overlap robot i at its goal and meet the condition, ascending.
+  /// Returns the robots whose disks in the index overlap robot i at its goal and meet the condition,
+  /// ascending.
   template <class Condition>
   std::vector<std::size_t> overlapping_at_goal(const DiskIndex& index, std::size_t i,
                                                Condition&& condition) const {
@@ -172,7 +173,8 @@ class Triage {
       return give_up(i, Reason::goal_blocked,
                      "The inflated robot does not fit between the obstacles at its goal.");
     }
-    // Of two robots whose inflated goals overlap, the one with a plan is planned, or the first in the list.
+    // If the inflated goals of two robots overlap, the one with a plan is planned, or the first one in the
+    // list.
     auto others =
         overlapping_at_goal(goals_, i, [&](std::size_t j) { return (j < i || is_kept(j)) && !stays_[j]; });
     if (others.empty()) return;
@@ -197,7 +199,7 @@ class Triage {
     stay(i);
   }
 
-  /// A robot that stays may block the goal of another one, which then stays as well.
+  /// Makes robots stay whose goal is occupied by a robot that stays, until nothing changes.
   void check_goals_occupied() {
     for (std::size_t i = 0; i < instance_.size(); ++i) {
       if (!stays_[i] && !is_kept(i)) next_.insert(i);
@@ -218,7 +220,7 @@ class Triage {
     if (others.empty()) return;
     give_up(i, Reason::goal_blocked, "A robot that stays where it is stands in the way at the goal.",
             std::move(others));
-    // Those whose goal it occupies are examined in the order of the list, again and again.
+    // The robots whose goal it occupies are examined in the order of the list, again and again.
     for (const std::size_t j : goals_.overlapping(i, DiskIndex::At::start, place(i))) {
       if (!stays_[j]) (j > i ? current_ : next_).insert(j);
     }
@@ -233,7 +235,7 @@ class Triage {
   DiskIndex starts_;
   DiskIndex goals_;
   std::set<std::size_t> current_;  // robots whose goals are examined in this round
-  std::set<std::size_t> next_;     // and in the next one
+  std::set<std::size_t> next_;     // robots whose goals are examined in the next round
 };
 
 std::string metres(double value) {

@@ -12,12 +12,12 @@ namespace fleetplan::core {
 
 /// Finds the robots that cannot move whatever the others do, and keeps them at their starts in `state`:
 /// parked robots, and robots whose start or goal is blocked, or whose goal is unreachable, on the static map
-/// or because of robots that stay. Returns by robot why it has no plan; none for parked robots and for those
+/// or because of robots that stay. Returns by robot why it has no plan; none for parked robots and for robots
 /// that are left to be planned.
 std::vector<std::optional<Unplanned>> triage(PlanState& state, const StopCondition& stop,
                                              const std::vector<bool>& kept = {});
 
-/// The reason of a robot of this radius (metres, inflation included) that has no way to its goal.
+/// Returns why a robot of this radius (metres, inflation included) that has no way to its goal has no plan.
 Unplanned unplanned_without_way(std::size_t robot, double radius, const Way& way);
 
 }  // namespace fleetplan::core

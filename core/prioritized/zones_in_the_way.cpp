@@ -14,10 +14,10 @@
 namespace fleetplan::core {
 namespace {
 
-/// Ways that are looked for: for one robot, and for all of them.
+/// The most ways that are looked for: for one robot, and for all of them.
 constexpr int kMostTestsOfRobot = 40;
 constexpr int kMostTests = 120;
-/// Expansions for one way.
+/// The most expansions for one way.
 constexpr std::int64_t kMostWayExpansions = 50'000;
 constexpr std::size_t kMostNamed = 5;
 
@@ -29,7 +29,7 @@ class ZonesInTheWay {
   ZonesInTheWay(const Problem& problem, const PlanOptions& options, const StopCondition& stop)
       : problem_(problem), options_(options), stop_(stop) {}
 
-  /// None if there are none, or if that is not found out.
+  /// Returns the zones that close the robot's way. Empty if there are none, or if that is not found out.
   ZoneIndices of(std::size_t robot) {
     const ZoneIndices all = zones_of(robot);
     if (all.empty() || !has_way(robot, {})) return {};
@@ -61,7 +61,8 @@ class ZonesInTheWay {
     return zones;
   }
 
-  /// Those of the robot before are often the same.
+  /// Whether the zones that closed the way of the robot before, which are often the same, close this robot's
+  /// way.
   bool is_closed_by_latest(std::size_t robot) {
     const bool are_its = std::all_of(latest_.begin(), latest_.end(),
                                      [&](std::size_t zone) { return problem_.zones()[zone].is_for(robot); });
@@ -92,7 +93,7 @@ class ZonesInTheWay {
   const Problem& problem_;
   const PlanOptions& options_;
   const StopCondition& stop_;
-  ZoneIndices latest_;  // of the robot before
+  ZoneIndices latest_;  // the zones of the robot before
   int tests_of_robot_ = 0;
   int tests_ = 0;
 };
@@ -104,7 +105,7 @@ bool may_be_because_of_zones(const Unplanned& robot) {
   return is_geometry && robot.blocked_by.empty();
 }
 
-/// Such as: Without the zones "a" and "b", it would have a way.
+/// Returns a sentence such as: Without the zones "a" and "b", it would have a way.
 std::string sentence(ZoneIndices closing, const std::vector<Zone>& zones) {
   const auto same = [&](std::size_t a, std::size_t b) { return zones[a].id == zones[b].id; };
   closing.erase(std::unique(closing.begin(), closing.end(), same), closing.end());

@@ -17,7 +17,7 @@ std::size_t follow_kept_plans(PlanState& state, const KeptPlans& previous, const
   for (std::size_t robot = 0; robot < previous.kept.size(); ++robot) {
     if (!previous.kept[robot]) continue;
     Trajectory trajectory = previous_trajectory(state.instance().robot(robot));
-    // The checker has accepted all that are kept together, and against what all robots are committed to.
+    // The checker has accepted all kept plans together, and against what all robots are committed to.
     const auto is_kept = [&](std::size_t other) { return bool(previous.kept[other]); };
     const std::vector<std::size_t> others = state.conflicting_robots(robot, trajectory);
     if (!certain.contains(robot) && !std::all_of(others.begin(), others.end(), is_kept)) continue;
@@ -37,7 +37,8 @@ void finish_with_kept_plans(PlanState& state, const std::vector<std::size_t>& mo
 
 namespace {
 
-/// None where the memory does not suffice for the check.
+/// Returns the previous plans that hold if all other robots stay; none where the memory does not suffice for
+/// the check.
 KeptPlans plans_that_are_safe(const Problem& problem, const PlanOptions& options, const StopCondition& stop) {
   try {
     return keep_previous_plans(problem, options, stop, LeftOut::stay);

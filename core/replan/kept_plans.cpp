@@ -15,14 +15,15 @@
 namespace fleetplan::core {
 namespace {
 
-/// The itinerary of the robot if all its previous actions were committed.
+/// Returns the itinerary that the robot would have if all its previous actions were committed.
 Itinerary as_committed(const Robot& robot) {
   Robot follower = robot;
   follower.committed = previous_actions(robot);
   return itinerary_of(follower);
 }
 
-/// When the service at the last goal ends; none that is committed ends before the commitment does.
+/// Returns when the service at the last goal ends, seconds. A service that is committed does not end before
+/// the commitment does.
 double last_service_end(const Robot& robot) {
   const std::vector<Visit> visits = visits_of(robot, previous_actions(robot));
   if (visits.size() < robot.goal_count()) return kForever;
@@ -77,7 +78,7 @@ class PlansThatHold {
       const auto report = check();
       if (!report) return {std::vector<bool>(robots_.size(), false), true};
       const bool left_some_out = leave_out(*report);
-      // Without its plan, a robot that need not stay conflicts with no other.
+      // A robot that need not stay conflicts with no other once its plan is left out.
       const bool is_final = left_out_ == LeftOut::unknown && is_complete(*report) && !has_margins(*report);
       if (!left_some_out || is_final) return {std::move(kept_), false};
     }
@@ -105,7 +106,8 @@ class PlansThatHold {
     return report.violations.size() == report.violation_count && report.violation_count < kMostCollisions;
   }
 
-  /// Of these, only the deepest of each pair is listed, so a conflict with committed motion may be hidden.
+  /// Whether a margin is violated. Only the deepest such violation of each pair is listed, so a conflict with
+  /// committed motion may be hidden.
   static bool has_margins(const VerifyReport& report) {
     return std::any_of(report.violations.begin(), report.violations.end(),
                        [](const Violation& found) { return found.kind == Violation::Kind::margin; });
@@ -116,7 +118,7 @@ class PlansThatHold {
     return !may_move(robot) || (left_out_ == LeftOut::stay && !kept_[robot]);
   }
 
-  /// Returns whether a plan was left out.
+  /// Leaves out plans that cause the violations. Returns whether there were any.
   bool leave_out(const VerifyReport& report) {
     const auto before = std::count(kept_.begin(), kept_.end(), true);
     std::vector<Pair> staying;
@@ -135,7 +137,7 @@ class PlansThatHold {
     return std::count(kept_.begin(), kept_.end(), true) < before;
   }
 
-  /// A plan that breaks a rule on its own, or conflicts with what another robot is committed to.
+  /// Leaves out a plan that breaks a rule on its own, or conflicts with what another robot is committed to.
   void leave_out_alone(const Violation& violation) {
     const std::size_t robot = violation.robots.front();
     if (violation.robots.size() == 1) {
@@ -147,27 +149,28 @@ class PlansThatHold {
     if (is_with_commitment(violation, robot)) kept_[other] = false;
   }
 
-  /// Whether the one is in the way of what the other is committed to, with or without its plan. A plan that
-  /// comes nearer still is to blame itself.
+  /// Whether one robot is in the way of what the other is committed to, with or without its plan. A plan that
+  /// comes nearer than that is the cause itself.
   bool is_unavoidable(const Violation& violation, std::size_t staying, std::size_t committed) const {
     const double until = robots_[committed].committed_until();
     return stays(staying) && violation.t_begin && *violation.t_begin >= robots_[staying].committed_until() &&
            *violation.t_begin < until && violation.t <= until + kMostTolerance;
   }
 
-  /// A margin is kept from all that a robot without a plan does, except where it stays.
+  /// Whether the violation is one of what the robot does in any case: of its commitment; or of a margin,
+  /// which is kept from all that a robot without a plan does, except where it stays.
   bool is_with_commitment(const Violation& violation, std::size_t robot) const {
     if (violation.kind == Violation::Kind::margin && !kept_[robot]) return true;
     return violation.t_begin.value_or(violation.t) < robots_[robot].committed_until();
   }
 
-  /// Of conflicting plans, keeps those with the higher priorities.
+  /// Keeps, of conflicting plans, those with the higher priorities.
   void leave_out_lower(std::vector<Pair> conflicts) {
     const std::vector<std::size_t> rank = ranks();
     for (auto& [higher, lower] : conflicts) {
       if (rank[lower] < rank[higher]) std::swap(higher, lower);
     }
-    // In the order of the lower one: the higher one is decided by then.
+    // The order is that of the lower robot, so that the higher one is decided by then.
     std::sort(conflicts.begin(), conflicts.end(), [&](const Pair& a, const Pair& b) {
       return std::pair(rank[a.second], rank[a.first]) < std::pair(rank[b.second], rank[b.first]);
     });
@@ -181,7 +184,7 @@ class PlansThatHold {
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       if (may_move(i)) movers.push_back(i);
     }
-    Random random(options_.seed);  // as that of planning
+    Random random(options_.seed);  // as in planning, so that the order is the same
     const PriorityOrder order = initial_order(robots_, options_, std::move(movers), random);
     std::vector<std::size_t> ranks(robots_.size(), order.size());
     for (std::size_t k = 0; k < order.size(); ++k) ranks[order[k]] = k;

@@ -19,14 +19,14 @@ namespace fleetplan::core {
 /// Whether any robot has a previous plan.
 bool have_previous_plans(const std::vector<Robot>& robots);
 
-/// The actions of the robot's previous plan as received. Without one, if it is empty or if the robot is
-/// parked, the robot rests after its committed actions.
+/// Returns the actions of the robot's previous plan as received; no actions for a robot that is parked or has
+/// no previous plan. If there are none, the robot rests after its committed actions.
 const std::vector<Action>& previous_actions(const Robot& robot);
 
-/// These actions as a plan without visits, with 0 as lower bound.
+/// Returns these actions as a plan without visits, with 0 as lower bound.
 RobotPlan previous_plan(std::size_t index, const Robot& robot);
 
-/// The motion of a previous plan that holds (see KeptPlans).
+/// Returns the motion of a previous plan that holds (see KeptPlans).
 Trajectory previous_trajectory(const Robot& robot);
 
 /// The previous plans that hold together.
@@ -37,21 +37,21 @@ struct KeptPlans {
   bool contains(std::size_t robot) const { return !kept.empty() && kept[robot]; }
 };
 
-/// What becomes of the robots whose previous plans are left out.
+/// How the robots whose previous plans are left out are taken into account.
 enum class LeftOut : std::uint8_t {
-  unknown,  // they will be planned, so nobody is in conflict with them here
+  unknown,  // they will be planned, so no other robot conflicts with them here
   stay,     // they stay at their starts or committed ends for ever
 };
 
-/// Judges the previous plans by the checker under the options' inflation, interval margin, added waits and
-/// start overlap. If some violate the rules, those that do so on their own are left out, and then of two that
-/// conflict the one with the lower priority. A robot without a previous plan, or with an empty one, has one
-/// without actions; this holds if it is at rest at its last goal. Takes as long as a check of the plans, or a
-/// few times as long if those left out stay.
+/// Returns the previous plans that hold together. Judges them by the checker under the options' inflation,
+/// interval margin, added waits and start overlap. If some violate the rules, those that do so on their own
+/// are left out, and then of two that conflict the one with the lower priority. A robot without a previous
+/// plan, or with an empty one, has one without actions; this holds if it is at rest at its last goal. Takes
+/// as long as a check of the plans, or a few times as long if those left out stay.
 KeptPlans keep_previous_plans(const Problem& problem, const PlanOptions& options, const StopCondition& stop,
                               LeftOut left_out = LeftOut::unknown);
 
-/// Finds those of the kept plans that hold also if all other robots stay at their starts or committed ends.
+/// Returns those of the kept plans that also hold if all other robots stay at their starts or committed ends.
 KeptPlans keep_if_others_stay(const Problem& problem, const PlanOptions& options, const KeptPlans& previous,
                               const StopCondition& stop);
 

@@ -10,12 +10,11 @@
 
 #include "core/runtime/memory_account.h"
 
-// Not with ThreadSanitizer: its suppressions for libraries that are not built for it see the direct callers
-// of its own functions only.
+// ThreadSanitizer keeps its own functions: its suppressions for libraries that are not built for it see only
+// their direct callers.
 #ifndef FLEETPLAN_THREAD_SANITIZER
 
-// All forms are replaced, also those whose defaults call others: those of a sanitizer do not.
-// NOLINTBEGIN(cppcoreguidelines-no-malloc, cppcoreguidelines-owning-memory, misc-new-delete-overloads)
+// All forms are replaced, also those whose defaults call others: the forms of a sanitizer do not.
 
 namespace {
 
@@ -23,8 +22,8 @@ using fleetplan::core::memory_tally;
 
 constexpr std::size_t kLength = 8;
 
-/// What a block of this size takes in the GNU C library, its length included: a multiple of 16 bytes.
-/// Computed where the size is known, as asking for it would double the cost of counting.
+/// Returns what a block of this size takes in the GNU C library, its length included: a multiple of 16 bytes.
+/// It is computed where the size is known, as asking for it would double the cost of counting.
 constexpr std::size_t taken(std::size_t size) {
 #ifdef FLEETPLAN_ADDRESS_SANITIZER
   return size + kLength;

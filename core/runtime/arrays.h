@@ -52,7 +52,7 @@ class IndexedVector {
   std::vector<T> items_;
 };
 
-/// An array of default values that allocates memory only for pages with accessed elements. For large arrays
+/// An array of default values that allocates memory only for pages with accessed elements; for large arrays
 /// of which few elements are used.
 template <class T>
 class PagedArray {

@@ -22,7 +22,8 @@ class Executor {
   /// returns when all of them have returned. If one throws, calls that have not begun may be skipped;
   /// the first exception is rethrown here once no call is running.
   void run(std::size_t count, const Task& task) { run_on(count, count, task); }
-  /// Likewise, begins the calls in their order, at most so many at a time (at least one).
+  /// Calls the tasks as run() does, but begins them in their order and runs at most `threads` (at least one)
+  /// at a time.
   virtual void run_on(std::size_t threads, std::size_t count, const Task& task) = 0;
 
   /// Whether the planner may go on improving the plan that it has. It asks again and again, in the thread of
@@ -30,7 +31,7 @@ class Executor {
   virtual bool may_improve(const StopCondition& /*stop*/) { return true; }
 };
 
-/// Runs all tasks in the thread of the caller.
+/// Runs all tasks in the caller's thread.
 class CallerThread : public Executor {
  public:
   void run_on(std::size_t /*threads*/, std::size_t count, const Task& task) override {

@@ -37,9 +37,9 @@ class MemoryAccount {
   /// The number of times that the job became short of memory, or was refused some.
   std::int64_t shortages() const { return shortages_.load(std::memory_order_relaxed); }
 
-  /// Counts bytes, negative ones when memory was freed.
+  /// Counts bytes that were allocated; a negative number for bytes that were freed.
   void count(std::int64_t bytes);
-  /// Likewise, unless that would exceed the limit: then it counts nothing and returns false.
+  /// Counts bytes unless that would exceed the limit; then it counts nothing and returns false.
   bool reserve(std::int64_t bytes);
 
   /// Destroys the object with the account. Freeing the memory of a large plan takes longer than checking it,
@@ -62,7 +62,7 @@ struct MemoryTally {
   MemoryAccount* account = nullptr;
   std::int64_t pending = 0;  // bytes
 
-  /// Returns false, and counts nothing, if the allocation exceeds the account's limit.
+  /// Counts an allocation. Returns false, and counts nothing, if it exceeds the account's limit.
   bool charge(std::size_t bytes) {
     pending += static_cast<std::int64_t>(bytes);
     return pending < MemoryAccount::kBatch || report_or_undo(bytes);
@@ -77,14 +77,14 @@ struct MemoryTally {
   bool report_or_undo(std::size_t bytes);
 };
 
-/// Of this thread. `operator new` and `operator delete` have no other way to know for whom they work.
-// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): changed by MemoryScope only
+/// The tally of this thread. `operator new` and `operator delete` have no other way to know for whom they
+/// work.
 extern constinit thread_local MemoryTally memory_tally;
 
 /// While it lives, this thread's allocations count on an account, or on none. Scopes nest.
 class MemoryScope {
  public:
-  /// The account has to outlive it. null: what is allocated meanwhile is not counted.
+  /// Begins the scope. The account has to outlive it; null: what is allocated meanwhile is not counted.
   explicit MemoryScope(MemoryAccount* account) : before_(memory_tally) { memory_tally = {account}; }
   ~MemoryScope() {
     memory_tally.report();
@@ -93,7 +93,7 @@ class MemoryScope {
   MemoryScope(const MemoryScope&) = delete;
   MemoryScope& operator=(const MemoryScope&) = delete;
 
-  /// The account of this thread; null: none.
+  /// The account of this thread; null if there is none.
   static MemoryAccount* current() { return memory_tally.account; }
 
  private:
@@ -113,7 +113,7 @@ inline void keep_for_later(std::shared_ptr<const void> object) {
   if (account != nullptr && !account->is_short()) account->keep(std::move(object));
 }
 
-/// The shortages of the job of this thread so far.
+/// The number of shortages of this thread's job so far.
 inline std::int64_t memory_shortages() {
   const MemoryAccount* account = MemoryScope::current();
   return account != nullptr ? account->shortages() : 0;

@@ -14,11 +14,11 @@ class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-  /// Uniform in [0, count), count >= 1; the bias is below count / 2^64.
+  /// Draws a number from [0, count), count >= 1, uniformly; the bias is below count / 2^64.
   std::size_t below(std::size_t count) { return static_cast<std::size_t>(engine_() % count); }
-  /// A seed for another Random.
+  /// Draws a seed for another Random.
   std::uint64_t seed() { return engine_(); }
-  /// Uniform in [0, 1).
+  /// Draws a number from [0, 1), uniformly.
   double unit() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
 
   template <class T>

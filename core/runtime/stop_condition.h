@@ -39,7 +39,7 @@ class StopCondition {
 
   explicit StopCondition(Clock::time_point deadline, std::stop_token stop = {})
       : is_bounded_(true), deadline_(deadline), stop_(std::move(stop)) {}
-  /// Is never met: for tests and benchmarks.
+  /// Returns a condition that is never met, for tests and benchmarks.
   static StopCondition never() { return StopCondition(); }
 
   bool met() const {
@@ -47,20 +47,21 @@ class StopCondition {
     return step_clock.tick(outlasts_) || cancelled() || (heeds_memory_ && is_short_of_memory()) ||
            Clock::now() >= deadline_;
   }
-  /// This condition, but not met while the job is short of memory: for the end of a job, which has memory set
-  /// apart.
+  /// Returns this condition, but not met while the job is short of memory: for the end of a job, which has
+  /// memory set apart.
   StopCondition despite_memory() const {
     StopCondition without = *this;
     without.heeds_memory_ = false;
     return without;
   }
-  /// Met at another time, or when a stop is requested.
+  /// Returns a condition that is met at `deadline`, or when a stop is requested.
   StopCondition until(Clock::time_point deadline) const {
     StopCondition other(deadline, stop_);
     other.outlasts_ = outlasts_ || deadline > deadline_;
     return other;
   }
-  /// Met at this time only: for the little that is done once a stop was requested.
+  /// Returns a condition that is met at `deadline` only: for the little that is done once a stop was
+  /// requested.
   static StopCondition even_if_cancelled(Clock::time_point deadline) {
     StopCondition other(deadline);
     other.outlasts_ = true;
@@ -79,12 +80,13 @@ class StopCondition {
 
   bool is_bounded_ = false;
   bool heeds_memory_ = true;
-  bool outlasts_ = false;  // the budget: for what is done after it
+  bool outlasts_ = false;  // it outlasts the budget: for what is done after it
   Clock::time_point deadline_ = Clock::time_point::max();
   std::stop_token stop_;
 };
 
-/// Met after a share of the time that remains, or when `stop` is cancelled.
+/// Returns a condition that is met after a share of the time that remains until `stop`, or when `stop` is
+/// cancelled.
 inline StopCondition after_share(const StopCondition& stop, double share) {
   using Clock = StopCondition::Clock;
   if (stop.deadline() == Clock::time_point::max()) return stop;
@@ -93,7 +95,7 @@ inline StopCondition after_share(const StopCondition& stop, double share) {
   return stop.until(now + remaining);
 }
 
-/// Asks a stop condition once in so many steps of a computation. Stays met once it is.
+/// Asks a stop condition once in so many steps of a computation. Stays met once it is met.
 class StopStride {
  public:
   StopStride(StopCondition stop, int stride) : stop_(std::move(stop)), stride_(stride), left_(stride) {}

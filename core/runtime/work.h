@@ -25,54 +25,55 @@ class Work {
   using CpuClock = std::function<std::chrono::nanoseconds()>;
 
   static constexpr std::chrono::seconds kMostCpu{1};
-  /// Whatever the budget, as others wait to be read.
+  /// The most CPU time of reading, whatever the budget, as other requests wait to be read.
   static constexpr std::chrono::seconds kMostCpuOfReading{3};
-  /// A request is read for so much longer than its budget, counted from when the budget is known if that is
-  /// later: so one that waited too long still gets the answer of a valid request.
+  /// How much longer than its budget a request is read, counted from when the budget is known if that is
+  /// later: so a request that waited too long still gets the answer of a valid one.
   static constexpr std::chrono::milliseconds kGrace{50};
   /// Bytes or values between two looks at the clock, about a millisecond of work.
   static constexpr std::size_t kStride = 64 * 1024;
 
   struct Bounds {
-    std::stop_token stop = {};                     // the client has left, or the service drains
-    Clock::time_point received_at = Clock::now();  // when the budget begins
+    std::stop_token stop = {};                     // when the client has left, or the service drains
+    Clock::time_point received_at = Clock::now();  // the begin of the budget
     std::size_t memory = kUnlimitedMemory;         // bytes
     CpuClock cpu_clock = thread_cpu_time;          // CPU time of the thread that reads
   };
   static constexpr std::size_t kUnlimitedMemory = std::size_t{1} << 62;
 
   explicit Work(Bounds bounds);
-  /// Without any bounds: for what the service itself has written, and for tests.
+  /// Work without any bounds: for what the service itself has written, and for tests.
   static Work unbounded() { return Work(); }
   Work(const Work&) = delete;
   Work& operator=(const Work&) = delete;
 
-  /// Counts bytes or values that are read, and looks at the clock once in a while. True when reading has to
-  /// end; stays so.
+  /// Counts bytes or values that are read, and looks at the clock once in a while. Returns true when reading
+  /// has to end, and from then on.
   bool met_after(std::size_t amount) {
     amount_ += amount;
     return amount_ < kStride ? met_ : look();
   }
-  /// Looks at the clock.
+  /// Looks at the clock. Returns true when reading has to end.
   bool look();
   bool met() const { return met_; }
   bool cancelled() const { return bounds_.stop.stop_requested(); }
 
-  /// The budget of the request, once it is read.
+  /// Sets the budget of the request, once it is read.
   void set_budget(std::chrono::nanoseconds budget);
   bool has_budget() const { return budget_.has_value(); }
 
-  /// The request has been read: from now on, only the budget bounds it, if it has one.
+  /// Ends reading: from now on, only the budget bounds the work, if there is one.
   void end_reading();
 
-  /// For computations while the request is read. They end with an exception if the memory does not suffice.
+  /// The condition for computations while the request is read. They end with an exception if the memory does
+  /// not suffice.
   StopCondition reading() const { return until(deadline_).despite_memory(); }
-  /// The end of the budget, less what is kept for later. Without a budget it is never met.
+  /// The condition that is met at the end of the budget, less `kept` for later work; never without a budget.
   StopCondition before_end(std::chrono::nanoseconds kept = {}) const;
-  /// Met at this time, or when nobody waits for the answer.
+  /// The condition that is met at `time`, or when nobody waits for the answer.
   StopCondition until(Clock::time_point time) const { return StopCondition(time, bounds_.stop); }
 
-  /// What the threads that work on the request have allocated; see MemoryScope.
+  /// The account of the memory that the request's threads have allocated; see MemoryScope.
   const std::shared_ptr<MemoryAccount>& memory() const { return memory_; }
 
   static std::chrono::nanoseconds thread_cpu_time();
@@ -86,8 +87,8 @@ class Work {
   std::chrono::nanoseconds cpu_begin_{0};
   std::optional<std::chrono::nanoseconds> cpu_end_;
   std::optional<std::chrono::nanoseconds> budget_;
-  Clock::time_point deadline_ = Clock::time_point::max();  // of reading
-  std::size_t amount_ = 0;                                 // since the last look
+  Clock::time_point deadline_ = Clock::time_point::max();  // the end of reading
+  std::size_t amount_ = 0;                                 // bytes or values since the last look
   bool met_ = false;
 };
 

@@ -9,11 +9,11 @@ namespace fleetplan::core {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-/// Relative to a coordinate or a time: the planner and the checker add up many of them.
+/// The rounding of a coordinate or a time, relative: the planner and the checker add up many of them.
 constexpr double kRounding = 16.0 * kEpsilon;
-/// Relative to a position at a time: both ends of a move are rounded, for each of two robots.
+/// The rounding of a position at a time, relative: both ends of a move are rounded, for each of two robots.
 constexpr double kMotionRounding = 2.0 * kEpsilon;
-/// Metres, seconds, radians: a start or goal may be this far from the vertex that stands for it.
+/// How far a start or goal may be from the vertex that stands for it: metres, seconds, radians.
 constexpr double kLeast = 2.0 * kSamePosition;
 
 /// Whether actions of the request may be part of the plan. They went through decimal text and world

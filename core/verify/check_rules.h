@@ -26,9 +26,9 @@ struct Tolerance {
 /// No tolerance in metres exceeds this, whatever a request contains; also the default of POST /v1/validate.
 inline constexpr double kMostTolerance = 1e-6;
 
-/// By robot, the tolerances for a plan of the planner: contact, and what doubles lose in coordinates of the
-/// map's size and, at the robot's own speed, in times as long as its own plan's. For robots with actions of
-/// the request, kMostTolerance.
+/// Returns by robot the tolerances for a plan of the planner: contact, and what doubles lose in coordinates
+/// of the map's size and, at the robot's own speed, in times as long as its own plan's. For robots with
+/// actions of the request, kMostTolerance.
 std::vector<Tolerance> plan_tolerances(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                        const std::vector<RobotPlan>& plans);
 
@@ -50,15 +50,15 @@ struct CheckRules {
   double inflation = 0.0;
   double interval_margin = 0.0;   // seconds, see PlanOptions
   double wait_before_move = 0.0;  // seconds: every translation follows a stand-still of this duration
-  /// Metres: so much may robots overlap each other or a wall at their start, inflation included.
+  /// Metres by which robots may overlap each other or a wall at their start, inflation included.
   double start_overlap = 0.0;
   /// Seconds: a plan that ends at this time or later may end anywhere, with goals left. nullopt: all plans
   /// lead to the goal.
   std::optional<double> horizon = {};
   /// Committed actions must be repeated to the last digit. Otherwise the tolerances apply.
   bool exact_commitments = false;
-  /// Collisions that are allowed: of exactly this pair, during the one uninterrupted overlap that contains
-  /// Meeting::t (of the bare disks; contact counts).
+  /// Unavoidable collisions that are allowed: of exactly the pair of each meeting, during the one
+  /// uninterrupted overlap that contains Meeting::t (of the bare disks; contact counts).
   std::vector<Meeting> exempt = {};
 };
 

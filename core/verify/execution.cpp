@@ -31,7 +31,7 @@ std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan) {
     }
     const Leg planned{action.t_start, std::max(action.t_start, action.t_end), action.from.position,
                       action.to.position};
-    // An action that is entirely in the past, or without duration, takes place at once.
+    // An action that lies entirely in the past, or takes no time, is executed at once.
     const Position from = planned.t_end > now ? position_at(planned, now) : planned.from;
     const double until = std::max(now, planned.t_end);
     legs.push_back({now, until, from, planned.to});
@@ -114,7 +114,8 @@ class Services {
   }
   double service_end(const Goal& goal) const { return std::max(free_from_, goal.not_before) + goal.service; }
 
-  /// The robot has been at rest in this pose since `free_from_`, and is until `now`.
+  /// Serves the goals in this pose, in which the robot has been at rest since `free_from_` and is until
+  /// `now`.
   void serve(const Pose& pose, double now) {
     while (served_ < robot_.via.size() && is_at(pose, robot_.via[served_])) {
       const Goal& goal = robot_.via[served_];
@@ -134,8 +135,8 @@ class Services {
   double metres_;
   double radians_;
   double seconds_;
-  double free_from_ = 0.0;  // for the next service
-  std::size_t served_ = 0;  // goals
+  double free_from_ = 0.0;  // begin of the next service at the earliest
+  std::size_t served_ = 0;  // number of goals
   std::vector<Change> changes_;
 };
 
@@ -150,7 +151,7 @@ std::vector<Change> changes_of(const Robot& robot, const RobotPlan* plan, const 
   return Services(robot, tolerance).run(plan != nullptr ? plan->actions : robot.committed, plan != nullptr);
 }
 
-/// Moves the legs until `t` from the begin of `legs` into a list of their own.
+/// Moves the legs until `t` from the begin of `legs` into a list of their own, and returns that list.
 std::vector<Leg> take_until(double t, std::vector<Leg>& legs) {
   std::vector<Leg> taken;
   std::size_t whole = 0;

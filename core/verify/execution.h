@@ -1,8 +1,8 @@
 #pragma once
 
 // How robots execute their plans, valid or not: where each one is at every time from 0 on, and when its
-// motion becomes the planner's own. A robot whose radius changes is one disk after the other. How an obstacle
-// moves.
+// motion becomes the planner's own. A robot whose radius changes is one disk after the other. Obstacles move
+// in the same way.
 
 #include <cstddef>
 #include <limits>
@@ -24,34 +24,35 @@ struct Leg {
   Position to{0.0, 0.0};
 };
 
-/// The position of the centre at `t`: exactly `from` up to t_begin, exactly `to` from t_end on.
+/// Returns the position of the centre at `t`: exactly `from` up to t_begin, exactly `to` from t_end on.
 Position position_at(const Leg& leg, double t);
 
-/// The legs of a robot from t = 0 to infinity, in order, each beginning when the previous one ends. Without a
-/// plan (null) the robot executes its committed actions, unless it is invalid. Without actions it stays at
-/// its start; otherwise it rests where its last action ends. Invalid plans are executed as follows: in a gap
-/// between actions the robot stands; of an action that begins before the previous one has ended (or before
-/// 0), the overlapping part is omitted; an action that ends before it begins takes no time. Every number of
-/// the plan (and of the committed actions) is finite.
+/// Returns the legs of a robot from t = 0 to infinity, in order, each beginning when the previous one ends.
+/// Without a plan (null) the robot executes its committed actions, unless it is invalid. Without actions it
+/// stays at its start; otherwise it rests where its last action ends. Invalid plans are executed as follows:
+/// in a gap between actions the robot stands; of an action that begins before the previous one has ended (or
+/// before 0), the overlapping part is omitted; an action that ends before it begins takes no time. Every
+/// number of the plan (and of the committed actions) is finite.
 std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan);
 
-/// The legs of an obstacle from when it appears until it vanishes, or to infinity. One that appears for an
-/// instant only has a leg that takes no time.
+/// Returns the legs of an obstacle from when it appears until it vanishes, or to infinity. An obstacle that
+/// appears for an instant only has a leg that takes no time.
 std::vector<Leg> legs_of(const MovingObstacle& obstacle);
 
-/// When the motion of a robot becomes the planner's own. Seconds.
+/// When the motion of a robot becomes the planner's own, seconds.
 struct Departure {
-  double committed_until = 0.0;  // its commitment ends
-  /// It begins, and ends, its first translation after the commitment; infinity if there is none.
+  double committed_until = 0.0;  // the end of its commitment
+  /// The begin and the end of the first translation after the commitment; infinity if there is none.
   double leaves = std::numeric_limits<double>::infinity();
   double first_move_ends = std::numeric_limits<double>::infinity();
 
-  /// Whether all of [t_begin, t_end] belongs to the commitment, or to what follows the stay at its end.
+  /// Whether a leg that ends at `t_end` belongs to the commitment; and whether one that begins at `t_begin`
+  /// follows the stay at the end of it.
   bool commits(double t_end) const { return t_end <= committed_until; }
   bool plans(double t_begin) const { return t_begin >= leaves; }
 };
 
-/// `plan` is null for a robot without a plan. Every number is finite.
+/// Returns when a robot departs. `plan` is null for a robot without a plan. Every number is finite.
 Departure departure_of(const Robot& robot, const RobotPlan* plan);
 
 /// A disk of constant radius on its way.
@@ -60,8 +61,9 @@ struct Body {
   std::vector<Leg> legs;
 };
 
-/// The disks of a robot, each from the end of the one before, the first from t = 0, the last to infinity.
-/// `legs` are a result of `execute` for the same plan (null: none, the robot executes its commitment).
+/// Returns the disks of a robot, each from the end of the one before, the first from t = 0, the last to
+/// infinity. `legs` are the result of execute() for the same plan (null: the robot has none and executes its
+/// commitment).
 ///
 /// The radius changes at the end of the service at a goal with `radius_after`. Each goal is served as early
 /// as possible, by an uninterrupted rest in its pose after the goals before it. The last one is served by the
@@ -74,22 +76,22 @@ std::vector<Body> bodies_of(const Robot& robot, const RobotPlan* plan, std::vect
 /// the robot. A robot whose radius changes has several positions, one after the other, for one time each (see
 /// bodies_of).
 struct ExecutedFleet {
-  std::vector<std::size_t> robots;  // their indices, ascending
+  std::vector<std::size_t> robots;  // indices of the robots, ascending
   std::vector<double> radii;        // metres, bare
-  std::vector<double> vicinities;   // metres, added against robots
+  std::vector<double> vicinities;   // metres, added to the radii against robots
   std::vector<double> tolerances;   // metres
   std::vector<std::vector<Leg>> legs;
   std::vector<Departure> departures;
   std::vector<bool> invalid;  // see Robot::invalid
-  std::vector<bool> stays;    // without a plan or a goal: where the commitment ends, for ever
+  std::vector<bool> stays;    // it has no plan or no goal: it stays where its commitment ends, for ever
 
   std::size_t size() const { return robots.size(); }
-  /// Whether these are the same robot.
+  /// Whether two positions belong to the same robot.
   bool same_robot(std::size_t one, std::size_t other) const { return robots[one] == robots[other]; }
   double begin_of(std::size_t position) const { return legs[position].front().t_begin; }
   double end_of(std::size_t position) const { return legs[position].back().t_end; }
-  /// The distance that two robots keep while neither begins too near nor is committed, metres. `inflation` is
-  /// added to each.
+  /// Returns the distance that two robots keep while neither begins too near nor is committed, metres.
+  /// `inflation` is added to each radius.
   double kept_distance(std::size_t one, std::size_t other, double inflation) const {
     return radii[one] + radii[other] + 2.0 * inflation + (vicinities[one] + vicinities[other]);
   }

@@ -12,7 +12,7 @@
 namespace fleetplan::core {
 namespace {
 
-/// The plan of each robot, null where it has none.
+/// Returns the plan of each robot, null where it has none.
 std::vector<const RobotPlan*> plans_by_robot(std::size_t robots, const std::vector<RobotPlan>& plans) {
   std::vector<const RobotPlan*> by_robot(robots, nullptr);
   for (const RobotPlan& plan : plans) {
@@ -90,7 +90,7 @@ class FleetCheck {
   void check_plan(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance) {
     const auto changed = check_commitments(robot, plan, tolerance, rules_.exact_commitments);
     if (changed) violations_.add(*changed);
-    // Committed actions that are those of the request are as good as the request.
+    // Committed actions that repeat those of the request exactly are not judged.
     const std::size_t given = rules_.exact_commitments && !changed ? robot.committed.size() : 0;
     violations_.add(check_motion(robot, plan, given, tolerance, stop_));
     const GoalsLeft goals_left =
@@ -111,7 +111,7 @@ class FleetCheck {
   const CheckRules& rules_;
   const StopCondition& stop_;
   std::vector<const RobotPlan*> plan_of_;
-  ExecutedFleet fleet_;  // of the robots whose numbers are usable
+  ExecutedFleet fleet_;  // the robots whose numbers are usable
   ViolationList violations_;
 };
 

@@ -22,7 +22,7 @@ namespace fleetplan::core {
 /// The outcome of a check.
 struct VerifyReport {
   std::vector<Violation> violations;  // by time, then kind, then robots; the first kMostViolations
-  std::size_t violation_count = 0;  // also those that are not listed, except overlaps beyond kMostCollisions
+  std::size_t violation_count = 0;    // listed or not, except overlaps beyond kMostCollisions
   // Metres: smallest gap between two disks without inflation over all time; none for fewer than two (usable)
   // robots.
   std::optional<double> min_clearance;
@@ -40,17 +40,17 @@ struct VerifyReport {
 std::optional<VerifyReport> verify(const CheckedFleet& fleet, const std::vector<RobotPlan>& plans,
                                    const CheckRules& rules, const StopCondition& stop);
 
-/// The plainest check, without moving obstacles. `tolerance` (>= 0) in metres, seconds and radians.
+/// Makes the plainest check, without moving obstacles. `tolerance` (>= 0) in metres, seconds and radians.
 std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                    const std::vector<RobotPlan>& plans, double tolerance,
                                    const StopCondition& stop);
 
-/// The plainest check, with tolerances by robot.
+/// Makes the plainest check, with tolerances by robot.
 std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                    const std::vector<RobotPlan>& plans,
                                    const std::vector<Tolerance>& tolerances, const StopCondition& stop);
 
-/// The check of a plan of the planner; none if `stop` is met first.
+/// Checks a plan of the planner. Returns none if `stop` is met first.
 std::optional<VerifyReport> check_plan(const Problem& problem, const PlanOptions& options, const Plan& plan,
                                        const StopCondition& stop);
 

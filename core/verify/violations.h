@@ -69,9 +69,9 @@ struct Violation {
   double distance = 0.0;            // measured: metres, radians, seconds or metres (radians) per second
   double required = 0.0;            // the limit or required value, same unit
   std::string detail;               // a sentence for people, with units; names no robots by index
-  std::optional<std::size_t> obstacle = {};  // of moving_obstacle: its index
-  std::optional<double> t_begin = {};        // of robot_collision: when the overlap begins, seconds
-  std::optional<std::size_t> zone = {};      // of zone: its index
+  std::optional<std::size_t> obstacle = {};  // moving_obstacle: index of the obstacle
+  std::optional<double> t_begin = {};        // robot_collision: when the overlap begins, seconds
+  std::optional<std::size_t> zone = {};      // zone: index of the zone
 };
 
 /// Violations, of which the first kMostViolations by time, then kind, then robots are kept, and all counted.
@@ -81,7 +81,7 @@ class ViolationList {
   void add(ViolationList more);
 
   std::size_t total() const { return total_; }
-  /// The violations that are kept, in order; leaves the list empty.
+  /// Returns the violations that are kept, in order, and leaves the list empty.
   std::vector<Violation> take();
 
  private:
@@ -92,7 +92,7 @@ class ViolationList {
   std::size_t total_ = 0;
 };
 
-/// A number with its unit, for the details of violations.
+/// Returns a number with its unit, for the details of violations.
 inline std::string quantity_text(double value, const char* unit) {
   std::array<char, 48> text{};
   std::snprintf(text.data(), text.size(), "%.6g %s", value, unit);

@@ -20,15 +20,16 @@ struct Action {
   double t_end = 0.0;    // seconds, >= t_start
   Pose from;
   Pose to;
-  /// Of a wait: the goal of the robot that is served during it, or whose `not_before` is awaited.
+  /// The goal of the robot that is served during this wait, or whose `not_before` is awaited; none for other
+  /// waits and actions.
   std::optional<std::size_t> goal;
-  /// Of a translation: backwards, the heading is opposite to the direction of motion.
+  /// Whether the robot translates backwards: the heading is opposite to the direction of motion.
   bool reverse = false;
 };
 
-/// Where a robot is at time `t`, seconds, that begins in `start` and executes contiguous actions: in `start`
-/// before the first one, and where the last one ends after it. The time grows with the logarithm of their
-/// number.
+/// Returns the pose at time `t` (seconds) of a robot that begins in `start` and executes contiguous actions:
+/// `start` before the first action, and the end of the last one after it. The time grows with the logarithm
+/// of the number of actions.
 Pose pose_at(std::span<const Action> actions, const Pose& start, double t);
 
 }  // namespace fleetplan

@@ -15,9 +15,8 @@
 ///
 /// The conventions of all headers:
 ///
-/// - Units are metres, seconds and radians, and their quotients for speeds. x points right, y up, headings
-/// are
-///   counter-clockwise from +x. Times begin with 0 at the start of the plan.
+/// - Units are metres, seconds and radians, and their quotients for speeds. x points right and y up. Headings
+///   are counter-clockwise from +x. Times begin with 0 at the start of the plan.
 /// - All types are values: copies share nothing. What has a default need not be set.
 /// - Robots, goals, obstacles and zones are numbered from 0 in the order of their lists.
 /// - What is wrong with a problem is a list of faults (problem.h). Functions that cannot do without a valid

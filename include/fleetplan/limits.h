@@ -2,28 +2,29 @@
 
 namespace fleetplan {
 
-// What real fleets stay in. Within these ranges the planner and its check keep positions to far less than a
-// micrometre, whatever the numbers of other robots (docs/method.md, Tolerances). A number outside of its
-// range is a fault of the problem. The service accepts the same ranges.
+// The ranges of numbers, within which real fleets stay. Within them the planner and its check keep positions
+// to far less than a micrometre, whatever the numbers of other robots (docs/checker.md, Tolerances). A number
+// outside of its range is a fault of the problem. The service accepts the same ranges.
 
-/// Metres: the smallest radius, resolution and lattice spacing.
+/// The smallest radius, resolution and lattice spacing, metres.
 inline constexpr double kShortestLength = 1e-4;
-/// Metres: the largest map in each direction, and the largest radius.
+/// The largest map in each direction, and the largest radius, metres.
 inline constexpr double kLargestExtent = 1e6;
-/// Metres: the farthest coordinates from 0, of origins, poses, corners and obstacles.
+/// The farthest coordinates from 0, of origins, poses, corners and obstacles, metres.
 inline constexpr double kFarthestCoordinate = 1e9;
-/// Seconds, three years: the latest time and the longest duration.
+/// The latest time and the longest duration, seconds: three years.
 inline constexpr double kLongestTime = 1e8;
 
-/// Metres per second: speeds of robots and in zones; moving obstacles are not faster.
+/// The least and greatest linear speeds of robots and in zones, metres per second; moving obstacles are not
+/// faster.
 inline constexpr double kLeastLinearSpeed = 1e-3;
 inline constexpr double kMostLinearSpeed = 1e3;
-/// Radians per second.
+/// The least and greatest angular speeds, radians per second.
 inline constexpr double kLeastAngularSpeed = 1e-3;
 inline constexpr double kMostAngularSpeed = 1e6;
-/// Seconds: the shortest horizon.
+/// The shortest horizon, seconds.
 inline constexpr double kShortestHorizon = 1e-3;
-/// Radians: how far from its heading a one-way zone lets robots move, at least.
+/// The least angle, radians, by which a one-way zone lets robots move off its heading.
 inline constexpr double kLeastHalfAngle = 1e-3;
 
 }  // namespace fleetplan

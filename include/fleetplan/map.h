@@ -39,17 +39,17 @@ class Map {
   double resolution() const { return resolution_; }  // metres
   Position origin() const { return origin_; }
 
-  /// True for cells outside the map, too.
+  /// Whether a cell is blocked; true for cells outside the map, too.
   bool blocked(int column, int row) const {
     return column < 0 || column >= columns_ || row < 0 || row >= rows_ || cells_[index(column, row)] != 0;
   }
   /// Blocks or frees a cell. Throws std::out_of_range if it is outside the map.
   void block(int column, int row, bool blocked = true);
-  /// The centre of a cell, also outside the map.
+  /// Returns the centre of a cell, which may be outside the map.
   Position center(int column, int row) const {
     return {origin_.x + (column + 0.5) * resolution_, origin_.y + (row + 0.5) * resolution_};
   }
-  /// Row by row from the bottom, 1 for those blocked.
+  /// The cells row by row from the bottom, 1 for blocked ones.
   std::span<const std::uint8_t> cells() const { return cells_; }
 
  private:

@@ -21,12 +21,12 @@ struct Options {
     where_needed,  // previous plans that hold are kept, unless a robot could not be planned otherwise
   };
 
-  /// For planning, > 0; the check of the plan may take a little longer. Robots that have no plan by then are
-  /// unplanned.
+  /// The time for planning, > 0; the check of the plan may take a little longer. Robots that have no plan by
+  /// then are unplanned.
   std::chrono::nanoseconds time_budget = std::chrono::seconds(5);
   Mode mode = Mode::first;
-  Objective objective = Objective::flowtime;  // what `anytime` minimizes
-  std::uint64_t seed = 0;                     // of all random choices
+  Objective objective = Objective::flowtime;  // minimized by `anytime`
+  std::uint64_t seed = 0;                     // seed of all random choices
   /// The order in which robots are planned first. Later robots give way to earlier ones.
   Priority priority = Priority::shortest_first;
   /// How the order changes when no plan is found for a robot.
@@ -42,7 +42,7 @@ struct Options {
   bool any_angle = true;
   int connectivity = 8;  // the number of neighbours of a cell: 4, 8, 16 or 32
   Replan replan = Replan::all;
-  /// Seconds, >= 0, by which any two robots may be early or late without meeting.
+  /// Seconds, >= 0, by which any two robots may be early or late without a collision.
   double interval_margin = 0.0;
   /// Metres, >= 0, by which measured starts may overlap each other or a wall, inflation included.
   double start_overlap = 0.0;
@@ -52,7 +52,7 @@ struct Options {
   /// Seconds up to which conflicts are resolved. A plan may stop there before its goal, where the robot may
   /// rest for good; see RobotPlan::estimated_cost. None: whole ways are planned.
   std::optional<double> horizon = {};
-  /// Of `anytime`: improves by so many steps, instead of until the time budget ends.
+  /// The number of steps by which `anytime` improves the plan; none: until the time budget ends.
   std::optional<std::int64_t> max_iterations = {};
 };
 

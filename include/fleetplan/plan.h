@@ -12,17 +12,17 @@ namespace fleetplan {
 
 /// A visit of a robot to one of its goals.
 struct Visit {
-  std::size_t goal = 0;                // by its number in Robot::goals
-  double t_arrive = 0.0;               // seconds; from then on at rest in the goal pose
+  std::size_t goal = 0;                // number of the goal in Robot::goals
+  double t_arrive = 0.0;               // seconds; begin of the rest in the goal pose
   std::optional<double> t_leave = {};  // seconds, the end of the service; none at the last goal
 };
 
 /// The plan of one robot.
 struct RobotPlan {
-  std::size_t robot = 0;  // by its number in Problem::robots
+  std::size_t robot = 0;  // number of the robot in Problem::robots
   double cost = 0.0;      // seconds: when it has come to rest in its last goal, where it stays
-  /// Contiguous in time and space from t = 0 in the start pose, the committed ones first. Empty if the robot
-  /// need not move.
+  /// The actions, contiguous in time and space from t = 0 in the start pose, the committed ones first. Empty
+  /// if the robot need not move.
   std::vector<Action> actions = {};
   double lower_bound = 0.0;        // seconds: no plan for the robot alone on the map costs less
   std::vector<Visit> visits = {};  // one for each goal, in their order
@@ -47,8 +47,8 @@ struct Unplanned {
   std::vector<std::size_t> blocked_by = {};  // ascending; the first twenty
 };
 
-/// A collision that no plan avoids: a robot that cannot leave its place in time from where the committed
-/// motion of another robot, or an obstacle, will pass.
+/// An unavoidable collision, which no plan prevents: a robot cannot leave its place in time before the
+/// committed motion of another robot, or an obstacle, passes there.
 struct Meeting {
   std::size_t robot = 0;
   std::optional<std::size_t> other = {};     // another robot, or
@@ -68,7 +68,7 @@ struct SearchStatistics {
   std::int64_t expansions = 0;    // search labels expanded
   std::int64_t improvements = 0;  // found in mode `anytime`
   bool exhausted = false;         // more time would change nothing
-  double seconds = 0.0;           // of planning, without reading the problem and without the check
+  double seconds = 0.0;           // planning, without reading the problem and without the check
 };
 
 /// The result of the planner. Every robot is in exactly one of `plans` and `unplanned`, which are in the
@@ -84,18 +84,19 @@ struct Plan {
   std::vector<Unplanned> unplanned = {};
   std::vector<Meeting> unavoidable = {};  // by time
   Objectives objectives;
-  Objectives lower_bound;  // of the planned robots
-  /// The independent checker (verify.h) has found no violation. False only if the time did not suffice for
-  /// the check. A plan that it rejects is never returned, see plan().
+  Objectives lower_bound;  // objectives of the planned robots' lower bounds
+  /// Whether the independent checker (verify.h) has found no violation. False only if the time did not
+  /// suffice for the check. A plan that it rejects is never returned, see plan().
   bool verified = false;
   /// Metres: the smallest gap between two disks over all time; none for fewer than two robots, or unless
   /// verified.
   std::optional<double> min_clearance = {};
-  /// The same problem, options and build give the same plan. False if the clock influenced it.
+  /// Whether the plan depends only on the problem, the options and the build. False if the clock influenced
+  /// it.
   bool deterministic = true;
   SearchStatistics search;
 
-  /// The plan of a robot; null if it has none.
+  /// Returns the plan of a robot; null if it has none.
   const RobotPlan* plan_of(std::size_t robot) const;
 };
 

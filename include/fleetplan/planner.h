@@ -16,7 +16,7 @@ namespace fleetplan {
 struct Progress {
   std::int64_t attempts = 0;            // priority orders begun so far
   std::size_t planned = 0;              // robots that have a plan now, parked ones included; may decrease
-  std::optional<Objectives> best = {};  // of the plan that would be returned now; none before the first
+  std::optional<Objectives> best = {};  // objectives of the present plan; none before the first
 };
 
 /// The connection of a running call to its caller.

@@ -34,15 +34,15 @@ struct Fault {
   std::string detail;  // a sentence for people, with units
 };
 
-/// The faults of a problem and of the options for it: at most 20, in the order of robots; none if the problem
-/// can be planned. Geometry is examined only if all numbers are in their ranges. Takes milliseconds for a map
-/// of a million cells.
+/// Returns the faults of a problem and of the options for it: at most 20, in the order of robots; none if the
+/// problem can be planned. Geometry is examined only if all numbers are in their ranges. Takes milliseconds
+/// for a map of a million cells.
 std::vector<Fault> faults_of(const Problem& problem, const Options& options = {});
 
 /// Thrown by functions that need a valid problem.
 class InvalidProblem : public std::invalid_argument {
  public:
-  /// At least one fault; what() has the first of them.
+  /// Makes the exception from at least one fault; what() has the first of them.
   explicit InvalidProblem(std::vector<Fault> faults);
 
   const std::vector<Fault>& faults() const { return faults_; }

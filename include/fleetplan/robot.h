@@ -28,15 +28,16 @@ struct Robot {
   double radius = 0.0;         // metres, > 0
   double linear_speed = 0.0;   // metres per second, > 0
   double angular_speed = 0.0;  // radians per second, > 0
-  Pose start;                  // at t = 0
-  /// Visited in this order. The robot stays at the last one. Without goals it is parked, and never moves.
+  Pose start;                  // pose at t = 0
+  /// The goals, visited in this order. The robot stays at the last one. Without goals it is parked, and never
+  /// moves.
   std::vector<Goal> goals;
 
-  /// Executed whatever is planned: contiguous from t = 0 in `start`, none faster than the robot. The plan
-  /// begins with these actions. Gaps of up to 5e-7 are closed.
+  /// The actions that the robot executes whatever is planned: contiguous from t = 0 in `start`, none faster
+  /// than the robot. The plan begins with these actions. Gaps of up to 5e-7 are closed.
   std::vector<Action> committed;
-  /// The actions of an earlier plan, likewise from t = 0 in `start`, the committed ones included. The planner
-  /// keeps it or begins with it, see Options::replan.
+  /// The actions of an earlier plan, also from t = 0 in `start`, the committed ones included. The planner
+  /// keeps them or begins with them, see Options::replan.
   std::optional<std::vector<Action>> previous;
 
   bool may_reverse = false;  // it may translate backwards

@@ -21,7 +21,7 @@ struct MovingObstacle {
   std::string id;             // for your own use
   double radius = 0.0;        // metres, > 0
   std::vector<Entry> motion;  // at least one
-  bool stays = false;         // after the last entry
+  bool stays = false;         // it stays after the last entry instead of leaving
 };
 
 /// A part of the map with a rule of its own.
@@ -37,12 +37,12 @@ struct Zone {
   /// The corners of a simple polygon, three at least, in either order. Its border belongs to a blocked zone,
   /// not to the others. Sides that cross are not detected; which points are inside is then undefined.
   std::vector<Position> polygon;
-  /// Of `speed`: the limits; none: no limit of this speed.
+  /// The limits of a zone of the type `speed`; none: no limit of this speed.
   std::optional<double> linear_speed;   // metres per second
   std::optional<double> angular_speed;  // radians per second
-  double heading = 0.0;                 // of `one_way`: radians
-  double half_angle = 0.0;              // of `one_way`: radians, > 0, at most pi
-  std::vector<std::size_t> robots;      // that it is for; empty: all of them
+  double heading = 0.0;                 // for `one_way`: radians
+  double half_angle = 0.0;              // for `one_way`: radians, > 0, at most pi
+  std::vector<std::size_t> robots;      // the robots that it is for; empty: all robots
 };
 
 }  // namespace fleetplan

@@ -36,13 +36,13 @@ struct Violation {
   double distance = 0.0;
   double required = 0.0;
   std::string detail = {};                   // a sentence for people, with units
-  std::optional<std::size_t> obstacle = {};  // of moving_obstacle
-  std::optional<std::size_t> zone = {};      // of zone
+  std::optional<std::size_t> obstacle = {};  // moving_obstacle: number of the obstacle
+  std::optional<std::size_t> zone = {};      // zone: number of the zone
 };
 
-/// By which rules plans are checked, besides those that hold for all. The default is the plainest check.
+/// The rules by which plans are checked, besides those that hold for all. The default is the plainest check.
 struct Rules {
-  /// >= 0: how far plans may deviate, in metres, seconds and radians. 1e-6 allows for decimal text.
+  /// How far plans may deviate, >= 0, in metres, seconds and radians. 1e-6 allows for decimal text.
   double tolerance = 1e-6;
   double inflation = 0.0;                 // metres, as in Options
   double interval_margin = 0.0;           // seconds, as in Options
@@ -51,7 +51,7 @@ struct Rules {
   std::optional<double> horizon = {};     // seconds, as in Options: plans that end later may end anywhere
   std::vector<Meeting> unavoidable = {};  // collisions that are allowed, as in Plan
 
-  /// Thousands of robots that move in one small area may take minutes.
+  /// The time for the check. Thousands of robots that move in one small area may take minutes.
   std::chrono::nanoseconds time_budget = std::chrono::seconds(60);
   std::stop_token stop = {};
 };
@@ -60,7 +60,7 @@ struct Rules {
 struct Verification {
   bool finished = false;                   // false if the time budget ended, or a stop was requested
   std::vector<Violation> violations = {};  // by time; the first 10,000
-  std::size_t violation_count = 0;         // also of those that are not listed
+  std::size_t violation_count = 0;         // number of all violations, listed or not
   /// Metres: the smallest gap between two disks over all time; none for fewer than two robots.
   std::optional<double> min_clearance = {};
 

@@ -22,8 +22,8 @@ struct Streams {
 };
 
 /// Exit codes of commands.
-inline constexpr int kSolved = 0;     // also: valid, or what was asked for
-inline constexpr int kFailed = 1;     // not by the request's fault: out of time or memory, a file, a bug
+inline constexpr int kSolved = 0;     // also for a valid plan, or for what else was asked for
+inline constexpr int kFailed = 1;     // not the request's fault: out of time or memory, a file, a bug
 inline constexpr int kPartial = 2;    // some robots have no plan; plans are not valid
 inline constexpr int kNone = 3;       // no robot has a plan
 inline constexpr int kBadInput = 64;  // the request or the command line, as EX_USAGE of sysexits.h
@@ -33,17 +33,17 @@ struct InputFault {
   std::string line;
 };
 
-/// `line`: of the file, from 1; 0: the file as a whole.
+/// Makes a fault. `line` is that of the file, from 1; 0: the file as a whole.
 InputFault input_fault(const std::string& file, std::size_t line, const std::string& detail);
 
-/// All of a file, or of `in` for "-". A file of more than `most` bytes is not read to its end.
+/// Reads all of a file, or of `in` for "-". A file of more than `most` bytes is not read to its end.
 api::Result<std::string, InputFault> read_file(const std::string& name, std::istream& in,
                                                std::size_t most = std::numeric_limits<std::size_t>::max());
 
-/// The name of an input file in messages.
+/// Returns the name of an input file for messages.
 std::string shown_name(const std::string& file);
 
-/// Returns whether all of the text was written.
+/// Writes the text to a file. Returns whether all of it was written.
 bool write_file(const std::string& name, const std::string& text);
 
 /// Writes what a command is asked for to a file, or to the standard output if the name is empty. Returns the
@@ -53,7 +53,7 @@ int write_output(const std::string& name, const std::string& text, const Streams
 /// Reports why a command fails; returns the exit code.
 int fail(const Streams& streams, int code, const std::string& message);
 
-/// A finite number with a point, such as "-1.5e3" or "+2"; nothing if the text is anything else.
+/// Reads a finite number with a point, such as "-1.5e3" or "+2"; none if the text is anything else.
 std::optional<double> read_number(std::string_view text);
 
 }  // namespace fleetplan::server

@@ -33,7 +33,7 @@ struct RequestCommand {
   bool quiet = false;         // shows no progress
 };
 
-/// For one picture: more than the largest maps and plans take.
+/// The most time for one picture: more than the largest maps and plans take.
 constexpr std::chrono::seconds kMostForPicture{20};
 
 /// Writes the progress of planning to a terminal, on one line that it overwrites.
@@ -72,7 +72,7 @@ class TerminalProgress : public api::PlanEvents {
   bool has_written_ = false;
 };
 
-/// A refusal as lines for people: "robots.json: /robots/0/start: the disk overlaps a blocked cell".
+/// Returns a refusal as lines for people: "robots.json: /robots/0/start: the disk overlaps a blocked cell".
 std::string in_lines(const api::Reply& reply, const std::string& request) {
   const Json problem = Json::parse(reply.body);
   const std::string file = shown_name(request);
@@ -103,7 +103,7 @@ int exit_code_of(const api::Reply& reply) {
   return answer.value("valid", true) ? kSolved : kPartial;
 }
 
-/// The pictures that a command asks for, of the plan that is answered.
+/// Draws the pictures that a command asks for, of the plan that is answered.
 class Pictures {
  public:
   explicit Pictures(const RequestCommand& command) : command_(command) {}
@@ -118,7 +118,7 @@ class Pictures {
     }
   }
 
-  /// The first file that could not be written, if any.
+  /// Writes the files. Returns the first one that could not be written, if any.
   std::optional<std::string> write() const {
     const auto is_missing = [](const std::string& file, const std::optional<std::string>& picture) {
       return !file.empty() && !(picture && write_file(file, *picture));
@@ -178,7 +178,7 @@ constexpr std::array<Command, 7> kCommands{{
     {"export-vda5050", "Turn plans into orders of VDA 5050", &Service::vda5050},
 }};
 
-/// What the arguments of a command say.
+/// The meaning of the arguments of a command.
 struct Arguments {
   RequestCommand request;
   std::string example;

@@ -24,19 +24,19 @@ namespace {
 
 /// A table of robots as CSV.
 struct RobotTable {
-  std::string file;                // its name
+  std::string file;                // name of the file
   std::string json;                // the member `robots` of a request
-  std::vector<std::size_t> lines;  // of the file, from 1, by robot
+  std::vector<std::size_t> lines;  // line in the file, from 1, by robot
 };
 
-/// Two thousand robots, which a server accepts by default, have 200 kB.
+/// The most bytes of a table. Two thousand robots, which a server accepts by default, have 200 kB.
 constexpr std::size_t kMostTable = std::size_t{4} << 20;
 
 struct Column {
   std::string_view name;
   std::string_view short_name;
-  std::string_view pose;    // the member of the robot that has it; empty: the robot itself
-  std::string_view member;  // its own name there
+  std::string_view pose;    // member of the robot that has it; empty: the robot itself
+  std::string_view member;  // its name in that member
   bool is_required = false;
 };
 
@@ -76,7 +76,7 @@ bool is_text(std::string_view line) {
   return true;
 }
 
-/// The fields of a line; nothing if a quote is not closed, or something follows it.
+/// Returns the fields of a line; none if a quote is not closed, or something follows it.
 std::optional<std::vector<std::string>> fields_of(std::string_view line, char separator) {
   std::vector<std::string> fields;
   while (true) {
@@ -243,7 +243,7 @@ std::string request_of(const RosMapFile& map, const RobotTable& table) {
   return json.take() + '\n';
 }
 
-/// The fault of a robot: its line and, if it is one, its column.
+/// Returns the fault of a robot with its line and, if it is one, its column.
 InputFault fault_of_robot(const api::Fault& fault, const RobotTable& table) {
   const std::string_view steps = std::string_view(fault.pointer).substr(kOfRobots.size());
   std::size_t robot = 0;
@@ -255,7 +255,7 @@ InputFault fault_of_robot(const api::Fault& fault, const RobotTable& table) {
   return input_fault(table.file, line, column.empty() ? fault.detail : column + ": " + fault.detail);
 }
 
-/// A fault of the request at the place in the files that it comes from.
+/// Returns a fault of the request at the place in the files that it comes from.
 InputFault in_files(const api::Fault& fault, const RosMapFile& map, const RobotTable& table) {
   const std::string_view pointer = fault.pointer;
   if (pointer.starts_with(kOfRobots)) return fault_of_robot(fault, table);

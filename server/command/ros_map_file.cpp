@@ -21,9 +21,11 @@ namespace fleetplan::server {
 
 namespace {
 
-/// A map.yaml has some hundred bytes. Aliases are not expanded, and the library limits the depth.
+/// The most bytes of a map.yaml, which has some hundred. Aliases are not expanded, and the library limits the
+/// depth.
 constexpr std::size_t kMostYaml = std::size_t{64} << 10;
-/// So that a request with the image in base64 is below the default limit of a server, with room for robots.
+/// The most bytes of an image: a request with it in base64 is below the default limit of a server, with room
+/// for robots.
 constexpr std::size_t kMostImage = (api::Limits{}.max_body - (std::size_t{2} << 20)) / 4 * 3;
 constexpr std::size_t kOriginLength = 3;
 
@@ -33,7 +35,7 @@ constexpr std::array<std::string_view, 3> kModes{"trinary", "scale", "raw"};
 
 std::size_t line_of(const YAML::Mark& mark) { return static_cast<std::size_t>(mark.line) + 1; }
 
-/// As map_server reads it: quoted or not.
+/// Reads a number as map_server does, quoted or not.
 std::optional<double> number_of(const YAML::Node& node) {
   if (!node.IsScalar()) return std::nullopt;
   return read_number(node.Scalar());
@@ -119,7 +121,7 @@ class MapReader {
     json_.begin_object();
   }
 
-  /// The value of a member; null if it is not there, or there is a fault.
+  /// Returns the value of a member; null if it is not there, or there is a fault.
   const YAML::Node* find(std::string_view key, std::string_view remedy = "") {
     if (fault_) return nullptr;
     for (const auto& [name, value] : members_) {
@@ -176,7 +178,7 @@ class MapReader {
     json_.end_array();
   }
 
-  /// map_server accepts numbers and booleans.
+  /// Reads `negate`. map_server accepts numbers and booleans.
   void read_negate() {
     const YAML::Node* negate = find("negate");
     if (negate == nullptr) return;

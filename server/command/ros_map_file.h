@@ -12,15 +12,15 @@ namespace fleetplan::server {
 
 /// A map.yaml of ROS and its image.
 struct RosMapFile {
-  std::string yaml;                                       // the name of the file
-  std::string image;                                      // likewise
+  std::string yaml;                                       // name of the file
+  std::string image;                                      // name of the file
   std::string json;                                       // the member `image` of a map with both
-  std::map<std::string, std::size_t, std::less<>> lines;  // of the file, from 1, by member
+  std::map<std::string, std::size_t, std::less<>> lines;  // line in the yaml, from 1, by member
   std::vector<std::string> ignored;                       // lines for people about members without effect
 };
 
-/// Reads both files, as map_server does: the image beside the yaml, unless its path is absolute. Whether the
-/// image can be decoded is not looked at.
+/// Reads both files as map_server does: the image beside the yaml, unless its path is absolute. Does not look
+/// at whether the image can be decoded.
 api::Result<RosMapFile, InputFault> read_ros_map(const std::string& yaml, std::istream& in);
 
 }  // namespace fleetplan::server

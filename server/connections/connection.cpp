@@ -13,12 +13,13 @@ namespace {
 
 using api::ErrorCode;
 
-/// The body of a refused request is read and dropped up to this size; with a larger one, the connection ends.
+/// The most bytes of a refused request's body that are read and dropped; with a larger one, the connection
+/// ends.
 constexpr std::uint64_t kMaxDropped = 1 << 20;
-/// A body that arrives more slowly falls behind; the read timeout limits how far.
+/// The least rate of a body. A body that arrives more slowly falls behind; the read timeout limits how far.
 constexpr std::uint64_t kLeastBytesPerMs = 100;
-/// For how long input is dropped after the last answer, so that it arrives: a close with unread input would
-/// reset the connection and could lose that answer.
+/// How long input is dropped after the last answer, so that the answer arrives: a close with unread input
+/// would reset the connection and could lose it.
 constexpr std::chrono::seconds kLinger{3};
 
 ErrorCode code_of(BadHead::Kind kind) {
@@ -38,7 +39,7 @@ bool expects_continue(const RequestHead& head) {
   return !head.http_1_0 && lower_case(head.field("expect")) == "100-continue";
 }
 
-/// Empty lines before a request must be ignored (RFC 9112, 2.2).
+/// Skips empty lines before a request, which must be ignored (RFC 9112, 2.2).
 void skip_empty_lines(std::string& input) {
   std::size_t end = 0;
   while (input.compare(end, 2, "\r\n") == 0) end += 2;
@@ -171,7 +172,7 @@ void Connection::judge_head(HeadScanner::State state) {
   begin_body();
 }
 
-/// Answers at once if that needs no body.
+/// Begins to read the body. Answers at once if the answer needs no body.
 void Connection::begin_body() {
   const RequestHead& head = exchange_->head;
   exchange_->close = !head.keeps_alive();
@@ -227,7 +228,7 @@ bool Connection::body() {
   return input != Input::nothing;
 }
 
-/// The request is complete.
+/// Ends the body: the request is complete.
 void Connection::end_body() {
   exchange_->received_at = Clock::now();
   answer();
@@ -235,7 +236,7 @@ void Connection::end_body() {
 
 void Connection::refuse(const BodyFault& fault) { refuse(code_of(fault.kind), fault.detail); }
 
-/// After this, the input cannot be understood.
+/// Refuses the request. After this, the input cannot be understood.
 void Connection::refuse(ErrorCode code, const std::string& detail) {
   exchange_->close = unread_ = true;
   const DirectAnswer answer = refusal(*exchange_, code, detail);  // the detail may be that of the body

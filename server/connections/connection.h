@@ -41,14 +41,14 @@ class StopSignal {
   std::atomic<bool> raised_{false};
 };
 
-/// What all connections of a port share.
+/// The objects that all connections of a port share.
 struct ConnectionContext {
   const Settings& settings;
   const Steps& steps;
   BodyMemory& body_memory;
   UnsentAnswers& unsent_answers;
   const std::atomic<bool>& draining;
-  std::atomic<std::size_t>& exchanges;  // under way
+  std::atomic<std::size_t>& exchanges;  // number of exchanges under way
   const StopSignal& stop;
   std::function<Sent(Exchange&)> answer;  // has the library answer a request that passed all steps
 };
@@ -76,20 +76,20 @@ class Connection {
 
   /// What has to happen before a connection can go on.
   struct Wait {
-    bool for_input;              // or else for room to send
+    bool for_input;              // it waits for input, otherwise for room to send
     Clock::time_point deadline;  // goes on at this time, whatever has happened
-    Clock::time_point since;     // when the client's turn began
+    Clock::time_point since;     // begin of the client's turn
     bool stopped;                // the stop signal has been seen; until then, it goes on with the signal, too
   };
 
   /// Takes the socket over.
   Connection(int fd, ConnectionContext context);
 
-  /// Goes on until it has to wait; none: it is over, because the client left, was idle for too long, or the
-  /// server stops. Not from several threads at a time.
+  /// Goes on until it has to wait, and returns what for; none if it is over, because the client left, was
+  /// idle for too long, or the server stops. Call it from one thread at a time.
   std::optional<Wait> go_on();
 
-  /// What go_on() has returned; before the first time, what has to happen first.
+  /// Returns what go_on() has returned; before the first time, what has to happen first.
   Wait wait() const;
 
   int fd() const { return socket_.fd(); }
@@ -98,7 +98,8 @@ class Connection {
   enum class Phase { idle, head, body, sending, dropping, lingering, over };
   enum class Input { some, nothing, end, timeout, stopped };
 
-  // Each continues its phase: true to go on with the phase that follows, false to wait.
+  // The functions below continue their phase. They return true to go on with the phase that follows, false to
+  // wait.
   bool idle();
   bool head();
   bool body();
@@ -123,18 +124,18 @@ class Connection {
   ConnectionContext context_;
   Socket socket_;
   const std::string peer_;
-  std::string input_;  // read and not used yet
+  std::string input_;  // input that was read and is not used yet
   Phase phase_ = Phase::idle;
-  Clock::time_point since_;     // when the phase began
-  Clock::time_point deadline_;  // of the phase
+  Clock::time_point since_;     // begin of the phase
+  Clock::time_point deadline_;  // end of the phase
   bool stop_seen_ = false;
   bool unread_ = false;  // the client may still be sending
 
   std::optional<Exchange> exchange_;  // from the first byte of a request to the last one of its answer
   std::optional<UnderWay> under_way_;
   HeadScanner scanner_;
-  std::optional<BodyReader> body_;  // of the exchange; later the body of one that was refused, to be dropped
-  std::uint64_t body_bytes_ = 0;    // read, chunk sizes included
+  std::optional<BodyReader> body_;  // body of the exchange; later that of a refused one, to be dropped
+  std::uint64_t body_bytes_ = 0;    // bytes read, chunk sizes included
   Sent sent_;
   std::optional<WritePatience> write_patience_;
 };

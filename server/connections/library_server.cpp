@@ -43,7 +43,7 @@ class ExchangeStream final : public httplib::Stream {
   void get_local_ip_and_port(std::string& ip, int& port) const override;
   socket_t socket() const override { return exchange_.socket->fd(); }
 
-  /// Sends what is held back; false when the client is gone.
+  /// Sends what is held back. Returns false when the client is gone.
   bool flush();
 
   std::uint64_t written() const { return exchange_.streamed.value_or(written_); }
@@ -58,7 +58,8 @@ class ExchangeStream final : public httplib::Stream {
 
 constexpr std::size_t kHoldBytes = 64 * 1024;
 
-/// `path` with all but letters, digits, slashes and a few marks as %XX, which the library decodes again.
+/// Returns `path` with all but letters, digits, slashes and a few marks as %XX, which the library decodes
+/// again.
 std::string percent_encoded(std::string_view path) {
   constexpr std::string_view kPlain = "/-._~";
   constexpr std::string_view kDigits = "0123456789ABCDEF";
@@ -115,7 +116,7 @@ bool ExchangeStream::flush() {
   return exchange_.send(held);
 }
 
-// The library puts the addresses into header fields of the request, which no handler reads.
+// Returns no addresses: the library puts them into header fields of the request, which no handler reads.
 void ExchangeStream::get_remote_ip_and_port(std::string& ip, int& port) const {
   ip.clear();
   port = 0;
@@ -127,7 +128,8 @@ void ExchangeStream::get_local_ip_and_port(std::string& ip, int& port) const {
 
 constexpr int kListenBacklog = 511;
 
-/// The library's default would add SO_REUSEPORT, with which a second instance silently shares the port.
+/// Sets options of the listening socket. The library's default would add SO_REUSEPORT, with which a second
+/// instance silently shares the port.
 void set_listening_options(int fd) {
   const int yes = 1;
   ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -196,7 +198,7 @@ std::optional<std::string> LibraryServer::bind() {
     return "cannot listen on " + context_.host + ':' + std::to_string(wanted) + ": " + reason;
   }
   listening_fd_ = svr_sock_;
-  ::listen(listening_fd_, kListenBacklog);  // again: the library's backlog of 5 refuses bursts
+  ::listen(listening_fd_, kListenBacklog);  // repeated, as the library's backlog of 5 refuses bursts
   ::fcntl(listening_fd_, F_SETFL, O_NONBLOCK);
   return std::nullopt;
 }

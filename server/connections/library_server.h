@@ -19,7 +19,7 @@ namespace fleetplan::server {
 /// Construct, bind, run (in a thread of its own), stop.
 class LibraryServer final : private httplib::Server {
  public:
-  /// What the adapter works with. References have to outlive it.
+  /// The parts that the adapter works with. References have to outlive it.
   struct Context {
     std::string host;
     int port;  // 0: any free one
@@ -33,10 +33,10 @@ class LibraryServer final : private httplib::Server {
   LibraryServer(const LibraryServer&) = delete;
   LibraryServer& operator=(const LibraryServer&) = delete;
 
-  /// Binds the port; returns the reason if that fails.
+  /// Binds the port. Returns the reason if that fails.
   std::optional<std::string> bind();
 
-  /// The bound port, also if the setting was 0.
+  /// The bound port, even if the setting was 0.
   int port() const { return context_.port; }
 
   /// The bound socket, which listens and does not block.

@@ -37,7 +37,8 @@ AcceptFault accept_fault(int error) {
 }
 
 int accept_connection(int listening_fd) {
-  /// Bytes that the kernel takes before they are sent: what a client does not read belongs to UnsentAnswers.
+  /// The most bytes that the kernel takes before they are sent: what a client does not read belongs to
+  /// UnsentAnswers.
   constexpr int kMostUnsent = 128 * 1024;
   const int fd = ::accept4(listening_fd, nullptr, nullptr, SOCK_CLOEXEC);
   const int yes = 1;
@@ -49,7 +50,7 @@ int accept_connection(int listening_fd) {
 
 namespace {
 
-// What an event of epoll is about, besides connections, whose ids follow.
+// The subjects of events of epoll, besides connections, whose ids follow.
 constexpr std::uint64_t kListening = 0;
 constexpr std::uint64_t kWake = 1;
 constexpr std::uint64_t kStop = 2;
@@ -57,9 +58,9 @@ constexpr std::uint64_t kFirstId = 3;
 
 constexpr std::size_t kMostEvents = 256;
 constexpr int kMostAccepted = 64;
-/// Threads park connections without waking the listener, which looks at their deadlines this often.
+/// The time between two looks at deadlines: threads park connections without waking the listener.
 constexpr std::chrono::milliseconds kTick{50};
-/// After a fault of accept(), so that a fault that stays takes no CPU.
+/// The pause after a fault of accept(), so that a fault that stays takes no CPU.
 constexpr std::chrono::milliseconds kPause{20};
 
 void watch(int epoll_fd, int operation, int fd, std::uint32_t events, std::uint64_t id) {

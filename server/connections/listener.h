@@ -25,11 +25,11 @@ enum class AcceptFault {
   broken,           // the listening socket is not one, or no longer
 };
 
-/// By the error number that accept() has set (accept(2)).
+/// Returns what the error number means that accept() has set (accept(2)).
 AcceptFault accept_fault(int error);
 
-/// Accepts a connection on a listening socket that does not block: its descriptor, which is closed on exec
-/// and sends small answers at once; or -1 with errno set.
+/// Accepts a connection on a listening socket that does not block. Returns its descriptor, which is closed on
+/// exec and sends small answers at once; or -1 with errno set.
 int accept_connection(int listening_fd);
 
 /// Accepts the connections of a port and keeps those that wait for their clients, with one thread for all of
@@ -55,10 +55,10 @@ class Listener {
   /// Accepts until stop() and serves until all connections have ended.
   void run(int listening_fd);
 
-  /// Ends run(); raise the stop signal before. May be called from any thread.
+  /// Ends run(). Raise the stop signal before. May be called from any thread.
   void stop();
 
-  /// Open connections.
+  /// The number of open connections.
   std::size_t connections() const;
 
  private:
@@ -77,15 +77,15 @@ class Listener {
   void accept_again(int listening_fd);
   void end_accepting(int listening_fd);
 
-  /// Closes the connection whose client has let it wait longest; false if none waits.
+  /// Closes the connection whose client has let it wait longest. Returns false if none waits.
   bool make_room();
   void add(int fd);
 
-  /// Has a thread go on with a connection that is not parked.
+  /// Makes a thread go on with a connection that is not parked.
   void start(Id id, Connection& connection);
   void serve(Id id, Connection& connection);
 
-  /// False: it must go on first, to see the stop signal.
+  /// Parks a connection. Returns false if it must go on first, to see the stop signal.
   bool park(Id id, const Connection::Wait& wait);
   void unpark(Id id, Held& held);
   void resume(Id id);
@@ -95,16 +95,16 @@ class Listener {
 
   Context context_;
   int epoll_fd_;
-  StopSignal wake_;                                               // for stop()
-  std::optional<Clock::time_point> paused_until_ = std::nullopt;  // accepting is
+  StopSignal wake_;                                               // wakes the listener for stop()
+  std::optional<Clock::time_point> paused_until_ = std::nullopt;  // end of a pause in accepting
   RequestThreads threads_;
 
   mutable std::mutex mutex_;  // guards all below
-  bool stop_told_ = false;    // to those that were parked
+  bool stop_told_ = false;    // the parked connections have been told of the stop
   Id next_id_;
   std::unordered_map<Id, Held> held_;
-  std::set<std::pair<Clock::time_point, Id>> by_deadline_;  // of those parked
-  std::set<std::pair<Clock::time_point, Id>> by_since_;     // of those parked
+  std::set<std::pair<Clock::time_point, Id>> by_deadline_;  // parked connections by deadline
+  std::set<std::pair<Clock::time_point, Id>> by_since_;     // parked connections by the begin of their wait
 };
 
 }  // namespace fleetplan::server

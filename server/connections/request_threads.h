@@ -11,8 +11,8 @@
 
 namespace fleetplan::server {
 
-/// A thread for every request that is being read or answered, up to a limit beyond which requests wait.
-/// Threads are started on demand and end when they have been idle for a while.
+/// The threads of requests: one for every request that is being read or answered, up to a limit beyond which
+/// requests wait. Threads are started on demand and end when they have been idle for a while.
 class RequestThreads {
  public:
   explicit RequestThreads(std::size_t max_threads) : max_threads_(max_threads) {}
@@ -20,7 +20,7 @@ class RequestThreads {
   RequestThreads(const RequestThreads&) = delete;
   RequestThreads& operator=(const RequestThreads&) = delete;
 
-  /// Throws when not even one thread can be started.
+  /// Adds a task. Throws when not even one thread can be started.
   void push(std::function<void()> task);
 
   /// Runs all tasks that were added and ends all threads.

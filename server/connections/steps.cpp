@@ -71,7 +71,8 @@ Steps::Answer Steps::origin(const Exchange& exchange) const {
                      " may not use this service, unless it is started with --cors-origin.");
 }
 
-/// Programs send the token as Bearer. For Basic, browsers show a login dialog.
+/// Returns the refusal of a client without the token. Programs send the token as Bearer; for Basic, browsers
+/// show a login dialog.
 Steps::Answer Steps::authentication(const Exchange& exchange) const {
   const bool open = exchange.route != nullptr && exchange.route->traits.without_token;
   if (!settings_.token || open || settings_.token->admits(exchange.head.field("authorization"))) {

@@ -41,13 +41,13 @@ class Steps {
   Steps(Port port, const Settings& settings, const RouteTable& routes, const CrossOrigin& cross_origin,
         const std::atomic<bool>& draining, Metrics& metrics, const RequestLog& log);
 
-  /// 1 to 3, once the head has been read.
+  /// Makes steps 1 to 3, once the head has been read.
   void begin(Exchange& exchange) const;
 
-  /// 4 to 11: an answer that needs no handler; none when the request may go on.
+  /// Makes steps 4 to 11. Returns an answer that needs no handler; none when the request may go on.
   std::optional<DirectAnswer> answer_to_head(const Exchange& exchange) const;
 
-  /// 12 and 13, once the answer has been sent. `bytes_out`: of the answer. `peer`: see Socket::peer.
+  /// Makes steps 12 and 13, once the answer of `bytes_out` bytes has been sent. `peer`: see Socket::peer.
   void end(Exchange& exchange, std::uint64_t bytes_out, const std::string& peer) const;
 
  private:

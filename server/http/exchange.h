@@ -24,23 +24,23 @@ struct Exchange {
   Clock::time_point begun_at;                                  // first byte in
   Clock::time_point received_at;                               // last byte of the body in
   std::string request_id;
-  std::string trace_id;  // of the client's trace; empty: it has none
+  std::string trace_id;  // the client's trace; empty: it has none
   RequestHead head;
   const Route* route = nullptr;                            // none: the path is unknown
   std::string parameter = {};                              // see RouteTable::Match
-  std::optional<BodyMemory::Share> memory = std::nullopt;  // for the body
+  std::optional<BodyMemory::Share> memory = std::nullopt;  // memory for the body
   std::string body;                                        // as sent, until its job decodes it
-  std::uint64_t bytes_in = 0;                              // of the body as sent
+  std::uint64_t bytes_in = 0;                              // bytes of the body as sent
 
-  HeaderFields fields;  // of the answer, besides those that every answer has
+  HeaderFields fields;  // header fields of the answer, besides those that every answer has
   int status = 0;
-  int retry_after_s = 1;   // of a 503; by default soon, as another replica may be ready
+  int retry_after_s = 1;   // seconds, for a 503; by default soon, as another replica may be ready
   bool close = false;      // the connection ends with this answer
   bool abandoned = false;  // the client left before the answer
   std::optional<std::uint64_t> streamed = std::nullopt;  // bytes of an answer that went out as an EventStream
-  std::optional<double> queue_ms = std::nullopt;         // until its turn came, or without one
-  bool had_turn = false;                                 // to compute
-  std::optional<double> late_s = std::nullopt;  // the answer after the end of the budget; negative: before
+  std::optional<double> queue_ms = std::nullopt;         // milliseconds until its turn came, or without one
+  bool had_turn = false;                                 // it has had a turn to compute
+  std::optional<double> late_s = std::nullopt;  // from the end of the budget to the answer; negative: before
   std::string_view problem;                     // see api::Reply
   std::optional<api::PlanOutcome> outcome = std::nullopt;
 
@@ -50,7 +50,8 @@ struct Exchange {
     memory.reset();
   }
 
-  /// Sends what the client accepts at once; the rest is added to `unsent`. False when the client is gone.
+  /// Sends what the client accepts at once; the rest is added to `unsent`. Returns false when the client is
+  /// gone.
   bool send(std::string_view data) { return unsent->send(data); }
 };
 

@@ -22,7 +22,7 @@ struct RouteTraits {
   bool without_token = false;      // served to clients that do not send the token
   bool plans = false;              // returns plans
   bool events = false;             // answers as JSON or as a stream of events
-  std::vector<int> statuses = {};  // of its answers, beyond those that all routes have
+  std::vector<int> statuses = {};  // statuses of its answers, beyond those that all routes have
 };
 
 struct Route {
@@ -30,7 +30,7 @@ struct Route {
   std::string path;    // as in the OpenAPI document, e.g. "/v1/examples/{name}"
   Handler handler;
   RouteTraits traits;
-  std::function<bool(std::string_view path)> contains = {};  // of a folder: whether it has such a file
+  std::function<bool(std::string_view path)> contains = {};  // for a folder: whether it has such a file
 
   bool takes_body() const { return method == "POST"; }
   bool allows(std::string_view sent_method) const;
@@ -38,33 +38,33 @@ struct Route {
   /// The methods as an Allow field lists them.
   std::string_view allowed_methods() const { return takes_body() ? "POST" : "GET, HEAD"; }
 
-  /// `path` with the part in braces, if any, replaced by a regular expression that matches any text; all else
-  /// matches itself only. Of a folder, all paths below it match.
+  /// Returns `path` with the part in braces, if any, replaced by a regular expression that matches any text;
+  /// all else matches itself only. The pattern of a folder matches all paths below it.
   std::string pattern() const;
 };
 
 class RouteTable {
  public:
-  /// Paths that match a part in braces, or name a file, may have so many bytes. The library matches them with
+  /// The most bytes of a path that matches a part in braces, or names a file. The library matches them with
   /// std::regex, which recurses for every byte and takes about 400 bytes of stack each time.
   static constexpr std::size_t kMaxVariablePath = 1024;
 
   void get(std::string path, Handler handler, RouteTraits traits = {});
   void post(std::string path, Handler handler, RouteTraits traits = {});
 
-  /// GET of all files of a folder. Declare it last: other routes have precedence.
+  /// Declares GET of all files of a folder. Declare it last: other routes have precedence.
   void files(std::string path, std::function<bool(std::string_view path)> contains, Handler handler,
              RouteTraits traits = {});
 
   struct Match {
     const Route* route = nullptr;  // none: the path is unknown
-    std::string parameter = {};    // the text that matched the part in braces; of a file, its path
+    std::string parameter = {};    // text that matched the part in braces; for a file, its path
   };
 
-  /// By decoded path. The route's method may be another.
+  /// Returns the route of a decoded path. Its method may be another than that of the request.
   Match find(std::string_view path) const;
 
-  /// In the order of their declaration.
+  /// The routes in the order of their declaration.
   const std::vector<Route>& routes() const { return routes_; }
 
  private:

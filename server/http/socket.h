@@ -22,10 +22,10 @@ class Socket {
   /// Appends input that has arrived.
   Read read_some(std::string& into);
 
-  /// Sends as much as the peer takes at once: the number of bytes, none when the peer is gone.
+  /// Sends as much as the peer takes at once. Returns the number of bytes; none when the peer is gone.
   std::optional<std::size_t> write_some(std::string_view data);
 
-  /// True when the peer has closed its side.
+  /// Whether the peer has closed its side.
   bool peer_gone() const;
 
   /// Ends the connection in both directions; peer_gone() is true from then on.
@@ -34,10 +34,10 @@ class Socket {
   /// Ends the sending side.
   void end_sending();
 
-  /// True when there is input that was not read.
+  /// Whether there is input that was not read.
   bool has_input() const;
 
-  /// Address and port of the peer, e.g. 127.0.0.1:40310 or [::1]:40310; empty when it is gone.
+  /// Returns address and port of the peer, e.g. 127.0.0.1:40310 or [::1]:40310; empty when it is gone.
   std::string peer() const;
 
   int fd() const { return fd_; }
@@ -49,14 +49,14 @@ class Socket {
 /// How long a peer may take to accept data: it may pause for 10 s, and fall behind 10 kB/s by 10 s in all.
 class WritePatience {
  public:
-  /// From now on, for so many bytes.
+  /// Begins now, for so many bytes.
   explicit WritePatience(std::size_t size);
 
-  /// The service ends: 2 s are left.
+  /// Limits the patience when the service ends: 2 s are left.
   void stop();
   bool stopped() const { return stopped_; }
 
-  /// For the next bytes, if some have just been accepted.
+  /// Returns the deadline of the next bytes, if some have just been accepted.
   Socket::Clock::time_point deadline() const;
 
  private:

@@ -38,7 +38,7 @@ std::string content_type_of(const fs::path& file) {
   return "application/octet-stream";
 }
 
-/// FNV-1a, 64 bits: tells one version of a file from another, no more.
+/// Returns a hash of the content, FNV-1a of 64 bits: it only tells one version of a file from another.
 std::string etag_of(std::string_view body) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const char c : body) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;

@@ -18,13 +18,13 @@ struct StaticFile {
 /// The files below one folder, and nothing else: no listings, no hidden files, no way out by `..` or a link.
 class StaticFiles {
  public:
-  /// An empty root has no files.
+  /// Serves the files below `root`; an empty root has none.
   explicit StaticFiles(const std::filesystem::path& root);
 
   bool has_root() const { return !root_.empty(); }
 
-  /// `path`: decoded, beginning with '/'; "/" is index.html. Read anew each time, so that a page may change
-  /// under a running server.
+  /// Reads a file. `path` is decoded and begins with '/'; "/" is index.html. Files are read anew each time,
+  /// so that a page may change under a running server.
   std::optional<StaticFile> read(std::string_view path) const;
 
   bool contains(std::string_view path) const { return locate(path).has_value(); }
@@ -35,7 +35,7 @@ class StaticFiles {
   std::filesystem::path root_;  // canonical
 };
 
-/// The folder of the page when no setting names one: ../share/fleetplan/web beside the executable, if
+/// Returns the folder of the page when no setting names one: ../share/fleetplan/web beside the executable, if
 /// that folder exists; else the page that was built with this program; else none (empty).
 std::filesystem::path default_web_root();
 

@@ -54,17 +54,17 @@ namespace {
 
 using Clock = Workers::Clock;
 
-/// While jobs are short, this multiple of the queue is accepted in addition.
+/// The multiple of the queue that is accepted in addition while jobs are short.
 constexpr std::size_t kBurst = 7;
 
-/// At least this much time is left to code an answer, whatever the budget.
+/// The least time that is left to code an answer, whatever the budget.
 constexpr std::chrono::milliseconds kForCoding{50};
 
 double seconds_since(Clock::time_point then) {
   return std::chrono::duration<double>(Clock::now() - then).count();
 }
 
-/// The answer to a request whose body was not parsed.
+/// Returns the answer to a request whose body was not parsed.
 api::Reply unparsed(const std::string& request_id, bool cancelled) {
   if (!cancelled) return api::too_busy(request_id);
   return api::problem_reply(api::ErrorCode::draining, api::kDrainingDetail, request_id);
@@ -74,7 +74,7 @@ bool is_gzip(const Exchange& exchange) {
   return content_coding(exchange.head.field("content-encoding")) == ContentCoding::gzip;
 }
 
-/// The size of the decoded text that the last gzip member of a body claims to have (RFC 1952, 2.3.1).
+/// Returns the size of the decoded text that the last gzip member of a body claims to have (RFC 1952, 2.3.1).
 std::size_t claimed_size(std::string_view coded) {
   constexpr std::size_t kBytes = 4;
   std::size_t size = 0;
@@ -84,8 +84,8 @@ std::size_t claimed_size(std::string_view coded) {
   return size;
 }
 
-/// Bytes to parse, by which slots are given. A coded body is as large as it claims, or as JSON that is coded
-/// is, as a rule, if that is more.
+/// Returns the number of bytes to parse, by which slots are given. A coded body is as large as it claims, or
+/// as JSON that is coded is, as a rule, if that is more.
 std::size_t bytes_to_parse(const Exchange& exchange, const api::Limits& limits) {
   constexpr std::size_t kRatio = 10;
   if (!is_gzip(exchange)) return exchange.body.size();
@@ -103,7 +103,8 @@ std::optional<BodyFault> decode_body(Exchange& exchange, std::uint64_t limit,
   return std::nullopt;
 }
 
-/// Codes the answer if the client accepts that. It stays plain if it is small, or if `stop` is met before.
+/// Codes the answer if the client accepts that. The answer stays plain if it is small, or if `stop` is met
+/// before.
 void code_answer(Exchange& exchange, api::Reply& reply, const core::StopCondition& stop) {
   constexpr std::size_t kLeast = 256;
   if (reply.body.size() < kLeast || !accepts_gzip(exchange.head.field("accept-encoding"))) return;
@@ -155,7 +156,7 @@ class ExchangeTurn final : public api::Turn {
   Workers::Job& job_;
   ParseSlots::Slot& slot_;
   Exchange& exchange_;
-  std::optional<core::StopCondition> stop_;  // once the turn is requested
+  std::optional<core::StopCondition> stop_;  // set when the turn is requested
   Clock::time_point since_ = Clock::time_point::max();
   Clock::time_point answer_by_ = Clock::time_point::max();
 };
@@ -222,7 +223,8 @@ api::Reply JobRunner::compute(Exchange& exchange, const Service::Endpoint& endpo
   return reply;
 }
 
-/// An exception ends here, so that a stream of events can end with the problem, too.
+/// Returns the endpoint's reply. An exception ends here, so that a stream of events can end with the problem,
+/// too.
 api::Reply JobRunner::reply_of(const Service::Endpoint& endpoint, Exchange& exchange,
                                const api::RequestContext& context, const core::StopCondition& latest) const {
   try {

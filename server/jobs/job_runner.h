@@ -36,7 +36,7 @@ class Disposal {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::shared_ptr<const void> object_;  // to be freed next
+  std::shared_ptr<const void> object_;  // the object to be freed next
   bool busy_ = false;                   // freeing one
   bool stopping_ = false;
   std::thread thread_;
@@ -47,12 +47,12 @@ class Disposal {
 /// and parsed, and then for its turn, in which its answer is made and coded. Thread-safe.
 class JobRunner {
  public:
-  /// The log has to outlive it.
+  /// Runs jobs as the settings say. The log has to outlive it.
   JobRunner(const Settings& settings, const RequestLog& log);
 
-  /// The endpoint's reply to the exchange's body, computed in this thread when its turn has come. Stores the
-  /// time in the queue, and whether the client has left, in the exchange. `events`: receives the progress of
-  /// a plan, or null.
+  /// Returns the endpoint's reply to the exchange's body, computed in this thread when its turn has come.
+  /// Stores the time in the queue, and whether the client has left, in the exchange. `events`: receives the
+  /// progress of a plan, or null.
   api::Reply run(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events);
 
   WorkerLoad load() const { return workers_.load(); }

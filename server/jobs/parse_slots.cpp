@@ -8,7 +8,7 @@ namespace fleetplan::server {
 
 namespace {
 
-/// About what a core parses, from the body to the problem.
+/// The bytes that a core parses in a millisecond, from the body to the problem; an estimate.
 constexpr std::size_t kBytesPerMs = 16 * 1024;
 
 }  // namespace
@@ -16,8 +16,8 @@ constexpr std::size_t kBytesPerMs = 16 * 1024;
 /// A body that waits; guarded by the mutex.
 struct ParseSlots::Waiting {
   const Body& body;
-  Clock::time_point due;   // the end of its parsing, if it had been alone
-  Kind slot = Kind::none;  // once it has one
+  Clock::time_point due;   // the end of its parsing if it had been alone
+  Kind slot = Kind::none;  // its slot, or none yet
   std::condition_variable_any changed = {};
 };
 
@@ -40,7 +40,7 @@ ParseSlots::Kind ParseSlots::await(const Body& body, const core::StopCondition& 
   return waiting.slot;
 }
 
-/// With the mutex locked: a free slot for such a body, which is taken.
+/// Takes a free slot for such a body and returns its kind; none if there is no free one. The mutex is locked.
 ParseSlots::Kind ParseSlots::take(const Body& body) {
   Kind kind = Kind::none;
   if (free_ > 0) {
@@ -75,7 +75,7 @@ void ParseSlots::give_back(Kind kind, const Body& body) {
   waiting.changed.notify_one();
 }
 
-/// With the mutex locked, while one slot is free: the body that gets it.
+/// Returns the body that gets a slot, while one is free. The mutex is locked.
 std::list<ParseSlots::Waiting*>::iterator ParseSlots::next() {
   const auto rank = [&](const Waiting* waiting) {
     const auto taken = taken_.find(waiting->body.client);

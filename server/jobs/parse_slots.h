@@ -24,7 +24,7 @@ class ParseSlots {
 
   explicit ParseSlots(std::size_t slots) : free_(slots) {}
 
-  /// What is to be parsed.
+  /// A body that is to be parsed.
   struct Body {
     std::string client;
     std::size_t bytes = 0;  // decoded, as far as that is known
@@ -44,14 +44,14 @@ class ParseSlots {
   std::mutex mutex_;
   std::size_t free_;
   bool small_is_free_ = true;
-  std::map<std::string, std::size_t> taken_;  // by client
+  std::map<std::string, std::size_t> taken_;  // number of slots, by client
   std::list<Waiting*> waiting_;
 };
 
 /// Waits for a slot and holds it.
 class ParseSlots::Slot {
  public:
-  /// Waits until `stop` is met at most; then has_slot() is false.
+  /// Waits for a slot, but no longer than until `stop` is met; then has_slot() is false.
   Slot(ParseSlots& slots, Body body, const core::StopCondition& stop);
   ~Slot() { release(); }
   Slot(const Slot&) = delete;

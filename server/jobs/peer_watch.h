@@ -15,13 +15,13 @@ namespace fleetplan::server {
 /// its job receives a stop request. Thread-safe.
 class PeerWatch {
  public:
-  /// A client that leaves is noticed within this.
+  /// The time within which it is noticed that a client leaves.
   static constexpr std::chrono::milliseconds kPeriod{25};
 
   class Watched;
 
   PeerWatch();
-  /// No `Watched` may be left.
+  /// No `Watched` may be left when this is destroyed.
   ~PeerWatch();
   PeerWatch(const PeerWatch&) = delete;
   PeerWatch& operator=(const PeerWatch&) = delete;
@@ -33,7 +33,7 @@ class PeerWatch {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Watched*> watched_;
-  bool asleep_ = false;  // until there is something to watch
+  bool asleep_ = false;  // the thread waits until there is something to watch
   bool stopping_ = false;
   std::thread thread_;
 };
@@ -46,7 +46,7 @@ class PeerWatch::Watched {
   Watched(const Watched&) = delete;
   Watched& operator=(const Watched&) = delete;
 
-  /// True once the client has left and the stop has been requested.
+  /// Whether the client has left and the stop has been requested.
   bool gone() const;
 
  private:

@@ -19,7 +19,8 @@ constexpr double kLeastEnough = 2.0;
 constexpr double kDeviations = 4.0;
 constexpr double kWaitMargin = 1.5;
 
-/// `seconds` before the deadline. Far deadlines have no exact difference to small times, which is harmless.
+/// Returns the time `seconds` before the deadline. Far deadlines have no exact difference to small times,
+/// which is harmless.
 Schedule::Time before(Schedule::Time deadline, double seconds) {
   if (deadline == Schedule::Time::max()) return deadline;
   return deadline - std::chrono::duration_cast<Schedule::Time::duration>(Seconds(seconds));
@@ -121,7 +122,7 @@ bool Schedule::precedes(const Job& a, const Job& b) const {
   return rank(a) < rank(b);
 }
 
-/// The job whose turn is next: the worker's, or the lane's.
+/// Returns the job whose turn is next: the worker's, or the lane's.
 Schedule::Job* Schedule::next(bool for_lane, Time now) const {
   Job* best = nullptr;
   for (Job* job : jobs_) {
@@ -176,13 +177,13 @@ void Schedule::learn(const Job& job, Time now) {
   pace.work += kNewestWeight * (job.need.work - pace.work);
 }
 
-/// 0 while no job of its kind has ended.
+/// Returns the seconds that a job is expected to take; 0 while no job of its kind has ended.
 double Schedule::expected_s(const Job& job) const {
   const Pace& pace = paces_[static_cast<std::size_t>(job.need.kind)];
   return pace.work > 0.0 ? pace.seconds / pace.work * job.need.work : 0.0;
 }
 
-/// Time that suffices for most jobs like it.
+/// Returns the seconds that suffice for most jobs like it.
 double Schedule::enough_s(const Job& job) const {
   const double expected = expected_s(job);
   const Pace& pace = paces_[static_cast<std::size_t>(job.need.kind)];
@@ -190,8 +191,8 @@ double Schedule::enough_s(const Job& job) const {
   return expected * std::max(kLeastEnough, 1.0 + spread);
 }
 
-/// A job that computes longer than expected takes at least as long again as it has already. An improvement
-/// gives its turn away at once.
+/// Returns the seconds that a job is expected to go on. One that computes longer than expected takes at least
+/// as long again as it has already. An improvement gives its turn away at once.
 double Schedule::remaining_s(const Job& job, Time now) const {
   if (job.state == State::improving) return 0.0;
   const double age_s = Seconds(now - job.since).count();
@@ -200,7 +201,8 @@ double Schedule::remaining_s(const Job& job, Time now) const {
   return std::clamp(Seconds(job.need.deadline - now).count(), 0.0, left_s);
 }
 
-/// The wait when turns go round the clients there are and the client's own jobs come one after the other.
+/// Returns the seconds that a job waits when turns go round the clients there are and the client's own jobs
+/// come one after the other.
 double Schedule::shared_wait_s(const Job& job) const {
   double own_s = 0.0;
   for (const Job* other : jobs_) {
@@ -210,10 +212,10 @@ double Schedule::shared_wait_s(const Job& job) const {
   return own_s * static_cast<double>(clients_.size()) / static_cast<double>(size_.workers);
 }
 
-/// Gives the turns, in their order, to the jobs that precede `job`, or to all that wait or will wait if it is
-/// null.
+/// Returns the seconds that `job` waits; null: a new job. Gives the turns, in their order, to the jobs that
+/// precede it, or to all that wait or will wait if it is null.
 double Schedule::expected_wait_s(const Job* job, Time now) const {
-  std::vector<double> free_s(size_.workers + 1, 0.0);  // when each turn is free, the lane's last
+  std::vector<double> free_s(size_.workers + 1, 0.0);  // when each turn is free; the lane's is the last
   std::vector<const Job*> ahead;
   std::size_t worker = 0;
   std::size_t parsing = 0;

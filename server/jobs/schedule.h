@@ -20,8 +20,7 @@ namespace fleetplan::server {
 /// - **First plans before improvements.** A job that has its first plan and improves it gives its turn to a
 ///   job that waits for its first, and gets one again when no such job waits. At most as many improvements
 ///   are paused as there are workers; further ones end with what they have.
-/// - **Long turns are shared.** A job that goes on for long, such as a simulation, gives its turn to a job
-/// that
+/// - **Long turns are shared.** A job that goes on for long, such as a simulation, gives its turn to one that
 ///   waits and gets one again in the order of turns, as if it had just asked. Nothing is lost of what it has
 ///   done. It keeps its turn while as many jobs are paused or interrupted as there are workers.
 /// - **Order.** Turns go round the clients: next is the client with the fewest turns, then the one whose last
@@ -37,7 +36,7 @@ class Schedule {
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr std::chrono::milliseconds kShortWait{250};
-  /// After this, a job that goes on shares its turn.
+  /// The time after which a job that goes on shares its turn.
   static constexpr std::chrono::milliseconds kLongTurn{250};
 
   struct Size {
@@ -49,10 +48,10 @@ class Schedule {
   enum class Kind { plan, check, simulation, conversion };
   static constexpr std::size_t kKinds = 4;
 
-  /// What a job asks for when it asks for its turn.
+  /// The needs of a job that asks for its turn.
   struct Need {
     Kind kind = Kind::plan;
-    Time deadline = Time::max();  // of the computation
+    Time deadline = Time::max();  // the end of the computation
     double work = 1.0;            // proportional to the expected time, for the kind
     bool is_short = false;        // may use the lane
   };
@@ -68,48 +67,49 @@ class Schedule {
     Need need = {};
     State state = State::accepted;
     bool in_lane = false;             // the turn it has is the lane's
-    bool is_interrupted = false;      // it waits for a turn again
+    bool is_interrupted = false;      // it waits for another turn
     Time due = Time::max();           // the earliest of a client's jobs comes first
-    Time since = {};                  // its turn began
-    Time latest_start = Time::max();  // a turn after that comes too late
+    Time since = {};                  // begin of its turn
+    Time latest_start = Time::max();  // the latest begin of a turn that is of use
   };
 
   explicit Schedule(Size size) : size_(size) {}
 
-  /// Takes the job in, or says why not.
+  /// Accepts a job, or returns why not.
   std::optional<Refusal> accept(Job& job, Time now);
 
-  /// An accepted job asks for its turn: it has it when this returns, or waits, or is refused.
+  /// Asks for the turn of an accepted job. When this returns, the job has its turn, or waits, or is refused
+  /// for the reason returned.
   std::optional<Refusal> request_turn(Job& job, const Need& need, Time now);
 
-  /// What happens to an improvement.
+  /// The outcome for an improvement.
   struct Improvement {
     enum class Next { goes_on, pauses, ends } next = Next::goes_on;
     Job* has_turn = nullptr;  // the job that has got the turn
   };
-  /// A job that has its turn and a plan is about to improve it.
+  /// Decides about a job that has its turn and a plan and is about to improve it.
   Improvement improve(Job& job, Time now);
 
-  /// A job that has its turn is about to go on with what cannot end early. Returns the job that has got its
-  /// turn, for which this one waits now, or null: it goes on.
+  /// Decides about a job that has its turn and is about to go on with what cannot end early. Returns the job
+  /// that has got its turn, for which this one waits now, or null if it goes on.
   Job* share(Job& job, Time now);
 
-  /// The job waits no longer, but remains accepted.
+  /// Ends the wait of a job, which remains accepted.
   void stop_waiting(Job& job) {
     job.state = Job::State::accepted;
     job.is_interrupted = false;
   }
 
-  /// The job, which was accepted, has ended. Returns the job that has got its turn, or null.
+  /// Removes a job that was accepted and has ended. Returns the job that has got its turn, or null.
   Job* leave(Job& job, Time now);
 
-  /// Jobs that wait for their first turn.
+  /// The number of jobs that wait for their first turn.
   std::size_t waiting() const;
-  /// Jobs that had a turn and wait for another one.
+  /// The number of jobs that had a turn and wait for another one.
   std::size_t paused() const;
   std::size_t running() const { return turns_ + (lane_taken_ ? 1 : 0); }
 
-  /// Seconds until a job that arrived now would get its turn.
+  /// Returns the seconds until a job that arrived now would get its turn.
   double expected_wait_s(Time now) const { return expected_wait_s(nullptr, now); }
 
  private:
@@ -121,7 +121,7 @@ class Schedule {
   /// Running means of the turns of jobs: until their first plan, their end, or their interruption.
   struct Pace {
     double seconds = 0.0;
-    double deviation = 0.0;  // of the seconds, from what was expected
+    double deviation = 0.0;  // mean deviation of the seconds from what was expected
     double work = 0.0;
   };
 
@@ -138,9 +138,9 @@ class Schedule {
   double shared_wait_s(const Job& job) const;
 
   Size size_;
-  std::vector<Job*> jobs_;                 // in the order of their acceptance
-  std::map<std::string, Client> clients_;  // that have a job
-  std::size_t turns_ = 0;                  // without the lane's
+  std::vector<Job*> jobs_;                 // jobs in the order of their acceptance
+  std::map<std::string, Client> clients_;  // clients that have a job
+  std::size_t turns_ = 0;                  // turns taken, without the lane's
   bool lane_taken_ = false;
   std::array<Pace, kKinds> paces_;
 };

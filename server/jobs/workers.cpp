@@ -113,7 +113,7 @@ int Workers::retry_after_s() {
   return static_cast<int>(std::clamp(std::ceil(wait_s) * (1.0 + jitter) + jitter, 1.0, kMaxRetryAfterS));
 }
 
-/// With the mutex locked, after a change of the turns. `job`: has got one, or null.
+/// Tells that the turns have changed: `job`, which may be null, has got one. The mutex is locked.
 void Workers::has_turn(Schedule::Job* job) {
   if (job != nullptr) static_cast<Job::Entry*>(job)->changed.notify_one();
   helpers_.set_computing(schedule_.running());
@@ -132,7 +132,7 @@ Workers::Job::~Job() {
   workers_.has_turn(workers_.schedule_.leave(entry_, Clock::now()));
 }
 
-/// With the mutex locked.
+/// Counts the refusal of the job. The mutex is locked.
 void Workers::Job::refuse(Refusal refusal) {
   refusal_ = refusal;
   ++workers_.load_.refused[static_cast<std::size_t>(refusal)];
@@ -174,7 +174,7 @@ bool Workers::Job::let_others(const core::StopCondition& stop) {
   return wait(lock, stop, stop.deadline());
 }
 
-/// Until the job has its turn; false when `stop` is cancelled or the time is over before.
+/// Waits until the job has its turn. Returns false when `stop` is cancelled or the time is over before.
 bool Workers::Job::wait(std::unique_lock<std::mutex>& lock, const core::StopCondition& stop,
                         Clock::time_point until) {
   const auto come = [&] { return entry_.has_turn(); };

@@ -23,16 +23,16 @@ class Helpers {
   using Task = core::Executor::Task;
 
   explicit Helpers(std::size_t workers);
-  /// No job may be left.
+  /// No job may be left when this is destroyed.
   ~Helpers();
   Helpers(const Helpers&) = delete;
   Helpers& operator=(const Helpers&) = delete;
 
-  /// How many jobs compute, whose threads are not idle.
+  /// Sets how many jobs compute, whose threads are not idle.
   void set_computing(std::size_t jobs);
 
-  /// For jobs whose turn it is: the caller runs the tasks, and idle workers help. It never waits for a task
-  /// that has not begun, so no worker has to be idle. See Executor::run_on.
+  /// Runs tasks of a job whose turn it is: the caller runs them, and idle workers help. It never waits for a
+  /// task that has not begun, so no worker has to be idle. See Executor::run_on.
   void run(std::size_t threads, std::size_t count, const Task& task);
 
  private:
@@ -46,7 +46,7 @@ class Helpers {
   const std::size_t workers_;
   std::mutex mutex_;
   std::condition_variable may_help_;
-  std::list<Tasks*> shared_;  // of the jobs that are in run()
+  std::list<Tasks*> shared_;  // tasks of the jobs that are in run()
   std::size_t computing_ = 0;
   std::size_t helping_ = 0;
   bool stopping_ = false;
@@ -60,13 +60,13 @@ class Workers {
   using Clock = std::chrono::steady_clock;
   class Job;
 
-  /// See Schedule.
+  /// Makes workers for a schedule of this size, see Schedule.
   explicit Workers(Schedule::Size size) : schedule_(size), helpers_(size.workers) {}
 
   WorkerLoad load() const;
 
-  /// Seconds, at least 1, after which a refused job may find room: when a turn is expected to be free, and up
-  /// to half as much again at random, so that refused clients do not return all at once.
+  /// Returns the seconds, at least 1, after which a refused job may find room: when a turn is expected to be
+  /// free, and up to half as much again at random, so that refused clients do not return all at once.
   int retry_after_s();
 
  private:
@@ -74,7 +74,7 @@ class Workers {
 
   mutable std::mutex mutex_;
   Schedule schedule_;
-  WorkerLoad load_;  // only what is counted
+  WorkerLoad load_;  // only the counted members are used
   std::minstd_rand random_;
   Helpers helpers_;
 };
@@ -82,21 +82,21 @@ class Workers {
 /// A job's place among the others, until its end. Its functions are called by the thread that computes it.
 class Workers::Job final : public core::Executor {
  public:
-  /// See Schedule::Job for `client`. A job that is refused does nothing more.
+  /// Accepts the job, or refuses it; a job that is refused does nothing more. See Schedule::Job for `client`.
   Job(Workers& workers, std::string client);
   ~Job() override;
 
-  /// Why the job was refused, so far.
+  /// The reason why the job was refused; none if it was not, so far.
   std::optional<Refusal> refusal() const { return refusal_; }
 
-  /// Asks for the job's turn, once. False when it is refused.
+  /// Asks for the job's turn, once. Returns false when it is refused.
   bool request_turn(const Schedule::Need& need);
 
   /// Waits for the turn, which lasts until the job's end, except for pauses. Returns false if `stop` is met
   /// before; then the job is refused, or cancelled.
   bool await_turn(const core::StopCondition& stop);
 
-  /// By this thread and by idle workers.
+  /// Runs the tasks by this thread and by idle workers.
   void run_on(std::size_t threads, std::size_t count, const Task& task) override {
     workers_.helpers_.run(threads, count, task);
   }
@@ -104,13 +104,14 @@ class Workers::Job final : public core::Executor {
   /// Gives the turn away while others wait for their first plans.
   bool may_improve(const core::StopCondition& stop) override;
 
-  /// Gives the turn to others if it has lasted long, and waits for the next. False when `stop` is met before.
+  /// Gives the turn to others if it has lasted long, and waits for the next one. Returns false when `stop` is
+  /// met before.
   bool let_others(const core::StopCondition& stop);
 
  private:
   friend class Workers;
 
-  /// With the means to wait; guarded by the mutex of the workers.
+  /// A job of the schedule with the means to wait. Guarded by the mutex of the workers.
   struct Entry : Schedule::Job {
     using Schedule::Job::Job;
     std::condition_variable_any changed = {};

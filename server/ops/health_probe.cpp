@@ -7,10 +7,11 @@ namespace fleetplan::server {
 
 namespace {
 
-/// Shorter than a container engine waits for its check, so that its report contains the fault.
+/// The time for the probe: shorter than a container engine waits for its check, so that its report contains
+/// the fault.
 constexpr std::chrono::seconds kPatience{4};
 
-/// A service on all addresses is reachable by the loopback.
+/// Returns the address to probe. A service on all addresses is reachable by the loopback.
 std::string probed_address(const std::string& host) {
   if (host == "0.0.0.0") return "127.0.0.1";
   if (host == "::") return "::1";

@@ -8,7 +8,7 @@
 namespace fleetplan::server {
 
 /// Requests /healthz of the service that runs with these settings, perhaps in another process: on the admin
-/// port if there is one, which answers however busy the main port is. The fault, if there is one.
+/// port if there is one, which answers however busy the main port is. Returns the fault, if there is one.
 ///
 /// The probe is for liveness, not readiness: restarting a container because it drains or its queue is full
 /// would lose its running plans.

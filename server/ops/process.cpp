@@ -51,7 +51,7 @@ double count_open_fds() {
   std::error_code error;
   const std::filesystem::directory_iterator fds("/proc/self/fd", error);
   if (error) return 0.0;
-  return static_cast<double>(std::distance(begin(fds), end(fds))) - 1.0;  // without that of the listing
+  return static_cast<double>(std::distance(begin(fds), end(fds))) - 1.0;  // less that of the listing
 }
 
 }  // namespace

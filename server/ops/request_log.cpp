@@ -21,7 +21,7 @@ namespace fleetplan::server {
 
 namespace {
 
-/// False when the descriptor takes no more.
+/// Writes a text to a descriptor. Returns false when it takes no more.
 bool write_all(int fd, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(fd, text.data(), text.size());
@@ -46,7 +46,7 @@ std::uint64_t lines_in(std::string_view text) {
 struct LogQueue::State {
   State(int to, std::size_t most_bytes) : fd(to), max_bytes(most_bytes) {}
 
-  /// Until the queue ends.
+  /// Writes lines until the queue ends.
   void write() {
     std::unique_lock lock(mutex);
     while (true) {
@@ -67,7 +67,7 @@ struct LogQueue::State {
   const std::size_t max_bytes;
   std::mutex mutex;  // guards all below
   std::condition_variable changed;
-  std::string waiting;  // lines
+  std::string waiting;  // lines that wait
   std::uint64_t dropped = 0;
   bool writing = false;
   bool ending = false;
@@ -112,10 +112,10 @@ namespace {
 
 using api::JsonWriter;
 
-/// Time and level, then the members of a line, without its opening brace.
+/// The pattern of a line: time and level, then its members, without its opening brace.
 constexpr const char* kPattern = R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l",%v)";
 
-/// Bytes of the lines that wait for a reader.
+/// The most bytes of lines that wait for a reader.
 constexpr std::size_t kMaxWaiting = 1 << 20;
 
 class QueueSink final : public spdlog::sinks::base_sink<std::mutex> {
@@ -133,11 +133,11 @@ class QueueSink final : public spdlog::sinks::base_sink<std::mutex> {
   std::shared_ptr<LogQueue> queue_;
 };
 
-/// Rounded to the third decimal, microseconds where these are milliseconds: enough, and short.
+/// Rounds milliseconds to the third decimal, which is enough, and short.
 double rounded(double ms) { return std::round(ms * 1000.0) / 1000.0; }
 
-/// The end of what proxies forwarded, to which the nearest one adds: clients can make the rest as long as a
-/// head.
+/// Returns the end of what proxies forwarded, to which the nearest one adds: clients can make the rest as
+/// long as a head.
 std::string_view nearest(std::string_view forwarded) {
   constexpr std::size_t kMaxLength = 256;
   forwarded.remove_prefix(forwarded.size() - std::min(forwarded.size(), kMaxLength));

@@ -30,7 +30,7 @@ struct Service {
   std::vector<Example> examples;
 };
 
-/// The planner behind the api layer.
+/// Returns the service with the planner, by the endpoints of api.
 Service planning_service();
 
 }  // namespace fleetplan::server

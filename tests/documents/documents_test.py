@@ -386,8 +386,8 @@ class Names(unittest.TestCase):
             for word in [scopes[-1], member]:
                 self.assertRegex(sources, rf"\b{word}\b", name)
 
-    def test_the_constants_of_the_method_are_in_the_files_that_it_names(self):
-        for constant, _, file, _ in table("docs/method.md", ["constant", "value", "file"]):
+    def test_the_tolerances_are_in_the_files_that_the_page_of_the_check_names(self):
+        for constant, _, file, _ in table("docs/checker.md", ["constant", "value", "file"]):
             self.assertIn(f"double {code(constant)[0]} = ", (PROJECT / code(file)[0]).read_text())
 
     def test_every_link_leads_to_a_file_and_a_heading(self):

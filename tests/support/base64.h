@@ -7,7 +7,7 @@
 
 namespace fleetplan::support {
 
-/// The bytes in base64, padded.
+/// Returns the bytes in base64, padded.
 inline std::string base64(std::string_view bytes) {
   constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;

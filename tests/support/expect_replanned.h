@@ -35,7 +35,7 @@ inline double objective(const core::PlanOptions& options, const std::vector<doub
   return options.objective == core::PlanOptions::Objective::flowtime ? sum : most;
 }
 
-/// The previous plans of all robots with goals, if there are so many.
+/// Returns the previous plans of all robots with goals; none if one of them has no previous plan.
 inline std::optional<std::vector<core::RobotPlan>> previous_plans(const core::Problem& problem) {
   std::vector<core::RobotPlan> plans;
   for (std::size_t i = 0; i < problem.robots().size(); ++i) {
@@ -77,8 +77,8 @@ inline void expect_each_robot_once(const core::Problem& problem, const core::Pla
   EXPECT_EQ(seen.size(), problem.robots().size());
 }
 
-/// If all previous plans hold, the answer has all robots and is no worse; `first` returns them as they are.
-/// Returns whether they do.
+/// Expects that an answer has all robots and is no worse than the previous plans, if all of these hold;
+/// `first` returns them as they are. Returns whether they hold.
 inline bool expect_no_worse_than_previous(const core::Problem& problem, const core::PlanOptions& options,
                                           const core::Plan& plan) {
   const auto previous = previous_plans(problem);
@@ -101,7 +101,8 @@ inline bool expect_no_worse_than_previous(const core::Problem& problem, const co
   return true;
 }
 
-/// Every listed meeting is a collision that the checker finds, and each pair is listed once.
+/// Expects that every listed meeting is a collision that the checker finds, and that each pair is listed
+/// once.
 inline void expect_real_meetings(const core::Problem& problem, const core::Plan& plan) {
   if (plan.unavoidable.empty()) return;
   std::set<std::pair<std::size_t, std::size_t>> pairs;

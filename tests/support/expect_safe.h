@@ -35,7 +35,7 @@ inline std::vector<core::Tolerance> safe_tolerances(const core::Problem& problem
   return tolerances;
 }
 
-/// The checker's report with these rules and safe_tolerances.
+/// Returns the checker's report with these rules and safe_tolerances.
 inline core::VerifyReport safety_report(const core::Problem& problem,
                                         const std::vector<core::RobotPlan>& plans,
                                         core::CheckRules rules = {}) {
@@ -81,7 +81,7 @@ inline bool starts_too_near(const core::Problem& problem, std::size_t robot, dou
   return near;
 }
 
-/// Expects this also with radii enlarged by `inflation`, except those of robots that start too near to
+/// Expects a safe plan also with radii enlarged by `inflation`, except those of robots that start too near to
 /// others.
 inline void expect_safe(const core::Problem& problem, const core::Plan& plan, double inflation = 0.0) {
   expect_safe(problem, plan.plans);
@@ -95,7 +95,7 @@ inline void expect_safe(const core::Problem& problem, const core::Plan& plan, do
   EXPECT_TRUE(report.valid()) << "inflated by " << inflation << ": " << text(report);
 }
 
-/// The current trajectories as plans. Robots without a trajectory have none.
+/// Returns the current trajectories as plans. Robots without a trajectory have none.
 inline std::vector<core::RobotPlan> plans_of(const core::PlanState& state) {
   std::vector<core::RobotPlan> plans;
   for (std::size_t i = 0; i < state.instance().size(); ++i) {

@@ -16,7 +16,7 @@
 
 namespace fleetplan::support {
 
-/// The pose within an action.
+/// Returns the pose within an action at time `t`.
 inline core::Pose pose_within(const core::Action& action, double t) {
   if (t >= action.t_end) return action.to;
   const double part = (t - action.t_start) / (action.t_end - action.t_start);
@@ -25,7 +25,7 @@ inline core::Pose pose_within(const core::Action& action, double t) {
           core::normalize_angle(action.from.theta + part * turn)};
 }
 
-/// The part of the actions before `t`; the one under way is cut there.
+/// Returns the part of the actions before `t`; the one under way is cut there.
 inline std::vector<core::Action> actions_before(const std::vector<core::Action>& actions, double t) {
   std::vector<core::Action> part;
   for (const core::Action& action : actions) {
@@ -38,7 +38,7 @@ inline std::vector<core::Action> actions_before(const std::vector<core::Action>&
   return part;
 }
 
-/// The part after `t`, with times from `t` on.
+/// Returns the part of the actions after `t`, with times from `t` on.
 inline std::vector<core::Action> actions_after(const std::vector<core::Action>& actions, double t) {
   std::vector<core::Action> part;
   for (core::Action action : actions) {
@@ -54,7 +54,7 @@ inline std::vector<core::Action> actions_after(const std::vector<core::Action>& 
   return part;
 }
 
-/// The same `by` seconds later.
+/// Returns the actions `by` seconds later.
 inline std::vector<core::Action> later(std::vector<core::Action> actions, double by) {
   for (core::Action& action : actions) {
     action.t_start += by;
@@ -63,7 +63,7 @@ inline std::vector<core::Action> later(std::vector<core::Action> actions, double
   return actions;
 }
 
-/// The goals that are left at `t`, and what is left of their services.
+/// Leaves out the goals that are visited by `t`, and the part of a service that is done.
 inline void leave_visited_goals(core::Robot& robot, const core::RobotPlan& plan, double t) {
   std::vector<core::Goal> goals(robot.via);
   goals.push_back(*robot.goal);
@@ -102,8 +102,8 @@ inline void leave_visited_goals(core::Robot& robot, const core::RobotPlan& plan,
   if (robot.previous) renumber(*robot.previous);
 }
 
-/// The robot at `t` of its plan, committed to what it does in the next `commit` seconds. What follows is its
-/// previous plan.
+/// Returns the robot at `t` of its plan, committed to what it does in the next `commit` seconds. What follows
+/// is its previous plan.
 inline core::Robot robot_at_moment(core::Robot robot, const core::RobotPlan& plan, double t, double commit) {
   const std::vector<core::Action> rest = actions_after(plan.actions, t);
   if (!plan.actions.empty()) robot.start = rest.empty() ? plan.actions.back().to : rest.front().from;
@@ -119,7 +119,7 @@ inline core::Robot robot_at_moment(core::Robot robot, const core::RobotPlan& pla
   return robot;
 }
 
-/// A robot leaves goals behind that its commitment has served by `t`, with the radius after them.
+/// Leaves out the goals that the robot's commitment has served by `t`; the robot has the radius after them.
 inline void leave_goals_served(core::Robot& robot, double t) {
   core::Robot past = robot;
   past.committed = actions_before(robot.committed, t);
@@ -128,7 +128,7 @@ inline void leave_goals_served(core::Robot& robot, double t) {
   robot.via.erase(robot.via.begin(), robot.via.begin() + static_cast<std::ptrdiff_t>(served));
 }
 
-/// A robot without a plan executes its commitment.
+/// Returns a robot without a plan at `t` of its commitment.
 inline core::Robot robot_at_moment(core::Robot robot, double t) {
   const std::vector<core::Action> given = robot.committed;
   const std::vector<core::Action> rest = actions_after(given, t);
@@ -143,7 +143,7 @@ inline core::Robot robot_at_moment(core::Robot robot, double t) {
   return robot;
 }
 
-/// The obstacle at `t`; nullopt if it has left.
+/// Returns the obstacle at `t`; nullopt if it has left.
 inline std::optional<core::MovingObstacle> obstacle_at_moment(const core::MovingObstacle& obstacle,
                                                               double t) {
   using Entry = core::MovingObstacle::Entry;

@@ -27,7 +27,7 @@ inline core::Position random_place(Dice& dice, const core::OccupancyGrid& grid) 
   return {dice.between(0.0, grid.width()), dice.between(0.0, grid.height())};
 }
 
-/// Some goals on the way, where the robot has room, some of them served for some time.
+/// Adds some goals on the way, where the robot has room, some of them served for some time.
 inline void add_goals(Dice& dice, const core::OccupancyGrid& grid, core::Robot& robot) {
   for (int attempt = dice.below(4); attempt > 0; --attempt) {
     core::Goal goal{random_place(dice, grid), {}};
@@ -46,7 +46,7 @@ inline void add_goals(Dice& dice, const core::OccupancyGrid& grid, core::Robot& 
   if (dice.chance(0.5)) add_service(*robot.goal);
 }
 
-/// Disks of the size of a robot that walk from place to place for half a minute.
+/// Returns disks of the size of a robot that walk from place to place for half a minute.
 inline std::vector<core::MovingObstacle> random_obstacles(Dice& dice, const core::OccupancyGrid& grid) {
   std::vector<core::MovingObstacle> obstacles;
   for (int k = dice.below(4); k > 0; --k) {
@@ -88,7 +88,7 @@ inline std::optional<core::Problem> problem_of(const FleetRequest& request) {
   return valid != nullptr ? std::optional<core::Problem>(std::move(*valid)) : std::nullopt;
 }
 
-/// The first robot starts so near to the second one that their bare disks overlap, or in a wall.
+/// Moves the first robot's start so near to the second one that their bare disks overlap, or into a wall.
 inline void overlap_starts(Dice& dice, FleetRequest& request) {
   if (request.robots.size() < 2) return;
   core::Robot& robot = request.robots[0];
@@ -137,7 +137,7 @@ inline bool may_rest(const std::vector<core::Robot>& robots, const core::Robot& 
   return true;
 }
 
-/// At some goals robots grow or shrink, where there is room for them there and at the next goal.
+/// Makes robots grow or shrink at some goals, where there is room for them there and at the next goal.
 inline void add_loads(Dice& dice, FleetRequest& request) {
   for (core::Robot& robot : request.robots) {
     if (!robot.goal || dice.chance(0.2)) continue;
@@ -155,7 +155,7 @@ inline void add_loads(Dice& dice, FleetRequest& request) {
   }
 }
 
-/// The request at a later moment of its plan.
+/// Returns the request at a later moment of its plan.
 inline FleetRequest moment_of(Dice& dice, const FleetRequest& request, const core::Plan& plan, double t) {
   FleetRequest next = request;
   next.options.start_safe_interval = dice.chance(0.7) ? 0.0 : 3.0;
@@ -173,7 +173,7 @@ inline FleetRequest moment_of(Dice& dice, const FleetRequest& request, const cor
   return next;
 }
 
-/// A robot stops where it is for some time.
+/// Makes a robot stop where it is for some time.
 inline void hold_back(Dice& dice, core::Robot& robot) {
   const double seconds = dice.between(0.5, 20.0);
   const core::Action wait{core::Action::Type::wait, 0.0, seconds, robot.start, robot.start};

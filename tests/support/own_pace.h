@@ -21,9 +21,9 @@
 
 namespace fleetplan::support {
 
-/// What became of an execution.
+/// The outcome of an execution.
 struct OwnPace {
-  std::vector<core::RobotPlan> executed;  // of every robot that has actions
+  std::vector<core::RobotPlan> executed;  // by every robot that has actions
   bool everyone_arrived = true;
 };
 

@@ -6,7 +6,7 @@
 
 namespace fleetplan::support {
 
-/// The plan of the facade, of which it expects that the checker accepts it and that its bounds hold.
+/// Returns the plan of the facade. Expects that the checker accepts it and that its bounds hold.
 inline core::Plan plan_checked(const core::Problem& problem, const core::PlanOptions& options = {}) {
   core::Plan plan = core::plan(problem, options, core::StopCondition::never());
   expect_safe(problem, plan, options);

@@ -19,7 +19,7 @@ inline std::string big_endian(std::uint32_t value) {
   return text;
 }
 
-/// A chunk with its length and its check sum.
+/// Returns a chunk with its length and its check sum.
 inline std::string chunk(std::string_view name, const std::string& data = {}) {
   const std::string checked = std::string(name) + data;
   const auto sum =
@@ -34,7 +34,7 @@ inline std::string png_of(std::initializer_list<std::string> chunks) {
   return file;
 }
 
-/// The first chunk. `colour_type` and `interlace` are numbers of the format.
+/// Returns the first chunk. `colour_type` and `interlace` are numbers of the format.
 inline std::string png_header(std::uint32_t columns, std::uint32_t rows, int depth = 8, int colour_type = 0,
                               int interlace = 0) {
   return chunk("IHDR", big_endian(columns) + big_endian(rows) + static_cast<char>(depth) +
@@ -42,7 +42,7 @@ inline std::string png_header(std::uint32_t columns, std::uint32_t rows, int dep
                            static_cast<char>(interlace));
 }
 
-/// Compressed as pixels and texts are.
+/// Returns the bytes compressed as pixels and texts are.
 inline std::string deflated(const std::string& bytes) {
   uLongf size = compressBound(bytes.size());
   std::string compressed(size, '\0');

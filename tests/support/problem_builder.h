@@ -40,7 +40,7 @@ class RobotBuilder {
     robot_.angular_speed = angular;
     return *this;
   }
-  /// Committed: turns if necessary and drives there at full speed.
+  /// Adds committed actions: turns if necessary and drives to a point at full speed.
   RobotBuilder& drives(double x, double y) {
     const core::Position to(x, y);
     const core::Pose from = robot_.committed_end();
@@ -53,7 +53,7 @@ class RobotBuilder {
     commit(core::Action::Type::translate, way.norm() / robot_.linear_speed, {to, theta});
     return *this;
   }
-  /// Committed: waits until that time.
+  /// Adds a committed wait until `until`, seconds.
   RobotBuilder& waits(double until) {
     commit(core::Action::Type::wait, until - robot_.committed_until(), robot_.committed_end());
     return *this;
@@ -71,7 +71,7 @@ class RobotBuilder {
 
 inline RobotBuilder robot_at(double x, double y, double theta = 0.0) { return {x, y, theta}; }
 
-/// The problem; throws std::invalid_argument if it has faults.
+/// Returns the problem; throws std::invalid_argument if it has faults.
 inline core::Problem make_problem(core::OccupancyGrid grid, std::vector<core::Robot> robots,
                                   core::ProblemConditions conditions = {}) {
   for (std::size_t i = 0; i < robots.size(); ++i) robots[i].id = std::to_string(i);

@@ -31,7 +31,7 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-/// A map of 8 to 32 cells a side, 0 to 30 % of them blocked, with a resolution of 0.05 to 2 m.
+/// Returns a map of 8 to 32 cells a side, 0 to 30 % of them blocked, with a resolution of 0.05 to 2 m.
 inline core::OccupancyGrid random_map(Dice& dice) {
   const double resolution = std::vector<double>{0.05, 0.5, 1.0, 2.0}[static_cast<std::size_t>(dice.below(4))];
   core::OccupancyGrid grid(8 + dice.below(25), 8 + dice.below(25), resolution);
@@ -44,8 +44,8 @@ inline core::OccupancyGrid random_map(Dice& dice) {
   return grid;
 }
 
-/// Up to `count` robots with radii of 0.1 to 3 cells, speeds over a factor of 20 and poses on and off the
-/// cell centres; some parked, some with a goal without a heading.
+/// Returns up to `count` robots with radii of 0.1 to 3 cells, speeds over a factor of 20 and poses on and off
+/// the cell centres; some parked, some with a goal without a heading.
 inline std::vector<core::Robot> random_robots(Dice& dice, const core::OccupancyGrid& grid, int count) {
   std::vector<core::Robot> robots;
   const auto free_place = [&](double radius, auto&& taken) -> std::optional<core::Position> {
@@ -85,7 +85,7 @@ inline std::vector<core::Robot> random_robots(Dice& dice, const core::OccupancyG
   return robots;
 }
 
-/// A valid problem with 1 to `count` robots.
+/// Returns a valid problem with 1 to `count` robots.
 inline core::Problem random_problem(Dice& dice, int count) {
   while (true) {
     core::OccupancyGrid grid = random_map(dice);
@@ -96,7 +96,7 @@ inline core::Problem random_problem(Dice& dice, int count) {
   }
 }
 
-/// Random values for all options.
+/// Returns random values for all options.
 inline core::PlanOptions random_options(Dice& dice, const core::Problem& problem) {
   using Options = core::PlanOptions;
   Options options;

@@ -14,7 +14,7 @@
 
 namespace fleetplan::support {
 
-/// A polygon of three to eight corners around a place of the map, convex or star-shaped.
+/// Returns a polygon of three to eight corners around a place of the map, convex or star-shaped.
 inline std::vector<core::Position> random_polygon(Dice& dice, const core::OccupancyGrid& grid) {
   const core::Position centre(dice.between(0.0, grid.width()), dice.between(0.0, grid.height()));
   const double size = grid.resolution() * dice.between(1.0, 6.0);
@@ -38,7 +38,7 @@ inline std::vector<core::Position> random_polygon(Dice& dice, const core::Occupa
   return polygon;
 }
 
-/// One to six zones of random types, some of them for some robots only.
+/// Returns one to six zones of random types, some of them for some robots only.
 inline std::vector<core::Zone> random_zones(Dice& dice, const core::Problem& problem,
                                             const std::vector<core::Zone::Type>& types) {
   std::vector<core::Zone> zones;
@@ -66,7 +66,7 @@ inline std::vector<core::Zone> random_zones(Dice& dice, const core::Problem& pro
   return zones;
 }
 
-/// A valid problem with 1 to `count` robots, and zones of these types.
+/// Returns a valid problem with 1 to `count` robots, and zones of these types.
 inline core::Problem random_problem_with_zones(Dice& dice, int count,
                                                const std::vector<core::Zone::Type>& types) {
   while (true) {

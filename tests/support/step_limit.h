@@ -20,7 +20,7 @@ class StepLimit {
   StepLimit(const StepLimit&) = delete;
   StepLimit& operator=(const StepLimit&) = delete;
 
-  /// The questions so far, and those after the limit.
+  /// The questions so far, and the questions after the limit.
   std::int64_t steps() const { return core::step_clock.steps; }
   std::int64_t late() const { return steps() - limit_; }
 
@@ -28,7 +28,7 @@ class StepLimit {
   std::int64_t limit_;
 };
 
-/// A stop condition that only a StepLimit meets.
+/// Returns a stop condition that only a StepLimit meets.
 inline core::StopCondition counted() {
   return core::StopCondition(core::StopCondition::Clock::time_point::max());
 }

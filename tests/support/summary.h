@@ -12,7 +12,7 @@
 
 namespace fleetplan::support {
 
-/// All parts of the plan that must be the same to the last bit when it is computed again.
+/// Returns all parts of the plan that must be the same to the last bit when it is computed again.
 inline std::string exact_text(const core::Plan& plan) {
   std::ostringstream text;
   text << std::hexfloat;

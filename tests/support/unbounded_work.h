@@ -4,7 +4,7 @@
 
 namespace fleetplan {
 
-/// Work without bounds. It outlives the documents that tests read with it.
+/// Returns work without bounds. It outlives the documents that tests read with it.
 inline core::Work& unbounded_work() {
   thread_local core::Work work = core::Work::unbounded();
   return work;

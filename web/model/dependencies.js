@@ -1,4 +1,4 @@
-// What robots must ask of each other to execute a plan, see docs/execution.md, for one action of a robot. Pure.
+// The dependencies of a plan, see docs/execution.md, that concern one action of a robot. Pure.
 
 import { poseInAction } from "./timeline.js";
 

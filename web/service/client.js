@@ -54,8 +54,8 @@ export async function simulate(text, progress) {
 }
 
 /**
- * What robots must ask of each other to execute a plan: {dependencies, tight}, its own ones or those that the service
- * makes.
+ * The dependencies by which robots can execute a plan at their own pace: {dependencies, tight}, its own ones or those
+ * that the service makes.
  */
 export async function dependencies(request, answer) {
   if (Array.isArray(answer.dependencies)) return answer;

@@ -24,7 +24,7 @@ constexpr std::size_t kFewestFaults = 2;
 /// Poses between two looks at the stop condition.
 constexpr std::size_t kPosesBetweenStops = 16;
 
-/// The position of a pose in the request, which may have faults, in the world.
+/// Returns the position of a pose in the request, which may have faults, in the world.
 std::optional<Position> position_of(const JsonReader& pose) {
   const JsonReader x = pose.find("x");
   const JsonReader y = pose.find("y");
@@ -41,7 +41,7 @@ std::string interval(double low, double length) {
   return number_text(low) + " to " + number_text(low + length) + " m";
 }
 
-/// The unit in which the position would be on the map, for a sentence; empty if there is none.
+/// Returns the unit in which the position would be on the map, for a sentence; empty if there is none.
 std::string fitting_unit(const Position& world, const core::OccupancyGrid& grid, const WorldFrame& frame) {
   // Pixels count from the corner of the map.
   const bool is_pixel = grid.resolution() < 1.0 && is_on(grid, world * grid.resolution());
@@ -56,7 +56,7 @@ std::string fitting_unit(const Position& world, const core::OccupancyGrid& grid,
   return "";
 }
 
-/// The phrase of a fault about a pose whose centre is not on the map, and about its probable unit:
+/// Returns the phrase of a fault about a pose whose centre is not on the map, and about its probable unit:
 /// "is at (52.5, 3), outside the map, which ...". Empty if the pose is on the map.
 std::string outside_text(const JsonReader& pose, const core::OccupancyGrid& grid, const WorldFrame& frame) {
   const auto world = position_of(pose);
@@ -153,7 +153,7 @@ std::string common_cause(const core::ProblemFaults& faults, const Fleet& fleet,
 
 namespace {
 
-/// With three significant digits: a gap may be as small as a nanometre.
+/// Returns a number with three significant digits: a gap may be as small as a nanometre.
 std::string short_text(double number) {
   std::array<char, 32> buffer{};
   const auto result =
@@ -163,19 +163,19 @@ std::string short_text(double number) {
 
 std::string metres(double length) { return short_text(length) + " m"; }
 
-/// The robot's id, or its number when it has none.
+/// Returns the robot's id, or its number when it has none.
 std::string name_of(const std::vector<ParsedRobot>& robots, std::size_t index) {
   const std::string& id = robots[index].robot.id;
   return id.empty() ? "number " + std::to_string(index) : in_quotes(id);
 }
 
-/// What the robot overlaps: the zone, if it is one.
+/// Returns what the robot overlaps: the name of the zone, if it is one.
 std::string obstacle_name(const core::ProblemFault& found, const std::vector<core::Zone>& zones) {
   return found.zone ? "the blocked zone " + in_quotes(zones[*found.zone].id)
                     : "a blocked cell or the edge of the map";
 }
 
-/// `outside`: see outside_text.
+/// Returns the detail of a disk in an obstacle. `outside`: see outside_text.
 std::string in_obstacle(const std::string& pose, const std::string& robot, double radius, double gap,
                         const std::string& obstacle, const std::string& outside) {
   if (!outside.empty()) return "The " + pose + " of robot " + robot + ' ' + outside;
@@ -192,8 +192,8 @@ std::string goal_name(const ParsedRobot& read, std::size_t goal) {
   return read.goals.size() < 2 ? "goal" : "goal " + std::to_string(goal) + " (from 0)";
 }
 
-/// The action that is executed at the time, or begins then, as it stands in the request; the start of a robot
-/// without any.
+/// Returns the action that is executed at the time, or begins then, as it stands in the request; the start of
+/// a robot without actions.
 JsonReader action_at(const ParsedRobot& read, double t, bool begins = false) {
   JsonReader place = read.start;
   for (const JsonReader item : read.committed.items()) {

@@ -22,13 +22,14 @@ struct GeometryFault {
   std::string detail;
 };
 
-/// The words for a fault. `indices`: of the problem's robots in the fleet, whose map is `grid`.
+/// Returns the words for a fault. `indices` are those of the problem's robots in the fleet, whose map is
+/// `grid`.
 GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
                        const std::vector<std::size_t>& indices, const core::OccupancyGrid& grid);
 
-/// A sentence about one mistake that explains all of the faults, or nothing if none does: the map or the
-/// poses are upside down, or radii are diameters. Looks at each pose twice at most, and ends at the first one
-/// that contradicts; so it costs no more than the check that found the faults. Ends with `stop`.
+/// Returns a sentence about one mistake that explains all of the faults, or nothing if none does: the map or
+/// the poses are upside down, or radii are diameters. Looks at each pose twice at most, and ends at the first
+/// one that contradicts; so it costs no more than the check that found the faults. Ends with `stop`.
 std::string common_cause(const core::ProblemFaults& faults, const Fleet& fleet,
                          const std::vector<std::size_t>& indices, const core::StaticMap& map,
                          const core::StopCondition& stop);

@@ -17,9 +17,10 @@ namespace fleetplan::api {
 namespace {
 
 constexpr double kTolerance = core::kContactTolerance;
-/// Radians: a rotation is not drawn to a vertex, and the check of the answer allows it no more.
+/// The most by which a rotation may deviate, radians: it is not drawn to a vertex, and the check of the
+/// answer allows it no more.
 constexpr double kTurnTolerance = core::kSamePosition;
-/// Seconds: what doubles lose in the times of the longest plan. A fast robot turns visibly in that time. The
+/// What doubles lose in the times of the longest plan, seconds. A fast robot turns visibly in that time. The
 /// times of an action may have been as late as that, before /v1/advance made them earlier.
 constexpr double kTimeRounding = std::numeric_limits<double>::epsilon() * core::kLongestPlan;
 
@@ -29,13 +30,13 @@ double turn_between(const core::Pose& a, const core::Pose& b) {
   return core::angle_between(a.theta, b.theta);
 }
 
-/// How far a translation leads off the line of its heading, metres. A robot may drive backwards.
+/// Returns how far a translation leads off the line of its heading, metres. A robot may drive backwards.
 double sideways(const core::Action& action) {
   const core::Position d = action.to.position - action.from.position;
   return std::abs(d.x() * std::sin(action.from.theta) - d.y() * std::cos(action.from.theta));
 }
 
-/// How far a translation leads along its heading, metres.
+/// Returns how far a translation leads along its heading, metres.
 double ahead(const core::Action& action) {
   const core::Position d = action.to.position - action.from.position;
   return d.x() * std::cos(action.from.theta) + d.y() * std::sin(action.from.theta);
@@ -156,7 +157,7 @@ void ActionChain::check_reverse(const core::Action& action, const JsonReader& it
   }
 }
 
-/// Without the differences within the tolerance.
+/// Returns the action without the differences within the tolerance.
 core::Action ActionChain::joined(core::Action action) const {
   if (now_) action.t_start = *now_;
   action.t_end = std::max(action.t_start, action.t_end);
@@ -171,7 +172,7 @@ namespace {
 constexpr std::array<std::string_view, 7> kActionMembers{"type", "t_start", "t_end",  "from",
                                                          "to",   "goal",    "reverse"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
-constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};  // as in core::Action::Type
+constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};  // see core::Action::Type
 
 core::Pose parse_pose(const JsonReader& member) {
   const JsonReader pose = member.object(kPoseMembers);

@@ -13,10 +13,10 @@
 
 namespace fleetplan::api {
 
-/// Reads one action, in the world and with its headings as given. Where it has a fault, the value is 0.
+/// Reads one action, in the world and with its headings as given. Values with a fault are 0.
 core::Action parse_action(const JsonReader& item, const Range& times);
 
-/// The action in the map frame, with normalised headings.
+/// Returns the action in the map frame, with normalised headings.
 core::Action to_map(const core::Action& world, const WorldFrame& frame);
 
 /// The robot that executes actions, as far as it is known; what could not be read is not compared.
@@ -34,7 +34,7 @@ struct ParsedActions {
 };
 
 /// Reads `committed` or `previous` of a robot. Actions that are not contiguous in time and space, contradict
-/// their types or are faster than the robot are faults; then there are none.
+/// their types or are faster than the robot are faults; then none are returned.
 std::optional<ParsedActions> parse_actions(const JsonReader& list, const ActionsOwner& owner,
                                            const WorldFrame& frame);
 
@@ -45,9 +45,9 @@ class ActionChain {
  public:
   explicit ActionChain(const ActionsOwner& owner);
 
-  /// The action as it goes on from the one before. Faults are reported at `item`.
+  /// Returns the action as it goes on from the one before. Faults are reported at `item`.
   core::Action append(core::Action action, const JsonReader& item);
-  /// The next action could not be read: what follows it is not compared with what precedes it.
+  /// Skips an action that could not be read: what follows it is not compared with what precedes it.
   void skip();
 
  private:
@@ -64,7 +64,7 @@ class ActionChain {
   std::optional<bool> may_reverse_;
   std::optional<double> now_ = 0.0;  // seconds; none: unknown, as is the pose
   std::optional<core::Pose> pose_;
-  std::size_t count_ = 0;  // of the actions before
+  std::size_t count_ = 0;  // number of the actions before
 };
 
 }  // namespace fleetplan::api

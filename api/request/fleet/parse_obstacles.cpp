@@ -19,10 +19,10 @@ using After = core::MovingObstacle::After;
 
 constexpr std::array<std::string_view, 4> kObstacleMembers{"id", "radius", "motion", "after"};
 constexpr std::array<std::string_view, 3> kEntryMembers{"t", "x", "y"};
-constexpr std::array<std::string_view, 2> kAfter{"leaves", "stays"};  // as in core::MovingObstacle::After
+constexpr std::array<std::string_view, 2> kAfter{"leaves", "stays"};  // see core::MovingObstacle::After
 constexpr Range kTime{-kLongestTime, kLongestTime, "seconds"};
 
-/// In the map frame. Nothing when it has a fault.
+/// Reads an entry, in the map frame. Returns none when it has a fault.
 std::optional<Entry> parse_entry(const JsonReader& item, const WorldFrame& frame) {
   const JsonReader json = item.object(kEntryMembers);
   const auto t = json.require("t").number(kTime);
@@ -50,7 +50,7 @@ void check_order(const Entry& before, const Entry& entry, const JsonReader& item
   });
 }
 
-/// The rest of the motion, from t = 0 on.
+/// Returns the rest of the motion, from t = 0 on.
 std::vector<Entry> cut(std::vector<Entry> motion, After after) {
   std::size_t first = 0;
   while (first < motion.size() && motion[first].t < 0.0) ++first;

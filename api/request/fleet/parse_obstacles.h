@@ -10,8 +10,8 @@
 
 namespace fleetplan::api {
 
-/// Reads `obstacles` (may be absent), in the map frame. What lies before t = 0 is cut off, and an obstacle
-/// that is gone by then is left out. `ids`: of the robots.
+/// Reads `obstacles` (may be absent), in the map frame. Motion before t = 0 is cut off, and an obstacle that
+/// is gone by then is left out. `ids` has those of the robots.
 std::vector<core::MovingObstacle> parse_obstacles(const JsonReader& member, const WorldFrame& frame,
                                                   const Limits& limits, UniqueIds& ids);
 

@@ -62,7 +62,8 @@ class Roster {
  public:
   explicit Roster(const std::vector<ParsedRobot>& robots) : names_(robots) {}
 
-  /// The index of the robot that a plan is for, if there is one that has no plan yet.
+  /// Returns the index of the robot that a plan is for; none if it does not exist or has a plan already,
+  /// which is a fault.
   std::optional<std::size_t> assign(const JsonReader& robot) {
     const auto index = names_.find(robot);
     if (!index) return std::nullopt;
@@ -103,7 +104,7 @@ constexpr std::array<std::string_view, 3> kDependencyMembers{"gate", "until", "s
 constexpr std::array<std::string_view, 3> kProgressMembers{"robot", "action", "progress"};
 constexpr Range kSlack{-kLongestTime, kLongestTime, "seconds"};
 
-/// Seconds: what a slack that went through decimal text, or was made for rounded times, may be off.
+/// Seconds by which a slack may be off that went through decimal text, or was made for rounded times.
 constexpr double kSameSlack = 1e-6;
 
 class DependencyReader {
@@ -194,7 +195,7 @@ constexpr std::array<std::string_view, 4> kMeetingMembers{"robots", "robot", "ob
 /// Robots or obstacles by id.
 using Names = std::unordered_map<std::string_view, std::size_t>;
 
-/// The index of the robot or obstacle with the id in `member`, which may be absent.
+/// Returns the index of the robot or obstacle with the id in `member`, which may be absent.
 std::optional<std::size_t> find(const JsonReader& member, const Names& names, const char* code,
                                 const char* kind) {
   const auto id = member.name();

@@ -28,10 +28,10 @@ std::vector<core::Dependency> parse_dependencies(const JsonReader& member,
                                                  const std::vector<core::Robot>& robots,
                                                  const std::vector<core::RobotPlan>& plans);
 
-/// Reads `unavoidable` of a request to validate (may be absent): meetings that the check exempts.
+/// Reads `unavoidable` of a request to validate (may be absent): the meetings that the check exempts.
 std::vector<core::Meeting> parse_meetings(const JsonReader& member, const Fleet& fleet);
 
-/// Makes those robots invalid that `unplanned` of an answer lists as such. Whatever else it contains is
+/// Makes the robots invalid that `unplanned` of an answer lists as such. Whatever else it contains is
 /// ignored.
 void mark_invalid_robots(const JsonReader& unplanned, std::vector<core::Robot>& robots);
 

@@ -84,7 +84,7 @@ constexpr std::array<std::string_view, 7> kDefaults{
 /// A number that `robot_defaults` can give as well.
 struct Trait {
   bool given = false;
-  std::optional<double> value;  // if it is valid
+  std::optional<double> value;  // its value if it is valid
 };
 
 struct Traits {
@@ -126,8 +126,8 @@ Traits parse_traits(const JsonReader& json) {
   return traits;
 }
 
-/// A robot's traits, completed by the defaults. What neither gives is missing; an invalid default is a fault
-/// already.
+/// Returns a robot's traits, completed by the defaults. A trait that neither gives is missing; an invalid
+/// default is a fault already.
 Traits parse_traits(const JsonReader& robot, const Traits& defaults) {
   Traits traits = parse_traits(robot);
   if (!traits.may_reverse) traits.may_reverse = defaults.may_reverse;

@@ -21,26 +21,28 @@ namespace fleetplan::api {
 /// The goals of a robot that are valid, in their order, in the map frame.
 struct ParsedGoals {
   std::vector<core::Goal> goals;
-  std::vector<JsonReader> places;  // of each of them
-  /// Given as a list, or with a service, a radius or metadata: the answer tells when each is visited.
+  std::vector<JsonReader> places;  // place of each goal
+  /// Whether they are given as a list, or with a service, a radius or metadata: then the answer tells when
+  /// each is visited.
   bool lists_visits = false;
-  std::vector<std::string> metadata;  // of each, see parse_metadata; shorter if the last ones have none
+  std::vector<std::string> metadata;  // by goal, see parse_metadata; shorter if the last ones have none
 };
 
-/// Reads `x`, `y` and `theta` (optional) of a pose whose members are known. Nothing when one has a fault.
+/// Reads `x`, `y` and `theta` (optional) of a pose whose members are known. Returns none when one has a
+/// fault.
 std::optional<core::Goal> parse_pose(const JsonReader& pose, const WorldFrame& frame);
 
-/// Reads `goal` or `goals` of a robot. Without both, or with an empty list, there are none. `quota`: of
-/// goals.
+/// Reads `goal` or `goals` of a robot. Without both, or with an empty list, there are none. `quota` limits
+/// the goals of the request.
 ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota& quota);
 
-/// A robot as far as it could be read. `placed`: its radius and start are valid, so that it can be compared
-/// with the map and the other robots, whatever faults it has elsewhere.
+/// A robot as far as it could be read. `placed`: whether its radius and start are valid, so that it can be
+/// compared with the map and the other robots, whatever faults it has elsewhere.
 struct ParsedRobot {
   core::Robot robot;  // in the map frame; goals and actions only if they are valid
   bool placed = false;
   JsonReader start;
-  std::vector<JsonReader> goals;  // of each goal of the robot
+  std::vector<JsonReader> goals;  // place of each goal of the robot
   JsonReader committed;
   ReceivedMotion received_committed;
   ReceivedMotion received_previous;
@@ -48,24 +50,24 @@ struct ParsedRobot {
   std::vector<std::string> goal_metadata;  // see ParsedGoals
   std::string metadata;                    // see parse_metadata
   std::optional<double> execution_margin;  // metres
-  std::optional<double> body_radius = {};  // metres: of the robot itself, if it is planned with another one
+  std::optional<double> body_radius = {};  // metres, of the robot itself, if it is planned with another one
 };
 
-/// Reads `robots` and `robot_defaults` (may be absent): at least one, and not more than the limits allow, nor
-/// more goals and actions. `ids` gets those of the robots.
+/// Reads `robots` and `robot_defaults` (may be absent): at least one robot, and not more robots, goals and
+/// actions than the limits allow. `ids` gets those of the robots.
 std::vector<ParsedRobot> parse_robots(const JsonReader& robots, const JsonReader& defaults,
                                       const WorldFrame& frame, const Limits& limits, UniqueIds& ids);
 
 /// The robots of a request by their ids.
 class RobotNames {
  public:
-  /// `place`: where a request lists them, for messages.
+  /// Indexes robots. `place`: where a request lists them, for messages.
   explicit RobotNames(const std::vector<core::Robot>& robots, std::string_view place = "robots");
   explicit RobotNames(const std::vector<ParsedRobot>& robots, std::string_view place = "robots");
 
-  /// The index of the robot whose id the value is. Anything else is a fault.
+  /// Returns the index of the robot whose id the value is. Anything else is a fault.
   std::optional<std::size_t> find(const JsonReader& id) const;
-  /// The index of the robot of this id, if there is one.
+  /// Returns the index of the robot of this id, if there is one.
   std::optional<std::size_t> index_of(std::string_view id) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-// What an answer repeats of a robot of the request.
+// The parts of a robot of the request that an answer repeats.
 
 #include <algorithm>
 #include <cstddef>
@@ -17,10 +17,10 @@ namespace fleetplan::api {
 /// the action before.
 class ReceivedMotion {
  public:
-  /// `index`: of the action; ascending.
+  /// Keeps an action by its index; indices ascend.
   void keep(std::size_t index, const core::Action& world) { kept_.push_back({index, world}); }
 
-  /// The action as received, or null if the core's numbers give it back.
+  /// Returns the action as received, or null if the core's numbers give it back.
   const core::Action* find(std::size_t index) const {
     const auto found =
         std::lower_bound(kept_.begin(), kept_.end(), index,
@@ -42,7 +42,7 @@ struct ReceivedRobot {
   ReceivedMotion previous;
   bool lists_visits = false;  // its plan tells when each goal is visited
   std::vector<Fault> errors;  // why it is invalid; empty if it is not
-  /// See parse_metadata: of the robot, and of its goals by their number, as in ParsedGoals.
+  /// The metadata of the robot, and of its goals by their number (see parse_metadata), as in ParsedGoals.
   std::string metadata = {};
   std::vector<std::string> goal_metadata = {};
 };

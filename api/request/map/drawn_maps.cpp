@@ -37,7 +37,7 @@ constexpr std::array<std::uint8_t, 256> kLetterKinds = make_kinds();
 
 std::uint8_t kind_of(char letter) { return kLetterKinds[static_cast<unsigned char>(letter)]; }
 
-/// Where the first character is that is not such a letter.
+/// Returns where the first character is that is not such a letter.
 std::optional<std::size_t> first_other_letter(std::string_view row, CellLetters letters) {
   for (std::size_t at = 0; at < row.size(); ++at) {
     const std::uint8_t kind = kind_of(row[at]);
@@ -46,14 +46,14 @@ std::optional<std::size_t> first_other_letter(std::string_view row, CellLetters 
   return std::nullopt;
 }
 
-/// The character of UTF-8 that begins at the offset.
+/// Returns the character of UTF-8 that begins at the offset.
 std::string_view character_at(std::string_view text, std::size_t offset) {
   std::size_t end = offset + 1;
   while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) ++end;
   return text.substr(offset, end - offset);
 }
 
-/// The grid of valid rows of one length, the top one first. Ends early when the stop is met.
+/// Returns the grid of valid rows of one length, the top one first. Ends early when the stop is met.
 core::OccupancyGrid draw(const std::vector<std::string_view>& rows, double resolution, core::Work& stop) {
   const int columns = static_cast<int>(rows.front().size());
   const int height = static_cast<int>(rows.size());
@@ -67,7 +67,7 @@ core::OccupancyGrid draw(const std::vector<std::string_view>& rows, double resol
   return grid;
 }
 
-/// The fault of a row of `columns` cells.
+/// Returns the fault of a row of `columns` cells.
 std::string row_fault(const JsonReader& item, std::size_t number, std::size_t columns) {
   const std::string place = "Row " + std::to_string(number) + " of the map";
   const auto row = item.string();
@@ -81,7 +81,7 @@ std::string row_fault(const JsonReader& item, std::size_t number, std::size_t co
          std::to_string(columns) + "; all rows must be of the same length.";
 }
 
-/// The row, if it is one of this many columns.
+/// Returns the row, if it is one of this many columns.
 std::optional<std::string_view> parse_row(const JsonReader& item, std::size_t number, std::size_t columns) {
   const auto row = item.string();
   const bool usable = row && row->size() == columns && !row->empty();
@@ -91,7 +91,7 @@ std::optional<std::string_view> parse_row(const JsonReader& item, std::size_t nu
   return std::nullopt;
 }
 
-/// The rows, if all of them are valid and there are not too many cells.
+/// Returns the rows, if all of them are valid and there are not too many cells.
 std::optional<std::vector<std::string_view>> parse_rows(const JsonReader& member, std::int64_t max_cells) {
   const JsonReader items = member.array();
   if (!items) return std::nullopt;
@@ -130,15 +130,15 @@ std::optional<WorldMap> parse_rows_map(const JsonReader& map, std::int64_t max_c
 
 namespace {
 
-constexpr std::size_t kMostDigits = 9;  // of a width or height
+constexpr std::size_t kMostDigits = 9;  // digits of a width or height
 
-/// The lines of a text, with any line endings.
+/// Reads the lines of a text, with any line endings.
 class Lines {
  public:
   explicit Lines(std::string_view text) : rest_(text) {}
 
   bool at_end() const { return ended_; }
-  std::size_t number() const { return number_; }  // of the line that was read last, from 1
+  std::size_t number() const { return number_; }  // number of the line read last, from 1
 
   std::string_view next() {
     ++number_;
@@ -157,7 +157,7 @@ class Lines {
 
 bool is_space(char letter) { return letter == ' ' || (letter >= '\t' && letter <= '\r'); }
 
-/// The words of a line, at most three of them.
+/// Returns the words of a line, at most three of them.
 std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> words;
   const char* at = line.data();
@@ -172,7 +172,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
   return words;
 }
 
-/// A whole number above 0, without leading zeros.
+/// Returns a whole number above 0, without leading zeros.
 std::optional<std::uint64_t> side_of(std::string_view word) {
   const bool digits = std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
   if (!digits || word.size() > kMostDigits || word.front() == '0') return std::nullopt;
@@ -232,7 +232,7 @@ std::string height_fault(std::uint64_t height, std::size_t rows) {
 
 bool is_blank(std::string_view line) { return std::all_of(line.begin(), line.end(), is_space); }
 
-/// The rows after the header. Blank lines may follow.
+/// Reads the rows after the header. Blank lines may follow.
 Result<std::vector<std::string_view>, std::string> read_rows(Lines& lines, std::uint64_t width,
                                                              std::uint64_t height, core::Work& stop) {
   std::vector<std::string_view> rows;

@@ -25,22 +25,23 @@ bool check_cells(const JsonReader& place, std::uint64_t columns, std::uint64_t r
 /// Reports a fault at the place if the map is larger than the ranges of coordinates and speeds are made for.
 bool check_extent(const JsonReader& place, double columns, double rows, double resolution);
 
-/// A map with the member `rows`: strings from the top, `.` and `G` free, `#`, `@`, `O`, `T`, `W` blocked.
-/// Nothing when it has a fault.
+/// Reads a map with the member `rows`: strings from the top, `.` and `G` free, `#`, `@`, `O`, `T`, `W`
+/// blocked. Returns none when it has a fault.
 std::optional<WorldMap> parse_rows_map(const JsonReader& map, std::int64_t max_cells);
 
-/// A map with the member `movingai`: the text of a `.map` file of the MovingAI benchmarks. Free are `.`, `G`
-/// and `S`; blocked `@`, `O`, `T`, `W` and `#`. Nothing when it has a fault.
+/// Reads a map with the member `movingai`: the text of a `.map` file of the MovingAI benchmarks. Free are
+/// `.`, `G` and `S`; blocked `@`, `O`, `T`, `W` and `#`. Returns none when it has a fault.
 std::optional<WorldMap> parse_movingai_map(const JsonReader& map, std::int64_t max_cells);
 
-// Maps of occupancy, as ROS has them: cells of 65 % and more are blocked, of up to 25 % free, and the others
-// unknown, which are `unknown` of the map: "blocked" (the default) or "free". At most `max_cells` cells.
-// Nothing when they have a fault or when the reading of the document is stopped.
+// The functions below read maps of occupancy, as ROS has them: cells of 65 % and more are blocked, cells of
+// up to 25 % free, and the others unknown, which the member `unknown` of the map makes "blocked" (the
+// default) or "free". The maps have at most `max_cells` cells. The functions return none when a map has a
+// fault or when the reading of the document is stopped.
 
-/// A map with the member `occupancy_grid`: a message of the type nav_msgs/OccupancyGrid.
+/// Reads a map with the member `occupancy_grid`: a message of the type nav_msgs/OccupancyGrid.
 std::optional<WorldMap> parse_occupancy_grid_map(const JsonReader& map, std::int64_t max_cells);
 
-/// A map with the member `image`: an image and the members of its map.yaml.
+/// Reads a map with the member `image`: an image and the members of its map.yaml.
 std::optional<WorldMap> parse_image_map(const JsonReader& map, std::int64_t max_cells);
 
 }  // namespace fleetplan::api

@@ -50,7 +50,7 @@ namespace {
 using Parse = std::optional<WorldMap> (*)(const JsonReader& map, std::int64_t max_cells);
 
 struct Kind {
-  std::string_view name;  // of the member that makes a map one of this kind
+  std::string_view name;  // member that makes a map one of this kind
   std::array<std::string_view, 3> members;
   Parse parse;
 };

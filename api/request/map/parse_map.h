@@ -16,7 +16,7 @@ struct WorldMap {
 };
 
 /// Reads the member `map`, which has one of `rows`, `occupancy_grid`, `image` and `movingai`: a map of at
-/// most `max_cells` cells. Nothing when it has a fault or when the reading of the document is stopped.
+/// most `max_cells` cells. Returns none when it has a fault or when the reading of the document is stopped.
 std::optional<WorldMap> parse_map(const JsonReader& member, std::int64_t max_cells);
 
 }  // namespace fleetplan::api

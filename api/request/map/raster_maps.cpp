@@ -40,7 +40,7 @@ constexpr Range kUnit{-2.0, 2.0, "of a quaternion of length 1"};
 constexpr double kTurnTolerance = 1e-6;  // radians, of quaternions computed from angles in single precision
 constexpr std::uint64_t kLongestMessageSide = std::numeric_limits<std::int32_t>::max();
 constexpr std::uint64_t kFull = 100;      // percent
-constexpr std::size_t kWorkOfAnItem = 8;  // what reading one costs, in bytes of text
+constexpr std::size_t kWorkOfAnItem = 8;  // work of reading an item, in bytes of text
 
 /// Reports a rotation. All components 0, as in a message that was never filled, is none.
 void check_orientation(const JsonReader& member) {
@@ -64,7 +64,7 @@ WorldFrame parse_message_origin(const JsonReader& member) {
   return {{x, y}};
 }
 
-/// The number of columns or rows.
+/// Reads the number of columns or rows.
 std::optional<std::uint64_t> parse_side(const JsonReader& member) {
   const auto side = member.natural(kLongestMessageSide);
   if (side != std::uint64_t{0}) return side;
@@ -72,7 +72,7 @@ std::optional<std::uint64_t> parse_side(const JsonReader& member) {
   return std::nullopt;
 }
 
-/// The percentage of a valid item.
+/// Returns the percentage of a valid item.
 std::optional<std::int8_t> percent_of(const JsonValue& item) {
   if (const auto natural = item.natural(); natural && *natural <= kFull) {
     return static_cast<std::int8_t>(*natural);
@@ -87,7 +87,7 @@ void report_items(const JsonReader& data) {
   }
 }
 
-/// The percentages, of which there are as many as cells, unless the stop is met.
+/// Reads the percentages, of which there are as many as cells, unless the stop is met.
 std::optional<std::vector<std::int8_t>> parse_data(const JsonReader& data) {
   std::vector<std::int8_t> percents;
   percents.reserve(data.size());
@@ -109,8 +109,8 @@ std::string size_detail(std::size_t given, std::uint64_t columns, std::uint64_t 
          " cells.";
 }
 
-/// Reads it from JSON as rosbridge and `ros2 topic echo` write it; times and the header are ignored. Nothing
-/// when it has a fault or when the reading of the document is stopped.
+/// Reads a message from JSON as rosbridge and `ros2 topic echo` write it; times and the header are ignored.
+/// Returns none when it has a fault or when the reading of the document is stopped.
 std::optional<OccupancyMessage> parse_occupancy_message(const JsonReader& message, std::int64_t max_cells) {
   const std::size_t before = message.fault_count();
   const JsonReader read = message.object(kMessageMembers);
@@ -143,7 +143,7 @@ constexpr std::array<std::string_view, 9> kMapImageMembers{
     "pgm", "png", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode", "image"};
 constexpr std::size_t kOriginLength = 3;
 
-/// Whether unknown cells are free.
+/// Reads whether unknown cells are free.
 bool parse_unknown(const JsonReader& member) { return member.word(kUnknown).value_or(0) == 1; }
 
 core::OccupancyGrid draw(const Raster& raster, double resolution, bool unknown_is_free, core::Work& stop) {
@@ -159,7 +159,7 @@ core::OccupancyGrid draw(const Raster& raster, double resolution, bool unknown_i
   return grid;
 }
 
-/// map_server's list of x, y and yaw.
+/// Reads the origin from map_server's list of x, y and yaw.
 WorldFrame parse_image_origin(const JsonReader& member) {
   const JsonReader origin = member.array();
   if (!origin) return {};

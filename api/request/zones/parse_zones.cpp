@@ -22,10 +22,10 @@ namespace {
 
 using Type = core::Zone::Type;
 
-constexpr std::array<std::string_view, 3> kTypes{"blocked", "speed", "one_way"};  // as in core::Zone::Type
+constexpr std::array<std::string_view, 3> kTypes{"blocked", "speed", "one_way"};  // see core::Zone::Type
 constexpr std::array<std::string_view, 9> kMembers{
     "id", "type", "polygon", "mask", "robots", "linear_speed", "angular_speed", "heading", "half_angle"};
-/// What it costs to make a zone of a part of a mask, in bytes of text.
+/// The work of making a zone of a part of a mask, in bytes of text.
 constexpr std::size_t kWorkOfAPart = 64;
 constexpr Range kHalfAngle{kLeastHalfAngle, std::numbers::pi, "radians"};
 
@@ -34,7 +34,7 @@ class ZoneReader {
   ZoneReader(const WorldMap* map, const Limits& limits, const std::vector<ParsedRobot>& robots)
       : map_(map), corners_(limits.max_zone_corners, "corners of zones"), names_(robots) {}
 
-  /// The zone, or the parts of its mask.
+  /// Reads a zone, or the parts of its mask.
   std::vector<core::Zone> read(const JsonReader& item) {
     core::Zone zone;
     const JsonReader json = item.object(kMembers);
@@ -149,7 +149,7 @@ class ZoneReader {
   const WorldMap* map_;
   Quota corners_;
   RobotNames names_;
-  std::unordered_map<std::string, std::size_t> zones_;  // by id, their numbers
+  std::unordered_map<std::string, std::size_t> zones_;  // their numbers by id
   std::size_t count_ = 0;
 };
 

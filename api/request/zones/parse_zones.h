@@ -10,7 +10,7 @@
 
 namespace fleetplan::api {
 
-/// Reads `zones` (may be absent), in the frame of the map; those with a fault are left out. Robots are
+/// Reads `zones` (may be absent), in the frame of the map; those with a fault are left out. Their robots are
 /// indices into `robots`. A mask becomes several zones of one id, which follow each other. Without a map
 /// (null), masks are not read.
 std::vector<core::Zone> parse_zones(const JsonReader& member, const WorldMap* map, const Limits& limits,

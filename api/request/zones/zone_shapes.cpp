@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 2> kCornerMembers{"x", "y"};
 constexpr std::size_t kFewestCorners = 3;
 /// The most corners of one polygon: in the worst case, every side is compared with every other one.
 constexpr std::size_t kMostCorners = 1000;
-/// What a comparison of two sides costs, in bytes of text.
+/// The work of comparing two sides, in bytes of text.
 constexpr std::size_t kWorkOfAComparison = 8;
 
 double turn(const core::Position& a, const core::Position& b, const core::Position& c) {
@@ -55,9 +55,9 @@ class Sides {
  public:
   explicit Sides(const Corners& corners) : corners_(corners) {}
 
-  /// Two sides that meet elsewhere than at their common corner, the earlier one first; none also if the
-  /// reading is stopped.
-  std::optional<std::pair<std::size_t, std::size_t>> that_meet(core::Work& stop) const {
+  /// Returns two sides that meet elsewhere than at their common corner, the earlier one first; none if there
+  /// are none, or if the reading is stopped.
+  std::optional<std::pair<std::size_t, std::size_t>> touching_sides(core::Work& stop) const {
     std::vector<std::size_t> order(corners_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return left(i) < left(j); });
@@ -92,7 +92,7 @@ class Sides {
   const Corners& corners_;
 };
 
-/// In the map frame. None if one has a fault.
+/// Reads corners, in the map frame. Returns none if one has a fault.
 Corners parse_corners(const JsonReader& list, const WorldFrame& frame) {
   const std::size_t faults = list.fault_count();
   Corners corners;
@@ -134,7 +134,7 @@ std::vector<core::Position> parse_polygon(const JsonReader& member, const WorldF
   }
   Corners read = parse_corners(list, frame);
   if (read.empty()) return {};
-  if (const auto met = Sides(read).that_meet(list.stop())) {
+  if (const auto met = Sides(read).touching_sides(list.stop())) {
     const std::string first = std::to_string(met->first);
     const std::string second = std::to_string(met->second);
     list.fault(fault::kBadPolygon,
@@ -150,11 +150,11 @@ namespace {
 
 constexpr std::int8_t kLeastOccupied = 65;  // percent
 constexpr std::int8_t kWhole = 100;
-/// Metres: so much larger than its cells is a part. More than what decides whether a position is inside, so
-/// that the border of two parts is.
+/// How much larger than its cells a part of a mask is, metres. It is more than what decides whether a
+/// position is inside, so that the border of two parts is inside.
 constexpr double kOverlap = 2e-6;
 
-/// Cells from the first column to the last one, which is not included.
+/// A run of cells from the first column to the last one, which is not included.
 struct Run {
   int first = 0;
   int last = 0;
@@ -164,7 +164,7 @@ struct Run {
   }
 };
 
-/// The runs of one value in a row; those of 0 are left out.
+/// Returns the runs of one value in a row; runs of 0 are left out.
 template <class Value>
 std::vector<Run> runs_of_row(int columns, const Value& value) {
   std::vector<Run> runs;
@@ -192,7 +192,7 @@ template <class Value>
 std::vector<MaskPart> parts_of(const Raster& raster, double resolution, std::size_t most, core::Work& stop,
                                const Value& value) {
   std::vector<MaskPart> parts;
-  std::map<Run, int> open;  // and the rows where they begin
+  std::map<Run, int> open;  // open runs, with the rows where they begin
   for (int row = 0; row <= raster.rows && parts.size() <= most; ++row) {
     if (stop.met_after(static_cast<std::size_t>(raster.columns))) break;
     std::map<Run, int> next;

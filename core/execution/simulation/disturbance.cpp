@@ -48,7 +48,7 @@ class Draw {
   bool stopped() const { return stopped_; }
 
  private:
-  /// Looks at the stop condition once in many draws.
+  /// Draws a number from [0, 1); looks at the stop condition once in many draws.
   double unit() {
     if (++draws_ % kDrawsBetweenPolls == 0) stopped_ = stopped_ || stop_.met();
     return random_.unit();
@@ -60,7 +60,7 @@ class Draw {
 
   double exponential(double mean) { return -mean * std::log1p(-unit()); }
 
-  /// By the method of Box and Muller.
+  /// Draws a number from the standard normal distribution, by the method of Box and Muller.
   double normal() {
     const double radius = std::sqrt(-2.0 * std::log1p(-unit()));
     return radius * std::cos(2.0 * std::numbers::pi * unit());

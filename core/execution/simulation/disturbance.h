@@ -36,7 +36,7 @@ struct Disturbance {
   };
 
   UniformRange speed{1.0, 1.0};  // factor on the planned speed of each translation, > 0
-  UniformRange turn{1.0, 1.0};   // the same for rotations
+  UniformRange turn{1.0, 1.0};   // factor on the planned speed of each rotation, > 0
   Stops stops = {};
   UniformRange start_delay{0.0, 0.0};  // seconds before each action, >= 0
   CrossTrack cross_track = {};
@@ -76,16 +76,16 @@ struct DisturbedActions {
   }
 };
 
-/// The disturbances of every plan in run number `run`, in the order of `plans`. They depend on the plans, the
-/// disturbance, the seed and the number only: each policy meets the same ones. Returns none if `stop` is met
-/// first.
+/// Returns the disturbances of every plan in run number `run`, in the order of `plans`. They depend only on
+/// the plans, the disturbance, the seed and the number of the run, so every policy is disturbed equally.
+/// Returns none if `stop` is met first.
 std::optional<std::vector<DisturbedActions>> draw_disturbances(const std::vector<RobotPlan>& plans,
                                                                const Disturbance& disturbance,
                                                                std::uint64_t seed, std::uint64_t run,
                                                                const StopCondition& stop);
 
-/// A part of an action that takes a fixed time: it leads from the end of the part before to this fraction of
-/// the action, at constant speed, or the robot stands if that is the same.
+/// A part of an action that takes a fixed time. During it the robot moves at constant speed from the end of
+/// the part before to this fraction of the action; it stands if the fraction is the same.
 struct Phase {
   double seconds = 0.0;
   double to_fraction = 0.0;

@@ -9,9 +9,9 @@ namespace fleetplan::core {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Seconds, and a share of the latest planned time: a robot that is late by all but this is as late as is
-/// allowed, and planned times that differ by less are the same. Far above the rounding of sums of durations,
-/// far below what a robot could notice.
+/// The difference, in seconds and as a share of the latest planned time, below which moments are the same: a
+/// robot that is late by all but this is as late as is allowed, and planned times that differ by less are
+/// equal. It is far above the rounding of sums of durations, and far below what a robot could notice.
 constexpr double kSameMoment = 1e-9;
 constexpr double kSameShare = 1e-14;
 constexpr std::size_t kActionsBetweenPolls = 256;
@@ -31,14 +31,14 @@ struct ClockPhase {
   double to = 0.0;
   double seconds = 0.0;
 
-  /// Planned seconds in a second.
+  /// The planned seconds that pass in one second.
   double pace() const {
     if (kind != Kind::moves) return 0.0;
     return seconds > to - from ? (to - from) / seconds : 1.0;
   }
 };
 
-/// The phases of a robot's whole plan. Returns none if `stop` is met first.
+/// Returns the phases of a robot's whole plan; none if `stop` is met first.
 std::optional<std::vector<ClockPhase>> clock_phases(const std::vector<Action>& actions,
                                                     const std::vector<WaitPurpose>& purposes,
                                                     const DisturbedActions& disturbed,
@@ -72,7 +72,7 @@ std::optional<std::vector<ClockPhase>> clock_phases(const std::vector<Action>& a
   return phases;
 }
 
-/// Steps from event to event; between them, every robot has a constant pace.
+/// Executes plans from event to event. Between two events every robot has a constant pace.
 class ClockedExecution {
  public:
   ClockedExecution(const PlannedExecution& planned, const std::vector<DisturbedActions>& disturbed,
@@ -102,16 +102,16 @@ class ClockedExecution {
     std::vector<ClockPhase> phases = {};
     std::size_t phase = 0;
     double at = 0.0;     // progress in planned time
-    double stood = 0.0;  // seconds of a phase that stands
-    double pace = 0.0;   // since the last knot
-    bool begun = false;  // the phase
+    double stood = 0.0;  // seconds that a standing phase has lasted
+    double pace = 0.0;   // pace since the last knot
+    bool begun = false;  // the phase has begun
     ExecutedProgress progress = {};
 
     bool done() const { return phase == phases.size(); }
     const ClockPhase& now() const { return phases[phase]; }
   };
 
-  /// False if the stop condition is met.
+  /// Prepares the phases of all robots. Returns false if the stop condition is met.
   bool prepare() {
     for (std::size_t k = 0; k < robots_.size(); ++k) {
       const std::vector<Action>& actions = planned_.plans[k].actions;
@@ -125,7 +125,7 @@ class ClockedExecution {
     return true;
   }
 
-  /// Counts what is done; looks at the stop condition once in a while, and stays true once it is met.
+  /// Counts a step and looks at the stop condition once in a while. Returns whether it was met.
   bool stops() {
     if (++steps_ % kClockStepsBetweenPolls == 0) stopped_ = stopped_ || stop_.met();
     return stopped_;
@@ -133,7 +133,7 @@ class ClockedExecution {
 
   double delay(const Robot& robot) const { return clock_ - robot.at; }
 
-  /// Whether the robot holds the clock back: it is as late as allowed and has not the pace of the plan.
+  /// Whether the robot holds the clock back: it is as late as allowed and slower than planned.
   bool holds(const Robot& robot) const {
     return !robot.done() && robot.now().kind != ClockPhase::Kind::awaits && robot.now().pace() < 1.0 &&
            delay(robot) >= max_delay_ - same_moment_;
@@ -180,7 +180,7 @@ class ClockedExecution {
     if (last.t != knot.t || last.fraction != knot.fraction) robot.progress.knots.push_back(knot);
   }
 
-  /// The pace of a robot while the clock goes at `clock_pace`.
+  /// Returns the pace of a robot while the clock goes at `clock_pace`.
   double pace(const Robot& robot, double clock_pace) const {
     if (robot.done() || robot.now().kind == ClockPhase::Kind::awaits) return 0.0;
     return holds(robot) ? std::min(robot.now().pace(), clock_pace) : robot.now().pace() * clock_pace;
@@ -205,8 +205,8 @@ class ClockedExecution {
     now_ += seconds;
   }
 
-  /// Seconds until the robot's phase ends, or until it begins to hold the clock back; infinity if neither
-  /// happens at these paces.
+  /// Returns the seconds until the robot's phase ends or the robot begins to hold the clock back; infinity if
+  /// neither happens at these paces.
   double until_event(const Robot& robot, double clock_pace) const {
     if (robot.done()) return kInfinity;
     const ClockPhase& phase = robot.now();
@@ -223,7 +223,7 @@ class ClockedExecution {
     return std::max(0.0, seconds);
   }
 
-  /// A knot where the pace of a robot changes within a phase.
+  /// Adds a knot where the pace of a robot changes within a phase.
   void bend(Robot& robot) const {
     const ClockPhase& phase = robot.now();
     if (phase.kind != ClockPhase::Kind::moves || phase.to <= phase.from) return;

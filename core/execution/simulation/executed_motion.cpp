@@ -48,7 +48,8 @@ class DisturbedPath {
     return (static_cast<double>(k) + 0.5) / static_cast<double>(offsets_.size());
   }
 
-  /// Linear between the bends, 0 at both ends.
+  /// Returns the offset at a fraction of the path, metres to the left: linear between the bends, 0 at both
+  /// ends.
   double offset(double fraction) const {
     const std::size_t count = offsets_.size();
     const double place = fraction * static_cast<double>(count) - 0.5;  // bend k is at k

@@ -45,7 +45,7 @@ std::optional<std::vector<Action>> disturbed_actions(const std::vector<Action>& 
                                                      const ExecutedProgress& progress, std::size_t most,
                                                      const StopCondition& stop);
 
-/// Adds to the progress of a robot, from t = 0 on.
+/// Builds the progress of one robot, from t = 0 on.
 class ProgressBuilder {
  public:
   double now() const { return now_; }
@@ -58,7 +58,7 @@ class ProgressBuilder {
   }
   void stand_for(double seconds) { go_on(seconds, fraction_); }
   void stand_until(double t) { go_on(std::max(0.0, t - now_), fraction_); }
-  /// At constant speed to a fraction of the action.
+  /// Moves at constant speed to a fraction of the action.
   void go_on(double seconds, double to_fraction) {
     if (seconds <= 0.0 && to_fraction == fraction_) return;
     now_ += seconds;

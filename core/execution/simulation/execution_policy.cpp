@@ -60,20 +60,20 @@ namespace {
 
 constexpr std::size_t kStepsBetweenPolls = 256;
 
-/// A robot may pass `place` once another one has reached its own.
+/// Lets a robot pass `place` once another robot has reached its own place.
 struct Gate {
   ActionPlace place;
   std::size_t other = 0;
   ActionPlace until;
 };
 
-/// The place of a progress that is to be reached: after an action rather than before another.
+/// Returns the place of a progress that is to be reached: after an action rather than before the next one.
 ActionPlace as_reached(const ActionProgress& progress) {
   if (progress.fraction > 0.0 || progress.action == 0) return {progress.action, progress.fraction};
   return {progress.action - 1, 1.0};
 }
 
-/// When the robot reaches the place; none if it has not come so far.
+/// Returns when the robot reaches the place, seconds; none if it has not come so far.
 std::optional<double> time_reached(const ExecutedProgress& progress, const ActionPlace& place) {
   if (place.action == 0 && place.fraction <= 0.0) return 0.0;
   const auto found = std::lower_bound(progress.knots.begin(), progress.knots.end(), place,
@@ -114,7 +114,7 @@ class DependentExecution {
       ready.pop_back();
       if (!advance(robot)) robots_[robots_[robot].blocked_by].waiting.push_back(robot);
       if (stopped_) return std::nullopt;
-      // Those that still wait for this robot after another look wait again.
+      // Robots that wait for this one again after another look are registered again.
       const std::vector<std::size_t> waiting = std::exchange(robots_[robot].waiting, {});
       if (stops_after(waiting.size())) return std::nullopt;
       for (const std::size_t other : waiting) {
@@ -137,17 +137,17 @@ class DependentExecution {
  private:
   struct Robot {
     std::vector<Gate> gates = {};
-    std::size_t gate = 0;    // the next one
-    std::size_t action = 0;  // the present or next one
-    bool begun = false;      // the action
+    std::size_t gate = 0;    // index of the next one
+    std::size_t action = 0;  // index of the present or next one
+    bool begun = false;      // the action has begun
     std::vector<Phase> phases = {};
     std::size_t phase = 0;
     ProgressBuilder builder = {};
     std::size_t blocked_by = 0;
-    std::vector<std::size_t> waiting = {};  // for this robot
+    std::vector<std::size_t> waiting = {};  // robots that wait for this one
   };
 
-  /// Looks at the stop condition once in many steps; stays true once it is met.
+  /// Counts steps and looks at the stop condition once in many of them. Returns whether it was met.
   bool stops_after(std::size_t steps) {
     steps_ += steps;
     if (steps_ < kStepsBetweenPolls) return stopped_;
@@ -155,8 +155,8 @@ class DependentExecution {
     return stopped_ = stopped_ || stop_.met();
   }
 
-  /// Goes on until the end of the plan, or until a gate of which it is not known when it opens: then false,
-  /// as when the stop condition is met.
+  /// Executes a robot until the end of its plan and returns true; or until a gate that is not known to open,
+  /// or until the stop condition is met, and returns false.
   bool advance(std::size_t index) {
     Robot& robot = robots_[index];
     const std::size_t actions = planned_.plans[index].actions.size();
@@ -180,7 +180,7 @@ class DependentExecution {
     return true;
   }
 
-  /// The phases of an action, now that it may begin. False if the stop condition is met.
+  /// Prepares the phases of an action that may begin. Returns false if the stop condition is met.
   bool prepare(std::size_t index, Robot& robot) {
     const DisturbedActions& disturbed = disturbed_[index];
     robot.builder.stand_for(disturbed.actions[robot.action].start_delay);
@@ -197,7 +197,8 @@ class DependentExecution {
     return true;
   }
 
-  /// False: stopped at a gate; what remains of the phase is kept.
+  /// Executes the present phase. Returns false at a gate that is not known to open; what remains of the phase
+  /// is kept.
   bool advance_phase(Robot& robot) {
     Phase& phase = robot.phases[robot.phase];
     while (robot.gate < robot.gates.size()) {
@@ -216,7 +217,8 @@ class DependentExecution {
     return true;
   }
 
-  /// Waits at the gates up to a fraction of the present action; false: one of them is not known to open.
+  /// Waits at the gates up to a fraction of the present action. Returns false if one of them is not known to
+  /// open.
   bool pass_gates(Robot& robot, double fraction) {
     const ActionPlace here{robot.action, fraction};
     for (; robot.gate < robot.gates.size() && !(here < robot.gates[robot.gate].place); ++robot.gate) {
@@ -235,7 +237,7 @@ class DependentExecution {
   const PlannedExecution& planned_;
   const std::vector<DisturbedActions>& disturbed_;
   const StopCondition& stop_;
-  std::size_t steps_ = 0;  // since the last look at the stop condition
+  std::size_t steps_ = 0;  // steps since the last look at the stop condition
   bool stopped_ = false;
   std::vector<Robot> robots_;
 };

@@ -16,13 +16,13 @@
 namespace fleetplan::core {
 
 enum class ExecutionPolicy {
-  /// Every action lasts its planned time, disturbed. Nobody looks at a clock or at others.
+  /// Every action lasts its planned time, disturbed. No robot looks at a clock or at others.
   open_loop,
   /// A wait ends at its planned time, or at once if that has passed (paper, "Increasing robustness").
   absorb_waits,
   /// Robots obey the dependencies, and skip waits that only give way.
   dependencies,
-  /// All follow one clock, which slows down so that nobody is later by it than the largest delay.
+  /// All follow one clock, which slows down so that no robot is later by it than the largest delay.
   clock_stop,
 };
 
@@ -31,30 +31,33 @@ struct PlannedExecution {
   const std::vector<RobotPlan>& plans;
   std::vector<std::vector<WaitPurpose>> purposes;  // by plan, see wait_purposes
   ExecutionPolicy policy = ExecutionPolicy::open_loop;
-  std::vector<Dependency> dependencies = {};  // of that policy; their robots are positions in `plans`
-  double max_delay = 0.0;                     // of clock_stop: seconds, >= 0
+  std::vector<Dependency> dependencies =
+      {};                  // for the policy `dependencies`; their robots are positions in `plans`
+  double max_delay = 0.0;  // for the policy `clock_stop`: seconds, >= 0
 };
 
-/// Policies without a word between robots. Returns none if `stop` is met first.
+/// Executes one plan under a policy in which robots do not communicate: `open_loop` or `absorb_waits`.
+/// Returns none if `stop` is met first.
 std::optional<ExecutedProgress> execute_alone(const PlannedExecution& planned, std::size_t plan,
                                               const DisturbedActions& disturbed, const StopCondition& stop);
 
-/// The policy `dependencies`. Robots that wait for each other for ever do not arrive. Returns none if `stop`
-/// is met first.
+/// Executes all plans under the policy `dependencies`. Robots that wait for each other for ever do not
+/// arrive. Returns none if `stop` is met first.
 std::optional<std::vector<ExecutedProgress>> execute_dependencies(
     const PlannedExecution& planned, const std::vector<DisturbedActions>& disturbed,
     const StopCondition& stop);
 
-/// The policy `clock_stop`. Robots follow the plan by a clock that all of them share: no action begins before
-/// its planned time, and nobody moves faster than planned. While a robot is as late as is allowed and slower
-/// than planned, the clock, and with it everybody else, goes as slowly as that robot; it stands while that
-/// robot stands. This is what standing still whenever somebody is later comes to, if that is noticed at once.
+/// Executes all plans under the policy `clock_stop`: by a clock that all robots share, no action begins
+/// before its planned time, and no robot moves faster than planned. While a robot is as late as is allowed
+/// and slower than planned, the clock and all other robots go as slowly as that robot; they stand while it
+/// stands. This is the limit of robots that stop whenever one of them is later, if that is noticed at once.
 /// Returns none if `stop` is met first.
 std::optional<std::vector<ExecutedProgress>> execute_with_clock(
     const PlannedExecution& planned, const std::vector<DisturbedActions>& disturbed,
     const StopCondition& stop);
 
-/// By the policy of the plans; in their order.
+/// Executes all plans under their policy. The result is in the order of the plans. Returns none if `stop` is
+/// met first.
 std::optional<std::vector<ExecutedProgress>> execute_plans(const PlannedExecution& planned,
                                                            const std::vector<DisturbedActions>& disturbed,
                                                            const StopCondition& stop);

@@ -12,10 +12,10 @@
 namespace fleetplan::core {
 namespace {
 
-/// The overlaps of one execution that are told apart: many robots in one place have millions of them.
+/// The most overlaps of one execution that are told apart: many robots in one place have millions of them.
 constexpr std::size_t kMostOverlaps = 10'000;
 
-/// A leg takes as long as there are blocked cells near it.
+/// Legs between two checks of the stop condition; each takes time in proportion to the blocked cells near it.
 constexpr std::size_t kLegsBetweenPolls = 8;
 
 bool is_earlier(const ExecutedCollision& a, const ExecutedCollision& b) {
@@ -78,15 +78,15 @@ std::optional<ExecutionCollisions> find_collisions(const std::vector<std::vector
 
 namespace {
 
-/// Runs of one task: the work of handing out tasks vanishes beside it.
+/// Runs of one task: few, but enough that the work of handing out tasks is negligible.
 constexpr std::size_t kRunsOfATask = 4;
 /// Tasks of one round, between which progress is reported: enough for many workers.
 constexpr std::size_t kTasksOfARound = 16;
-/// Metres by which disks may overlap: the default tolerance of POST /v1/validate, which dependencies use up,
-/// and as much for rounding.
+/// Metres by which disks may overlap: the default tolerance of POST /v1/validate, which dependencies may use
+/// in full, and as much again for rounding.
 constexpr double kTolerance = 2.0 * kMostTolerance;
 
-/// Adds up the runs, in their order.
+/// Adds up the runs in their order.
 class Study {
  public:
   Study(const SimulatedFleet& fleet, std::size_t runs) : plans_(fleet.execution.plans) {
@@ -120,7 +120,7 @@ class Study {
   }
 
  private:
-  /// Lists the pair if it collides in more runs than one that is listed. To be called by ascending robots.
+  /// Lists the pair if it collides in more runs than one that is listed. Call it by ascending robots.
   void list(const SimulationReport::Pair& pair) {
     std::vector<SimulationReport::Pair>& listed = report_.pairs;
     const auto place = std::upper_bound(
@@ -183,7 +183,7 @@ std::optional<Simulator> Simulator::make(const SimulatedFleet& fleet, const Simu
     const std::vector<Leg> legs = core::execute(fleet.robots[robot], plans[robot]);
     if (plans[robot] == nullptr) simulator.resting_[robot] = legs;
     const bool leaves_path = plans[robot] != nullptr && settings.disturbance.leaves_paths();
-    // On the planned path, it meets a wall whenever the plan does.
+    // A robot on its planned path touches a wall whenever the plan does.
     if (leaves_path || find_wall(simulator.field_, robot, legs, fleet.body_radii[robot], kTolerance, stop)) {
       simulator.near_walls_.push_back(robot);
     }

@@ -24,28 +24,28 @@ namespace fleetplan::core {
 
 /// One uninterrupted overlap of two disks, or of a disk and a wall (or the edge of the map).
 struct ExecutedCollision {
-  std::size_t first = 0;              // robot
-  std::optional<std::size_t> second;  // robot, > first; nullopt: a wall
-  double t = 0.0;                     // seconds: when it begins; with a wall, when it is deepest in a leg
-  Position position{0.0, 0.0};        // then: the middle of the two centres, or the centre
-  double depth = 0.0;                 // metres: the largest overlap
+  std::size_t first = 0;              // index of a robot
+  std::optional<std::size_t> second;  // index of another robot, > first; nullopt: a wall
+  double t = 0.0;               // seconds: when the overlap begins; with a wall, when it is deepest in a leg
+  Position position{0.0, 0.0};  // the middle of the two centres at `t`, or with a wall the centre
+  double depth = 0.0;           // metres: the largest overlap
 };
 
-/// The collisions of an execution.
 struct ExecutionCollisions {
   std::optional<ExecutedCollision> first;                  // the earliest one
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;  // of robots that collide, ascending
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;  // robots that collide, ascending
 };
 
-/// `legs` and `radii` (metres) by robot. Disks may overlap each other and walls by `tolerance` metres. Walls
-/// are compared with the robots of `near_walls`. Returns none if `stop` is met first.
+/// Finds the collisions of robots whose `legs` and `radii` (metres) are given by robot. Disks may overlap
+/// each other and walls by `tolerance` metres. Only the robots of `near_walls` are compared with the walls.
+/// Returns none if `stop` is met first.
 std::optional<ExecutionCollisions> find_collisions(const std::vector<std::vector<Leg>>& legs,
                                                    const std::vector<double>& radii, double tolerance,
                                                    const ObstacleField& field,
                                                    const std::vector<std::size_t>& near_walls,
                                                    const StopCondition& stop);
 
-/// The first overlap of one robot and a wall, by legs. Ends early, with none, if `stop` is met.
+/// Returns the first overlap of one robot and a wall, in the order of the legs; none if `stop` is met first.
 std::optional<ExecutedCollision> find_wall(const ObstacleField& field, std::size_t robot,
                                            const std::vector<Leg>& legs, double radius, double tolerance,
                                            const StopCondition& stop);
@@ -68,18 +68,19 @@ struct SimulationSettings {
 /// Executes and checks one run after the other, in any order and by any thread.
 class Simulator {
  public:
-  /// What became of one run.
+  /// The outcome of one run.
   struct Run {
     std::vector<double>
         ends;  // seconds, by plan: when its robot arrived; of one that has not, its last moment
     std::vector<std::size_t> stuck;  // plans whose robots wait for ever, ascending
     ExecutionCollisions collisions;
   };
-  /// Compares the planned paths with the walls; none if `stop` is met first. The fleet has to outlive it.
+  /// Prepares the runs: compares the planned paths with the walls. Returns none if `stop` is met first. The
+  /// fleet has to outlive the object.
   static std::optional<Simulator> make(const SimulatedFleet& fleet, const SimulationSettings& settings,
                                        const StopCondition& stop);
 
-  /// None if `stop` is met first.
+  /// Executes and checks run number `number`. Returns none if `stop` is met first.
   std::optional<Run> run(std::uint64_t number, const StopCondition& stop) const;
 
  private:
@@ -88,8 +89,8 @@ class Simulator {
   const SimulatedFleet& fleet_;
   SimulationSettings settings_;
   ObstacleField field_;
-  std::vector<std::vector<Leg>> resting_;  // by robot: of those without a plan; empty for others
-  std::vector<std::size_t> near_walls_;    // robots that may meet a wall
+  std::vector<std::vector<Leg>> resting_;  // by robot: the legs of a robot without a plan; empty for others
+  std::vector<std::size_t> near_walls_;    // robots that may touch a wall
 };
 
 /// One run in detail: the actions that were executed, by plan.
@@ -97,14 +98,14 @@ struct SimulationTrace {
   std::vector<std::vector<Action>> actions;
 };
 
-/// None if it has more than `most` actions, or if `stop` is met first.
+/// Executes one run and returns the actions; none if there are more than `most`, or if `stop` is met first.
 std::optional<SimulationTrace> trace_run(const SimulatedFleet& fleet, const SimulationSettings& settings,
                                          std::uint64_t number, std::size_t most, const StopCondition& stop);
 
 /// Progress of a study.
 struct SimulationProgress {
-  std::size_t done = 0;  // runs
-  std::size_t runs = 0;  // asked for
+  std::size_t done = 0;  // runs that are done
+  std::size_t runs = 0;  // runs that were asked for
   std::size_t collided = 0;
   std::size_t deadlocked = 0;
 };
@@ -117,27 +118,27 @@ struct SimulationReport {
   };
   struct Deadlock {
     std::size_t run = 0;
-    std::vector<std::size_t> plans;  // whose robots wait for ever
+    std::vector<std::size_t> plans;  // plans whose robots wait for ever
   };
   struct Pair {
-    std::size_t first = 0;  // robots
+    std::size_t first = 0;  // index of a robot
     std::size_t second = 0;
-    std::size_t runs = 0;  // in which they collide
+    std::size_t runs = 0;  // number of runs in which they collide
   };
   static constexpr std::size_t kMostListed = 20;
 
   SimulationProgress totals;
-  std::vector<double> flowtimes;  // seconds, of the runs in which everybody arrives
-  std::vector<double> makespans;  // of the same runs
+  std::vector<double> flowtimes;  // seconds, in the runs in which all robots arrive
+  std::vector<double> makespans;  // seconds, in the runs in which all robots arrive
   std::vector<std::vector<double>>
-      delays;  // by plan: seconds behind its cost, of the runs in which it arrives
-  std::vector<Numbered> first_collisions;  // of the first runs that have one
-  std::vector<Deadlock> deadlocks;         // of the first runs that have one
-  std::vector<Pair> pairs;                 // those that collide in most runs; then by robots
+      delays;  // by plan: seconds behind its cost, in the runs in which its robot arrives
+  std::vector<Numbered> first_collisions;  // the first runs with a collision
+  std::vector<Deadlock> deadlocks;         // the first runs with a deadlock
+  std::vector<Pair> pairs;                 // the pairs that collide in most runs, ties by robots
 };
 
-/// Executes runs 0, 1, ... until all of them are done, `stop` is met, or `go_on` returns false, which is
-/// asked from time to time: the report has all runs before the first one that is not done. The executor's
+/// Executes runs 0, 1, ... until all of them are done, `stop` is met, or `go_on`, which is called from time
+/// to time, returns false. The report contains the runs before the first one that is not done. The executor's
 /// threads help; the figures do not depend on their number.
 SimulationReport simulate(const SimulatedFleet& fleet, const SimulationSettings& settings,
                           const StopCondition& stop, Executor& executor,

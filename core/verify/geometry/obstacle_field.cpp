@@ -12,7 +12,7 @@ namespace fleetplan::core {
 /// free or all blocked, and dropped when they are too far away.
 class ObstacleField::NearestCellSearch {
  public:
-  /// Finds only cells nearer than `limit`, or as near and earlier on the segment.
+  /// Finds only cells that are nearer than `limit`, or as near and earlier on the segment.
   NearestCellSearch(const ObstacleField& field, const Position& from, const Position& to,
                     const NearestPoint& limit)
       : field_(field),
@@ -41,7 +41,7 @@ class ObstacleField::NearestCellSearch {
     } else {
       one.last_row = other.first_row = std::midpoint(block.first_row, block.last_row);
     }
-    // The nearer half first, as its result may exclude the other one.
+    // The nearer half comes first, as its result may exclude the other one.
     if (distance_bound(field_.rectangle(other)) < distance_bound(field_.rectangle(one)))
       std::swap(one, other);
     visit(one);
@@ -53,8 +53,8 @@ class ObstacleField::NearestCellSearch {
   }
 
  private:
-  /// A lower bound, up to rounding, of the distance between rectangle and segment: the distance to the
-  /// segment's bounding box, or to its line.
+  /// Returns a lower bound, up to rounding, of the distance between rectangle and segment: the distance to
+  /// the segment's bounding box, or to its line.
   double distance_bound(const Rectangle& rectangle) const {
     const double dx = std::max({rectangle.low.x() - high_.x(), low_.x() - rectangle.high.x(), 0.0});
     const double dy = std::max({rectangle.low.y() - high_.y(), low_.y() - rectangle.high.y(), 0.0});
@@ -77,8 +77,8 @@ class ObstacleField::NearestCellSearch {
   Position to_;
   Position low_;
   Position high_;
-  Position normal_{0.0, 0.0};  // to the segment, of length 1; none for a point
-  NearestPoint nearest_;       // so far
+  Position normal_{0.0, 0.0};  // normal to the segment, of length 1; 0 for a point
+  NearestPoint nearest_;       // the nearest point so far
   bool found_ = false;
 };
 

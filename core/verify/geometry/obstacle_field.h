@@ -13,19 +13,19 @@ namespace fleetplan::core {
 /// The obstacle nearest to a segment.
 struct NearestObstacle {
   NearestPoint point;
-  bool is_edge = false;  // the edge of the map or the area beyond it, not a blocked cell
+  bool is_edge = false;  // it is the edge of the map or the area beyond, not a blocked cell
 };
 
 /// All obstacles: the blocked cells of a map, and everything outside it.
 class ObstacleField {
  public:
-  /// Reads the map once; linear in its cells.
+  /// Reads the map once, in time linear in its cells.
   explicit ObstacleField(const OccupancyGrid& grid);
 
-  /// The first point of the segment from `from` to `to` (possibly equal) that is nearest to an obstacle, if
-  /// that is nearer than `reach` metres. The error is a few ulp of the largest coordinate. Work grows with
-  /// the number of blocked cells within `reach` of the part of the segment inside the map, not with its
-  /// length.
+  /// Returns the first point of the segment from `from` to `to` (possibly equal) that is nearest to an
+  /// obstacle, if that is nearer than `reach` metres. The error is a few ulp of the largest coordinate. Work
+  /// grows with the number of blocked cells within `reach` of the part of the segment inside the map, not
+  /// with its length.
   std::optional<NearestObstacle> nearest(const Position& from, const Position& to, double reach) const;
 
  private:
@@ -49,7 +49,7 @@ class ObstacleField {
   double resolution_;
   double width_;
   double height_;
-  /// Blocked cells below and to the left of each corner of a cell, row by row from the bottom.
+  /// The number of blocked cells below and to the left of each corner of a cell, row by row from the bottom.
   std::unique_ptr<std::uint32_t[]> blocked_below_left_;
 };
 

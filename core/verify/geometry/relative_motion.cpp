@@ -10,7 +10,7 @@ namespace {
 
 double cross(const Position& a, const Position& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The fraction of the motion, 0 to 1, at which the distance is least.
+/// Returns the fraction of the motion, 0 to 1, at which the distance is least.
 double closest_fraction(const RelativeMotion& motion) {
   const Position d = motion.to - motion.from;
   const double length_squared = d.squaredNorm();
@@ -96,15 +96,15 @@ std::optional<TimeSpan> time_together(const std::vector<Leg>& a, const std::vect
 
 namespace {
 
-/// A pair of times, and the displacement from the one body to the other then. The displacement is affine in
-/// the times, so pairs of times that form a convex polygon have displacements that do.
+/// A pair of times, and the displacement from one body to the other then. The displacement is affine in the
+/// times, so pairs of times that form a convex polygon have displacements that form one, too.
 struct Corner {
   double s;
   double t;
   Position apart{0.0, 0.0};
 };
 
-/// Keeps what has `sign * (s - t) <= margin` of a convex polygon.
+/// Returns the part of a convex polygon in which `sign * (s - t) <= margin`.
 std::vector<Corner> clip(const std::vector<Corner>& polygon, double sign, double margin) {
   std::vector<Corner> kept;
   const auto beyond = [&](const Corner& corner) { return sign * (corner.s - corner.t) - margin; };
@@ -122,8 +122,8 @@ std::vector<Corner> clip(const std::vector<Corner>& polygon, double sign, double
   return kept;
 }
 
-/// A polygon of less area, as a part of the square of the coordinates, is a line, whose edges have its
-/// distances. The turns of a line to or from the origin are rounding (1e-15) and say nothing.
+/// The area, as a share of the square of the coordinates, below which a polygon is a line, whose edges have
+/// its distances. The turns of a line to or from the origin are rounding (1e-15) and say nothing.
 constexpr double kLeastArea = 1e-12;
 
 /// Whether the origin is inside the polygon of displacements.
@@ -158,7 +158,7 @@ ShiftedMoment least_shifted_distance(const Leg& a, const TimeSpan& first, const 
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Corner& from = polygon[k];
     const Corner& to = polygon[(k + 1) % polygon.size()];
-    // The time of this motion is the fraction of the edge.
+    // The edge is passed as a motion whose time is the fraction of the edge.
     const ClosestMoment closest = closest_moment({0.0, 1.0, from.apart, to.apart});
     if (closest.distance >= nearest.distance) continue;
     nearest = {closest.distance, from.s + closest.t * (to.s - from.s), from.t + closest.t * (to.t - from.t)};

@@ -33,19 +33,19 @@ struct TimeSpan {
   double end = 0.0;
 };
 
-/// The least squared distance, m^2. The error of the distance is a few ulp of the larger coordinate.
+/// Returns the least squared distance, m^2. The error of the distance is a few ulp of the larger coordinate.
 double least_squared_distance(const RelativeMotion& motion);
 
-/// The moment of least distance, as exact as `least_squared_distance`. Where the points come nearer by at
-/// most kSamePosition, which may be rounding, it is the beginning.
+/// Returns the moment of least distance, as exact as `least_squared_distance`. Where the points come nearer
+/// by at most kSamePosition, which may be rounding, it is the beginning.
 ClosestMoment closest_moment(const RelativeMotion& motion);
 
-/// The open time span in which the distance is less than `distance`; none if it never is. If the span begins
-/// or ends inside the motion, its error is a few ulp of the coordinates divided by the speed, or the square
-/// root of that where the approach is tangential; at an end of the motion it is exact.
+/// Returns the open time span in which the distance is less than `distance`; none if it never is. If the span
+/// begins or ends inside the motion, its error is a few ulp of the coordinates divided by the speed, or the
+/// square root of that where the approach is tangential; at an end of the motion it is exact.
 std::optional<TimeSpan> span_closer_than(const RelativeMotion& motion, double distance);
 
-/// The first leg that does not end before `t`.
+/// Returns the first leg that does not end before `t`.
 inline std::vector<Leg>::const_iterator first_leg_until(const std::vector<Leg>& legs, double t) {
   return std::lower_bound(legs.begin(), legs.end(), t,
                           [](const Leg& leg, double time) { return leg.t_end < time; });
@@ -86,24 +86,24 @@ void visit_common_pieces(const std::vector<Leg>& a, const std::vector<Leg>& b, c
   visit_common_pieces(present(a), present(b), span, b.size() == 1, visit);
 }
 
-/// The least distance between the centres of two bodies within a time span, metres; infinity if they are
-/// never there together.
+/// Returns the least distance between the centres of two bodies within a time span, metres; infinity if they
+/// are never there together.
 double least_distance(const std::vector<Leg>& a, const std::vector<Leg>& b, const TimeSpan& span);
 
-/// The uninterrupted time around `t` in which two bodies are nearer to each other than `distance`; none if
-/// they are not at `t`.
+/// Returns the uninterrupted time around `t` in which two bodies are nearer to each other than `distance`;
+/// none if they are not at `t`.
 std::optional<TimeSpan> time_together(const std::vector<Leg>& a, const std::vector<Leg>& b, double distance,
                                       double t);
 
-/// Where two bodies come nearest to each other.
+/// The pair of times at which two bodies are nearest to each other, and their distance then.
 struct ShiftedMoment {
   double distance = 0.0;  // metres; infinity if there is no such pair of times
   double t_first = 0.0;
   double t_second = 0.0;
 };
 
-/// The least distance of a position of one leg at a time within `first`, and one of the other leg at a time
-/// within `second`, if these times differ by no more than `margin`. All times are finite. Exact up to
+/// Returns the least distance of a position of one leg at a time within `first`, and one of the other leg at
+/// a time within `second`, if these times differ by no more than `margin`. All times are finite. Exact up to
 /// rounding.
 ShiftedMoment least_shifted_distance(const Leg& a, const TimeSpan& first, const Leg& b,
                                      const TimeSpan& second, double margin);

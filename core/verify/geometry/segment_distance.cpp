@@ -27,7 +27,7 @@ NearestPoint nearer_or_earlier(const NearestPoint& a, const NearestPoint& b) {
   return a.fraction <= b.fraction ? a : b;
 }
 
-/// The part of `stretch` whose coordinate, linear from `from` to `to`, is between `low` and `high`.
+/// Returns the part of `stretch` whose coordinate, linear from `from` to `to`, is between `low` and `high`.
 Stretch narrowed(const Stretch& stretch, double from, double to, double low, double high) {
   const double way = to - from;
   if (way == 0.0) return from < low || from > high ? Stretch{1.0, 0.0} : stretch;
@@ -50,7 +50,7 @@ NearestPoint nearest_to_rectangle(const Position& from, const Position& to, cons
   const Stretch inside = stretch_inside(from, to, rectangle);
   if (!inside.empty()) return {0.0, inside.first};
 
-  // For two disjoint convex shapes, a corner of one of them is nearest to the other.
+  // The distance of two disjoint convex shapes is that of a corner of one of them from the other.
   const NearestPoint at_end{distance_to_rectangle(to, rectangle), 1.0};
   NearestPoint nearest = nearer_or_earlier(at_start, at_end);
   const auto [left, bottom] = std::pair{rectangle.low.x(), rectangle.low.y()};
@@ -70,7 +70,7 @@ const Position& next_corner(const std::vector<Position>& corners, std::size_t k)
   return corners[(k + 1) % corners.size()];
 }
 
-/// The fraction of a segment at which a point is nearest.
+/// Returns the fraction of a segment at which it is nearest to a point.
 double nearest_fraction(const Position& point, const Position& from, const Position& to) {
   const Position d = to - from;
   const double squared = d.squaredNorm();
@@ -89,7 +89,7 @@ double distance_from_border(const std::vector<Position>& corners, const Position
   return least;
 }
 
-/// The fraction of the segment at which it crosses an edge; none if they are parallel or do not meet.
+/// Returns the fraction of the segment at which it crosses an edge; none if they are parallel or do not meet.
 std::optional<double> crossing(const Position& from, const Position& to, const Position& a,
                                const Position& b) {
   const Position along = to - from;
@@ -102,7 +102,7 @@ std::optional<double> crossing(const Position& from, const Position& to, const P
   return at;
 }
 
-/// The nearest point of the segment to an edge of the border.
+/// Returns the nearest point of the segment to an edge of the border.
 NearestPoint nearest_to_edge(const Position& from, const Position& to, const Position& a, const Position& b) {
   if (const auto at = crossing(from, to, a, b)) return {0.0, *at};
   NearestPoint nearest{distance_from_edge(from, a, b), 0.0};
@@ -155,7 +155,7 @@ std::vector<Stretch> stretches_inside(const Position& from, const Position& to,
                                       const StopCondition& stop) {
   std::vector<double> ends{0.0, 1.0};
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    // Crossings, and the ends of edges that the segment passes along.
+    // The stretches end at crossings, and at the ends of edges that the segment passes along.
     if (const auto at = crossing(from, to, corners[k], next_corner(corners, k))) ends.push_back(*at);
     ends.push_back(nearest_fraction(corners[k], from, to));
   }

@@ -19,16 +19,16 @@
 namespace fleetplan::core {
 namespace {
 
-// Robots that begin nearer to each other than they have to keep, and what they may do.
+// The functions below judge robots that begin nearer to each other than they have to keep.
 
-/// The legs until the commitment ends, where the robot then stays.
+/// Returns the legs until the commitment ends; from then on the robot stays.
 std::vector<Leg> committed_legs(const std::vector<Leg>& legs, double until) {
   std::vector<Leg> kept;
   for (const Leg& leg : legs) {
     if (leg.t_begin >= until && !kept.empty()) break;
     kept.push_back(leg);
   }
-  if (kept.back().t_end < until) return kept;  // then it has another radius
+  if (kept.back().t_end < until) return kept;  // the robot has another radius from then on
   Leg& last = kept.back();
   const Position end = position_at(last, until);
   last = {last.t_begin, until, last.from, end};
@@ -36,8 +36,8 @@ std::vector<Leg> committed_legs(const std::vector<Leg>& legs, double until) {
   return kept;
 }
 
-/// The least distance of the committed motions. Both bodies begin before `until`, or then: a robot that grows
-/// where its commitment ends.
+/// Returns the least distance of the committed motions, metres. Both bodies begin before `until`, or at that
+/// time if a robot grows where its commitment ends.
 double least_of_commitments(const ExecutedFleet& fleet, const Overlap& overlap, double until) {
   const auto& a = fleet.legs[overlap.first];
   const auto& b = fleet.legs[overlap.second];
@@ -51,14 +51,8 @@ double least_of_commitments(const ExecutedFleet& fleet, const Overlap& overlap, 
                         committed_legs(b, fleet.departures[overlap.second].committed_until), {0.0, until});
 }
 
-/// If the overlap of two robots is one that they begin with and that they may leave: the time from which they
-/// have to keep all of their distance, seconds. Otherwise none.
-///
-/// - Bare disks that overlap at t = 0 by as much as CheckRules::start_overlap allows keep their first
-///   distance until they are clear of each other once.
-/// - Disks that are too near by the inflation or the vicinity only keep the least distance that their
-///   committed motions have (that of their starts without any) until they are clear, and until one of them
-///   has made its first translation.
+/// Returns the time, in seconds, from which two robots have to keep their whole distance, if they begin with
+/// this overlap and may leave it; none otherwise.
 std::optional<double> leaves_overlap(const ExecutedFleet& fleet, const Overlap& overlap,
                                      const CheckRules& rules) {
   const Departure& a = fleet.departures[overlap.first];
@@ -66,7 +60,7 @@ std::optional<double> leaves_overlap(const ExecutedFleet& fleet, const Overlap& 
   const double bare = fleet.radii[overlap.first] + fleet.radii[overlap.second];
   const double kept = fleet.kept_distance(overlap.first, overlap.second, rules.inflation);
   if (kept <= bare && rules.start_overlap <= 0.0) return std::nullopt;
-  // One that has got another radius since its plan began has no right to be so near.
+  // A robot that has got another radius since its plan began may not be so near.
   if (fleet.begin_of(overlap.first) > a.committed_until + kSameTime ||
       fleet.begin_of(overlap.second) > b.committed_until + kSameTime)
     return std::nullopt;
@@ -88,8 +82,8 @@ std::optional<double> leaves_overlap(const ExecutedFleet& fleet, const Overlap& 
   return overlap.distance >= least - tolerance ? std::optional(until) : std::nullopt;
 }
 
-/// Overlaps that are allowed, as the robots start so, must not hide others: so many for each robot are listed
-/// in addition.
+/// The overlaps that are listed in addition for each robot, so that allowed ones, with which robots start, do
+/// not hide others.
 constexpr std::size_t kNearStartsPerRobot = 64;
 
 std::string overlap_text(const Overlap& overlap, double contact, const std::string& what) {
@@ -134,7 +128,7 @@ class PairCheck {
     return fleet_.kept_distance(first, second, rules_.inflation);
   }
 
-  /// Ascending, like their positions.
+  /// Returns the indices of two robots, ascending, like their positions.
   std::vector<std::size_t> robots(std::size_t first, std::size_t second) const {
     return {fleet_.robots[first], fleet_.robots[second]};
   }
@@ -167,7 +161,7 @@ class PairCheck {
     return exemptions_.allow_robots(first, second, overlap.t_begin);
   }
 
-  /// For two robots that never move. The interval margin leaves them out.
+  /// Whether the overlap of two robots that never move is allowed. The interval margin leaves them out.
   bool may_rest(const Overlap& overlap) const {
     return is_exempt(overlap) || leaves_overlap(fleet_, overlap, rules_).has_value();
   }
@@ -254,11 +248,11 @@ class PairCheck {
   const CheckRules& rules_;
   const StopCondition& stop_;
   std::vector<std::vector<Leg>> obstacles_;
-  std::vector<double> radii_;  // of the obstacles
+  std::vector<double> radii_;  // metres, by obstacle
   Exemptions exemptions_;
   PairReport report_;
   std::set<Pair> collided_;
-  std::map<Pair, double> left_at_;  // robots that begin too near: from then on they keep their distance
+  std::map<Pair, double> left_at_;  // seconds: when robots that begin too near have to keep their distance
 };
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 namespace fleetplan::core {
 
-/// What the robots do to each other and to moving obstacles.
+/// The collisions of robots with each other and with moving obstacles.
 struct PairReport {
   ViolationList violations;
   std::optional<double> min_clearance;  // see VerifyReport

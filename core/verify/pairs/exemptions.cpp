@@ -10,14 +10,14 @@
 namespace fleetplan::core {
 namespace {
 
-/// Metres. A meeting may begin when the disks touch, so slightly before they overlap by more than a
-/// tolerance.
+/// How much earlier than an overlap by more than a tolerance a meeting may begin, in metres: it may begin
+/// when the disks touch.
 constexpr double kTouching = 2.0 * kMostTolerance;
 
-/// Seconds. The time of a meeting went through decimal text.
+/// Rounding of the time of a meeting that went through decimal text, seconds.
 constexpr double kTextRounding = 1e-6;
 
-/// The positions of the robot at `t`, ascending: where its radius changes then, both.
+/// Returns the positions of the robot at `t`, ascending; two where its radius changes then.
 std::vector<std::size_t> positions_at(const ExecutedFleet& fleet, std::size_t robot, double t) {
   std::vector<std::size_t> positions;
   const auto found = std::lower_bound(fleet.robots.begin(), fleet.robots.end(), robot);

@@ -14,18 +14,18 @@
 namespace fleetplan::core {
 
 /// The times at which pairs may collide, see CheckRules::exempt. Meetings count only if they begin while both
-/// do what is certain: obstacles move, robots execute their commitments, and robots without a plan or a goal
-/// stay for ever where these end. A robot with kMostMeetingsOfRobot meetings has no more listed, so from the
-/// last one on all is exempt that it certainly does.
+/// bodies do what is certain: obstacles move, robots execute their commitments, and robots without a plan or
+/// a goal stay for ever where these end. A robot with kMostMeetingsOfRobot meetings has no more listed, so
+/// all that it certainly does is exempt from the last one on.
 class Exemptions {
  public:
-  /// `obstacles` are the legs of the moving obstacles, `obstacle_radii` theirs. All robots are enlarged by
-  /// `inflation`, and their vicinity, against robots. Incomplete if `stop` is met.
+  /// Finds the times. `obstacles` are the legs of the moving obstacles, `obstacle_radii` their radii. All
+  /// robots are enlarged by `inflation` and, against robots, by their vicinity. Incomplete if `stop` is met.
   Exemptions(const std::vector<Meeting>& meetings, const ExecutedFleet& fleet, double inflation,
              const std::vector<std::vector<Leg>>& obstacles, const std::vector<double>& obstacle_radii,
              const StopCondition& stop);
 
-  /// Positions in the fleet, in any order.
+  /// The times at which two robots, by their positions in the fleet in any order, may collide.
   const std::vector<TimeSpan>& of_robots(std::size_t one, std::size_t other) const;
   const std::vector<TimeSpan>& with_obstacle(std::size_t robot, std::size_t obstacle) const;
 
@@ -40,7 +40,7 @@ class Exemptions {
  private:
   using Spans = std::unordered_map<std::uint64_t, std::vector<TimeSpan>>;
 
-  /// What the robot certainly does lasts until then, and collisions are exempt from then on.
+  /// The end of what a robot certainly does, and the time from which on its collisions are exempt.
   struct Certain {
     double until = 0.0;
     double exempt_from = 0.0;

@@ -19,7 +19,7 @@ void OverlapList::add(std::size_t first, std::size_t second, const RelativeMotio
   if (latest != latest_.end() && overlaps_[latest->second].t_end >= span->begin) {
     Overlap& overlap = overlaps_[latest->second];
     overlap.t_end = std::max(overlap.t_end, span->end);
-    // Disks with equal velocities come nearer only by rounding: that is not a later, deeper moment.
+    // Disks with equal velocities come nearer only by rounding, which makes no later moment deeper.
     if (closest.distance < overlap.distance - kSamePosition) overlap.t_deepest = closest.t;
     overlap.distance = std::min(overlap.distance, closest.distance);
   } else if (overlaps_.size() < most_) {
@@ -73,7 +73,8 @@ class ClearanceSweep {
            std::isinf(legs.front().t_end);
   }
 
-  /// Far more than the rounding of boxes and gaps, so that skipped pairs never influence the result.
+  /// Returns a length far above the rounding of boxes and gaps, so that skipped pairs never influence the
+  /// result.
   double rounding_of_boxes() const {
     double largest = 0.0;
     // Bounded: the legs that there are, each once.
@@ -86,8 +87,8 @@ class ClearanceSweep {
     return 1e-9 + 1e-12 * largest;
   }
 
-  /// Pairs whose gap exceeds this neither overlap nor make the least gap of the bodies, which is no smaller
-  /// than theirs, smaller.
+  /// Returns the gap above which a pair neither overlaps nor reduces the least gap of the bodies, which is no
+  /// smaller than its own.
   double interesting_gap() const { return std::max(least_, -least_tolerance_) + slack_; }
 
   /// Looks at the stop condition once in many steps.
@@ -114,7 +115,7 @@ class ClearanceSweep {
     }
   }
 
-  /// Two robots may not be nearer to each other, metres.
+  /// Returns the least allowed distance of two robots, metres.
   double allowed_distance(std::size_t first, std::size_t second) const {
     return radii_[first] + radii_[second] - std::max(tolerances_[first], tolerances_[second]);
   }
@@ -150,7 +151,7 @@ class ClearanceSweep {
 
   const std::vector<std::vector<Leg>>& legs_;
   const std::vector<double>& bodies_;
-  const std::vector<double>& radii_;       // at least those of the bodies
+  const std::vector<double>& radii_;       // radii that are kept apart, at least those of the bodies
   const std::vector<double>& tolerances_;  // by robot
   MovingBoxes boxes_;
   OverlapList overlaps_;
@@ -158,7 +159,7 @@ class ClearanceSweep {
   const LeftOutAtRest& left_out_;
   std::vector<bool> rests_;  // by robot: it never moves
   std::size_t steps_ = 0;
-  bool stopped_ = false;  // then a window may be incomplete
+  bool stopped_ = false;  // if it was stopped, a window may be incomplete
   double slack_;
   double least_tolerance_ = 0.0;
   double least_ = kInfinity;

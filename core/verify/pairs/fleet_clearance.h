@@ -15,7 +15,7 @@
 
 namespace fleetplan::core {
 
-/// Two disks overlap by more than the tolerance, without interruption, from t_begin to t_end.
+/// An uninterrupted overlap of two disks by more than the tolerance, from t_begin to t_end.
 struct Overlap {
   std::size_t first = 0;  // positions in lists of disks
   std::size_t second = 0;
@@ -28,10 +28,10 @@ struct Overlap {
 /// Collects the overlaps of pairs, piece of time by piece of time.
 class OverlapList {
  public:
-  /// Further overlaps are left out.
+  /// A list of at most `most` overlaps; further ones are left out.
   explicit OverlapList(std::size_t most) : most_(most) {}
 
-  /// Adds the time in which the two are nearer than `allowed` metres, if there is any. Pieces of one pair
+  /// Adds the time in which the two are nearer than `allowed` metres, if there is any. The pieces of one pair
   /// come in the order of time; an overlap that goes on from one piece to the next is one.
   void add(std::size_t first, std::size_t second, const RelativeMotion& motion, double allowed);
 
@@ -45,23 +45,24 @@ class OverlapList {
 
 struct FleetClearance {
   std::optional<double> least;    // metres: smallest gap between two bodies; none for fewer than two robots
-  std::vector<Overlap> overlaps;  // of positions in the list of radii, first < second; in no particular order
+  std::vector<Overlap> overlaps;  // pairs of positions in the list of radii, first < second; in no order
 };
 
 /// The radii of robots, metres.
 struct DiskRadii {
   const std::vector<double>& body;
-  const std::vector<double>& kept_apart;  // that must not overlap, each >= that of the body
+  const std::vector<double>& kept_apart;  // radii that are kept apart, each >= that of the body
 };
 
 /// Whether an overlap of two robots that rest for ever is left out of the list.
 using LeftOutAtRest = std::function<bool(const Overlap&)>;
 
-/// Exact up to rounding: a few ulp of the coordinates. `legs_by_robot` are results of `execute`, `radii` and
-/// `tolerances` (metres) are in the same order; two robots may overlap by the larger one of theirs. At most
-/// `max_overlaps` are listed: those that are missing begin later than those listed, or slightly earlier.
-/// `least` always includes all pairs and all time, and does not depend on the order of the robots. Overlaps
-/// for which `left_out` (which may be empty) holds are not listed. Returns none if `stop` is met first.
+/// Returns the smallest gap and the overlaps of a fleet, exact up to rounding: a few ulp of the coordinates.
+/// `legs_by_robot` are results of execute(); `radii` and `tolerances` (metres) are in the same order, and two
+/// robots may overlap by the larger one of their tolerances. At most `max_overlaps` are listed: those that
+/// are missing begin later than those listed, or slightly earlier. `least` always includes all pairs and all
+/// time, and does not depend on the order of the robots. Overlaps for which `left_out` (which may be empty)
+/// holds are not listed. Returns none if `stop` is met first.
 std::optional<FleetClearance> fleet_clearance(const std::vector<std::vector<Leg>>& legs_by_robot,
                                               const DiskRadii& radii, const std::vector<double>& tolerances,
                                               std::size_t max_overlaps, const StopCondition& stop,

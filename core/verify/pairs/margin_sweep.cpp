@@ -19,7 +19,7 @@ Phase phase_of(const Leg& leg, const Departure& departure) {
   return departure.commits(leg.t_end) ? Phase::committed : Phase::staying;
 }
 
-/// A lower bound of the distance of two legs within these times, from their bounding boxes.
+/// Returns a lower bound of the distance of two legs within these times, from their bounding boxes.
 double least_possible(const Leg& a, const TimeSpan& time, const Leg& b, const TimeSpan& its_time) {
   const Position from = position_at(a, time.begin);
   const Position to = position_at(a, time.end);
@@ -30,7 +30,7 @@ double least_possible(const Leg& a, const TimeSpan& time, const Leg& b, const Ti
   return above.cwiseMax(below).maxCoeff();
 }
 
-/// What remains of a time span without others.
+/// Returns what remains of a time span without others.
 std::vector<TimeSpan> without(const TimeSpan& span, const std::vector<TimeSpan>& left_out) {
   std::vector<TimeSpan> rest{span};
   // Bounded: the meetings of two robots that are listed.
@@ -62,12 +62,12 @@ class MarginSweep {
 
   std::optional<std::vector<ShiftedOverlap>> run() {
     std::vector<double> boundaries = time_windows(fleet_.legs);
-    // The last change of a radius may be the last event: it counts for the margin before it, too.
+    // The last change of a radius may be the last event, and it counts for the margin before it, too.
     if (changes_radius()) boundaries.push_back(boundaries.back() + margin_);
     std::vector<double> reach = fleet_.radii;
     for (std::size_t i = 0; i < reach.size(); ++i) reach[i] += inflation_ + fleet_.vicinities[i];
     MovingBoxes boxes(fleet_.legs, std::move(reach));
-    // After the last boundary all robots rest, where the plain rule is the same.
+    // After the last boundary all robots rest, where the rule without a margin is the same.
     for (std::size_t k = 0; k + 1 < boundaries.size(); ++k) {
       if (stop_.met() || stopped_) return std::nullopt;
       const TimeSpan window{boundaries[k], boundaries[k + 1]};

@@ -13,8 +13,8 @@
 
 namespace fleetplan::core {
 
-/// Two robots (positions in the fleet, first < second), at different times, overlap by more than the
-/// tolerance.
+/// An overlap, by more than the tolerance, of two robots (positions in the fleet, first < second) at
+/// different times.
 struct ShiftedOverlap {
   std::size_t first = 0;
   std::size_t second = 0;
@@ -23,12 +23,12 @@ struct ShiftedOverlap {
   double distance = 0.0;  // metres, between the centres
 };
 
-/// The times of a pair that the margin leaves out: no time of either robot lies in one of them.
+/// Returns the times of a pair that the margin leaves out: no time of either robot lies in one of them.
 using LeftOut = std::function<std::vector<TimeSpan>(std::size_t first, std::size_t second)>;
 
-/// The deepest such overlap of each pair, in the order of the pairs, at most `most`. Times differ by `margin`
-/// or less. Left out are times at which both robots execute commitments or one of them stays at the end of
-/// its commitment before it first leaves. All radii are enlarged by `inflation` and
+/// Returns the deepest overlap within the margin of each pair, in the order of the pairs, at most `most`.
+/// Times differ by `margin` or less. Left out are times at which both robots execute commitments or one of
+/// them stays at the end of its commitment before it first leaves. All radii are enlarged by `inflation` and
 /// the vicinity. Returns none if `stop` is met first.
 std::optional<std::vector<ShiftedOverlap>> overlaps_within_margin(const ExecutedFleet& fleet, double margin,
                                                                   double inflation, const LeftOut& left_out,

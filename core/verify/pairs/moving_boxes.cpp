@@ -7,9 +7,9 @@
 namespace fleetplan::core {
 namespace {
 
-// With fewer windows, plans of few actions would have long windows with large boxes.
+// The least number of windows: with fewer, plans of few actions would have long windows with large boxes.
 constexpr std::size_t kFewestWindows = 64;
-// More would cost more than they save, as each window visits every robot.
+// The greatest number of windows: more would cost more than they save, as each window visits every robot.
 constexpr std::size_t kMostWindows = 4096;
 constexpr std::size_t kWindowsPerLeg = 2;
 

@@ -12,9 +12,9 @@
 
 namespace fleetplan::core {
 
-/// The boundaries of time windows in which each robot has about half a leg: ascending, the first is 0, the
-/// last the time at which all robots have come to rest. Only 0 if no robot ever moves. The same for `others`,
-/// which move among them.
+/// Returns the boundaries of time windows in which each robot has about half a leg: ascending, the first is
+/// 0, the last the time at which all robots have come to rest. Only 0 if no robot ever moves. `others` move
+/// among the robots, and have about half a leg in each window as well.
 std::vector<double> time_windows(const std::vector<std::vector<Leg>>& legs_by_robot,
                                  const std::vector<std::vector<Leg>>& others = {});
 
@@ -31,15 +31,15 @@ struct MovingBox {
 
 class MovingBoxes {
  public:
-  /// `legs` by body, and how far each of their boxes is enlarged, metres. A slack that is far more than the
-  /// rounding of boxes, and far less than the radius of a robot, is added.
+  /// The boxes of bodies with these `legs`. `reach` by body: how far its boxes are enlarged, metres. A slack
+  /// that is far more than the rounding of boxes, and far less than the radius of a robot, is added.
   MovingBoxes(const std::vector<std::vector<Leg>>& legs, std::vector<double> reach);
 
-  /// The boxes of the bodies that are present within a closed window, by their left edges. The windows of
-  /// later calls begin no earlier.
+  /// Returns the boxes of the bodies that are present within a closed window, by their left edges. The
+  /// windows of later calls begin no earlier.
   std::vector<MovingBox> in(const TimeSpan& window);
 
-  /// The legs of a body that do not end before the last window.
+  /// Returns the legs of a body that do not end before the last window.
   std::span<const Leg> legs(std::size_t body) const { return std::span(legs_[body]).subspan(current_[body]); }
 
  private:

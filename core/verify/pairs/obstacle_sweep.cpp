@@ -14,11 +14,11 @@ namespace {
 constexpr std::size_t kPiecesBetweenPolls = 256;
 /// Windows in which obstacles have about the same number of legs, in addition to those of the robots.
 constexpr std::size_t kObstacleWindows = 64;
-/// So many leg ends are enough to find them.
+/// The most ends of legs from which these windows are found.
 constexpr std::size_t kMostSamples = 4096;
 
-/// In each time window, every leg of an obstacle is compared with the robots whose boxes it comes near. There
-/// may be far more legs of obstacles than robots, so that they are not sorted.
+/// Compares, in each time window, every leg of an obstacle with the robots whose boxes it comes near. There
+/// may be far more legs of obstacles than robots, so they are not sorted.
 class ObstacleSweep {
  public:
   ObstacleSweep(const ExecutedFleet& fleet, const std::vector<std::vector<Leg>>& obstacles,

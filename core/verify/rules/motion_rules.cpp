@@ -13,8 +13,8 @@ namespace {
 
 using Kind = Violation::Kind;
 
-// Squares and products of such numbers stay far from overflow; even the slowest robot on the longest path of
-// the largest map takes less time.
+// The largest number of a plan that can be checked. Squares and products of such numbers stay far from
+// overflow; even the slowest robot on the longest path of the largest map takes less time.
 constexpr double kLargestUsable = 1e30;
 
 constexpr std::size_t kActionsBetweenPolls = 64;
@@ -141,7 +141,7 @@ class MotionCheck {
     const Action& action = plan_.actions[k];
     const double duration = std::max(0.0, action.t_end - action.t_start);
     const double least =
-        std::min(amount / top_speed, std::numeric_limits<double>::max());  // even if denormal
+        std::min(amount / top_speed, std::numeric_limits<double>::max());  // finite for denormal speeds
     if (duration >= least - tolerance_.seconds || duration * top_speed >= amount - tolerance) return;
     const double speed = amount / duration;
     if (usable(speed)) {
@@ -170,7 +170,7 @@ class MotionCheck {
     if (action.reverse) check_reverse(k, d.x() * std::cos(theta) + d.y() * std::sin(theta));
   }
 
-  /// `ahead`: how far the translation leads along the heading.
+  /// Reports a translation in the wrong direction. `ahead`: how far it leads along the heading, metres.
   void check_reverse(std::size_t k, double ahead) {
     const double t = plan_.actions[k].t_start;
     if (!robot_.may_reverse) {
@@ -241,7 +241,7 @@ bool goes_on_straight(const Action& before, const Action& action, const Toleranc
   if (std::abs(rotation_between(before.to.theta, action.from.theta)) > tolerance.radians) return false;
   const Position earlier = before.to.position - before.from.position;
   const Position later = action.to.position - action.from.position;
-  return earlier.dot(later) >= 0.0;  // not back
+  return earlier.dot(later) >= 0.0;  // they lead ahead, not back
 }
 
 }  // namespace
@@ -251,7 +251,7 @@ ViolationList check_waits(const Robot& robot, const RobotPlan& plan, double wait
   ViolationList violations;
   if (wait <= 0.0) return violations;
   const std::vector<Action>& actions = plan.actions;
-  // Since when the robot stands, and whether possibly since before t = 0.
+  // The time since which the robot stands, and whether it may have stood before t = 0.
   double since = 0.0;
   bool open = !robot.committed.empty() && !actions.empty() && actions.front().type == Action::Type::wait;
   for (std::size_t k = 0; k < actions.size(); ++k) {
@@ -279,7 +279,7 @@ ViolationList check_waits(const Robot& robot, const RobotPlan& plan, double wait
 
 namespace {
 
-/// A number of an action, and that of the committed one.
+/// A number of an action, and the same number of the committed one.
 struct Comparison {
   const char* what;
   double difference;
@@ -287,7 +287,7 @@ struct Comparison {
   const char* unit;
 };
 
-/// The first difference that is larger than its tolerance.
+/// Returns the first difference that is larger than its tolerance; none if there is none.
 std::optional<Comparison> difference(const Action& action, const Action& committed,
                                      const Tolerance& tolerance) {
   const auto position = [](const Pose& a, const Pose& b) {

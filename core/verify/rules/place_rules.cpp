@@ -43,7 +43,7 @@ std::vector<double> distances_to_keep(const std::function<double(const Position&
                                       const Departure& departure, double tolerance, const CheckRules& rules) {
   std::vector<double> kept = radii;
   if (rules.inflation <= 0.0 && rules.start_overlap <= 0.0) return kept;
-  double reduced = kNone;  // what it keeps until it has been clear
+  double reduced = kNone;  // the distance that it keeps until it has been clear
   bool planned = false;
   for (std::size_t k = 0; k < legs.size(); ++k) {
     const double radius = radii[k];
@@ -77,7 +77,7 @@ ViolationList check_obstacles(const ObstacleField& field, std::size_t robot, con
       overlapping = nullptr;
       continue;
     }
-    // Along a wall only rounding makes one moment the deepest; the overlap then begins with the leg.
+    // Along a wall only rounding makes one moment the deepest; the overlap begins with the leg then.
     const double distance = nearest->point.distance;
     const std::optional<NearestObstacle> at_first = field.nearest(leg.from, leg.from, reach);
     const bool from_the_beginning = at_first && at_first->point.distance <= distance + kSamePosition;
@@ -98,7 +98,7 @@ ViolationList check_obstacles(const ObstacleField& field, std::size_t robot, con
 
 namespace {
 
-/// Stands for an infinite speed in a violation.
+/// The speed that stands for an infinite one in a violation.
 constexpr double kFastest = 1e30;
 
 Rectangle box_of(const std::vector<Position>& corners) {
@@ -110,7 +110,7 @@ Rectangle box_of(const std::vector<Position>& corners) {
   return box;
 }
 
-/// The nearest point of a segment to a zone, if that is nearer than `reach`.
+/// Returns the nearest point of a segment to a zone, if that is nearer than `reach`.
 std::optional<NearestPoint> nearest_to_zone(const Position& from, const Position& to, const Zone& zone,
                                             const Rectangle& box, double reach) {
   if (nearest_to_rectangle(from, to, box).distance >= reach) return std::nullopt;
@@ -118,7 +118,7 @@ std::optional<NearestPoint> nearest_to_zone(const Position& from, const Position
   return nearest.distance < reach ? std::optional(nearest) : std::nullopt;
 }
 
-/// The time at a fraction of a leg; the final rest has no end.
+/// Returns the time at a fraction of a leg; the final rest has no end.
 double moment(const Leg& leg, double fraction) {
   return fraction > 0.0 ? leg.t_begin + fraction * (leg.t_end - leg.t_begin) : leg.t_begin;
 }
@@ -155,7 +155,7 @@ ViolationList ZonesOfRobot::check_blocked(const std::vector<double>& radii, cons
   ViolationList violations;
   for (const auto& [index, zone, box] : zones_) {
     if (zone->type != Zone::Type::blocked) continue;
-    std::optional<Violation> latest;  // of consecutive legs
+    std::optional<Violation> latest;  // the latest violation, which consecutive legs may continue
     for (std::size_t k = 0; k < legs.size(); ++k) {
       if (stop.met()) return violations;
       const Leg& leg = legs[k];
@@ -194,7 +194,8 @@ ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions, co
   return violations;
 }
 
-/// The slowness that is missing is measured over what lies inside of the zone, as that of whole actions is.
+/// Reports a translation that breaks the rule of a zone. The time that is missing is measured over the part
+/// inside the zone, as that of whole actions is.
 std::optional<Violation> ZonesOfRobot::check_translation(const ZoneBox& in, const Action& action,
                                                          std::size_t number, const Tolerance& tolerance,
                                                          const StopCondition& stop) const {

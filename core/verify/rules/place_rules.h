@@ -19,13 +19,13 @@
 
 namespace fleetplan::core {
 
-/// The distance of a position from the nearest obstacle, at most `reach` metres.
+/// Returns the distance of a position from the nearest obstacle, at most `reach` metres.
 double distance_from_walls(const ObstacleField& field, const Position& position, double reach);
 
-/// The distance from obstacles that a robot has to keep during each of its legs, metres: its radius there,
-/// and after its commitment the inflated one. A robot that begins nearer, as the rules allow, comes no nearer
-/// than it is until a leg of it ends clear. `distance_from`: of a position from obstacles, at most the
-/// second argument.
+/// Returns the distance from obstacles that a robot has to keep during each of its legs, metres: its radius
+/// there, and after its commitment the inflated one. A robot that begins nearer, as the rules allow, comes no
+/// nearer than it is until a leg of it ends clear. `distance_from(position, most)` returns the distance of a
+/// position from obstacles, at most `most`.
 std::vector<double> distances_to_keep(const std::function<double(const Position&, double)>& distance_from,
                                       const std::vector<double>& radii, const std::vector<Leg>& legs,
                                       const Departure& departure, double tolerance, const CheckRules& rules);
@@ -39,13 +39,13 @@ ViolationList check_obstacles(const ObstacleField& field, std::size_t robot, con
 /// The zones of one robot.
 class ZonesOfRobot {
  public:
-  /// `zones`: null if there are none; otherwise they outlive this object.
-  /// `own_speed`: the robot's linear speed, metres per second.
+  /// The zones of `robot`. `zones`: null if there are none; otherwise they outlive this object. `own_speed`:
+  /// the robot's linear speed, metres per second.
   ZonesOfRobot(const std::vector<Zone>* zones, std::size_t robot, double own_speed);
 
   bool empty() const { return zones_.empty(); }
 
-  /// How far a position is from the blocked zones, metres, at most `reach`; 0 inside.
+  /// Returns how far a position is from the blocked zones, metres, at most `reach`; 0 inside.
   double distance_to_blocked(const Position& position, double reach) const;
 
   /// Reports where the disk overlaps a blocked zone by more than the tolerance (metres): for each zone one

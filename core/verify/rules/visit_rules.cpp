@@ -63,7 +63,8 @@ namespace {
 constexpr std::size_t kRestsBetweenPolls = 64;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The robot neither moves nor turns from t_begin to t_end (infinity: the end of its plan).
+/// An interval, from t_begin to t_end (infinity: the end of its plan), in which the robot neither moves nor
+/// turns.
 struct Rest {
   double t_begin = 0.0;
   double t_end = 0.0;
@@ -95,7 +96,7 @@ class VisitCheck {
         goals_left_(goals_left),
         stop_(stop),
         rests_(rests_of(robot, plan)) {
-    // A pose that is as near as this is the goal.
+    // A robot that is as near to a pose as this is in it.
     tolerance_.metres = std::max(tolerance_.metres, kContactTolerance);
     tolerance_.radians = std::max(tolerance_.radians, kContactTolerance);
   }
@@ -109,7 +110,7 @@ class VisitCheck {
   }
 
  private:
-  /// A visit with an end; the last one has one, too.
+  /// A service at a goal. It has an end at the last goal, too.
   struct Service {
     double arrives = 0.0;
     double ends = 0.0;
@@ -241,7 +242,7 @@ class VisitCheck {
     return false;
   }
 
-  /// The labels of waits that the plan adds; those of committed ones come from the request.
+  /// Checks the goals that waits name. Waits that are committed come from the request and are not checked.
   void check_labels() {
     for (std::size_t k = robot_.committed.size(); k < plan_.actions.size(); ++k) {
       if (k % kRestsBetweenPolls == 0 && stop_.met()) return;

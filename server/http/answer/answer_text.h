@@ -13,20 +13,20 @@ namespace fleetplan::server {
 /// An answer without a handler: a refusal, or the reply to a browser's preflight.
 struct DirectAnswer {
   api::Reply reply;
-  HeaderFields fields = {};  // of this answer alone
+  HeaderFields fields = {};  // header fields of this answer only
 };
 
-/// A problem in answer to the exchange.
+/// Returns a problem in answer to the exchange.
 DirectAnswer refusal(const Exchange& exchange, api::ErrorCode code, const std::string& detail,
                      HeaderFields fields = {});
 
-/// The header fields of every answer, whether the library writes it or not.
+/// Returns the header fields of every answer, whether the library writes it or not.
 HeaderFields common_fields(const Exchange& exchange);
 
-/// A head, with the empty line that ends it. `further` header fields follow those of every answer.
+/// Returns a head, with the empty line that ends it. `further` header fields follow those of every answer.
 std::string answer_head(const Exchange& exchange, int status, const HeaderFields& further);
 
-/// The whole answer as it is sent.
+/// Returns the whole answer as it is sent.
 std::string answer_text(const Exchange& exchange, const DirectAnswer& answer);
 
 }  // namespace fleetplan::server

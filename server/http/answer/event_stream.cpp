@@ -16,7 +16,7 @@ std::string hexadecimal(std::size_t number) {
   return {digits.data(), end};
 }
 
-/// From one try to send what the client did not accept to the next.
+/// The time between two attempts to send what the client did not accept.
 constexpr std::chrono::milliseconds kRetry{20};
 
 }  // namespace
@@ -28,7 +28,7 @@ EventStream::~EventStream() { stop_writing(); }
 
 void EventStream::begin(const api::PlanProgress& progress) {
   progress_ = progress;
-  if (!chunked_) exchange_.close = true;  // which marks the end
+  if (!chunked_) exchange_.close = true;  // the end of the connection marks the end of the answer
   writer_ = std::thread([this] { write_events(); });
   begun_ = true;
 }
@@ -97,7 +97,7 @@ void EventStream::send(std::string_view text) {
   failed_ = !exchange_.send(text);
   patience_.emplace(exchange_.unsent->rest());
   deadline_ = patience_->deadline();
-  if (failed_) exchange_.socket->hang_up();  // so that the plan is stopped, too
+  if (failed_) exchange_.socket->hang_up();  // the plan is stopped, too, then
 }
 
 void EventStream::write_rest() {

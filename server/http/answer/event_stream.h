@@ -23,10 +23,11 @@ namespace fleetplan::server {
 /// connection.
 class EventStream final : public api::PlanEvents {
  public:
-  /// From one progress event to the next, whatever the planner does.
+  /// The time between two progress events, whatever the planner does.
   static constexpr std::chrono::milliseconds kPeriod{150};
 
-  /// The exchange has to outlive it, and `last`, the name of the event that ends it with the answer.
+  /// The exchange, and `last`, the name of the event that ends the stream with the answer, have to outlive
+  /// this object.
   explicit EventStream(Exchange& exchange, const char* last = "plan");
   ~EventStream() override;
 
@@ -34,11 +35,11 @@ class EventStream final : public api::PlanEvents {
   void progress(const api::PlanProgress& progress) override;
   void incumbent(std::string answer) override;
 
-  /// False: nothing has been written.
+  /// Whether anything has been written.
   bool begun() const { return begun_; }
 
-  /// The last event of one that has begun: the answer, or a problem. What the client does not accept at once
-  /// goes to Exchange::unsent. If the client is gone, the connection is closed.
+  /// Writes the last event of a stream that has begun: the answer, or a problem. What the client does not
+  /// accept at once goes to Exchange::unsent. If the client is gone, the connection is closed.
   void end(const api::Reply& reply);
 
  private:
@@ -54,11 +55,11 @@ class EventStream final : public api::PlanEvents {
   const std::string_view last_;
   bool begun_ = false;
   std::thread writer_;
-  // Of the thread that writes:
+  // The members below belong to the thread that writes.
   bool failed_ = false;     // the client accepts no more
-  std::uint64_t sent_ = 0;  // bytes, and those that are still to be sent
+  std::uint64_t sent_ = 0;  // bytes sent and bytes still to be sent
   std::optional<WritePatience> patience_;
-  Exchange::Clock::time_point deadline_;  // to accept more
+  Exchange::Clock::time_point deadline_;  // the client has to accept more until then
   std::mutex mutex_;                      // guards all below
   std::condition_variable changed_;
   api::PlanProgress progress_;

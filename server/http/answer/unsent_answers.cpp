@@ -43,7 +43,7 @@ void UnsentAnswers::forget_locked(Answer& answer) {
   answer.counted_ = 0;
 }
 
-/// With the mutex locked: drops others until so many bytes more are within the budget, or none is left.
+/// Drops other answers until so many bytes more are within the budget, or none is left. The mutex is locked.
 void UnsentAnswers::make_room(std::size_t bytes, const Answer& newest) {
   const auto before = [&](const Answer* a, const Answer* b) {
     if ((a == &newest) != (b == &newest)) return b == &newest;

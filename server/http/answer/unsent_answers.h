@@ -20,12 +20,12 @@ class UnsentAnswers {
  public:
   class Answer;
 
-  /// `most`: bytes of all answers together, or of the newest alone if that is larger.
+  /// Keeps at most `most` bytes of all answers together, or of the newest answer alone if that is larger.
   explicit UnsentAnswers(std::size_t most) : most_(most) {}
 
   struct Stats {
-    std::size_t bytes = 0;      // held now
-    std::uint64_t dropped = 0;  // answers, since the start
+    std::size_t bytes = 0;      // bytes held now
+    std::uint64_t dropped = 0;  // answers dropped since the start
   };
   Stats stats() const;
 
@@ -42,7 +42,8 @@ class UnsentAnswers {
   std::vector<Answer*> held_;
 };
 
-/// What a connection has to send. A dropped answer ends its connection. Used by one thread at a time.
+/// The data that a connection has to send. A dropped answer ends its connection. Used by one thread at a
+/// time.
 class UnsentAnswers::Answer {
  public:
   Answer(UnsentAnswers& all, Socket& socket) : all_(all), socket_(socket) {}
@@ -50,17 +51,18 @@ class UnsentAnswers::Answer {
   Answer(const Answer&) = delete;
   Answer& operator=(const Answer&) = delete;
 
-  /// Sends what the client accepts at once, and keeps the rest. False when the client is gone, or what it has
-  /// not accepted was dropped.
+  /// Sends what the client accepts at once, and keeps the rest. Returns false when the client is gone, or
+  /// what it has not accepted was dropped.
   bool send(std::string_view data);
 
-  /// Sends more of the rest: the number of bytes; none when the client is gone, or the rest was dropped.
+  /// Sends more of the rest. Returns the number of bytes; none when the client is gone, or the rest was
+  /// dropped.
   std::optional<std::size_t> send_rest();
 
-  /// False when everything was accepted. A dropped rest counts.
+  /// Whether something was not accepted yet. A dropped rest counts.
   bool has_rest() const;
 
-  /// Bytes that are left.
+  /// The number of bytes that are left.
   std::size_t rest() const;
 
  private:
@@ -69,14 +71,14 @@ class UnsentAnswers::Answer {
 
   UnsentAnswers& all_;
   Socket& socket_;
-  // Guarded by the mutex of `all_`.
+  // The members below are guarded by the mutex of `all_`.
   bool is_held_ = false;
   std::size_t counted_ = 0;  // bytes
   Clock::time_point accepted_at_ = {};
 
   mutable std::mutex mutex_;  // guards all below
   std::string text_;
-  std::size_t sent_ = 0;  // of the text
+  std::size_t sent_ = 0;  // bytes of the text that are sent
   bool dropped_ = false;
 };
 

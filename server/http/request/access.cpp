@@ -107,7 +107,7 @@ std::optional<std::string> host_name_fault(std::string_view name) {
 namespace {
 
 constexpr std::string_view kAny = "*";
-/// Seconds for which a browser caches the answer to a preflight; browsers limit it to two hours.
+/// The seconds for which a browser caches the answer to a preflight; browsers limit it to two hours.
 constexpr const char* kMaxAge = "7200";
 
 bool is_host_char(char c) {
@@ -115,7 +115,7 @@ bool is_host_char(char c) {
   return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || kMarks.find(c) != std::string_view::npos;
 }
 
-/// True when the origin, `scheme://host[:port]`, has the host and port of `requested`.
+/// Whether the origin, `scheme://host[:port]`, has the host and port of `requested`.
 bool has_authority(std::string_view origin, std::string_view requested) {
   const auto scheme_end = origin.find("://");
   if (scheme_end == std::string_view::npos) return false;
@@ -146,7 +146,7 @@ bool CrossOrigin::admits(const RequestHead& head) const {
 HeaderFields CrossOrigin::answer_fields(const RequestHead& head) const {
   if (origins_.empty()) return {};
   HeaderFields fields;
-  // Also without an Origin, so that a cache keeps the answers apart.
+  // The field is there even for requests without an Origin, so that a cache keeps the answers apart.
   if (!any_) fields.emplace_back("Vary", "Origin");
   const std::string origin = head.field("origin");
   if (origin.empty() || !allows(origin)) return fields;

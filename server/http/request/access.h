@@ -15,15 +15,15 @@ namespace fleetplan::server {
 /// The secret that requests must send. It is never logged.
 class AccessToken {
  public:
-  /// `text`: visible ASCII. Otherwise the fault, without the text.
+  /// Makes a token from a text of visible ASCII. Returns the fault of another text, without the text.
   static std::variant<AccessToken, std::string> from_text(std::string_view text);
 
-  /// The only line of a file; line ends behind it are dropped.
+  /// Makes a token from the only line of a file; line ends behind it are dropped.
   static std::variant<AccessToken, std::string> from_file(const std::string& path);
 
-  /// True when an Authorization field (empty: absent) contains the token: as `Bearer TOKEN`, or as the
-  /// password of `Basic` with any user name, for which browsers show a dialog. The time does not depend on
-  /// how much of the token is right.
+  /// Whether an Authorization field (empty: absent) contains the token: as `Bearer TOKEN`, or as the password
+  /// of `Basic` with any user name, for which browsers show a dialog. The time does not depend on how much of
+  /// the token is right.
   bool admits(std::string_view authorization) const;
 
  private:
@@ -33,7 +33,7 @@ class AccessToken {
   std::string token_;
 };
 
-/// RFC 4648, with or without padding; none when it is not base64.
+/// Decodes base64 of RFC 4648, with or without padding; none when the text is not base64.
 std::optional<std::string> base64_decoded(std::string_view text);
 
 /// The names by which requests may address a service that listens on loopback. A page on the web can have the
@@ -41,11 +41,12 @@ std::optional<std::string> base64_decoded(std::string_view text);
 /// the page's own server, but the Host field still has the page's name.
 class AllowedHosts {
  public:
-  /// `listening`: the address of the service; only if it is a local name, requests are restricted. `names`:
-  /// those that are allowed besides local names, without port; `*` for any.
+  /// Restricts requests only if `listening`, the address of the service, is a local name. `names` are allowed
+  /// besides local names, without port; `*` for any.
   AllowedHosts(std::string_view listening, const std::vector<std::string>& names);
 
-  /// Also true for a request without Host (HTTP/1.0), which no browser sends.
+  /// Whether the request may address the service; true for a request without Host (HTTP/1.0), which no
+  /// browser sends.
   bool admits(const RequestHead& head) const;
 
  private:
@@ -53,28 +54,29 @@ class AllowedHosts {
   std::vector<std::string> names_;  // in lower case
 };
 
-/// Why AllowedHosts does not accept this name; none when it does.
+/// Returns why AllowedHosts does not accept this name; none when it does.
 std::optional<std::string> host_name_fault(std::string_view name);
 
 /// The pages of other origins that may use the service and read answers in a browser (the Fetch standard's
 /// CORS protocol). Without credentials of the browser: a page sends the token itself.
 class CrossOrigin {
  public:
-  /// `origins`: each `scheme://host[:port]`, or `*` for any. Empty: no page of another origin.
+  /// Allows pages of these `origins`: each `scheme://host[:port]`, or `*` for any. Empty: no page of another
+  /// origin.
   explicit CrossOrigin(std::vector<std::string> origins);
 
-  /// Header fields of every answer to this request.
+  /// Returns the header fields of every answer to this request.
   HeaderFields answer_fields(const RequestHead& head) const;
 
-  /// True when the request is not one of a page of another origin, or that page is allowed. A page whose
+  /// Whether the request does not come from a page of another origin, or that page is allowed. A page whose
   /// origin has the host and port of the request is the service's own: with a proxy that terminates TLS, the
   /// schemes differ.
   bool admits(const RequestHead& head) const;
 
-  /// True for the preflight that a browser sends before the request of a page that is allowed.
+  /// Whether this is the preflight that a browser sends before the request of a page that is allowed.
   bool is_preflight(const RequestHead& head) const;
 
-  /// Header fields of the answer to a preflight; `methods`: those of the resource.
+  /// Returns the header fields of the answer to a preflight. `methods`: those of the resource.
   static HeaderFields preflight_fields(std::string_view methods);
 
  private:
@@ -84,7 +86,7 @@ class CrossOrigin {
   bool any_;
 };
 
-/// Why CrossOrigin does not accept this origin; none when it does.
+/// Returns why CrossOrigin does not accept this origin; none when it does.
 std::optional<std::string> origin_fault(std::string_view origin);
 
 }  // namespace fleetplan::server

@@ -11,7 +11,7 @@ namespace fleetplan::server {
 
 namespace {
 
-/// Reserved at a time, so that a body that arrives in small pieces does not reserve each.
+/// The bytes that are reserved at a time, so that a body that arrives in small pieces does not reserve each.
 constexpr std::int64_t kStep = 256 * 1024;
 constexpr std::int64_t kSmallStep = 4 * 1024;
 
@@ -68,7 +68,7 @@ bool skip_token(std::string_view& text) {
   return size > 0;
 }
 
-/// After the opening quote, with the closing one.
+/// Skips a quoted string after its opening quote, the closing one included.
 bool skip_quoted(std::string_view& text) {
   while (!text.empty()) {
     const char c = text.front();
@@ -117,9 +117,10 @@ namespace {
 
 constexpr std::size_t kMaxLine = 4096;
 constexpr std::size_t kMaxTrailers = 100;
-/// Of all chunks of a body. Extensions are read, but do not count towards the limit of the body.
+/// The most bytes of extensions of all chunks of a body. They are read, but do not count towards the limit of
+/// the body.
 constexpr std::uint64_t kMaxExtensionBytes = 64 * 1024;
-/// Reserved for a promised body; a promise alone gets no more memory.
+/// The most bytes that are reserved for a promised body; a promise alone gets no more memory.
 constexpr std::uint64_t kMaxReserved = 64 * 1024;
 
 }  // namespace

@@ -21,11 +21,11 @@ namespace fleetplan::server {
 /// counted. Thread-safe.
 class BodyMemory {
  public:
-  /// Enough for `requests` (at least one) bodies of `max_body` bytes (up to 1 TiB), of which one is being
+  /// Has memory for `requests` (at least one) bodies of `max_body` bytes (up to 1 TiB), of which one is being
   /// decoded, besides `small` ones of kSmall bytes.
   BodyMemory(std::uint64_t max_body, std::size_t requests, std::size_t small);
 
-  /// The memory of one request, until its end.
+  /// The memory that one request holds until its end.
   class Share {
    public:
     explicit Share(BodyMemory& memory) : memory_(memory) {}
@@ -33,7 +33,7 @@ class BodyMemory {
     Share(const Share&) = delete;
     Share& operator=(const Share&) = delete;
 
-    /// True when the request may hold so many bytes.
+    /// Reserves memory for so many bytes. Returns whether the request may hold them.
     bool grow_to(std::uint64_t bytes);
 
    private:
@@ -54,11 +54,11 @@ class BodyMemory {
 /// The line before a chunk of a body (RFC 9112, 7.1).
 struct ChunkLine {
   std::uint64_t size;             // bytes of the chunk; 0: the last one
-  std::uint64_t extension_bytes;  // of the line, after the size
+  std::uint64_t extension_bytes;  // bytes of the line after the size
 };
 
-/// `line`: without its CR LF. None unless it is a hexadecimal number of up to 16 digits, followed by nothing
-/// but extensions `;name`, `;name=token` or `;name="text"`.
+/// Parses the line before a chunk, without its CR LF. Returns none unless it is a hexadecimal number of up to
+/// 16 digits, followed by nothing but extensions `;name`, `;name=token` or `;name="text"`.
 std::optional<ChunkLine> parse_chunk_line(std::string_view line);
 
 /// Why there is no body.
@@ -79,26 +79,26 @@ class BodyReader {
  public:
   enum class State { incomplete, complete, failed };
 
-  /// `limit`: bytes of body. `share`: of the memory of all bodies, to hold this one; null: the body is
+  /// Reads a body of at most `limit` bytes. `share` of the memory of all bodies holds it; null: the body is
   /// dropped instead.
   BodyReader(const RequestHead& head, std::uint64_t limit, BodyMemory::Share* share);
 
   /// Takes what has arrived off `input`; what follows the body stays there.
   State take(std::string& input);
 
-  /// Once complete.
+  /// The body, once it is complete.
   std::string&& take_body() { return std::move(body_); }
 
-  /// Bytes of the body so far.
+  /// The number of bytes of the body so far.
   std::uint64_t size() const { return size_; }
 
-  /// Once failed.
+  /// The fault, once reading has failed.
   const BodyFault& fault() const { return fault_; }
 
  private:
   enum class Part { data, data_end, size_line, trailers, end };
 
-  // `complete` means the part, see part_.
+  // In the functions below, `complete` refers to the part, see part_.
   State fail(BodyFault fault);
   State take_parts(std::string_view input);
   State take_data(std::string_view input);
@@ -110,11 +110,11 @@ class BodyReader {
   const std::uint64_t limit_;
   BodyMemory::Share* const share_;
   Part part_;
-  std::uint64_t left_ = 0;  // of the chunk, or of the body that is not chunked
-  std::uint64_t size_ = 0;  // of the body so far
+  std::uint64_t left_ = 0;  // bytes left of the chunk, or of the body that is not chunked
+  std::uint64_t size_ = 0;  // bytes of the body so far
   std::uint64_t extensions_ = 0;
   std::size_t trailers_ = 0;
-  std::size_t taken_ = 0;  // of the input
+  std::size_t taken_ = 0;  // bytes taken of the input
   std::string body_;
   BodyFault fault_{};
 };

@@ -13,11 +13,12 @@ namespace {
 
 constexpr std::size_t kPiece = 64 * 1024;
 constexpr int kGzipOnly = 16 + MAX_WBITS;
-/// Answers are numbers, mostly: higher levels take several times as long for a few percent.
+/// The level of compression. Answers are numbers, mostly: higher levels take several times as long for a few
+/// percent.
 constexpr int kLevel = 4;
 constexpr int kMemoryLevel = 8;  // zlib's default
 
-/// A decoder for one member after the other.
+/// Decodes one member after the other.
 class Inflater {
  public:
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): zlib fills the buffer
@@ -29,8 +30,8 @@ class Inflater {
   Inflater(const Inflater&) = delete;
   Inflater& operator=(const Inflater&) = delete;
 
-  /// The next decoded bytes, valid until the next call; empty at the end, if the rest is not valid, or if the
-  /// stop condition is met.
+  /// Returns the next decoded bytes, valid until the next call; empty at the end, if the rest is not valid,
+  /// or if the stop condition is met.
   std::string_view next() {
     while (valid_ && !ended_) {
       stopped_ = stop_.met();
@@ -46,12 +47,12 @@ class Inflater {
     return {};
   }
 
-  /// At the end: whether all of it was valid.
+  /// Whether, at the end, all of it was valid.
   bool complete() const { return valid_ && ended_; }
   bool stopped() const { return stopped_; }
 
  private:
-  /// zlib counts the input in 32 bits.
+  /// Feeds more input: zlib counts it in 32 bits.
   void feed() {
     if (stream_.avail_in > 0) return;
     stream_.avail_in = static_cast<uInt>(std::min(left_, kPiece));
@@ -65,14 +66,14 @@ class Inflater {
 
   const core::StopCondition& stop_;
   z_stream stream_{};
-  std::size_t left_;  // of the input, not fed yet
+  std::size_t left_;  // bytes of the input that are not fed yet
   bool stopped_ = false;
   bool valid_ = true;
   bool ended_ = false;
   std::array<char, kPiece> buffer_;
 };
 
-/// An encoder of one member.
+/// Encodes one member.
 class Deflater {
  public:
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): zlib fills the buffer
@@ -85,7 +86,7 @@ class Deflater {
   Deflater(const Deflater&) = delete;
   Deflater& operator=(const Deflater&) = delete;
 
-  /// Appends what the piece gives to `coded`.
+  /// Appends the code of a piece to `coded`.
   void add(std::string_view piece, bool is_last, std::string& coded) {
     stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(piece.data()));  // zlib only reads it
     stream_.avail_in = static_cast<uInt>(piece.size());

@@ -11,12 +11,12 @@
 
 namespace fleetplan::server {
 
-/// The text as one gzip member. None when the stop condition is met.
+/// Returns the text as one gzip member; none when the stop condition is met.
 std::optional<std::string> gzip(std::string_view text, const core::StopCondition& stop);
 
 /// Decodes a body of gzip members (RFC 1952, 2.2), which are one text together. Every member must be complete
-/// with its checksum and length, and nothing else may follow. `limit`: decoded bytes. `share`: holds both
-/// forms of the body. Stopped when the stop condition is met.
+/// with its checksum and length, and nothing else may follow. `limit`: the most decoded bytes. `share` holds
+/// both forms of the body. Ends with a fault when the stop condition is met.
 std::variant<std::string, BodyFault> gunzip(std::string_view coded, std::uint64_t limit,
                                             BodyMemory::Share& share, const core::StopCondition& stop);
 

@@ -26,7 +26,7 @@ Weighted parse_weighted(std::string_view item) {
   return weighted;
 }
 
-/// Of a media type, by the most specific range of an Accept field; 0 when there is none.
+/// Returns the quality of a media type by the most specific range of an Accept field; 0 when there is none.
 double quality(std::string_view accept, std::string_view type) {
   const std::string_view family = type.substr(0, type.find('/') + 1);
   int best_rank = 0;

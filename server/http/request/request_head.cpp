@@ -59,7 +59,7 @@ namespace {
 
 using Parsed = std::variant<RequestHead, BadHead>;
 
-/// Takes the next line, without its CR LF, off `rest`.
+/// Takes the next line off `rest` and returns it without its CR LF.
 std::string_view take_line(std::string_view& rest) {
   const auto end = rest.find("\r\n");
   const auto line = rest.substr(0, end);
@@ -130,7 +130,7 @@ std::optional<BadHead> parse_field(std::string_view line, RequestHead& head) {
   return std::nullopt;
 }
 
-/// HTTP/1.1 demands exactly one Host field, HTTP/1.0 none (RFC 9112, 3.2). It may be empty.
+/// Reads the Host field. HTTP/1.1 demands exactly one, which may be empty, HTTP/1.0 none (RFC 9112, 3.2).
 std::optional<BadHead> parse_host(RequestHead& head) {
   const auto fields = std::count_if(head.fields.begin(), head.fields.end(),
                                     [](const auto& entry) { return entry.first == "host"; });

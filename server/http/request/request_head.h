@@ -21,10 +21,11 @@ struct Authority {
   std::string port;  // digits; empty: that of the scheme
 };
 
-/// None when it is malformed or has no host.
+/// Parses an authority. Returns none when it is malformed or has no host.
 std::optional<Authority> parse_authority(std::string_view text);
 
-/// True for names of this machine alone: localhost, 127.0.0.0/8 and ::1, the last with or without brackets.
+/// Whether a name is one of this machine alone: localhost, 127.0.0.0/8 and ::1, the last with or without
+/// brackets.
 bool is_local_name(std::string_view host);
 
 // The characters of header fields and trailers (RFC 9110, 5.6).
@@ -46,7 +47,7 @@ inline bool is_control(char c) {
 
 inline bool is_field_value_char(char c) { return c == '\t' || !is_control(c); }
 
-/// `name: value`, without line end.
+/// Whether a line, without its end, is a field: `name: value`.
 inline bool is_field_line(std::string_view line) {
   const auto colon = line.find(':');
   return colon != std::string_view::npos && is_token(line.substr(0, colon)) &&
@@ -64,18 +65,18 @@ struct RequestHead {
   std::string method;    // as sent, e.g. "POST"
   std::string raw_path;  // as sent, without query
   std::string path;      // percent-decoded
-  /// Of the target, else of the Host field, as sent; none: HTTP/1.0 without Host.
+  /// The host of the target, else that of the Host field, as sent; none: HTTP/1.0 without Host.
   std::optional<std::string> host = std::nullopt;
   bool http_1_0 = false;
   HeaderFields fields;                          // names in lower case, values trimmed
   std::optional<std::uint64_t> content_length;  // bytes
   bool chunked = false;
 
-  /// All values of a field (name in lower case) joined by ", "; empty when absent.
+  /// Returns all values of a field (name in lower case) joined by ", "; empty when absent.
   std::string field(std::string_view name) const;
   bool has_field(std::string_view name) const;
 
-  /// The client expects the connection to stay open after the answer.
+  /// Whether the client expects the connection to stay open after the answer.
   bool keeps_alive() const;
 };
 
@@ -86,13 +87,15 @@ struct BadHead {
   Kind kind = Kind::malformed;
 };
 
-/// For a head of which more than kMaxHeadBytes have arrived: its target or its fields are too long.
+/// Returns the fault of a head of which more than kMaxHeadBytes have arrived: its target or its fields are
+/// too long.
 BadHead too_large_head(std::string_view begun);
 
-/// `text`: everything from the request line to the empty line, which is included.
+/// Parses a head: `text` is everything from the request line to the empty line, which is included.
 std::variant<RequestHead, BadHead> parse_request_head(std::string_view text);
 
-/// `%41` -> `A`; none when an escape is broken or yields a control character.
+/// Decodes percent-encoding: `%41` -> `A`. Returns none when an escape is broken or yields a control
+/// character.
 std::optional<std::string> percent_decoded(std::string_view text);
 
 /// Finds the end of a head in a growing buffer, looking at each byte once.
@@ -100,10 +103,10 @@ class HeadScanner {
  public:
   enum class State { incomplete, complete, malformed };
 
-  /// `buffer` must begin with what was scanned before.
+  /// Scans a buffer that begins with what was scanned before.
   State scan(std::string_view buffer);
 
-  /// Bytes of the head with its empty line; valid once complete.
+  /// The number of bytes of the head with its empty line; valid once complete.
   std::size_t size() const { return position_; }
 
  private:

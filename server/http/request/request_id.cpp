@@ -40,7 +40,7 @@ std::string make_request_id() {
 
 namespace {
 
-/// 00-TRACE_ID-PARENT_ID-FLAGS. Later versions may append further parts.
+/// The size of a field 00-TRACE_ID-PARENT_ID-FLAGS. Later versions may append further parts.
 constexpr std::size_t kSize = 55;
 constexpr std::size_t kTraceIdAt = 3;
 constexpr std::size_t kParentIdAt = 36;
@@ -51,7 +51,7 @@ bool is_hexadecimal(std::string_view text) {
                      [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
 }
 
-/// Ids of zeros are invalid.
+/// Whether a text is an id. Ids of zeros are invalid.
 bool is_id(std::string_view text) {
   return is_hexadecimal(text) && text.find_first_not_of('0') != std::string_view::npos;
 }
@@ -61,7 +61,7 @@ bool has_dashes(std::string_view traceparent) {
          traceparent[kFlagsAt - 1] == '-';
 }
 
-/// By the number of bytes; ff is no version.
+/// Whether a version, ff excepted, has a field of this number of bytes.
 bool is_version(std::string_view version, std::string_view traceparent) {
   if (version == "00") return traceparent.size() == kSize;
   return is_hexadecimal(version) && version != "ff" &&

@@ -21,8 +21,8 @@ constexpr const char* kCompiler = "clang " __clang_version__;
 constexpr const char* kCompiler = "g++ " __VERSION__;
 #endif
 
-/// The statuses whose series exist from the start, so that none first appears when it goes up. A preflight
-/// (204) may name any route. Answers to a GET with a broken or endless body are not usual.
+/// Returns the statuses whose series exist from the start, so that none first appears when it goes up. A
+/// preflight (204) may name any route. Answers to a GET with a broken or endless body are not usual.
 std::set<int> usual_statuses(const Route& route) {
   std::set<int> usual{200, 204, 405, 421, 500};
   if (!route.traits.without_token) usual.insert(401);
@@ -32,7 +32,8 @@ std::set<int> usual_statuses(const Route& route) {
   return usual;
 }
 
-/// The error's code if the exchange was refused. A probe that answers 503 while the server drains is not.
+/// Returns the error's code if the exchange was refused. A probe that answers 503 while the server drains is
+/// not refused.
 std::string_view rejection(const Exchange& exchange) {
   const bool is_probe = exchange.route != nullptr && exchange.route->traits.without_token;
   const bool unready = is_probe && exchange.problem == api::name_of(api::ErrorCode::draining);
@@ -41,7 +42,7 @@ std::string_view rejection(const Exchange& exchange) {
 
 double as_double(std::uint64_t count) { return static_cast<double>(count); }
 
-/// The values of Refusal, in their order.
+/// The names of the values of Refusal, in their order.
 constexpr std::array<std::string_view, kRefusals> kRefusalNames{"queue_full", "share", "too_late"};
 
 }  // namespace
@@ -100,13 +101,13 @@ void Metrics::write_requests(MetricsText& text) const {
   }
 }
 
-/// What is not counted, but looked up when the text is written.
+/// The values that are not counted, but looked up when the text is written.
 struct Metrics::Moment {
   const Gauges& load;
   const ProcessStats process;
 };
 
-/// A metric: either one sample without labels, or those that a function writes.
+/// A metric: either one sample without labels, or the samples that a function writes.
 struct Metrics::Row {
   using Value = double (*)(const Metrics& all, const Moment& now);
   using Samples = void (*)(const Metrics& all, const Moment& now, MetricsText& text);
@@ -123,7 +124,7 @@ struct Metrics::Row {
   Samples samples = nullptr;
 };
 
-/// All metrics, in the order of their text.
+/// Returns all metrics, in the order of their text.
 std::span<const Metrics::Row> Metrics::table() {
   using M = const Metrics&;
   using N = const Moment&;

@@ -22,11 +22,11 @@ namespace fleetplan::server {
 
 /// The current load.
 struct Gauges {
-  std::size_t connections = 0;        // that are served
-  std::size_t admin_connections = 0;  // the same, of the admin port
-  std::size_t workers = 0;            // jobs that compute at most
+  std::size_t connections = 0;        // served connections
+  std::size_t admin_connections = 0;  // served connections of the admin port
+  std::size_t workers = 0;            // the most jobs that compute
   WorkerLoad jobs;
-  std::uint64_t log_dropped = 0;  // lines since the start
+  std::uint64_t log_dropped = 0;  // lines dropped since the start
   core::MapCache::Stats maps;
   UnsentAnswers::Stats unsent;
 };
@@ -34,14 +34,14 @@ struct Gauges {
 /// Counts requests and plans since the start. Thread-safe; counting takes no lock.
 class Metrics {
  public:
-  /// `routes`: those of the main port; the admin port's are among them.
+  /// Counts by `routes`, those of the main port; the admin port's are among them.
   explicit Metrics(const RouteTable& routes);
 
-  /// An exchange that is over.
+  /// Counts an exchange that is over.
   void count(const Exchange& exchange);
 
-  /// The answer to GET /metrics, see MetricsText. All series exist from the start, except those of statuses
-  /// that are unusual on their route.
+  /// Returns the answer to GET /metrics, see MetricsText. All series exist from the start, except those of
+  /// statuses that are unusual on their route.
   std::string text(const Gauges& load) const;
 
  private:
@@ -70,7 +70,7 @@ class Metrics {
   void count_plan(const api::PlanOutcome& outcome);
 
   const std::chrono::system_clock::time_point started_at_ = std::chrono::system_clock::now();
-  std::deque<Requests> requests_;                 // those of unknown paths come first
+  std::deque<Requests> requests_;                 // by route; requests of unknown paths come first
   std::map<std::string_view, Counter> rejected_;  // by the problem's code
   Histogram queue_seconds_;
   Sum queue_lost_seconds_;

@@ -14,7 +14,7 @@
 
 namespace fleetplan::server {
 
-/// Only grows.
+/// A number that only grows.
 class Counter {
  public:
   void add(std::uint64_t amount = 1) { value_.fetch_add(amount, std::memory_order_relaxed); }
@@ -34,7 +34,7 @@ class Sum {
   std::atomic<double> value_{0.0};
 };
 
-/// Durations by size.
+/// Durations, counted by size.
 class Histogram {
  public:
   /// Upper bounds of the buckets, seconds, inclusive; whatever is longer is counted beyond the last.
@@ -48,7 +48,7 @@ class Histogram {
     sum_.add(seconds);
   }
 
-  /// In bucket `index` alone; kBounds.size() is the one beyond the last bound.
+  /// The number of durations in bucket `index` alone; kBounds.size() is the bucket beyond the last bound.
   std::uint64_t count(std::size_t index) const { return counts_[index].value(); }
   double sum() const { return sum_.value(); }
 
@@ -70,7 +70,7 @@ class MetricsText {
 
   MetricsText& sample(double value, const Labels& labels = {});
 
-  /// All samples of a histogram.
+  /// Writes all samples of a histogram.
   MetricsText& histogram(const Histogram& values, const Labels& labels = {});
 
   std::string take() { return std::move(text_); }

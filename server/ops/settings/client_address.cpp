@@ -57,7 +57,8 @@ namespace {
 
 constexpr std::ptrdiff_t kNetworkBytes = 8;
 
-/// Of `192.0.2.7:80`, `192.0.2.7`, `[2001:db8::1]:80`, `[2001:db8::1]` or `2001:db8::1%eth0`.
+/// Returns the host of `192.0.2.7:80`, `192.0.2.7`, `[2001:db8::1]:80`, `[2001:db8::1]` or
+/// `2001:db8::1%eth0`.
 std::string without_port(std::string_view text) {
   if (text.starts_with('[')) {
     text = text.substr(1, text.find(']') - 1);

@@ -29,7 +29,7 @@ std::string first_line(const fs::path& file) {
   return line;
 }
 
-/// Of a cgroup v2 `cpu.max`, e.g. "150000 100000" is 1.5; none for "max ...".
+/// Reads the quota of a cgroup v2 `cpu.max`: "150000 100000" is 1.5 processors; none for "max ...".
 std::optional<double> parse_quota(const std::string& text) {
   std::istringstream fields(text);
   double quota = 0.0;
@@ -44,8 +44,8 @@ std::optional<double> quota_v1(const fs::path& group) {
   return parse_quota(first_line(group / "cpu.cfs_quota_us") + ' ' + first_line(group / "cpu.cfs_period_us"));
 }
 
-/// The smallest quota of a group and the groups above it. Inside a container the group's own path may be
-/// absent and its files be at the mount itself, which is the last one looked at.
+/// Returns the smallest quota of a group and the groups above it. Inside a container the group's own path may
+/// be absent and its files be at the mount itself, which is the last one looked at.
 template <typename Quota>
 std::optional<double> smallest_quota(const fs::path& mount, const fs::path& group, Quota quota) {
   std::optional<double> smallest;
@@ -57,14 +57,14 @@ std::optional<double> smallest_quota(const fs::path& mount, const fs::path& grou
   }
 }
 
-/// Where the v1 controllers of a line are mounted: `cpu` is a link where several are mounted together, but
-/// not everywhere.
+/// Returns where the v1 controllers of a line are mounted: `cpu` is a link where several are mounted
+/// together, but not everywhere.
 fs::path mount_v1(const fs::path& mounts, const std::string& controllers) {
   std::error_code ignored;
   return fs::is_directory(mounts / "cpu", ignored) ? mounts / "cpu" : mounts / controllers;
 }
 
-/// Of a line `id:controllers:path`, which has no controllers in v2.
+/// Returns the quota of the group that a line `id:controllers:path` names; v2 has no controllers in it.
 std::optional<double> quota_of_line(const std::string& line, const fs::path& mounts) {
   std::istringstream fields(line);
   std::string id;

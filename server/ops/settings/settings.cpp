@@ -29,11 +29,12 @@ constexpr std::size_t kQueuePerWorker = 4;
 constexpr std::uint64_t kLeastPlanMemory = 1 << 20;
 constexpr std::uint64_t kLeastUnsent = 1 << 20;
 constexpr std::int64_t kMaxMs = 86'400'000;        // a day
-constexpr std::size_t kMostItems = 1'000'000'000;  // of a request
+constexpr std::size_t kMostItems = 1'000'000'000;  // the most items of a request
 
 constexpr std::string_view kEnvironmentPrefix = "FLEETPLAN_";
 
-/// Throws an exception of CLI11 when the value is not valid for the option.
+/// Applies an item of a configuration file. Throws an exception of CLI11 when the value is not valid for the
+/// option.
 std::optional<std::string> apply(CLI::App& app, const CLI::ConfigItem& item) {
   CLI::Option* option =
       item.parents.empty() ? app.get_option_no_throw("--" + item.name) : nullptr;  // there are no sections
@@ -50,7 +51,7 @@ std::optional<std::string> apply(CLI::App& app, const CLI::ConfigItem& item) {
 
 /// Gives options of `app` that are not set yet the values of a file of `flag = value` lines, `#` for comments
 /// (TOML, as far as CLI11 reads it). Call it after `app` has parsed flags and environment, which have
-/// precedence. The fault of the file, if there is one.
+/// precedence. Returns the fault of the file, if there is one.
 std::optional<std::string> apply_config_file(CLI::App& app, const std::string& path) {
   const auto fault = [&](const std::string& what) { return "--config: " + path + ": " + what; };
   std::error_code ignored;
@@ -74,7 +75,7 @@ std::string environment_name(std::string flag) {
   return std::string(kEnvironmentPrefix) + flag;
 }
 
-/// The names of all environment variables that begin like those of settings.
+/// Returns the names of all environment variables that begin like those of settings.
 std::vector<std::string> prefixed_variables() {
   std::vector<std::string> names;
   for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -122,7 +123,7 @@ class Flags {
   }
 
  private:
-  /// Newer versions of CLI11 silently ignore a bad value from the environment. The fault, if there is one.
+  /// Returns the fault of a bad value from the environment, which newer versions of CLI11 silently ignore.
   std::optional<std::string> ignored_environment() const {
     for (const CLI::Option* option : app_.get_options()) {
       const char* value =
@@ -133,7 +134,7 @@ class Flags {
     return std::nullopt;
   }
 
-  /// Most probably misspelt.
+  /// Returns the variables that are named like settings, but are none: most probably misspelt.
   std::vector<std::string> unknown_environment() const {
     std::vector<std::string> unknown = prefixed_variables();
     for (const CLI::Option* option : app_.get_options()) std::erase(unknown, option->get_envname());

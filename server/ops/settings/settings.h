@@ -17,35 +17,35 @@ namespace fleetplan::server {
 struct Settings {
   std::string host = "127.0.0.1";
   int port = 8080;                               // 0: any free one
-  std::optional<int> admin_port = std::nullopt;  // of health, readiness and metrics; 0: any free one
+  std::optional<int> admin_port = std::nullopt;  // for health, readiness and metrics; 0: any free one
   int workers = 1;                               // planning threads; the flag's default: the CPUs granted
   std::size_t queue = 4;                         // jobs that may wait; the flag's default: 4 for each worker
   std::size_t connections = 1024;
   api::Limits limits;
-  std::size_t map_cache = 128u << 20;               // bytes, of maps that are kept; 0: none
-  std::size_t max_unsent = 64u << 20;               // bytes, of answers that clients have not accepted yet
-  std::chrono::milliseconds idle_timeout{1000};     // of a connection between requests
+  std::size_t map_cache = 128u << 20;               // bytes of maps that are kept; 0: none
+  std::size_t max_unsent = 64u << 20;               // bytes of answers that clients have not accepted yet
+  std::chrono::milliseconds idle_timeout{1000};     // for a connection between requests
   std::chrono::milliseconds read_timeout{10'000};   // for a request's head; see also read_body
   std::chrono::milliseconds drain{10'000};          // for running jobs after SIGTERM
-  std::chrono::milliseconds drain_delay{0};         // before that: not ready, but serving
+  std::chrono::milliseconds drain_delay{0};         // time before the drain: not ready, but serving
   std::optional<AccessToken> token = std::nullopt;  // required for all requests except health and readiness
   std::vector<std::string> cors_origins = {};       // see CrossOrigin
-  std::vector<AddressRange> trusted_proxies = {};   // whose X-Forwarded-For names the client
+  std::vector<AddressRange> trusted_proxies = {};   // proxies whose X-Forwarded-For names the client
   std::vector<std::string> allowed_hosts = {};      // see AllowedHosts
   std::string log_level = "info";
   std::string web_root;                             // empty: no page
-  std::vector<std::string> unknown_variables = {};  // of the environment: named like settings, but none
+  std::vector<std::string> unknown_variables = {};  // variables named like settings, but none
   bool healthcheck = false;  // probe the service that runs with these settings instead of serving
 };
 
-/// The process should end instead of serving: help, version, or a bad value.
+/// Why the process should end instead of serving: help, version, or a bad value.
 struct SettingsExit {
   int code;  // 0, or 2 for a bad value
   std::string text;
 };
 
-/// From flags (without the program's name), the environment (`FLEETPLAN_` and the flag in capitals; empty is
-/// not set), the file of --config and defaults, in this order of precedence.
+/// Returns the settings from flags (without the program's name), the environment (`FLEETPLAN_` and the flag
+/// in capitals; empty is not set), the file of --config and defaults, in this order of precedence.
 std::variant<Settings, SettingsExit> parse_settings(std::vector<std::string> arguments);
 
 }  // namespace fleetplan::server

@@ -48,7 +48,7 @@ TEST(NeighbourhoodSelection, ContainsConflictingRobots) {
 
 TEST(NeighbourhoodSelection, ContainsRobotsNearbyAtSomeTime) {
   Hall p;
-  EXPECT_THAT(p.select(0, Neighbourhood::meeting, 3), UnorderedElementsAre(0, 1, 2)) << "robot 3 is far away";
+  EXPECT_THAT(p.select(0, Neighbourhood::nearest, 3), UnorderedElementsAre(0, 1, 2)) << "robot 3 is far away";
 }
 
 TEST(NeighbourhoodSelection, ContainsRobotsThatPassTheGoal) {
@@ -59,7 +59,7 @@ TEST(NeighbourhoodSelection, ContainsRobotsThatPassTheGoal) {
 TEST(NeighbourhoodSelection, ContainsNoRobotTwice) {
   Hall p;
   EXPECT_THAT(p.select(0, Neighbourhood::random, 16), UnorderedElementsAre(0, 1, 2, 3));
-  EXPECT_THAT(p.select(0, Neighbourhood::meeting, 16), UnorderedElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(p.select(0, Neighbourhood::nearest, 16), UnorderedElementsAre(0, 1, 2, 3));
   EXPECT_THAT(p.select(0, Neighbourhood::random, 2), SizeIs(2));
 }
 

@@ -70,9 +70,9 @@ TEST(Helpers, RunOnTheCallerWhenAllOthersAreBusy) {
 }
 
 /// Tasks that wait for each other, so that they succeed only if all run at the same time.
-class Meeting {
+class Rendezvous {
  public:
-  explicit Meeting(std::ptrdiff_t tasks) : missing_(tasks) {}
+  explicit Rendezvous(std::ptrdiff_t tasks) : missing_(tasks) {}
   bool attend() {
     std::unique_lock lock(mutex_);
     if (--missing_ == 0) complete_.notify_all();
@@ -88,9 +88,9 @@ class Meeting {
 TEST(Helpers, RunOnIdleWorkersToo) {
   Workers workers({3, 0});
   for (int round = 0; round < 20; ++round) {
-    Meeting meeting(3);
+    Rendezvous rendezvous(3);
     do_job(workers,
-           [&](Workers::Job& own) { own.run(3, [&](std::size_t) { EXPECT_TRUE(meeting.attend()); }); });
+           [&](Workers::Job& own) { own.run(3, [&](std::size_t) { EXPECT_TRUE(rendezvous.attend()); }); });
   }
 }
 
@@ -99,12 +99,12 @@ TEST(Helpers, RunOnAWorkerThatBecomesIdle) {
   auto busy = admit(workers);
   ASSERT_TRUE(take_turn(*busy));
   std::promise<void> begun;
-  Meeting meeting(2);
+  Rendezvous rendezvous(2);
   std::thread sharing = start_job(workers, [&](Workers::Job& own) {
     own.run(3, [&](std::size_t k) {
       if (k == 0) begun.set_value();
       if (k < 2) {
-        EXPECT_TRUE(meeting.attend());
+        EXPECT_TRUE(rendezvous.attend());
       }
     });
   });
@@ -118,7 +118,7 @@ TEST(Helpers, RunOnNoMoreThreadsThanAskedFor) {
   std::atomic<int> running{0};
   std::atomic<int> most{0};
   do_job(workers, [&](Workers::Job& own) {
-    Meeting both(2);
+    Rendezvous both(2);
     own.run_on(2, 200, [&](std::size_t k) {
       const int now = ++running;
       for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) {
@@ -135,7 +135,7 @@ TEST(Helpers, RunOnNoMoreThreadsThanAskedFor) {
 TEST(Helpers, DoNotDelayAJobsTurn) {
   Workers workers({2, 0});
   std::atomic<int> begun{0};
-  Meeting both(2);
+  Rendezvous both(2);
   std::promise<void> job_has_turn;
   JobPtr job;
   do_job(workers, [&](Workers::Job& own) {
@@ -162,27 +162,27 @@ TEST(Helpers, ThrowTheirExceptionInTheCaller) {
   Workers workers({2, 0});
   do_job(workers, [&](Workers::Job& own) {
     const auto caller = std::this_thread::get_id();
-    Meeting meeting(2);
+    Rendezvous rendezvous(2);
     EXPECT_THROW(own.run(2,
                          [&](std::size_t) {
-                           EXPECT_TRUE(meeting.attend());
+                           EXPECT_TRUE(rendezvous.attend());
                            if (std::this_thread::get_id() != caller) throw std::runtime_error("a bug");
                          }),
                  std::runtime_error);
   });
-  Meeting meeting(2);
+  Rendezvous rendezvous(2);
   do_job(workers,
-         [&](Workers::Job& own) { own.run(2, [&](std::size_t) { EXPECT_TRUE(meeting.attend()); }); });
+         [&](Workers::Job& own) { own.run(2, [&](std::size_t) { EXPECT_TRUE(rendezvous.attend()); }); });
 }
 
 TEST(Helpers, ThrowOnlyAfterRunningTasksHaveEnded) {
   Workers workers({2, 0});
   do_job(workers, [&](Workers::Job& own) {
     const auto caller = std::this_thread::get_id();
-    Meeting meeting(2);
+    Rendezvous rendezvous(2);
     bool other_done = false;
     const auto task = [&](std::size_t) {
-      EXPECT_TRUE(meeting.attend());
+      EXPECT_TRUE(rendezvous.attend());
       if (std::this_thread::get_id() == caller) throw std::runtime_error("a bug");
       std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the caller has thrown by now
       other_done = true;

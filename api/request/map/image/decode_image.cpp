@@ -118,7 +118,7 @@ OccupancyOfPixels::OccupancyOfPixels(const ShadeRule& rule, const ImageHeader& i
 
 std::int8_t OccupancyOfPixels::computed(std::span<const std::uint16_t> channels) const {
   const std::size_t colours = channels.size() - (has_alpha_ ? 1 : 0);
-  double sum = 0.0;  // of red, green and blue
+  double sum = 0.0;  // sum of red, green and blue
   for (std::size_t index = 0; index < colours; ++index) sum += channels[index];
   if (colours == 1) sum *= 3.0;
   double mean = sum / 3.0;
@@ -137,7 +137,7 @@ namespace {
 constexpr std::array<std::string_view, 3> kModes{"trinary", "scale", "raw"};
 constexpr Range kShare{0.0, 1.0, "of full occupancy"};
 
-/// map_server accepts numbers and booleans.
+/// Reads `negate`. map_server accepts numbers and booleans.
 std::optional<bool> parse_negate(const JsonReader& member) {
   const auto number = member.natural();
   return number && *number <= 1 ? std::optional(*number == 1) : member.boolean();
@@ -161,7 +161,7 @@ std::optional<ShadeRule> parse_rule(const JsonReader& image) {
   return std::nullopt;
 }
 
-/// The base64 text of the one member that is there.
+/// Returns the base64 text of the one member that is there.
 JsonReader parse_file(const JsonReader& image) {
   const JsonReader pgm = image.find("pgm");
   const JsonReader png = image.find("png");

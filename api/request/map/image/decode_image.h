@@ -1,7 +1,7 @@
 #pragma once
 
-// How map_server of ROS makes occupancy of the pixels of a map's image (nav2_map_server/src/map_io.cpp), from
-// the text of the request to the raster.
+// Makes occupancy of the pixels of a map's image as map_server of ROS does (nav2_map_server/src/map_io.cpp),
+// from the text of the request to the raster.
 
 #include <array>
 #include <cstddef>
@@ -35,8 +35,8 @@ struct Raster {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// The bytes of a base64 text of RFC 4648, section 4: padded, without line breaks. The failure says what is
-/// wrong, after "it ". When the stop is met, what was decoded so far.
+/// Decodes a base64 text of RFC 4648, section 4: padded, without line breaks. The failure says what is wrong,
+/// after "it ". When the stop is met, returns what was decoded so far.
 Result<Bytes, std::string> decode_base64(std::string_view text, core::Work& stop);
 
 inline constexpr std::int8_t kFullOccupancy = 100;
@@ -56,7 +56,7 @@ class OccupancyOfPixels {
  public:
   OccupancyOfPixels(const ShadeRule& rule, const ImageHeader& image);
 
-  /// `channels`: of one pixel.
+  /// Returns the occupancy of a pixel with these channels.
   std::int8_t of(std::span<const std::uint16_t> channels) const {
     return known_.empty() ? computed(channels) : known_[channels[0]];
   }
@@ -67,17 +67,17 @@ class OccupancyOfPixels {
   ShadeRule rule_;
   double largest_;
   bool has_alpha_;
-  std::vector<std::int8_t> known_;  // of each gray, if that saves time
+  std::vector<std::int8_t> known_;  // occupancy of each gray, if keeping it saves time
 };
 
 /// The members of an image that decode_image reads.
 inline constexpr std::array<std::string_view, 6> kImageMembers{
     "pgm", "png", "mode", "negate", "occupied_thresh", "free_thresh"};
 
-/// The occupancy that map_server of ROS publishes for an image: `pgm` or `png`, in base64, and the members of
-/// its map.yaml that give shades a meaning (see ShadeRule). At most `most` pixels, which is checked before
-/// they are decoded. Nothing when it has a fault, or when the reading of the document is stopped. Does not
-/// look at other members.
+/// Returns the occupancy that map_server of ROS publishes for an image: `pgm` or `png`, in base64, and the
+/// members of its map.yaml that give shades a meaning (see ShadeRule). The image has at most `most` pixels,
+/// which is checked before they are decoded. Returns none when it has a fault, or when the reading of the
+/// document is stopped. Does not look at other members.
 std::optional<Raster> decode_image(const JsonReader& image, std::int64_t most);
 
 }  // namespace fleetplan::api

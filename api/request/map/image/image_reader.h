@@ -15,7 +15,7 @@ namespace fleetplan::api {
 struct ImageHeader {
   int columns = 0;
   int rows = 0;
-  int channels = 1;  // of a pixel: gray; gray and alpha; red, green and blue; these and alpha
+  int channels = 1;  // channels of a pixel: gray; gray and alpha; red, green and blue; these and alpha
   int largest = 0;   // value of a channel, 1 to 65535; alpha: opaque
 
   bool has_alpha() const { return channels == 2 || channels == 4; }
@@ -29,7 +29,7 @@ class ImageReader {
 
   virtual ~ImageReader() = default;
   const ImageHeader& header() const { return header_; }
-  /// The next row, of which there must be one, or why it cannot be read, in a sentence.
+  /// Returns the next row, of which there must be one, or why it cannot be read, in a sentence.
   virtual Result<Row, std::string> next_row() = 0;
 
  protected:
@@ -49,15 +49,15 @@ using OpenedImage = Result<std::unique_ptr<ImageReader>, ImageFault>;
 
 inline constexpr int kLongestSide = 1'000'000;  // pixels, as in libpng
 
-/// The fault of an image of this size, if it has more than `most` pixels or is too long.
+/// Returns the fault of an image of this size, if it has more than `most` pixels or is too long.
 std::optional<ImageFault> size_fault(std::uint64_t columns, std::uint64_t rows, std::int64_t most);
 
-/// A portable graymap, plain (P2) or raw (P5), of at most `most` pixels.
+/// Opens a portable graymap, plain (P2) or raw (P5), of at most `most` pixels.
 OpenedImage open_pgm(std::span<const std::uint8_t> bytes, std::int64_t most);
 
-/// A PNG of at most `most` pixels. Palettes, grays of fewer than 8 bits and transparent colours are expanded.
-/// Whatever is not needed for the pixels, or follows them, stays unread. `stop` ends the reading, with any
-/// result.
+/// Opens a PNG of at most `most` pixels. Palettes, grays of fewer than 8 bits and transparent colours are
+/// expanded. Whatever is not needed for the pixels, or follows them, stays unread. `stop` ends the reading,
+/// with any result.
 OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t most, core::Work& stop);
 
 }  // namespace fleetplan::api

@@ -36,7 +36,7 @@ class NumberReader {
   std::size_t at() const { return at_; }
   std::size_t left() const { return bytes_.size() - at_; }
 
-  /// The next whole number; a large one is at least 2^32. Nothing where there is none.
+  /// Returns the next whole number; a large one is at least 2^32. Returns none where there is no number.
   std::optional<std::uint64_t> next() {
     skip();
     const std::size_t first = at_;
@@ -77,7 +77,7 @@ class PgmReader : public ImageReader {
   explicit PgmReader(const ImageHeader& header)
       : ImageReader(header), grays_(static_cast<std::size_t>(header.columns)) {}
 
-  /// The row, if all of its grays are in range.
+  /// Returns the row, if all of its grays are in range.
   Result<Row, std::string> checked() {
     const int largest = header().largest;
     const auto bright =
@@ -89,7 +89,7 @@ class PgmReader : public ImageReader {
     return Row(grays_);
   }
 
-  std::vector<std::uint16_t> grays_;  // of the row
+  std::vector<std::uint16_t> grays_;  // grays of the row
   std::size_t row_ = 0;
 };
 
@@ -154,8 +154,8 @@ std::string header_fault(const char* what, int most) {
          "; is it truncated or damaged?";
 }
 
-/// Where raw pixels begin: after one byte of white space, or two where lines end with carriage return and
-/// line feed, as some editors write them.
+/// Returns where raw pixels begin: after one byte of white space, or two where lines end with carriage return
+/// and line feed, as some editors write them.
 std::size_t raw_begin(std::span<const std::uint8_t> bytes, std::size_t header_end, std::uint64_t size) {
   const bool two =
       bytes.size() == header_end + 2 + size && bytes[header_end] == '\r' && bytes[header_end + 1] == '\n';

@@ -1,4 +1,4 @@
-// PNG by libpng. What is known of an image is what the library says of it; nothing is read past it. Its
+// Reads PNG by libpng. What is known of an image is what the library says of it; nothing is read past it. Its
 // errors leave by longjmp, over frames of the library and of the small functions here that call it; none of
 // these has an object with a destructor.
 //
@@ -25,27 +25,27 @@ namespace {
 
 constexpr std::array<std::uint8_t, 8> kSignature{137, 80, 78, 71, 13, 10, 26, 10};
 constexpr std::array<std::uint8_t, 4> kHeaderName{'I', 'H', 'D', 'R'};
-constexpr std::size_t kFirstNameAt = kSignature.size() + 4;  // of the first chunk, after its length
+constexpr std::size_t kFirstNameAt = kSignature.size() + 4;  // after the first chunk's length
 constexpr png_alloc_size_t kMostChunk = 1U << 20U;           // bytes of a chunk other than pixels
 constexpr png_uint_32 kNoKeptChunks = 1;                     // in libpng 0 stands for no limit
-/// Bytes of compressed pixels at once. They decompress to a megabyte at most.
+/// The bytes of compressed pixels that are read at once. They decompress to a megabyte at most.
 constexpr std::size_t kReadAtOnce = 1024;
-/// Bytes that are read behind the last pixel: the end of the compressed data and the check sums, in a second
-/// chunk perhaps. Whatever else follows stays unread.
+/// The most bytes that are read behind the last pixel: the end of the compressed data and the check sums, in
+/// a second chunk perhaps. Whatever else follows stays unread.
 constexpr std::size_t kMostBehindPixels = 64;
 
-/// What the library is told, and what it tells.
+/// What the library and this reader tell each other.
 struct Source {
   std::span<const std::uint8_t> bytes;
   core::Work* stop = nullptr;
   std::size_t at = 0;
-  png_uint_32 rows = PNG_UINT_32_MAX;  // once known
+  png_uint_32 rows = PNG_UINT_32_MAX;  // unknown at first
   std::size_t behind_pixels = 0;       // bytes read there
   std::array<char, 96> error{};
   bool out_of_memory = false;
 };
 
-// Functions that the library calls.
+// The functions below are called by the library.
 
 [[noreturn]] void on_error(png_structp png, png_const_charp text) {
   auto* source = static_cast<Source*>(png_get_error_ptr(png));
@@ -73,7 +73,7 @@ void on_read(png_structp png, png_bytep target, std::size_t size) {
   source->at += size;
 }
 
-/// What the library allocates counts as memory of the job, too.
+/// Allocates for the library. The bytes count as memory of the job, too.
 png_voidp on_allocate(png_structp png, png_alloc_size_t size) {
   void* memory = ::operator new(size, std::nothrow);
   if (memory == nullptr) static_cast<Source*>(png_get_mem_ptr(png))->out_of_memory = true;
@@ -82,7 +82,7 @@ png_voidp on_allocate(png_structp png, png_alloc_size_t size) {
 
 void on_free(png_structp /*png*/, png_voidp memory) { ::operator delete(memory); }
 
-// Calls of the library: false after an error.
+// The functions below call the library. They return false after an error.
 
 bool try_to_read_header(png_structp png, png_infop info) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;  // NOLINT(cert-err52-cpp): the library has no other way
@@ -97,7 +97,7 @@ bool try_to_read_header(png_structp png, png_infop info) {
 bool try_to_begin_rows(png_structp png, png_infop info) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;  // NOLINT(cert-err52-cpp)
   png_set_expand(png);
-  if constexpr (std::endian::native == std::endian::little) png_set_swap(png);  // of channels of 16 bits
+  if constexpr (std::endian::native == std::endian::little) png_set_swap(png);  // 16-bit channels
   png_set_interlace_handling(png);
   png_read_update_info(png, info);
   return true;
@@ -140,12 +140,12 @@ class Handle {
     source_.rows = rows();
     return try_to_begin_rows(png_, info_);
   }
-  /// False if the pixels of the row cannot be read. Data that end the reading behind the last one are no
-  /// fault.
+  /// Reads a row. Returns false if its pixels cannot be read. Data that end the reading behind the last row
+  /// are no fault.
   bool read_row(std::uint8_t* row) {
     return try_to_read_row(png_, row) || source_.behind_pixels > kMostBehindPixels;
   }
-  /// Why a call failed. Throws std::bad_alloc if it was memory.
+  /// Returns why a call failed. Throws std::bad_alloc if it was memory.
   std::string error() const {
     if (source_.out_of_memory) throw std::bad_alloc();
     return "It is damaged: " + std::string(source_.error.data()) + ".";
@@ -202,15 +202,15 @@ class PngReader final : public ImageReader {
 
   std::unique_ptr<Handle> handle_;
   core::Work& stop_;
-  bool wide_;  // channels of 16 bits
+  bool wide_;  // channels have 16 bits
   bool interlaced_;
   std::size_t row_bytes_;
-  std::vector<std::uint8_t> bytes_;  // of a row; of an interlaced image, of all
+  std::vector<std::uint8_t> bytes_;  // bytes of a row; for an interlaced image, of all rows
   std::vector<std::uint16_t> channels_;
-  int row_ = 0;  // the next one of an interlaced image
+  int row_ = 0;  // for an interlaced image, the next row
 };
 
-/// The fault of the first bytes.
+/// Returns the fault of the first bytes.
 std::optional<ImageFault> beginning_fault(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < kSignature.size() || !std::equal(kSignature.begin(), kSignature.end(), bytes.begin()))
     return ImageFault{"It does not begin as a PNG image."};

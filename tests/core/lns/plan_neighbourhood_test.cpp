@@ -1,4 +1,4 @@
-#include "core/lns/replan.h"
+#include "core/lns/plan_neighbourhood.h"
 
 #include <gtest/gtest.h>
 
@@ -25,8 +25,9 @@ struct Crossing : Planning {
     state.follow(2, through({{8.5, 8.5}, {8.5, 7.5}}));
   }
 
-  ReplanResult replan_all(const std::vector<std::size_t>& robots, const ReplanOptions& options = {}) {
-    return replan(state, robots, bounds, options, never);
+  NeighbourhoodResult plan_again(const std::vector<std::size_t>& robots,
+                                 const NeighbourhoodOptions& options = {}) {
+    return plan_neighbourhood(state, robots, bounds, options, never);
   }
   double sum() const {
     double sum = 0.0;
@@ -42,10 +43,10 @@ struct Crossing : Planning {
   TautPathBounds bounds;
 };
 
-TEST(Replan, MakesOneRobotCheaper) {
+TEST(PlanNeighbourhood, MakesOneRobotCheaper) {
   Crossing p;
   const double before = p.sum();
-  ReplanResult result = p.replan_all({0});
+  NeighbourhoodResult result = p.plan_again({0});
   ASSERT_TRUE(result.change);
   EXPECT_EQ(result.searches, 1);
   ASSERT_EQ(result.change->parts.size(), 1U);
@@ -56,9 +57,9 @@ TEST(Replan, MakesOneRobotCheaper) {
   support::expect_safe(p.state);
 }
 
-TEST(Replan, ChangesOnlyConflictingRobots) {
+TEST(PlanNeighbourhood, ChangesOnlyConflictingRobots) {
   Crossing p;
-  ReplanResult result = p.replan_all({0, 1, 2});
+  NeighbourhoodResult result = p.plan_again({0, 1, 2});
   ASSERT_TRUE(result.change);
   for (const Change::Part& part : result.change->parts)
     EXPECT_NE(part.robot, 2U) << "no robot conflicts with it";
@@ -69,21 +70,21 @@ TEST(Replan, ChangesOnlyConflictingRobots) {
   support::expect_safe(p.state);
 }
 
-TEST(Replan, FindsNoChangeForARobotAtItsLowerBound) {
+TEST(PlanNeighbourhood, FindsNoChangeForARobotAtItsLowerBound) {
   Crossing p;
-  EXPECT_FALSE(p.replan_all({2, 0, 1}).change);
+  EXPECT_FALSE(p.plan_again({2, 0, 1}).change);
 }
 
-TEST(Replan, RejectsAGainBelowTheRequiredShare) {
+TEST(PlanNeighbourhood, RejectsAGainBelowTheRequiredShare) {
   Crossing p;
-  ReplanOptions options;
+  NeighbourhoodOptions options;
   options.min_gain_share = 0.8;
-  EXPECT_TRUE(p.replan_all({0}, options).change);
+  EXPECT_TRUE(p.plan_again({0}, options).change);
   options.min_gain_share = 0.99;  // robot 1 prevents it
-  EXPECT_FALSE(p.replan_all({0}, options).change);
+  EXPECT_FALSE(p.plan_again({0}, options).change);
 }
 
-TEST(Replan, AcceptsALossUpToTheLimit) {
+TEST(PlanNeighbourhood, AcceptsALossUpToTheLimit) {
   // Where corridors cross, the slow robot loses little behind the fast one, which would lose much behind it.
   Planning p(support::ascii_map({"####.####",  //
                                  "####.####",  //
@@ -98,29 +99,29 @@ TEST(Replan, AcceptsALossUpToTheLimit) {
   const TautPathBounds bounds(p.instance, p.movers(), std::vector<double>(2, kForever), p.never);
   p.state.follow(1, p.state.plan_alone(1, p.never));
   p.state.follow(0, *p.state.plan(0, kExact, p.never).trajectory);
-  ReplanOptions options;
+  NeighbourhoodOptions options;
   options.min_gain_share = 0.9;
-  EXPECT_FALSE(replan(p.state, {0, 1}, bounds, options, p.never).change);
+  EXPECT_FALSE(plan_neighbourhood(p.state, {0, 1}, bounds, options, p.never).change);
   options.most_loss = 10.0;
-  const ReplanResult result = replan(p.state, {0, 1}, bounds, options, p.never);
+  const NeighbourhoodResult result = plan_neighbourhood(p.state, {0, 1}, bounds, options, p.never);
   ASSERT_TRUE(result.change);
   EXPECT_LT(result.change->gain, 0.0);
   EXPECT_GT(result.change->gain, -10.0);
 }
 
-TEST(Replan, KeepsAllCostsBelowTheLimit) {
+TEST(PlanNeighbourhood, KeepsAllCostsBelowTheLimit) {
   Crossing p;
-  ReplanOptions options;
-  options.gain = ReplanOptions::Gain::first;
+  NeighbourhoodOptions options;
+  options.gain = NeighbourhoodOptions::Gain::first;
   options.cost_limit = 9.2;
-  const ReplanResult result = p.replan_all({0, 1}, options);
+  const NeighbourhoodResult result = p.plan_again({0, 1}, options);
   ASSERT_TRUE(result.change);
   for (const Change::Part& part : result.change->parts) EXPECT_LT(part.trajectory.cost, 9.2);
   options.cost_limit = 8.0;  // the lower bound of robot 0
-  EXPECT_FALSE(p.replan_all({0, 1}, options).change);
+  EXPECT_FALSE(p.plan_again({0, 1}, options).change);
 }
 
-TEST(Replan, LeavesTheStateUnchanged) {
+TEST(PlanNeighbourhood, LeavesTheStateUnchanged) {
   Crossing p;
   const auto text = [&] {
     Plan plan;
@@ -128,8 +129,8 @@ TEST(Replan, LeavesTheStateUnchanged) {
     return exact_text(plan);
   };
   const std::string before = text();
-  p.replan_all({0, 1, 2});
-  replan(p.state, {0, 1, 2}, p.bounds, {}, met());
+  p.plan_again({0, 1, 2});
+  plan_neighbourhood(p.state, {0, 1, 2}, p.bounds, {}, met());
   EXPECT_EQ(text(), before);
   EXPECT_EQ(p.state.conflicting_robots(2, through({{4.5, 0.5}, {4.5, 8.5}}, 1.0)),
             std::vector<std::size_t>{1})

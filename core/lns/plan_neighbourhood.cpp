@@ -1,4 +1,4 @@
-#include "core/lns/replan.h"
+#include "core/lns/plan_neighbourhood.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,10 +9,11 @@ namespace {
 /// A gain below this is rounding, seconds.
 constexpr double kLeastGain = 1e-9;
 
-class Replanning {
+class NeighbourhoodPlanning {
  public:
-  Replanning(PlanState& state, const std::vector<std::size_t>& robots, const TautPathBounds& bounds,
-             const ReplanOptions& options, const StopCondition& stop)
+  NeighbourhoodPlanning(PlanState& state, const std::vector<std::size_t>& robots,
+                        const TautPathBounds& bounds, const NeighbourhoodOptions& options,
+                        const StopCondition& stop)
       : state_(state),
         bounds_(bounds),
         options_(options),
@@ -20,11 +21,11 @@ class Replanning {
         unplanned_(robots),
         queue_{robots.front()} {}
 
-  ReplanResult run() {
+  NeighbourhoodResult run() {
     const bool accepted = plan_queue();
     for (const Change::Part& part : before_) state_.remove(part.robot);
     for (Change::Part& part : before_) state_.follow(part.robot, std::move(part.trajectory));
-    ReplanResult result{std::nullopt, searches_, expansions_};
+    NeighbourhoodResult result{std::nullopt, searches_, expansions_};
     if (accepted) result.change = std::move(change_);
     return result;
   }
@@ -38,7 +39,7 @@ class Replanning {
       SearchResult result = search(k);
       if (!result.trajectory) return false;
       const double gained = cost(robot) - result.trajectory->cost;
-      if (k == 0 || options_.gain == ReplanOptions::Gain::sum) change_.gain += gained;
+      if (k == 0 || options_.gain == NeighbourhoodOptions::Gain::sum) change_.gain += gained;
       std::erase(unplanned_, robot);
       enqueue_conflicting(robot, *result.trajectory);
       change_.parts.push_back({robot, std::move(*result.trajectory)});
@@ -74,8 +75,8 @@ class Replanning {
     if (position == 0) {  // the change is for its sake, so it has to gain itself
       return now - std::max(kLeastGain, options_.min_gain_share * (now - bounds_[queue_[position]]));
     }
-    if (options_.gain == ReplanOptions::Gain::first) return kForever;
-    double possible_gain = 0.0;  // of those that follow in the queue
+    if (options_.gain == NeighbourhoodOptions::Gain::first) return kForever;
+    double possible_gain = 0.0;  // by the robots that follow in the queue
     for (std::size_t k = position + 1; k < queue_.size(); ++k) {
       possible_gain += std::max(0.0, cost(queue_[k]) - bounds_[queue_[k]]);
     }
@@ -99,7 +100,7 @@ class Replanning {
 
   PlanState& state_;
   const TautPathBounds& bounds_;
-  const ReplanOptions& options_;
+  const NeighbourhoodOptions& options_;
   const StopCondition& stop_;
   std::vector<std::size_t> unplanned_;  // robots of the neighbourhood without a new trajectory
   std::vector<std::size_t> queue_;      // robots to plan, and those planned already
@@ -111,9 +112,10 @@ class Replanning {
 
 }  // namespace
 
-ReplanResult replan(PlanState& state, const std::vector<std::size_t>& robots, const TautPathBounds& bounds,
-                    const ReplanOptions& options, const StopCondition& stop) {
-  return Replanning(state, robots, bounds, options, stop).run();
+NeighbourhoodResult plan_neighbourhood(PlanState& state, const std::vector<std::size_t>& robots,
+                                       const TautPathBounds& bounds, const NeighbourhoodOptions& options,
+                                       const StopCondition& stop) {
+  return NeighbourhoodPlanning(state, robots, bounds, options, stop).run();
 }
 
 }  // namespace fleetplan::core

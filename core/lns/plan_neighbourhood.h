@@ -18,11 +18,11 @@ struct Change {
     Trajectory trajectory;
   };
   std::vector<Part> parts;
-  double gain = 0.0;  // seconds, see ReplanOptions::Gain
+  double gain = 0.0;  // seconds, see NeighbourhoodOptions::Gain
 };
 
-/// Which changes are accepted, and the effort for them.
-struct ReplanOptions {
+/// Which changes of a neighbourhood are accepted, and the effort for them.
+struct NeighbourhoodOptions {
   enum class Gain : std::uint8_t {
     sum,    // the sum of all costs has to fall
     first,  // the cost of the first robot has to fall, whatever the others' become
@@ -31,21 +31,22 @@ struct ReplanOptions {
   double most_loss = 0.0;        // seconds, >= 0; by how much the sum may rise
   double cost_limit = kForever;  // seconds; all costs have to be below it
   double min_gain_share = 0.0;   // [0, 1); share of the first robot's delay that it has to gain at least
-  SearchLimits limits;           // of every search; the bound follows from the rest
+  SearchLimits limits;           // limits of every search; the bound follows from the other members
 };
 
-struct ReplanResult {
+struct NeighbourhoodResult {
   std::optional<Change> change;
   std::int64_t searches = 0;
   std::int64_t expansions = 0;
 };
 
-/// The repair step of large neighbourhood search (Li et al., MAPF-LNS, IJCAI 2021): plans robots.front() as
-/// if the others of `robots` were absent, then those of them that conflict with it, and so on. Trajectories
-/// that conflict with further robots of `robots` are accepted only if there is no other. A search ends when
-/// no trajectory can bring the required gain any more. All of `robots` have trajectories and bounds. The
-/// state is left unchanged.
-ReplanResult replan(PlanState& state, const std::vector<std::size_t>& robots, const TautPathBounds& bounds,
-                    const ReplanOptions& options, const StopCondition& stop);
+/// Plans the robots of a neighbourhood again (Li et al., MAPF-LNS, IJCAI 2021): first robots.front() as if
+/// the others of `robots` were absent, then those of them that conflict with it, and so on. Trajectories that
+/// conflict with further robots of `robots` are accepted only if there is no other. A search ends when no
+/// trajectory can bring the required gain any more. All of `robots` have trajectories and bounds. The state
+/// is left unchanged.
+NeighbourhoodResult plan_neighbourhood(PlanState& state, const std::vector<std::size_t>& robots,
+                                       const TautPathBounds& bounds, const NeighbourhoodOptions& options,
+                                       const StopCondition& stop);
 
 }  // namespace fleetplan::core
