@@ -48,7 +48,7 @@ class Instance {
   double narrower(std::size_t index, std::size_t stage) const { return disk(index, stage).narrower; }
   /// Whether the robot has several radii on the way to the goals that are left, or after the last one.
   bool changes_radius(std::size_t index) const { return disks_[index].size() > 1; }
-  /// Of the robot at any time, commitments included; metres, with inflation and vicinity.
+  /// The largest radius of the robot at any time, commitments included; metres, with inflation and vicinity.
   double largest_pair_radius(std::size_t index) const;
   /// The motion with the smallest radius on the way to the goals that are left.
   const Motion& slimmest_motion(std::size_t index) const;

@@ -72,7 +72,7 @@ std::vector<TimedSegment> PlanState::after_commitment(std::size_t robot, const T
 
 void PlanState::reserve(std::size_t robot, const std::vector<TimedSegment>& segments) {
   remove(robot);
-  table_.commit(robot, segments);
+  table_.reserve(robot, segments);
 }
 
 void PlanState::remove(std::size_t robot) {
@@ -107,7 +107,7 @@ void PlanState::reserve_start(std::size_t robot, double seconds) {
   const Position& place = itinerary.pose.position;
   remove(robot);
   if (seconds > 0.0) {
-    table_.commit(
+    table_.reserve(
         robot,
         {{{place, place}, itinerary.t_begin, itinerary.t_begin + seconds, instance_.narrower(robot, 0)}});
   }

@@ -75,7 +75,7 @@ class PlanState {
 
   /// Plans a robot that has a goal and no reservation; changes no reservation.
   SearchResult plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
-  /// The same without the reservations of the robots of `ignored`.
+  /// Plans a robot as plan() does, without the reservations of the robots of `ignored`.
   SearchResult plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,
                              const SearchLimits& limits, const StopCondition& stop);
 
@@ -84,7 +84,7 @@ class PlanState {
   /// Whether the robot has a way to its goal past obstacles and the robots that stay; unknown if `stop` is
   /// met first, or if that takes more than `max_expansions` expansions of a search on the map.
   const Way& way_to_goal(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
-  /// What is known of it.
+  /// What is known of that way.
   const Way& way_to_goal(std::size_t robot) const { return ways_[robot]; }
   /// Expansions of searches on the map, for estimates of the cost to the goal.
   std::int64_t map_expansions() const { return map_expansions_; }
@@ -96,7 +96,7 @@ class PlanState {
   /// The robots whose reservations conflict with the trajectory, ascending. Committed motion is left out, of
   /// this robot and of the others: it does not change.
   std::vector<std::size_t> conflicting_robots(std::size_t robot, const Trajectory& trajectory) const;
-  /// Likewise those whose committed motion conflicts with what follows the robot's own.
+  /// The robots whose committed motion conflicts with what follows the robot's own commitment, ascending.
   std::vector<std::size_t> robots_committed_against(std::size_t robot, const Trajectory& trajectory) const;
   /// The robots whose reservations conflict with the robot's staying, ascending; committed motion is left
   /// out.
@@ -105,7 +105,7 @@ class PlanState {
   /// Gives up what searches keep for later, if memory is short.
   void relieve_memory();
 
-  /// Of all searches among reservations.
+  /// Expansions of all searches among reservations so far.
   std::int64_t expansions() const { return expansions_; }
 
  private:

@@ -87,7 +87,7 @@ void Contacts::add(std::size_t robot, const Contact& contact) {
   }
 }
 
-/// Of two robots, one may have too many contacts to list the other one.
+/// Looks in the lists of both robots, because one may have too many contacts to list the other one.
 const Contacts::Contact* Contacts::find(std::size_t robot, std::size_t other) const {
   // Bounded: kMaxContacts of each of the two.
   for (const auto& [of, with] : {std::pair{robot, other}, std::pair{other, robot}}) {

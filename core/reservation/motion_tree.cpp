@@ -59,7 +59,7 @@ MotionTree::MotionTree(std::vector<Disk> disks, const Extent& extent, const Stop
               build(*all, stop);
 }
 
-/// Those that a query can come near, not yet in order. None if the stop condition is met.
+/// The pieces that a query can come near, not yet in order; none if the stop condition is met.
 std::optional<std::vector<MotionTree::Piece>> MotionTree::pieces(const Extent& extent,
                                                                  const StopCondition& stop) const {
   double total = 0.0;

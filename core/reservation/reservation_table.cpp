@@ -190,7 +190,7 @@ bool ReservationTable::departs(std::size_t robot, const Position& from) const {
   return fixed_ != nullptr && fixed_->departs(robot, from);
 }
 
-void ReservationTable::commit(std::size_t robot, const std::vector<TimedSegment>& segments) {
+void ReservationTable::reserve(std::size_t robot, const std::vector<TimedSegment>& segments) {
   index_->add(robot, segments);
 }
 

@@ -42,7 +42,7 @@ class ReservationTable {
   ~ReservationTable();
 
   /// Reserves contiguous segments for a robot that has no reservation yet; they follow its commitment.
-  void commit(std::size_t robot, const std::vector<TimedSegment>& segments);
+  void reserve(std::size_t robot, const std::vector<TimedSegment>& segments);
   /// Removes the robot's reservation; no effect if it has none.
   void remove(std::size_t robot);
 
@@ -66,7 +66,8 @@ class ReservationTable {
   /// ascending; those that they only touch, up to rounding, are left out, as departures are delayed until
   /// then. Committed motion is left out. The segments follow the robot's commitment.
   std::vector<std::size_t> robots_hit(std::size_t robot, const std::vector<TimedSegment>& segments) const;
-  /// Likewise those whose committed motion does.
+  /// The robots whose committed motion comes nearer to these segments of `robot` than they are kept apart,
+  /// ascending.
   std::vector<std::size_t> robots_certainly_hit(std::size_t robot,
                                                 const std::vector<TimedSegment>& segments) const;
   /// The obstacles that these segments of `robot` meet, ascending.

@@ -6,7 +6,7 @@
 namespace fleetplan::core {
 namespace {
 
-/// More classes cost memory and commit time, fewer cost longer bucket lists.
+/// More classes cost memory and time to reserve, fewer cost longer bucket lists.
 constexpr std::size_t kMaxLayers = 6;
 /// Buckets of all layers together, to bound memory on huge maps.
 constexpr double kMaxBuckets = 2.5e5;

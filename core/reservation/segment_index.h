@@ -28,11 +28,11 @@ class SegmentIndex {
     Endpoint endpoint = Endpoint::none;
   };
 
-  /// As for ReservationTable.
+  /// An empty index; for the arguments see ReservationTable.
   SegmentIndex(double width, double height, double cell_size, std::vector<double> radii,
                const Contacts* contacts);
 
-  /// The largest that the robot ever has.
+  /// The largest radius that the robot ever has, metres.
   double radius(std::size_t robot) const { return radii_[robot]; }
   const BucketGrid& grid() const { return grid_; }
   /// Null if no two robots are in contact.

@@ -42,7 +42,7 @@ struct SearchLimits {
   /// `dominance_slack`, and keeps only one label per safe interval while f is below the time from which the
   /// goal is free.
   bool thorough = true;
-  /// Of both searches together; a search that needs more ends as not complete.
+  /// Limits the expansions of both searches together; a search that needs more ends as not complete.
   std::int64_t max_expansions = std::numeric_limits<std::int64_t>::max();
   /// May be null. Asked after kFirstTest expansions and whenever their number has doubled.
   NoPathTest* no_path_test = nullptr;
@@ -52,9 +52,9 @@ struct SearchLimits {
 /// The result of a search for one robot.
 struct SearchResult {
   std::optional<Trajectory> trajectory;
-  /// Without a trajectory: false if the stop condition or max_expansions ended the search. True otherwise;
-  /// with `thorough`, then no trajectory costs less than the bound (except those that dominance loses, see
-  /// docs/method.md).
+  /// False if there is no trajectory because the stop condition or max_expansions ended the search. If it is
+  /// true and the search was `thorough`, no trajectory costs less than the bound (except those that dominance
+  /// loses, see docs/proofs.md).
   bool complete = true;
   std::int64_t expansions = 0;
 };

@@ -12,8 +12,8 @@ namespace {
 /// Expansions between two checks of the stop condition, of each search.
 constexpr int kStopStride = 64;
 constexpr std::int64_t kTimesStopStride = 256;
-/// Of what any-angle moves shorten lattice moves at most, so much is expected. With none, ways cost up to
-/// 0.3 % more in offices; with all of it, the search takes more than twice as many expansions.
+/// The share, of what any-angle moves shorten lattice moves at most, that is expected. With none, ways cost
+/// up to 0.3 % more in offices; with all of it, the search takes more than twice as many expansions.
 constexpr double kShortened = 0.25;
 
 }  // namespace
@@ -139,7 +139,7 @@ class CostToGo::BackwardSearch {
   double reverse_seconds(int vertex) {
     return motion_.may_reverse ? reverse_seconds_[static_cast<std::size_t>(vertex)] : kForever;
   }
-  /// Of a vertex that was reached.
+  /// The cost to go from a vertex that was reached, forwards or backwards, whichever is less; seconds.
   double least(const Node& node, int vertex) { return std::min(node.seconds, reverse_seconds(vertex)); }
   void set(Node& node, int vertex, int next, const Estimate& estimate);
   void begin(const StopCondition& stop);

@@ -81,8 +81,8 @@ class CostToGo {
     double seconds = 0.0;   // without the rotation to `heading`; kForever if there is no path
     double heading = 0.0;   // of the first translation, forwards
     bool straight = false;  // the goal is in sight
-    /// The same if the first translation is backwards, with the opposite heading; kForever for a robot that
-    /// does not reverse.
+    /// As `seconds` if the first translation is backwards, with the opposite heading; kForever for a robot
+    /// that does not reverse.
     double reverse_seconds = kForever;
 
     double least() const { return std::min(seconds, reverse_seconds); }
@@ -104,7 +104,7 @@ class CostToGo {
   /// or if `stop` is met first.
   std::optional<bool> reaches(int vertex, std::int64_t max_expansions, const StopCondition& stop);
 
-  /// Of the backward search so far.
+  /// Expansions of the backward search so far.
   std::int64_t expansions() const;
 
   /// Approximate memory in use, bytes.

@@ -34,7 +34,7 @@ class Vertices {
  public:
   /// With the radius that the robot has in a stage: on the way to one of the goals that are left, or at rest
   /// at the last one. See Instance::motion.
-  /// Not finished(), and not to be used, if `stop` is met first.
+  /// If `stop` is met first, the view is not finished() and must not be used.
   Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop);
 
   bool finished() const { return finished_; }
@@ -61,8 +61,8 @@ class Vertices {
     std::optional<double> heading;
     bool operator==(const GoalPose&) const = default;
   };
-  /// Of the goals that are left to visit, in their order. None for a parked robot. Those at which the robot
-  /// neither arrives nor leaves with this radius have no vertex.
+  /// The poses of the goals that are left to visit, in their order; empty for a parked robot. Goals at which
+  /// the robot neither arrives nor leaves with this radius have no vertex.
   const std::vector<GoalPose>& goals() const { return goals_; }
   /// The vertex of the last one, -1 for a parked robot.
   int goal() const { return goals_.empty() ? -1 : goals_.back().vertex; }
@@ -131,7 +131,7 @@ class Vertices {
     std::vector<int> links;  // ascending
   };
 
-  /// Of the robot's disk there.
+  /// The radius of the robot's disk at a vertex, metres.
   double radius(int vertex) const { return is_own(vertex) ? own_[own_index(vertex)].radius : motion_.radius; }
   bool is_own(int vertex) const { return vertex >= first_own_; }
   std::size_t own_index(int vertex) const { return static_cast<std::size_t>(vertex - first_own_); }
@@ -172,7 +172,7 @@ class Vertices {
 /// view of the static map, and the costs to go to each of its goals.
 class SearchSpace {
  public:
-  /// Not finished(), and not to be used, if `stop` is met first.
+  /// If `stop` is met first, the space is not finished() and must not be used.
   SearchSpace(const Instance& instance, std::size_t robot, const StopCondition& stop);
 
   bool finished() const { return layers_.back().vertices->finished(); }
@@ -199,7 +199,7 @@ class SearchSpace {
   bool rests_with_other_radius() const {
     return changes_radius() && radius(goal_count()) != radius(goal_count() - 1);
   }
-  /// Metres, in a stage, or with goal_count() at rest at the last goal.
+  /// The radius in a stage or, with goal_count(), at rest at the last goal; metres, inflation included.
   double radius(std::size_t stage) const { return instance_.motion(robot_, stage).radius; }
   Footprint footprint(std::size_t stage) const { return {robot_, instance_.narrower(robot_, stage)}; }
   /// The committed actions end at rest in the pose of the first goal.

@@ -102,7 +102,7 @@ class Crowd {
     const auto made = core::Problem::create(workload_.grid, robots, core::StopCondition::never());
     const core::Plan plan = core::plan(std::get<core::Problem>(made), {}, core::StopCondition::never());
     for (const core::RobotPlan& robot : plan.plans)
-      table_.commit(robot.robot, reservations(workload_.robots[robot.robot], robot));
+      table_.reserve(robot.robot, reservations(workload_.robots[robot.robot], robot));
   }
 
   const core::OccupancyGrid& grid() const { return workload_.grid; }

@@ -59,7 +59,7 @@ TEST(Contacts, DoNotDependOnTheRoundingOfSquares) {
     const Position other(3 + distance * std::cos(angle), 3 + distance * std::sin(angle));
     const Contacts contacts({at(3, 3, 5, 1), at(other.x(), other.y())});
     ReservationTable table(10.0, 10.0, 1.0, {0.5, 0.5}, &contacts);
-    table.commit(1, resting(other.x(), other.y()));
+    table.reserve(1, resting(other.x(), other.y()));
     const Position away(3 - std::cos(angle), 3 - std::sin(angle));
     ASSERT_EQ(table.safe_intervals(0, {3, 3}).size(), 1u) << angle;
     ASSERT_EQ(table.earliest_departure(0, {{3, 3}, away}, 1.0, 0.0, kForever), 0.0) << angle;
@@ -95,7 +95,7 @@ TEST(Contacts, AreLimitedInNumberButSeenFromBothSides) {
 class TooNear : public testing::Test {
  protected:
   TooNear() : contacts({at(2, 2, 6, 2), at(2.75, 2)}), table(10.0, 10.0, 1.0, {0.5, 0.5}, &contacts) {
-    table.commit(1, resting(2.75, 2));
+    table.reserve(1, resting(2.75, 2));
   }
   std::optional<double> departure(const Position& from, const Position& to) const {
     return table.earliest_departure(0, {from, to}, 1.0, 0.0, kForever);
@@ -121,7 +121,7 @@ TEST_F(TooNear, AMoveMayLeadAwayButNotNearer) {
 
 TEST_F(TooNear, BothMayLeaveAtOnce) {
   table.remove(1);
-  table.commit(1, {{{{2.75, 2}, {4.75, 2}}, 0.0, 2.0}, {rest(4.75, 2), 2.0, kForever}});
+  table.reserve(1, {{{{2.75, 2}, {4.75, 2}}, 0.0, 2.0}, {rest(4.75, 2), 2.0, kForever}});
   EXPECT_EQ(departure({2, 2}, {3, 2}), 0.0) << "behind the other one, at its speed";
   EXPECT_TRUE(table.robots_hit(0, {{{{2, 2}, {3, 2}}, 0.0, 1.0}}).empty());
 }

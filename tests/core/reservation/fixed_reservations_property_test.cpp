@@ -82,7 +82,7 @@ class RandomFixed : public testing::TestWithParam<int> {
   void reserve(std::size_t i, const FixedReservations::Robot& each, double reach) {
     std::vector<TimedSegment> after{{{each.departure, each.departure}, each.t_departure, kForever}};
     if (each.committed.empty()) after = timed_segments(random_trajectory(each.start, 0.0));
-    table->commit(i, after);
+    table->reserve(i, after);
     others.push_back({each.committed, reach, margin});
     others.back().segments.insert(others.back().segments.end(), after.begin(), after.end());
   }
@@ -247,7 +247,7 @@ TEST_P(NearStarts, DoNotComeNearerWhileBothLeave) {
     const double leaves = dice.between(0.0, 3.0);
     const Segment theirs{b, b + 3.0 * direction()};
     const std::vector<TimedSegment> moves{{theirs, leaves, leaves + 3.0}};
-    table.commit(1, timed_segments({b, moves, 0.0}));
+    table.reserve(1, timed_segments({b, moves, 0.0}));
     ASSERT_GE(table.safe_intervals(0, a).front().end, leaves) << "both may stand there";
     const Segment mine{a, a + 3.0 * direction()};
     const auto departure = table.earliest_departure(0, mine, 3.0, dice.between(0.0, 3.0), leaves + 1.0);

@@ -98,7 +98,7 @@ TEST(FixedReservations, MovesWaitForObstaclesAndRobots) {
   const Segment path{{2, 10}, {18, 10}};
   const double alone = *scene.table.earliest_departure(0, path, 16.0, 1.0, kForever);
   EXPECT_NEAR(alone, 1.5 + std::sqrt(2.0), 1e-5);
-  scene.table.commit(1, drive({10, 19}, {10, 10}, 0.0, 12.0));
+  scene.table.reserve(1, drive({10, 19}, {10, 10}, 0.0, 12.0));
   EXPECT_FALSE(scene.table.earliest_departure(0, path, 16.0, alone, kForever))
       << "then the robot stays there";
   scene.table.ignore(1, true);
@@ -135,7 +135,7 @@ TEST(FixedReservations, OnlyWhatFollowsACommitmentCanBeIgnored) {
   Scene scene({committed({2, 5}, {8, 5}, 6), idle({5, 9})}, {});
   EXPECT_NEAR(scene.table.safe_intervals(1, {8, 5})[0].end, 5.0, 1e-8);
   EXPECT_EQ(scene.table.safe_intervals(1, {8, 5}).size(), 2u) << "nothing is planned for it yet";
-  scene.table.commit(0, {{{{8, 5}, {8, 5}}, 6.0, kForever}});
+  scene.table.reserve(0, {{{{8, 5}, {8, 5}}, 6.0, kForever}});
   EXPECT_EQ(scene.table.safe_intervals(1, {8, 5}).size(), 1u) << "it stays";
   scene.table.ignore(0, true);
   EXPECT_EQ(scene.table.safe_intervals(1, {8, 5}).size(), 2u);

@@ -66,7 +66,7 @@ class RandomReservations : public testing::TestWithParam<int> {
 
   void reserve(std::size_t robot) {
     committed[robot] = timed_segments(random_trajectory());
-    table.commit(robot, committed[robot]);
+    table.reserve(robot, committed[robot]);
   }
 
   double reach(std::size_t other) const { return radii[querying] + radii[other] - kSearchSlack; }
@@ -183,7 +183,7 @@ TEST_P(RandomReservations, CommitAndRemoveChangeNothing) {
     before.emplace_back(position, table.safe_intervals(querying, position));
   }
   for (int round = 0; round < 3; ++round) {
-    table.commit(querying, timed_segments(random_trajectory()));
+    table.reserve(querying, timed_segments(random_trajectory()));
     table.remove(querying);
   }
   for (const auto& [position, intervals] : before) {

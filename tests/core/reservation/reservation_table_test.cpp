@@ -32,7 +32,7 @@ TEST(ReservationTable, AllowsEverythingIfEmpty) {
 
 TEST(ReservationTable, PassingRobotSplitsSafeInterval) {
   ReservationTable table = table_of(2);
-  table.commit(1, drive({0.5, 5}, {19.5, 5}, 2.0, 21.0));  // at x = 5 when t = 6.5
+  table.reserve(1, drive({0.5, 5}, {19.5, 5}, 2.0, 21.0));  // at x = 5 when t = 6.5
   const auto safe = table.safe_intervals(0, {5, 5});
   ASSERT_EQ(safe.size(), 2u);
   EXPECT_EQ(safe[0].begin, 0.0);
@@ -44,7 +44,7 @@ TEST(ReservationTable, PassingRobotSplitsSafeInterval) {
 
 TEST(ReservationTable, HasNoSafeIntervalWhereRobotStands) {
   ReservationTable table = table_of(2);
-  table.commit(1, stand({5, 5}));
+  table.reserve(1, stand({5, 5}));
   EXPECT_TRUE(table.safe_intervals(0, {5.9, 5}).empty());
   EXPECT_EQ(table.safe_intervals(0, {6, 5}).size(), 1u) << "in contact";
 }
@@ -52,8 +52,8 @@ TEST(ReservationTable, HasNoSafeIntervalWhereRobotStands) {
 TEST(ReservationTable, JoinsUnsafeIntervalsOfNeighbouringSegments) {
   ReservationTable table = table_of(2);
   const Position middle(5, 5);
-  table.commit(1,
-               timed_segments({{1, 5}, {{{{1, 5}, middle}, 0.0, 4.0}, {{middle, {5, 9}}, 6.0, 10.0}}, 10.0}));
+  table.reserve(
+      1, timed_segments({{1, 5}, {{{{1, 5}, middle}, 0.0, 4.0}, {{middle, {5, 9}}, 6.0, 10.0}}, 10.0}));
   const auto safe = table.safe_intervals(0, middle);
   ASSERT_EQ(safe.size(), 2u);
   EXPECT_NEAR(safe[0].end, 3.0, 1e-8);
@@ -62,8 +62,8 @@ TEST(ReservationTable, JoinsUnsafeIntervalsOfNeighbouringSegments) {
 
 TEST(ReservationTable, DelaysDepartureUntilRobotsJustTouch) {
   ReservationTable table = table_of(2);
-  table.commit(1, drive({10, 0.5}, {10, 19.5}, 0.0, 19.0));  // crosses y = 10 at t = 9.5
-  const Segment path{{2, 10}, {18, 10}};                     // x = 10 after 8 s
+  table.reserve(1, drive({10, 0.5}, {10, 19.5}, 0.0, 19.0));  // crosses y = 10 at t = 9.5
+  const Segment path{{2, 10}, {18, 10}};                      // x = 10 after 8 s
   const auto departure = table.earliest_departure(0, path, 16.0, 1.0, kForever);
   ASSERT_TRUE(departure);
   EXPECT_NEAR(*departure, 1.5 + std::sqrt(2.0), 1e-8);
@@ -73,7 +73,7 @@ TEST(ReservationTable, DelaysDepartureUntilRobotsJustTouch) {
 
 TEST(ReservationTable, FindsNoDepartureThroughRobotThatStays) {
   ReservationTable table = table_of(2);
-  table.commit(1, drive({10, 2}, {10, 10}, 5.0, 13.0));  // and stays
+  table.reserve(1, drive({10, 2}, {10, 10}, 5.0, 13.0));  // and stays
   const Segment path{{2, 10}, {18, 10}};
   EXPECT_TRUE(table.earliest_departure(0, path, 16.0, 0.0, kForever)) << "before it comes";
   EXPECT_FALSE(table.earliest_departure(0, path, 16.0, 5.5, kForever));
@@ -81,9 +81,9 @@ TEST(ReservationTable, FindsNoDepartureThroughRobotThatStays) {
 
 TEST(ReservationTable, ReturnsRobotsHitByTrajectory) {
   ReservationTable table = table_of(4);
-  table.commit(1, stand({5, 5}));
-  table.commit(2, drive({10, 1}, {10, 9}, 0.0, 8.0));  // at y = 5 when t = 4
-  table.commit(3, stand({15, 6}));
+  table.reserve(1, stand({5, 5}));
+  table.reserve(2, drive({10, 1}, {10, 9}, 0.0, 8.0));  // at y = 5 when t = 4
+  table.reserve(3, stand({15, 6}));
   EXPECT_EQ(table.robots_hit(0, drive({1, 5}, {18, 5}, 0.0, 17.0)), (Robots{1}));
   EXPECT_EQ(table.robots_hit(0, drive({1, 5}, {18, 5}, 0.0, 7.0)), (Robots{1, 2}));
   EXPECT_EQ(table.robots_hit(0, drive({1, 5}, {18, 5.1}, 0.0, 17.0)), (Robots{1, 3}));
@@ -93,7 +93,7 @@ TEST(ReservationTable, ReturnsRobotsHitByTrajectory) {
 
 TEST(ReservationTable, DoesNotReportRobotsThatAreOnlyTouched) {
   ReservationTable table = table_of(2);
-  table.commit(1, drive({2.1, 3.3}, {17.9, 16.7}, 1.0, 25.7));
+  table.reserve(1, drive({2.1, 3.3}, {17.9, 16.7}, 1.0, 25.7));
   int delayed = 0;
   for (int k = 0; k < 200; ++k) {
     const Segment path{{10.0 + 0.017 * k, 2.0}, {9.3 - 0.013 * k, 18.0}};
@@ -111,20 +111,20 @@ TEST(ReservationTable, DoesNotReportRobotsThatAreOnlyTouched) {
 
 TEST(ReservationTable, RemoveUndoesCommit) {
   ReservationTable table = table_of(3);
-  table.commit(1, drive({0.5, 5}, {19.5, 5}, 2.0, 21.0));
-  table.commit(2, stand({5, 5}));
+  table.reserve(1, drive({0.5, 5}, {19.5, 5}, 2.0, 21.0));
+  table.reserve(2, stand({5, 5}));
   table.remove(2);
   table.remove(2);  // no effect
   EXPECT_EQ(table.safe_intervals(0, {5, 5}).size(), 2u);
   table.remove(1);
   EXPECT_EQ(table.safe_intervals(0, {5, 5}).size(), 1u);
-  table.commit(1, stand({7, 7}));
+  table.reserve(1, stand({7, 7}));
   EXPECT_TRUE(table.safe_intervals(0, {7, 7}).empty());
 }
 
 TEST(ReservationTable, FiniteReservationEndsOnTime) {
   ReservationTable table = table_of(2);
-  table.commit(1, {{{{5, 5}, {5, 5}}, 0.0, 3.0}});
+  table.reserve(1, {{{{5, 5}, {5, 5}}, 0.0, 3.0}});
   const auto safe = table.safe_intervals(0, {5, 5});
   ASSERT_EQ(safe.size(), 1u);
   EXPECT_EQ(safe[0].begin, 3.0);
