@@ -26,12 +26,25 @@ struct Moment {
   std::vector<core::Zone> zones = {};
 };
 
+/// Where a robot is in its actions.
+struct Place {
+  std::size_t action = 0;
+  double fraction = 0.0;  // of the action, that is done
+};
+
+/// How far a robot says that it is.
+struct ReportedState {
+  Place place;                              // in one of its actions
+  std::optional<double> service_left = {};  // seconds, if the action is a service
+};
+
 /// What a robot does, and what happened to it.
 struct Execution {
   std::vector<core::Action> actions;  // that it executes, from t = 0 in its start
   bool planned = false;               // they are a plan; otherwise a commitment, at whose end it stays
   std::optional<core::Pose> measured = {};
-  std::optional<double> hold = {};  // until then on the clock of the moment
+  std::optional<ReportedState> reported = {};  // measured there, if it has a measured pose, too
+  std::optional<double> hold = {};             // until then on the clock of the moment
   std::optional<std::vector<core::Goal>> goals = {};
 };
 
@@ -47,10 +60,14 @@ std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
                                   core::Work& stop);
 
+/// Where the robot is in its actions at the moment: as reported, otherwise as measured, otherwise as planned.
+/// A robot that has done all of them is at the end of the last one, and one without actions at the beginning.
+Place place_of(const core::Robot& robot, const Execution& execution, const Moment& moment);
+
 /// The rest of an obstacle's motion; nothing if it has left.
 std::optional<core::MovingObstacle> advanced(const core::MovingObstacle& obstacle, double at);
 
-/// Where a robot is in its actions.
+/// How far a robot is in its actions.
 struct Progress {
   std::size_t action = 0;  // under way; the number of all actions if they are done
   double t = 0.0;          // the planned time of this progress, seconds
@@ -71,6 +88,15 @@ Progress planned_progress(const std::vector<core::Action>& actions, double at);
 std::optional<Progress> measured_progress(const core::Robot& robot, const std::vector<core::Action>& actions,
                                           const core::Pose& pose, double at, double tolerance);
 
+/// As reported. A service of which something is left counts as one that begins: its goal keeps what is left.
+Progress reported_progress(const std::vector<core::Action>& actions, const ReportedState& reported);
+
+/// Where the plan has it then.
+core::Pose pose_of(const std::vector<core::Action>& actions, const ReportedState& reported);
+
+/// Whether two poses are no further from each other than this: metres, and radians of heading.
+bool is_near(const core::Pose& pose, const core::Pose& other, double tolerance);
+
 /// The actions from this time on.
 Remainder remainder(const core::Robot& robot, const std::vector<core::Action>& actions, double at);
 
@@ -79,6 +105,12 @@ Remainder remainder(const core::Robot& robot, const std::vector<core::Action>& a
 /// later; if it ends earlier, the robot waits. A robot that stands is where its plan has it.
 Remainder remainder_of_measured(const core::Robot& robot, const std::vector<core::Action>& actions,
                                 const core::Pose& pose, const Progress& progress, double at);
+
+/// The remainder of a robot that has reported its progress. It goes on in the same way from the measured
+/// pose, or from where its plan has it then. A wait goes on for what is left of it. In a wait for a goal,
+/// what is left of the service, as planned or reported, begins at the goal's `not_before` at the earliest.
+Remainder remainder_of_reported(const core::Robot& robot, const Execution& execution,
+                                const Progress& progress, double at);
 
 /// Puts a wait until this time before the rest of the actions, which it delays, except for the wait under
 /// way.

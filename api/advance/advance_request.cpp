@@ -21,9 +21,14 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kRequestMembers{"map",   "robot_defaults", "robots",  "obstacles",
-                                                          "zones", "options",        "metadata"};
+// Its `progress` is that of an earlier moment.
+constexpr std::array<std::string_view, 8> kRequestMembers{"map",   "robot_defaults", "robots",   "obstacles",
+                                                          "zones", "options",        "metadata", "progress"};
 constexpr std::array<std::string_view, 4> kPoseMembers{"robot", "x", "y", "theta"};
+constexpr std::array<std::string_view, 8> kStateMembers{"robot", "action", "progress", "service_left",
+                                                        "x",     "y",      "theta",    "speed"};
+/// Backwards, a robot has a negative speed.
+constexpr Range kMeasuredSpeed{-kMostLinearSpeed, kMostLinearSpeed, "metres per second"};
 constexpr std::array<std::string_view, 2> kHoldMembers{"robot", "until"};
 constexpr std::array<std::string_view, 2> kGoalsMembers{"robot", "goals"};
 
@@ -72,6 +77,71 @@ void parse_events(const JsonReader& root, const RobotNames& names, const Limits&
   });
 }
 
+/// The number of an action that the robot has.
+std::optional<std::size_t> parse_action_number(const JsonReader& member, const core::Robot& robot,
+                                               const std::vector<core::Action>& actions) {
+  const auto action = member.natural(kGreatestIndex);
+  if (!action || *action < actions.size()) return action;
+  member.fault(fault::kOutOfRange, [&] {
+    if (actions.empty()) {
+      return "Robot " + in_quotes(robot.id) +
+             " has no action, neither of a plan nor committed: leave its state out, or give its pose in "
+             "poses.";
+    }
+    return "Robot " + in_quotes(robot.id) + " has " + std::to_string(actions.size()) +
+           " actions, numbered from 0; one that has done all of them is at progress 1 of the last.";
+  });
+  return std::nullopt;
+}
+
+/// A measured position without a heading has the planned one.
+std::optional<core::Pose> parse_measured_at(const JsonReader& entry, const core::Pose& planned) {
+  const JsonReader theta_member = entry.find("theta");
+  if (!entry.find("x") && !entry.find("y") && !theta_member) return std::nullopt;
+  constexpr std::string_view kRemedy = "; a measured pose has x and y";
+  const auto x = entry.require("x", kRemedy).number(kCoordinate);
+  const auto y = entry.require("y", kRemedy).number(kCoordinate);
+  const double theta = theta_member.number(kAnyAngle).value_or(planned.theta);
+  if (!x || !y) return std::nullopt;
+  return core::Pose{{*x, *y}, core::normalize_angle(theta)};
+}
+
+/// Reads where a robot says that it is in its actions.
+void parse_state(const JsonReader& entry, const core::Robot& robot, Execution& execution) {
+  const std::vector<core::Action>& actions = execution.actions;
+  const JsonReader left_member = entry.find("service_left");
+  const auto number = parse_action_number(entry.require("action"), robot, actions);
+  const auto fraction = entry.require("progress").number(kFraction);
+  const auto service_left = left_member.number(kDuration);
+  entry.find("speed").number(kMeasuredSpeed);
+  if (!number || !fraction) return;
+  const core::Action& action = actions[*number];
+  const bool is_service = action.goal && *action.goal < robot.goal_count();
+  if (service_left && !is_service) {
+    left_member.fault(fault::kUnknownKey, [&] {
+      return "Action " + std::to_string(*number) +
+             " is no service, which is a wait with goal: leave service_left out.";
+    });
+  }
+  execution.reported = ReportedState{{*number, *fraction}, service_left};
+  execution.measured = parse_measured_at(entry, pose_of(actions, *execution.reported));
+}
+
+/// Reads them when the actions of all robots are known.
+void parse_states(const JsonReader& list, const RobotNames& names, AdvanceRequest& request) {
+  read_entries(list, kStateMembers, names, [&](const JsonReader& entry, auto robot) {
+    if (!robot) return;
+    Execution& execution = request.executions[*robot];
+    if (execution.measured) {
+      entry.find("robot").fault(
+          fault::kDuplicate,
+          "This robot has an entry in poses, too: leave that out, and give the measured "
+          "pose here, as x, y and theta.");
+    }
+    parse_state(entry, request.robots[*robot], execution);
+  });
+}
+
 std::vector<core::Zone> in_world(std::vector<core::Zone> zones, const WorldFrame& frame) {
   // Bounded: each corner once.
   for (core::Zone& zone : zones) {
@@ -98,7 +168,8 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   read.moment.inflation = fleet.options.plan.inflation;
   read.executions.resize(fleet.robots.size());
   read.goal_metadata.resize(fleet.robots.size());
-  parse_events(root, RobotNames(fleet.robots, "robots of the request"), limits, read);
+  const RobotNames names(fleet.robots, "robots of the request");
+  parse_events(root, names, limits, read);
   // Without the map's frame, so that no number changes.
   for (core::RobotPlan& plan : parse_plans(root.require("plans"), fleet.robots, WorldFrame{})) {
     read.executions[plan.robot].actions = std::move(plan.actions);
@@ -124,6 +195,8 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   for (std::size_t k = 0; k < read.robots.size(); ++k) {
     if (!read.executions[k].planned) read.executions[k].actions = read.robots[k].committed;
   }
+  parse_states(root.find("states"), names, read);
+  if (root.fault_count() > 0) return std::nullopt;
   return stop.met() ? std::nullopt : std::optional(std::move(read));
 }
 
@@ -254,6 +327,28 @@ void write_obstacles(JsonWriter& json, const JsonValue& given, const AdvanceRequ
   json.end_array();
 }
 
+void write_place(JsonWriter& json, std::string_view key, const Place& place) {
+  json.key(key).begin_object();
+  json.member("action", place.action).member("progress", place.fraction);
+  json.end_object();
+}
+
+/// Where each robot is in the actions that it was given, and in those of the new request: at their beginning,
+/// as time 0 of a request is its moment.
+void write_progress(JsonWriter& json, const AdvanceRequest& request, core::Work& work) {
+  constexpr std::size_t kWorkOfAnAction = 64;  // to find the one under way
+  json.key("progress").begin_array();
+  for (std::size_t k = 0; k < request.robots.size(); ++k) {
+    const Execution& execution = request.executions[k];
+    if (work.met_after(kWorkOfAnAction * (1 + execution.actions.size()))) break;
+    json.begin_object().member("robot", request.robots[k].id);
+    write_place(json, "was", place_of(request.robots[k], execution, request.moment));
+    write_place(json, "is", Place{});
+    json.end_object();
+  }
+  json.end_array();
+}
+
 }  // namespace
 
 std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots,
@@ -261,6 +356,7 @@ std::string write_advanced(const AdvanceRequest& request, const std::vector<core
   JsonWriter json;
   json.begin_object();
   for (const JsonValue member : request.request.value().children()) {
+    if (member.key() == "progress") continue;
     json.key(member.key());
     if (member.key() == "robots") {
       write_robots(json, member, request, robots, work);
@@ -270,6 +366,7 @@ std::string write_advanced(const AdvanceRequest& request, const std::vector<core
       copy_json(json, member);
     }
   }
+  write_progress(json, request, work);
   json.end_object();
   return json.take();
 }

@@ -13,8 +13,8 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kAdvanceMembers{"request", "plans", "at",    "commit",
-                                                          "poses",   "holds", "goals", "pose_tolerance"};
+constexpr std::array<std::string_view, 9> kAdvanceMembers{
+    "request", "plans", "at", "commit", "states", "poses", "holds", "goals", "pose_tolerance"};
 
 constexpr std::array<std::string_view, 8> kRetimeMembers{
     "robots", "robot_defaults", "plans", "dependencies", "at", "states", "options", "metadata"};

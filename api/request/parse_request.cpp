@@ -172,8 +172,9 @@ std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, co
   return ProblemMaker(fleet, root, stop, maps).run();
 }
 
-constexpr std::array<std::string_view, 7> kPlanRequestMembers{
-    "map", "robot_defaults", "robots", "obstacles", "zones", "options", "metadata"};
+// `progress` is of /v1/advance, for who executes the plans, and is ignored.
+constexpr std::array<std::string_view, 8> kPlanRequestMembers{
+    "map", "robot_defaults", "robots", "obstacles", "zones", "options", "metadata", "progress"};
 
 /// `errors`: of each robot, or none.
 std::vector<ReceivedRobot> received(std::vector<ParsedRobot>& robots,

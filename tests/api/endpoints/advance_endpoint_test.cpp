@@ -111,6 +111,102 @@ TEST(AdvanceEndpoint, ReportsFaultsWhereTheyAre) {
             (std::pair<std::string, std::string>{"/plans/0/actions/0/type", "unknown_value"}));
 }
 
+TEST(AdvanceEndpoint, ReportsFaultsOfStatesWhereTheyAre) {
+  const Json good = advance_request(swap_request(), 1.0);
+  const auto with = [&](const char* states) {
+    Json body = good;
+    body["states"] = Json::parse(states);
+    return faults_of_advance(body);
+  };
+  EXPECT_EQ(with("{}"), (Faults{{"/states", "wrong_type"}}));
+  EXPECT_EQ(with(R"([{"robot": "a"}])"),
+            (Faults{{"/states/0/action", "missing"}, {"/states/0/progress", "missing"}}));
+  EXPECT_EQ(with(R"([{"robot": "z", "action": 0, "progress": 0}])"),
+            (Faults{{"/states/0/robot", "unknown_robot"}}));
+  EXPECT_EQ(with(R"([{"robot": "a", "action": 99, "progress": 0}])"),
+            (Faults{{"/states/0/action", "out_of_range"}}));
+  EXPECT_EQ(with(R"([{"robot": "a", "action": 0.5, "progress": 1.01}])"),
+            (Faults{{"/states/0/action", "wrong_type"}, {"/states/0/progress", "out_of_range"}}));
+  EXPECT_EQ(with(R"([{"robot": "a", "action": 0, "progress": -0.1}])"),
+            (Faults{{"/states/0/progress", "out_of_range"}}));
+  EXPECT_EQ(
+      with(R"([{"robot": "a", "action": 0, "progress": 0}, {"robot": "a", "action": 0, "progress": 0}])"),
+      (Faults{{"/states/1/robot", "duplicate"}}));
+  EXPECT_EQ(with(R"([{"robot": "a", "action": 0, "progress": 0, "service_left": 1}])"),
+            (Faults{{"/states/0/service_left", "unknown_key"}}));
+  EXPECT_EQ(with(R"([{"robot": "a", "action": 0, "progress": 0, "x": 1, "speed": 2000, "held_s": 1}])"),
+            (Faults{{"/states/0/speed", "out_of_range"},
+                    {"/states/0/held_s", "unknown_key"},
+                    {"/states/0/y", "missing"}}));
+}
+
+TEST(AdvanceEndpoint, ARobotIsReportedOrMeasuredButNotBoth) {
+  Json body = advance_request(swap_request(), 1.0);
+  body["poses"] = Json::parse(R"([{"robot": "a", "x": 1, "y": 1, "theta": 0}])");
+  body["states"] = Json::parse(R"([{"robot": "b", "action": 0, "progress": 0}])");
+  EXPECT_EQ(advance_endpoint(body.dump(), {}).status, 200);
+  body["states"][0]["robot"] = "a";
+  EXPECT_EQ(faults_of_advance(body), (Faults{{"/states/0/robot", "duplicate"}}));
+  body.erase("poses");
+  body["plans"] = Json::array();
+  EXPECT_EQ(faults_of_advance(body), (Faults{{"/states/0/action", "out_of_range"}}));
+  EXPECT_NE(advance_endpoint(body.dump(), {}).body.find("leave its state out"), std::string::npos);
+}
+
+/// A robot that is served for ten seconds at its first goal, from 5 s on, but has come there late.
+Json late_service() {
+  return Json::parse(R"({
+    "request": {
+      "map": {"rows": ["........", "........", "........", "........", "........"]},
+      "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 1.0},
+      "robots": [{"id": "a", "start": {"x": 1.25, "y": 1.25},
+                  "goals": [{"x": 6.25, "y": 1.25, "service": 10}, {"x": 6.25, "y": 4.25}]}]},
+    "plans": [{"robot": "a", "actions": [
+      {"type": "translate", "t_start": 0, "t_end": 5,
+       "from": {"x": 1.25, "y": 1.25, "theta": 0}, "to": {"x": 6.25, "y": 1.25, "theta": 0}},
+      {"type": "wait", "t_start": 5, "t_end": 15, "goal": 0,
+       "from": {"x": 6.25, "y": 1.25, "theta": 0}, "to": {"x": 6.25, "y": 1.25, "theta": 0}},
+      {"type": "rotate", "t_start": 15, "t_end": 16.5707963267949,
+       "from": {"x": 6.25, "y": 1.25, "theta": 0}, "to": {"x": 6.25, "y": 1.25, "theta": 1.5707963267948966}},
+      {"type": "translate", "t_start": 16.5707963267949, "t_end": 19.5707963267949,
+       "from": {"x": 6.25, "y": 1.25, "theta": 1.5707963267948966},
+       "to": {"x": 6.25, "y": 4.25, "theta": 1.5707963267948966}}]}],
+    "at": 18, "commit": 2})");
+}
+
+TEST(AdvanceEndpoint, ALateServiceIsNotLost) {
+  Json body = late_service();
+  body["states"] = Json::parse(
+      R"([{"robot": "a", "action": 1, "progress": 0.3, "x": 6.25, "y": 1.25, "theta": 0, "speed": 0}])");
+  const Json next = advanced_json(body);
+  const Json& robot = next["robots"][0];
+  ASSERT_EQ(robot["goals"].size(), 2U);
+  EXPECT_EQ(robot["goals"][0]["service"], 7.0);
+  EXPECT_EQ(robot["committed"].back()["t_end"], 2.0);
+  const Json plan = planned(next)["plans"][0];
+  EXPECT_EQ(plan["visits"][0]["t_leave"], 7.0);
+  EXPECT_EQ(plan["actions"], robot["previous"]);
+  EXPECT_EQ(next["progress"], Json::parse(R"([{"robot": "a", "was": {"action": 1, "progress": 0.3},
+                                               "is": {"action": 0, "progress": 0.0}}])"));
+}
+
+TEST(AdvanceEndpoint, TheProgressOfAnAnswerIsIgnoredByAllThatTakeARequest) {
+  Json next = advanced_json(advance_request(swap_request(), 1.0));
+  ASSERT_EQ(next["progress"].size(), 2U);
+  const Json answer = planned(next);
+  for (const Json& progress : {next["progress"], Json("of an earlier moment")}) {
+    next["progress"] = progress;
+    Json again = advanced_json({{"request", next}, {"plans", answer["plans"]}, {"at", 0.5}});
+    EXPECT_EQ(again["progress"].size(), 2U);
+    Json check = next;
+    check["plans"] = answer["plans"];
+    EXPECT_EQ(validate_endpoint(check.dump(), {}).status, 200);
+    EXPECT_EQ(dependencies_endpoint(check.dump(), {}).status, 200);
+    check["policy"] = "absorb_waits";
+    EXPECT_EQ(simulate_endpoint(check.dump(), {}).status, 200);
+  }
+}
+
 TEST(AdvanceEndpoint, ReportsFaultsOfTheRequestBelowIt) {
   Json body = advance_request(swap_request(), 1.0);
   body["request"]["robots"][1]["start"]["x"] = "left";
