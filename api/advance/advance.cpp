@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"
 
@@ -18,6 +17,9 @@ using Actions = std::vector<Action>;
 
 /// The tolerance of a service, seconds: rounding of times, far below what matters.
 constexpr double kSameService = 1e-9;
+
+/// An action is copied several times, which is as much work as reading some text.
+constexpr std::size_t kWorkOfAnAction = 256;
 
 /// The goals that are left when a robot has executed these actions, and how many it has visited.
 struct GoalsLeft {
@@ -156,14 +158,6 @@ Remainder remainder_of(const core::Robot& robot, const Execution& execution, con
   return remainder_of_measured(robot, actions, *measured, located.progress, moment.at);
 }
 
-/// Ends the commitment before the first action that breaks the rule of a zone.
-void keep_rules(core::Robot& robot, std::size_t index, const std::vector<core::Zone>& all) {
-  const core::DriveZones zones(all, index, robot, core::DriveZones::Limits::all_zones);
-  const auto breaks = [&](const Action& action) { return zones.broken_by(action).has_value(); };
-  const auto first = std::find_if(robot.committed.begin(), robot.committed.end(), breaks);
-  robot.committed.erase(first, robot.committed.end());
-}
-
 }  // namespace
 
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment) {
@@ -201,21 +195,29 @@ Place place_of(const core::Robot& robot, const Execution& execution, const Momen
   return {progress.action, std::clamp(done, 0.0, 1.0)};
 }
 
+std::vector<double> margins_of(const std::vector<core::Robot>& robots,
+                               const std::vector<Execution>& executions, const Moment& moment,
+                               const std::vector<core::Robot>& next, core::Work& stop) {
+  std::vector<double> margins(robots.size(), 0.0);
+  for (std::size_t k = 0; k < next.size(); ++k) {
+    if (stop.met_after(1 + executions[k].actions.size())) break;
+    const core::Pose planned = planned_pose(robots[k], executions[k].actions, moment.at);
+    const double off = (next[k].start.position - planned.position).norm();
+    margins[k] = robots[k].vicinity + moment.inflation - std::min(off, 0.5 * moment.inflation);
+  }
+  return margins;
+}
+
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
                                   core::Work& stop) {
   std::vector<core::Robot> next;
   next.reserve(robots.size());
-  // An action is copied several times, which is as much work as reading some text.
-  constexpr std::size_t kWorkOfAnAction = 256;
   for (std::size_t k = 0; k < robots.size(); ++k) {
     if (stop.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return next;
     next.push_back(advanced(robots[k], executions[k], moment));
-    if (executions[k].measured && !moment.zones.empty()) {
-      keep_rules(next.back(), k, moment.zones);
-    }
   }
-  clear_commitments(next, moment.inflation, stop);
+  clear_commitments(next, margins_of(robots, executions, moment, next, stop), stop);
   return next;
 }
 

@@ -23,7 +23,6 @@ struct Moment {
   double pose_tolerance = 0.1;
   double wait_before_move = 0.0;  // of the request's options
   double inflation = 0.0;         // likewise
-  std::vector<core::Zone> zones = {};
 };
 
 /// Where a robot is in its actions.
@@ -53,9 +52,15 @@ struct Execution {
 /// has no previous actions if it has no plan, is elsewhere than planned, or gets other goals.
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment);
 
-/// All of them. Where a measured robot would break the rule of a zone if it went on, its commitment ends
-/// before the action. Committed actions end where they touch another robot that is committed or stands at the
-/// end of its commitment: see clear_commitments.
+/// By robot, what it keeps around its disk while it is committed: its vicinity and the inflation, metres.
+/// Inflation is there for robots that are not where their plans have them, so it is used up by as much as
+/// they are elsewhere at the moment, up to a half.
+std::vector<double> margins_of(const std::vector<core::Robot>& robots,
+                               const std::vector<Execution>& executions, const Moment& moment,
+                               const std::vector<core::Robot>& next, core::Work& stop);
+
+/// All of them. Committed actions end where they touch another robot that is committed or stands at the end
+/// of its commitment: see clear_commitments.
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
                                   core::Work& stop);
@@ -81,6 +86,8 @@ struct Remainder {
 
 /// As planned, at this time.
 Progress planned_progress(const std::vector<core::Action>& actions, double at);
+
+core::Pose planned_pose(const core::Robot& robot, const std::vector<core::Action>& actions, double at);
 
 /// By a measured pose: the latest action, not later than the one planned at this time, whose path is no
 /// further from the pose than the tolerance (metres; the heading likewise, radians). A robot may be late, or
@@ -128,8 +135,9 @@ core::Pose pose_at(const core::Action& action, double t);
 /// Ends committed actions early, so that every robot may stay for ever where its commitment ends: none meets
 /// another one, nor passes where another one has ended. Whatever becomes of the plans behind the commitments,
 /// nobody then drives into a robot that stands. Robots are only stopped while they drive; a wait stays
-/// committed. `inflation`: metres that planning adds to the radii, besides their vicinity. Ends early when
-/// the stop is met.
-void clear_commitments(std::vector<core::Robot>& robots, double inflation, core::Work& stop);
+/// committed. `margins`: metres, by robot, that they keep around their disks; robots that are nearer to each
+/// other at the moment keep half of what they have. Ends early when the stop is met.
+void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins,
+                       core::Work& stop);
 
 }  // namespace fleetplan::api

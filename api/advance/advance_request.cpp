@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/advance/acceptable.h"
 #include "api/json/json_writer.h"
 #include "api/request/fleet/parse_obstacles.h"
 #include "api/request/fleet/parse_plans.h"
@@ -21,9 +22,10 @@ namespace fleetplan::api {
 
 namespace {
 
-// Its `progress` is that of an earlier moment.
-constexpr std::array<std::string_view, 8> kRequestMembers{"map",   "robot_defaults", "robots",   "obstacles",
-                                                          "zones", "options",        "metadata", "progress"};
+// The last two are of an earlier moment.
+constexpr std::array<std::string_view, 9> kRequestMembers{"map",       "robot_defaults", "robots",
+                                                          "obstacles", "zones",          "options",
+                                                          "metadata",  "progress",       "unavoidable"};
 constexpr std::array<std::string_view, 4> kPoseMembers{"robot", "x", "y", "theta"};
 constexpr std::array<std::string_view, 8> kStateMembers{"robot", "action", "progress", "service_left",
                                                         "x",     "y",      "theta",    "speed"};
@@ -142,23 +144,16 @@ void parse_states(const JsonReader& list, const RobotNames& names, AdvanceReques
   });
 }
 
-std::vector<core::Zone> in_world(std::vector<core::Zone> zones, const WorldFrame& frame) {
-  // Bounded: each corner once.
-  for (core::Zone& zone : zones) {
-    for (core::Position& corner : zone.polygon) corner = frame.to_world(corner);
-  }
-  return zones;
-}
-
 }  // namespace
 
 std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
                                                     core::Work& stop) {
   AdvanceRequest read;
   read.request = root.require("request").object(kRequestMembers);
-  const Fleet fleet = parse_fleet(read.request, limits, [&](const ParsedOptions& options) {
+  read.fleet = parse_fleet(read.request, limits, [&](const ParsedOptions& options) {
     stop.set_budget(effective_budget(options, limits));
   });
+  const Fleet& fleet = read.fleet;
   read.moment.at = root.require("at").number(kDuration).value_or(0.0);
   read.moment.commit = root.find("commit").number(kDuration);
   if (const auto tolerance = root.find("pose_tolerance").number(kLengthOrZero)) {
@@ -176,7 +171,6 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
     read.executions[plan.robot].planned = true;
   }
   if (!read.request || root.fault_count() > 0 || stop.met()) return std::nullopt;
-  if (fleet.map) read.moment.zones = in_world(fleet.zones, fleet.map->frame);
   std::size_t corners = fleet.zones.size();
   for (const core::Zone& zone : fleet.zones) corners += zone.polygon.size();
   UniqueIds unique_ids;
@@ -333,6 +327,39 @@ void write_place(JsonWriter& json, std::string_view key, const Place& place) {
   json.end_object();
 }
 
+/// The options as given, with those without which robots could not be where they are.
+void write_options(JsonWriter& json, const std::optional<JsonValue>& given,
+                   const Circumstances& circumstances) {
+  json.key("options").begin_object();
+  if (given) {
+    // Bounded: the text of the request, which is copied.
+    for (const JsonValue member : given->children()) {
+      const bool is_replaced = (circumstances.start_overlap && member.key() == "start_overlap") ||
+                               (circumstances.some_in_walls && member.key() == "invalid_robots");
+      if (is_replaced) continue;
+      json.key(member.key());
+      copy_json(json, member);
+    }
+  }
+  if (circumstances.start_overlap) json.member("start_overlap", *circumstances.start_overlap);
+  if (circumstances.some_in_walls) json.member("invalid_robots", "report");
+  json.end_object();
+}
+
+void write_overlapping(JsonWriter& json, const AdvanceRequest& request, const Circumstances& circumstances,
+                       core::Work& work) {
+  constexpr std::size_t kWorkOfAPair = 64;  // bytes of text, without names
+  json.key("unavoidable").begin_array();
+  for (const auto& [first, second] : circumstances.overlapping) {
+    const std::string& a = request.robots[first].id;
+    const std::string& b = request.robots[second].id;
+    if (work.met_after(kWorkOfAPair + a.size() + b.size())) break;
+    json.begin_object().key("robots").begin_array().value(a).value(b).end_array();
+    json.member("t", 0.0).end_object();
+  }
+  json.end_array();
+}
+
 /// Where each robot is in the actions that it was given, and in those of the new request: at their beginning,
 /// as time 0 of a request is its moment.
 void write_progress(JsonWriter& json, const AdvanceRequest& request, core::Work& work) {
@@ -352,11 +379,13 @@ void write_progress(JsonWriter& json, const AdvanceRequest& request, core::Work&
 }  // namespace
 
 std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots,
-                           core::Work& work) {
+                           const Circumstances& circumstances, core::Work& work) {
+  const bool needs_options = circumstances.start_overlap || circumstances.some_in_walls;
   JsonWriter json;
   json.begin_object();
   for (const JsonValue member : request.request.value().children()) {
-    if (member.key() == "progress") continue;
+    const bool is_of_earlier = member.key() == "progress" || member.key() == "unavoidable";
+    if (is_of_earlier || (member.key() == "options" && needs_options)) continue;
     json.key(member.key());
     if (member.key() == "robots") {
       write_robots(json, member, request, robots, work);
@@ -366,7 +395,9 @@ std::string write_advanced(const AdvanceRequest& request, const std::vector<core
       copy_json(json, member);
     }
   }
+  if (needs_options) write_options(json, request.request.value().find("options"), circumstances);
   write_progress(json, request, work);
+  if (!circumstances.overlapping.empty()) write_overlapping(json, request, circumstances, work);
   json.end_object();
   return json.take();
 }

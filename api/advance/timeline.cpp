@@ -239,11 +239,16 @@ bool is_near(const Pose& pose, const Pose& other, double tolerance) {
          core::angle_between(pose.theta, other.theta) <= tolerance;
 }
 
+Pose planned_pose(const core::Robot& robot, const Actions& actions, double at) {
+  const std::size_t under_way = planned_progress(actions, at).action;
+  if (under_way < actions.size()) return pose_at(actions[under_way], at);
+  return actions.empty() ? robot.start : actions.back().to;
+}
+
 Remainder remainder(const core::Robot& robot, const Actions& actions, double at) {
   const std::size_t under_way = planned_progress(actions, at).action;
-  Remainder rest{actions.empty() ? robot.start : actions.back().to, {}};
+  Remainder rest{planned_pose(robot, actions, at), {}};
   if (under_way == actions.size()) return rest;
-  rest.start = pose_at(actions[under_way], at);
   Action action = actions[under_way];
   action.t_start = 0.0;
   action.t_end -= at;

@@ -172,9 +172,10 @@ std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, co
   return ProblemMaker(fleet, root, stop, maps).run();
 }
 
-// `progress` is of /v1/advance, for who executes the plans, and is ignored.
-constexpr std::array<std::string_view, 8> kPlanRequestMembers{
-    "map", "robot_defaults", "robots", "obstacles", "zones", "options", "metadata", "progress"};
+// The last two are of /v1/advance, for who executes the plans, and are ignored.
+constexpr std::array<std::string_view, 9> kPlanRequestMembers{"map",       "robot_defaults", "robots",
+                                                              "obstacles", "zones",          "options",
+                                                              "metadata",  "progress",       "unavoidable"};
 
 /// `errors`: of each robot, or none.
 std::vector<ReceivedRobot> received(std::vector<ParsedRobot>& robots,
