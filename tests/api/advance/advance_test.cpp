@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -450,6 +451,70 @@ TEST(AdvancedFleet, CommitmentsKeepTheDistanceOfThePlan) {
   Crossing crossing;
   crossing.robots[0].vicinity = 0.2;
   EXPECT_NEAR(crossing.advance(1.0, {}, 0.1)[1].committed.back().t_end, 4.1, 1e-6);
+}
+
+/// One stops where it touches another one that waits, and then goes on past it.
+TEST(AdvancedFleet, NobodyGoesOnIntoOneThatHasStoppedBesideIt) {
+  core::Robot waits;
+  waits.radius = 0.5;
+  waits.linear_speed = waits.angular_speed = 1.0;
+  waits.start = {{9.75, 9.75}, -3.0691895301690075};
+  const Action wait{Type::wait, 0.0, 2.2, waits.start, waits.start};
+  const Action past{Type::translate, 2.2, 7.4, waits.start, {{2.0, 9.187893222363368}, waits.start.theta}};
+  core::Robot comes = waits;
+  comes.radius = 0.25;
+  comes.start = {{8.2, 5.13}, 1.279898456223541};
+  const Action drive{
+      Type::translate, 0.0, 4.63, comes.start, {{10.859688605502331, 14.0}, comes.start.theta}};
+  const std::vector<Execution> executions{{{wait, past}, true}, {{drive}, true}};
+  for (const double inflation : {0.0, 0.05, 0.1}) {
+    Moment then = moment(0.0, 4.0);
+    then.inflation = inflation;
+    core::Work stop = core::Work::unbounded();
+    const auto next = advanced({waits, comes}, executions, then, stop);
+    EXPECT_LT(next[1].committed_until(), 3.0);
+    const Position stands = next[1].committed_end().position;
+    for (double t = 2.2; t <= next[0].committed_until(); t += 0.01) {
+      EXPECT_GT((pose_at(past, t).position - stands).norm(), 0.75 + 2.0 * inflation - 1e-6) << t;
+    }
+  }
+}
+
+/// Two robots of radius 0.25 pass each other 0.7 m apart, as near as an inflation of 0.1 m allows.
+TEST(AdvancedFleet, InflationIsUsedUpByRobotsThatAreNotWhereTheirPlansHaveThem) {
+  Convoy convoy(2);
+  core::Robot& up = convoy.robots[0];
+  core::Robot& down = convoy.robots[1];
+  up.start = at_x(1.0);
+  down.start = {{9.0, 1.7}, std::numbers::pi};
+  const Pose end_of_down{{1.0, 1.7}, std::numbers::pi};
+  convoy.executions = {{{{Type::translate, 0.0, 8.0, up.start, at_x(9.0)}}, true},
+                       {{{Type::translate, 0.0, 8.0, down.start, end_of_down}}, true}};
+  const auto until = [&](double y) {
+    convoy.executions[0].measured = Pose{{3.5, y}, 0.0};
+    Moment then = moment(2.5, 4.0);
+    then.inflation = 0.1;
+    core::Work stop = core::Work::unbounded();
+    return advanced(convoy.robots, convoy.executions, then, stop)[0].committed_until();
+  };
+  EXPECT_EQ(until(1.0), 4.0);
+  EXPECT_EQ(until(1.04), 4.0) << "nearer than planned by no more than it is off its path";
+  EXPECT_LT(until(1.09), 2.0) << "half of its inflation is kept";
+  EXPECT_GT(until(1.09), 0.5);
+}
+
+/// A moving robot cannot stop at once: one that is too near to another one already keeps half of what it has.
+TEST(AdvancedFleet, RobotsThatAreTooNearStopHalfWay) {
+  Convoy convoy(2);
+  convoy.executions[0].hold = 30.0;
+  convoy.robots[1].start.position.x() -= 0.1;
+  convoy.executions[1].actions[0].from = convoy.robots[1].start;
+  convoy.executions[1].actions[0].t_end = 4.1;
+  Moment then = moment(1.0, 1.0);
+  then.inflation = 0.08;
+  core::Work stop = core::Work::unbounded();
+  const auto next = advanced(convoy.robots, convoy.executions, then, stop);
+  EXPECT_NEAR(next[1].committed_until(), 0.05, 1e-6);
 }
 
 TEST(AdvancedFleet, CommitmentsToOneHorizonStayWhole) {
