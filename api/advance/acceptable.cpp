@@ -20,10 +20,7 @@ using core::ProblemFault;
 constexpr double kCentre = 2e-3;
 
 /// Seconds: an action that ends by so much after a time is under way then.
-constexpr double kSameEnd = 1e-9;
-
-/// Copying an action is as much work as reading so many bytes.
-constexpr std::size_t kWorkOfAnAction = 256;
+constexpr double kStillUnderWay = 1e-9;
 
 /// Pairs that are listed; where more overlap, nobody reads all of them.
 constexpr std::size_t kMostPairs = 10'000;
@@ -124,7 +121,7 @@ class Mending {
     std::vector<Action>& committed = robots_[robot].committed;
     if (committed.empty()) return false;
     const auto first = std::find_if(committed.begin(), committed.end(),
-                                    [&](const Action& action) { return action.t_end > t + kSameEnd; });
+                                    [&](const Action& action) { return action.t_end > t + kStillUnderWay; });
     committed.erase(first == committed.end() ? std::prev(first) : first, committed.end());
     return true;
   }

@@ -18,9 +18,6 @@ using Actions = std::vector<Action>;
 /// The tolerance of a service, seconds: rounding of times, far below what matters.
 constexpr double kSameService = 1e-9;
 
-/// An action is copied several times, which is as much work as reading some text.
-constexpr std::size_t kWorkOfAnAction = 256;
-
 /// The goals that are left when a robot has executed these actions, and how many it has visited.
 struct GoalsLeft {
   std::vector<core::Goal> goals;

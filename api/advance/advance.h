@@ -16,6 +16,9 @@
 
 namespace fleetplan::api {
 
+/// An action is copied several times, which is as much work as reading so many bytes.
+inline constexpr std::size_t kWorkOfAnAction = 256;
+
 /// What holds for all robots. Seconds, metres.
 struct Moment {
   double at = 0.0;

@@ -217,11 +217,11 @@ void write_goal(JsonWriter& json, const core::Goal& goal, const std::string& met
 
 void write_actions(JsonWriter& json, std::string_view key, const std::vector<core::Action>& actions,
                    core::Work& work) {
-  constexpr std::size_t kWorkOfAnAction = 512;  // bytes of text
+  constexpr std::size_t kTextOfAnAction = 512;  // bytes
   constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};
   json.key(key).begin_array();
   for (const core::Action& action : actions) {
-    if (work.met_after(kWorkOfAnAction)) break;
+    if (work.met_after(kTextOfAnAction)) break;
     json.begin_object().member("type", kTypes[static_cast<std::size_t>(action.type)]);
     json.member("t_start", action.t_start).member("t_end", action.t_end);
     write_pose(json, "from", action.from);
@@ -363,11 +363,11 @@ void write_overlapping(JsonWriter& json, const AdvanceRequest& request, const Ci
 /// Where each robot is in the actions that it was given, and in those of the new request: at their beginning,
 /// as time 0 of a request is its moment.
 void write_progress(JsonWriter& json, const AdvanceRequest& request, core::Work& work) {
-  constexpr std::size_t kWorkOfAnAction = 64;  // to find the one under way
+  constexpr std::size_t kWorkOfALook = 64;  // at an action, to find the one under way
   json.key("progress").begin_array();
   for (std::size_t k = 0; k < request.robots.size(); ++k) {
     const Execution& execution = request.executions[k];
-    if (work.met_after(kWorkOfAnAction * (1 + execution.actions.size()))) break;
+    if (work.met_after(kWorkOfALook * (1 + execution.actions.size()))) break;
     json.begin_object().member("robot", request.robots[k].id);
     write_place(json, "was", place_of(request.robots[k], execution, request.moment));
     write_place(json, "is", Place{});
