@@ -107,8 +107,9 @@ class Mending {
         if (-fault.gap < (1.0 - kCentre) * fault.radius) {
           return allow_overlap(request_.moment.inflation - fault.gap);
         }
-        found_.some_in_walls = !reports_;
-        return !std::exchange(reports_, true);
+        if (reports_) return false;
+        reports_ = found_.some_in_walls = true;
+        return true;
       case Kind::goal_in_obstacle:
       case Kind::goals_overlap:
         break;

@@ -115,10 +115,10 @@ void expect_that_all_may_stop(const core::Problem& problem, double start_overlap
   std::vector<core::RobotPlan> stops;
   for (std::size_t k = 0; k < problem.robots().size(); ++k) {
     const core::Robot& robot = problem.robots()[k];
-    stops.push_back({k, robot.committed_until(), robot.committed});
+    if (!robot.committed.empty()) stops.push_back({k, robot.committed_until(), robot.committed});
   }
   core::CheckRules rules;
-  rules.tolerances.assign(stops.size(), core::Tolerance::of_all(core::kMostTolerance));
+  rules.tolerances.assign(problem.robots().size(), core::Tolerance::of_all(core::kMostTolerance));
   rules.start_overlap = start_overlap;
   rules.horizon = 0.0;  // with goals left
   const auto report = core::verify({problem.grid(), problem.robots(), {}, &problem.zones()}, stops, rules,
