@@ -55,10 +55,19 @@ std::vector<core::Zone> zones_for(Dice& dice, const core::Problem& problem) {
   return zones;
 }
 
+/// Many robots on a small open field, who pass each other as near as their inflation allows.
+support::FleetRequest crowd(Dice& dice) {
+  const core::OccupancyGrid grid(8 + dice.below(6), 8 + dice.below(6), 1.0);
+  support::FleetRequest request{grid, support::random_robots(dice, grid, 12), {}, {}};
+  for (core::Robot& robot : request.robots) robot.radius = std::min(robot.radius, 0.6);
+  request.options.inflation = dice.between(0.02, 0.2);
+  return request;
+}
+
 /// A valid request with all kinds of members.
 Json first_request(Dice& dice) {
   while (true) {
-    support::FleetRequest request = support::random_request(dice);
+    support::FleetRequest request = dice.chance(0.4) ? crowd(dice) : support::random_request(dice);
     if (dice.chance(0.5)) support::add_loads(dice, request);
     const auto plain = support::problem_of(request);
     if (!plain) continue;
