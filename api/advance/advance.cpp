@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"
 
@@ -42,6 +41,13 @@ std::optional<std::size_t> first_load(const core::Robot& robot, std::size_t begi
   return std::nullopt;
 }
 
+/// What is left of the service at this goal, if the robot has reported it.
+std::optional<double> service_left_of(const Execution& execution, std::size_t goal) {
+  if (!execution.reported || execution.actions[execution.reported->place.action].goal != goal)
+    return std::nullopt;
+  return execution.reported->service_left;
+}
+
 /// `progress`: the planned time of what the robot has executed of its actions. It stands after the last one.
 GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, double progress, double at) {
   const Actions& actions = execution.actions;
@@ -70,7 +76,8 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
     left.radius = *std::exchange(last.radius_after, std::nullopt);
   }
   core::Goal& next = left.goals.front();
-  next.service = load ? 0.0 : std::max(0.0, next.service - itinerary.service_done);
+  const auto reported = service_left_of(execution, left.visited);
+  next.service = load ? 0.0 : reported.value_or(std::max(0.0, next.service - itinerary.service_done));
   if (next.service <= kSameService) next.service = 0.0;
   return left;
 }
@@ -117,27 +124,43 @@ double horizon(const Actions& actions, const Moment& moment) {
   return until;
 }
 
-/// Ends the commitment before the first action that breaks the rule of a zone.
-void keep_rules(core::Robot& robot, std::size_t index, const std::vector<core::Zone>& all) {
-  const core::DriveZones zones(all, index, robot, core::DriveZones::Limits::all_zones);
-  const auto breaks = [&](const Action& action) { return zones.broken_by(action).has_value(); };
-  const auto first = std::find_if(robot.committed.begin(), robot.committed.end(), breaks);
-  robot.committed.erase(first, robot.committed.end());
+/// How far a robot is.
+struct Located {
+  Progress progress;
+  bool is_elsewhere = false;  // measured further from there than the tolerance
+};
+
+Located locate(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+  const Actions& actions = execution.actions;
+  const auto& measured = execution.measured;
+  if (execution.reported) {
+    const Progress progress = reported_progress(actions, *execution.reported);
+    const core::Pose there = pose_of(actions, *execution.reported);
+    return {progress, measured && !is_near(there, *measured, moment.pose_tolerance)};
+  }
+  const Progress planned = planned_progress(actions, moment.at);
+  if (!measured) return {planned};
+  const auto progress = measured_progress(robot, actions, *measured, moment.at, moment.pose_tolerance);
+  return {progress.value_or(planned), !progress};
+}
+
+/// What it does from there on.
+Remainder remainder_of(const core::Robot& robot, const Execution& execution, const Located& located,
+                       const Moment& moment) {
+  const Actions& actions = execution.actions;
+  const auto& measured = execution.measured;
+  if (located.is_elsewhere) return {*measured, {}};
+  if (execution.reported) return remainder_of_reported(robot, execution, located.progress, moment.at);
+  if (!measured) return remainder(robot, actions, moment.at);
+  return remainder_of_measured(robot, actions, *measured, located.progress, moment.at);
 }
 
 }  // namespace
 
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment) {
-  const Actions& actions = execution.actions;
-  std::optional<Progress> progress = planned_progress(actions, moment.at);
-  if (execution.measured) {
-    progress = measured_progress(robot, actions, *execution.measured, moment.at, moment.pose_tolerance);
-  }
-  Remainder rest = !progress ? Remainder{*execution.measured, {}}
-                   : execution.measured
-                       ? remainder_of_measured(robot, actions, *execution.measured, *progress, moment.at)
-                       : remainder(robot, actions, moment.at);
-  GoalsLeft left = goals_left(robot, execution, progress ? progress->t : moment.at, moment.at);
+  const Located located = locate(robot, execution, moment);
+  Remainder rest = remainder_of(robot, execution, located, moment);
+  GoalsLeft left = goals_left(robot, execution, located.progress.t, moment.at);
 
   core::Robot next = robot;
   next.start = rest.start;
@@ -153,8 +176,33 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
   }
   next.committed = actions_until(rest.actions, until);
   next.previous.reset();
-  if (execution.planned && progress && !execution.goals) next.previous = split_at(rest.actions, until);
+  const bool goes_on = execution.planned && !located.is_elsewhere && !execution.goals;
+  if (goes_on) next.previous = split_at(rest.actions, until);
   return next;
+}
+
+Place place_of(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+  if (execution.reported) return execution.reported->place;
+  const Actions& actions = execution.actions;
+  const Progress progress = locate(robot, execution, moment).progress;
+  if (progress.action == actions.size()) return actions.empty() ? Place{} : Place{actions.size() - 1, 1.0};
+  const Action& action = actions[progress.action];
+  const double duration = action.t_end - action.t_start;
+  const double done = duration > 0.0 ? (progress.t - action.t_start) / duration : 0.0;
+  return {progress.action, std::clamp(done, 0.0, 1.0)};
+}
+
+std::vector<double> margins_of(const std::vector<core::Robot>& robots,
+                               const std::vector<Execution>& executions, const Moment& moment,
+                               const std::vector<core::Robot>& next, core::Work& stop) {
+  std::vector<double> margins(robots.size(), 0.0);
+  for (std::size_t k = 0; k < next.size(); ++k) {
+    if (stop.met_after(1 + executions[k].actions.size())) break;
+    const core::Pose planned = planned_pose(robots[k], executions[k].actions, moment.at);
+    const double off = (next[k].start.position - planned.position).norm();
+    margins[k] = robots[k].vicinity + moment.inflation - std::min(off, 0.5 * moment.inflation);
+  }
+  return margins;
 }
 
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
@@ -162,16 +210,11 @@ std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   core::Work& stop) {
   std::vector<core::Robot> next;
   next.reserve(robots.size());
-  // An action is copied several times, which is as much work as reading some text.
-  constexpr std::size_t kWorkOfAnAction = 256;
   for (std::size_t k = 0; k < robots.size(); ++k) {
     if (stop.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return next;
     next.push_back(advanced(robots[k], executions[k], moment));
-    if (executions[k].measured && !moment.zones.empty()) {
-      keep_rules(next.back(), k, moment.zones);
-    }
   }
-  clear_commitments(next, moment.inflation, stop);
+  clear_commitments(next, margins_of(robots, executions, moment, next, stop), stop);
   return next;
 }
 

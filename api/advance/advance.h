@@ -16,6 +16,9 @@
 
 namespace fleetplan::api {
 
+/// An action is copied several times, which is as much work as reading so many bytes.
+inline constexpr std::size_t kWorkOfAnAction = 256;
+
 /// What holds for all robots. Seconds, metres.
 struct Moment {
   double at = 0.0;
@@ -23,7 +26,18 @@ struct Moment {
   double pose_tolerance = 0.1;
   double wait_before_move = 0.0;  // of the request's options
   double inflation = 0.0;         // likewise
-  std::vector<core::Zone> zones = {};
+};
+
+/// Where a robot is in its actions.
+struct Place {
+  std::size_t action = 0;
+  double fraction = 0.0;  // of the action, that is done
+};
+
+/// How far a robot says that it is.
+struct ReportedState {
+  Place place;                              // in one of its actions
+  std::optional<double> service_left = {};  // seconds, if the action is a service
 };
 
 /// What a robot does, and what happened to it.
@@ -31,7 +45,8 @@ struct Execution {
   std::vector<core::Action> actions;  // that it executes, from t = 0 in its start
   bool planned = false;               // they are a plan; otherwise a commitment, at whose end it stays
   std::optional<core::Pose> measured = {};
-  std::optional<double> hold = {};  // until then on the clock of the moment
+  std::optional<ReportedState> reported = {};  // measured there, if it has a measured pose, too
+  std::optional<double> hold = {};             // until then on the clock of the moment
   std::optional<std::vector<core::Goal>> goals = {};
 };
 
@@ -40,17 +55,27 @@ struct Execution {
 /// has no previous actions if it has no plan, is elsewhere than planned, or gets other goals.
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment);
 
-/// All of them. Where a measured robot would break the rule of a zone if it went on, its commitment ends
-/// before the action. Committed actions end where they touch another robot that is committed or stands at the
-/// end of its commitment: see clear_commitments.
+/// By robot, what it keeps around its disk while it is committed: its vicinity and the inflation, metres.
+/// Inflation is there for robots that are not where their plans have them, so it is used up by as much as
+/// they are elsewhere at the moment, up to a half.
+std::vector<double> margins_of(const std::vector<core::Robot>& robots,
+                               const std::vector<Execution>& executions, const Moment& moment,
+                               const std::vector<core::Robot>& next, core::Work& stop);
+
+/// All of them. Committed actions end where they touch another robot that is committed or stands at the end
+/// of its commitment: see clear_commitments.
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
                                   core::Work& stop);
 
+/// Where the robot is in its actions at the moment: as reported, otherwise as measured, otherwise as planned.
+/// A robot that has done all of them is at the end of the last one, and one without actions at the beginning.
+Place place_of(const core::Robot& robot, const Execution& execution, const Moment& moment);
+
 /// The rest of an obstacle's motion; nothing if it has left.
 std::optional<core::MovingObstacle> advanced(const core::MovingObstacle& obstacle, double at);
 
-/// Where a robot is in its actions.
+/// How far a robot is in its actions.
 struct Progress {
   std::size_t action = 0;  // under way; the number of all actions if they are done
   double t = 0.0;          // the planned time of this progress, seconds
@@ -65,11 +90,22 @@ struct Remainder {
 /// As planned, at this time.
 Progress planned_progress(const std::vector<core::Action>& actions, double at);
 
+core::Pose planned_pose(const core::Robot& robot, const std::vector<core::Action>& actions, double at);
+
 /// By a measured pose: the latest action, not later than the one planned at this time, whose path is no
 /// further from the pose than the tolerance (metres; the heading likewise, radians). A robot may be late, or
 /// early in the action under way. Nothing if there is none.
 std::optional<Progress> measured_progress(const core::Robot& robot, const std::vector<core::Action>& actions,
                                           const core::Pose& pose, double at, double tolerance);
+
+/// As reported. A service of which something is left counts as one that begins: its goal keeps what is left.
+Progress reported_progress(const std::vector<core::Action>& actions, const ReportedState& reported);
+
+/// Where the plan has it then.
+core::Pose pose_of(const std::vector<core::Action>& actions, const ReportedState& reported);
+
+/// Whether two poses are no further from each other than this: metres, and radians of heading.
+bool is_near(const core::Pose& pose, const core::Pose& other, double tolerance);
 
 /// The actions from this time on.
 Remainder remainder(const core::Robot& robot, const std::vector<core::Action>& actions, double at);
@@ -79,6 +115,12 @@ Remainder remainder(const core::Robot& robot, const std::vector<core::Action>& a
 /// later; if it ends earlier, the robot waits. A robot that stands is where its plan has it.
 Remainder remainder_of_measured(const core::Robot& robot, const std::vector<core::Action>& actions,
                                 const core::Pose& pose, const Progress& progress, double at);
+
+/// The remainder of a robot that has reported its progress. It goes on in the same way from the measured
+/// pose, or from where its plan has it then. A wait goes on for what is left of it. In a wait for a goal,
+/// what is left of the service, as planned or reported, begins at the goal's `not_before` at the earliest.
+Remainder remainder_of_reported(const core::Robot& robot, const Execution& execution,
+                                const Progress& progress, double at);
 
 /// Puts a wait until this time before the rest of the actions, which it delays, except for the wait under
 /// way.
@@ -96,8 +138,9 @@ core::Pose pose_at(const core::Action& action, double t);
 /// Ends committed actions early, so that every robot may stay for ever where its commitment ends: none meets
 /// another one, nor passes where another one has ended. Whatever becomes of the plans behind the commitments,
 /// nobody then drives into a robot that stands. Robots are only stopped while they drive; a wait stays
-/// committed. `inflation`: metres that planning adds to the radii, besides their vicinity. Ends early when
-/// the stop is met.
-void clear_commitments(std::vector<core::Robot>& robots, double inflation, core::Work& stop);
+/// committed. `margins`: metres, by robot, that they keep around their disks; robots that are nearer to each
+/// other at the moment keep half of what they have. Ends early when the stop is met.
+void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins,
+                       core::Work& stop);
 
 }  // namespace fleetplan::api

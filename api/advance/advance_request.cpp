@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/advance/acceptable.h"
 #include "api/json/json_writer.h"
 #include "api/request/fleet/parse_obstacles.h"
 #include "api/request/fleet/parse_plans.h"
@@ -21,9 +22,15 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kRequestMembers{"map",   "robot_defaults", "robots",  "obstacles",
-                                                          "zones", "options",        "metadata"};
+// The last two are of an earlier moment.
+constexpr std::array<std::string_view, 9> kRequestMembers{"map",       "robot_defaults", "robots",
+                                                          "obstacles", "zones",          "options",
+                                                          "metadata",  "progress",       "unavoidable"};
 constexpr std::array<std::string_view, 4> kPoseMembers{"robot", "x", "y", "theta"};
+constexpr std::array<std::string_view, 8> kStateMembers{"robot", "action", "progress", "service_left",
+                                                        "x",     "y",      "theta",    "speed"};
+/// Backwards, a robot has a negative speed.
+constexpr Range kMeasuredSpeed{-kMostLinearSpeed, kMostLinearSpeed, "metres per second"};
 constexpr std::array<std::string_view, 2> kHoldMembers{"robot", "until"};
 constexpr std::array<std::string_view, 2> kGoalsMembers{"robot", "goals"};
 
@@ -72,12 +79,69 @@ void parse_events(const JsonReader& root, const RobotNames& names, const Limits&
   });
 }
 
-std::vector<core::Zone> in_world(std::vector<core::Zone> zones, const WorldFrame& frame) {
-  // Bounded: each corner once.
-  for (core::Zone& zone : zones) {
-    for (core::Position& corner : zone.polygon) corner = frame.to_world(corner);
+/// The number of an action that the robot has.
+std::optional<std::size_t> parse_action_number(const JsonReader& member, const core::Robot& robot,
+                                               const std::vector<core::Action>& actions) {
+  const auto action = member.natural(kGreatestIndex);
+  if (!action || *action < actions.size()) return action;
+  member.fault(fault::kOutOfRange, [&] {
+    if (actions.empty()) {
+      return "Robot " + in_quotes(robot.id) +
+             " has no action, neither of a plan nor committed: leave its state out, or give its pose in "
+             "poses.";
+    }
+    return "Robot " + in_quotes(robot.id) + " has " + std::to_string(actions.size()) +
+           " actions, numbered from 0; one that has done all of them is at progress 1 of the last.";
+  });
+  return std::nullopt;
+}
+
+/// A measured position without a heading has the planned one.
+std::optional<core::Pose> parse_measured_at(const JsonReader& entry, const core::Pose& planned) {
+  const JsonReader theta_member = entry.find("theta");
+  if (!entry.find("x") && !entry.find("y") && !theta_member) return std::nullopt;
+  constexpr std::string_view kRemedy = "; a measured pose has x and y";
+  const auto x = entry.require("x", kRemedy).number(kCoordinate);
+  const auto y = entry.require("y", kRemedy).number(kCoordinate);
+  const double theta = theta_member.number(kAnyAngle).value_or(planned.theta);
+  if (!x || !y) return std::nullopt;
+  return core::Pose{{*x, *y}, core::normalize_angle(theta)};
+}
+
+/// Reads where a robot says that it is in its actions.
+void parse_state(const JsonReader& entry, const core::Robot& robot, Execution& execution) {
+  const std::vector<core::Action>& actions = execution.actions;
+  const JsonReader left_member = entry.find("service_left");
+  const auto number = parse_action_number(entry.require("action"), robot, actions);
+  const auto fraction = entry.require("progress").number(kFraction);
+  const auto service_left = left_member.number(kDuration);
+  entry.find("speed").number(kMeasuredSpeed);
+  if (!number || !fraction) return;
+  const core::Action& action = actions[*number];
+  const bool is_service = action.goal && *action.goal < robot.goal_count();
+  if (service_left && !is_service) {
+    left_member.fault(fault::kUnknownKey, [&] {
+      return "Action " + std::to_string(*number) +
+             " is no service, which is a wait with goal: leave service_left out.";
+    });
   }
-  return zones;
+  execution.reported = ReportedState{{*number, *fraction}, service_left};
+  execution.measured = parse_measured_at(entry, pose_of(actions, *execution.reported));
+}
+
+/// Reads them when the actions of all robots are known.
+void parse_states(const JsonReader& list, const RobotNames& names, AdvanceRequest& request) {
+  read_entries(list, kStateMembers, names, [&](const JsonReader& entry, auto robot) {
+    if (!robot) return;
+    Execution& execution = request.executions[*robot];
+    if (execution.measured) {
+      entry.find("robot").fault(
+          fault::kDuplicate,
+          "This robot has an entry in poses, too: leave that out, and give the measured "
+          "pose here, as x, y and theta.");
+    }
+    parse_state(entry, request.robots[*robot], execution);
+  });
 }
 
 }  // namespace
@@ -86,9 +150,10 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
                                                     core::Work& stop) {
   AdvanceRequest read;
   read.request = root.require("request").object(kRequestMembers);
-  const Fleet fleet = parse_fleet(read.request, limits, [&](const ParsedOptions& options) {
+  read.fleet = parse_fleet(read.request, limits, [&](const ParsedOptions& options) {
     stop.set_budget(effective_budget(options, limits));
   });
+  const Fleet& fleet = read.fleet;
   read.moment.at = root.require("at").number(kDuration).value_or(0.0);
   read.moment.commit = root.find("commit").number(kDuration);
   if (const auto tolerance = root.find("pose_tolerance").number(kLengthOrZero)) {
@@ -98,14 +163,14 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   read.moment.inflation = fleet.options.plan.inflation;
   read.executions.resize(fleet.robots.size());
   read.goal_metadata.resize(fleet.robots.size());
-  parse_events(root, RobotNames(fleet.robots, "robots of the request"), limits, read);
+  const RobotNames names(fleet.robots, "robots of the request");
+  parse_events(root, names, limits, read);
   // Without the map's frame, so that no number changes.
   for (core::RobotPlan& plan : parse_plans(root.require("plans"), fleet.robots, WorldFrame{})) {
     read.executions[plan.robot].actions = std::move(plan.actions);
     read.executions[plan.robot].planned = true;
   }
   if (!read.request || root.fault_count() > 0 || stop.met()) return std::nullopt;
-  if (fleet.map) read.moment.zones = in_world(fleet.zones, fleet.map->frame);
   std::size_t corners = fleet.zones.size();
   for (const core::Zone& zone : fleet.zones) corners += zone.polygon.size();
   UniqueIds unique_ids;
@@ -124,6 +189,8 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   for (std::size_t k = 0; k < read.robots.size(); ++k) {
     if (!read.executions[k].planned) read.executions[k].actions = read.robots[k].committed;
   }
+  parse_states(root.find("states"), names, read);
+  if (root.fault_count() > 0) return std::nullopt;
   return stop.met() ? std::nullopt : std::optional(std::move(read));
 }
 
@@ -150,11 +217,11 @@ void write_goal(JsonWriter& json, const core::Goal& goal, const std::string& met
 
 void write_actions(JsonWriter& json, std::string_view key, const std::vector<core::Action>& actions,
                    core::Work& work) {
-  constexpr std::size_t kWorkOfAnAction = 512;  // bytes of text
+  constexpr std::size_t kTextOfAnAction = 512;  // bytes
   constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};
   json.key(key).begin_array();
   for (const core::Action& action : actions) {
-    if (work.met_after(kWorkOfAnAction)) break;
+    if (work.met_after(kTextOfAnAction)) break;
     json.begin_object().member("type", kTypes[static_cast<std::size_t>(action.type)]);
     json.member("t_start", action.t_start).member("t_end", action.t_end);
     write_pose(json, "from", action.from);
@@ -254,13 +321,71 @@ void write_obstacles(JsonWriter& json, const JsonValue& given, const AdvanceRequ
   json.end_array();
 }
 
+void write_place(JsonWriter& json, std::string_view key, const Place& place) {
+  json.key(key).begin_object();
+  json.member("action", place.action).member("progress", place.fraction);
+  json.end_object();
+}
+
+/// The options as given, with those without which robots could not be where they are.
+void write_options(JsonWriter& json, const std::optional<JsonValue>& given,
+                   const Circumstances& circumstances) {
+  json.key("options").begin_object();
+  if (given) {
+    // Bounded: the text of the request, which is copied.
+    for (const JsonValue member : given->children()) {
+      const bool is_replaced = (circumstances.start_overlap && member.key() == "start_overlap") ||
+                               (circumstances.some_in_walls && member.key() == "invalid_robots");
+      if (is_replaced) continue;
+      json.key(member.key());
+      copy_json(json, member);
+    }
+  }
+  if (circumstances.start_overlap) json.member("start_overlap", *circumstances.start_overlap);
+  if (circumstances.some_in_walls) json.member("invalid_robots", "report");
+  json.end_object();
+}
+
+void write_overlapping(JsonWriter& json, const AdvanceRequest& request, const Circumstances& circumstances,
+                       core::Work& work) {
+  constexpr std::size_t kWorkOfAPair = 64;  // bytes of text, without names
+  json.key("unavoidable").begin_array();
+  for (const auto& [first, second] : circumstances.overlapping) {
+    const std::string& a = request.robots[first].id;
+    const std::string& b = request.robots[second].id;
+    if (work.met_after(kWorkOfAPair + a.size() + b.size())) break;
+    json.begin_object().key("robots").begin_array().value(a).value(b).end_array();
+    json.member("t", 0.0).end_object();
+  }
+  json.end_array();
+}
+
+/// Where each robot is in the actions that it was given, and in those of the new request: at their beginning,
+/// as time 0 of a request is its moment.
+void write_progress(JsonWriter& json, const AdvanceRequest& request, core::Work& work) {
+  constexpr std::size_t kWorkOfALook = 64;  // at an action, to find the one under way
+  json.key("progress").begin_array();
+  for (std::size_t k = 0; k < request.robots.size(); ++k) {
+    const Execution& execution = request.executions[k];
+    if (work.met_after(kWorkOfALook * (1 + execution.actions.size()))) break;
+    json.begin_object().member("robot", request.robots[k].id);
+    write_place(json, "was", place_of(request.robots[k], execution, request.moment));
+    write_place(json, "is", Place{});
+    json.end_object();
+  }
+  json.end_array();
+}
+
 }  // namespace
 
 std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots,
-                           core::Work& work) {
+                           const Circumstances& circumstances, core::Work& work) {
+  const bool needs_options = circumstances.start_overlap || circumstances.some_in_walls;
   JsonWriter json;
   json.begin_object();
   for (const JsonValue member : request.request.value().children()) {
+    const bool is_of_earlier = member.key() == "progress" || member.key() == "unavoidable";
+    if (is_of_earlier || (member.key() == "options" && needs_options)) continue;
     json.key(member.key());
     if (member.key() == "robots") {
       write_robots(json, member, request, robots, work);
@@ -270,6 +395,9 @@ std::string write_advanced(const AdvanceRequest& request, const std::vector<core
       copy_json(json, member);
     }
   }
+  if (needs_options) write_options(json, request.request.value().find("options"), circumstances);
+  write_progress(json, request, work);
+  if (!circumstances.overlapping.empty()) write_overlapping(json, request, circumstances, work);
   json.end_object();
   return json.take();
 }

@@ -8,11 +8,15 @@
 #include "api/advance/advance.h"
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
+#include "api/request/parse_body.h"
 
 namespace fleetplan::api {
 
+struct Circumstances;
+
 /// A readable body of POST /v1/advance, in the client's world.
 struct AdvanceRequest {
+  Fleet fleet;  // of its request, in the map frame
   Moment moment;
   std::vector<core::Robot> robots;
   std::vector<Execution> executions;  // by robot
@@ -27,9 +31,10 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
                                                     core::Work& stop);
 
 /// The request of the moment: that of the body with the starts, goals, committed and previous actions of
-/// these robots, and what is left of its obstacles. Everything else is copied. The text ends anywhere once
-/// the work is met.
+/// these robots, what is left of its obstacles, and the options that it needs where they are; everything else
+/// is copied. Then `progress`, and `unavoidable` if robots overlap. The text ends anywhere once the work is
+/// met.
 std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots,
-                           core::Work& work);
+                           const Circumstances& circumstances, core::Work& work);
 
 }  // namespace fleetplan::api

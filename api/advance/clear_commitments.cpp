@@ -38,21 +38,21 @@ struct Piece {
   double end;
   Position from;
   Position velocity;
-  double radius = 0.0;  // as planned
+  double radius = 0.0;  // of the bare disk
   bool grows = false;   // it is smaller before
 
   Position at(double t) const { return from + velocity * (t - begin); }
   bool moves() const { return velocity.squaredNorm() > 0.0; }
 };
 
-/// Where two robots begin to overlap, and who drives then, or becomes larger.
+/// Where two robots begin to be too near, and who drives then, or becomes larger.
 struct Meeting {
   double t;
   bool first_moves;
   bool second_moves;
 };
 
-/// When two pieces begin to overlap, in the time of both.
+/// When two pieces begin to be nearer than a distance, in the time of both.
 std::optional<double> first_overlap(const Piece& a, const Piece& b, double distance) {
   const double begin = std::max(a.begin, b.begin);
   const double end = std::min(a.end, b.end);
@@ -70,7 +70,7 @@ std::optional<double> first_overlap(const Piece& a, const Piece& b, double dista
   return t < end ? std::optional(t) : std::nullopt;
 }
 
-/// When a disk that becomes larger at the end of a service overlaps another one: it is not to end.
+/// When a disk that becomes larger at the end of a service is too near to another one: it is not to end.
 std::optional<Meeting> overlap_by_growth(const Piece& a, const Piece& b, double distance) {
   const double begin = std::max(a.begin, b.begin);
   const bool a_grows = a.grows && begin == a.begin;
@@ -82,12 +82,12 @@ std::optional<Meeting> overlap_by_growth(const Piece& a, const Piece& b, double 
 
 class Clearing {
  public:
-  Clearing(std::vector<core::Robot>& robots, double inflation, core::Work& stop)
-      : robots_(robots), inflation_(inflation), stop_(stop), waits_(robots.size(), true) {
+  Clearing(std::vector<core::Robot>& robots, const std::vector<double>& margins, core::Work& stop)
+      : robots_(robots), margins_(margins), stop_(stop), waits_(robots.size(), true) {
     for (const core::Robot& robot : robots) {
+      reach_.push_back(core::largest_radius(robot) + margins[pieces_.size()] + driven(robot));
       waiting_.push_back(pieces_.size());
-      pieces_.push_back(pieces_of(robot, inflation));
-      reach_.push_back(core::largest_radius(robot) + robot.vicinity + inflation + driven(robot));
+      pieces_.push_back(pieces_of(robot));
     }
   }
 
@@ -105,14 +105,13 @@ class Clearing {
 
  private:
   /// The commitment, and then the stay at its end.
-  static std::vector<Piece> pieces_of(const core::Robot& robot, double inflation) {
+  static std::vector<Piece> pieces_of(const core::Robot& robot) {
     std::vector<core::RadiusStep> steps;
     if (core::changes_radius(robot)) {
       steps = core::radius_steps(robot, core::itinerary_of(robot).visited);
     }
-    const double more = robot.vicinity + inflation;
     std::vector<Piece> pieces;
-    double radius = robot.radius + more;
+    double radius = robot.radius;
     auto step = steps.begin();
     const auto add = [&](Piece piece) {
       for (; step != steps.end() && step->t < piece.end; ++step) {
@@ -121,8 +120,8 @@ class Clearing {
           piece.from = piece.at(step->t);
           piece.begin = step->t;
         }
-        piece.grows = step->radius + more > radius;
-        radius = step->radius + more;
+        piece.grows = step->radius > radius;
+        radius = step->radius;
       }
       piece.radius = radius;
       pieces.push_back(piece);
@@ -150,7 +149,17 @@ class Clearing {
     return apart.squaredNorm() <= reach * reach;
   }
 
-  /// Stops both where they begin to overlap while the other one is committed.
+  /// What two robots keep between their bare disks: the margins of both; of robots that are nearer than that
+  /// at the moment, half of what they have.
+  double margin(std::size_t robot, std::size_t other) const {
+    const core::Robot& a = robots_[robot];
+    const core::Robot& b = robots_[other];
+    const double now = (a.start.position - b.start.position).norm() - a.radius - b.radius;
+    const double whole = margins_[robot] + margins_[other];
+    return now >= whole - kTouch ? whole : std::max(0.0, 0.5 * now);
+  }
+
+  /// Stops both where they begin to be too near while the other one is committed.
   void part(std::size_t robot, std::size_t other) {
     if (pieces_[other].size() == 1 || !may_meet(robot, other)) return;
     const auto meeting = first_meeting(robot, other);
@@ -162,45 +171,59 @@ class Clearing {
   std::optional<Meeting> first_meeting(std::size_t robot, std::size_t other) {
     const std::vector<Piece>& mine = pieces_[robot];
     const std::vector<Piece>& theirs = pieces_[other];
+    const double margin = this->margin(robot, other) - kTouch;
+    // One that stops where it touches goes on touching: what follows may come nearer.
+    const auto ends_one = [&](const Meeting& meeting) {
+      return (meeting.first_moves && shortens(robot, meeting.t)) ||
+             (meeting.second_moves && shortens(other, meeting.t));
+    };
     std::size_t i = 0;
     for (std::size_t k = 0; k < mine.size() && i + 1 < theirs.size();) {
       if (stop_.met_after(kWorkOfAPiece)) return std::nullopt;
-      const double distance = mine[k].radius + theirs[i].radius - kTouch;
-      if (const auto grown = overlap_by_growth(mine[k], theirs[i], distance)) return grown;
+      const double distance = mine[k].radius + theirs[i].radius + margin;
+      const auto grown = overlap_by_growth(mine[k], theirs[i], distance);
+      if (grown && ends_one(*grown)) return grown;
       if (const auto t = first_overlap(mine[k], theirs[i], distance)) {
-        return Meeting{*t, mine[k].moves(), theirs[i].moves()};
+        const Meeting meeting{*t, mine[k].moves(), theirs[i].moves()};
+        if (ends_one(meeting)) return meeting;
       }
       theirs[i].end < mine[k].end ? ++i : ++k;
     }
     return std::nullopt;
   }
 
+  /// Whether a commitment that ends then is shorter.
+  bool shortens(std::size_t index, double t) const {
+    return (t < kNothing ? 0.0 : t) < robots_[index].committed_until() - kSameEnd;
+  }
+
   void cut(std::size_t index, double t) {
     core::Robot& robot = robots_[index];
     stop_.met_after(kWorkOfAPiece * pieces_[index].size());
+    if (!shortens(index, t)) return;
     if (t < kNothing) t = 0.0;
-    if (t >= robot.committed_until() - kSameEnd) return;
     robot.committed = actions_until(robot.committed, t);
     if (robot.previous) robot.previous = split_at(*robot.previous, t);
-    pieces_[index] = pieces_of(robot, inflation_);
+    pieces_[index] = pieces_of(robot);
     if (waits_[index]) return;
     waits_[index] = true;
     waiting_.push_back(index);
   }
 
   std::vector<core::Robot>& robots_;
-  const double inflation_;
+  const std::vector<double>& margins_;  // by robot
   core::Work& stop_;
   std::vector<std::vector<Piece>> pieces_;
-  std::vector<double> reach_;  // from the start, the disk included; of the commitment as it was
+  std::vector<double> reach_;  // from the start, with disk and margin; of the commitment as it was
   std::vector<bool> waits_;    // for its comparison with all others
   std::vector<std::size_t> waiting_;
 };
 
 }  // namespace
 
-void clear_commitments(std::vector<core::Robot>& robots, double inflation, core::Work& stop) {
-  Clearing(robots, inflation, stop).run();
+void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins,
+                       core::Work& stop) {
+  Clearing(robots, margins, stop).run();
 }
 
 }  // namespace fleetplan::api

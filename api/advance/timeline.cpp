@@ -131,10 +131,10 @@ double heading_along(const core::Position& path, const Action& planned) {
   return std::atan2(sign * path.y(), sign * path.x());
 }
 
-/// The action under way as it goes on from a measured pose; nothing if it is done.
-std::optional<Action> continued(Action action, const Pose& pose, double at) {
+/// The action under way as it goes on from a measured pose; nothing if it is done. `left`: seconds, of a
+/// wait.
+std::optional<Action> continued(Action action, const Pose& pose, double left) {
   const double duration = action.t_end - action.t_start;
-  double left = std::max(0.0, action.t_end - at);  // of a wait: as planned
   if (action.type == Action::Type::translate) {
     const core::Position path = action.to.position - pose.position;
     const bool has_reached = path.norm() <= kReached || length(action) <= 0.0;
@@ -150,6 +150,41 @@ std::optional<Action> continued(Action action, const Pose& pose, double at) {
   action.t_start = 0.0;
   action.t_end = left;
   return left > kDone ? std::optional(action) : std::nullopt;
+}
+
+/// The action under way continued from a pose, and the others after it.
+Remainder continued_from(const core::Robot& robot, const Pose& pose, const Action& planned, Actions following,
+                         double left_of_wait) {
+  Remainder rest{planned.to, {}};
+  if (const auto action = continued(planned, pose, left_of_wait)) {
+    rest.start = action->from;
+    rest.actions.push_back(*action);
+    if (planned.type == Action::Type::translate) {
+      turn_back(rest.actions, following, planned.to.theta, robot.angular_speed);
+    }
+  }
+  append(rest.actions, following);
+  return rest;
+}
+
+/// What is left of a wait at its planned time `t`, when it is `at`: only a goal's `not_before` has a time of
+/// its own. `service_left`: seconds, if it is known.
+double wait_left(const core::Robot& robot, const Action& wait, double t, std::optional<double> service_left,
+                 double at) {
+  const bool is_service = wait.goal && *wait.goal < robot.goal_count();
+  const double begin = is_service ? std::min(robot.goal_at(*wait.goal).not_before, wait.t_end) : 0.0;
+  const double left = service_left.value_or(wait.t_end - std::max(t, begin));
+  return t < begin ? std::max(0.0, begin - at) + left : left;
+}
+
+/// The last of the actions from this one on that go on with the same service.
+std::size_t end_of_service(const Actions& actions, std::size_t index) {
+  const auto goes_on = [&](std::size_t next) {
+    return actions[next].type == Action::Type::wait && actions[next].goal == actions[index].goal;
+  };
+  std::size_t last = index;
+  while (last + 1 < actions.size() && goes_on(last + 1)) ++last;
+  return last;
 }
 
 }  // namespace
@@ -178,9 +213,7 @@ std::optional<Progress> measured_progress(const core::Robot& robot, const Action
   std::size_t index = planned_progress(actions, at).action;
   if (index == actions.size()) {
     const Pose end = actions.empty() ? robot.start : actions.back().to;
-    const bool is_there = (end.position - pose.position).norm() <= tolerance &&
-                          core::angle_between(end.theta, pose.theta) <= tolerance;
-    if (is_there) return Progress{index, at};
+    if (is_near(end, pose, tolerance)) return Progress{index, at};
   } else {
     ++index;
   }
@@ -190,11 +223,32 @@ std::optional<Progress> measured_progress(const core::Robot& robot, const Action
   return std::nullopt;
 }
 
+Progress reported_progress(const Actions& actions, const ReportedState& reported) {
+  const auto [action, fraction] = reported.place;
+  const double begin = actions[action].t_start;
+  if (!reported.service_left) return {action, begin + fraction * (actions[action].t_end - begin)};
+  return {action, *reported.service_left > kDone ? begin : actions[end_of_service(actions, action)].t_end};
+}
+
+Pose pose_of(const Actions& actions, const ReportedState& reported) {
+  return pose_at(actions[reported.place.action], reported_progress(actions, reported).t);
+}
+
+bool is_near(const Pose& pose, const Pose& other, double tolerance) {
+  return (pose.position - other.position).norm() <= tolerance &&
+         core::angle_between(pose.theta, other.theta) <= tolerance;
+}
+
+Pose planned_pose(const core::Robot& robot, const Actions& actions, double at) {
+  const std::size_t under_way = planned_progress(actions, at).action;
+  if (under_way < actions.size()) return pose_at(actions[under_way], at);
+  return actions.empty() ? robot.start : actions.back().to;
+}
+
 Remainder remainder(const core::Robot& robot, const Actions& actions, double at) {
   const std::size_t under_way = planned_progress(actions, at).action;
-  Remainder rest{actions.empty() ? robot.start : actions.back().to, {}};
+  Remainder rest{planned_pose(robot, actions, at), {}};
   if (under_way == actions.size()) return rest;
-  rest.start = pose_at(actions[under_way], at);
   Action action = actions[under_way];
   action.t_start = 0.0;
   action.t_end -= at;
@@ -208,17 +262,19 @@ Remainder remainder_of_measured(const core::Robot& robot, const Actions& actions
                                 const Progress& progress, double at) {
   if (progress.action == actions.size()) return remainder(robot, actions, at);
   const Action& planned = actions[progress.action];
-  Actions following = shifted(actions, progress.action + 1, at);
-  Remainder rest{planned.to, {}};
-  if (const auto action = continued(planned, pose, at)) {
-    rest.start = action->from;
-    rest.actions.push_back(*action);
-    if (planned.type == Action::Type::translate) {
-      turn_back(rest.actions, following, planned.to.theta, robot.angular_speed);
-    }
-  }
-  append(rest.actions, following);
-  return rest;
+  return continued_from(robot, pose, planned, shifted(actions, progress.action + 1, at),
+                        std::max(0.0, planned.t_end - at));
+}
+
+Remainder remainder_of_reported(const core::Robot& robot, const Execution& execution,
+                                const Progress& progress, double at) {
+  const Actions& actions = execution.actions;
+  const Action& planned = actions[progress.action];
+  const auto& service_left = execution.reported->service_left;
+  const std::size_t last = service_left ? end_of_service(actions, progress.action) : progress.action;
+  return continued_from(robot, execution.measured.value_or(pose_at(planned, progress.t)), planned,
+                        shifted(actions, last + 1, at),
+                        wait_left(robot, planned, progress.t, service_left, at));
 }
 
 void hold(Remainder& rest, double until) {

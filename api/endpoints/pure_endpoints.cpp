@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "api/advance/acceptable.h"
 #include "api/advance/advance_request.h"
 #include "api/endpoints/endpoints.h"
 #include "api/endpoints/pipeline.h"
@@ -13,8 +14,8 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kAdvanceMembers{"request", "plans", "at",    "commit",
-                                                          "poses",   "holds", "goals", "pose_tolerance"};
+constexpr std::array<std::string_view, 9> kAdvanceMembers{
+    "request", "plans", "at", "commit", "states", "poses", "holds", "goals", "pose_tolerance"};
 
 constexpr std::array<std::string_view, 8> kRetimeMembers{
     "robots", "robot_defaults", "plans", "dependencies", "at", "states", "options", "metadata"};
@@ -24,11 +25,13 @@ constexpr std::array<std::string_view, 8> kRetimeMembers{
 Reply advance_endpoint(std::string_view body, const RequestContext& context) {
   const auto next_request = [&](const JsonReader& root, core::Work& stop,
                                 const AwaitTurn& await_turn) -> std::optional<std::string> {
-    const auto request = parse_advance_request(root, context.limits, stop);
+    auto request = parse_advance_request(root, context.limits, stop);
     if (!request || !await_turn()) return std::nullopt;
-    const auto robots = advanced(request->robots, request->executions, request->moment, stop);
+    auto robots = advanced(request->robots, request->executions, request->moment, stop);
     if (stop.met()) return std::nullopt;
-    return write_advanced(*request, robots, stop);
+    const Circumstances circumstances = make_acceptable(*request, robots, context.maps, stop);
+    if (stop.met()) return std::nullopt;
+    return write_advanced(*request, robots, circumstances, stop);
   };
   return pure_endpoint(body, context, kAdvanceMembers, next_request);
 }

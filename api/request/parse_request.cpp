@@ -172,8 +172,10 @@ std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, co
   return ProblemMaker(fleet, root, stop, maps).run();
 }
 
-constexpr std::array<std::string_view, 7> kPlanRequestMembers{
-    "map", "robot_defaults", "robots", "obstacles", "zones", "options", "metadata"};
+// The last two are of /v1/advance, for who executes the plans, and are ignored.
+constexpr std::array<std::string_view, 9> kPlanRequestMembers{"map",       "robot_defaults", "robots",
+                                                              "obstacles", "zones",          "options",
+                                                              "metadata",  "progress",       "unavoidable"};
 
 /// Returns what answers repeat of the robots. `errors` are those of each robot, or none.
 std::vector<ReceivedRobot> received(std::vector<ParsedRobot>& robots,

@@ -26,6 +26,8 @@ class ActionList {
         now_(robot.committed_until()),
         actions_(robot.committed) {}
 
+  /// Rotates to a heading before a move of no length: a place off the lattice may be one on it, too.
+  void turn(double theta, double t_end) { rotate(theta, t_end, kNegligible); }
   /// Rotates to a heading, then waits until `t_end`.
   void rotate_and_wait(double theta, double t_end) {
     rotate(theta, t_end, kNegligible);
@@ -104,11 +106,13 @@ std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory,
     const TimedSegment& move = trajectory.moves[k];
     for (; visit != trajectory.visits.end() && visit->t_leave <= move.t_start; ++visit) list.visit(*visit);
     const bool reverse = trajectory.is_reverse(k);
+    const bool moves = move.path.from != move.path.to;
     if (!trajectory.continues(k)) {
-      const double heading = heading_from(trajectory, k);
-      list.rotate_and_wait(reverse ? opposite_heading(heading) : heading, move.t_start);
+      const double direction = heading_from(trajectory, k);
+      const double heading = reverse ? opposite_heading(direction) : direction;
+      moves ? list.rotate_and_wait(heading, move.t_start) : list.turn(heading, move.t_start);
     }
-    list.translate(move, reverse);
+    if (moves) list.translate(move, reverse);
   }
   for (; visit != trajectory.visits.end(); ++visit) list.visit(*visit);
   if (trajectory.stops_at) {

@@ -248,6 +248,24 @@ Json states_of(const ToAndFro& fleet, Choices& choices) {
   return states;
 }
 
+/// How far robots say that they are, some of them at the end of a long plan.
+Json reports_of(const ToAndFro& fleet, Choices& choices) {
+  Json reports = Json::array();
+  const bool is_measured = choices.yes();
+  for (const Json& plan : fleet.plans) {
+    if (choices.yes()) continue;
+    const Json& actions = plan["actions"];
+    const auto last = static_cast<int>(actions.size()) - 1;
+    const int number = choices.yes() ? last : choices.up_to(last);
+    Json report{{"robot", plan["robot"]},
+                {"action", number},
+                {"progress", choices.one_of(std::array{0.0, 0.5, 1.0})}};
+    if (is_measured) report.update(actions[static_cast<std::size_t>(number)]["to"]);
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
 }  // namespace
 
 Effort planning_effort(Choices choices) {
@@ -316,6 +334,7 @@ Effort execution_effort(Choices choices) {
             {"plans", fleet.plans},
             {"at", choices.up_to(100) / 10.0},
             {"commit", choices.one_of(std::array{0.0, 1.0, 1e3})}};
+    if (choices.yes()) body["states"] = reports_of(fleet, choices);
   } else if (kind == 4) {
     effort.endpoint = api::retime_endpoint;
     body.erase("map");

@@ -33,6 +33,8 @@ void try_advance(std::string_view body) {
   if (reply.status != 200) return require_proper_refusal(body, reply);
   const Json next = Json::parse(reply.body, nullptr, false);
   require(next.is_object(), "the answer is not JSON", reply.body);
+  require(next["progress"].size() == next["robots"].size(), "the progress is not that of all robots",
+          reply.body);
   require(reply.body == api::advance_endpoint(body, context).body, "the answer changes", reply.body);
   require_readable(reply.body, context.limits);
 }

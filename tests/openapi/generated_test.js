@@ -60,10 +60,15 @@ const BEYOND_SCHEMA = {
     "/progress/\\d+/last_released_sequence_id",
   ),
   // of a policy, of an order
-  missing: /^\/(max_delay|dependencies|progress\/\d+\/(order_update_id|last_released_sequence_id))$/,
+  missing: anyOf(
+    "/(max_delay|dependencies|progress/\\d+/(order_update_id|last_released_sequence_id))",
+    "/states/\\d+/[xy]", // of a measured pose
+  ),
   wrong_type: /^\/dependencies$/, // null, with the policy that needs them
-  // `goal` of an action that is no wait, `reverse` of one that is no translation; serial number of no robot
-  unknown_key: /\/((committed|previous|actions)\/\d+\/(goal|reverse)|serial_numbers\/[^/]*)$/,
+  // `goal` of an action that is no wait, `reverse` of one that is no translation; serial number of no robot; what is
+  // left of no service
+  unknown_key:
+    /\/((committed|previous|actions)\/\d+\/(goal|reverse)|serial_numbers\/[^/]*|states\/\d+\/service_left)$/,
   unknown_obstacle: /^\/unavoidable\/\d+\/obstacle$/,
   discontinuity: /^\/(robots\/\d+\/(committed|previous)|plans\/\d+\/actions)\/\d+\/\w+$/,
   speed: anyOf(

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -175,6 +176,142 @@ TEST(Advance, ItsResultCanBeAdvancedAgain) {
   }
 }
 
+/// The plan of a robot that reports how far it is.
+Execution reported(std::size_t action, double fraction, std::optional<double> service_left = {}) {
+  Execution execution = plan();
+  execution.reported = ReportedState{{action, fraction}, service_left};
+  return execution;
+}
+
+TEST(AdvanceByState, ALateServiceKeepsWhatIsLeftOfIt) {
+  const core::Robot next =
+      advanced(robot(), reported(1, 0.2), moment(9.0, 2.0));  // planned: on its way to x = 6
+  ASSERT_EQ(next.goal_count(), 2U);
+  EXPECT_DOUBLE_EQ(next.via[0].service, 4.0);
+  EXPECT_EQ(next.start.position.x(), 3.0);
+  EXPECT_EQ(next.committed.back().t_end, 2.0);
+  EXPECT_EQ(next.previous->front().goal, 0U);
+  EXPECT_DOUBLE_EQ(next.previous->at(1).t_end, 4.0);
+  EXPECT_DOUBLE_EQ(next.previous->back().t_end, 4.0 + 1.0 + 3.0 + 1.0);
+}
+
+TEST(AdvanceByState, TheServiceThatIsLeftIsAsReported) {
+  for (const double left : {0.5, 12.0}) {  // the planned one takes 5 s
+    const core::Robot next = advanced(robot(), reported(1, 1.0, left), moment(9.0));
+    ASSERT_EQ(next.goal_count(), 2U);
+    EXPECT_EQ(next.via[0].service, left);
+    EXPECT_EQ(next.previous->front().t_end, left);
+    EXPECT_EQ(next.previous->at(1).goal, std::nullopt);
+  }
+  const core::Robot served = advanced(robot(), reported(1, 0.1, 0.0), moment(9.0));
+  EXPECT_EQ(served.goal_count(), 1U);
+  EXPECT_EQ(served.goal->service, 1.0);
+  EXPECT_EQ(served.previous->front().t_end, 1.0) << "the wait for others";
+}
+
+TEST(AdvanceByState, AServiceInTwoPartsIsOne) {
+  Execution execution = reported(1, 0.5, 4.0);
+  execution.actions[1].t_end = 4.0;
+  execution.actions[2].t_start = 4.0;
+  execution.actions[2].t_end = 7.0;
+  execution.actions[2].goal = 0;
+  const core::Robot next = advanced(robot(), execution, moment(3.5));
+  EXPECT_EQ(next.via[0].service, 4.0);
+  EXPECT_EQ(next.previous->at(0).t_end, 4.0);
+  EXPECT_NE(next.previous->at(1).goal, 0U);
+  execution.reported->service_left.reset();
+  const core::Robot as_planned = advanced(robot(), execution, moment(3.5));
+  EXPECT_DOUBLE_EQ(as_planned.via[0].service, 4.0);
+  EXPECT_DOUBLE_EQ(as_planned.previous->at(0).t_end, 1.0);
+  EXPECT_DOUBLE_EQ(as_planned.previous->at(1).t_end, 4.0);
+  execution.reported->service_left = 0.0;
+  EXPECT_EQ(advanced(robot(), execution, moment(3.5)).goal_count(), 1U);
+}
+
+TEST(AdvanceByState, AWaitForAGoalGoesOnUntilItMayBegin) {
+  core::Robot early = robot();
+  early.via[0].not_before = 4.0;  // the wait is from 2 s to 9 s, of which the last five are the service
+  Execution execution = reported(1, 0.0);
+  execution.actions[1].t_end = 9.0;
+  const core::Robot late = advanced(early, execution, moment(3.0));
+  EXPECT_EQ(late.via[0].not_before, 1.0);
+  EXPECT_EQ(late.via[0].service, 5.0);
+  EXPECT_DOUBLE_EQ(late.previous->front().t_end, 6.0);
+  const core::Robot later = advanced(early, execution, moment(20.0));
+  EXPECT_EQ(later.via[0].not_before, 0.0);
+  EXPECT_EQ(later.via[0].service, 5.0);
+  EXPECT_DOUBLE_EQ(later.previous->front().t_end, 5.0);
+}
+
+TEST(AdvanceByState, AServiceNeverHappensBecauseTimeHasPassed) {
+  const core::Robot next = advanced(robot(), reported(0, 1.0), moment(40.0));
+  ASSERT_EQ(next.goal_count(), 2U);
+  EXPECT_EQ(next.via[0].service, 5.0);
+  EXPECT_EQ(next.start.position.x(), 3.0);
+  EXPECT_DOUBLE_EQ(next.previous->front().t_end, 5.0);
+  Execution unplanned = reported(0, 1.0);
+  unplanned.planned = false;
+  unplanned.actions.resize(1);
+  EXPECT_EQ(advanced(robot(), unplanned, moment(40.0)).via[0].service, 5.0);
+}
+
+TEST(AdvanceByState, ARobotGoesOnFromItsProgress) {
+  const core::Robot next = advanced(robot(), reported(3, 0.5), moment(8.5));  // planned: x = 3.5
+  EXPECT_DOUBLE_EQ(next.start.position.x(), 4.5);
+  EXPECT_DOUBLE_EQ(next.committed.back().t_end, 1.5);
+  EXPECT_EQ(next.goal_count(), 1U);
+  EXPECT_DOUBLE_EQ(next.previous->back().t_end, 3.5) << "it is early, and is served when that is due";
+}
+
+TEST(AdvanceByState, AllDoneIsTheEndOfTheLastAction) {
+  const core::Robot next = advanced(robot(), reported(4, 1.0), moment(5.0));
+  EXPECT_EQ(next.start.position.x(), 6.0);
+  EXPECT_EQ(next.goal->service, 0.0);
+  EXPECT_TRUE(next.previous->empty());
+}
+
+TEST(AdvanceByState, AMeasuredPoseIsTheStart) {
+  Execution execution = reported(3, 0.5);
+  execution.measured = Pose{{4.5, 1.05}, 0.05};
+  const core::Robot near = advanced(robot(), execution, moment(9.5));
+  EXPECT_EQ(near.start.position, Position(4.5, 1.05));
+  EXPECT_EQ(near.committed.front().to.position, Position(6.0, 1.0));
+  for (const Pose& far : {Pose{{4.5, 1.2}, 0.0}, Pose{{4.3, 1.0}, 0.0}, Pose{{4.5, 1.0}, 0.3}}) {
+    execution.measured = far;
+    const core::Robot elsewhere = advanced(robot(), execution, moment(9.5));
+    EXPECT_EQ(elsewhere.start.position, far.position);
+    EXPECT_TRUE(elsewhere.committed.empty());
+    EXPECT_FALSE(elsewhere.previous);
+    EXPECT_EQ(elsewhere.goal_count(), 1U) << "what it has reported to have visited";
+  }
+}
+
+TEST(AdvanceByState, AHeldRobotGoesOnLater) {
+  Execution execution = reported(1, 0.4);
+  execution.hold = 10.0;
+  const core::Robot next = advanced(robot(), execution, moment(9.0));
+  EXPECT_EQ(next.committed_until(), 10.0);
+  EXPECT_DOUBLE_EQ(next.via[0].service, 3.0);
+}
+
+TEST(AdvanceByState, ThePlaceIsThatOfTheStateOrOfThePlan) {
+  const auto expect_place = [](const Execution& execution, double at, std::size_t action, double fraction) {
+    const Place place = place_of(robot(), execution, moment(at));
+    EXPECT_EQ(place.action, action) << at;
+    EXPECT_DOUBLE_EQ(place.fraction, fraction) << at;
+  };
+  expect_place(reported(1, 0.25, 1.0), 9.0, 1, 0.25);
+  expect_place(plan(), 0.5, 0, 0.25);
+  expect_place(plan(), 2.0, 1, 0.0);
+  expect_place(plan(), 30.0, 4, 1.0);
+  expect_place({{}, true}, 3.0, 0, 0.0);
+  Execution late = plan();
+  late.measured = Pose{{2.0, 1.0}, 0.0};
+  expect_place(late, 9.0, 0, 0.5);
+  late.measured = Pose{{2.0, 2.0}, 0.0};  // beside its path
+  expect_place(late, 9.5, 3, 0.5);
+}
+
 /// The same robot picks a load up at x = 3, and puts it down at x = 6.
 core::Robot carrier() {
   core::Robot carrier = robot();
@@ -314,6 +451,70 @@ TEST(AdvancedFleet, CommitmentsKeepTheDistanceOfThePlan) {
   Crossing crossing;
   crossing.robots[0].vicinity = 0.2;
   EXPECT_NEAR(crossing.advance(1.0, {}, 0.1)[1].committed.back().t_end, 4.1, 1e-6);
+}
+
+/// One stops where it touches another one that waits, and then goes on past it.
+TEST(AdvancedFleet, NobodyGoesOnIntoOneThatHasStoppedBesideIt) {
+  core::Robot waits;
+  waits.radius = 0.5;
+  waits.linear_speed = waits.angular_speed = 1.0;
+  waits.start = {{9.75, 9.75}, -3.0691895301690075};
+  const Action wait{Type::wait, 0.0, 2.2, waits.start, waits.start};
+  const Action past{Type::translate, 2.2, 7.4, waits.start, {{2.0, 9.187893222363368}, waits.start.theta}};
+  core::Robot comes = waits;
+  comes.radius = 0.25;
+  comes.start = {{8.2, 5.13}, 1.279898456223541};
+  const Action drive{
+      Type::translate, 0.0, 4.63, comes.start, {{10.859688605502331, 14.0}, comes.start.theta}};
+  const std::vector<Execution> executions{{{wait, past}, true}, {{drive}, true}};
+  for (const double inflation : {0.0, 0.05, 0.1}) {
+    Moment then = moment(0.0, 4.0);
+    then.inflation = inflation;
+    core::Work stop = core::Work::unbounded();
+    const auto next = advanced({waits, comes}, executions, then, stop);
+    EXPECT_LT(next[1].committed_until(), 3.0);
+    const Position stands = next[1].committed_end().position;
+    for (double t = 2.2; t <= next[0].committed_until(); t += 0.01) {
+      EXPECT_GT((pose_at(past, t).position - stands).norm(), 0.75 + 2.0 * inflation - 1e-6) << t;
+    }
+  }
+}
+
+/// Two robots of radius 0.25 pass each other 0.7 m apart, as near as an inflation of 0.1 m allows.
+TEST(AdvancedFleet, InflationIsUsedUpByRobotsThatAreNotWhereTheirPlansHaveThem) {
+  Convoy convoy(2);
+  core::Robot& up = convoy.robots[0];
+  core::Robot& down = convoy.robots[1];
+  up.start = at_x(1.0);
+  down.start = {{9.0, 1.7}, std::numbers::pi};
+  const Pose end_of_down{{1.0, 1.7}, std::numbers::pi};
+  convoy.executions = {{{{Type::translate, 0.0, 8.0, up.start, at_x(9.0)}}, true},
+                       {{{Type::translate, 0.0, 8.0, down.start, end_of_down}}, true}};
+  const auto until = [&](double y) {
+    convoy.executions[0].measured = Pose{{3.5, y}, 0.0};
+    Moment then = moment(2.5, 4.0);
+    then.inflation = 0.1;
+    core::Work stop = core::Work::unbounded();
+    return advanced(convoy.robots, convoy.executions, then, stop)[0].committed_until();
+  };
+  EXPECT_EQ(until(1.0), 4.0);
+  EXPECT_EQ(until(1.04), 4.0) << "nearer than planned by no more than it is off its path";
+  EXPECT_LT(until(1.09), 2.0) << "half of its inflation is kept";
+  EXPECT_GT(until(1.09), 0.5);
+}
+
+/// A moving robot cannot stop at once: one that is too near to another one already keeps half of what it has.
+TEST(AdvancedFleet, RobotsThatAreTooNearStopHalfWay) {
+  Convoy convoy(2);
+  convoy.executions[0].hold = 30.0;
+  convoy.robots[1].start.position.x() -= 0.1;
+  convoy.executions[1].actions[0].from = convoy.robots[1].start;
+  convoy.executions[1].actions[0].t_end = 4.1;
+  Moment then = moment(1.0, 1.0);
+  then.inflation = 0.08;
+  core::Work stop = core::Work::unbounded();
+  const auto next = advanced(convoy.robots, convoy.executions, then, stop);
+  EXPECT_NEAR(next[1].committed_until(), 0.05, 1e-6);
 }
 
 TEST(AdvancedFleet, CommitmentsToOneHorizonStayWhole) {

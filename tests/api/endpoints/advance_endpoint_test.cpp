@@ -1,7 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "api/endpoints/endpoints.h"
 #include "tests/api/support/requests.h"
@@ -111,6 +116,102 @@ TEST(AdvanceEndpoint, ReportsFaultsWhereTheyAre) {
             (std::pair<std::string, std::string>{"/plans/0/actions/0/type", "unknown_value"}));
 }
 
+TEST(AdvanceEndpoint, ReportsFaultsOfStatesWhereTheyAre) {
+  const Json good = advance_request(swap_request(), 1.0);
+  const auto with = [&](const char* states) {
+    Json body = good;
+    body["states"] = Json::parse(states);
+    return faults_of_advance(body);
+  };
+  EXPECT_EQ(with("{}"), (Faults{{"/states", "wrong_type"}}));
+  EXPECT_EQ(with(R"([{"robot": "a"}])"),
+            (Faults{{"/states/0/action", "missing"}, {"/states/0/progress", "missing"}}));
+  EXPECT_EQ(with(R"([{"robot": "z", "action": 0, "progress": 0}])"),
+            (Faults{{"/states/0/robot", "unknown_robot"}}));
+  EXPECT_EQ(with(R"([{"robot": "a", "action": 99, "progress": 0}])"),
+            (Faults{{"/states/0/action", "out_of_range"}}));
+  EXPECT_EQ(with(R"([{"robot": "a", "action": 0.5, "progress": 1.01}])"),
+            (Faults{{"/states/0/action", "wrong_type"}, {"/states/0/progress", "out_of_range"}}));
+  EXPECT_EQ(with(R"([{"robot": "a", "action": 0, "progress": -0.1}])"),
+            (Faults{{"/states/0/progress", "out_of_range"}}));
+  EXPECT_EQ(
+      with(R"([{"robot": "a", "action": 0, "progress": 0}, {"robot": "a", "action": 0, "progress": 0}])"),
+      (Faults{{"/states/1/robot", "duplicate"}}));
+  EXPECT_EQ(with(R"([{"robot": "a", "action": 0, "progress": 0, "service_left": 1}])"),
+            (Faults{{"/states/0/service_left", "unknown_key"}}));
+  EXPECT_EQ(with(R"([{"robot": "a", "action": 0, "progress": 0, "x": 1, "speed": 2000, "held_s": 1}])"),
+            (Faults{{"/states/0/speed", "out_of_range"},
+                    {"/states/0/held_s", "unknown_key"},
+                    {"/states/0/y", "missing"}}));
+}
+
+TEST(AdvanceEndpoint, ARobotIsReportedOrMeasuredButNotBoth) {
+  Json body = advance_request(swap_request(), 1.0);
+  body["poses"] = Json::parse(R"([{"robot": "a", "x": 1, "y": 1, "theta": 0}])");
+  body["states"] = Json::parse(R"([{"robot": "b", "action": 0, "progress": 0}])");
+  EXPECT_EQ(advance_endpoint(body.dump(), {}).status, 200);
+  body["states"][0]["robot"] = "a";
+  EXPECT_EQ(faults_of_advance(body), (Faults{{"/states/0/robot", "duplicate"}}));
+  body.erase("poses");
+  body["plans"] = Json::array();
+  EXPECT_EQ(faults_of_advance(body), (Faults{{"/states/0/action", "out_of_range"}}));
+  EXPECT_NE(advance_endpoint(body.dump(), {}).body.find("leave its state out"), std::string::npos);
+}
+
+/// A robot that is served for ten seconds at its first goal, from 5 s on, but has come there late.
+Json late_service() {
+  return Json::parse(R"({
+    "request": {
+      "map": {"rows": ["........", "........", "........", "........", "........"]},
+      "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 1.0},
+      "robots": [{"id": "a", "start": {"x": 1.25, "y": 1.25},
+                  "goals": [{"x": 6.25, "y": 1.25, "service": 10}, {"x": 6.25, "y": 4.25}]}]},
+    "plans": [{"robot": "a", "actions": [
+      {"type": "translate", "t_start": 0, "t_end": 5,
+       "from": {"x": 1.25, "y": 1.25, "theta": 0}, "to": {"x": 6.25, "y": 1.25, "theta": 0}},
+      {"type": "wait", "t_start": 5, "t_end": 15, "goal": 0,
+       "from": {"x": 6.25, "y": 1.25, "theta": 0}, "to": {"x": 6.25, "y": 1.25, "theta": 0}},
+      {"type": "rotate", "t_start": 15, "t_end": 16.5707963267949,
+       "from": {"x": 6.25, "y": 1.25, "theta": 0}, "to": {"x": 6.25, "y": 1.25, "theta": 1.5707963267948966}},
+      {"type": "translate", "t_start": 16.5707963267949, "t_end": 19.5707963267949,
+       "from": {"x": 6.25, "y": 1.25, "theta": 1.5707963267948966},
+       "to": {"x": 6.25, "y": 4.25, "theta": 1.5707963267948966}}]}],
+    "at": 18, "commit": 2})");
+}
+
+TEST(AdvanceEndpoint, ALateServiceIsNotLost) {
+  Json body = late_service();
+  body["states"] = Json::parse(
+      R"([{"robot": "a", "action": 1, "progress": 0.3, "x": 6.25, "y": 1.25, "theta": 0, "speed": 0}])");
+  const Json next = advanced_json(body);
+  const Json& robot = next["robots"][0];
+  ASSERT_EQ(robot["goals"].size(), 2U);
+  EXPECT_EQ(robot["goals"][0]["service"], 7.0);
+  EXPECT_EQ(robot["committed"].back()["t_end"], 2.0);
+  const Json plan = planned(next)["plans"][0];
+  EXPECT_EQ(plan["visits"][0]["t_leave"], 7.0);
+  EXPECT_EQ(nlohmann::json(plan["actions"]), nlohmann::json(robot["previous"])) << "in whatever order";
+  EXPECT_EQ(next["progress"], Json::parse(R"([{"robot": "a", "was": {"action": 1, "progress": 0.3},
+                                               "is": {"action": 0, "progress": 0.0}}])"));
+}
+
+TEST(AdvanceEndpoint, TheProgressOfAnAnswerIsIgnoredByAllThatTakeARequest) {
+  Json next = advanced_json(advance_request(swap_request(), 1.0));
+  ASSERT_EQ(next["progress"].size(), 2U);
+  const Json answer = planned(next);
+  for (const Json& progress : {next["progress"], Json("of an earlier moment")}) {
+    next["progress"] = progress;
+    Json again = advanced_json({{"request", next}, {"plans", answer["plans"]}, {"at", 0.5}});
+    EXPECT_EQ(again["progress"].size(), 2U);
+    Json check = next;
+    check["plans"] = answer["plans"];
+    EXPECT_EQ(validate_endpoint(check.dump(), {}).status, 200);
+    EXPECT_EQ(dependencies_endpoint(check.dump(), {}).status, 200);
+    check["policy"] = "absorb_waits";
+    EXPECT_EQ(simulate_endpoint(check.dump(), {}).status, 200);
+  }
+}
+
 TEST(AdvanceEndpoint, ReportsFaultsOfTheRequestBelowIt) {
   Json body = advance_request(swap_request(), 1.0);
   body["request"]["robots"][1]["start"]["x"] = "left";
@@ -132,6 +233,146 @@ TEST(AdvanceEndpoint, ARequestThatNeedsTooMuchMemoryIsRefused) {
   for (int k = 0; k < 20'000; ++k) body["plans"][0]["actions"].push_back(action);
   const Reply reply = advance_endpoint(body.dump(), context);
   EXPECT_EQ(json_of(reply)["code"], "memory_exceeded");
+}
+
+/// Two robots that pass each other in a hall with a pillar, later.
+Json passing(double at) {
+  const Json request = Json::parse(R"({
+    "map": {"rows": ["..........", "..........", ".....#....", ".........."]},
+    "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 3.0},
+    "robots": [{"id": "a", "start": {"x": 0.5, "y": 2.5, "theta": 0}, "goal": {"x": 9.5, "y": 2.5}},
+               {"id": "b", "start": {"x": 9.5, "y": 3.5, "theta": 3.141592653589793},
+                "goal": {"x": 0.5, "y": 3.5}}],
+    "options": {"inflation": 0.05}})");
+  return advance_request(request, at);
+}
+
+TEST(AdvanceEndpoint, RobotsThatAreMeasuredInEachOtherAreNamedAndMayPart) {
+  Json body = passing(4.5);
+  body["poses"] = Json::parse(R"([{"robot": "a", "x": 4.9, "y": 2.8, "theta": 0},
+                                  {"robot": "b", "x": 5.0, "y": 3.3, "theta": 3.14}])");
+  const Json next = advanced_json(body);
+  EXPECT_EQ(next["unavoidable"], Json::parse(R"([{"robots": ["a", "b"], "t": 0.0}])"));
+  const double overlap = 0.6 - std::hypot(0.1, 0.5);
+  EXPECT_NEAR(next["options"]["start_overlap"].get<double>(), overlap + 0.1, 1e-9);
+  EXPECT_EQ(next["options"]["inflation"], 0.05);
+  EXPECT_EQ(planned(next)["status"], "solved");
+  body["request"]["options"]["start_overlap"] = 0.5;
+  EXPECT_EQ(advanced_json(body)["options"]["start_overlap"], 0.5);
+  body["poses"] = Json::parse(R"([{"robot": "a", "x": 4.9, "y": 2.5, "theta": 0}])");
+  EXPECT_FALSE(advanced_json(body).contains("unavoidable"));
+}
+
+TEST(AdvanceEndpoint, ARobotThatWouldDriveIntoAWallIsNotCommittedToIt) {
+  Json body = passing(3.0);
+  body["pose_tolerance"] = 0.3;
+  body["poses"] = Json::parse(R"([{"robot": "a", "x": 3.5, "y": 2.21, "theta": 0}])");  // towards the pillar
+  const Json next = advanced_json(body);
+  EXPECT_FALSE(next["robots"][0].contains("committed")) << next;
+  EXPECT_TRUE(next["robots"][1].contains("committed"));
+  EXPECT_FALSE(next["options"].contains("start_overlap"));
+  EXPECT_EQ(planned(next)["status"], "solved");
+}
+
+TEST(AdvanceEndpoint, ARobotThatIsMeasuredInAWallIsAccepted) {
+  Json body = passing(3.0);
+  body["poses"] = Json::parse(R"([{"robot": "a", "x": 5.2, "y": 2.1, "theta": 0}])");
+  const Json beside = advanced_json(body);
+  EXPECT_NEAR(beside["options"]["start_overlap"].get<double>(), 0.25, 1e-6);
+  planned(beside);
+  body["poses"][0]["y"] = 1.5;
+  const Json inside = advanced_json(body);
+  EXPECT_EQ(inside["options"]["invalid_robots"], "report");
+  EXPECT_EQ(planned(inside)["unplanned"][0]["reason"], "invalid");
+}
+
+/// Whether disks overlap by more than contact, if robots execute their commitments and then stand.
+bool meet(const Json& request, std::size_t first, std::size_t second) {
+  const auto position = [&](std::size_t robot, double t) {
+    const Json& one = request["robots"][robot];
+    std::array<double, 2> at{one["start"]["x"], one["start"]["y"]};
+    for (const Json& action : one.value("committed", Json::array())) {
+      const double begin = action["t_start"];
+      const double end = action["t_end"];
+      if (t <= begin) break;
+      const double share = std::min(1.0, (t - begin) / (end - begin));
+      const auto between = [&](const char* axis) {
+        const double from = action["from"][axis];
+        return from + share * (action["to"][axis].get<double>() - from);
+      };
+      at = {between("x"), between("y")};
+    }
+    return at;
+  };
+  const double reach =
+      request["robots"][first]["radius"].get<double>() + request["robots"][second]["radius"].get<double>();
+  for (int step = 0; step < 2000; ++step) {
+    const auto a = position(first, 0.005 * step);
+    const auto b = position(second, 0.005 * step);
+    if (std::hypot(a[0] - b[0], a[1] - b[1]) < reach - 1e-6) return true;
+  }
+  return false;
+}
+
+/// Three robots on an open field, two of them measured, that are committed for four seconds.
+TEST(AdvanceEndpoint, CommitmentsNeverMeet) {
+  Json body = Json::parse(R"({
+    "request": {
+      "map": {"resolution": 0.5},
+      "robots": [
+        {"id": "a", "radius": 0.35, "linear_speed": 2.0, "angular_speed": 1.5,
+         "start": {"x": 2, "y": 8.40430808042056, "theta": 0}, "goal": {"x": 14, "y": 8.99983713196635}},
+        {"id": "b", "radius": 0.25, "linear_speed": 2.0, "angular_speed": 1.5,
+         "start": {"x": 7.2669981053243955, "y": 2, "theta": 1.5707963267948966},
+         "goal": {"x": 10.859688605502331, "y": 14}},
+        {"id": "c", "radius": 0.5, "linear_speed": 1.5, "angular_speed": 1.5,
+         "start": {"x": 14, "y": 9.941593788527909, "theta": 3.141592653589793},
+         "goal": {"x": 2, "y": 9.187893222363368}}],
+      "options": {"inflation": 0.05}},
+    "plans": [
+      {"robot": "a", "actions": [
+        {"type": "rotate", "t_start": 0.0, "t_end": 0.033057825946450396,
+         "from": {"x": 2.0, "y": 8.40430808042056, "theta": 0.0},
+         "to": {"x": 2.0, "y": 8.40430808042056, "theta": 0.0495867389196756}},
+        {"type": "translate", "t_start": 0.033057825946450396, "t_end": 6.040441924937355,
+         "from": {"x": 2.0, "y": 8.40430808042056, "theta": 0.0495867389196756},
+         "to": {"x": 14.0, "y": 8.99983713196635, "theta": 0.0495867389196756}}]},
+      {"robot": "b", "actions": [
+        {"type": "rotate", "t_start": 0.0, "t_end": 0.1939319137142371,
+         "from": {"x": 7.2669981053243955, "y": 2.0, "theta": 1.5707963267948966},
+         "to": {"x": 7.2669981053243955, "y": 2.0, "theta": 1.279898456223541}},
+        {"type": "wait", "t_start": 0.1939319137142371, "t_end": 0.5809972639248697,
+         "from": {"x": 7.2669981053243955, "y": 2.0, "theta": 1.279898456223541},
+         "to": {"x": 7.2669981053243955, "y": 2.0, "theta": 1.279898456223541}},
+        {"type": "translate", "t_start": 0.5809972639248697, "t_end": 6.84413196290087,
+         "from": {"x": 7.2669981053243955, "y": 2.0, "theta": 1.279898456223541},
+         "to": {"x": 10.859688605502331, "y": 14.0, "theta": 1.279898456223541}}]},
+      {"robot": "c", "actions": [
+        {"type": "rotate", "t_start": 0.0, "t_end": 0.030033593002088448,
+         "from": {"x": 14.0, "y": 9.941593788527909, "theta": 3.141592653589793},
+         "to": {"x": 14.0, "y": 9.941593788527909, "theta": -3.0965422640866604}},
+        {"type": "translate", "t_start": 0.030033593002088448, "t_end": 2.8662445379701555,
+         "from": {"x": 14.0, "y": 9.941593788527909, "theta": -3.0965422640866604},
+         "to": {"x": 9.75, "y": 9.75, "theta": -3.0965422640866604}},
+        {"type": "rotate", "t_start": 2.8662445379701555, "t_end": 2.8844796939152575,
+         "from": {"x": 9.75, "y": 9.75, "theta": -3.0965422640866604},
+         "to": {"x": 9.75, "y": 9.75, "theta": -3.0691895301690075}},
+        {"type": "wait", "t_start": 2.8844796939152575, "t_end": 3.4328634320245985,
+         "from": {"x": 9.75, "y": 9.75, "theta": -3.0691895301690075},
+         "to": {"x": 9.75, "y": 9.75, "theta": -3.0691895301690075}},
+        {"type": "translate", "t_start": 3.4328634320245985, "t_end": 8.613102123627955,
+         "from": {"x": 9.75, "y": 9.75, "theta": -3.0691895301690075},
+         "to": {"x": 2.0, "y": 9.187893222363368, "theta": -3.0691895301690075}}]}],
+    "at": 2.2182072063085205, "commit": 4,
+    "poses": [
+      {"robot": "a", "x": 4.458418077123165, "y": 8.526313029234908, "theta": 0.0495867389196756},
+      {"robot": "c", "x": 12.189645484926066, "y": 9.859981393205175, "theta": -3.0965422640866604}]})");
+  body["request"]["map"]["rows"] = std::vector<std::string>(32, std::string(32, '.'));
+  const Json next = advanced_json(body);
+  for (const auto& [a, b] : {std::pair{0U, 1U}, std::pair{0U, 2U}, std::pair{1U, 2U}}) {
+    EXPECT_FALSE(meet(next, a, b)) << a << " and " << b << ": " << next;
+  }
+  EXPECT_FALSE(planned(next).contains("unavoidable"));
 }
 
 /// A robot drives along a corridor with a zone in it, and is measured in the zone.

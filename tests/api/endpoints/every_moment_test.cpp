@@ -73,6 +73,7 @@ Json two_seconds_later() {
   Json pose = answer_of(advance_endpoint, body)["robots"][0]["start"];
   pose["robot"] = "a";
   body["poses"] = Json::array({pose});
+  body["states"] = Json::parse(R"([{"robot": "d", "action": 0, "progress": 0.25}])");
   return body;
 }
 

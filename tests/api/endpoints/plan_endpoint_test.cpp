@@ -498,6 +498,31 @@ TEST(PlanEndpoint, NamesTheMotionThatTakesTooLongToCheckIfThereIsAny) {
   EXPECT_EQ(unfinished, 1);
 }
 
+TEST(PlanEndpoint, APlanThatStopsAtTheHorizonHasNoMoveOfNoLength) {
+  // The second robot starts in the place of a vertex, too near to the first one, and lets the third one pass.
+  const Json answer = json_of(plan_endpoint(R"({
+    "map": {"resolution": 2.5, "rows": [
+      "..........", "..........", "..#####..#", "..........", "..........", "..#####..#", "..........",
+      "..........", "..#####..#", "..........", "..........", "..#####..#", "..........", "..........",
+      "..........", "..........", "..........", ".........."]},
+    "robots": [
+      {"id": "parked", "radius": 0.7674, "linear_speed": 1.942, "angular_speed": 5.995,
+       "start": {"x": 7.890814987978884, "y": 14.01761445394299, "theta": 1.5707963267948966}},
+      {"id": "waits", "radius": 0.7674, "linear_speed": 1.942, "angular_speed": 5.995, "vicinity": 0.2928,
+       "start": {"x": 6.25, "y": 13.75, "theta": -1.5707963267948966}, "goal": {"x": 23.75, "y": 43.75}},
+      {"id": "passes", "radius": 1.25, "linear_speed": 1.628, "angular_speed": 4.332,
+       "start": {"x": 7.7325764121198, "y": 11.803139089917982, "theta": 0.2247135375126528},
+       "goal": {"x": 3.75, "y": 43.75}}],
+    "options": {"wait_before_move": 3, "horizon": 10, "start_safe_interval": 20}})",
+                                            context()));
+  ASSERT_EQ(answer["status"], "solved") << answer;
+  for (const Json& plan : answer["plans"]) {
+    for (const Json& action : plan["actions"]) {
+      EXPECT_FALSE(action["type"] == "translate" && action["from"] == action["to"]) << action;
+    }
+  }
+}
+
 /// The budget ends after each number of questions to the stop condition: what is not finished by then is
 /// never taken for a result.
 TEST(PlanEndpoint, NeverCallsAGoalOutOfReachBecauseTheBudgetEnds) {

@@ -1,6 +1,8 @@
-// Random lives of fleets: plan, go on to a random moment in which robots are held, late or beside their
-// paths, and plan again, with all members of requests together. Whatever happens, no request is answered by
-// `internal_error`, and /v1/plan accepts what /v1/advance returns.
+// Random lives of fleets: plan, go on to a random moment in which robots are held, late, early or beside
+// their paths, measured or reported, and plan again, with all members of requests together. Whatever happens,
+// no request is answered by `internal_error`; /v1/plan accepts what /v1/advance returns; and robots that
+// execute nothing but their commitments and then stand meet nobody, unless they overlap already and are
+// named.
 //
 // FLEETPLAN_ROUNDS is how often they are planned in all, FLEETPLAN_FIRST_LIFE the seed of the first fleet.
 
@@ -12,13 +14,20 @@
 #include <cstdlib>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
+#include "api/request/parse_request.h"
+#include "core/geometry/tolerance.h"
 #include "core/planner.h"
+#include "core/verify/verify.h"
 #include "tests/api/support/fleet_json.h"
 #include "tests/support/step_limit.h"
+#include "tests/support/summary.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 namespace TEST_FILE {
@@ -46,10 +55,19 @@ std::vector<core::Zone> zones_for(Dice& dice, const core::Problem& problem) {
   return zones;
 }
 
+/// Many robots on a small open field, who pass each other as near as their inflation allows.
+support::FleetRequest crowd(Dice& dice) {
+  const core::OccupancyGrid grid(8 + dice.below(6), 8 + dice.below(6), 1.0);
+  support::FleetRequest request{grid, support::random_robots(dice, grid, 12), {}, {}};
+  for (core::Robot& robot : request.robots) robot.radius = std::min(robot.radius, 0.6);
+  request.options.inflation = dice.between(0.02, 0.2);
+  return request;
+}
+
 /// A valid request with all kinds of members.
 Json first_request(Dice& dice) {
   while (true) {
-    support::FleetRequest request = support::random_request(dice);
+    support::FleetRequest request = dice.chance(0.4) ? crowd(dice) : support::random_request(dice);
     if (dice.chance(0.5)) support::add_loads(dice, request);
     const auto plain = support::problem_of(request);
     if (!plain) continue;
@@ -80,14 +98,59 @@ core::Pose pose_of(const Json& pose) {
   return {core::Position(number("x"), number("y")), number("theta")};
 }
 
-/// Where a plan has its robot at a time; none before and after its actions.
-std::optional<core::Pose> pose_at(const Json& plan, double t) {
-  for (const Json& action : plan.at("actions")) {
+/// Where actions have their robot at a time.
+struct Under {
+  std::size_t action;
+  double progress;
+  core::Pose pose;
+};
+
+/// None before and after the actions.
+std::optional<Under> under_way(const Json& actions, double t) {
+  std::size_t number = 0;
+  for (const Json& action : actions) {
     const core::Action one{core::Action::Type::translate, action.at("t_start"), action.at("t_end"),
                            pose_of(action.at("from")), pose_of(action.at("to"))};
-    if (one.t_start <= t && t < one.t_end) return support::pose_within(one, t);
+    if (one.t_start <= t && t < one.t_end) {
+      return Under{number, (t - one.t_start) / (one.t_end - one.t_start), support::pose_within(one, t)};
+    }
+    ++number;
   }
   return std::nullopt;
+}
+
+/// All robots execute what is committed, and stay. The starts are as the request allows.
+void expect_that_all_may_stop(const core::Problem& problem, double start_overlap) {
+  std::vector<core::RobotPlan> stops;
+  for (std::size_t k = 0; k < problem.robots().size(); ++k) {
+    const core::Robot& robot = problem.robots()[k];
+    if (!robot.committed.empty()) stops.push_back({k, robot.committed_until(), robot.committed});
+  }
+  core::CheckRules rules;
+  rules.tolerances.assign(problem.robots().size(), core::Tolerance::of_all(core::kMostTolerance));
+  rules.start_overlap = start_overlap;
+  rules.horizon = 0.0;  // with goals left
+  const auto report = core::verify({problem.grid(), problem.robots(), {}, &problem.zones()}, stops, rules,
+                                   core::StopCondition::never());
+  EXPECT_TRUE(report->valid()) << support::text(*report);
+}
+
+/// Exactly the robots that overlap at the moment are named.
+void expect_that_the_overlapping_are_named(const Json& request, const core::Problem& problem) {
+  std::set<std::pair<std::string, std::string>> named;
+  for (const Json& meeting : request.value("unavoidable", Json::array())) {
+    named.emplace(meeting.at("robots").at(0), meeting.at("robots").at(1));
+  }
+  constexpr double kRounding = 1e-9;
+  const auto& robots = problem.robots();
+  for (std::size_t j = 0; j < robots.size(); ++j) {
+    for (std::size_t i = 0; i < j; ++i) {
+      const double gap = (robots[i].start.position - robots[j].start.position).norm() - robots[i].radius -
+                         robots[j].radius + core::kContactTolerance;
+      if (std::abs(gap) < kRounding) continue;
+      EXPECT_EQ(named.contains({robots[i].id, robots[j].id}), gap < 0.0) << robots[i].id << robots[j].id;
+    }
+  }
 }
 
 /// A fleet from round to round.
@@ -107,7 +170,6 @@ class Life {
     constexpr std::int64_t kPlenty = 5'000;
     const std::int64_t steps = dice_.chance(0.3) ? dice_.below(2000) : kPlenty;
     const Reply reply = planned_in(steps, request_);
-    if (reply.status != 200 && may_be_refused(reply)) return false;
     EXPECT_EQ(reply.status, 200) << steps << " steps: " << reply.body << "\n" << came_from_ << request_;
     if (reply.status != 200) return false;
     answer_ = Json::parse(reply.body);
@@ -115,35 +177,42 @@ class Life {
     return true;
   }
 
-  /// Robots that were measured elsewhere may be in others, or in walls.
-  bool may_be_refused(const Reply& reply) const {
-    if (reply.status != 422 || !has_measured_) return false;
-    const Json problem = Json::parse(reply.body);
-    return std::all_of(problem.at("errors").begin(), problem.at("errors").end(), [](const Json& fault) {
-      const Json& code = fault.at("code");
-      return code == "starts_overlap" || code == "start_in_obstacle" || code == "committed_collision";
-    });
-  }
-
   bool advance(double at) {
     Json body{{"request", request_}, {"plans", answer_.at("plans")}, {"at", at}};
     if (dice_.chance(0.5)) body["commit"] = dice_.between(0.0, 6.0);
     body["pose_tolerance"] = 0.1 * request_.at("map").at("resolution").get<double>();
-    has_measured_ = false;
-    const bool measures = dice_.chance(0.4);
+    const bool observes = dice_.chance(0.6);
     for (const Json& plan : answer_.at("plans")) {
       if (dice_.chance(0.15)) {
         body["holds"].push_back({{"robot", plan.at("robot")}, {"until", dice_.between(0.0, 20.0)}});
       }
       if (dice_.chance(0.1)) start_anew(body, plan.at("robot"));
-      if (measures && dice_.chance(0.3)) measure(body, plan);
+      if (observes && dice_.chance(0.4)) observe(body, plan.at("robot"), plan.at("actions"));
+    }
+    for (const Json& robot : request_.at("robots")) {
+      if (observes && robot.contains("committed") && !is_planned(robot)) {
+        observe(body, robot.at("id"), robot.at("committed"));
+      }
     }
     const std::string text = body.dump();
     const Reply reply = advance_endpoint(text, {});
     EXPECT_EQ(reply.status, 200) << reply.body << "\n" << text;
-    if (reply.status == 200) request_ = Json::parse(reply.body);
     came_from_ = "advanced from " + text + "\nto ";
-    return reply.status == 200;
+    if (reply.status != 200) return false;
+    request_ = Json::parse(reply.body);
+    SCOPED_TRACE(came_from_ + reply.body);
+    const auto parsed = parse_request(reply.body, {}, unbounded_work());
+    EXPECT_TRUE(parsed) << parsed.failure().detail;
+    if (!parsed) return false;
+    expect_that_all_may_stop(parsed->problem, parsed->options.start_overlap);
+    expect_that_the_overlapping_are_named(request_, parsed->problem);
+    return true;
+  }
+
+  bool is_planned(const Json& robot) const {
+    const Json& plans = answer_.at("plans");
+    return std::any_of(plans.begin(), plans.end(),
+                       [&](const Json& plan) { return plan.at("robot") == robot.at("id"); });
   }
 
   /// A robot that keeps its radius begins again with its first goal.
@@ -156,21 +225,29 @@ class Life {
     }
   }
 
-  /// The robot is late, or beside its path, or both.
-  void measure(Json& body, const Json& plan) {
-    const double late = dice_.chance(0.7) ? dice_.between(0.0, 3.0) : 0.0;
-    auto pose = pose_at(plan, std::max(0.0, body.at("at").get<double>() - late));
-    if (!pose) return;
+  /// The robot is late, early, or beside its path, which its pose tells, or a state, or both.
+  void observe(Json& body, const Json& robot, const Json& actions) {
+    const double late = dice_.chance(0.7) ? dice_.between(-0.5, 3.0) : 0.0;
+    auto under = under_way(actions, std::max(0.0, body.at("at").get<double>() - late));
+    if (!under) return;
     if (dice_.chance(0.5)) {
-      const double off = 1.2 * body.at("pose_tolerance").get<double>();
+      const double tolerance = body.at("pose_tolerance").get<double>();
+      const double off = (dice_.chance(0.1) ? 12.0 : 1.2) * tolerance;
       const double direction = dice_.between(-std::numbers::pi, std::numbers::pi);
-      pose->position += dice_.between(0.0, off) * core::Position(std::cos(direction), std::sin(direction));
-      pose->theta = core::normalize_angle(pose->theta + dice_.between(-off, off));
+      under->pose.position +=
+          dice_.between(0.0, off) * core::Position(std::cos(direction), std::sin(direction));
+      under->pose.theta = core::normalize_angle(under->pose.theta + dice_.between(-off, off));
     }
-    Json measured = json_of(*pose);
-    measured["robot"] = plan.at("robot");
-    body["poses"].push_back(std::move(measured));
-    has_measured_ = true;
+    const bool reports = dice_.chance(0.6);
+    Json observed = !reports || dice_.chance(0.5) ? json_of(under->pose) : Json::object();
+    observed["robot"] = robot;
+    if (reports) {
+      observed["action"] = under->action;
+      observed["progress"] = dice_.chance(0.1) ? dice_.below(2) : under->progress;
+      const bool serves = actions.at(under->action).contains("goal");
+      if (serves && dice_.chance(0.5)) observed["service_left"] = dice_.between(0.0, 6.0);
+    }
+    body[reports ? "states" : "poses"].push_back(std::move(observed));
   }
 
   Dice& dice_;
@@ -178,10 +255,9 @@ class Life {
   Json request_;
   Json answer_;
   std::string came_from_;
-  bool has_measured_ = false;
 };
 
-TEST(RandomLives, NeverMeetAnInternalErrorAndGoOnFromAnyMoment) {
+TEST(RandomLives, GoOnFromAnyMomentAndMayStopWhereTheirCommitmentsEnd) {
   const std::uint64_t first = from_environment("FLEETPLAN_FIRST_LIFE", 0);
   const std::uint64_t rounds = from_environment("FLEETPLAN_ROUNDS", 300);
   std::uint64_t done = 0;

@@ -75,6 +75,17 @@ TEST(Actions, WaitWithoutRotationBetweenCollinearMoves) {
             (std::vector<Type>{Type::translate, Type::wait, Type::translate}));
 }
 
+TEST(Actions, HaveNoMoveOfNoLength) {
+  // A start off the lattice is left for the vertex in the same place.
+  const Trajectory trajectory{{1, 1}, {{{{1, 1}, {1, 1}}, 4.0, 4.0}, {{{1, 1}, {1, 4}}, 6.0, 9.0}}, 9.0};
+  const auto actions = checked_actions(robot_at(1, 1, kPi / 4).to(1, 4), trajectory);
+  ASSERT_EQ(types(actions), (std::vector<Type>{Type::rotate, Type::rotate, Type::wait, Type::translate}));
+  EXPECT_EQ(actions[2].t_end, 6.0);
+  Trajectory stops{{1, 1}, {{{{1, 1}, {1, 1}}, 4.0, 4.0}}, 9.0};
+  stops.stops_at = 9.0;
+  EXPECT_EQ(types(to_actions(robot_at(1, 1).to(1, 4), stops)), std::vector<Type>{Type::wait});
+}
+
 TEST(Actions, RotateTheShorterWayAcrossPi) {
   // From heading 3 towards (-1, -0.1): across pi, where headings change sign.
   const Position to(4.0, 4.9);

@@ -185,7 +185,8 @@ export class Executions {
 
   /**
    * Later moments of the plans. Robots are late together, by as much, as each on its own may be where another one
-   * has come meanwhile, which is no fault of the service. Starts may overlap by as much as poses are off the plans.
+   * has come meanwhile, which is no fault of the service. They are measured, or report how far they are. Starts may
+   * overlap by as much as poses are off the plans.
    * New goals are those that the robot has had.
    */
   moments() {
@@ -200,6 +201,7 @@ export class Executions {
         off: mostly(fc.constant(0), within(0, 0.2)), // shares of the smallest radius; radians
         tolerance: within(0.001, 0.3),
         errors: fc.tuple(...answer.plans.map(() => error)),
+        reports: fc.boolean(),
       });
       return fc
         .record({
@@ -221,11 +223,12 @@ export class Executions {
           const radius = smallestRadius(request);
           const pose_tolerance = how.tolerance * radius;
           const start_overlap = options.start_overlap + 3 * (how.off * radius + pose_tolerance);
-          const poses = posesAt(answer.plans, Math.max(0, at - how.late), how.errors, how.off * radius);
+          const then = Math.max(0, at - how.late);
+          const poses = posesAt(answer.plans, then, how.errors, how.off * radius);
           return {
             ...moment,
             request: { ...request, options: { ...options, start_overlap } },
-            poses,
+            ...(how.reports ? { states: statesAt(answer.plans, then, poses) } : { poses }),
             pose_tolerance,
           };
         });
@@ -245,6 +248,16 @@ function posesAt(plans, t, errors, most) {
     const { x, y, theta } = poseAt(actions, t);
     const error = errors[index];
     return { robot, x: x + most * error.x, y: y + most * error.y, theta: theta + most * error.theta };
+  });
+}
+
+/** How far they are then, each measured in its pose. */
+function statesAt(plans, t, poses) {
+  return moving(plans).map(({ actions }, index) => {
+    const under = actions.findIndex(({ t_end }) => t < t_end);
+    if (under < 0) return { ...poses[index], action: actions.length - 1, progress: 1 };
+    const { t_start, t_end } = actions[under];
+    return { ...poses[index], action: under, progress: Math.max(0, (t - t_start) / (t_end - t_start)) };
   });
 }
 

@@ -1,0 +1,187 @@
+#include "api/advance/acceptable.h"
+
+#include <algorithm>
+#include <memory>
+#include <variant>
+
+#include "api/request/fleet/parse_actions.h"
+#include "core/geometry/angle.h"
+#include "core/geometry/tolerance.h"
+#include "core/model/problem.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+using core::Action;
+using core::ProblemFault;
+
+/// Of a radius: a disk of which less is clear of a wall has its centre in it, for whatever `start_overlap`.
+constexpr double kCentre = 2e-3;
+
+/// Seconds: an action that ends by so much after a time is under way then.
+constexpr double kStillUnderWay = 1e-9;
+
+/// Pairs that are listed; where more overlap, nobody reads all of them.
+constexpr std::size_t kMostPairs = 10'000;
+
+bool drives(const core::Robot& robot) {
+  return std::any_of(robot.committed.begin(), robot.committed.end(),
+                     [](const Action& action) { return action.type == Action::Type::translate; });
+}
+
+/// Mends what the problem of the new request has for faults, until there are none.
+class Mending {
+ public:
+  Mending(AdvanceRequest& request, std::vector<core::Robot>& robots, core::MapCache* maps, core::Work& stop)
+      : request_(request),
+        robots_(robots),
+        stop_(stop),
+        map_(maps != nullptr ? maps->map_of(std::move(request.fleet.map->grid), stop.reading())
+                             : core::static_map(std::move(request.fleet.map->grid), stop.reading())),
+        start_overlap_(request.fleet.options.plan.start_overlap),
+        reports_(request.fleet.options.invalid_robots == InvalidRobots::report) {}
+
+  Circumstances run() {
+    if (!map_) stop_.look();
+    const std::vector<double> margins =
+        margins_of(request_.robots, request_.executions, request_.moment, robots_, stop_);
+    while (map_ && !stop_.met() && mend_all()) clear_commitments(robots_, margins, stop_);
+    return std::move(found_);
+  }
+
+ private:
+  bool mend_all() {
+    auto made = core::Problem::create(map_, robots_in_map(), conditions(), stop_.reading());
+    const auto* faults = std::get_if<core::ProblemFaults>(&made);
+    if (faults == nullptr) return false;
+    if (!faults->finished) stop_.look();
+    bool any = false;
+    for (const ProblemFault& fault : faults->listed) any = mend(fault) || any;
+    return any;
+  }
+
+  /// The robots as /v1/plan reads them.
+  std::vector<core::Robot> robots_in_map() const {
+    std::vector<core::Robot> all;
+    const WorldFrame& frame = request_.fleet.map->frame;
+    for (std::size_t k = 0; k < robots_.size(); ++k) {
+      const core::Robot& next = robots_[k];
+      if (stop_.met_after(kWorkOfAnAction * (1 + next.committed.size() + next.goal_count()))) break;
+      core::Robot robot = request_.fleet.robots[k].robot;
+      robot.previous.reset();
+      robot.radius = next.radius;
+      robot.start = {frame.to_map(next.start.position), core::normalize_angle(next.start.theta)};
+      robot.via = next.via;
+      robot.goal = next.goal;
+      for (core::Goal& goal : robot.via) goal.position = frame.to_map(goal.position);
+      if (robot.goal) robot.goal->position = frame.to_map(robot.goal->position);
+      robot.committed.clear();
+      for (const Action& action : next.committed) robot.committed.push_back(to_map(action, frame));
+      all.push_back(std::move(robot));
+    }
+    return all;
+  }
+
+  core::ProblemConditions conditions() const {
+    const double inflation = request_.moment.inflation;
+    core::ProblemConditions conditions;
+    conditions.zones = request_.fleet.zones;
+    conditions.pair_overlap = std::max(0.0, start_overlap_ - 2.0 * inflation);
+    conditions.wall_overlap = std::max(0.0, start_overlap_ - inflation);
+    conditions.list_faults_of_every_robot = true;
+    return conditions;
+  }
+
+  /// Returns whether anything has changed. Faults of goals are the client's.
+  bool mend(const ProblemFault& fault) {
+    using Kind = ProblemFault::Kind;
+    switch (fault.kind) {
+      case Kind::committed_in_zone:
+        return end_before(fault.robot, fault.t);
+      case Kind::committed_collision:
+        return fault.other == fault.robot ? end_before(fault.robot, fault.t) : stop_pair(fault);
+      case Kind::starts_overlap:
+        return allow_overlap(2.0 * request_.moment.inflation - fault.gap);
+      case Kind::start_in_obstacle:
+        if (-fault.gap < (1.0 - kCentre) * fault.radius) {
+          return allow_overlap(request_.moment.inflation - fault.gap);
+        }
+        if (reports_) return false;
+        reports_ = found_.some_in_walls = true;
+        return true;
+      case Kind::goal_in_obstacle:
+      case Kind::goals_overlap:
+        break;
+    }
+    return false;
+  }
+
+  /// Ends a commitment before the action that is under way at a time.
+  bool end_before(std::size_t robot, double t) {
+    std::vector<Action>& committed = robots_[robot].committed;
+    if (committed.empty()) return false;
+    const auto first = std::find_if(committed.begin(), committed.end(),
+                                    [&](const Action& action) { return action.t_end > t + kStillUnderWay; });
+    committed.erase(first == committed.end() ? std::prev(first) : first, committed.end());
+    return true;
+  }
+
+  /// Nobody of the two drives.
+  bool stop_pair(const ProblemFault& fault) {
+    core::Robot& a = robots_[fault.robot];
+    core::Robot& b = robots_[fault.other];
+    const bool some_drive = drives(a) || drives(b);
+    bool any = false;
+    for (core::Robot* robot : {&a, &b}) {
+      if (robot->committed.empty() || (some_drive && !drives(*robot))) continue;
+      robot->committed.clear();
+      any = true;
+    }
+    return any;
+  }
+
+  bool allow_overlap(double metres) {
+    if (reports_ || metres <= start_overlap_) return false;
+    start_overlap_ = metres;
+    found_.start_overlap = metres;
+    return true;
+  }
+
+  AdvanceRequest& request_;
+  std::vector<core::Robot>& robots_;
+  core::Work& stop_;
+  std::shared_ptr<const core::StaticMap> map_;
+  double start_overlap_;
+  bool reports_;  // robots whose starts are at fault
+  Circumstances found_;
+};
+
+std::vector<std::pair<std::size_t, std::size_t>> overlapping_pairs(const std::vector<core::Robot>& robots,
+                                                                   core::Work& stop) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (stop.met_after(1) || pairs.size() >= kMostPairs) return pairs;
+      const double reach = robots[i].radius + robots[j].radius - core::kContactTolerance;
+      const core::Position apart = robots[i].start.position - robots[j].start.position;
+      if (reach > 0.0 && apart.squaredNorm() < reach * reach) pairs.emplace_back(j, i);
+    }
+  }
+  return pairs;
+}
+
+}  // namespace
+
+Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>& robots, core::MapCache* maps,
+                              core::Work& stop) {
+  const bool any_observed =
+      std::any_of(request.executions.begin(), request.executions.end(),
+                  [](const Execution& execution) { return execution.measured || execution.reported; });
+  Circumstances found;
+  if (any_observed) found = Mending(request, robots, maps, stop).run();
+  found.overlapping = overlapping_pairs(robots, stop);
+  return found;
+}
+
+}  // namespace fleetplan::api
