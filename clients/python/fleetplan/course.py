@@ -1,0 +1,254 @@
+"""Places along the actions of one robot.
+
+A place is whole progress: the number of actions executed, and the fraction of the one under way (of its length, angle
+or time). So 2.25 is a quarter of the action with the number 2, and the number of all actions is the end.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from fleetplan.types import Action, ActionPlace, ActionProgress, Goal, Pose
+
+Place: TypeAlias = float
+
+_SAME_HEADING = 1e-6  # radians: above the rounding of a plan's headings
+_ON_PLACE = 1e-9  # of whole progress, metres, radians or seconds: rounding
+
+
+def turned(angle: float) -> float:
+    """The angle in [-pi, pi]."""
+    return math.remainder(angle, 2.0 * math.pi)
+
+
+def whole(progress: ActionProgress | ActionPlace) -> Place:
+    """The place that the service names."""
+    return progress["action"] + progress["progress"]
+
+
+@dataclass(frozen=True)
+class Move:
+    """What a robot has done: metres of a translation, radians of a rotation, or seconds of a wait."""
+
+    type: str
+    amount: float
+
+
+@dataclass(frozen=True)
+class _Purpose:
+    """What a wait is for. The rest of it gives way to others."""
+
+    service: float = 0.0  # seconds
+    least: float = 0.0  # seconds: the service, or a wait before a move that is longer
+    not_before: float = 0.0  # seconds of the plan's time: these do not begin earlier
+
+
+class Course:
+    """The actions of one robot."""
+
+    def __init__(self, start: Pose, actions: Sequence[Action], goals: Sequence[Goal] = (),
+                 wait_before_move: float = 0.0) -> None:
+        """`goals`: those of the request, which the waits of the plan number."""
+        self.start = start
+        self.actions = actions
+        self.end = float(len(actions))
+        self._amounts = [_amount(action) for action in actions]
+        self._purposes = [_purpose(actions, index, goals, wait_before_move) for index in range(len(actions))]
+
+    def index(self, place: Place) -> int:
+        """The action under way, before the end."""
+        return min(int(place), len(self.actions) - 1)
+
+    def progress(self, robot: str, place: Place) -> ActionProgress:
+        """As the service names a place; at the end, the last action is done."""
+        if not self.actions:
+            return {"robot": robot, "action": 0, "progress": 0.0}
+        index = self.index(place)
+        return {"robot": robot, "action": index, "progress": min(1.0, place - index)}
+
+    def amount(self, index: int) -> float:
+        """Metres, radians or seconds. Of a wait, only the seconds that may not be skipped."""
+        if self.actions[index]["type"] == "wait":
+            return self._purposes[index].least
+        return self._amounts[index]
+
+    def not_before(self, index: int) -> float:
+        """Seconds of the plan's time: what a wait is for does not begin earlier."""
+        return self._purposes[index].not_before
+
+    def after_service(self, place: Place, left: float) -> Place:
+        """Where a robot is in its service if so much of it is left, seconds; where it is, if it is in no service."""
+        index = self.index(place)
+        goal, rest = self.actions[index].get("goal"), self.service_left(float(index))
+        if goal is None:
+            return place
+        while index < len(self.actions) and self.actions[index].get("goal") == goal:
+            rest -= self._purposes[index].service
+            here = min(left - rest, self._purposes[index].service)
+            if here > 0.0:
+                return index + 1 - here / self._purposes[index].least
+            index += 1
+        return float(index)
+
+    def service_left(self, place: Place) -> float:
+        """Seconds that are left of the service under way, which may take several waits."""
+        index = self.index(place)
+        goal, left = self.actions[index].get("goal"), 0.0
+        for following in range(index, len(self.actions)):
+            if self.actions[following].get("goal") != goal:
+                break
+            share = index + 1 - place if following == index else 1.0
+            left += min(self._purposes[following].service, share * self._purposes[following].least)
+        return left
+
+    def planned_speed(self, index: int) -> float:
+        """Metres or radians per second; 0 of a wait."""
+        action = self.actions[index]
+        duration = action["t_end"] - action["t_start"]
+        return self._amounts[index] / duration if action["type"] != "wait" and duration > 0.0 else 0.0
+
+    def pose(self, place: Place) -> Pose:
+        if not self.actions:
+            return self.start
+        index = self.index(place)
+        share, action = place - index, self.actions[index]
+        begin, end = action["from"], action["to"]
+        if share >= 1.0:
+            return end
+        if action["type"] == "rotate":
+            theta = turned(begin["theta"] + share * turned(end["theta"] - begin["theta"]))
+            return {"x": begin["x"], "y": begin["y"], "theta": theta}
+        return {"x": begin["x"] + share * (end["x"] - begin["x"]), "y": begin["y"] + share * (end["y"] - begin["y"]),
+                "theta": begin["theta"]}
+
+    def room(self, place: Place, limit: Place) -> float:
+        """Metres, or radians of a rotation, from a place to where the robot has to stand, as it may not pass the
+        limit: translations in the same direction follow each other without a stop."""
+        index = self.index(place)
+        room = (min(limit, index + 1) - place) * self._amounts[index]
+        while limit > index + 1 and index + 1 < len(self.actions) and self._goes_on(index):
+            index += 1
+            room += (min(limit, index + 1) - index) * self._amounts[index]
+        return room
+
+    def located(self, pose: Pose, place: Place, limit: Place, near: float) -> Place:
+        """Where a robot is by its measured pose: from the place where it has been on. It has done an action of which
+        less than `near` is left (metres; radians of a rotation), and is at the limit likewise; past the limit, it is
+        in the same action."""
+        while place < self.end and self.actions[self.index(place)]["type"] != "wait":
+            index = self.index(place)
+            done, amount = max(place, index + self._share(index, pose)), self._amounts[index]
+            if limit <= index + 1 and abs(limit - done) * amount <= near:
+                return limit
+            if limit < done or (index + 1 - done) * amount > near:
+                return done
+            place = index + 1.0
+        return place
+
+    def moves(self, begin: Place, end: Place) -> list[Move]:
+        """What a robot does from one place to another."""
+        found = []
+        while begin < end - _ON_PLACE:
+            index = self.index(begin)
+            stop = min(end, index + 1.0)
+            amount = (stop - begin) * self.amount(index)
+            if amount > 0.0:
+                found.append(Move(self.actions[index]["type"], amount))
+            begin = stop
+        return found
+
+    def after(self, place: Place, moves: Sequence[Move], near: float = _ON_PLACE) -> Place:
+        """Where a robot is after what it has done on another course that begins in the same way. One of them may have
+        moves of less than `near` that the other does not have."""
+        for move in moves:
+            left = move.amount
+            while left > _ON_PLACE and place < self.end:
+                index = self.index(place)
+                kind, amount = self.actions[index]["type"], self.amount(index)
+                rest = (index + 1 - place) * amount
+                if kind == move.type and left < rest - _ON_PLACE:
+                    place, left = place + left / amount, 0.0
+                elif kind == move.type:
+                    place, left = index + 1.0, left - rest
+                elif kind == "wait" or amount <= near:
+                    place = index + 1.0
+                elif move.type == "wait" or left <= near:
+                    break  # what is not on this course
+                else:
+                    return place  # another way
+        return place
+
+    def place_at(self, t: float) -> Place:
+        """Where the plan has the robot at a time, seconds."""
+        for index, action in enumerate(self.actions):
+            if t < action["t_end"]:
+                return index + max(0.0, (t - action["t_start"]) / (action["t_end"] - action["t_start"]))
+        return self.end
+
+    def time_at(self, place: Place) -> float:
+        """Until when the plan has the robot where it is at this place, seconds."""
+        if place >= self.end - _ON_PLACE:
+            return math.inf
+        index = self.index(place + _ON_PLACE)
+        action = self.actions[index]
+        if action["type"] != "translate":
+            return self.time_at(index + 1.0) if index + 1 < len(self.actions) else math.inf
+        return action["t_start"] + (place - index) * (action["t_end"] - action["t_start"])
+
+    def _share(self, index: int, pose: Pose) -> float:
+        """How much of an action a robot in this pose has done."""
+        action, amount = self.actions[index], self._amounts[index]
+        if amount <= 0.0:
+            return 1.0
+        begin, end = action["from"], action["to"]
+        if action["type"] == "rotate":
+            return min(1.0, max(0.0, 1.0 - abs(turned(end["theta"] - pose["theta"])) / amount))
+        x, y = end["x"] - begin["x"], end["y"] - begin["y"]
+        along = ((pose["x"] - begin["x"]) * x + (pose["y"] - begin["y"]) * y) / (amount * amount)
+        return min(1.0, max(0.0, along))
+
+    def _goes_on(self, index: int) -> bool:
+        """Whether the robot goes on in the same direction after this action."""
+        action, following = self.actions[index], self.actions[index + 1]
+        return (action["type"] == following["type"] == "translate"
+                and action.get("reverse", False) == following.get("reverse", False)
+                and abs(turned(_direction(following) - _direction(action))) < _SAME_HEADING)
+
+
+def _amount(action: Action) -> float:
+    begin, end = action["from"], action["to"]
+    if action["type"] == "translate":
+        return math.hypot(end["x"] - begin["x"], end["y"] - begin["y"])
+    if action["type"] == "rotate":
+        return abs(turned(end["theta"] - begin["theta"]))
+    return action["t_end"] - action["t_start"]
+
+
+def _direction(action: Action) -> float:
+    begin, end = action["from"], action["to"]
+    return math.atan2(end["y"] - begin["y"], end["x"] - begin["x"])
+
+
+def _purpose(actions: Sequence[Action], index: int, goals: Sequence[Goal], wait_before_move: float) -> _Purpose:
+    """A service is at the end of the waits for its goal, of which there are several where a commitment has ended. At
+    the end of a longer wait before a move, it counts towards that."""
+    action = actions[index]
+    if action["type"] != "wait":
+        return _Purpose()
+    planned = action["t_end"] - action["t_start"]
+    service = least = not_before = 0.0
+    if "goal" in action and action["goal"] < len(goals):
+        goal, end = goals[action["goal"]], action["t_end"]
+        for following in actions[index + 1:]:
+            if following.get("goal") != action["goal"]:
+                break
+            end = following["t_end"]
+        service = least = min(planned, max(0.0, goal.get("service", 0.0) - (end - action["t_end"])))
+        not_before = min(goal.get("not_before", 0.0), action["t_end"] - least)
+    precedes_move = index + 1 < len(actions) and actions[index + 1]["type"] == "translate"
+    added = min(planned, wait_before_move) if precedes_move else 0.0
+    if added > least:
+        not_before = max(0.0, not_before - (added - least))
+        least = added
+    return _Purpose(service, least, not_before)

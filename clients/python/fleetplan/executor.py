@@ -1,0 +1,384 @@
+"""Executes plans by robots that are late: docs/execution.md is its contract.
+
+Each robot goes along its own actions, in order, and does not pass a gate before the robot that it waits for has made
+the progress that opens it. Nothing here talks to robots or reads a clock: `Executor` says what each robot should do
+now, and takes what robots report.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from fleetplan.course import Course, Place, whole
+from fleetplan.types import (Action, ActionProgress, AdvanceAnswer, Goal, MeasuredPose, PlanAnswer, PlanRequest,
+                             Pose, Robot, RobotState, TightPair)
+
+_REACHED = 1e-9  # of whole progress: rounding
+_SAME_TIME = 1e-9  # seconds
+_TIGHT = 2.0  # seconds: how long after its least slack a pair is tight
+
+
+@dataclass(frozen=True)
+class Instruction:
+    """What a robot should do now, until it gets another instruction."""
+
+    robot: str
+    plan: int  # the number of the plan; reports repeat it
+    action: int  # its number in the robot's actions
+    type: Literal["translate", "rotate", "wait"]  # wait: to stand, for whatever reason
+    target: Pose  # where to go and no further
+    speed: float  # the highest, in metres or radians per second; 0 to stand
+    room: float  # metres, or radians, to where it has to stand: beyond the target, if it may go on from there
+    reverse: bool = False  # to translate backwards
+    goal: int | None = None  # the number of the goal that is served by this wait
+    seconds: float | None = None  # that are left of a wait, if it has an end of its own
+    waits_for: tuple[str, ...] = ()  # robots that have to go on before
+
+
+@dataclass(frozen=True)
+class Report:
+    """What a robot knows of itself: a pose, or how far it is in an action."""
+
+    robot: str
+    pose: Pose | None = None  # measured
+    action: int | None = None  # with `progress`: the fraction of this action that is done
+    progress: float = 0.0
+    plan: int | None = None  # of the instruction; reports on another plan are ignored, unless they are poses
+    speed: float | None = None  # metres per second
+    service_left: float | None = None  # seconds, of the service under way
+
+
+@dataclass(frozen=True)
+class _Gate:
+    place: Place
+    other: str
+    until: Place
+
+
+@dataclass(frozen=True)
+class _Clock:
+    """Where the plan has too little slack for gates: until this time of the plan, a robot is not ahead of another one
+    by more than planned."""
+
+    other: str
+    until: float  # seconds
+
+
+@dataclass
+class _Progress:
+    """How far a robot is."""
+
+    course: Course
+    goals: bool  # whether it has any
+    arrives: bool  # whether it has served all of them at the end of its actions
+    gates: list[_Gate] = field(default_factory=list)
+    next_gate: int = 0  # those before are open
+    clocks: list[_Clock] = field(default_factory=list)
+    place: Place = 0.0
+    commitment: Place = math.inf  # not to be passed
+    stays: bool = False  # where it is, whatever its actions are
+    counted: float = 0.0  # until then, its wait is counted; on the executor's clock
+    report: Report | None = None
+    reported: float = -math.inf
+
+    def measured(self, now: float) -> Pose | None:
+        """The pose, if it has just been measured."""
+        return self.report.pose if self.report is not None and now - self.reported <= _SAME_TIME else None
+
+
+class Executor:
+    """Executes one plan after the other.
+
+    It keeps to what dependencies promise: where `tight` of the plan is empty, robots never come closer than the sum of
+    their radii and execution margins. Pairs in `tight` keep the clock: the second to pass is not ahead of the first by
+    more than planned. Times are those of one clock, in seconds, which the caller reads.
+    """
+
+    def __init__(self, request: PlanRequest, answer: PlanAnswer, now: float, *, early: bool = True,
+                 deceleration: float | Mapping[str, float] | None = None, reaction: float = 0.0,
+                 near: float = 0.01) -> None:
+        """`answer`: with dependencies. `now`: when the plan begins.
+
+        `early`: robots may be ahead of the plan, and skip waits that only let others pass. Without, no action begins
+        before its time, which moving obstacles need.
+        `deceleration`: metres per second squared, of all robots or by robot, and `reaction`: seconds from a report to
+        the execution of the instruction that follows. With these, the speed is what allows to stop in time.
+        `near`: a robot that has less than so many metres (radians) left of an action has done it, and one that is so
+        near to a gate is there. The execution margin should be at least as much."""
+        self._early, self._deceleration, self._reaction, self._near = early, deceleration, reaction, near
+        self.plan = 0  # the number of the plan
+        self._begin(request, answer, now)
+
+    # ---------------------------------------------------------------- what robots should do
+
+    def instructions(self, now: float) -> list[Instruction]:
+        """Of all robots, in the order of the request."""
+        for robot in self._robots:
+            self._count_wait(robot, now)
+        return [self._instruction(robot, now) for robot in self._robots]
+
+    @property
+    def finished(self) -> bool:
+        """Whether all robots have executed their actions."""
+        return all(progress.place >= progress.course.end - _REACHED for progress in self._robots.values())
+
+    @property
+    def served(self) -> list[str]:
+        """Robots that have served all of their goals."""
+        return [robot for robot, progress in self._robots.items()
+                if progress.goals and progress.arrives and progress.place >= progress.course.end - _REACHED]
+
+    @property
+    def overran(self) -> list[str]:
+        """Robots that have passed a gate that is closed. They have to stand, but what is promised does not hold."""
+        return [robot for robot, progress in self._robots.items()
+                if self._closed_at(robot) < progress.place - _REACHED]
+
+    # ---------------------------------------------------------------- what they do
+
+    def report(self, report: Report, now: float) -> None:
+        progress = self._robots[report.robot]
+        if report.plan is not None and report.plan != self.plan and report.pose is None:
+            return
+        progress.report, progress.reported = report, now
+        self._count_wait(report.robot, now)
+        course, before = progress.course, progress.place
+        if report.action is not None and report.plan in (None, self.plan):
+            if not 0 <= report.action < max(1, len(course.actions)) or not 0.0 <= report.progress <= 1.0:
+                raise ValueError(f"{report.robot} has no progress {report.progress} of an action {report.action}")
+            progress.place = min(course.end, max(before, report.action + report.progress))
+        elif report.pose is not None:
+            progress.place = course.located(report.pose, before, self._limit(report.robot), self._near)
+        if report.service_left is not None and before < course.end:
+            progress.place = course.after_service(progress.place, report.service_left)
+        if int(progress.place) != int(before):
+            progress.counted = now
+
+    def progress(self, robot: str) -> ActionProgress:
+        """Where the robot is in its actions."""
+        progress = self._robots[robot]
+        return progress.course.progress(robot, progress.place)
+
+    def states(self, now: float) -> list[RobotState]:
+        """Where robots are in their actions, and where they have just been measured, for `/v1/advance`."""
+        for robot in self._robots:
+            self._count_wait(robot, now)
+        return [self._state(robot, progress, now) for robot, progress in self._robots.items()
+                if progress.course.actions]
+
+    def poses(self, now: float) -> list[MeasuredPose]:
+        """Where robots without actions have just been measured; they have no state."""
+        return [{"robot": robot, "x": pose["x"], "y": pose["y"], "theta": pose["theta"]}
+                for robot, progress in self._robots.items()
+                if not progress.course.actions and (pose := progress.measured(now)) is not None]
+
+    # ---------------------------------------------------------------- from plan to plan
+
+    def places(self) -> dict[str, Place]:
+        """Where robots are, for `commit`."""
+        return {robot: progress.place for robot, progress in self._robots.items()}
+
+    def commit(self, request: AdvanceAnswer, places: Mapping[str, Place]) -> list[str]:
+        """While a plan is made for a request of `/v1/advance`, robots go on to the end of their commitments and no
+        further: that plan goes on from there. `places`: where they were when the request was made. Returns the robots
+        that are further already; then the plan cannot be followed."""
+        self._committed_at = places
+        self._begins_at = {entry["robot"]: whole(entry["is"]) for entry in request.get("progress", [])}
+        for robot in request["robots"]:
+            progress = self._robots.get(robot["id"])
+            if progress is not None:
+                ahead = _course(request, robot, robot.get("committed", []))
+                moves = ahead.moves(0.0, ahead.end)
+                progress.commitment = progress.course.after(places[robot["id"]], moves, self._near)
+        return [robot for robot, progress in self._robots.items() if progress.place > progress.commitment + _REACHED]
+
+    def release(self) -> None:
+        """There is no other plan: robots go on with the one that they have."""
+        for progress in self._robots.values():
+            progress.commitment = math.inf
+
+    def follow(self, request: PlanRequest, answer: PlanAnswer, begin: float, now: float) -> None:
+        """Goes on with the plan for the request that was committed to, which began at `begin`. What robots have done
+        since then is done in the new plan."""
+        old, committed_at, begins_at = self._robots, self._committed_at, self._begins_at
+        self._begin(request, answer, begin)
+        for robot, progress in self._robots.items():
+            if robot in old:
+                done = old[robot].course.moves(committed_at[robot], old[robot].place)
+                progress.place = progress.course.after(begins_at.get(robot, 0.0), done, self._near)
+                progress.report, progress.reported = old[robot].report, old[robot].reported
+            progress.counted = now
+
+    # ---------------------------------------------------------------- inside
+
+    def _begin(self, request: PlanRequest, answer: PlanAnswer, begin: float) -> None:
+        dependencies = answer.get("dependencies")
+        if dependencies is None:
+            raise ValueError("the plan has no dependencies; ask for them with options.dependencies")
+        self.start = begin  # of the plan: its time 0
+        self.plan += 1
+        plans = {plan["robot"]: plan for plan in answer["plans"]}
+        invalid = {entry["robot"] for entry in answer["unplanned"] if entry["reason"] == "invalid"}
+        self._robots = {}
+        for robot in request["robots"]:
+            plan = plans.get(robot["id"])
+            actions = robot.get("committed", []) if plan is None else plan["actions"]
+            self._robots[robot["id"]] = _Progress(
+                _course(request, robot, actions), bool(goals_of(robot)), plan is not None and "ends_at" not in plan,
+                counted=begin, stays=robot["id"] in invalid)
+        for dependency in dependencies:
+            gate, until = dependency["gate"], dependency["until"]
+            self._robots[gate["robot"]].gates.append(_Gate(whole(gate), until["robot"], whole(until)))
+        for progress in self._robots.values():
+            progress.gates.sort(key=lambda gate: gate.place)
+        for pair in answer.get("tight") or []:
+            self._keep_time(pair)
+
+    def _keep_time(self, pair: TightPair) -> None:
+        """The robot that waits for the other one nearest to the time of a tight pair is the second to pass."""
+        first, second = pair["robots"]
+        gates = [(abs(self._robots[robot].course.time_at(gate.place) - pair["t"]), robot, other)
+                 for robot, other in ((first, second), (second, first))
+                 for gate in self._robots[robot].gates if gate.other == other]
+        if gates:
+            _, waits, other = min(gates)
+            self._robots[waits].clocks.append(_Clock(other, pair["t"] + _TIGHT))
+
+    def _is_open(self, gate: _Gate) -> bool:
+        return self._robots[gate.other].place >= gate.until - _REACHED
+
+    def _closed_at(self, robot: str) -> Place:
+        """The first gate that is closed."""
+        progress = self._robots[robot]
+        gates = progress.gates
+        while progress.next_gate < len(gates) and self._is_open(gates[progress.next_gate]):
+            progress.next_gate += 1
+        return gates[progress.next_gate].place if progress.next_gate < len(gates) else math.inf
+
+    def _limit(self, robot: str) -> Place:
+        """The place that the robot may reach and not pass."""
+        progress = self._robots[robot]
+        if progress.stays:
+            return 0.0
+        limits = [self._on_time(progress, clock) for clock in progress.clocks]
+        return min(self._closed_at(robot), progress.commitment, progress.course.end, *limits)
+
+    def _on_time(self, progress: _Progress, clock: _Clock) -> Place:
+        """The place at which the robot is planned to be when the other one is where it is now."""
+        other = self._robots[clock.other]
+        t = other.course.time_at(other.place)
+        return progress.course.place_at(t) if t < clock.until else math.inf
+
+    def _count_wait(self, robot: str, now: float) -> None:
+        """Goes on with the waits of a robot, as far as they are over."""
+        progress, course = self._robots[robot], self._robots[robot].course
+        while (progress.place < (limit := self._limit(robot)) - _REACHED
+               and course.actions[index := course.index(progress.place)]["type"] == "wait"):
+            begins = self._begins(course, index)
+            if now < begins - _SAME_TIME:
+                break
+            stop, least = min(limit, index + 1.0), course.amount(index)
+            since = max(progress.counted, begins)
+            needed = (stop - progress.place) * least
+            if now - since < needed - _SAME_TIME:
+                progress.place += (now - since) / least
+                break
+            progress.place, progress.counted = stop, since + needed if least > 0.0 else progress.counted
+        progress.counted = now
+
+    def _begins(self, course: Course, index: int) -> float:
+        """When a robot may begin what a wait is for, or a move."""
+        action = course.actions[index]
+        if self._early:
+            return self.start + (course.not_before(index) if action["type"] == "wait" else 0.0)
+        if action["type"] == "wait":
+            return self.start + action["t_end"] - course.amount(index)
+        return self.start + action["t_start"]
+
+    def _instruction(self, robot: str, now: float) -> Instruction:
+        progress, course = self._robots[robot], self._robots[robot].course
+        place, limit = progress.place, self._limit(robot)
+        if place >= course.end - _REACHED:
+            return self._stand(robot, place)
+        index = course.index(place + _REACHED)
+        action = course.actions[index]
+        if place >= limit - _REACHED:
+            return self._stand(robot, place, waits_for=self._waits_for(robot))
+        begins = self._begins(course, index)
+        if action["type"] == "wait":
+            left = max(0.0, begins - now) + (index + 1 - place) * course.amount(index)
+            return self._stand(robot, place, action.get("goal"), left, self._waits_for(robot))
+        if place <= index + _REACHED and now < begins - _SAME_TIME:
+            return self._stand(robot, place, None, begins - now)
+        room = course.room(place, limit)
+        return Instruction(robot, self.plan, index, action["type"], course.pose(min(limit, index + 1.0)),
+                           self._speed(robot, action, course.planned_speed(index), room), room,
+                           action.get("reverse", False), waits_for=self._waits_for(robot) if limit < index + 1 else ())
+
+    def _stand(self, robot: str, place: Place, goal: int | None = None, seconds: float | None = None,
+               waits_for: tuple[str, ...] = ()) -> Instruction:
+        course = self._robots[robot].course
+        index = max(0, course.index(place + _REACHED))
+        return Instruction(robot, self.plan, index, "wait", course.pose(place), speed=0.0, room=0.0, goal=goal,
+                           seconds=seconds, waits_for=waits_for)
+
+    def _waits_for(self, robot: str) -> tuple[str, ...]:
+        """The robots that have to go on before this one may pass its limit."""
+        progress, limit = self._robots[robot], self._limit(robot)
+        gates = progress.gates[progress.next_gate:]
+        others = {gate.other for gate in gates if gate.place <= limit and not self._is_open(gate)}
+        others |= {clock.other for clock in progress.clocks if self._on_time(progress, clock) <= limit}
+        return tuple(sorted(others))
+
+    def _speed(self, robot: str, action: Action, planned: float, room: float) -> float:
+        """At most as planned, and so that the robot can stop within the room."""
+        of_robots, report = self._deceleration, self._robots[robot].report
+        deceleration = of_robots.get(robot) if isinstance(of_robots, Mapping) else of_robots
+        if deceleration is None or action["type"] != "translate":
+            return planned
+        speed = abs(report.speed) if report is not None and report.speed is not None else 0.0
+        return min(planned, _braking_speed(room, speed, deceleration, self._reaction))
+
+    def _state(self, robot: str, progress: _Progress, now: float) -> RobotState:
+        course = progress.course
+        at = course.progress(robot, progress.place)
+        state: RobotState = {"robot": robot, "action": at["action"], "progress": at["progress"]}
+        action, least = course.actions[at["action"]], course.amount(at["action"])
+        if action["type"] == "wait":
+            if "goal" in action:
+                state["service_left"] = course.service_left(progress.place)
+            else:
+                # What is left of it is for others, and ends as planned.
+                left = max(self.start + action["t_end"] - now, (1.0 - at["progress"]) * least)
+                state["progress"] = max(0.0, 1.0 - left / max(_SAME_TIME, action["t_end"] - action["t_start"]))
+        pose = progress.measured(now)
+        if pose is not None:
+            state["x"], state["y"], state["theta"] = pose["x"], pose["y"], pose["theta"]
+            if progress.report is not None and progress.report.speed is not None:
+                state["speed"] = progress.report.speed
+        return state
+
+
+def goals_of(robot: Robot) -> list[Goal]:
+    """The goals of a robot of a request, however they are given."""
+    return robot["goals"] if "goals" in robot else [robot["goal"]] if "goal" in robot else []
+
+
+def _course(request: PlanRequest, robot: Robot, actions: list[Action]) -> Course:
+    start = robot["start"]
+    pose: Pose = {"x": start["x"], "y": start["y"], "theta": start.get("theta", 0.0)}
+    return Course(pose, actions, goals_of(robot), request.get("options", {}).get("wait_before_move", 0.0))
+
+
+def _braking_speed(room: float, speed: float, deceleration: float, reaction: float) -> float:
+    """The highest speed to go on with, for the reaction, and then to stop within the room; from a speed that may be
+    higher."""
+    lost = deceleration * reaction
+    steady = math.sqrt(lost * lost + 2.0 * deceleration * room) - lost
+    if speed <= steady:
+        return steady
+    # The way v' r + (v - v')^2 / (2 d) + v'^2 / (2 d) is the room.
+    root = (speed - lost) ** 2 - 2.0 * speed * speed + 4.0 * deceleration * room
+    slower = (speed - lost + math.sqrt(root)) / 2.0 if root >= 0.0 else 0.0
+    return slower if slower >= max(0.0, speed - lost) else 0.0

@@ -1,0 +1,244 @@
+"""The loop of a fleet manager: plan, execute, advance (docs/fleet_loop.md)."""
+
+import copy
+import functools
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from types import TracebackType
+
+from fleetplan.client import Client
+from fleetplan.course import Place
+from fleetplan.errors import FleetplanError, RequestRefused
+from fleetplan.executor import Executor, Instruction, Report
+from fleetplan.types import AdvanceAnswer, Goal, Hold, NewGoals, PlanAnswer, PlanOptions, PlanRequest
+
+# What a fleet needs that is planned again and again while its robots are late and a little beside their paths: slack
+# between robots in time and space, starts that may be measured too near to something, and no more than the next seconds
+# planned, so that a round of a large fleet is done in time. The options of the request have precedence.
+LOOP_OPTIONS: PlanOptions = {"time_budget_ms": 900, "horizon": 20.0, "interval_margin": 0.5, "dependency_slack": 0.02,
+                             "inflation": 0.05, "execution_margin": 0.02, "start_overlap": 0.15,
+                             "invalid_robots": "report"}
+
+_TRANSFER = 0.5  # seconds: what commitments are longer than planning may take
+
+
+@dataclass
+class _Round:
+    """From a moment to the plan that is made for it."""
+
+    begin: float
+    places: Mapping[str, Place]  # of robots at the moment
+    request: AdvanceAnswer | None = None  # of the moment, once it is known; written by the thread that plans
+    committed: bool = False  # robots to what it commits them to
+    passed: Sequence[str] = ()  # robots that were further by then
+    future: "Future[PlanAnswer] | None" = None
+
+
+class FleetLoop:
+    """Plans a fleet, and plans it again while it drives. Call `step` several times per second, with what robots report,
+    and send them the instructions that it returns.
+
+    A round that fails (no answer, a busy server) costs nothing but time: robots go on with the plan that they have.
+    """
+
+    def __init__(self, client: Client, request: PlanRequest, *, period: float = 1.0, commit: float | None = None,
+                 clock: Callable[[], float] = time.monotonic, background: bool = True,
+                 change: Callable[[PlanRequest], None] | None = None, pose_tolerance: float | None = None,
+                 deceleration: float | Mapping[str, float] | None = None, reaction: float = 0.0,
+                 near: float = 0.01) -> None:
+        """`period`: seconds from plan to plan; a plan that takes longer delays the next one. `commit`: what robots do
+        within so many seconds is decided before each plan; by default, the time budget, half a second, and what the
+        way to brake takes. `change` is called with each request before it is planned, in the thread that plans, to
+        add obstacles, zones or robots.
+        `clock`: seconds. `background`: plans are made in a thread, while robots go on; without it, `step` waits for
+        them, which simulations want. The others are those of `Executor`."""
+        options = LOOP_OPTIONS.copy()
+        options.update(request.get("options", {}))
+        options["dependencies"] = True
+        self.request = copy.deepcopy(request)  # that was planned last
+        self.request["options"] = options
+        self.answer: PlanAnswer | None = None  # to it
+        self.failure: FleetplanError | None = None  # of the last round; none if it succeeded
+        self._client, self._period, self._clock, self._change = client, period, clock, change
+        self._commit = commit
+        if commit is None:
+            self._commit = options["time_budget_ms"] / 1000.0 + _TRANSFER + _braking_time(request, deceleration)
+        self._pose_tolerance, self._deceleration = pose_tolerance, deceleration
+        self._reaction, self._near = reaction, near
+        self._threads = ThreadPoolExecutor(1, "fleetplan") if background else None
+        self._executor: Executor | None = None
+        self._round: _Round | None = None  # under way
+        self._due = -float("inf")
+        self._goals: dict[str, list[Goal]] = {}  # for the next round
+        self._given: dict[str, list[Goal]] = {}  # in the round under way
+        self._holds: dict[str, float] = {}  # until when, on the clock
+
+    def __enter__(self) -> "FleetLoop":
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None,
+                 trace: TracebackType | None) -> None:
+        self.close()
+
+    def close(self) -> None:
+        if self._threads is not None:
+            self._threads.shutdown(cancel_futures=True)
+
+    # ---------------------------------------------------------------- the loop
+
+    def step(self, reports: Iterable[Report] = ()) -> list[Instruction]:
+        """What every robot should do now. Before the first plan, nothing: they stand.
+
+        Raises RequestRefused if the first request, or goals that were given, are at fault; then these goals are
+        dropped, and the loop goes on with the next call."""
+        now = self._clock()
+        if self._executor is not None:
+            for report in reports:
+                self._executor.report(report, now)
+        self._commit_robots()
+        self._take_plan(now)
+        if self._round is None and now >= self._due:
+            self._due = now + self._period
+            self._begin_round(now)
+            self._take_plan(now)
+        return self._executor.instructions(now) if self._executor is not None else []
+
+    def give(self, robot: str, goals: Sequence[Goal]) -> None:
+        """Other goals than those that the robot has left, from the next round on."""
+        self._goals[robot] = list(goals)
+
+    def hold(self, robot: str, seconds: float) -> None:
+        """The robot stands where it is for so long, from the next round on. What it does until then is up to it."""
+        self._holds[robot] = self._clock() + seconds
+
+    @property
+    def idle(self) -> list[str]:
+        """Robots that have served all goals that they were given."""
+        served = self._executor.served if self._executor is not None else []
+        return [robot for robot in served if robot not in self._goals and robot not in self._given]
+
+    @property
+    def overran(self) -> list[str]:
+        """Robots that have passed a gate that is closed: somebody should look."""
+        return self._executor.overran if self._executor is not None else []
+
+    # ---------------------------------------------------------------- rounds
+
+    def _begin_round(self, now: float) -> None:
+        self._given, self._goals = self._goals, {}
+        if self._executor is None:
+            self._round = _Round(now, {})
+            self._round.future = self._run(self._plan_first)
+        else:
+            self._round = _Round(now, self._executor.places())
+            advance = self._advance(self._executor, now)
+            self._round.future = self._run(functools.partial(self._plan_next, self._round, advance))
+
+    def _run(self, make: Callable[[], PlanAnswer]) -> "Future[PlanAnswer]":
+        """In the background, if there is one."""
+        if self._threads is not None:
+            return self._threads.submit(make)
+        future: Future[PlanAnswer] = Future()
+        try:
+            future.set_result(make())
+        except FleetplanError as error:
+            future.set_exception(error)
+        return future
+
+    def _plan_first(self) -> PlanAnswer:
+        for robot in self.request["robots"]:
+            if robot["id"] in self._given:
+                robot.pop("goal", None)
+                robot["goals"] = self._given[robot["id"]]
+        if self._change is not None:
+            self._change(self.request)
+        return self._plan(self.request)
+
+    def _plan_next(self, round_: _Round, advance: Callable[[], AdvanceAnswer]) -> PlanAnswer:
+        request = advance()
+        if self._change is not None:
+            self._change(request)
+        round_.request = request
+        return self._plan(request)
+
+    def _advance(self, executor: Executor, now: float) -> Callable[[], AdvanceAnswer]:
+        """What returns the request of this moment."""
+        assert self.answer is not None
+        self._holds = {robot: until for robot, until in self._holds.items() if until > now}
+        holds: list[Hold] = [{"robot": robot, "until": until - now} for robot, until in self._holds.items()]
+        # What an invalid robot is committed to cannot be executed.
+        holds += [{"robot": entry["robot"], "until": 0.0} for entry in self.answer["unplanned"]
+                  if entry["reason"] == "invalid" and entry["robot"] not in self._holds]
+        goals: list[NewGoals] = [{"robot": robot, "goals": given} for robot, given in self._given.items()]
+        return functools.partial(self._client.advance, self.request, self.answer, now - executor.start,
+                                 commit=self._commit, states=executor.states(now), poses=executor.poses(now),
+                                 holds=holds, goals=goals, pose_tolerance=self._pose_tolerance)
+
+    def _commit_robots(self) -> None:
+        """Robots go on to the ends of their commitments, once these are known."""
+        round_ = self._round
+        if round_ is not None and round_.request is not None and not round_.committed and self._executor is not None:
+            round_.committed = True
+            round_.passed = self._executor.commit(round_.request, round_.places)
+
+    def _plan(self, request: PlanRequest) -> PlanAnswer:
+        answer = self._client.plan(request)
+        # With invalid_robots "report", goals at fault do not refuse the request.
+        faults = [fault for entry in answer["unplanned"] if entry["robot"] in self._given
+                  for fault in entry.get("errors", []) if "/goal" in fault["pointer"]]
+        if faults:
+            raise RequestRefused(422, {"code": "invalid_request", "detail": faults[0]["detail"], "errors": faults})
+        if answer.get("dependencies") is None:
+            made = self._client.dependencies(request, answer)  # with a time budget of its own
+            if made["dependencies"] is None:
+                raise FleetplanError("the time budget does not suffice for the dependencies of the plan")
+            answer["dependencies"], answer["tight"] = made["dependencies"], made["tight"]
+        return answer
+
+    def _take_plan(self, now: float) -> None:
+        """Goes on with the next plan if it is ready."""
+        round_ = self._round
+        if round_ is None or round_.future is None or not round_.future.done():
+            return
+        self._commit_robots()
+        self._round = None
+        try:
+            answer = round_.future.result()
+            if round_.passed:
+                raise FleetplanError(f"{round_.passed} passed the ends of their commitments before these were known")
+        except FleetplanError as error:
+            self._fail(error)
+            return
+        self.failure, self._given, self.answer = None, {}, answer
+        if self._executor is None:
+            self._executor = Executor(self.request, answer, now, early=False, deceleration=self._deceleration,
+                                      reaction=self._reaction, near=self._near)
+        elif round_.request is not None:
+            self.request = round_.request
+            self._executor.follow(round_.request, answer, round_.begin, now)
+
+    def _fail(self, error: FleetplanError) -> None:
+        """Goes on with the plan that there is."""
+        self.failure = error
+        given, self._given = self._given, {}
+        if self._executor is not None:
+            self._executor.release()
+        if isinstance(error, RequestRefused):
+            goals_at_fault = given and any("/goal" in fault.pointer for fault in error.faults)
+            if goals_at_fault or self._executor is None:
+                raise error
+        self._goals = {**given, **self._goals}
+
+
+def _braking_time(request: PlanRequest, deceleration: float | Mapping[str, float] | None) -> float:
+    """Seconds in which a robot drives the way that it needs to stop: the longest of all robots."""
+    default = request.get("robot_defaults", {}).get("linear_speed", 0.0)
+    longest = 0.0
+    for robot in request["robots"]:
+        brakes = deceleration.get(robot["id"]) if isinstance(deceleration, Mapping) else deceleration
+        if brakes is not None:
+            longest = max(longest, robot.get("linear_speed", default) / (2.0 * brakes))
+    return longest
+

@@ -1,0 +1,692 @@
+"""Requests and answers of the service, as JSON has them.
+
+The names are those of the schemas of its OpenAPI document, which `tests/python` compares with this file. They are
+dictionaries, so what the service returns is sent back without any conversion. Units: metres, seconds, radians.
+"""
+
+from typing import Any, Literal, NotRequired, Required, TypeAlias, TypedDict
+
+Metadata: TypeAlias = dict[str, Any]
+ActionType: TypeAlias = Literal["rotate", "translate", "wait"]
+
+
+class Position(TypedDict):
+    x: float
+    y: float
+
+
+class Pose(TypedDict):
+    x: float
+    y: float
+    theta: float
+
+
+class Start(TypedDict):
+    x: float
+    y: float
+    theta: NotRequired[float]
+
+
+# ---------------------------------------------------------------- maps
+
+
+class RowsMap(TypedDict):
+    rows: list[str]
+    resolution: NotRequired[float]
+    origin: NotRequired[Position]
+
+
+class GridPosition(TypedDict):
+    x: float
+    y: float
+    z: NotRequired[object]
+
+
+class GridOrientation(TypedDict, total=False):
+    x: float
+    y: float
+    z: float
+    w: float
+
+
+class GridOrigin(TypedDict, total=False):
+    position: GridPosition
+    orientation: GridOrientation
+
+
+class GridInfo(TypedDict):
+    map_load_time: NotRequired[object]
+    resolution: float
+    width: int
+    height: int
+    origin: NotRequired[GridOrigin]
+
+
+class OccupancyGrid(TypedDict):
+    header: NotRequired[object]
+    info: GridInfo
+    data: list[int]
+
+
+class OccupancyGridMap(TypedDict):
+    occupancy_grid: OccupancyGrid
+    unknown: NotRequired[Literal["blocked", "free"]]
+
+
+class Mask(TypedDict, total=False):
+    pgm: str
+    png: str
+    mode: Literal["trinary", "scale", "raw"]
+    negate: Literal[False, True, 0, 1]
+    occupied_thresh: float
+    free_thresh: float
+
+
+class Image(Mask, total=False):
+    resolution: Required[float]
+    origin: list[float]
+    image: object
+
+
+class ImageMap(TypedDict):
+    image: Image
+    unknown: NotRequired[Literal["blocked", "free"]]
+
+
+class MovingAiMap(TypedDict):
+    movingai: str
+    resolution: NotRequired[float]
+    origin: NotRequired[Position]
+
+
+Map: TypeAlias = RowsMap | OccupancyGridMap | ImageMap | MovingAiMap
+
+
+# ---------------------------------------------------------------- zones and obstacles
+
+
+class BlockedZone(TypedDict):
+    id: str
+    type: Literal["blocked"]
+    polygon: list[Position]
+    robots: NotRequired[list[str]]
+
+
+class SpeedZone(TypedDict):
+    id: str
+    type: Literal["speed"]
+    polygon: list[Position]
+    linear_speed: NotRequired[float]
+    angular_speed: NotRequired[float]
+    robots: NotRequired[list[str]]
+
+
+class OneWayZone(TypedDict):
+    id: str
+    type: Literal["one_way"]
+    polygon: list[Position]
+    heading: float
+    half_angle: float
+    robots: NotRequired[list[str]]
+
+
+class BlockedMask(TypedDict):
+    id: str
+    type: Literal["blocked"]
+    mask: Mask
+    robots: NotRequired[list[str]]
+
+
+class SpeedMask(TypedDict):
+    id: str
+    type: Literal["speed"]
+    mask: Mask
+    robots: NotRequired[list[str]]
+
+
+Zone: TypeAlias = BlockedZone | SpeedZone | OneWayZone | BlockedMask | SpeedMask
+
+
+class ObstacleEntry(TypedDict):
+    t: float
+    x: float
+    y: float
+
+
+class Obstacle(TypedDict):
+    id: str
+    radius: float
+    motion: list[ObstacleEntry]
+    after: NotRequired[Literal["leaves", "stays"]]
+
+
+# ---------------------------------------------------------------- robots
+
+
+# `from` is a keyword, so these members are declared by a call.
+_Ends = TypedDict("_Ends", {"from": Pose, "to": Pose})
+
+
+class Action(_Ends):
+    type: ActionType
+    t_start: float
+    t_end: float
+    goal: NotRequired[int]
+    reverse: NotRequired[bool]
+
+
+class Goal(TypedDict):
+    x: float
+    y: float
+    theta: NotRequired[float]
+    service: NotRequired[float]
+    not_before: NotRequired[float]
+    radius_after: NotRequired[float]
+    metadata: NotRequired[Metadata]
+
+
+class RobotDefaults(TypedDict, total=False):
+    radius: float
+    linear_speed: float
+    angular_speed: float
+    vicinity: float
+    execution_margin: float
+    may_reverse: bool
+    body_radius: float
+
+
+class Robot(RobotDefaults, total=False):
+    id: Required[str]
+    start: Required[Start]
+    goal: Goal
+    goals: list[Goal]
+    committed: list[Action]
+    previous: list[Action]
+    metadata: Metadata
+
+
+# ---------------------------------------------------------------- /v1/plan
+
+
+class PlanOptions(TypedDict, total=False):
+    time_budget_ms: float
+    mode: Literal["first", "anytime"]
+    objective: Literal["flowtime", "makespan"]
+    seed: int
+    priority: Literal["shortest_first", "longest_first", "as_listed", "random"]
+    reordering: Literal["raise_failed", "random", "none"]
+    start_safe_interval: float
+    inflation: float
+    wait_before_move: float
+    any_angle: bool
+    connectivity: Literal[4, 8, 16, 32]
+    max_iterations: int | None
+    replan: Literal["all", "where_needed"]
+    horizon: float | None
+    interval_margin: float
+    start_overlap: float
+    invalid_robots: Literal["refuse", "report"]
+    lattice_spacing: float | None
+    dependencies: bool
+    dependency_slack: float
+    execution_margin: float
+
+
+class PlanRequest(TypedDict):
+    map: Map
+    robot_defaults: NotRequired[RobotDefaults]
+    robots: list[Robot]
+    obstacles: NotRequired[list[Obstacle]]
+    zones: NotRequired[list[Zone]]
+    options: NotRequired[PlanOptions]
+    metadata: NotRequired[Metadata]
+
+
+class Visit(TypedDict):
+    goal: int
+    t_arrive: float
+    t_leave: float | None
+    metadata: NotRequired[Metadata]
+
+
+class RobotPlan(TypedDict):
+    robot: str
+    cost: float
+    lower_bound: float
+    ends_at: NotRequired[Literal["horizon"]]
+    estimated_cost: NotRequired[float]
+    actions: list[Action]
+    visits: NotRequired[list[Visit]]
+    metadata: NotRequired[Metadata]
+
+
+class Fault(TypedDict):
+    pointer: str
+    code: Literal["wrong_type", "missing", "unknown_key", "unknown_value", "unknown_robot", "unknown_obstacle",
+                  "duplicate", "out_of_range", "empty", "bad_map_row", "bad_image", "bad_movingai", "bad_polygon",
+                  "wrong_size", "start_in_obstacle", "goal_in_obstacle", "starts_overlap", "goals_overlap",
+                  "discontinuity", "speed", "committed_collision", "committed_in_zone", "dependency", "invalid_plan"]
+    detail: str
+
+
+class Unplanned(TypedDict):
+    robot: str
+    reason: Literal["start_blocked", "goal_blocked", "goal_unreachable", "blocked_by_robots", "budget_exhausted",
+                    "committed_in_the_way", "invalid"]
+    detail: str
+    blocked_by: list[str]
+    blocked_by_total: int
+    actions: NotRequired[list[Action]]
+    errors: NotRequired[list[Fault]]
+    metadata: NotRequired[Metadata]
+
+
+class Meeting(TypedDict):
+    robots: NotRequired[list[str]]
+    robot: NotRequired[str]
+    obstacle: NotRequired[str]
+    t: float
+
+
+class ActionPlace(TypedDict):
+    action: int
+    progress: float
+
+
+class ActionProgress(TypedDict):
+    robot: str
+    action: int
+    progress: float
+
+
+class Dependency(TypedDict):
+    gate: ActionProgress
+    until: ActionProgress
+    slack: NotRequired[float]
+
+
+class TightPair(TypedDict):
+    robots: list[str]
+    t: float
+    slack: float
+
+
+class Objectives(TypedDict):
+    flowtime: float
+    makespan: float
+
+
+class Search(TypedDict):
+    attempts: int
+    expansions: int
+    improvements: int
+    exhausted: NotRequired[Literal[True]]
+
+
+class Timings(TypedDict):
+    queue: float
+    parse: float
+    plan: float
+    verify: float
+    serialize: float
+    total: float
+
+
+class PlanAnswer(TypedDict):
+    status: Literal["solved", "partial", "none"]
+    request_id: str
+    plans: list[RobotPlan]
+    unplanned: list[Unplanned]
+    unavoidable: NotRequired[list[Meeting]]
+    dependencies: NotRequired[list[Dependency] | None]
+    tight: NotRequired[list[TightPair] | None]
+    flowtime: float
+    makespan: float
+    lower_bound: Objectives
+    estimated: NotRequired[Objectives]
+    verified: Literal[True]
+    min_clearance: float | None
+    deterministic: bool
+    lattice_spacing: NotRequired[float]
+    search: Search
+    timings_ms: Timings
+    warnings: list[str]
+    metadata: NotRequired[Metadata]
+
+
+class Progress(TypedDict):
+    elapsed_ms: float
+    attempt: int
+    planned: int
+    robots: int
+    best: Objectives | None
+
+
+class ProgressEvent(TypedDict):
+    event: Literal["progress"]
+    data: Progress
+
+
+class IncumbentEvent(TypedDict):
+    event: Literal["incumbent"]
+    data: PlanAnswer
+
+
+class PlannedEvent(TypedDict):
+    event: Literal["plan"]
+    data: PlanAnswer
+
+
+# The fourth event, `problem`, is raised as an exception.
+PlanEvent: TypeAlias = ProgressEvent | IncumbentEvent | PlannedEvent
+
+
+# ---------------------------------------------------------------- plans of other planners
+
+
+class GivenPlan(TypedDict):
+    robot: str
+    cost: NotRequired[float]
+    lower_bound: NotRequired[object]
+    ends_at: NotRequired[object]
+    estimated_cost: NotRequired[object]
+    metadata: NotRequired[object]
+    actions: list[Action]
+    visits: NotRequired[list[Visit]]
+
+
+class GivenPlans(TypedDict):
+    """Plans that need not be from this service, in the place of its answer."""
+
+    plans: list[GivenPlan]
+    unavoidable: NotRequired[list[Meeting]]
+    dependencies: NotRequired[list[Dependency] | None]
+
+
+Plans: TypeAlias = PlanAnswer | GivenPlans
+
+
+# ---------------------------------------------------------------- /v1/validate, /v1/dependencies
+
+
+class Violation(TypedDict):
+    kind: Literal["robot_collision", "obstacle_collision", "discontinuity", "speed", "wrong_start", "wrong_goal",
+                  "wrong_visit", "committed_changed", "margin", "moving_obstacle", "zone"]
+    robots: list[str]
+    obstacle: NotRequired[str]
+    zone: NotRequired[str]
+    t: float
+    distance: float
+    required: float
+    detail: str
+
+
+class Verdict(TypedDict):
+    valid: bool
+    violations: list[Violation]
+    violations_total: int
+    min_clearance: float | None
+    truncated: NotRequired[Literal[True]]
+
+
+class DependenciesAnswer(TypedDict):
+    dependencies: list[Dependency] | None
+    tight: list[TightPair] | None
+    warnings: list[str]
+
+
+# ---------------------------------------------------------------- /v1/simulate
+
+
+class Range(TypedDict):
+    min: float
+    max: float
+
+
+class Stops(TypedDict):
+    rate_per_hour: float
+    mean_s: float
+
+
+class CrossTrack(TypedDict):
+    sigma: float
+    correlation_length: float
+
+
+class Disturbance(TypedDict, total=False):
+    speed: Range
+    turn: Range
+    stops: Stops
+    start_delay: Range
+    cross_track: CrossTrack
+
+
+class Quantiles(TypedDict):
+    mean: float
+    min: float
+    p10: float
+    p50: float
+    p90: float
+    p99: float
+    max: float
+
+
+Distribution: TypeAlias = Quantiles | None
+
+
+class SimulatedDelay(TypedDict):
+    robot: str
+    planned: float
+    delay: Distribution
+
+
+# `with` is a keyword.
+_Collided = TypedDict("_Collided", {"with": Literal["robot", "wall"]})
+
+
+class Collision(_Collided):
+    run: int
+    robots: list[str]
+    t: float
+    x: float
+    y: float
+    depth: float
+
+
+class MeetingPair(TypedDict):
+    robots: list[str]
+    runs: int
+    share: float
+
+
+class Deadlock(TypedDict):
+    run: int
+    robots: list[str]
+
+
+class ExecutedPlan(TypedDict):
+    robot: str
+    cost: float
+    actions: list[Action]
+
+
+class Trace(TypedDict):
+    run: int
+    plans: list[ExecutedPlan]
+
+
+class SimulationAnswer(TypedDict):
+    request_id: str
+    runs: int
+    collision_share: float
+    deadlock_share: float
+    planned: Objectives
+    flowtime: Distribution
+    makespan: Distribution
+    robots: list[SimulatedDelay]
+    first_collisions: list[Collision]
+    pairs: list[MeetingPair]
+    deadlocks: list[Deadlock]
+    trace: NotRequired[Trace]
+    warnings: list[str]
+
+
+class SimulationProgress(TypedDict):
+    elapsed_ms: float
+    runs: int
+    done: int
+    collided: int
+    deadlocked: int
+
+
+class SimulationProgressEvent(TypedDict):
+    event: Literal["progress"]
+    data: SimulationProgress
+
+
+class SimulatedEvent(TypedDict):
+    event: Literal["simulation"]
+    data: SimulationAnswer
+
+
+SimulationEvent: TypeAlias = SimulationProgressEvent | SimulatedEvent
+
+
+# ---------------------------------------------------------------- /v1/advance
+
+
+class MeasuredPose(TypedDict):
+    robot: str
+    x: float
+    y: float
+    theta: float
+
+
+class RobotState(TypedDict):
+    robot: str
+    action: int
+    progress: float
+    service_left: NotRequired[float]
+    x: NotRequired[float]
+    y: NotRequired[float]
+    theta: NotRequired[float]
+    speed: NotRequired[float]
+
+
+class Hold(TypedDict):
+    robot: str
+    until: float
+
+
+class NewGoals(TypedDict):
+    robot: str
+    goals: list[Goal]
+
+
+SamePlace = TypedDict("SamePlace", {"robot": str, "was": ActionPlace, "is": ActionPlace})
+
+
+class AdvanceAnswer(PlanRequest):
+    progress: list[SamePlace]
+    unavoidable: NotRequired[list[Meeting]]
+
+
+# ---------------------------------------------------------------- /v1/retime
+
+
+class PacedState(TypedDict):
+    robot: str
+    action: int
+    progress: float
+    speed_factor: NotRequired[float]
+    held_s: NotRequired[float]
+
+
+class RetimedAction(TypedDict):
+    action: int
+    t_start: float
+    t_end: float
+
+
+class RetimedVisit(TypedDict):
+    goal: int
+    t_arrive: float | None
+    t_leave: float | None
+
+
+class RetimedRobot(TypedDict):
+    robot: str
+    t_end: float
+    delay: float
+    actions: list[RetimedAction]
+    visits: list[RetimedVisit]
+
+
+class LateRobot(TypedDict):
+    robot: str
+    delay: float
+    waits_for: str | None
+    because_of: str
+
+
+class RetimeAnswer(TypedDict):
+    robots: list[RetimedRobot]
+    late: list[LateRobot]
+
+
+# ---------------------------------------------------------------- /v1/export/vda5050
+
+
+class OrderProgress(TypedDict):
+    robot: str
+    order_id: NotRequired[str | None]
+    order_update_id: NotRequired[int]
+    last_released_sequence_id: NotRequired[int]
+    action: int
+    progress: float
+
+
+class OrderNode(TypedDict):
+    sequence_id: int
+    action: int
+    progress: float
+
+
+class RobotOrder(TypedDict):
+    robot: str
+    order: dict[str, Any]
+    last_released_sequence_id: int
+    nodes: list[OrderNode]
+
+
+class Vda5050Answer(TypedDict):
+    orders: list[RobotOrder]
+    all_released: bool
+
+
+# ---------------------------------------------------------------- GET
+
+
+class Limits(TypedDict):
+    max_body: int
+    max_cells: int
+    max_robots: int
+    max_depth: int
+    max_goals: int
+    max_actions: int
+    max_obstacles: int
+    max_obstacle_entries: int
+    max_zones: int
+    max_zone_corners: int
+    max_plan_memory: int
+    max_unsent: int
+    default_budget_ms: int
+    min_budget_ms: int
+    max_budget_ms: int
+    workers: int
+    queue: int
+
+
+class Health(TypedDict):
+    status: Literal["ok"]
+    version: str
