@@ -121,16 +121,19 @@ std::optional<Under> under_way(const Json& actions, double t) {
 
 /// All robots execute what is committed, and stay. The starts are as the request allows.
 void expect_that_all_may_stop(const core::Problem& problem, double start_overlap) {
+  std::vector<core::Robot> robots = problem.robots();
   std::vector<core::RobotPlan> stops;
-  for (std::size_t k = 0; k < problem.robots().size(); ++k) {
-    const core::Robot& robot = problem.robots()[k];
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    core::Robot& robot = robots[k];
+    // Without a plan, it rests at its last goal with the radius with which it arrives.
+    if (robot.goal) robot.goal->radius_after.reset();
     if (!robot.committed.empty()) stops.push_back({k, robot.committed_until(), robot.committed});
   }
   core::CheckRules rules;
-  rules.tolerances.assign(problem.robots().size(), core::Tolerance::of_all(core::kMostTolerance));
+  rules.tolerances.assign(robots.size(), core::Tolerance::of_all(core::kMostTolerance));
   rules.start_overlap = start_overlap;
   rules.horizon = 0.0;  // with goals left
-  const auto report = core::verify({problem.grid(), problem.robots(), {}, &problem.zones()}, stops, rules,
+  const auto report = core::verify({problem.grid(), robots, {}, &problem.zones()}, stops, rules,
                                    core::StopCondition::never());
   EXPECT_TRUE(report->valid()) << support::text(*report);
 }
