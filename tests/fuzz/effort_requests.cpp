@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
+#include "tests/support/base64.h"
 
 namespace fleetplan::fuzz {
 
@@ -93,8 +94,29 @@ Json star(double x, double y, double radius, int corners) {
   return polygon;
 }
 
-Json zones_of(const Extent& extent, Choices& choices) {
+/// A zone with a mask for this map: squares of cells, of some values in turn.
+Json mask_for(const Json& map, Choices& choices) {
+  const std::size_t rows = map["rows"].size();
+  const std::size_t columns = map["rows"][0].get_ref<const std::string&>().size();
+  const auto side = static_cast<std::size_t>(1 + choices.up_to(30));
+  const int values = 2 + choices.up_to(98);
+  std::string pixels;
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t column = 0; column < columns; ++column) {
+      pixels += static_cast<char>((column / side + 7 * (row / side)) % static_cast<std::size_t>(values));
+    }
+  }
+  const std::string header = "P5 " + std::to_string(columns) + " " + std::to_string(rows) + " 255\n";
+  return {
+      {"id", "mask"},
+      {"type", choices.one_of(std::array{"blocked", "speed"})},
+      {"mask",
+       {{"pgm", support::base64(header + pixels)}, {"mode", choices.one_of(std::array{"raw", "scale"})}}}};
+}
+
+Json zones_of(const Json& map, const Extent& extent, Choices& choices) {
   Json zones = Json::array();
+  if (choices.yes()) zones.push_back(mask_for(map, choices));
   const int count = choices.up_to(200);
   const int corners = 4 + 2 * choices.up_to(40);
   const double size = std::min(extent.width, extent.height) * (0.01 + choices.up_to(100) / 100.0);
@@ -130,7 +152,7 @@ Json obstacles_of(const Extent& extent, Choices& choices) {
 /// Members that a request of POST /v1/plan may have besides.
 void add_members(Json& request, Choices& choices) {
   const Extent extent = extent_of(request["map"]);
-  if (choices.yes()) request["zones"] = zones_of(extent, choices);
+  if (choices.yes()) request["zones"] = zones_of(request["map"], extent, choices);
   if (choices.yes()) request["obstacles"] = obstacles_of(extent, choices);
   Json& options = request["options"];
   if (choices.yes()) options["horizon"] = choices.one_of(std::array{0.1, 10.0, 1e3});

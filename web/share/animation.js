@@ -35,17 +35,27 @@ export async function recordPlan(session, stage, signal, progress) {
   recorder.addEventListener("dataavailable", ({ data }) => parts.push(data));
   const stopped = new Promise((resolve) => recorder.addEventListener("stop", resolve));
   recorder.start();
+  // However busy the machine is: without a first picture no player opens the file, and without a last one it is over at
+  // once.
+  await encodePicture(recorder, stage, parts, signal);
   await playOnce(session, recordingSpeed(player.duration, player.speed), signal, progress);
-  while (parts.every(({ size }) => size === 0) && !signal.aborted) {
-    stage.paint(); // a busy machine has not encoded a picture yet, without which no player opens the file
-    recorder.requestData();
-    await new Promise(requestAnimationFrame);
-  }
+  await encodePicture(recorder, stage, parts, signal);
   recorder.stop();
   await stopped;
   for (const track of recorder.stream.getTracks()) track.stop();
   session.seek(before);
   return signal.aborted ? null : new Blob(parts, { type: "video/webm" });
+}
+
+/** Paints until one more picture is among the parts. */
+async function encodePicture(recorder, stage, parts, signal) {
+  const size = () => parts.reduce((sum, part) => sum + part.size, 0);
+  const before = size();
+  while (size() === before && !signal.aborted) {
+    stage.paint();
+    recorder.requestData();
+    await new Promise(requestAnimationFrame);
+  }
 }
 
 function playOnce(session, speed, signal, progress) {

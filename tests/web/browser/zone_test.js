@@ -5,7 +5,7 @@ import { test } from "node:test";
 
 import { pressPlan } from "../support/browser.js";
 import { png } from "../support/map_files.js";
-import { coloursAt, hook, pagesFor, paste } from "../support/on_page.js";
+import { coloursAt, hook, pagesFor, paste, REFUSED } from "../support/on_page.js";
 
 const onPage = pagesFor();
 
@@ -64,32 +64,35 @@ test("a zone is drawn and reshaped with the mouse, and the plan goes around it",
 });
 
 test("keys alone draw a zone, place it, set its speed, and delete it", async () => {
-  await onPage(async (page) => {
-    await paste(page, HALL);
-    await page.focus("#scene");
-    await page.keyboard.press("z");
-    await page.keyboard.press("Enter");
-    await page.waitForFunction(() => window.fleetplan.request.zones);
-    const [before] = await zones(page);
-    await page.keyboard.press("ArrowRight");
-    await page.keyboard.press("Shift+ArrowUp");
-    const [{ polygon }] = await zones(page);
-    assert.equal(polygon[0].x, before.polygon[0].x + 1);
-    assert.deepEqual([polygon[0].y, polygon[2].y], [before.polygon[0].y, before.polygon[2].y + 1]);
-    await page.focus("#zone-type");
-    await page.keyboard.press("s"); // Slow
-    await page.focus("#zone-numbers input");
-    await page.keyboard.press("Control+a");
-    await page.keyboard.type("0.25");
-    await page.keyboard.press("Tab");
-    const [slow] = await zones(page);
-    assert.deepEqual([slow.type, slow.linear_speed], ["speed", 0.25]);
-    const answer = await pressPlan(page);
-    assert.equal(answer.status, "solved");
-    await page.focus("#scene");
-    await page.keyboard.press("Delete");
-    assert.equal(await zones(page), undefined);
-  });
+  await onPage(
+    async (page) => {
+      await paste(page, HALL);
+      await page.focus("#scene");
+      await page.keyboard.press("z");
+      await page.keyboard.press("Enter");
+      await page.waitForFunction(() => window.fleetplan.request.zones);
+      const [before] = await zones(page);
+      await page.keyboard.press("ArrowRight");
+      await page.keyboard.press("Shift+ArrowUp");
+      const [{ polygon }] = await zones(page);
+      assert.equal(polygon[0].x, before.polygon[0].x + 1);
+      assert.deepEqual([polygon[0].y, polygon[2].y], [before.polygon[0].y, before.polygon[2].y + 1]);
+      await page.focus("#zone-type");
+      await page.keyboard.press("s"); // Slow
+      await page.focus("#zone-numbers input");
+      await page.keyboard.press("Control+a");
+      await page.keyboard.type("0.25");
+      await page.keyboard.press("Tab");
+      const [slow] = await zones(page);
+      assert.deepEqual([slow.type, slow.linear_speed], ["speed", 0.25]);
+      const answer = await pressPlan(page);
+      assert.equal(answer.status, "solved");
+      await page.focus("#scene");
+      await page.keyboard.press("Delete");
+      assert.equal(await zones(page), undefined);
+    },
+    { allowed: REFUSED }, // while 0.25 is typed on a busy machine, a speed of 0 is checked
+  );
 });
 
 test("a fault of a zone is shown at its field", async () => {
@@ -102,7 +105,7 @@ test("a fault of a zone is shown at its field", async () => {
       await page.fill("#zone-numbers input", "-1");
       await page.waitForSelector("#zone-form .field-error");
     },
-    { allowed: /status of 422/ },
+    { allowed: REFUSED },
   );
 });
 
