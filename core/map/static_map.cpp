@@ -4,6 +4,8 @@
 #include <iterator>
 #include <list>
 #include <new>
+#include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include "core/map/refinement.h"
@@ -51,6 +53,10 @@ std::shared_ptr<const FinerVertices> StaticMap::finer_vertices(const Lattice& la
 
 namespace {
 
+/// Maps of fewer cells are made anew, in less than 0.2 ms: kept among the short-lived memory of requests,
+/// each of many thousands of them would hold a page.
+constexpr std::int64_t kFewestCells = 4096;
+
 /// Counts bytes that were allocated before on the account of this thread's job.
 void charge(std::size_t bytes) {
   MemoryAccount* account = MemoryScope::current();
@@ -59,78 +65,100 @@ void charge(std::size_t bytes) {
 
 }  // namespace
 
-/// The maps, those used most recently first.
+/// The maps that are kept, in time that does not depend on their number.
 class MapCache::Shelf {
  public:
   using Map = std::shared_ptr<const StaticMap>;
+  struct Entry {
+    std::size_t hash;
+    Map map;
+    std::size_t users;
+    std::size_t bytes;  // memory, as of when nobody used it last
+  };
+  using Place = std::list<Entry>::iterator;
 
   explicit Shelf(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// Returns the map that equals the grid and counts one more user of it; null if there is none.
-  Map take(std::size_t hash, const OccupancyGrid& grid) {
+  /// Returns the place of the map that equals the grid, and counts one more user of it; none if there is
+  /// none.
+  std::optional<Place> take(std::size_t hash, const OccupancyGrid& grid) {
     const std::lock_guard lock(mutex_);
-    Map found = take_known(hash, grid);
+    const std::optional<Place> found = take_known(hash, grid);
     ++(found ? hits_ : misses_);
     return found;
   }
 
-  /// Keeps a map, with its first user, unless an equal one is there by now. Returns the map that is kept.
-  Map put(std::size_t hash, Map map) {
+  /// Keeps a map, with its first user, unless an equal one is there by now. Returns the place of the map that
+  /// is kept; none if there are too many others with this hash.
+  std::optional<Place> put(std::size_t hash, const Map& map) {
     const MemoryScope of_no_job(nullptr);
+    std::list<Entry> entry{{hash, map, 1, 0}};
     const std::lock_guard lock(mutex_);
-    if (Map known = take_known(hash, map->grid())) return known;
-    entries_.push_front({hash, map, 1});
-    return map;
+    if (const std::optional<Place> known = take_known(hash, map->grid())) return known;
+    if (by_hash_.count(hash) >= kMostOfAHash) return std::nullopt;
+    by_hash_.emplace(hash, entry.begin());
+    used_.splice(used_.begin(), entry);
+    return used_.begin();
   }
 
-  /// Counts one user less of a map of the shelf.
-  void give_back(const StaticMap* map) {
+  /// Counts one user less of a map. Of those that nobody uses, the ones used least recently leave.
+  void give_back(Place entry) {
     const MemoryScope of_no_job(nullptr);  // the maps that are destroyed were counted elsewhere
-    std::list<Entry> leaving;
+    std::list<Entry> leaving;              // destroyed without the lock
     const std::lock_guard lock(mutex_);
-    const auto is_it = [&](const Entry& entry) { return entry.map.get() == map; };
-    --std::find_if(entries_.begin(), entries_.end(), is_it)->users;
-    std::size_t unused = 0;
-    for (auto entry = entries_.begin(); entry != entries_.end();) {
-      const auto next = std::next(entry);
-      if (entry->users == 0) {
-        const std::size_t bytes = entry->map->bytes();
-        if (unused + bytes > most_bytes_) {
-          leaving.splice(leaving.end(), entries_, entry);
-        } else {
-          unused += bytes;
-        }
-      }
-      entry = next;
+    if (--entry->users > 0) return;
+    entry->bytes = bytes_of(*entry);
+    if (entry->bytes > most_bytes_) {
+      by_hash_.erase(index_of(entry));
+      leaving.splice(leaving.end(), used_, entry);
+      return;
+    }
+    unused_.splice(unused_.begin(), used_, entry);
+    unused_bytes_ += entry->bytes;
+    while (unused_bytes_ > most_bytes_) {
+      const Place last = std::prev(unused_.end());
+      unused_bytes_ -= last->bytes;
+      by_hash_.erase(index_of(last));
+      leaving.splice(leaving.end(), unused_, last);
     }
   }
 
   Stats stats() const {
     const std::lock_guard lock(mutex_);
-    Stats stats{hits_, misses_, entries_.size(), 0};
-    for (const Entry& entry : entries_) stats.bytes += entry.map->bytes();
+    Stats stats{hits_, misses_, used_.size() + unused_.size(), unused_bytes_};
+    for (const Entry& entry : used_) stats.bytes += bytes_of(entry);
     return stats;
   }
 
  private:
-  struct Entry {
-    std::size_t hash;
-    Map map;
-    std::size_t users;
-  };
+  /// Maps of one hash; more are made by nobody but who wants to slow the cache down.
+  static constexpr std::size_t kMostOfAHash = 8;
 
-  Map take_known(std::size_t hash, const OccupancyGrid& grid) {
-    const auto is_it = [&](const Entry& entry) { return entry.hash == hash && entry.map->grid() == grid; };
-    const auto known = std::find_if(entries_.begin(), entries_.end(), is_it);
-    if (known == entries_.end()) return nullptr;
-    ++known->users;
-    entries_.splice(entries_.begin(), entries_, known);
-    return known->map;
+  static std::size_t bytes_of(const Entry& entry) { return entry.map->bytes() + kEntryBytes; }
+
+  std::optional<Place> take_known(std::size_t hash, const OccupancyGrid& grid) {
+    const auto [begin, end] = by_hash_.equal_range(hash);
+    const auto known =
+        std::find_if(begin, end, [&](const auto& item) { return item.second->map->grid() == grid; });
+    if (known == end) return std::nullopt;
+    const Place entry = known->second;
+    if (++entry->users > 1) return entry;
+    unused_bytes_ -= entry->bytes;
+    used_.splice(used_.begin(), unused_, entry);
+    return entry;
+  }
+
+  std::unordered_multimap<std::size_t, Place>::iterator index_of(Place entry) {
+    const auto [begin, end] = by_hash_.equal_range(entry->hash);
+    return std::find_if(begin, end, [&](const auto& item) { return item.second == entry; });
   }
 
   const std::size_t most_bytes_;
   mutable std::mutex mutex_;
-  std::list<Entry> entries_;
+  std::list<Entry> used_;
+  std::list<Entry> unused_;  // those used most recently first
+  std::size_t unused_bytes_ = 0;
+  std::unordered_multimap<std::size_t, Place> by_hash_;
   std::uint64_t hits_ = 0;
   std::uint64_t misses_ = 0;
 };
@@ -139,19 +167,18 @@ MapCache::MapCache(std::size_t most_bytes)
     : shelf_(most_bytes > 0 ? std::make_shared<Shelf>(most_bytes) : nullptr) {}
 
 std::shared_ptr<const StaticMap> MapCache::map_of(OccupancyGrid grid, const StopCondition& stop) {
-  if (!shelf_) return static_map(std::move(grid), stop);
-  const auto in_use = [this](const Shelf::Map& map) {
-    return Shelf::Map(map.get(), [shelf = shelf_](const StaticMap* used) { shelf->give_back(used); });
-  };
+  if (!shelf_ || grid.cell_count() < kFewestCells) return static_map(std::move(grid), stop);
   const std::size_t hash = grid.hash();
-  Shelf::Map kept = shelf_->take(hash, grid);
+  std::optional<Shelf::Place> kept = shelf_->take(hash, grid);
   Shelf::Map made;
   if (!kept) {
     made = static_map(std::move(grid), stop);
     if (!made) return nullptr;
     kept = shelf_->put(hash, made);
+    if (!kept) return made;
   }
-  Shelf::Map map = in_use(kept);
+  Shelf::Map map((*kept)->map.get(),
+                 [shelf = shelf_, place = *kept](const StaticMap* /*map*/) { shelf->give_back(place); });
   if (map != made) charge(map->bytes());
   return map;
 }

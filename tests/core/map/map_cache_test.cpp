@@ -59,7 +59,7 @@ TEST(MapCache, ItsLimitIsForMapsThatNobodyUses) {
   auto used = cache.map_of(hall(1), StopCondition::never());
   EXPECT_EQ(cache.map_of(hall(1), StopCondition::never()), used);
   EXPECT_EQ(cache.stats().maps, 1u);
-  EXPECT_EQ(cache.stats().bytes, used->bytes());
+  EXPECT_EQ(cache.stats().bytes, used->bytes() + MapCache::kEntryBytes);
   used.reset();
   EXPECT_EQ(cache.stats().maps, 0u);
 }
@@ -74,6 +74,42 @@ TEST(MapCache, CountsWhatIsDerivedLater) {
   const Lattice again(map->grid(), 8, 0.25);
   EXPECT_EQ(map->finer_vertices(again, 0.3, StopCondition::never()),
             map->finer_vertices(lattice, 0.3, StopCondition::never()));
+}
+
+TEST(MapCache, KeepsThousandsOfMaps) {
+  constexpr int kMaps = 1000;
+  const auto numbered = [](int number) {
+    OccupancyGrid grid(64, 64, 1.0);
+    for (int bit = 0; bit < 16; ++bit) {
+      if ((number >> bit & 1) != 0) grid.block({bit, 0});
+    }
+    return grid;
+  };
+  MapCache cache(kPlenty);
+  for (const int round : {0, 1}) {
+    for (int k = 0; k < kMaps; ++k) {
+      ASSERT_EQ(cache.map_of(numbered(k), StopCondition::never())->grid(), numbered(k)) << round;
+    }
+  }
+  EXPECT_EQ(cache.stats().hits, static_cast<std::uint64_t>(kMaps));
+  EXPECT_EQ(cache.stats().maps, static_cast<std::size_t>(kMaps));
+  EXPECT_GT(cache.stats().bytes, kMaps * MapCache::kEntryBytes);
+}
+
+TEST(MapCache, KeepsNoSmallMap) {
+  MapCache cache(kPlenty);
+  const OccupancyGrid small(63, 65, 1.0);
+  EXPECT_NE(cache.map_of(small, StopCondition::never()), cache.map_of(small, StopCondition::never()));
+  EXPECT_EQ(cache.stats().maps, 0u);
+}
+
+TEST(MapCache, AMapThatIsTooLargeDropsNoOther) {
+  MapCache cache(2 * bytes_of(hall(1)));
+  cache.map_of(hall(1), StopCondition::never());
+  cache.map_of(OccupancyGrid(400, 200, 0.05), StopCondition::never());
+  EXPECT_EQ(cache.stats().maps, 1u);
+  cache.map_of(hall(1), StopCondition::never());
+  EXPECT_EQ(cache.stats().hits, 1u);
 }
 
 TEST(MapCache, WithoutMemoryKeepsNothing) {
