@@ -59,7 +59,6 @@ class PrioritizedPlanning {
   PrioritizedPlanning(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
                       const PlanningTime& time, ProgressReport& progress)
       : state_(state),
-        movers_(movers),
         random_(random),
         time_(time),
         progress_(progress),
@@ -151,7 +150,6 @@ class PrioritizedPlanning {
   }
 
   PlanState& state_;
-  const std::vector<std::size_t>& movers_;
   Random& random_;
   const PlanningTime& time_;
   ProgressReport& progress_;

@@ -256,7 +256,6 @@ std::string missed_by_lattice(double radius, const Way& way) {
 }  // namespace
 
 Unplanned unplanned_without_way(std::size_t robot, double radius, const Way& way) {
-  using Reason = Unplanned::Reason;
   if (!way.closed_by.empty()) {
     return {robot, Reason::blocked_by_robots,
             "Robots that stay where they are leave no way from the start to the goal.", way.closed_by};
