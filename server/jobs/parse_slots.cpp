@@ -40,6 +40,11 @@ ParseSlots::Kind ParseSlots::await(const Body& body, const core::StopCondition& 
   return waiting.slot;
 }
 
+std::size_t ParseSlots::waiting() const {
+  const std::lock_guard lock(mutex_);
+  return waiting_.size();
+}
+
 /// Takes a free slot for such a body and returns its kind; none if there is no free one. The mutex is locked.
 ParseSlots::Kind ParseSlots::take(const Body& body) {
   Kind kind = Kind::none;

@@ -31,6 +31,9 @@ class ParseSlots {
   };
   class Slot;
 
+  /// The number of bodies that wait for a slot.
+  std::size_t waiting() const;
+
  private:
   using Clock = core::StopCondition::Clock;
   enum class Kind { none, any, small };
@@ -41,7 +44,7 @@ class ParseSlots {
   void give_back(Kind kind, const Body& body);
   std::list<Waiting*>::iterator next();
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::size_t free_;
   bool small_is_free_ = true;
   std::map<std::string, std::size_t> taken_;  // number of slots, by client

@@ -53,12 +53,13 @@ TEST(ParseSlots, StopWaitingWhenTheClientLeaves) {
 class Waiting : public testing::Test {
  protected:
   void wait(const std::string& name, const std::string& client, std::size_t bytes) {
+    const std::size_t others = slots.waiting();
     threads.emplace_back([this, name, client, bytes] {
       const Slot slot(slots, {client, bytes}, kForever);
       const std::lock_guard lock(mutex);
       order.push_back(name);
     });
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // until it waits
+    while (slots.waiting() == others) std::this_thread::yield();
   }
 
   std::vector<std::string> served() {
