@@ -15,6 +15,7 @@
 #ifndef FLEETPLAN_THREAD_SANITIZER
 
 // All forms are replaced, also those whose defaults call others: the forms of a sanitizer do not.
+// NOLINTBEGIN(cppcoreguidelines-no-malloc, cppcoreguidelines-owning-memory, misc-new-delete-overloads)
 
 namespace {
 

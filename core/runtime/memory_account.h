@@ -79,6 +79,7 @@ struct MemoryTally {
 
 /// The tally of this thread. `operator new` and `operator delete` have no other way to know for whom they
 /// work.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): changed by MemoryScope only
 extern constinit thread_local MemoryTally memory_tally;
 
 /// While it lives, this thread's allocations count on an account, or on none. Scopes nest.

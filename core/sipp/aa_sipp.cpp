@@ -72,7 +72,7 @@ class Search {
   bool ends_at_rest();
   std::optional<double> earliest_departure(const OpenEntry& entry);
   bool is_dominated(int interval, double arrival, double heading, double f);
-  Evaluation evaluate(PlaceId place, int interval, double arrival, double heading) const;
+  Evaluation evaluate(PlaceId id, int interval, double arrival, double heading) const;
 
   SearchSpace& space_;
   const Motion& motion_;
