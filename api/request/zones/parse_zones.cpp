@@ -49,6 +49,7 @@ class ZoneReader {
     if (const JsonReader mask = json.find("mask")) return read_mask(json, mask, zone);
     const JsonReader polygon = json.require("polygon", "; give a list of {\"x\", \"y\"}, or a mask");
     zone.polygon = parse_polygon(polygon, map_ != nullptr ? map_->frame : WorldFrame{}, corners_);
+    if (zone.polygon.empty()) return {};  // also without a fault of its own: beyond the quota of corners
     return {zone};
   }
 

@@ -266,5 +266,16 @@ TEST(ZoneFaults, ReportMoreThanTheLimitsAllow) {
   EXPECT_THAT(brief_faults_of(request, limits), ElementsAre(Pair("/zones", "out_of_range")));
 }
 
+TEST(ZoneFaults, ZonesBeyondTheLimitOfCornersAreLeftOut) {
+  Json request = request_with_zone();
+  for (const char* id : {"second", "third"}) {
+    request["zones"].push_back(request["zones"][0]);
+    request["zones"].back()["id"] = id;
+  }
+  Limits limits;
+  limits.max_zone_corners = 4;
+  EXPECT_THAT(brief_faults_of(request, limits), ElementsAre(Pair("/zones/1/polygon", "out_of_range")));
+}
+
 }  // namespace TEST_FILE
 }  // namespace fleetplan::api
