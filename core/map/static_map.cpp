@@ -53,8 +53,8 @@ std::shared_ptr<const FinerVertices> StaticMap::finer_vertices(const Lattice& la
 
 namespace {
 
-/// Maps of fewer cells are made anew, in less than 0.2 ms: kept among the short-lived memory of requests,
-/// each of many thousands of them would hold a page.
+/// Maps of fewer cells are made anew, in less than 0.1 ms, and a few milliseconds where the lattice needs
+/// more vertices: kept among the short-lived memory of requests, each of many thousands would hold a page.
 constexpr std::int64_t kFewestCells = 4096;
 
 /// Counts bytes that were allocated before on the account of this thread's job.

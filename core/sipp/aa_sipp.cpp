@@ -69,7 +69,7 @@ class Search {
 
   bool goal_suffices() const;
   bool rest_suffices() const;
-  bool ends_at_rest();
+  bool finish_at_rest();
   std::optional<double> earliest_departure(const OpenEntry& entry);
   bool is_dominated(int interval, double arrival, double heading, double f);
   Evaluation evaluate(PlaceId id, int interval, double arrival, double heading) const;
@@ -101,13 +101,13 @@ Search::Outcome Search::run(Pass pass) {
   label_start();
   for (int step = 1; end_ == LabelId::none; ++step) {
     if (state_.open.empty()) {
-      if (ends_at_rest()) break;
+      if (finish_at_rest()) break;
       return incomplete_ ? Outcome::incomplete : Outcome::exhausted;
     }
     if ((step % kStopStride == 0 || is_costly_) && stop_.met()) return Outcome::stopped;
     if (expansions_ >= pause_) {
       if (expansions_ >= limits_.max_expansions) {
-        if (ends_at_rest()) break;
+        if (finish_at_rest()) break;
         return Outcome::stopped;
       }
       if (limits_.no_path_test->no_path(expansions_)) return Outcome::exhausted;
@@ -117,7 +117,7 @@ Search::Outcome Search::run(Pass pass) {
       settle(state_.open[best_entry_]);
       break;
     }
-    if (rest_suffices() && ends_at_rest()) break;
+    if (rest_suffices() && finish_at_rest()) break;
 
     const double f = state_.open.min_f();
     OpenEntry entry = state_.open.pop();
@@ -304,7 +304,7 @@ bool Search::rest_suffices() const {
 }
 
 /// Ends the path at the best label to rest at, if there is one.
-bool Search::ends_at_rest() {
+bool Search::finish_at_rest() {
   end_ = rest_;
   return end_ != LabelId::none;
 }

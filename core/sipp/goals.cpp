@@ -177,9 +177,7 @@ double Goals::latest_departure(const Label& label) const {
   const Place& place = state_.places[label.place];
   const double safe_until = state_.intervals[label.interval].end;
   if (place.stage + 1 >= static_cast<int>(space_.goal_count())) return safe_until;
-  const Stage& stage = stages_[place.stage];
-  const Position goal = stage.vertices->position(stage.goal.vertex);
-  if ((place.position - goal).norm() > kContactTolerance) return safe_until;
+  if (!touches_goal(place)) return safe_until;
   return std::min(safe_until, service_stop(label).t_end - kClearlyBefore);
 }
 
@@ -187,9 +185,13 @@ bool Goals::may_rest_at(const Label& label) const {
   if (state_.intervals[label.interval].end != kForever) return false;
   if (!changes_radius_) return true;
   const Place& place = state_.places[label.place];
+  return !place.is_window && !touches_goal(place);
+}
+
+bool Goals::touches_goal(const Place& place) const {
   const Stage& stage = stages_[place.stage];
   const Position goal = stage.vertices->position(stage.goal.vertex);
-  return !place.is_window && (place.position - goal).norm() > kContactTolerance;
+  return (place.position - goal).norm() <= kContactTolerance;
 }
 
 Trajectory Goals::trajectory_to(LabelId end) const {

@@ -90,6 +90,8 @@ class Goals {
   Trajectory trajectory_to(LabelId end) const;
 
  private:
+  /// Whether a place touches the goal of its stage.
+  bool touches_goal(const Place& place) const;
   void append_move(Trajectory& trajectory, const Label& from, const Label& to) const;
   void append_service(Trajectory& trajectory, const Label& from, const Label& to) const;
 
