@@ -21,6 +21,9 @@ namespace {
 /// The memory, in bytes, above which a reply keeps it: less is freed at once, within about a millisecond.
 constexpr std::int64_t kMuchMemory = 4 << 20;
 
+/// The longest body, in bytes, of a check or a conversion that takes milliseconds, as a rule.
+constexpr std::size_t kShortBody = 1 << 20;
+
 }  // namespace
 
 Reply bounded_work(const RequestContext& context, const std::function<Reply(core::Work&)>& endpoint) {
@@ -81,7 +84,7 @@ Reply pure_endpoint(std::string_view body, const RequestContext& context,
                           .stop = stop,
                           .answer_by = stop.deadline(),
                           .work = size,
-                          .is_short = true};
+                          .is_short = body.size() <= kShortBody};
       is_refused = !take_turn(context.turn, need, work);
       return !is_refused;
     };
@@ -96,13 +99,13 @@ Reply pure_endpoint(std::string_view body, const RequestContext& context,
 
 namespace {
 
-TurnNeed need_of(const ValidateRequest& request, const core::StopCondition& stop) {
+TurnNeed need_of(const ValidateRequest& request, std::string_view body, const core::StopCondition& stop) {
   const double work = work_of(request.robots.size(), request.plans);
   return {.kind = TurnNeed::Kind::check,
           .stop = stop,
           .answer_by = stop.deadline(),
           .work = work,
-          .is_short = true};
+          .is_short = body.size() <= kShortBody};
 }
 
 Reply check(std::string_view body, const RequestContext& context, core::Work& work, const AfterCheck& after) {
@@ -112,7 +115,7 @@ Reply check(std::string_view body, const RequestContext& context, core::Work& wo
   const auto unfinished = [&] {
     return unfinished_reply("The plans could not be checked", request->budget, stop, context);
   };
-  if (!take_turn(context.turn, need_of(*request, stop), work)) {
+  if (!take_turn(context.turn, need_of(*request, body, stop), work)) {
     return stop.cancelled() ? unfinished() : too_busy(context.request_id);
   }
   const auto report = core::verify({request->grid, request->robots, request->obstacles, &request->zones},

@@ -92,6 +92,18 @@ TEST(ValidateEndpoint, CountsItsWaitAgainstItsBudget) {
   EXPECT_TRUE(turn.need->is_short);
 }
 
+TEST(ValidateEndpoint, IsNoShortRequestWithABodyOfMoreThanAMebibyte) {
+  TestTurn turn;
+  RequestContext context;
+  context.turn = &turn;
+  const std::string body = drive_request().dump();
+  const std::string spaces((1 << 20) - body.size(), ' ');
+  EXPECT_EQ(validate_endpoint(body + spaces, context).status, 200);
+  EXPECT_TRUE(turn.need->is_short);
+  EXPECT_EQ(validate_endpoint(body + spaces + ' ', context).status, 200);
+  EXPECT_FALSE(turn.need->is_short);
+}
+
 TEST(ValidateEndpoint, IsOverloadedWithoutATurn) {
   TestTurn turn;
   RequestContext context;
