@@ -110,11 +110,14 @@ core::Plan without_moves(const core::Plan& plan, const core::Problem& problem,
   return left;
 }
 
-/// Returns the spacing of the lattice, metres; none if it is simply the map's resolution.
-std::optional<double> reported_spacing(const PlanRequest& request) {
-  const double spacing = core::lattice_spacing(request.problem, request.options);
-  const bool is_plain = !request.options.lattice_spacing && spacing == request.problem.grid().resolution();
-  return is_plain ? std::nullopt : std::optional(spacing);
+/// Returns the spacings of the lattices by robot, metres; none if all are simply the map's resolution.
+std::vector<double> reported_spacings(const PlanRequest& request) {
+  std::vector<double> spacings = core::lattice_spacings(request.problem, request.options);
+  const double resolution = request.problem.grid().resolution();
+  const bool is_plain =
+      !request.options.lattice_spacing &&
+      std::all_of(spacings.begin(), spacings.end(), [&](double spacing) { return spacing == resolution; });
+  return is_plain ? std::vector<double>() : spacings;
 }
 
 /// Returns the dependencies of the answer; none if they are not asked for. They have to be made within the
@@ -173,7 +176,7 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
                               .origin = request.frame.origin,
                               .warnings = warnings,
                               .metadata = request.metadata,
-                              .lattice_spacing = reported_spacing(request),
+                              .lattice_spacings = reported_spacings(request),
                               .dependencies = dependencies ? &dependencies->made : nullptr};
   std::string text = write_response(verified, request_id, stages);
   return {.status = 200, .content_type = kJson, .body = std::move(text), .outcome = outcome};

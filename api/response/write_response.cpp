@@ -1,5 +1,6 @@
 #include "api/response/write_response.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -162,12 +163,28 @@ void write_visits(JsonWriter& json, const std::vector<core::Visit>& visits,
   json.end_array();
 }
 
+/// The finest lattice; none if that is not to be told.
+std::optional<double> finest_lattice(const VerifiedPlan& verified) {
+  const std::vector<double>& spacings = verified.lattice_spacings;
+  const auto finest = std::min_element(spacings.begin(), spacings.end());
+  return finest != spacings.end() ? std::optional(*finest) : std::nullopt;
+}
+
+/// Writes the spacing of the robot's lattice if it has another one than the finest.
+void write_own_lattice(JsonWriter& json, std::size_t robot, const VerifiedPlan& verified) {
+  const auto finest = finest_lattice(verified);
+  if (finest && verified.lattice_spacings[robot] != *finest) {
+    json.member("lattice_spacing", verified.lattice_spacings[robot]);
+  }
+}
+
 void write_plan(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPlan& verified) {
   const core::Robot& robot = verified.robots[plan.robot];
   const ReceivedRobot& received = verified.received[plan.robot];
   json.begin_object();
   json.member("robot", robot.id).member("cost", plan.cost).member("lower_bound", plan.lower_bound);
   if (plan.estimated_cost) json.member("ends_at", "horizon").member("estimated_cost", *plan.estimated_cost);
+  write_own_lattice(json, plan.robot, verified);
   write_actions(json, plan.actions, robot, received, verified.origin);
   if (received.lists_visits) write_visits(json, plan.visits, received.goal_metadata);
   write_metadata(json, received.metadata);
@@ -181,6 +198,7 @@ void write_unplanned(JsonWriter& json, const core::Unplanned& unplanned, const V
   json.key("blocked_by").begin_array();
   for (const std::size_t robot : unplanned.blocked_by) json.value(verified.robots[robot].id);
   json.end_array().member("blocked_by_total", unplanned.blocked_by.total());
+  write_own_lattice(json, unplanned.robot, verified);
   const core::Robot& robot = verified.robots[unplanned.robot];
   const ReceivedRobot& received = verified.received[unplanned.robot];
   if (!robot.committed.empty()) write_actions(json, robot.committed, robot, received, verified.origin);
@@ -231,7 +249,7 @@ void write_summary(JsonWriter& json, const VerifiedPlan& verified) {
   json.member("verified", verified.report.valid());
   json.member("min_clearance", reported_clearance(verified.report));
   json.member("deterministic", plan.deterministic);
-  if (verified.lattice_spacing) json.member("lattice_spacing", *verified.lattice_spacing);
+  if (const auto finest = finest_lattice(verified)) json.member("lattice_spacing", *finest);
   json.key("search").begin_object();
   json.member("attempts", plan.search.attempts).member("expansions", plan.search.expansions);
   json.member("improvements", plan.search.improvements);

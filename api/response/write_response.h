@@ -39,8 +39,8 @@ struct VerifiedPlan {
   const std::vector<ReceivedRobot>& received;  // by robot
   const core::Position& origin;                // origin of the map in the world
   const std::vector<std::string>& warnings;
-  const std::string& metadata;            // metadata of the request, as JSON; empty: none
-  std::optional<double> lattice_spacing;  // metres; none: neither asked for nor chosen
+  const std::string& metadata;           // metadata of the request, as JSON; empty: none
+  std::vector<double> lattice_spacings;  // by robot, metres; empty: neither asked for nor chosen
   /// The dependencies of the answer; null if they were not asked for, none if they were not made in time.
   const std::optional<core::Dependencies>* dependencies = nullptr;
 };

@@ -198,8 +198,8 @@ bool is_straight(const Instance& instance, const GoalLeg& leg, double radius) {
 }
 
 /// Whether all vertices of the lattice are centres of cells.
-bool stops_at_cell_centers(const Instance& instance) {
-  const double cells = instance.lattice().spacing() / instance.problem().grid().resolution();
+bool stops_at_cell_centers(const Lattice& lattice, const OccupancyGrid& grid) {
+  const double cells = lattice.spacing() / grid.resolution();
   const double odd = 2.0 * std::round(0.5 * (cells - 1.0)) + 1.0;
   return std::abs(cells - odd) <= 1e-9 * cells;
 }
@@ -266,7 +266,10 @@ void TautPathBounds::improve(const Instance& instance, const LegsByRadius& out_o
   cut_off_ = corners.stopped();
   if (cut_off_) return;
   for (const auto& [radius, group] : out_of_sight) {
-    TautPathSearch search(corners, instance.sight(), radius, stops_at_cell_centers(instance));
+    // Of all lattices or, if the options ask for one spacing, of the only one.
+    const bool at_centers =
+        stops_at_cell_centers(instance.lattice(group.front().robot), instance.problem().grid());
+    TautPathSearch search(corners, instance.sight(), radius, at_centers);
     work -= corners.count();  // the memory that the search allocates counts as work
     for (const LegIndex& index : group) {
       if (corners.stopped() || stop.met()) {

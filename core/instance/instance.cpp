@@ -10,28 +10,37 @@
 namespace fleetplan::core {
 namespace {
 
-/// Cells are fine if the smallest radius is at least so many of them.
+/// Cells are fine if the radius is at least so many of them.
 constexpr double kFineCells = 4.0 * (1.0 - 1e-9);
-/// In units of the smallest radius; see docs/method.md.
+/// In units of the radius; see docs/method.md.
 constexpr double kLargestSpacing = 1.0;
+
+/// For robots of this radius, metres.
+double default_spacing(const OccupancyGrid& grid, double radius) {
+  const double resolution = grid.resolution();
+  if (radius < kFineCells * resolution) return resolution;
+  const double shorter_side = std::min(grid.width(), grid.height());
+  const double cells = std::min(kLargestSpacing * radius, shorter_side) / resolution * (1.0 + 1e-9);
+  return (2.0 * std::floor(0.5 * (cells - 1.0)) + 1.0) * resolution;
+}
+
+double smallest_radius(const Robot& robot) {
+  double smallest = robot.radius;
+  for (std::size_t k = 0; k < robot.goal_count(); ++k) {
+    smallest = std::min(smallest, robot.goal_at(k).radius_after.value_or(smallest));
+  }
+  return smallest;
+}
 
 }  // namespace
 
-double lattice_spacing(const Problem& problem, const PlanOptions& options) {
-  if (options.lattice_spacing) return *options.lattice_spacing;
-  const double resolution = problem.grid().resolution();
-  double smallest = kForever;
-  // Bounded: each goal once.
+std::vector<double> lattice_spacings(const Problem& problem, const PlanOptions& options) {
+  std::vector<double> spacings;
   for (const Robot& robot : problem.robots()) {
-    smallest = std::min(smallest, robot.radius);
-    for (std::size_t k = 0; k < robot.goal_count(); ++k) {
-      smallest = std::min(smallest, robot.goal_at(k).radius_after.value_or(smallest));
-    }
+    spacings.push_back(options.lattice_spacing ? *options.lattice_spacing
+                                               : default_spacing(problem.grid(), smallest_radius(robot)));
   }
-  if (smallest == kForever || smallest < kFineCells * resolution) return resolution;
-  const double shorter_side = std::min(problem.grid().width(), problem.grid().height());
-  const double cells = std::min(kLargestSpacing * smallest, shorter_side) / resolution * (1.0 + 1e-9);
-  return (2.0 * std::floor(0.5 * (cells - 1.0)) + 1.0) * resolution;
+  return spacings;
 }
 
 namespace {
@@ -46,10 +55,24 @@ double radius_at_begin(const Robot& robot) {
   return changes_radius(robot) ? radii_of(robot)[itinerary_of(robot).first_goal] : robot.radius;
 }
 
-std::vector<Endpoints> endpoints(const Problem& problem, const Lattice& lattice, double inflation) {
-  const auto rounding = [&](const Position& p) { return (lattice.snapped(p) - p).norm(); };
+using Lattices = std::vector<std::shared_ptr<const Lattice>>;  // by robot
+
+Lattices lattices_of(const Problem& problem, const PlanOptions& options) {
+  std::map<double, std::shared_ptr<const Lattice>> by_spacing;
+  Lattices lattices;
+  for (const double spacing : lattice_spacings(problem, options)) {
+    auto& lattice = by_spacing[spacing];
+    if (!lattice) lattice = std::make_shared<const Lattice>(problem.grid(), options.connectivity, spacing);
+    lattices.push_back(lattice);
+  }
+  return lattices;
+}
+
+std::vector<Endpoints> endpoints(const Problem& problem, const Lattices& lattices, double inflation) {
   std::vector<Endpoints> all;
   for (const Robot& robot : problem.robots()) {
+    const Lattice& lattice = *lattices[all.size()];
+    const auto rounding = [&](const Position& p) { return (lattice.snapped(p) - p).norm(); };
     const double radius = radius_at_begin(robot);
     const double largest = largest_radius(robot);
     Endpoints ends;
@@ -111,9 +134,9 @@ Instance::Instance(const Problem& problem, const PlanOptions& options,
                    std::shared_ptr<const FixedReservations> fixed_reservations, const StopCondition& stop)
     : problem_(problem),
       options_(options),
-      lattice_(problem.grid(), options.connectivity, lattice_spacing(problem, options)),
+      lattices_(lattices_of(problem, options)),
       drive_zones_(drive_zones_of(problem)),
-      contacts_(endpoints(problem, lattice_, options.inflation)),
+      contacts_(endpoints(problem, lattices_, options.inflation)),
       fixed_reservations_(std::move(fixed_reservations)) {
   for (std::size_t i = 0; i < size(); ++i) {
     const Robot& robot = problem.robots()[i];
@@ -136,10 +159,11 @@ Instance::Instance(const Problem& problem, const PlanOptions& options,
 void Instance::add_disk(std::size_t index, double radius, double largest, const StopCondition& stop) {
   const Motion motion = motion_of(robot(index), options_, radius);
   const StaticMap& map = *problem_.map_of(index);
-  auto& space = free_spaces_[{motion.radius, &map}];
+  const Lattice& lattice = this->lattice(index);
+  auto& space = free_spaces_[{lattice.spacing(), motion.radius, &map}];
   if (!space) {
-    auto finer = map.finer_vertices(lattice_, motion.radius, stop);
-    space = std::make_unique<FreeSpace>(lattice_, map.sight(), motion.radius, std::move(finer));
+    auto finer = map.finer_vertices(lattice, motion.radius, stop);
+    space = std::make_unique<FreeSpace>(lattice, map.sight(), motion.radius, std::move(finer));
   }
   disks_[index].push_back({motion, largest - radius, space.get()});
 }

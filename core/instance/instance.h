@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "core/instance/motion.h"
@@ -20,13 +20,14 @@
 
 namespace fleetplan::core {
 
-/// Metres between the vertices of the lattice that robots are planned on: as the options ask. By default, the
-/// map's resolution; where that is at most a quarter of the smallest radius, its largest odd multiple up to
-/// this radius, so that vertices are centres of cells as well.
-double lattice_spacing(const Problem& problem, const PlanOptions& options);
+/// By robot, metres between the vertices of the lattice that it is planned on: as the options ask. By
+/// default, the map's resolution; where that is at most a quarter of the smallest radius that the robot ever
+/// has, its largest odd multiple up to this radius, so that vertices are centres of cells as well. So robots
+/// of like radius share a lattice, and that of no robot depends on others.
+std::vector<double> lattice_spacings(const Problem& problem, const PlanOptions& options);
 
-/// A problem with its options, the lattice and the static feasibility of moves: what stays the same while one
-/// request is planned. Not thread-safe, because static moves are computed on first use.
+/// A problem with its options, the lattices and the static feasibility of moves: what stays the same while
+/// one request is planned. Not thread-safe, because static moves are computed on first use.
 class Instance {
  public:
   /// If the stop condition is met while obstacles and committed motion are indexed, nothing can be planned.
@@ -60,7 +61,8 @@ class Instance {
   }
   /// What is left to plan for the robot after its committed actions.
   const Itinerary& itinerary(std::size_t index) const { return itineraries_[index]; }
-  const Lattice& lattice() const { return lattice_; }
+  /// The lattice that the robot is planned on.
+  const Lattice& lattice(std::size_t index) const { return *lattices_[index]; }
   /// Past walls alone, and past the zones that are blocked for a robot, too.
   const LineOfSight& sight() const { return problem_.map()->sight(); }
   const LineOfSight& sight(std::size_t index) const { return problem_.map_of(index)->sight(); }
@@ -98,12 +100,12 @@ class Instance {
 
   const Problem& problem_;
   PlanOptions options_;
-  Lattice lattice_;
+  std::vector<std::shared_ptr<const Lattice>> lattices_;        // by robot; those with one spacing share one
   std::vector<std::unique_ptr<const DriveZones>> drive_zones_;  // by robot, null for none; or empty
   std::vector<Itinerary> itineraries_;
   Contacts contacts_;
   std::shared_ptr<const FixedReservations> fixed_reservations_;
-  using SpaceKind = std::pair<double, const StaticMap*>;  // radius and map
+  using SpaceKind = std::tuple<double, double, const StaticMap*>;  // spacing of the lattice, radius and map
   std::map<SpaceKind, std::unique_ptr<FreeSpace>> free_spaces_;
   /// By robot: one for each stage and one for the rest at the last goal, or a single one for all.
   std::vector<std::vector<Disk>> disks_;

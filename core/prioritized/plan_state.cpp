@@ -313,7 +313,8 @@ Way PlanState::way_off_lattice(std::size_t robot) const {
   Enclosure enclosure(instance_, robot, {});
   if (enclosure.find(kOffLatticeSteps).answer == Enclosure::Answer::closed)
     return {Way::Kind::closed, {}, {}};
-  const double limit = 2.0 * instance_.motion(robot).radius + kWidestCells * instance_.lattice().spacing();
+  const double limit =
+      2.0 * instance_.motion(robot).radius + kWidestCells * instance_.lattice(robot).spacing();
   return {Way::Kind::not_on_lattice, {}, enclosure.widest_way(limit, kOffLatticeSteps)};
 }
 

@@ -65,7 +65,6 @@ class Repair {
         stop_(stop),
         progress_(progress),
         on_stop_(on_stop),
-        quick_search_(quick_search(state.instance().lattice())),
         first_ejection_(first_ejection(state.instance(), order_)),
         rank_(state.instance().size(), 0),
         failures_(state.instance().size(), 0),
@@ -95,7 +94,7 @@ class Repair {
         state_.follow(robot, std::move(*result.trajectory));
         continue;
       }
-      if (has_failed(result)) result = plan_failed(robot);
+      if (has_failed(robot, result)) result = plan_failed(robot);
       if (result.trajectory) {
         follow_and_postpone_conflicting(robot, std::move(*result.trajectory));
       } else if (result.complete) {
@@ -145,25 +144,30 @@ class Repair {
   bool ejects(std::size_t robot) const { return is_crowded() && failures_[robot] <= kMaxEjectionsForRobot; }
   bool is_crowded() const { return result_.attempts > first_ejection_; }
 
+  SearchLimits quick_search_of(std::size_t robot) const {
+    return quick_search(state_.instance().lattice(robot));
+  }
+
   SearchResult plan_quickly(std::size_t robot) {
     if (is_crowded()) {
-      SearchLimits limits = quick_search_;
+      SearchLimits limits = quick_search_of(robot);
       limits.heuristic_weight = kCrowdWeight;
       return state_.plan(robot, limits, stop_);
     }
-    if (state_.expansions() < kManyExpansions) return state_.plan(robot, quick_search_, stop_);
-    SearchLimits limits = quick_search_;
+    SearchLimits limits = quick_search_of(robot);
+    if (state_.expansions() < kManyExpansions) return state_.plan(robot, limits, stop_);
     limits.max_expansions = kFewExpansions;
     SearchResult result = state_.plan(robot, limits, stop_);
     if (result.trajectory || result.complete || result.expansions < kFewExpansions) return result;
-    limits = quick_search_;
+    limits = quick_search_of(robot);
     limits.heuristic_weight = kGreedyWeight;
     return state_.plan(robot, limits, stop_);
   }
 
   /// Whether a search ended without a trajectory, but not because the time or the memory is spent.
-  bool has_failed(const SearchResult& result) const {
-    return !result.trajectory && (result.complete || result.expansions >= quick_search_.max_expansions);
+  bool has_failed(std::size_t robot, const SearchResult& result) const {
+    return !result.trajectory &&
+           (result.complete || result.expansions >= quick_search_of(robot).max_expansions);
   }
 
   /// Plans a robot that failed among all others.
@@ -186,18 +190,18 @@ class Repair {
     });
     const auto all = planned_robots([](std::size_t) { return true; });
     if (!lower.empty()) {
-      SearchResult result = state_.plan_ignoring(lower, robot, quick_search_, stop_);
-      if (!has_failed(result)) return result;
+      SearchResult result = state_.plan_ignoring(lower, robot, quick_search_of(robot), stop_);
+      if (!has_failed(robot, result)) return result;
     }
     rank_[robot] = --highest_rank_;
     if (lower_or_smaller.size() > lower.size() && lower_or_smaller.size() < all.size()) {
-      SearchResult result = state_.plan_ignoring(lower_or_smaller, robot, quick_search_, stop_);
-      if (!has_failed(result)) return result;
+      SearchResult result = state_.plan_ignoring(lower_or_smaller, robot, quick_search_of(robot), stop_);
+      if (!has_failed(robot, result)) return result;
     }
     if (failures_[robot] > kFailuresBeforeShuffle) {  // a delay gives the others time to get out of its way
       SearchResult result = state_.plan_ignoring(
           all, robot, {.start_delay = random_start_delay(state_.instance(), order_, random_)}, stop_);
-      if (!has_failed(result)) return result;
+      if (!has_failed(robot, result)) return result;
     }
     return state_.plan_ignoring(all, robot, {}, stop_);
   }
@@ -243,7 +247,6 @@ class Repair {
   const StopCondition& stop_;
   ProgressReport& progress_;
   const OnStop& on_stop_;
-  const SearchLimits quick_search_;
   const std::int64_t first_ejection_;
   std::vector<std::int64_t> rank_;  // by robot; a smaller rank is a higher priority
   std::int64_t highest_rank_ = 0;

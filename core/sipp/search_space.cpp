@@ -28,7 +28,7 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stag
       motion_(instance.motion(robot, stage)),
       zones_(instance.drive_zones(robot)),
       slowest_motion_(motion_),
-      lattice_(instance.lattice()),
+      lattice_(instance.lattice(robot)),
       grid_(instance.problem().grid()),
       space_(instance.free_space(robot, stage)),
       finer_(space_.finer()),

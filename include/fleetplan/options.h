@@ -47,7 +47,7 @@ struct Options {
   /// Metres, >= 0, by which measured starts may overlap each other or a wall, inflation included.
   double start_overlap = 0.0;
   /// Metres between the points at which robots may stop besides starts and goals. None: chosen by the map and
-  /// the robots.
+  /// the robot's radius.
   std::optional<double> lattice_spacing = {};
   /// Seconds up to which conflicts are resolved. A plan may stop there before its goal, where the robot may
   /// rest for good; see RobotPlan::estimated_cost. None: whole ways are planned.

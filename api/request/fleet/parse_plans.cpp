@@ -21,9 +21,10 @@ namespace fleetplan::api {
 
 namespace {
 
-// `lower_bound`, `estimated_cost`, `ends_at` and `metadata` belong to an answer of /v1/plan and are ignored.
-constexpr std::array<std::string_view, 8> kPlanMembers{"robot",   "cost",    "lower_bound", "estimated_cost",
-                                                       "ends_at", "actions", "visits",      "metadata"};
+// All but `robot`, `cost`, `actions` and `visits` belong to an answer of /v1/plan and are ignored.
+constexpr std::array<std::string_view, 9> kPlanMembers{"robot",   "cost",     "lower_bound",
+                                                       "ends_at", "actions",  "estimated_cost",
+                                                       "visits",  "metadata", "lattice_spacing"};
 constexpr std::array<std::string_view, 4> kVisitMembers{"goal", "t_arrive", "t_leave", "metadata"};
 
 // A plan that begins before 0 is a violation to report, not a fault of the request.

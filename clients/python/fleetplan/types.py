@@ -255,6 +255,7 @@ class RobotPlan(TypedDict):
     lower_bound: float
     ends_at: NotRequired[Literal["horizon"]]
     estimated_cost: NotRequired[float]
+    lattice_spacing: NotRequired[float]
     actions: list[Action]
     visits: NotRequired[list[Visit]]
     metadata: NotRequired[Metadata]
@@ -276,6 +277,7 @@ class Unplanned(TypedDict):
     detail: str
     blocked_by: list[str]
     blocked_by_total: int
+    lattice_spacing: NotRequired[float]
     actions: NotRequired[list[Action]]
     errors: NotRequired[list[Fault]]
     metadata: NotRequired[Metadata]
@@ -390,6 +392,7 @@ class GivenPlan(TypedDict):
     lower_bound: NotRequired[object]
     ends_at: NotRequired[object]
     estimated_cost: NotRequired[object]
+    lattice_spacing: NotRequired[object]
     metadata: NotRequired[object]
     actions: list[Action]
     visits: NotRequired[list[Visit]]

@@ -50,7 +50,7 @@ TEST_P(AaSippConnectivity, UsesOnlyLatticeStepsWithoutAnyAngle) {
   for (const TimedSegment& move : trajectory.moves) {
     const Position d = move.path.to - move.path.from;
     bool is_step = false;
-    for (const auto [columns, rows] : p.instance.lattice().steps()) {
+    for (const auto [columns, rows] : p.instance.lattice(0).steps()) {
       const Position step(columns, rows);
       const double along = d.dot(step) / (d.norm() * step.norm());
       is_step = is_step || along > 1.0 - 1e-12;

@@ -112,9 +112,9 @@ TEST(Vertices, LinksOwnVerticesBothWaysWithLatticeInSightWithinTwoCells) {
     const Planning p(support::random_problem(dice, 1));
     const Vertices vertices(p.instance, 0, 0, StopCondition::never());
     const int start = vertices.start();
-    if (start < p.instance.lattice().vertex_count()) continue;
+    if (start < p.instance.lattice(0).vertex_count()) continue;
     std::vector<int> expected;
-    for (int v = 0; v < p.instance.lattice().vertex_count(); ++v) {
+    for (int v = 0; v < p.instance.lattice(0).vertex_count(); ++v) {
       const Position there = vertices.position(v);
       if ((there - vertices.position(start)).norm() > 2.0 * p.problem.grid().resolution()) continue;
       const bool seen =
@@ -125,7 +125,7 @@ TEST(Vertices, LinksOwnVerticesBothWaysWithLatticeInSightWithinTwoCells) {
     }
     auto links = neighbours(vertices, start);
     std::erase(links, vertices.goal());
-    std::erase_if(links, [&](int v) { return v >= p.instance.lattice().vertex_count(); });  // finer ones
+    std::erase_if(links, [&](int v) { return v >= p.instance.lattice(0).vertex_count(); });  // finer ones
     std::erase(expected, vertices.goal());
     ASSERT_EQ(links, expected);
   }
