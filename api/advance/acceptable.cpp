@@ -22,9 +22,6 @@ constexpr double kCentre = 2e-3;
 /// Seconds: an action that ends by so much after a time is under way then.
 constexpr double kStillUnderWay = 1e-9;
 
-/// Pairs that are listed; where more overlap, nobody reads all of them.
-constexpr std::size_t kMostPairs = 10'000;
-
 bool drives(const core::Robot& robot) {
   return std::any_of(robot.committed.begin(), robot.committed.end(),
                      [](const Action& action) { return action.type == Action::Type::translate; });
@@ -33,9 +30,11 @@ bool drives(const core::Robot& robot) {
 /// Mends what the problem of the new request has for faults, until there are none.
 class Mending {
  public:
-  Mending(AdvanceRequest& request, std::vector<core::Robot>& robots, core::MapCache* maps, core::Work& stop)
+  Mending(AdvanceRequest& request, std::vector<core::Robot>& robots,
+          const std::vector<std::vector<Action>>& braking, core::MapCache* maps, core::Work& stop)
       : request_(request),
         robots_(robots),
+        braking_(braking),
         stop_(stop),
         map_(maps != nullptr ? maps->map_of(std::move(request.fleet.map->grid), stop.reading())
                              : core::static_map(std::move(request.fleet.map->grid), stop.reading())),
@@ -46,7 +45,7 @@ class Mending {
     if (!map_) stop_.look();
     const std::vector<double> margins =
         margins_of(request_.robots, request_.executions, request_.moment, robots_, stop_);
-    while (map_ && !stop_.met() && mend_all()) clear_commitments(robots_, margins, stop_);
+    while (map_ && !stop_.met() && mend_all()) clear_commitments(robots_, margins, braking_, stop_);
     return std::move(found_);
   }
 
@@ -150,26 +149,13 @@ class Mending {
 
   AdvanceRequest& request_;
   std::vector<core::Robot>& robots_;
+  const std::vector<std::vector<Action>>& braking_;  // by robot
   core::Work& stop_;
   std::shared_ptr<const core::StaticMap> map_;
   double start_overlap_;
   bool reports_;  // robots whose starts are at fault
   Circumstances found_;
 };
-
-std::vector<std::pair<std::size_t, std::size_t>> overlapping_pairs(const std::vector<core::Robot>& robots,
-                                                                   core::Work& stop) {
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (stop.met_after(1) || pairs.size() >= kMostPairs) return pairs;
-      const double reach = robots[i].radius + robots[j].radius - core::kContactTolerance;
-      const core::Position apart = robots[i].start.position - robots[j].start.position;
-      if (reach > 0.0 && apart.squaredNorm() < reach * reach) pairs.emplace_back(j, i);
-    }
-  }
-  return pairs;
-}
 
 }  // namespace
 
@@ -178,9 +164,10 @@ Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>&
   const bool any_observed =
       std::any_of(request.executions.begin(), request.executions.end(),
                   [](const Execution& execution) { return execution.measured || execution.reported; });
+  const auto braking = braking_of(request.robots, request.executions, request.moment, stop);
   Circumstances found;
-  if (any_observed) found = Mending(request, robots, maps, stop).run();
-  found.overlapping = overlapping_pairs(robots, stop);
+  if (any_observed) found = Mending(request, robots, braking, maps, stop).run();
+  found.unavoidable = unavoidable_collisions(robots, braking, stop);
   return found;
 }
 

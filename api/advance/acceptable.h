@@ -2,12 +2,11 @@
 
 // The request of a later moment is one that POST /v1/plan accepts, wherever robots were measured.
 
-#include <cstddef>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "api/advance/advance_request.h"
+#include "api/advance/unavoidable.h"
 #include "core/map/static_map.h"
 #include "core/model/robot.h"
 #include "core/runtime/work.h"
@@ -18,7 +17,7 @@ namespace fleetplan::api {
 struct Circumstances {
   std::optional<double> start_overlap = {};  // metres that starts may overlap; none: as the request allows
   bool some_in_walls = false;                // robots whose centres are, which have to be reported as invalid
-  std::vector<std::pair<std::size_t, std::size_t>> overlapping = {};  // the first pairs of robots
+  std::vector<Collision> unavoidable = {};   // the first ones
 };
 
 /// Ends committed actions of robots that were measured, or have reported where they are, before they meet

@@ -155,11 +155,32 @@ Remainder remainder_of(const core::Robot& robot, const Execution& execution, con
   return remainder_of_measured(robot, actions, *measured, located.progress, moment.at);
 }
 
+/// Whether a robot that is so far in its actions is on the way, not only about to set out.
+bool drives(const core::Robot& robot, const Actions& actions, const Progress& progress) {
+  const auto [index, t] = progress;
+  if (index >= actions.size() || actions[index].type != Action::Type::translate) return false;
+  if (t >= actions[index].t_end)
+    return index + 1 < actions.size() && goes_on(actions[index], actions[index + 1]);
+  if (t > actions[index].t_start) return true;
+  // At its begin: it goes on, or it was under way when its actions began.
+  return index > 0 ? goes_on(actions[index - 1], actions[index]) : !robot.committed.empty();
+}
+
+/// What it cannot leave out of this remainder.
+Actions braking_in(const Remainder& rest, const core::Robot& robot, const Execution& execution,
+                   const Located& located) {
+  const bool brakes = execution.stop_distance > 0.0 && !located.is_elsewhere &&
+                      drives(robot, execution.actions, located.progress);
+  return brakes ? driven_until(rest.actions, execution.stop_distance) : Actions();
+}
+
 }  // namespace
 
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment) {
   const Located located = locate(robot, execution, moment);
   Remainder rest = remainder_of(robot, execution, located, moment);
+  const Actions braking = braking_in(rest, robot, execution, located);
+  const double stands_from = braking.empty() ? 0.0 : braking.back().t_end;
   GoalsLeft left = goals_left(robot, execution, located.progress.t, moment.at);
 
   core::Robot next = robot;
@@ -171,14 +192,32 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
 
   double until = horizon(rest.actions, moment);
   if (execution.hold) {
-    hold(rest, *execution.hold);
+    hold(rest, stands_from, *execution.hold);
     until = *execution.hold;
   }
+  until = std::max(until, stands_from);
   next.committed = actions_until(rest.actions, until);
   next.previous.reset();
   const bool goes_on = execution.planned && !located.is_elsewhere && !execution.goals;
   if (goes_on) next.previous = split_at(rest.actions, until);
   return next;
+}
+
+Actions braking_of(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+  if (execution.stop_distance <= 0.0) return {};
+  const Located located = locate(robot, execution, moment);
+  return braking_in(remainder_of(robot, execution, located, moment), robot, execution, located);
+}
+
+std::vector<Actions> braking_of(const std::vector<core::Robot>& robots,
+                                const std::vector<Execution>& executions, const Moment& moment,
+                                core::Work& stop) {
+  std::vector<Actions> braking(robots.size());
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    if (stop.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) break;
+    braking[k] = braking_of(robots[k], executions[k], moment);
+  }
+  return braking;
 }
 
 Place place_of(const core::Robot& robot, const Execution& execution, const Moment& moment) {
@@ -214,7 +253,8 @@ std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
     if (stop.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return next;
     next.push_back(advanced(robots[k], executions[k], moment));
   }
-  clear_commitments(next, margins_of(robots, executions, moment, next, stop), stop);
+  clear_commitments(next, margins_of(robots, executions, moment, next, stop),
+                    braking_of(robots, executions, moment, stop), stop);
   return next;
 }
 

@@ -48,12 +48,24 @@ struct Execution {
   std::optional<ReportedState> reported = {};  // measured there, if it has a measured pose, too
   std::optional<double> hold = {};             // until then on the clock of the moment
   std::optional<std::vector<core::Goal>> goals = {};
+  double stop_distance = 0.0;  // metres that it drives until it can stand, if it drives at the moment
 };
 
 /// The robot of the request of that moment: its start, goals, radius, committed and previous actions. Its
 /// radius is the one after the goals that it has left behind, and after a last goal that it has served. It
 /// has no previous actions if it has no plan, is elsewhere than planned, or gets other goals.
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment);
+
+/// What a robot that drives at the moment cannot leave out, on the clock of the moment: its motion until it
+/// can stand, which it can after its stop distance, and where its plan has it stand. Empty for one that
+/// stands, turns, or is not on its path.
+std::vector<core::Action> braking_of(const core::Robot& robot, const Execution& execution,
+                                     const Moment& moment);
+
+/// By robot.
+std::vector<std::vector<core::Action>> braking_of(const std::vector<core::Robot>& robots,
+                                                  const std::vector<Execution>& executions,
+                                                  const Moment& moment, core::Work& stop);
 
 /// By robot, what it keeps around its disk while it is committed: its vicinity and the inflation, metres.
 /// Inflation is there for robots that are not where their plans have them, so it is used up by as much as
@@ -122,9 +134,16 @@ Remainder remainder_of_measured(const core::Robot& robot, const std::vector<core
 Remainder remainder_of_reported(const core::Robot& robot, const Execution& execution,
                                 const Progress& progress, double at);
 
-/// Puts a wait until this time before the rest of the actions, which it delays, except for the wait under
-/// way.
-void hold(Remainder& rest, double until);
+/// Puts a wait, from a time at which the robot stands to another one, before the rest of the actions, which
+/// it delays, except for the wait under way.
+void hold(Remainder& rest, double from, double until);
+
+/// The first actions in one line, until the robot has driven so many metres or stops: those that go on from
+/// the first one without a stop. Empty if the first one is no translation.
+std::vector<core::Action> driven_until(const std::vector<core::Action>& actions, double metres);
+
+/// Whether a translation goes on with another one, without a stop.
+bool goes_on(const core::Action& action, const core::Action& next);
 
 /// The actions until `t`, on the clock of the actions; one under way is cut there.
 std::vector<core::Action> actions_until(const std::vector<core::Action>& actions, double t);
@@ -139,8 +158,9 @@ core::Pose pose_at(const core::Action& action, double t);
 /// another one, nor passes where another one has ended. Whatever becomes of the plans behind the commitments,
 /// nobody then drives into a robot that stands. Robots are only stopped while they drive; a wait stays
 /// committed. `margins`: metres, by robot, that they keep around their disks; robots that are nearer to each
-/// other at the moment keep half of what they have. Ends early when the stop is met.
+/// other at the moment keep half of what they have. `braking`: by robot, see braking_of; none of these
+/// commitments ends before, unless it collides with another commitment. Ends early when the stop is met.
 void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins,
-                       core::Work& stop);
+                       const std::vector<std::vector<core::Action>>& braking, core::Work& stop);
 
 }  // namespace fleetplan::api

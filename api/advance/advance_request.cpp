@@ -180,6 +180,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
     const std::size_t index = read.robots.size();
     if (stop.met_after(corners)) return std::nullopt;
     if (!read.executions[index].goals) read.goal_metadata[index] = std::move(robot.goal_metadata);
+    read.executions[index].stop_distance = robot.stop_distance;
     // A robot that is off its path turns back as slowly as it has to anywhere.
     const core::DriveZones zones(fleet.zones, index, robot.robot);
     robot.robot.angular_speed = zones.least_angular_speed();
@@ -346,16 +347,16 @@ void write_options(JsonWriter& json, const std::optional<JsonValue>& given,
   json.end_object();
 }
 
-void write_overlapping(JsonWriter& json, const AdvanceRequest& request, const Circumstances& circumstances,
+void write_unavoidable(JsonWriter& json, const AdvanceRequest& request, const Circumstances& circumstances,
                        core::Work& work) {
   constexpr std::size_t kWorkOfAPair = 64;  // bytes of text, without names
   json.key("unavoidable").begin_array();
-  for (const auto& [first, second] : circumstances.overlapping) {
+  for (const auto& [first, second, t] : circumstances.unavoidable) {
     const std::string& a = request.robots[first].id;
     const std::string& b = request.robots[second].id;
     if (work.met_after(kWorkOfAPair + a.size() + b.size())) break;
     json.begin_object().key("robots").begin_array().value(a).value(b).end_array();
-    json.member("t", 0.0).end_object();
+    json.member("t", t).end_object();
   }
   json.end_array();
 }
@@ -397,7 +398,7 @@ std::string write_advanced(const AdvanceRequest& request, const std::vector<core
   }
   if (needs_options) write_options(json, request.request.value().find("options"), circumstances);
   write_progress(json, request, work);
-  if (!circumstances.overlapping.empty()) write_overlapping(json, request, circumstances, work);
+  if (!circumstances.unavoidable.empty()) write_unavoidable(json, request, circumstances, work);
   json.end_object();
   return json.take();
 }

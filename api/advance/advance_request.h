@@ -32,8 +32,8 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
 
 /// The request of the moment: that of the body with the starts, goals, committed and previous actions of
 /// these robots, what is left of its obstacles, and the options that it needs where they are; everything else
-/// is copied. Then `progress`, and `unavoidable` if robots overlap. The text ends anywhere once the work is
-/// met.
+/// is copied. Then `progress`, and `unavoidable` if robots overlap or cannot stop in time. The text ends
+/// anywhere once the work is met.
 std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots,
                            const Circumstances& circumstances, core::Work& work);
 

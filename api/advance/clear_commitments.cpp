@@ -1,11 +1,9 @@
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 
 #include "api/advance/advance.h"
-#include "core/model/itinerary.h"
+#include "api/advance/committed_pieces.h"
 #include "core/model/radius_steps.h"
 
 namespace fleetplan::api {
@@ -14,6 +12,7 @@ namespace {
 
 using core::Action;
 using core::Position;
+using Actions = std::vector<Action>;
 
 /// Disks that overlap by less only touch (metres): far below the contact tolerance, far above rounding.
 constexpr double kTouch = 1e-8;
@@ -27,48 +26,12 @@ constexpr double kNothing = 1e-6;
 /// A commitment that ends by so much before a service does not contain it (seconds).
 constexpr double kBeforeService = 1e-3;
 
-constexpr double kForever = std::numeric_limits<double>::infinity();
-
-/// Copying a piece is as much work as reading so many bytes.
-constexpr std::size_t kWorkOfAPiece = 64;
-
-/// A piece of straight motion or rest.
-struct Piece {
-  double begin;
-  double end;
-  Position from;
-  Position velocity;
-  double radius = 0.0;  // of the bare disk
-  bool grows = false;   // it is smaller before
-
-  Position at(double t) const { return from + velocity * (t - begin); }
-  bool moves() const { return velocity.squaredNorm() > 0.0; }
-};
-
 /// Where two robots begin to be too near, and who drives then, or becomes larger.
 struct Meeting {
   double t;
   bool first_moves;
   bool second_moves;
 };
-
-/// When two pieces begin to be nearer than a distance, in the time of both.
-std::optional<double> first_overlap(const Piece& a, const Piece& b, double distance) {
-  const double begin = std::max(a.begin, b.begin);
-  const double end = std::min(a.end, b.end);
-  if (begin > end) return std::nullopt;
-  const Position apart = a.at(begin) - b.at(begin);
-  const Position velocity = a.velocity - b.velocity;
-  const double closing = apart.dot(velocity);
-  if (closing >= 0.0) return std::nullopt;
-  const double gap = apart.squaredNorm() - distance * distance;
-  if (gap < 0.0) return begin;
-  const double speed = velocity.squaredNorm();
-  const double under_root = closing * closing - speed * gap;
-  if (under_root <= 0.0) return std::nullopt;
-  const double t = begin + gap / (-closing + std::sqrt(under_root));
-  return t < end ? std::optional(t) : std::nullopt;
-}
 
 /// When a disk that becomes larger at the end of a service is too near to another one: it is not to end.
 std::optional<Meeting> overlap_by_growth(const Piece& a, const Piece& b, double distance) {
@@ -82,12 +45,13 @@ std::optional<Meeting> overlap_by_growth(const Piece& a, const Piece& b, double 
 
 class Clearing {
  public:
-  Clearing(std::vector<core::Robot>& robots, const std::vector<double>& margins, core::Work& stop)
-      : robots_(robots), margins_(margins), stop_(stop), waits_(robots.size(), true) {
+  Clearing(std::vector<core::Robot>& robots, const std::vector<double>& margins,
+           const std::vector<Actions>& braking, core::Work& stop)
+      : robots_(robots), margins_(margins), braking_(braking), stop_(stop), waits_(robots.size(), true) {
     for (const core::Robot& robot : robots) {
       reach_.push_back(core::largest_radius(robot) + margins[pieces_.size()] + driven(robot));
       waiting_.push_back(pieces_.size());
-      pieces_.push_back(pieces_of(robot));
+      pieces_.push_back(committed_pieces(robot));
     }
   }
 
@@ -104,38 +68,6 @@ class Clearing {
   }
 
  private:
-  /// The commitment, and then the stay at its end.
-  static std::vector<Piece> pieces_of(const core::Robot& robot) {
-    std::vector<core::RadiusStep> steps;
-    if (core::changes_radius(robot)) {
-      steps = core::radius_steps(robot, core::itinerary_of(robot).visited);
-    }
-    std::vector<Piece> pieces;
-    double radius = robot.radius;
-    auto step = steps.begin();
-    const auto add = [&](Piece piece) {
-      for (; step != steps.end() && step->t < piece.end; ++step) {
-        if (step->t > piece.begin) {
-          pieces.push_back({piece.begin, step->t, piece.from, piece.velocity, radius, piece.grows});
-          piece.from = piece.at(step->t);
-          piece.begin = step->t;
-        }
-        piece.grows = step->radius > radius;
-        radius = step->radius;
-      }
-      piece.radius = radius;
-      pieces.push_back(piece);
-    };
-    for (const Action& action : robot.committed) {
-      const double duration = action.t_end - action.t_start;
-      const Position path = action.to.position - action.from.position;
-      const Position velocity = duration > 0.0 ? Position(path / duration) : Position(0.0, 0.0);
-      add({action.t_start, action.t_end, action.from.position, velocity});
-    }
-    add({robot.committed_until(), kForever, robot.committed_end().position, {0.0, 0.0}});
-    return pieces;
-  }
-
   /// The length of the committed path.
   static double driven(const core::Robot& robot) {
     double length = 0.0;
@@ -159,13 +91,29 @@ class Clearing {
     return now >= whole - kTouch ? whole : std::max(0.0, 0.5 * now);
   }
 
-  /// Stops both where they begin to be too near while the other one is committed.
+  /// Until when a robot that drives at the moment cannot stop, seconds; 0 if it stands.
+  double cannot_stop_before(std::size_t index) const {
+    return index < braking_.size() && !braking_[index].empty() ? braking_[index].back().t_end : 0.0;
+  }
+
+  /// Stops both where they begin to be too near while the other one is committed, or as soon as they can.
+  /// Where that is too late, their commitments end where their disks touch, if both are certain to be there:
+  /// POST /v1/plan refuses commitments that collide.
   void part(std::size_t robot, std::size_t other) {
     if (pieces_[other].size() == 1 || !may_meet(robot, other)) return;
-    const auto meeting = first_meeting(robot, other);
-    if (!meeting) return;
-    if (meeting->first_moves) cut(robot, meeting->t);
-    if (meeting->second_moves) cut(other, meeting->t);
+    if (const auto meeting = first_meeting(robot, other)) {
+      if (meeting->first_moves) cut(robot, when_it_can_stop(robot, meeting->t));
+      if (meeting->second_moves) cut(other, when_it_can_stop(other, meeting->t));
+    }
+    if (cannot_stop_before(robot) == 0.0 && cannot_stop_before(other) == 0.0) return;
+    if (const auto contact = first_contact(robot, other)) {
+      if (contact->first_moves) cut(robot, contact->t);
+      if (contact->second_moves) cut(other, contact->t);
+    }
+  }
+
+  double when_it_can_stop(std::size_t index, double t) const {
+    return std::max(t, cannot_stop_before(index));
   }
 
   std::optional<Meeting> first_meeting(std::size_t robot, std::size_t other) {
@@ -174,8 +122,8 @@ class Clearing {
     const double margin = this->margin(robot, other) - kTouch;
     // One that stops where it touches goes on touching: what follows may come nearer.
     const auto ends_one = [&](const Meeting& meeting) {
-      return (meeting.first_moves && shortens(robot, meeting.t)) ||
-             (meeting.second_moves && shortens(other, meeting.t));
+      return (meeting.first_moves && shortens(robot, when_it_can_stop(robot, meeting.t))) ||
+             (meeting.second_moves && shortens(other, when_it_can_stop(other, meeting.t)));
     };
     std::size_t i = 0;
     for (std::size_t k = 0; k < mine.size() && i + 1 < theirs.size();) {
@@ -186,6 +134,26 @@ class Clearing {
       if (const auto t = first_overlap(mine[k], theirs[i], distance)) {
         const Meeting meeting{*t, mine[k].moves(), theirs[i].moves()};
         if (ends_one(meeting)) return meeting;
+      }
+      theirs[i].end < mine[k].end ? ++i : ++k;
+    }
+    return std::nullopt;
+  }
+
+  /// Where the disks of two commitments begin to overlap, or to come nearer if they overlap. A robot without
+  /// a goal certainly stays at the end of its own.
+  std::optional<Meeting> first_contact(std::size_t robot, std::size_t other) {
+    const std::vector<Piece>& mine = pieces_[robot];
+    const std::vector<Piece>& theirs = pieces_[other];
+    const std::size_t certain = mine.size() - (robots_[robot].goal ? 1 : 0);
+    std::size_t i = 0;
+    for (std::size_t k = 0; k < certain && i + 1 < theirs.size();) {
+      if (stop_.met_after(kWorkOfAPiece)) return std::nullopt;
+      const double distance = mine[k].radius + theirs[i].radius - kTouch;
+      if (const auto t = first_overlap(mine[k], theirs[i], distance)) {
+        const Meeting meeting{*t, mine[k].moves(), theirs[i].moves()};
+        if ((meeting.first_moves && shortens(robot, *t)) || (meeting.second_moves && shortens(other, *t)))
+          return meeting;
       }
       theirs[i].end < mine[k].end ? ++i : ++k;
     }
@@ -204,14 +172,15 @@ class Clearing {
     if (t < kNothing) t = 0.0;
     robot.committed = actions_until(robot.committed, t);
     if (robot.previous) robot.previous = split_at(*robot.previous, t);
-    pieces_[index] = pieces_of(robot);
+    pieces_[index] = committed_pieces(robot);
     if (waits_[index]) return;
     waits_[index] = true;
     waiting_.push_back(index);
   }
 
   std::vector<core::Robot>& robots_;
-  const std::vector<double>& margins_;  // by robot
+  const std::vector<double>& margins_;   // by robot
+  const std::vector<Actions>& braking_;  // by robot
   core::Work& stop_;
   std::vector<std::vector<Piece>> pieces_;
   std::vector<double> reach_;  // from the start, with disk and margin; of the commitment as it was
@@ -222,8 +191,8 @@ class Clearing {
 }  // namespace
 
 void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins,
-                       core::Work& stop) {
-  Clearing(robots, margins, stop).run();
+                       const std::vector<std::vector<Action>>& braking, core::Work& stop) {
+  Clearing(robots, margins, braking, stop).run();
 }
 
 }  // namespace fleetplan::api

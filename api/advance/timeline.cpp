@@ -20,6 +20,10 @@ constexpr double kDone = 1e-9;
 /// A measured pose that is nearer to the end of a translation has reached it (metres).
 constexpr double kReached = 1e-6;
 
+/// Translations whose headings differ by less lead on in one line (radians): more than the rounding of
+/// numbers in text.
+constexpr double kSameLine = 1e-6;
+
 /// A measured pose that is nearer to the planned line is on it (metres).
 constexpr double kOnLine = 1e-8;
 
@@ -277,19 +281,48 @@ Remainder remainder_of_reported(const core::Robot& robot, const Execution& execu
                         wait_left(robot, planned, progress.t, service_left, at));
 }
 
-void hold(Remainder& rest, double until) {
+void hold(Remainder& rest, double from, double until) {
+  if (until < from) return;
   Actions& actions = rest.actions;
-  const bool stands = !actions.empty() && actions.front().type == Action::Type::wait;
-  const Action wait{Action::Type::wait, 0.0, until, rest.start, rest.start};
+  actions = split_at(actions, from);
+  std::size_t first = 0;
+  while (first < actions.size() && actions[first].t_start < from - kDone) ++first;
+  const core::Pose pose = first == 0 ? rest.start : actions[first - 1].to;
+  const bool stands = first < actions.size() && actions[first].type == Action::Type::wait;
+  const Action wait{Action::Type::wait, from, until, pose, pose};
+  const auto next = actions.begin() + static_cast<std::ptrdiff_t>(first);
   if (!stands) {
-    delay(actions, 0, until);
-  } else if (actions.front().t_end > until + kDone) {
-    actions.front().t_start = until;
+    delay(actions, first, until - from);
+  } else if (next->t_end > until + kDone) {
+    next->t_start = until;
   } else {
-    delay(actions, 1, until - actions.front().t_end);
-    actions.erase(actions.begin());
+    delay(actions, first + 1, until - next->t_end);
+    actions.erase(next);
   }
-  actions.insert(actions.begin(), wait);
+  actions.insert(actions.begin() + static_cast<std::ptrdiff_t>(first), wait);
+}
+
+bool goes_on(const Action& action, const Action& next) {
+  return action.type == Action::Type::translate && next.type == Action::Type::translate &&
+         action.reverse == next.reverse && next.t_start <= action.t_end + kDone &&
+         core::angle_between(action.to.theta, next.from.theta) <= kSameLine;
+}
+
+Actions driven_until(const Actions& actions, double metres) {
+  Actions driven;
+  for (const Action& action : actions) {
+    const bool is_next =
+        driven.empty() ? action.type == Action::Type::translate : goes_on(driven.back(), action);
+    if (!is_next || metres <= kReached) break;
+    const double whole = length(action);
+    const double share = whole > metres ? metres / whole : 1.0;
+    metres -= whole;
+    driven.push_back(action);
+    if (share == 1.0) continue;
+    driven.back().t_end = action.t_start + share * (action.t_end - action.t_start);
+    driven.back().to = pose_at(action, driven.back().t_end);
+  }
+  return driven;
 }
 
 Actions actions_until(const Actions& actions, double t) {

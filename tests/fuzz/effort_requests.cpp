@@ -357,6 +357,9 @@ Effort execution_effort(Choices choices) {
             {"at", choices.up_to(100) / 10.0},
             {"commit", choices.one_of(std::array{0.0, 1.0, 1e3})}};
     if (choices.yes()) body["states"] = reports_of(fleet, choices);
+    if (choices.yes()) {
+      body["request"]["robot_defaults"]["stop_distance"] = choices.one_of(std::array{0.1, 3.0, 1e6});
+    }
   } else if (kind == 4) {
     effort.endpoint = api::retime_endpoint;
     body.erase("map");

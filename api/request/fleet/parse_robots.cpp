@@ -73,13 +73,26 @@ ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota&
 
 namespace {
 
-constexpr std::array<std::string_view, 14> kRobotMembers{
-    "id",          "radius", "linear_speed", "angular_speed", "vicinity",  "execution_margin", "may_reverse",
-    "body_radius", "start",  "goal",         "goals",         "committed", "previous",         "metadata"};
+constexpr std::array<std::string_view, 15> kRobotMembers{"id",
+                                                         "radius",
+                                                         "linear_speed",
+                                                         "angular_speed",
+                                                         "may_reverse",
+                                                         "vicinity",
+                                                         "execution_margin",
+                                                         "stop_distance",
+                                                         "body_radius",
+                                                         "start",
+                                                         "goal",
+                                                         "goals",
+                                                         "committed",
+                                                         "previous",
+                                                         "metadata"};
 constexpr std::array<std::string_view, 3> kStartMembers{"x", "y", "theta"};
 
-constexpr std::array<std::string_view, 7> kDefaults{
-    "radius", "linear_speed", "angular_speed", "vicinity", "execution_margin", "may_reverse", "body_radius"};
+constexpr std::array<std::string_view, 8> kDefaults{"radius",        "linear_speed", "angular_speed",
+                                                    "may_reverse",   "vicinity",     "execution_margin",
+                                                    "stop_distance", "body_radius"};
 
 /// A number that `robot_defaults` can give as well.
 struct Trait {
@@ -93,6 +106,7 @@ struct Traits {
   Trait angular_speed;
   Trait vicinity;
   Trait execution_margin;
+  Trait stop_distance;
   std::optional<bool> may_reverse;
   std::optional<double> body_radius;
 };
@@ -104,7 +118,7 @@ struct TraitRow {
   bool required;
 };
 
-constexpr std::array<TraitRow, 5> kTraitTable{{
+constexpr std::array<TraitRow, 6> kTraitTable{{
     {.name = "radius", .range = kLength, .field = &Traits::radius, .required = true},
     {.name = "linear_speed", .range = kLinearSpeed, .field = &Traits::linear_speed, .required = true},
     {.name = "angular_speed", .range = kAngularSpeed, .field = &Traits::angular_speed, .required = true},
@@ -113,6 +127,7 @@ constexpr std::array<TraitRow, 5> kTraitTable{{
      .range = kLengthOrZero,
      .field = &Traits::execution_margin,
      .required = false},
+    {.name = "stop_distance", .range = kLengthOrZero, .field = &Traits::stop_distance, .required = false},
 }};
 
 Traits parse_traits(const JsonReader& json) {
@@ -166,6 +181,7 @@ class RobotReader {
     robot.angular_speed = traits.angular_speed.value.value_or(1.0);
     robot.vicinity = traits.vicinity.value.value_or(0.0);
     read.execution_margin = traits.execution_margin.value;
+    read.stop_distance = traits.stop_distance.value.value_or(0.0);
     robot.may_reverse = traits.may_reverse.value_or(false);
     read.body_radius = traits.body_radius;
     read.metadata = parse_metadata(json);

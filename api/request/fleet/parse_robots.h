@@ -50,6 +50,7 @@ struct ParsedRobot {
   std::vector<std::string> goal_metadata;  // see ParsedGoals
   std::string metadata;                    // see parse_metadata
   std::optional<double> execution_margin;  // metres
+  double stop_distance = 0.0;              // metres that it drives until it stands, see /v1/advance
   std::optional<double> body_radius = {};  // metres, of the robot itself, if it is planned with another one
 };
 

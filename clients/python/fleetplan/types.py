@@ -191,6 +191,7 @@ class RobotDefaults(TypedDict, total=False):
     angular_speed: float
     vicinity: float
     execution_margin: float
+    stop_distance: float
     may_reverse: bool
     body_radius: float
 

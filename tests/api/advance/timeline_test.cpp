@@ -119,7 +119,7 @@ TEST(Timeline, ActionsThatOverlapInTimeFollowEachOther) {
 
 TEST(Timeline, AHoldDelaysTheRest) {
   Remainder rest = remainder(robot(), corner(), 1.0);
-  hold(rest, 30.0);
+  hold(rest, 0.0, 30.0);
   expect_contiguous(rest);
   ASSERT_EQ(rest.actions.size(), 5U);
   EXPECT_EQ(rest.actions[0].type, Type::wait);
@@ -130,12 +130,12 @@ TEST(Timeline, AHoldDelaysTheRest) {
 
 TEST(Timeline, AHoldTakesPlaceDuringAWaitUnderWay) {
   Remainder shorter = remainder(robot(), corner(), 5.5);
-  hold(shorter, 0.5);
+  hold(shorter, 0.0, 0.5);
   expect_contiguous(shorter);
   ASSERT_EQ(shorter.actions.size(), 3U);
   EXPECT_EQ(shorter.actions[2].t_end, 3.5);
   Remainder longer = remainder(robot(), corner(), 5.5);
-  hold(longer, 10.0);
+  hold(longer, 0.0, 10.0);
   expect_contiguous(longer);
   ASSERT_EQ(longer.actions.size(), 2U);
   EXPECT_EQ(longer.actions[1].t_start, 10.0);

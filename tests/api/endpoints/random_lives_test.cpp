@@ -1,8 +1,8 @@
 // Random lives of fleets: plan, go on to a random moment in which robots are held, late, early or beside
 // their paths, measured or reported, and plan again, with all members of requests together. Whatever happens,
 // no request is answered by `internal_error`; /v1/plan accepts what /v1/advance returns; and robots that
-// execute nothing but their commitments and then stand meet nobody, unless they overlap already and are
-// named.
+// execute nothing but their commitments and then stand meet nobody, unless they overlap already or cannot
+// stop in time, and are named.
 //
 // FLEETPLAN_ROUNDS is how often they are planned in all, FLEETPLAN_FIRST_LIFE the seed of the first fleet.
 
@@ -64,6 +64,15 @@ support::FleetRequest crowd(Dice& dice) {
   return request;
 }
 
+/// Robots that need some way to stop; most of them a short one.
+void add_stop_distances(Dice& dice, Json& json) {
+  const double resolution = json.at("map").at("resolution").get<double>();
+  for (Json& robot : json.at("robots")) {
+    if (dice.chance(0.7))
+      robot["stop_distance"] = resolution * dice.between(0.0, dice.chance(0.3) ? 4.0 : 1.0);
+  }
+}
+
 /// A valid request with all kinds of members.
 Json first_request(Dice& dice) {
   while (true) {
@@ -78,6 +87,7 @@ Json first_request(Dice& dice) {
     json["options"]["time_budget_ms"] = 100'000;
     if (dice.chance(0.3)) json["options"]["invalid_robots"] = "report";
     if (dice.chance(0.2)) json["options"]["dependencies"] = true;
+    if (dice.chance(0.3)) add_stop_distances(dice, json);
     return json;
   }
 }
@@ -119,8 +129,19 @@ std::optional<Under> under_way(const Json& actions, double t) {
   return std::nullopt;
 }
 
+using Pair = std::pair<std::string, std::string>;  // ids, in the order of the request
+
+/// Those that overlap already, or cannot stop in time.
+std::set<Pair> named_pairs(const Json& request) {
+  std::set<Pair> named;
+  for (const Json& meeting : request.value("unavoidable", Json::array())) {
+    named.emplace(meeting.at("robots").at(0), meeting.at("robots").at(1));
+  }
+  return named;
+}
+
 /// All robots execute what is committed, and stay. The starts are as the request allows.
-void expect_that_all_may_stop(const core::Problem& problem, double start_overlap) {
+void expect_that_all_may_stop(const Json& request, const core::Problem& problem, double start_overlap) {
   std::vector<core::Robot> robots = problem.robots();
   std::vector<core::RobotPlan> stops;
   for (std::size_t k = 0; k < robots.size(); ++k) {
@@ -135,25 +156,58 @@ void expect_that_all_may_stop(const core::Problem& problem, double start_overlap
   rules.horizon = 0.0;  // with goals left
   const auto report = core::verify({problem.grid(), robots, {}, &problem.zones()}, stops, rules,
                                    core::StopCondition::never());
-  EXPECT_TRUE(report->valid()) << support::text(*report);
+  const std::set<Pair> named = named_pairs(request);
+  for (const core::Violation& violation : report->violations) {
+    const bool is_named = violation.kind == core::Violation::Kind::robot_collision &&
+                          named.contains({robots[violation.robots[0]].id, robots[violation.robots[1]].id});
+    EXPECT_TRUE(is_named) << support::text(*report);
+  }
 }
 
-/// Exactly the robots that overlap at the moment are named.
+/// Exactly the robots that overlap at the moment are named, and some of those that need some way to stop.
 void expect_that_the_overlapping_are_named(const Json& request, const core::Problem& problem) {
-  std::set<std::pair<std::string, std::string>> named;
-  for (const Json& meeting : request.value("unavoidable", Json::array())) {
-    named.emplace(meeting.at("robots").at(0), meeting.at("robots").at(1));
-  }
+  const std::set<Pair> named = named_pairs(request);
   constexpr double kRounding = 1e-9;
   const auto& robots = problem.robots();
+  const auto needs_way = [&](std::size_t robot) {
+    return request.at("robots").at(robot).value("stop_distance", 0.0) > 0.0;
+  };
   for (std::size_t j = 0; j < robots.size(); ++j) {
     for (std::size_t i = 0; i < j; ++i) {
       const double gap = (robots[i].start.position - robots[j].start.position).norm() - robots[i].radius -
                          robots[j].radius + core::kContactTolerance;
-      if (std::abs(gap) < kRounding) continue;
-      EXPECT_EQ(named.contains({robots[i].id, robots[j].id}), gap < 0.0) << robots[i].id << robots[j].id;
+      const bool is_named = named.contains({robots[i].id, robots[j].id});
+      if (std::abs(gap) < kRounding || (gap > 0.0 && (needs_way(i) || needs_way(j)))) continue;
+      EXPECT_EQ(is_named, gap < 0.0) << robots[i].id << robots[j].id;
     }
   }
+}
+
+double length(const Json& action) {
+  return (pose_of(action.at("to")).position - pose_of(action.at("from")).position).norm();
+}
+
+/// The metres from an action on that a robot drives in one line without a stop.
+double driven(const Json& actions, std::size_t first) {
+  double metres = 0.0;
+  for (std::size_t k = first; k < actions.size() && actions[k].at("type") == "translate"; ++k) {
+    const bool goes_on =
+        k == first || (actions[k].value("reverse", false) == actions[first].value("reverse", false) &&
+                       actions[k].at("t_start") == actions[k - 1].at("t_end"));
+    if (!goes_on) break;
+    metres += length(actions[k]);
+  }
+  return metres;
+}
+
+/// A robot that drives at the moment, by its plan, and is not named drives for as long as it needs to stop.
+void expect_that_it_can_stop(const Json& robot, const Json& actions, double at) {
+  constexpr double kRounding = 1e-6;
+  const auto under = under_way(actions, at);
+  if (!under || under->progress < kRounding || actions[under->action].at("type") != "translate") return;
+  const double left = driven(actions, under->action) - under->progress * length(actions[under->action]);
+  const double needs = std::min(robot.value("stop_distance", 0.0), left);
+  EXPECT_GE(driven(robot.value("committed", Json::array()), 0), needs - kRounding) << robot;
 }
 
 /// A fleet from round to round.
@@ -207,9 +261,26 @@ class Life {
     const auto parsed = parse_request(reply.body, {}, unbounded_work());
     EXPECT_TRUE(parsed) << parsed.failure().detail;
     if (!parsed) return false;
-    expect_that_all_may_stop(parsed->problem, parsed->options.start_overlap);
+    expect_that_all_may_stop(request_, parsed->problem, parsed->options.start_overlap);
     expect_that_the_overlapping_are_named(request_, parsed->problem);
+    expect_that_they_can_stop(body);
     return true;
+  }
+
+  /// Robots that nobody has observed, and that are not named.
+  void expect_that_they_can_stop(const Json& body) const {
+    std::set<std::string> others;
+    for (const auto& [first, second] : named_pairs(request_)) others.insert({first, second});
+    for (const char* member : {"poses", "states"}) {
+      for (const Json& observed : body.value(member, Json::array())) others.insert(observed.at("robot"));
+    }
+    for (const Json& plan : answer_.at("plans")) {
+      const auto is_of_plan = [&](const Json& robot) { return robot.at("id") == plan.at("robot"); };
+      const Json& robots = request_.at("robots");
+      const auto robot = std::find_if(robots.begin(), robots.end(), is_of_plan);
+      if (others.contains(plan.at("robot"))) continue;
+      expect_that_it_can_stop(*robot, plan.at("actions"), body.at("at"));
+    }
   }
 
   bool is_planned(const Json& robot) const {

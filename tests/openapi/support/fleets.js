@@ -57,6 +57,7 @@ function traitsOf(document, { resolution = 1 }) {
     linear_speed: mostly(within(0.2, 3), of("LinearSpeed")),
     angular_speed: mostly(within(0.5, 6), of("AngularSpeed")),
     vicinity: mostly(fc.constant(0), within(0, 0.2)).map((share) => share * resolution),
+    stop_distance: mostly(fc.constant(0), within(0, 3)).map((share) => share * resolution),
     may_reverse: of("MayReverse"),
   });
 }

@@ -1,0 +1,37 @@
+#pragma once
+
+// What a robot does if it executes nothing but its commitment, in pieces of straight motion and rest.
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/position.h"
+#include "core/model/robot.h"
+
+namespace fleetplan::api {
+
+/// Copying a piece, or comparing two, is as much work as reading so many bytes.
+inline constexpr std::size_t kWorkOfAPiece = 64;
+
+/// A piece of straight motion or rest.
+struct Piece {
+  double begin;
+  double end;
+  core::Position from;
+  core::Position velocity;
+  double radius = 0.0;  // of the bare disk
+  bool grows = false;   // it is smaller before
+
+  core::Position at(double t) const { return from + velocity * (t - begin); }
+  bool moves() const { return velocity.squaredNorm() > 0.0; }
+};
+
+/// The commitment, and then the stay at its end, which has no end.
+std::vector<Piece> committed_pieces(const core::Robot& robot);
+
+/// When two pieces begin to be nearer than a distance, in the time of both; at the beginning of that time if
+/// they are nearer then and come nearer.
+std::optional<double> first_overlap(const Piece& a, const Piece& b, double distance);
+
+}  // namespace fleetplan::api

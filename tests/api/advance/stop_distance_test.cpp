@@ -1,0 +1,261 @@
+// Robots that need some way to stop: what is committed of them, and who cannot avoid whom.
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "api/advance/advance.h"
+#include "api/advance/unavoidable.h"
+#include "api/endpoints/endpoints.h"
+#include "tests/api/support/requests.h"
+
+namespace fleetplan::api {
+namespace TEST_FILE {
+
+using core::Action;
+using core::Pose;
+using core::Position;
+using Type = core::Action::Type;
+
+Pose at_x(double x, double theta = 0.0) { return {{x, 1.0}, theta}; }
+
+/// Robots of radius 0.25 that drive along one line at 1 m/s, and can stop after so many metres.
+struct Line {
+  std::vector<core::Robot> robots;
+  std::vector<Execution> executions;
+  double inflation = 0.0;
+
+  void add(double from, double to, double stop_distance) {
+    core::Robot robot;
+    const double heading = to < from ? std::numbers::pi : 0.0;
+    robot.radius = 0.25;
+    robot.linear_speed = robot.angular_speed = 1.0;
+    robot.start = at_x(from, heading);
+    robot.goal = core::Goal{at_x(to).position};
+    Execution execution{{}, true};
+    if (to != from) {
+      execution.actions.push_back(
+          {Type::translate, 0.0, std::abs(to - from), robot.start, at_x(to, heading)});
+    }
+    execution.stop_distance = stop_distance;
+    robots.push_back(robot);
+    executions.push_back(execution);
+  }
+
+  Moment moment(double at, double commit) const { return {at, commit, 0.1, 0.0, inflation}; }
+
+  std::vector<core::Robot> advance(double at, double commit) const {
+    core::Work stop = core::Work::unbounded();
+    return advanced(robots, executions, moment(at, commit), stop);
+  }
+
+  std::vector<Collision> collisions(double at, double commit) const {
+    core::Work stop = core::Work::unbounded();
+    return unavoidable_collisions(advance(at, commit),
+                                  braking_of(robots, executions, moment(at, commit), stop), stop);
+  }
+};
+
+TEST(StopDistance, NoCommitmentEndsSooner) {
+  Line line;
+  line.add(1.0, 9.0, 0.5);
+  for (const auto& [commit, until] : {std::pair{0.0, 0.5}, {0.3, 0.5}, {0.8, 0.8}}) {
+    const core::Robot next = line.advance(2.0, commit)[0];
+    EXPECT_DOUBLE_EQ(next.committed_until(), until);
+    EXPECT_DOUBLE_EQ(next.committed_end().position.x(), 3.0 + until);
+    ASSERT_EQ(next.previous->size(), 2U);
+    EXPECT_DOUBLE_EQ(next.previous->at(1).t_start, until);
+  }
+}
+
+TEST(StopDistance, ARobotStopsWhereItsPlanStopsIt) {
+  Line line;
+  line.add(1.0, 9.0, 0.5);
+  EXPECT_DOUBLE_EQ(line.advance(7.75, 0.0)[0].committed_until(), 0.25);
+}
+
+TEST(StopDistance, OneThatIsAboutToSetOutNeedNot) {
+  Line line;
+  line.add(1.0, 9.0, 0.5);
+  EXPECT_TRUE(line.advance(0.0, 0.0)[0].committed.empty());
+  line.robots[0].committed = {line.executions[0].actions[0]};  // it was under way
+  EXPECT_DOUBLE_EQ(line.advance(0.0, 0.0)[0].committed_until(), 0.5);
+}
+
+TEST(StopDistance, TranslationsThatGoOnAreOne) {
+  Line line;
+  line.add(1.0, 9.0, 0.5);
+  const Pose border = at_x(3.2);
+  line.executions[0].actions = {{Type::translate, 0.0, 2.2, at_x(1.0), border},
+                                {Type::translate, 2.2, 3.2, border, at_x(3.7)},
+                                {Type::translate, 3.2, 4.2, at_x(3.7), at_x(9.0)}};
+  const core::Robot next = line.advance(2.0, 0.0)[0];
+  EXPECT_DOUBLE_EQ(next.committed_end().position.x(), 3.5);
+  EXPECT_DOUBLE_EQ(next.committed_until(), 0.8);
+  EXPECT_DOUBLE_EQ(line.advance(2.2, 0.0)[0].committed_end().position.x(), 3.7) << "on the border";
+  line.executions[0].actions[1].t_start = 2.7;  // it stands there
+  EXPECT_DOUBLE_EQ(line.advance(2.0, 0.0)[0].committed_end().position.x(), 3.2);
+}
+
+TEST(StopDistance, AHoldBeginsWhereTheRobotStands) {
+  Line line;
+  line.add(1.0, 9.0, 0.5);
+  line.executions[0].hold = 30.0;
+  const core::Robot next = line.advance(2.0, 1.0)[0];
+  ASSERT_EQ(next.committed.size(), 2U);
+  EXPECT_DOUBLE_EQ(next.committed[0].to.position.x(), 3.5);
+  EXPECT_EQ(next.committed[1].type, Type::wait);
+  EXPECT_EQ(next.committed[1].t_end, 30.0);
+  EXPECT_DOUBLE_EQ(next.previous->at(2).t_end, 30.0 + 5.5);
+  line.executions[0].hold = 0.2;
+  EXPECT_DOUBLE_EQ(line.advance(2.0, 0.0)[0].committed_until(), 0.5) << "it cannot stop so soon";
+}
+
+TEST(StopDistance, ALateRobotDrivesOnFromWhereItIs) {
+  Line line;
+  line.add(1.0, 9.0, 0.5);
+  line.executions[0].measured = at_x(2.5);
+  EXPECT_DOUBLE_EQ(line.advance(2.0, 0.0)[0].committed_end().position.x(), 3.0);
+  line.executions[0].measured = Pose{{2.5, 1.5}, 0.0};  // beside its path
+  EXPECT_TRUE(line.advance(2.0, 0.0)[0].committed.empty());
+}
+
+TEST(StopDistance, OneThatStandsOrTurnsHasNothingToDo) {
+  Line line;
+  line.add(1.0, 1.0, 0.5);
+  line.executions[0].actions = {{Type::wait, 0.0, 4.0, at_x(1.0), at_x(1.0)},
+                                {Type::rotate, 4.0, 5.0, at_x(1.0), at_x(1.0, 1.0)}};
+  for (const double at : {1.0, 4.5, 9.0}) EXPECT_TRUE(line.advance(at, 0.0)[0].committed.empty());
+}
+
+TEST(StopDistance, OneThatCanStopDoesBeforeOneThatCannot) {
+  Line line;
+  line.add(1.0, 9.0, 2.0);
+  line.add(9.0, 1.0, 0.1);
+  // At 3 m and 7 m after two seconds, and 3.5 m apart. The first one drives to 5 m.
+  const auto next = line.advance(2.0, 3.0);
+  EXPECT_DOUBLE_EQ(next[0].committed_until(), 2.0);
+  EXPECT_NEAR(next[1].committed_until(), 1.5, 1e-6);
+  EXPECT_TRUE(line.collisions(2.0, 3.0).empty());
+}
+
+TEST(StopDistance, MarginsGiveWayButNotDisks) {
+  Line line;
+  line.add(1.0, 9.0, 1.0);
+  line.add(4.6, 4.6, 0.0);
+  line.inflation = 0.1;
+  EXPECT_DOUBLE_EQ(line.advance(2.0, 3.0)[0].committed_until(), 1.0);
+  EXPECT_TRUE(line.collisions(2.0, 3.0).empty()) << "it stands before the other one, within its inflation";
+}
+
+TEST(StopDistance, TwoThatCannotStopAreNamedAndTheirCommitmentsEndWhereTheyTouch) {
+  Line line;
+  line.add(1.0, 9.0, 2.0);
+  line.add(7.0, 1.0, 2.0);
+  // At 3 m and 5 m, 1.5 m apart.
+  for (const core::Robot& next : line.advance(2.0, 1.0)) EXPECT_NEAR(next.committed_until(), 0.75, 1e-6);
+  const auto collisions = line.collisions(2.0, 1.0);
+  ASSERT_EQ(collisions.size(), 1U);
+  EXPECT_EQ(collisions[0].first, 0U);
+  EXPECT_EQ(collisions[0].second, 1U);
+  EXPECT_NEAR(collisions[0].t, 0.75, 1e-6);
+}
+
+TEST(StopDistance, OneBehindStopsBeforeThoseThatCollide) {
+  Line line;
+  line.add(1.0, 9.0, 2.0);
+  line.add(7.0, 1.0, 2.0);
+  line.add(0.3, 8.0, 0.2);
+  EXPECT_EQ(line.collisions(2.0, 1.0).size(), 1U);
+  // At 2.3 m; the first one ends at 3.75 m.
+  EXPECT_NEAR(line.advance(2.0, 3.0)[2].committed_until(), 3.75 - 0.5 - 2.3, 1e-6);
+}
+
+TEST(StopDistance, ACommitmentTowardsOneThatMayLeaveStays) {
+  Line line;
+  line.add(1.0, 9.0, 2.0);
+  line.add(4.5, 4.5, 0.0);
+  const auto next = line.advance(2.0, 0.0);
+  EXPECT_DOUBLE_EQ(next[0].committed_until(), 2.0);
+  const auto collisions = line.collisions(2.0, 0.0);
+  ASSERT_EQ(collisions.size(), 1U);
+  EXPECT_NEAR(collisions[0].t, 1.0, 1e-6);
+  line.robots[1].goal.reset();
+  EXPECT_NEAR(line.advance(2.0, 0.0)[0].committed_until(), 1.0, 1e-6) << "one without a goal never leaves";
+}
+
+/// A robot that needs a metre to stop drives towards one that stands in a wide corridor.
+Json towards_another(double stop_distance) {
+  return {{"request", Json::parse(R"({
+            "map": {"rows": ["..........", "..........", ".........."]},
+            "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 3.0, "stop_distance": )" +
+                                  std::to_string(stop_distance) + R"(},
+            "robots": [{"id": "a", "start": {"x": 0.5, "y": 1.5, "theta": 0}, "goal": {"x": 9.5, "y": 1.5}},
+                       {"id": "b", "start": {"x": 4.5, "y": 1.5, "theta": 1.5}, "goal": {"x": 4.5, "y": 2.5}}]})")},
+          {"plans", Json::parse(R"([
+            {"robot": "a", "cost": 9, "actions": [{"type": "translate", "t_start": 0, "t_end": 9,
+             "from": {"x": 0.5, "y": 1.5, "theta": 0}, "to": {"x": 9.5, "y": 1.5, "theta": 0}}]},
+            {"robot": "b", "cost": 0, "actions": []}])")},
+          {"at", 2.5},
+          {"commit", 0.0}};
+}
+
+Json advanced_json(const Json& body) {
+  const Reply reply = advance_endpoint(body.dump(), {});
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  return json_of(reply);
+}
+
+TEST(StopDistance, IsOfTheRobotOrOfTheDefaults) {
+  Json body = towards_another(1.0);
+  EXPECT_EQ(advanced_json(body)["robots"][0]["committed"][0]["t_end"], 1.0);
+  body["request"]["robots"][0]["stop_distance"] = 0.25;
+  const Json next = advanced_json(body);
+  EXPECT_EQ(next["robots"][0]["committed"][0]["t_end"], 0.25);
+  EXPECT_EQ(next["robots"][0]["stop_distance"], 0.25);
+  EXPECT_EQ(next["robot_defaults"]["stop_distance"], 1.0);
+  EXPECT_FALSE(next.contains("unavoidable"));
+}
+
+TEST(StopDistance, ThoseThatCannotAvoidEachOtherAreNamedAndCanBePlanned) {
+  Json body = towards_another(2.0);
+  const Json next = advanced_json(body);
+  ASSERT_EQ(next["unavoidable"].size(), 1U) << next;
+  EXPECT_EQ(next["unavoidable"][0]["robots"], Json::parse(R"(["a", "b"])"));
+  EXPECT_NEAR(next["unavoidable"][0]["t"].get<double>(), 0.9, 1e-5);
+  const Json plan = json_of(plan_endpoint(next.dump(), {}));
+  EXPECT_EQ(plan["status"], "solved") << "the other one leaves: " << plan;
+  body["at"] = 3.2;
+  const Reply late = plan_endpoint(advanced_json(body).dump(), {});
+  EXPECT_EQ(late.status, 200) << late.body;
+  EXPECT_EQ(json_of(late)["unavoidable"].size(), 1U) << late.body;
+}
+
+TEST(StopDistance, ARequestOfTwoThatCannotStopIsAccepted) {
+  Json body = towards_another(3.0);
+  Json& plan = body["plans"][1];
+  plan["actions"] = Json::parse(R"([{"type": "translate", "t_start": 0, "t_end": 4,
+    "from": {"x": 7.5, "y": 1.5, "theta": 3.141592653589793},
+    "to": {"x": 3.5, "y": 1.5, "theta": 3.141592653589793}}])");
+  plan["cost"] = 4;
+  body["request"]["robots"][1]["start"] = plan["actions"][0]["from"];
+  body["at"] = 2.0;
+  const Json next = advanced_json(body);
+  EXPECT_EQ(next["unavoidable"].size(), 1U) << next;
+  EXPECT_EQ(plan_endpoint(next.dump(), {}).status, 200);
+}
+
+TEST(StopDistance, IsALength) {
+  Json body = towards_another(1.0);
+  body["request"]["robot_defaults"]["stop_distance"] = -1.0;
+  const Reply reply = advance_endpoint(body.dump(), {});
+  EXPECT_EQ(reply.status, 422);
+  EXPECT_EQ(json_of(reply)["errors"][0]["pointer"], "/request/robot_defaults/stop_distance");
+  EXPECT_EQ(json_of(reply)["errors"][0]["code"], "out_of_range");
+}
+
+}  // namespace TEST_FILE
+}  // namespace fleetplan::api
