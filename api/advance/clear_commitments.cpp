@@ -17,6 +17,9 @@ using Actions = std::vector<Action>;
 /// Disks that overlap by less only touch (metres): far below the contact tolerance, far above rounding.
 constexpr double kTouch = 1e-8;
 
+/// Disks with a smaller gap touch (metres): more than the contact tolerance.
+constexpr double kTouching = 1e-6;
+
 /// A commitment that is ended by less is not ended (seconds).
 constexpr double kSameEnd = 1e-9;
 
@@ -81,12 +84,17 @@ class Clearing {
     return apart.squaredNorm() <= reach * reach;
   }
 
+  /// Between the bare disks at the moment; negative if they overlap, metres.
+  double gap_now(std::size_t robot, std::size_t other) const {
+    const core::Robot& a = robots_[robot];
+    const core::Robot& b = robots_[other];
+    return (a.start.position - b.start.position).norm() - a.radius - b.radius;
+  }
+
   /// What two robots keep between their bare disks: the margins of both; of robots that are nearer than that
   /// at the moment, half of what they have.
   double margin(std::size_t robot, std::size_t other) const {
-    const core::Robot& a = robots_[robot];
-    const core::Robot& b = robots_[other];
-    const double now = (a.start.position - b.start.position).norm() - a.radius - b.radius;
+    const double now = gap_now(robot, other);
     const double whole = margins_[robot] + margins_[other];
     return now >= whole - kTouch ? whole : std::max(0.0, 0.5 * now);
   }
@@ -141,11 +149,12 @@ class Clearing {
   }
 
   /// Where the disks of two commitments begin to overlap, or to come nearer if they overlap. A robot without
-  /// a goal certainly stays at the end of its own.
+  /// a goal certainly stays at the end of its own, and nobody can leave before one that touches it already.
   std::optional<Meeting> first_contact(std::size_t robot, std::size_t other) {
     const std::vector<Piece>& mine = pieces_[robot];
     const std::vector<Piece>& theirs = pieces_[other];
-    const std::size_t certain = mine.size() - (robots_[robot].goal ? 1 : 0);
+    const bool may_leave = robots_[robot].goal && gap_now(robot, other) > kTouching;
+    const std::size_t certain = mine.size() - (may_leave ? 1 : 0);
     std::size_t i = 0;
     for (std::size_t k = 0; k < certain && i + 1 < theirs.size();) {
       if (stop_.met_after(kWorkOfAPiece)) return std::nullopt;
