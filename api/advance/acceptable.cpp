@@ -88,6 +88,7 @@ class Mending {
     conditions.zones = request_.fleet.zones;
     conditions.pair_overlap = std::max(0.0, start_overlap_ - 2.0 * inflation);
     conditions.wall_overlap = std::max(0.0, start_overlap_ - inflation);
+    conditions.inflation = inflation;
     conditions.list_faults_of_every_robot = true;
     return conditions;
   }

@@ -143,7 +143,6 @@ std::vector<std::string> joined(std::vector<std::string> warnings, const std::ve
 Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std::string& request_id,
                   Stages stages, const core::StopCondition& stop, const AnsweredPlan& on_answer) {
   stages.planned = Stages::Clock::now();
-  const auto& robots = request.problem.robots();
   const auto check = [&](const core::Plan& checked, const core::StopCondition& patience) {
     return core::check_plan(request.problem, request.options, checked, patience);
   };
@@ -170,8 +169,7 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   if (on_answer) on_answer(request.problem, answered);
   const VerifiedPlan verified{.plan = answered,
                               .report = *report,
-                              .robots = robots,
-                              .obstacles = request.problem.obstacles(),
+                              .problem = request.problem,
                               .received = request.received,
                               .origin = request.frame.origin,
                               .warnings = warnings,

@@ -101,6 +101,7 @@ class ProblemMaker {
     core::ProblemConditions conditions;
     conditions.pair_overlap = std::max(0.0, options.start_overlap - 2.0 * options.inflation);
     conditions.wall_overlap = std::max(0.0, options.start_overlap - options.inflation);
+    conditions.inflation = options.inflation;
     conditions.list_faults_of_every_robot = reports_;
     conditions.obstacles = reports_ ? fleet_.obstacles : std::move(fleet_.obstacles);
     conditions.zones = zones();

@@ -150,16 +150,35 @@ void write_metadata(JsonWriter& json, const std::string& metadata) {
   if (!metadata.empty()) json.key("metadata").json(metadata);
 }
 
-/// Writes the member `visits`. `metadata` is that of the goals by their number, or none.
-void write_visits(JsonWriter& json, const std::vector<core::Visit>& visits,
-                  const std::vector<std::string>& metadata) {
-  json.key("visits").begin_array();
-  for (const core::Visit& visit : visits) {
-    json.begin_object().member("goal", visit.goal).member("t_arrive", visit.t_arrive);
-    json.member("t_leave", visit.t_leave);  // null at the last goal
-    if (visit.goal < metadata.size()) write_metadata(json, metadata[visit.goal]);
+/// Writes the goals that are put off: the one that is inside of a zone, and those that follow it.
+void write_goals_put_off(JsonWriter& json, const core::PostponedGoals& goals, const VerifiedPlan& verified,
+                         const std::vector<std::string>& metadata) {
+  for (std::size_t k = 0; k < goals.count; ++k) {
+    const std::size_t goal = goals.first + k;
+    json.begin_object().member("goal", goal);
+    json.key("t_arrive").json("null").key("t_leave").json("null");
+    json.member("reason", k == 0 ? "zone_closed" : "goal_before");
+    if (k == 0) json.member("zone", verified.problem.zones()[goals.zone].id);
+    if (goal < metadata.size()) write_metadata(json, metadata[goal]);
     json.end_object();
   }
+}
+
+/// Writes the member `visits`. The end of a way out that stands in for goals is none.
+void write_visits(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPlan& verified) {
+  const std::vector<std::string>& metadata = verified.received[plan.robot].goal_metadata;
+  const core::Leaving* leaving = verified.problem.leaving(plan.robot);
+  json.key("visits").begin_array();
+  if (leaving == nullptr || !leaving->rests_outside) {
+    for (const core::Visit& visit : plan.visits) {
+      json.begin_object().member("goal", visit.goal).member("t_arrive", visit.t_arrive);
+      json.member("t_leave", visit.t_leave);  // null at the last goal
+      if (visit.goal < metadata.size()) write_metadata(json, metadata[visit.goal]);
+      json.end_object();
+    }
+  }
+  if (leaving != nullptr && leaving->postponed)
+    write_goals_put_off(json, *leaving->postponed, verified, metadata);
   json.end_array();
 }
 
@@ -179,27 +198,33 @@ void write_own_lattice(JsonWriter& json, std::size_t robot, const VerifiedPlan& 
 }
 
 void write_plan(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPlan& verified) {
-  const core::Robot& robot = verified.robots[plan.robot];
+  const core::Robot& robot = verified.problem.robots()[plan.robot];
   const ReceivedRobot& received = verified.received[plan.robot];
   json.begin_object();
   json.member("robot", robot.id).member("cost", plan.cost).member("lower_bound", plan.lower_bound);
-  if (plan.estimated_cost) json.member("ends_at", "horizon").member("estimated_cost", *plan.estimated_cost);
+  const core::Leaving* leaving = verified.problem.leaving(plan.robot);
+  const bool puts_off = leaving != nullptr && leaving->postponed;
+  if (plan.estimated_cost) {
+    json.member("ends_at", "horizon").member("estimated_cost", *plan.estimated_cost);
+  } else if (puts_off) {
+    json.member("ends_at", "zone");
+  }
   write_own_lattice(json, plan.robot, verified);
   write_actions(json, plan.actions, robot, received, verified.origin);
-  if (received.lists_visits) write_visits(json, plan.visits, received.goal_metadata);
+  if (received.lists_visits || puts_off) write_visits(json, plan, verified);
   write_metadata(json, received.metadata);
   json.end_object();
 }
 
 void write_unplanned(JsonWriter& json, const core::Unplanned& unplanned, const VerifiedPlan& verified) {
   json.begin_object();
-  json.member("robot", verified.robots[unplanned.robot].id);
+  json.member("robot", verified.problem.robots()[unplanned.robot].id);
   json.member("reason", name_of(unplanned.reason)).member("detail", unplanned.detail);
   json.key("blocked_by").begin_array();
-  for (const std::size_t robot : unplanned.blocked_by) json.value(verified.robots[robot].id);
+  for (const std::size_t robot : unplanned.blocked_by) json.value(verified.problem.robots()[robot].id);
   json.end_array().member("blocked_by_total", unplanned.blocked_by.total());
   write_own_lattice(json, unplanned.robot, verified);
-  const core::Robot& robot = verified.robots[unplanned.robot];
+  const core::Robot& robot = verified.problem.robots()[unplanned.robot];
   const ReceivedRobot& received = verified.received[unplanned.robot];
   if (!robot.committed.empty()) write_actions(json, robot.committed, robot, received, verified.origin);
   if (!received.errors.empty()) write_errors(json, received.errors);
@@ -208,14 +233,14 @@ void write_unplanned(JsonWriter& json, const core::Unplanned& unplanned, const V
 }
 
 void write_meeting(JsonWriter& json, const core::Meeting& meeting, const VerifiedPlan& verified) {
-  const std::string& robot = verified.robots[meeting.robot].id;
+  const std::string& robot = verified.problem.robots()[meeting.robot].id;
   json.begin_object();
   if (meeting.other) {
-    json.key("robots").begin_array().value(robot).value(verified.robots[*meeting.other].id).end_array();
+    json.key("robots").begin_array().value(robot).value(verified.problem.robots()[*meeting.other].id).end_array();
   } else {
     json.member("robot", robot);
   }
-  if (meeting.obstacle) json.member("obstacle", verified.obstacles[*meeting.obstacle].id);
+  if (meeting.obstacle) json.member("obstacle", verified.problem.obstacles()[*meeting.obstacle].id);
   json.member("t", meeting.t).end_object();
 }
 
@@ -264,9 +289,9 @@ std::string write_response(const VerifiedPlan& verified, const std::string& requ
   const core::Plan& plan = verified.plan;
   std::size_t actions = 0;
   for (const core::RobotPlan& one : plan.plans) actions += one.actions.size();
-  for (const core::Unplanned& one : plan.unplanned) actions += verified.robots[one.robot].committed.size();
+  for (const core::Unplanned& one : plan.unplanned) actions += verified.problem.robots()[one.robot].committed.size();
   JsonWriter json;
-  json.reserve((actions + verified.robots.size() + 4) * kBytesAnAction);
+  json.reserve((actions + verified.problem.robots().size() + 4) * kBytesAnAction);
   json.begin_object();
   json.member("status", name_of(status_of(plan))).member("request_id", request_id);
   json.key("plans").begin_array();
@@ -282,7 +307,7 @@ std::string write_response(const VerifiedPlan& verified, const std::string& requ
   }
   if (verified.dependencies != nullptr) {
     const auto& made = *verified.dependencies;
-    write_dependencies(json, made ? &*made : nullptr, verified.robots);
+    write_dependencies(json, made ? &*made : nullptr, verified.problem.robots());
   }
   write_summary(json, verified);
   write_timings(json, stages);

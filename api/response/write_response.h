@@ -10,10 +10,10 @@
 #include "api/json/json_writer.h"
 #include "api/request/fleet/received_robot.h"
 #include "core/execution/dependency.h"
-#include "core/geometry/moving_obstacle.h"
 #include "core/geometry/position.h"
 #include "core/model/action.h"
 #include "core/model/plan.h"
+#include "core/model/problem.h"
 #include "core/model/robot.h"
 #include "core/verify/verify.h"
 
@@ -34,8 +34,7 @@ struct Stages {
 struct VerifiedPlan {
   const core::Plan& plan;
   const core::VerifyReport& report;
-  const std::vector<core::Robot>& robots;
-  const std::vector<core::MovingObstacle>& obstacles;
+  const core::Problem& problem;
   const std::vector<ReceivedRobot>& received;  // by robot
   const core::Position& origin;                // origin of the map in the world
   const std::vector<std::string>& warnings;

@@ -10,20 +10,6 @@
 namespace fleetplan::core {
 namespace {
 
-/// Cells are fine if the radius is at least so many of them.
-constexpr double kFineCells = 4.0 * (1.0 - 1e-9);
-/// In units of the radius; see docs/method.md.
-constexpr double kLargestSpacing = 1.0;
-
-/// For robots of this radius, metres.
-double default_spacing(const OccupancyGrid& grid, double radius) {
-  const double resolution = grid.resolution();
-  if (radius < kFineCells * resolution) return resolution;
-  const double shorter_side = std::min(grid.width(), grid.height());
-  const double cells = std::min(kLargestSpacing * radius, shorter_side) / resolution * (1.0 + 1e-9);
-  return (2.0 * std::floor(0.5 * (cells - 1.0)) + 1.0) * resolution;
-}
-
 double smallest_radius(const Robot& robot) {
   double smallest = robot.radius;
   for (std::size_t k = 0; k < robot.goal_count(); ++k) {
@@ -38,7 +24,7 @@ std::vector<double> lattice_spacings(const Problem& problem, const PlanOptions& 
   std::vector<double> spacings;
   for (const Robot& robot : problem.robots()) {
     spacings.push_back(options.lattice_spacing ? *options.lattice_spacing
-                                               : default_spacing(problem.grid(), smallest_radius(robot)));
+                                               : default_lattice_spacing(problem.grid(), smallest_radius(robot)));
   }
   return spacings;
 }

@@ -94,4 +94,14 @@ std::vector<int> Lattice::vertices_near(const Position& position, double distanc
   return near;
 }
 
+double default_lattice_spacing(const OccupancyGrid& grid, double radius) {
+  constexpr double kFineCells = 4.0 * (1.0 - 1e-9);  // cells are fine if the radius has so many
+  constexpr double kLargestSpacing = 1.0;            // in units of the radius; see docs/method.md
+  const double resolution = grid.resolution();
+  if (radius < kFineCells * resolution) return resolution;
+  const double shorter_side = std::min(grid.width(), grid.height());
+  const double cells = std::min(kLargestSpacing * radius, shorter_side) / resolution * (1.0 + 1e-9);
+  return (2.0 * std::floor(0.5 * (cells - 1.0)) + 1.0) * resolution;
+}
+
 }  // namespace fleetplan::core

@@ -114,7 +114,7 @@ class CommittedFaults {
 
   void check_walls(std::size_t index) {
     const Robot& robot = robots_[index];
-    const LineOfSight& sight = maps_.of(index)->sight();
+    const LineOfSight& sight = maps_.while_leaving(index)->sight();
     double full = robot.radius - kContactTolerance + kSearchSlack;
     const double least = std::max(full - conditions_.wall_overlap, kSmallestDisk * full);
     if (!sight.disk_fits(robot.start.position, least)) return;  // its start is at fault
@@ -140,7 +140,7 @@ class CommittedFaults {
   /// Adds a collision of a translation with a wall. `own` is the robot's radius, `radius` the one that it has
   /// to keep, metres.
   void add_wall(std::size_t index, const Action& action, double own, double radius) {
-    const LineOfSight& sight = maps_.of(index)->sight();
+    const LineOfSight& sight = maps_.while_leaving(index)->sight();
     const Position way = action.to.position - action.from.position;
     const auto at = [&](double fraction) { return Position(action.from.position + fraction * way); };
     double free = 0.0;

@@ -72,7 +72,7 @@ class FaultSearch {
     if (robot.invalid) return;
     const auto clear = [](double radius) { return radius - kContactTolerance + kSearchSlack; };
     const auto check = [&](const Position& position, double least, ProblemFault fault) {
-      if (maps_.of(index)->sight().disk_fits(position, least)) return;
+      if (maps_.while_leaving(index)->sight().disk_fits(position, least)) return;
       const double own = fault.radius;
       if (maps_.map()->sight().disk_fits(position, least)) {
         const auto zone = nearest_blocked_zone(conditions_.zones, index, position, own);
@@ -135,12 +135,13 @@ ProblemFaults unfinished() {
 
 }  // namespace
 
-Problem::Problem(ZoneMaps maps, std::vector<Robot> robots, std::vector<MovingObstacle> obstacles,
-                 std::vector<Zone> zones)
+Problem::Problem(ZoneMaps maps, std::vector<Robot> robots, ProblemConditions conditions,
+                 std::vector<Leaving> leaving)
     : maps_(std::move(maps)),
       robots_(std::move(robots)),
-      obstacles_(std::move(obstacles)),
-      zones_(std::move(zones)) {}
+      obstacles_(std::move(conditions.obstacles)),
+      zones_(std::move(conditions.zones)),
+      leaving_(std::move(leaving)) {}
 
 std::variant<Problem, ProblemFaults> Problem::create(OccupancyGrid grid, std::vector<Robot> robots,
                                                      ProblemConditions conditions,
@@ -157,8 +158,9 @@ std::variant<Problem, ProblemFaults> Problem::create(std::shared_ptr<const Stati
   if (!maps.finished()) return unfinished();
   ProblemFaults faults = FaultSearch(maps, robots, conditions, stop).run();
   if (faults.total > 0 || !faults.finished) return faults;
-  return Problem(std::move(maps), std::move(robots), std::move(conditions.obstacles),
-                 std::move(conditions.zones));
+  auto leaving = find_ways_out(maps, conditions.zones, conditions.inflation, robots, stop);
+  if (!leaving.empty() && stop.met()) return unfinished();
+  return Problem(std::move(maps), std::move(robots), std::move(conditions), std::move(leaving));
 }
 
 }  // namespace fleetplan::core

@@ -10,6 +10,7 @@
 #include "core/geometry/moving_obstacle.h"
 #include "core/map/static_map.h"
 #include "core/model/robot.h"
+#include "core/model/ways_out.h"
 #include "core/model/zone.h"
 #include "core/model/zone_maps.h"
 #include "core/runtime/stop_condition.h"
@@ -54,6 +55,7 @@ struct ProblemConditions {
   /// Metres: two bare disks, or a bare disk and a wall, may overlap by so much at the start. 0: contact only.
   double pair_overlap = 0.0;
   double wall_overlap = 0.0;
+  double inflation = 0.0;  // metres, of the plan: with it, robots leave zones and are clear of them
   /// Lists the first faults of every robot, instead of the first ones of all.
   bool list_faults_of_every_robot = false;
 };
@@ -62,7 +64,8 @@ struct ProblemConditions {
 /// and finite, every start and goal is clear of obstacles by the bare radius, no two starts and no two last
 /// goals overlap (by more than kContactTolerance, or starts by more than the conditions allow), and committed
 /// motion collides with nothing that is certain. The planner relies on this and does not check it again.
-/// Robots with Robot::invalid are exempt.
+/// Robots with Robot::invalid are exempt. Starts, goals and committed motion may be inside of zones that may
+/// be left (Zone::may_leave). Goals that are put off are no goals of the problem's robots (PostponedGoals).
 class Problem {
  public:
   /// Returns the problem, or its faults. `robots` have positive finite radii and speeds.
@@ -84,15 +87,17 @@ class Problem {
   const std::vector<Robot>& robots() const { return robots_; }
   const std::vector<MovingObstacle>& obstacles() const { return obstacles_; }
   const std::vector<Zone>& zones() const { return zones_; }
+  /// What zones that may be left change for a robot; null if nothing.
+  const Leaving* leaving(std::size_t robot) const { return leaving_.empty() ? nullptr : &leaving_[robot]; }
 
  private:
-  Problem(ZoneMaps maps, std::vector<Robot> robots, std::vector<MovingObstacle> obstacles,
-          std::vector<Zone> zones);
+  Problem(ZoneMaps maps, std::vector<Robot> robots, ProblemConditions conditions, std::vector<Leaving> leaving);
 
   ZoneMaps maps_;
   std::vector<Robot> robots_;
   std::vector<MovingObstacle> obstacles_;
   std::vector<Zone> zones_;
+  std::vector<Leaving> leaving_;  // by robot, or none
 };
 
 }  // namespace fleetplan::core

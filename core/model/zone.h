@@ -30,8 +30,13 @@ struct Zone {
   double heading = 0.0;                  // for `one_way`: radians
   double half_angle = 0.0;               // for `one_way`: radians, > 0
   std::vector<std::size_t> robots = {};  // the robots that it is for, ascending; empty: all robots
+  /// For `blocked`: robots that are inside may leave, see ways_out.h, and goals inside are put off. Otherwise
+  /// no robot may be inside in the first place.
+  bool may_leave = false;
 
   bool is_for(std::size_t robot) const;
+  /// Whether robots may not be inside from the first.
+  bool is_wall() const { return type == Type::blocked && !may_leave; }
 
   /// Returns the limit, metres per second, for a robot with this linear speed of its own.
   double linear_speed_for(double own_speed) const {

@@ -76,6 +76,7 @@ class ZonesInTheWay {
     if (is_over()) return true;
     ProblemConditions conditions;
     conditions.wall_overlap = std::max(0.0, options_.start_overlap - options_.inflation);
+    conditions.inflation = options_.inflation;
     for (const std::size_t zone : zones) {
       conditions.zones.push_back(problem_.zones()[zone]);
       conditions.zones.back().robots.clear();

@@ -62,6 +62,8 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stag
 }
 
 int Vertices::add_start(const Instance& instance, std::size_t robot) {
+  const Leaving* leaving = instance.problem().leaving(robot);
+  if (leaving != nullptr && !leaving->way_out.empty()) return add_way_out(leaving->way_out);
   const Position& position = start_pose_.position;
   const double radius = instance.radius_at_start(robot);
   const double deficit = std::max(motion_.radius - radius, instance.contacts().deficit(robot));
@@ -71,6 +73,33 @@ int Vertices::add_start(const Instance& instance, std::size_t robot) {
   const double reach = std::min(kLinkDistance * lattice_.spacing() + 2.0 * deficit,
                                 std::max(kLinkDistance, kLongestLink) * lattice_.spacing());
   return add({position, radius, deficit <= kContactTolerance ? kForever : reach, {}}, reach);
+}
+
+int Vertices::add_way_out(const std::vector<Position>& way) {
+  const auto add_inside = [&](const Position& position) {
+    const int id = count();
+    OwnVertex own{position, motion_.radius, kForever, {}};
+    if (!own_.empty()) {
+      own.links.push_back(id - 1);
+      own_.back().links.push_back(id);
+    }
+    own_.push_back(std::move(own));
+  };
+  const int start = count();
+  add_inside(start_pose_.position);
+  for (std::size_t k = 0; k + 1 < way.size(); ++k) add_inside(way[k]);
+  const int last_inside = count() - 1;
+  outside_ = vertex_at(way.back());
+  if (outside_ < 0) outside_ = add({way.back(), motion_.radius, kForever, {}}, kLinkDistance * lattice_.spacing());
+  const auto link = [&](int from, int to) {
+    std::vector<int>& links = own_[own_index(from)].links;
+    links.insert(std::lower_bound(links.begin(), links.end(), to), to);
+  };
+  link(last_inside, outside_);
+  if (is_own(outside_)) link(outside_, last_inside);
+  first_inside_ = start;
+  end_inside_ = last_inside + 1;
+  return start;
 }
 
 int Vertices::vertex_at(const Position& position) const {
@@ -140,6 +169,7 @@ bool Vertices::linked(const OwnVertex& own, int vertex) {
 }
 
 bool Vertices::is_free(int from, int to) const {
+  if (is_inside(from) || is_inside(to)) return leads_out(from, to);
   if (is_own(from)) return may_move(own_[own_index(from)], position(to), radius(to));
   if (is_own(to)) return may_move(own_[own_index(to)], position(from), motion_.radius);
   return space_.may_sweep(position(from), position(to), motion_.radius);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,6 +29,8 @@ namespace fleetplan::core {
 /// goal that is too near to a wall or to another robot's start is an own vertex, too. At such a vertex the
 /// robot keeps the distance from walls that it has there, and from a start it is linked to vertices that are
 /// far enough away to be clear. A start that is too near to a wall is left once, and never entered again.
+/// So are the start inside of a zone that the robot may leave, and the places on its way out (see Leaving),
+/// which are own vertices, each linked to the next one only.
 ///
 /// A robot whose radius changes has one view for each of its radii.
 class Vertices {
@@ -93,10 +96,11 @@ class Vertices {
     return limit_speeds() ? zones_->linear_speed_at(position(vertex)) : motion_.linear_speed;
   }
   bool limit_speeds() const { return zones_ != nullptr && zones_->limit_speeds(); }
-  /// Returns whether the straight move does not lead back to a start that is too near to a wall, and one-way
-  /// zones allow it.
+  /// Returns whether the straight move does not lead back to a start that is too near to a wall, nor into a
+  /// zone that the robot has to leave, and one-way zones allow it.
   bool allow(int from, int to) const {
     if (to == never_entered_ && from != to) return false;
+    if (is_inside(from) || is_inside(to)) return from == to || leads_out(from, to);
     return zones_ == nullptr || zones_->allow(position(from), position(to));
   }
 
@@ -134,9 +138,16 @@ class Vertices {
   /// The radius of the robot's disk at a vertex, metres.
   double radius(int vertex) const { return is_own(vertex) ? own_[own_index(vertex)].radius : motion_.radius; }
   bool is_own(int vertex) const { return vertex >= first_own_; }
+  /// Whether it is on the way out of zones, and not yet outside.
+  bool is_inside(int vertex) const { return vertex >= first_inside_ && vertex < end_inside_; }
+  bool leads_out(int from, int to) const {
+    return is_inside(from) && to == (from + 1 < end_inside_ ? from + 1 : outside_);
+  }
   std::size_t own_index(int vertex) const { return static_cast<std::size_t>(vertex - first_own_); }
   static bool linked(const OwnVertex& own, int vertex);
   int add_start(const Instance& instance, std::size_t robot);
+  /// Adds the start and the places on the way out of zones; returns the start.
+  int add_way_out(const std::vector<Position>& way);
   int add_goal(const Instance& instance, std::size_t robot, const Position& position);
   /// The vertex of the refined lattice at this position, or -1.
   int vertex_at(const Position& position) const;
@@ -162,6 +173,10 @@ class Vertices {
   bool any_angle_;
   Pose start_pose_;
   std::vector<OwnVertex> own_;
+  // The own vertices on the way out of zones, the start included, and the vertex at which that ends.
+  int first_inside_ = std::numeric_limits<int>::max();
+  int end_inside_ = 0;
+  int outside_ = -1;
   int start_ = -1;
   int never_entered_ = -1;  // the start, if it is too near to a wall
   std::vector<GoalPose> goals_;

@@ -1,8 +1,10 @@
 #include "core/verify/verify.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
+#include "core/geometry/tolerance.h"
 #include "core/verify/execution.h"
 #include "core/verify/pairs/check_pairs.h"
 #include "core/verify/rules/motion_rules.h"
@@ -46,12 +48,45 @@ class FleetCheck {
 
  private:
   void check_alone(std::size_t index, const ObstacleField& field) {
-    const Robot& robot = request_.robots[index];
     const RobotPlan* plan = plan_of_[index];
-    if (const auto unusable = find_unusable_number(index, robot, plan)) {
+    if (const auto unusable = find_unusable_number(index, request_.robots[index], plan)) {
       violations_.add(*unusable);
       return;
     }
+    const Tolerance& tolerance = rules_.tolerances[index];
+    const ZonesOfRobot zones(request_.zones, index, request_.robots[index].linear_speed);
+    if (const auto less = without_goals_put_off(request_.robots[index], plan, zones, tolerance)) {
+      check_alone(index, less->robot, plan != nullptr ? &less->plan : nullptr, field, zones);
+    } else {
+      check_alone(index, request_.robots[index], plan, field, zones);
+    }
+  }
+
+  /// A robot some of whose goals are put off, see Zone::may_leave: it visits those before them and may rest
+  /// where its plan ends.
+  struct PutOff {
+    Robot robot;
+    RobotPlan plan;
+  };
+
+  std::optional<PutOff> without_goals_put_off(const Robot& robot, const RobotPlan* plan,
+                                              const ZonesOfRobot& zones, const Tolerance& tolerance) const {
+    if (!zones.may_leave_any()) return std::nullopt;
+    const std::size_t first = goals_served_by_commitment(robot, tolerance, stop_);
+    const auto put_off = zones.first_goal_put_off(robot, first, std::max(tolerance.metres, kContactTolerance));
+    if (!put_off) return std::nullopt;
+    PutOff less{robot, plan != nullptr ? *plan : RobotPlan{}};
+    std::vector<Goal> goals(robot.via.begin(), robot.via.begin() + static_cast<std::ptrdiff_t>(*put_off));
+    const bool moves = plan != nullptr && !plan->actions.empty();
+    less.robot.via = std::move(goals);
+    less.robot.goal = Goal{moves ? plan->actions.back().to.position : robot.committed_end().position, std::nullopt};
+    less.plan.visits.resize(std::min(less.plan.visits.size(), *put_off));
+    if (!less.plan.visits.empty()) less.plan.visits.push_back({*put_off, plan->cost, kForever});
+    return less;
+  }
+
+  void check_alone(std::size_t index, const Robot& robot, const RobotPlan* plan, const ObstacleField& field,
+                   const ZonesOfRobot& zones) {
     const Tolerance& tolerance = rules_.tolerances[index];
     if (plan != nullptr) check_plan(robot, *plan, tolerance);
     const Departure departure = departure_of(robot, plan);
@@ -60,10 +95,9 @@ class FleetCheck {
     for (Body& body : bodies_of(robot, plan, execute(robot, plan), tolerance)) {
       legs.insert(legs.end(), body.legs.begin(), body.legs.end());
       radii.resize(legs.size(), body.radius);
-      add_to_fleet(index, plan, std::move(body), departure);
+      add_to_fleet(robot, plan, std::move(body), departure, index);
     }
     if (robot.invalid) return;  // it may stand in a wall
-    const ZonesOfRobot zones(request_.zones, index, robot.linear_speed);
     const auto distance_from = [&](const Position& position, double reach) {
       return zones.distance_to_blocked(position, distance_from_walls(field, position, reach));
     };
@@ -71,12 +105,12 @@ class FleetCheck {
         distances_to_keep(distance_from, radii, legs, departure, tolerance.metres, rules_);
     violations_.add(check_obstacles(field, index, kept, legs, tolerance.metres, stop_));
     if (zones.empty()) return;
-    violations_.add(zones.check_blocked(kept, legs, tolerance.metres, stop_));
+    violations_.add(zones.check_blocked(kept, legs, departure, tolerance.metres, stop_));
     violations_.add(zones.check_driving(plan != nullptr ? plan->actions : robot.committed, tolerance, stop_));
   }
 
-  void add_to_fleet(std::size_t index, const RobotPlan* plan, Body body, const Departure& departure) {
-    const Robot& robot = request_.robots[index];
+  void add_to_fleet(const Robot& robot, const RobotPlan* plan, Body body, const Departure& departure,
+                    std::size_t index) {
     fleet_.robots.push_back(index);
     fleet_.radii.push_back(body.radius);
     fleet_.vicinities.push_back(robot.vicinity);

@@ -140,7 +140,7 @@ function outdatedTrack(plan) {
 
 /** The radii that goals change, from the ends of their services. */
 function radiiOf({ radiiAfter }, plan) {
-  const visits = Array.isArray(plan?.visits) ? plan.visits : [];
+  const visits = Array.isArray(plan?.visits) ? plan.visits.filter((visit) => !visit?.reason) : [];
   const changes = visits.map(({ goal, t_leave }) => ({
     t: t_leave ?? plan.cost,
     radius: radiiAfter[goal] ?? null,

@@ -73,11 +73,12 @@ function middleOf(polygon) {
 }
 
 /** Its name and what holds in it, such as "ward: at most 0.5 m/s". */
-function labelOf({ id, type, mask, linear_speed: linear, angular_speed: angular }) {
+function labelOf({ id, type, enter, mask, linear_speed: linear, angular_speed: angular }) {
   const limits = [];
   if (Number.isFinite(linear)) limits.push(`${linear} m/s`);
   if (Number.isFinite(angular)) limits.push(`${angular} rad/s`);
   const rules = { blocked: "blocked", one_way: "one-way", speed: `at most ${limits.join(", ") || "?"}` };
   if (mask !== undefined) rules.speed = "slower";
+  if (enter === false) rules.blocked = "no entry";
   return typeof id === "string" && id !== "" ? `${id}: ${rules[type]}` : rules[type];
 }

@@ -23,8 +23,8 @@ namespace {
 using Type = core::Zone::Type;
 
 constexpr std::array<std::string_view, 3> kTypes{"blocked", "speed", "one_way"};  // see core::Zone::Type
-constexpr std::array<std::string_view, 9> kMembers{
-    "id", "type", "polygon", "mask", "robots", "linear_speed", "angular_speed", "heading", "half_angle"};
+constexpr std::array<std::string_view, 10> kMembers{"id",     "type",         "enter",         "polygon", "mask",
+                                                    "robots", "linear_speed", "angular_speed", "heading", "half_angle"};
 /// The work of making a zone of a part of a mask, in bytes of text.
 constexpr std::size_t kWorkOfAPart = 64;
 constexpr Range kHalfAngle{kLeastHalfAngle, std::numbers::pi, "radians"};
@@ -44,6 +44,7 @@ class ZoneReader {
     if (const auto word = type.word(kTypes)) {
       zone.type = static_cast<Type>(*word);
       read_rule(json, zone);
+      read_enter(json.find("enter"), zone);
     }
     read_robots(json.find("robots"), zone);
     if (const JsonReader mask = json.find("mask")) return read_mask(json, mask, zone);
@@ -104,6 +105,20 @@ class ZoneReader {
     zone.half_angle = json.require("half_angle", "; give how far from heading a robot may move")
                           .number(kHalfAngle)
                           .value_or(0.0);
+  }
+
+  static void read_enter(const JsonReader& member, core::Zone& zone) {
+    const auto enter = member.boolean();
+    if (!enter) return;
+    if (zone.type != Type::blocked) {
+      member.fault(fault::kUnknownKey,
+                   "enter is for zones of the type blocked only; leave it out, or change the type.");
+    } else if (*enter) {
+      member.fault(fault::kOutOfRange,
+                   "enter must be false: nobody enters a blocked zone. Leave it out for a zone in which no robot may be "
+                   "from the first; with false, robots that are inside may leave.");
+    }
+    zone.may_leave = true;
   }
 
   static void refuse_speeds(const JsonReader& json) {

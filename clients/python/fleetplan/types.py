@@ -108,6 +108,7 @@ Map: TypeAlias = RowsMap | OccupancyGridMap | ImageMap | MovingAiMap
 class BlockedZone(TypedDict):
     id: str
     type: Literal["blocked"]
+    enter: NotRequired[Literal[False]]
     polygon: list[Position]
     robots: NotRequired[list[str]]
 
@@ -133,6 +134,7 @@ class OneWayZone(TypedDict):
 class BlockedMask(TypedDict):
     id: str
     type: Literal["blocked"]
+    enter: NotRequired[Literal[False]]
     mask: Mask
     robots: NotRequired[list[str]]
 
@@ -245,8 +247,10 @@ class PlanRequest(TypedDict):
 
 class Visit(TypedDict):
     goal: int
-    t_arrive: float
+    t_arrive: float | None
     t_leave: float | None
+    reason: NotRequired[Literal["zone_closed", "goal_before"]]
+    zone: NotRequired[str]
     metadata: NotRequired[Metadata]
 
 
@@ -254,7 +258,7 @@ class RobotPlan(TypedDict):
     robot: str
     cost: float
     lower_bound: float
-    ends_at: NotRequired[Literal["horizon"]]
+    ends_at: NotRequired[Literal["horizon", "zone"]]
     estimated_cost: NotRequired[float]
     lattice_spacing: NotRequired[float]
     actions: list[Action]

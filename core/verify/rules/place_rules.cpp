@@ -136,30 +136,80 @@ ZonesOfRobot::ZonesOfRobot(const std::vector<Zone>* zones, std::size_t robot, do
   if (zones == nullptr) return;
   for (std::size_t k = 0; k < zones->size(); ++k) {
     const Zone& zone = (*zones)[k];
-    if (zone.is_for(robot)) zones_.push_back({k, &zone, box_of(zone.polygon)});
+    if (!zone.is_for(robot)) continue;
+    zones_.push_back({k, &zone, box_of(zone.polygon)});
+    may_leave_any_ = may_leave_any_ || zone.may_leave;
   }
 }
 
 double ZonesOfRobot::distance_to_blocked(const Position& position, double reach) const {
   double least = reach;
   for (const auto& [index, zone, box] : zones_) {
-    if (zone->type != Zone::Type::blocked) continue;
+    if (!zone->is_wall()) continue;
     if (const auto nearest = nearest_to_zone(position, position, *zone, box, least))
       least = nearest->distance;
   }
   return least;
 }
 
+/// How far a position is from the zones that the robot may leave.
+double ZonesOfRobot::distance_to_leave(const Position& position, double reach) const {
+  double least = reach;
+  for (const auto& [index, zone, box] : zones_) {
+    if (!zone->may_leave) continue;
+    if (const auto nearest = nearest_to_zone(position, position, *zone, box, least))
+      least = nearest->distance;
+  }
+  return least;
+}
+
+std::optional<std::size_t> ZonesOfRobot::first_goal_put_off(const Robot& robot, std::size_t first,
+                                                            double tolerance) const {
+  if (!may_leave_any_) return std::nullopt;
+  double arrives = robot.radius;
+  // Bounded: each goal once, and the corners of the zones, which a request may have.
+  for (std::size_t k = 0; k < robot.goal_count(); ++k) {
+    const double leaves = robot.goal_at(k).radius_after.value_or(arrives);
+    const double kept = std::max(arrives, leaves) - tolerance;
+    if (k >= first && distance_to_leave(robot.goal_at(k).position, kept) < kept) return k;
+    arrives = leaves;
+  }
+  return std::nullopt;
+}
+
+/// By leg, whether the robot may be inside of zones that it may leave.
+std::vector<bool> ZonesOfRobot::may_be_inside(const std::vector<double>& radii, const std::vector<Leg>& legs,
+                                              const Departure& departure, double tolerance,
+                                              const StopCondition& stop) const {
+  std::vector<bool> may_be(legs.size(), false);
+  if (!may_leave_any_) return may_be;
+  const auto is_inside = [&](const Position& position, double radius) {
+    return distance_to_leave(position, radius - tolerance) < radius - tolerance;
+  };
+  bool leaves = is_inside(legs.front().from, radii.front());
+  for (std::size_t k = 0; k < legs.size() && !stop.met(); ++k) {
+    const bool commits = departure.commits(legs[k].t_end);
+    may_be[k] = commits || leaves;
+    if (commits) leaves = true;  // it may end inside
+    if (leaves) leaves = is_inside(legs[k].to, radii[k]);
+  }
+  return may_be;
+}
+
 ViolationList ZonesOfRobot::check_blocked(const std::vector<double>& radii, const std::vector<Leg>& legs,
-                                          double tolerance, const StopCondition& stop) const {
+                                          const Departure& departure, double tolerance,
+                                          const StopCondition& stop) const {
   ViolationList violations;
+  const std::vector<bool> may_be_inside = this->may_be_inside(radii, legs, departure, tolerance, stop);
   for (const auto& [index, zone, box] : zones_) {
     if (zone->type != Zone::Type::blocked) continue;
     std::optional<Violation> latest;  // the latest violation, which consecutive legs may continue
     for (std::size_t k = 0; k < legs.size(); ++k) {
       if (stop.met()) return violations;
       const Leg& leg = legs[k];
-      const auto nearest = nearest_to_zone(leg.from, leg.to, *zone, box, radii[k] - tolerance);
+      const bool is_exempt = zone->may_leave && may_be_inside[k];
+      const auto nearest = is_exempt ? std::nullopt
+                                     : nearest_to_zone(leg.from, leg.to, *zone, box, radii[k] - tolerance);
       if (!nearest) {
         if (latest) violations.add(*std::exchange(latest, std::nullopt));
         continue;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/model/action.h"
+#include "core/model/robot.h"
 #include "core/model/zone.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/check_rules.h"
@@ -44,15 +45,24 @@ class ZonesOfRobot {
   ZonesOfRobot(const std::vector<Zone>* zones, std::size_t robot, double own_speed);
 
   bool empty() const { return zones_.empty(); }
+  bool may_leave_any() const { return may_leave_any_; }
 
-  /// Returns how far a position is from the blocked zones, metres, at most `reach`; 0 inside.
+  /// Returns how far a position is from the blocked zones, metres, at most `reach`; 0 inside. Those that the
+  /// robot may leave are not among them.
   double distance_to_blocked(const Position& position, double reach) const;
+
+  /// Returns the number of the first goal from `first` on at which the robot would be inside of a zone that
+  /// it may leave but not enter, by more than the tolerance (metres); none if there is none.
+  std::optional<std::size_t> first_goal_put_off(const Robot& robot, std::size_t first,
+                                                double tolerance) const;
 
   /// Reports where the disk overlaps a blocked zone by more than the tolerance (metres): for each zone one
   /// violation for consecutive legs through which the overlap continues. `radii` are those of the disk in
-  /// each leg. Ends early when `stop` is met.
+  /// each leg. In zones that it may leave, a robot may be from its start, or from the end of its commitment,
+  /// until it is clear of all of them at the end of a leg, and while it executes its commitment. Ends early
+  /// when `stop` is met.
   ViolationList check_blocked(const std::vector<double>& radii, const std::vector<Leg>& legs,
-                              double tolerance, const StopCondition& stop) const;
+                              const Departure& departure, double tolerance, const StopCondition& stop) const;
 
   /// Reports the actions that are faster than a speed zone allows, and those against a one-way zone. Ends
   /// early when `stop` is met.
@@ -66,6 +76,10 @@ class ZonesOfRobot {
     Rectangle box;
   };
 
+  double distance_to_leave(const Position& position, double reach) const;
+  std::vector<bool> may_be_inside(const std::vector<double>& radii, const std::vector<Leg>& legs,
+                                  const Departure& departure, double tolerance,
+                                  const StopCondition& stop) const;
   std::optional<Violation> check_translation(const ZoneBox& in, const Action& action, std::size_t number,
                                              const Tolerance& tolerance, const StopCondition& stop) const;
   std::optional<Violation> check_rotation(const ZoneBox& in, const Action& action, std::size_t number,
@@ -75,6 +89,7 @@ class ZonesOfRobot {
   std::size_t robot_;
   double own_speed_;
   std::vector<ZoneBox> zones_;
+  bool may_leave_any_ = false;  // of them
 };
 
 }  // namespace fleetplan::core

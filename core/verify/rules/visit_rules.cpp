@@ -109,6 +109,12 @@ class VisitCheck {
     return std::move(violations_);
   }
 
+  /// The goals before the last one that are served.
+  std::size_t count_served() {
+    serve();
+    return served_.size();
+  }
+
  private:
   /// A service at a goal. It has an end at the last goal, too.
   struct Service {
@@ -286,6 +292,13 @@ class VisitCheck {
 std::vector<Violation> check_visits(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance,
                                     GoalsLeft goals_left, const StopCondition& stop) {
   return VisitCheck(robot, plan, tolerance, goals_left, stop).run();
+}
+
+std::size_t goals_served_by_commitment(const Robot& robot, const Tolerance& tolerance,
+                                       const StopCondition& stop) {
+  if (!robot.goal || robot.committed.empty()) return 0;
+  const RobotPlan committed{0, robot.committed_until(), robot.committed};
+  return VisitCheck(robot, committed, tolerance, GoalsLeft::allowed, stop).count_served();
 }
 
 }  // namespace fleetplan::core

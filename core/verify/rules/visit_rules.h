@@ -2,6 +2,7 @@
 
 // Where a plan has to begin, to call and to end.
 
+#include <cstddef>
 #include <vector>
 
 #include "core/model/plan.h"
@@ -26,5 +27,10 @@ std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan
 /// visited.
 std::vector<Violation> check_visits(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance,
                                     GoalsLeft goals_left, const StopCondition& stop);
+
+/// Returns the number of goals before the last one that a robot serves if it executes nothing but its
+/// commitment.
+std::size_t goals_served_by_commitment(const Robot& robot, const Tolerance& tolerance,
+                                       const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -51,6 +51,7 @@ std::vector<core::Zone> zones_for(Dice& dice, const core::Problem& problem) {
     zone.linear_speed_share = core::Zone::kNoLimit;
     const bool has_any = std::min(zone.linear_speed, zone.angular_speed) < core::Zone::kNoLimit;
     if (zone.type == Type::speed && !has_any) zone.angular_speed = 1.0;
+    if (zone.type == Type::blocked) zone.may_leave = dice.chance(0.5);
   }
   return zones;
 }

@@ -65,6 +65,7 @@ inline Json json_of(const core::Zone& zone, const std::vector<core::Robot>& robo
   for (const core::Position& corner : zone.polygon) json["polygon"].push_back(json_of(corner));
   if (zone.linear_speed < core::Zone::kNoLimit) json["linear_speed"] = zone.linear_speed;
   if (zone.angular_speed < core::Zone::kNoLimit) json["angular_speed"] = zone.angular_speed;
+  if (zone.may_leave) json["enter"] = false;
   if (zone.type == Type::one_way) json["heading"] = zone.heading, json["half_angle"] = zone.half_angle;
   for (const std::size_t robot : zone.robots) json["robots"].push_back(robots[robot].id);
   return json;

@@ -130,6 +130,7 @@ function zonesOn(map, ids) {
     fc.record({ type: fc.constant("speed"), linear_speed: within(0.1, 2), angular_speed: within(0.3, 4) }),
     fc.record({ type: fc.constant("one_way"), heading: within(-4, 4), half_angle: within(1, 3.1) }),
     fc.record({ type: fc.constant("blocked"), robots: fc.constantFrom(...ids).map((id) => [id]) }),
+    fc.record({ type: fc.constant("blocked"), enter: fc.constant(false) }),
   );
   return fc
     .array(fc.record({ polygon, rules }), { maxLength: 2 })
