@@ -236,7 +236,11 @@ void write_meeting(JsonWriter& json, const core::Meeting& meeting, const Verifie
   const std::string& robot = verified.problem.robots()[meeting.robot].id;
   json.begin_object();
   if (meeting.other) {
-    json.key("robots").begin_array().value(robot).value(verified.problem.robots()[*meeting.other].id).end_array();
+    json.key("robots")
+        .begin_array()
+        .value(robot)
+        .value(verified.problem.robots()[*meeting.other].id)
+        .end_array();
   } else {
     json.member("robot", robot);
   }
@@ -289,7 +293,8 @@ std::string write_response(const VerifiedPlan& verified, const std::string& requ
   const core::Plan& plan = verified.plan;
   std::size_t actions = 0;
   for (const core::RobotPlan& one : plan.plans) actions += one.actions.size();
-  for (const core::Unplanned& one : plan.unplanned) actions += verified.problem.robots()[one.robot].committed.size();
+  for (const core::Unplanned& one : plan.unplanned)
+    actions += verified.problem.robots()[one.robot].committed.size();
   JsonWriter json;
   json.reserve((actions + verified.problem.robots().size() + 4) * kBytesAnAction);
   json.begin_object();

@@ -23,8 +23,9 @@ double smallest_radius(const Robot& robot) {
 std::vector<double> lattice_spacings(const Problem& problem, const PlanOptions& options) {
   std::vector<double> spacings;
   for (const Robot& robot : problem.robots()) {
-    spacings.push_back(options.lattice_spacing ? *options.lattice_spacing
-                                               : default_lattice_spacing(problem.grid(), smallest_radius(robot)));
+    spacings.push_back(options.lattice_spacing
+                           ? *options.lattice_spacing
+                           : default_lattice_spacing(problem.grid(), smallest_radius(robot)));
   }
   return spacings;
 }

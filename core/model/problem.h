@@ -91,7 +91,8 @@ class Problem {
   const Leaving* leaving(std::size_t robot) const { return leaving_.empty() ? nullptr : &leaving_[robot]; }
 
  private:
-  Problem(ZoneMaps maps, std::vector<Robot> robots, ProblemConditions conditions, std::vector<Leaving> leaving);
+  Problem(ZoneMaps maps, std::vector<Robot> robots, ProblemConditions conditions,
+          std::vector<Leaving> leaving);
 
   ZoneMaps maps_;
   std::vector<Robot> robots_;

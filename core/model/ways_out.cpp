@@ -72,7 +72,9 @@ class WayOutSearch {
   Position position(int vertex) const {
     return vertex < lattice_.vertex_count() ? lattice_.position(vertex) : space_.finer().position(vertex);
   }
-  Position place_before(const Node& node) const { return node.before < 0 ? prefix_.back() : position(node.before); }
+  Position place_before(const Node& node) const {
+    return node.before < 0 ? prefix_.back() : position(node.before);
+  }
   bool is_clear(int vertex) const { return outside_.disk_fits(position(vertex), radius_); }
 
   void begin(const Position& from, double least) {
@@ -80,7 +82,8 @@ class WayOutSearch {
     if (open_from(least)) return;
     // A disk that is too near to a wall to see a vertex gets to one over the fine lattice.
     const FineLattice fine(grid_, lattice_, radius_);
-    for (const Position& place : way_to_lattice(from, least, fine, lattice_, space_)) prefix_.push_back(place);
+    for (const Position& place : way_to_lattice(from, least, fine, lattice_, space_))
+      prefix_.push_back(place);
     if (prefix_.size() > 1) open_from(radius_);
   }
 
@@ -93,7 +96,8 @@ class WayOutSearch {
     bool any = false;
     for (const int vertex : near) {
       const Position to = position(vertex);
-      if (!space_.disk_fits(to, radius_) || !space_.may_sweep(from, to, radius) || !zones_.allow(from, to)) continue;
+      if (!space_.disk_fits(to, radius_) || !space_.may_sweep(from, to, radius) || !zones_.allow(from, to))
+        continue;
       reach_vertex(vertex, -1, (to - from).norm());
       any = true;
     }
@@ -187,7 +191,9 @@ class WaysOut {
     if (result.postponed) take_goals_away(robot, has_goals_left ? result.postponed->first : 0);
     const Position& from = itinerary.pose.position;
     if (maps_.of(index)->sight().disk_fits(from, needed(radius))) return result;
-    const auto may_end = [&](const Position& place) { return has_goals_left || is_out_of_the_way(index, radius, place); };
+    const auto may_end = [&](const Position& place) {
+      return has_goals_left || is_out_of_the_way(index, radius, place);
+    };
     result.way_out = way_out(index, from, radius, may_end);
     if (has_goals_left || result.way_out.empty()) return result;
     result.rests_outside = true;
@@ -219,9 +225,11 @@ class WaysOut {
     robot.via.resize(left - 1);
   }
 
-  std::vector<Position> way_out(std::size_t index, const Position& from, double radius, const MayEnd& may_end) const {
+  std::vector<Position> way_out(std::size_t index, const Position& from, double radius,
+                                const MayEnd& may_end) const {
     const StaticMap& inside = *maps_.while_leaving(index);
-    const double fits = inside.sight().fitting_radius(from, std::min(needed(radius), radius), radius + inflation_);
+    const double fits =
+        inside.sight().fitting_radius(from, std::min(needed(radius), radius), radius + inflation_);
     const DriveZones drive(zones_, index, robots_[index]);
     WayOutSearch search(inside, maps_.of(index)->sight(), drive, radius, inflation_, stop_);
     return search.find(from, fits, may_end);

@@ -90,7 +90,8 @@ int Vertices::add_way_out(const std::vector<Position>& way) {
   for (std::size_t k = 0; k + 1 < way.size(); ++k) add_inside(way[k]);
   const int last_inside = count() - 1;
   outside_ = vertex_at(way.back());
-  if (outside_ < 0) outside_ = add({way.back(), motion_.radius, kForever, {}}, kLinkDistance * lattice_.spacing());
+  if (outside_ < 0)
+    outside_ = add({way.back(), motion_.radius, kForever, {}}, kLinkDistance * lattice_.spacing());
   const auto link = [&](int from, int to) {
     std::vector<int>& links = own_[own_index(from)].links;
     links.insert(std::lower_bound(links.begin(), links.end(), to), to);

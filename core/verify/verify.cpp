@@ -73,13 +73,15 @@ class FleetCheck {
                                               const ZonesOfRobot& zones, const Tolerance& tolerance) const {
     if (!zones.may_leave_any()) return std::nullopt;
     const std::size_t first = goals_served_by_commitment(robot, tolerance, stop_);
-    const auto put_off = zones.first_goal_put_off(robot, first, std::max(tolerance.metres, kContactTolerance));
+    const auto put_off =
+        zones.first_goal_put_off(robot, first, std::max(tolerance.metres, kContactTolerance));
     if (!put_off) return std::nullopt;
     PutOff less{robot, plan != nullptr ? *plan : RobotPlan{}};
     std::vector<Goal> goals(robot.via.begin(), robot.via.begin() + static_cast<std::ptrdiff_t>(*put_off));
     const bool moves = plan != nullptr && !plan->actions.empty();
     less.robot.via = std::move(goals);
-    less.robot.goal = Goal{moves ? plan->actions.back().to.position : robot.committed_end().position, std::nullopt};
+    less.robot.goal =
+        Goal{moves ? plan->actions.back().to.position : robot.committed_end().position, std::nullopt};
     less.plan.visits.resize(std::min(less.plan.visits.size(), *put_off));
     if (!less.plan.visits.empty()) less.plan.visits.push_back({*put_off, plan->cost, kForever});
     return less;

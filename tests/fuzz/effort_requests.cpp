@@ -127,6 +127,7 @@ Json zones_of(const Json& map, const Extent& extent, Choices& choices) {
     zone["type"] = choices.one_of(std::array{"blocked", "speed", "one_way"});
     if (zone["type"] == "speed") zone["linear_speed"] = choices.one_of(std::array{1e-3, 0.5, 1e3});
     if (zone["type"] == "one_way") zone["heading"] = 0.5 * k;
+    if (zone["type"] == "blocked" && k % 2 == 1) zone["enter"] = false;
     zones.push_back(std::move(zone));
   }
   return zones;

@@ -23,8 +23,9 @@ namespace {
 using Type = core::Zone::Type;
 
 constexpr std::array<std::string_view, 3> kTypes{"blocked", "speed", "one_way"};  // see core::Zone::Type
-constexpr std::array<std::string_view, 10> kMembers{"id",     "type",         "enter",         "polygon", "mask",
-                                                    "robots", "linear_speed", "angular_speed", "heading", "half_angle"};
+constexpr std::array<std::string_view, 10> kMembers{"id",      "type",      "enter",        "polygon",
+                                                    "mask",    "robots",    "linear_speed", "angular_speed",
+                                                    "heading", "half_angle"};
 /// The work of making a zone of a part of a mask, in bytes of text.
 constexpr std::size_t kWorkOfAPart = 64;
 constexpr Range kHalfAngle{kLeastHalfAngle, std::numbers::pi, "radians"};
@@ -115,7 +116,8 @@ class ZoneReader {
                    "enter is for zones of the type blocked only; leave it out, or change the type.");
     } else if (*enter) {
       member.fault(fault::kOutOfRange,
-                   "enter must be false: nobody enters a blocked zone. Leave it out for a zone in which no robot may be "
+                   "enter must be false: nobody enters a blocked zone. Leave it out for a zone in which no "
+                   "robot may be "
                    "from the first; with false, robots that are inside may leave.");
     }
     zone.may_leave = true;

@@ -208,8 +208,8 @@ ViolationList ZonesOfRobot::check_blocked(const std::vector<double>& radii, cons
       if (stop.met()) return violations;
       const Leg& leg = legs[k];
       const bool is_exempt = zone->may_leave && may_be_inside[k];
-      const auto nearest = is_exempt ? std::nullopt
-                                     : nearest_to_zone(leg.from, leg.to, *zone, box, radii[k] - tolerance);
+      const auto nearest =
+          is_exempt ? std::nullopt : nearest_to_zone(leg.from, leg.to, *zone, box, radii[k] - tolerance);
       if (!nearest) {
         if (latest) violations.add(*std::exchange(latest, std::nullopt));
         continue;
