@@ -12,13 +12,13 @@
 #include "core/bounds/taut_path_bounds.h"
 #include "core/instance/instance.h"
 #include "core/instance/meetings.h"
-#include "core/instance/to_actions.h"
 #include "core/lns/large_neighbourhood_search.h"
-#include "core/model/itinerary.h"
+#include "core/prioritized/collect_plan.h"
 #include "core/prioritized/plan_around_kept.h"
 #include "core/prioritized/plan_state.h"
 #include "core/prioritized/prioritized_planning.h"
 #include "core/prioritized/progress_report.h"
+#include "core/prioritized/stuck_robots.h"
 #include "core/prioritized/triage.h"
 #include "core/prioritized/zones_in_the_way.h"
 #include "core/replan/follow_kept.h"
@@ -27,39 +27,6 @@
 
 namespace fleetplan::core {
 namespace {
-
-Objectives including(const Objectives& objectives, double cost) {
-  return {objectives.flowtime + cost, std::max(objectives.makespan, cost)};
-}
-
-/// Removes goals from waits that serve none. The search may let a robot rest for long enough in a goal's pose
-/// and serve the goal when it comes back. The goal counts as served by the first rest, so the later wait is
-/// for none.
-void remove_wrong_goals(std::vector<Action>& actions, const std::vector<Visit>& visits, std::size_t first) {
-  for (std::size_t i = first; i < actions.size(); ++i) {
-    std::optional<std::size_t>& goal = actions[i].goal;
-    if (goal && *goal < visits.size() && visits[*goal].t_leave <= actions[i].t_start) goal.reset();
-  }
-}
-
-RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
-  const auto& trajectory = state.trajectory(index);
-  const Robot& robot = state.instance().robot(index);
-  if (!trajectory)
-    return {index, robot.committed_until(), robot.committed, robot.committed_until()};  // parked
-  const double cost = trajectory->stops_at.value_or(trajectory->cost);
-  if (trajectory->is_previous) {
-    const std::vector<Action>& actions = previous_actions(robot);
-    return {index, cost, actions, std::min(bound, cost), visits_of(robot, actions)};
-  }
-  // Rounding may leave a bound slightly above the cost that it bounds.
-  std::vector<Action> actions = to_actions(robot, *trajectory, state.instance().drive_zones(index));
-  std::vector<Visit> visits = visits_of(robot, actions);
-  remove_wrong_goals(actions, visits, robot.committed.size());
-  RobotPlan plan{index, cost, std::move(actions), std::min(bound, cost), std::move(visits)};
-  if (trajectory->stops_at) plan.estimated_cost = trajectory->cost;
-  return plan;
-}
 
 /// Returns the costs of the robots' trajectories, by robot; infinite for robots without one.
 std::vector<double> costs_of(const PlanState& state) {
@@ -79,28 +46,6 @@ Objectives objectives_of(const PlanState& state) {
   return objectives;
 }
 
-/// The plan without its search statistics: every robot is unplanned, follows its trajectory, or is parked.
-Plan collect_plan(const PlanState& state, const std::vector<std::optional<Unplanned>>& unplanned,
-                  const TautPathBounds& bounds) {
-  Plan plan;
-  const std::optional<double>& horizon = state.instance().options().horizon;
-  if (horizon) plan.estimated = Objectives();
-  for (std::size_t i = 0; i < state.instance().size(); ++i) {
-    if (unplanned[i]) {
-      plan.unplanned.push_back(*unplanned[i]);
-      continue;
-    }
-    // With a horizon, a plan may stop there, or where the committed actions end if that is later.
-    double bound = bounds[i];
-    if (horizon) bound = std::min(bound, std::max(*horizon, state.instance().itinerary(i).t_begin));
-    const RobotPlan& robot = plan.plans.emplace_back(robot_plan(state, i, bound));
-    if (horizon) plan.estimated = including(*plan.estimated, robot.estimated_cost.value_or(robot.cost));
-    plan.objectives = including(plan.objectives, robot.cost);
-    plan.lower_bound = including(plan.lower_bound, robot.lower_bound);
-  }
-  return plan;
-}
-
 /// The maximum share of the remaining time for lower bounds in mode `anytime`; the rest is for improvement.
 constexpr double kBoundsShare = 0.2;
 
@@ -118,6 +63,14 @@ std::vector<std::size_t> robots_to_plan(const Instance& instance,
 constexpr std::chrono::milliseconds kMostForPrevious{500};
 /// The most time for finding unavoidable collisions. Without them, no plan can be checked.
 constexpr std::chrono::milliseconds kMostForMeetings{150};
+
+/// The time for finding out why robots are stuck, also after the budget is spent.
+constexpr std::chrono::milliseconds kTimeForStuck{30};
+
+StopCondition briefly(const StopCondition& stop) {
+  using Clock = StopCondition::Clock;
+  return stop.deadline() == Clock::time_point::max() ? stop : stop.until(Clock::now() + kTimeForStuck);
+}
 
 StopCondition beyond_budget(const StopCondition& stop, std::chrono::milliseconds most) {
   using Clock = StopCondition::Clock;
@@ -312,12 +265,12 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
                                      before_round);
   }
 
-  Plan plan = current_plan(lns);
+  Plan plan = with_stuck_explained(state, current_plan(lns), briefly(stop));
   progress.plan_found(plan.objectives);
   const bool may_plan_more = !plan.unplanned.empty() && prioritized.cut_off;
   plan.search.exhausted = !may_plan_more && (anytime ? lns.exhausted : !plan.unplanned.empty());
-  plan.deterministic =
-      !previous.cut_off && !prioritized.cut_off && !bounds.cut_off() && !lns.cut_off && !stop.cancelled();
+  plan.deterministic = plan.deterministic && !previous.cut_off && !prioritized.cut_off && !bounds.cut_off() &&
+                       !lns.cut_off && !stop.cancelled();
   keep_for_later(memory);
   return memory_shortages() > 0 ? with_spent_memory_named(std::move(plan)) : plan;
 }

@@ -161,7 +161,16 @@ std::vector<core::Meeting> meetings_of(const std::vector<Meeting>& meetings) {
 namespace {
 
 RobotPlan plan_of(const core::RobotPlan& plan, const Frame& frame) {
-  RobotPlan made{plan.robot, plan.cost, {}, plan.lower_bound, {}, plan.estimated_cost};
+  RobotPlan made;
+  made.robot = plan.robot;
+  made.cost = plan.cost;
+  made.lower_bound = plan.lower_bound;
+  made.estimated_cost = plan.estimated_cost;
+  for (const core::Visit& visit : plan.estimated_visits) {
+    made.estimated_visits.push_back({visit.goal, visit.t_arrive});
+  }
+  made.stuck = plan.is_stuck;
+  made.blocked_by = {plan.blocked_by.begin(), plan.blocked_by.end()};
   made.actions.reserve(plan.actions.size());
   for (const core::Action& action : plan.actions) made.actions.push_back(frame.from_core(action));
   for (const core::Visit& visit : plan.visits) {

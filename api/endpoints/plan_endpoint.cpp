@@ -12,6 +12,7 @@
 #include "api/endpoints/plan_events.h"
 #include "api/endpoints/request_context.h"
 #include "api/json/error.h"
+#include "api/json/faults.h"
 #include "api/request/parse_request.h"
 #include "api/response/reply.h"
 #include "api/response/write_response.h"
@@ -136,6 +137,21 @@ std::vector<std::string> joined(std::vector<std::string> warnings, const std::ve
   return warnings;
 }
 
+/// Returns a warning that names robots that gain nothing within the horizon; none if there are none.
+std::vector<std::string> stuck_warning(const core::Plan& plan, const std::vector<core::Robot>& robots) {
+  constexpr std::size_t kMostNamed = 5;
+  std::string names;
+  std::size_t count = 0;
+  for (const core::RobotPlan& one : plan.plans) {
+    if (!one.is_stuck || ++count > kMostNamed) continue;
+    names += (count > 1 ? ", " : "") + in_quotes(robots[one.robot].id);
+  }
+  if (count == 0) return {};
+  if (count > kMostNamed) names += " and " + std::to_string(count - kMostNamed) + " more";
+  return {"Robots that gain nothing on the way to their goals within the horizon: " + names +
+          ". blocked_by of their plans has the robots that are in their way."};
+}
+
 /// Checks a plan and writes the answer. A plan that the checker rejects is a bug and becomes a 500. If the
 /// check is not finished soon after `stop`, by which the plan was made, the answer has no plan for robots
 /// that move: a plan that is not checked is never returned. `stages`: those before the plan was made.
@@ -163,8 +179,8 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   if (!report) return unchecked(outcome, !request.problem.obstacles().empty(), request_id);
   if (!report->valid()) return rejected(outcome, *report, request_id);
   const auto dependencies = answer_dependencies(answered, request, stages, stop);
-  const std::vector<std::string> warnings =
-      dependencies ? joined(request.warnings, dependencies->warnings) : request.warnings;
+  std::vector<std::string> warnings = joined(request.warnings, stuck_warning(answered, request.problem.robots()));
+  if (dependencies) warnings = joined(std::move(warnings), dependencies->warnings);
   stages.verified = Stages::Clock::now();
   if (on_answer) on_answer(request.problem, answered);
   const VerifiedPlan verified{.plan = answered,

@@ -150,17 +150,40 @@ void write_metadata(JsonWriter& json, const std::string& metadata) {
   if (!metadata.empty()) json.key("metadata").json(metadata);
 }
 
+/// Begins the entry of a goal that the plan does not reach.
+void begin_visit_without_times(JsonWriter& json, std::size_t goal) {
+  json.begin_object().member("goal", goal).key("t_arrive").json("null").key("t_leave").json("null");
+}
+
+/// Ends the entry of a goal with its metadata, if it has any.
+void end_visit(JsonWriter& json, std::size_t goal, const std::vector<std::string>& metadata) {
+  if (goal < metadata.size()) write_metadata(json, metadata[goal]);
+  json.end_object();
+}
+
 /// Writes the goals that are put off: the one that is inside of a zone, and those that follow it.
 void write_goals_put_off(JsonWriter& json, const core::PostponedGoals& goals, const VerifiedPlan& verified,
                          const std::vector<std::string>& metadata) {
   for (std::size_t k = 0; k < goals.count; ++k) {
-    const std::size_t goal = goals.first + k;
-    json.begin_object().member("goal", goal);
-    json.key("t_arrive").json("null").key("t_leave").json("null");
+    begin_visit_without_times(json, goals.first + k);
     json.member("reason", k == 0 ? "zone_closed" : "goal_before");
     if (k == 0) json.member("zone", verified.problem.zones()[goals.zone].id);
-    if (goal < metadata.size()) write_metadata(json, metadata[goal]);
-    json.end_object();
+    end_visit(json, goals.first + k, metadata);
+  }
+}
+
+/// Writes the visits of a plan, and those that it leaves at the horizon.
+void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan,
+                          const std::vector<std::string>& metadata) {
+  for (const core::Visit& visit : plan.visits) {
+    json.begin_object().member("goal", visit.goal).member("t_arrive", visit.t_arrive);
+    json.member("t_leave", visit.t_leave);  // null at the last goal
+    end_visit(json, visit.goal, metadata);
+  }
+  for (const core::Visit& visit : plan.estimated_visits) {
+    begin_visit_without_times(json, visit.goal);
+    json.member("estimated_t_arrive", visit.t_arrive);  // null without a way
+    end_visit(json, visit.goal, metadata);
   }
 }
 
@@ -169,14 +192,7 @@ void write_visits(JsonWriter& json, const core::RobotPlan& plan, const VerifiedP
   const std::vector<std::string>& metadata = verified.received[plan.robot].goal_metadata;
   const core::Leaving* leaving = verified.problem.leaving(plan.robot);
   json.key("visits").begin_array();
-  if (leaving == nullptr || !leaving->rests_outside) {
-    for (const core::Visit& visit : plan.visits) {
-      json.begin_object().member("goal", visit.goal).member("t_arrive", visit.t_arrive);
-      json.member("t_leave", visit.t_leave);  // null at the last goal
-      if (visit.goal < metadata.size()) write_metadata(json, metadata[visit.goal]);
-      json.end_object();
-    }
-  }
+  if (leaving == nullptr || !leaving->rests_outside) write_planned_visits(json, plan, metadata);
   if (leaving != nullptr && leaving->postponed)
     write_goals_put_off(json, *leaving->postponed, verified, metadata);
   json.end_array();
@@ -197,6 +213,12 @@ void write_own_lattice(JsonWriter& json, std::size_t robot, const VerifiedPlan& 
   }
 }
 
+void write_blocked_by(JsonWriter& json, const core::RobotList& blocked_by, const VerifiedPlan& verified) {
+  json.key("blocked_by").begin_array();
+  for (const std::size_t robot : blocked_by) json.value(verified.problem.robots()[robot].id);
+  json.end_array().member("blocked_by_total", blocked_by.total());
+}
+
 void write_plan(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPlan& verified) {
   const core::Robot& robot = verified.problem.robots()[plan.robot];
   const ReceivedRobot& received = verified.received[plan.robot];
@@ -204,10 +226,14 @@ void write_plan(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPla
   json.member("robot", robot.id).member("cost", plan.cost).member("lower_bound", plan.lower_bound);
   const core::Leaving* leaving = verified.problem.leaving(plan.robot);
   const bool puts_off = leaving != nullptr && leaving->postponed;
-  if (plan.estimated_cost) {
+  if (plan.estimated_cost) {  // null without a way
     json.member("ends_at", "horizon").member("estimated_cost", *plan.estimated_cost);
   } else if (puts_off) {
     json.member("ends_at", "zone");
+  }
+  if (plan.is_stuck) {
+    json.member("stuck", true);
+    write_blocked_by(json, plan.blocked_by, verified);
   }
   write_own_lattice(json, plan.robot, verified);
   write_actions(json, plan.actions, robot, received, verified.origin);
@@ -220,9 +246,7 @@ void write_unplanned(JsonWriter& json, const core::Unplanned& unplanned, const V
   json.begin_object();
   json.member("robot", verified.problem.robots()[unplanned.robot].id);
   json.member("reason", name_of(unplanned.reason)).member("detail", unplanned.detail);
-  json.key("blocked_by").begin_array();
-  for (const std::size_t robot : unplanned.blocked_by) json.value(verified.problem.robots()[robot].id);
-  json.end_array().member("blocked_by_total", unplanned.blocked_by.total());
+  write_blocked_by(json, unplanned.blocked_by, verified);
   write_own_lattice(json, unplanned.robot, verified);
   const core::Robot& robot = verified.problem.robots()[unplanned.robot];
   const ReceivedRobot& received = verified.received[unplanned.robot];

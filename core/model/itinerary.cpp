@@ -91,6 +91,10 @@ Trajectory committed_trajectory(const Robot& robot) {
 
 }  // namespace
 
+const std::vector<Action>& previous_actions(const Robot& robot) {
+  return robot.goal && robot.previous && !robot.previous->empty() ? *robot.previous : robot.committed;
+}
+
 Itinerary itinerary_of(const Robot& robot) {
   Itinerary itinerary;
   itinerary.committed = committed_trajectory(robot);

@@ -33,6 +33,10 @@ ServedGoals served_goals(const Robot& robot, std::span<const Action> actions);
 /// no end. There are fewer visits than goals if the robot does not serve all of them.
 std::vector<Visit> visits_of(const Robot& robot, std::span<const Action> actions);
 
+/// Returns the actions of the robot's previous plan as received; no actions for a robot that is parked or has
+/// no previous plan. If there are none, the robot rests after its committed actions.
+const std::vector<Action>& previous_actions(const Robot& robot);
+
 /// What is left to plan for a robot after its committed actions.
 struct Itinerary {
   Trajectory committed;        // the robot's centre until `t_begin`; then it stays

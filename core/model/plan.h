@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -55,8 +56,13 @@ struct RobotPlan {
   double lower_bound = 0.0;        // seconds
   std::vector<Visit> visits = {};  // one for each goal, in their order; the last one has no end
   /// Seconds, if the plan stops at the horizon (PlanOptions::horizon), where the robot may rest for good:
-  /// `cost` and the estimate of the static way that is left. Then the visits are those before the horizon.
+  /// `cost` and the estimate of the static way that is left; kForever if robots that stay close that way.
+  /// Then the visits are those before the horizon, and there are estimates of those that are left.
   std::optional<double> estimated_cost = {};
+  std::vector<Visit> estimated_visits = {};
+  /// Whether the plan stops at the horizon and the robot gains nothing on the way to its goals until then.
+  bool is_stuck = false;
+  RobotList blocked_by = {};  // the robots in the way of a robot that is stuck, as far as they were found
 };
 
 /// A robot without a plan. It executes its committed actions, if any, and stays at their end; the plans of
@@ -106,6 +112,11 @@ struct Objectives {
   double makespan = 0.0;
 };
 
+/// The objectives with the cost of one more robot.
+inline Objectives including(const Objectives& objectives, double cost) {
+  return {objectives.flowtime + cost, std::max(objectives.makespan, cost)};
+}
+
 /// Counts of the search for a plan.
 struct SearchStatistics {
   std::int64_t attempts = 0;      // priority orders tried
@@ -124,7 +135,8 @@ struct Plan {
   std::vector<Meeting> unavoidable = {};  // by time; at most kMostMeetingsOfRobot for each robot
   bool meetings_known = true;  // false if finding them was given up: then the plan cannot be checked
   Objectives objectives;
-  std::optional<Objectives> estimated = {};  // with a horizon: the objectives by RobotPlan::estimated_cost
+  std::optional<Objectives> estimated =
+      {};  // with a horizon: the objectives by RobotPlan::estimated_cost, of robots that have a way
   Objectives lower_bound;
   bool deterministic = true;  // false if the clock or the load influenced the plan
   SearchStatistics search;

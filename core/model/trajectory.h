@@ -30,6 +30,11 @@ struct Trajectory {
   /// Seconds: the plan stops here, at or after the horizon, with goals left. `cost` is then an estimate: it
   /// includes the static way that is left.
   std::optional<double> stops_at = {};
+  /// With `stops_at`: the visits to the goals that are left, if nobody is in the way from there on.
+  std::vector<Visit> estimated_visits = {};
+  /// With `stops_at`: what is left to do, alone on the static map, takes as long there as where the plan
+  /// begins.
+  bool gains_nothing = false;
   bool is_previous = false;  // the motion of Robot::previous: its actions are those received
 
   bool is_reverse(std::size_t move) const { return move < reverse.size() && reverse[move]; }

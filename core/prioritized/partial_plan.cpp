@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/prioritized/blocking_robots.h"
 #include "core/prioritized/triage.h"
 
 namespace fleetplan::core {
@@ -24,50 +25,6 @@ constexpr std::array<SearchLimits, 3> kRounds{{
 std::size_t rounds_of(Effort effort) {
   if (effort == Effort::none) return 0;
   return effort == Effort::full ? kRounds.size() : kRounds.size() - 1;
-}
-
-/// The expansions for all searches of blocking robots together: about a tenth of a second.
-constexpr std::int64_t kMostBlockingExpansions = 20'000;
-
-/// Finds the robots that keep another one from its goal. The effort for all calls together is limited, to
-/// about a tenth of a second.
-class BlockingRobots {
- public:
-  BlockingRobots(PlanState& state, const StopCondition& stop) : state_(state), stop_(stop) {}
-
-  /// Returns the robots that keep `robot` from its goal, ascending. The robot stays at its start and has no
-  /// path among the others. The search begins with the robots that conflict with the path that it would take
-  /// alone on the map, and removes one after the other as long as ignoring the rest still gives it a path.
-  /// Returns more robots than necessary if the effort or `stop` ends this early; none if `stop` is met
-  /// already.
-  std::vector<std::size_t> find(std::size_t robot);
-
- private:
-  PlanState& state_;
-  const StopCondition& stop_;
-  std::int64_t expansions_ = 0;
-};
-
-std::vector<std::size_t> BlockingRobots::find(std::size_t robot) {
-  if (stop_.met()) return {};
-  const Trajectory alone = state_.plan_alone(robot, stop_);
-  std::vector<std::size_t> blocking = state_.conflicting_robots(robot, alone);
-  if (blocking.empty()) return state_.robots_committed_against(robot, alone);
-  state_.remove(robot);
-  for (std::size_t k = 0; k < blocking.size() && blocking.size() > 1;) {
-    if (stop_.met() || expansions_ > kMostBlockingExpansions) break;
-    const std::int64_t before = state_.expansions();
-    std::vector<std::size_t> fewer = blocking;
-    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
-    if (state_.plan_ignoring(fewer, robot, {}, stop_).trajectory) {
-      blocking = std::move(fewer);
-    } else {
-      ++k;
-    }
-    expansions_ += state_.expansions() - before;
-  }
-  state_.stay_at_start(robot);
-  return blocking;
 }
 
 class SafePlanner {

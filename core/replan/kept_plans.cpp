@@ -38,10 +38,6 @@ bool have_previous_plans(const std::vector<Robot>& robots) {
                      [](const Robot& robot) { return robot.previous.has_value(); });
 }
 
-const std::vector<Action>& previous_actions(const Robot& robot) {
-  return robot.goal && robot.previous && !robot.previous->empty() ? *robot.previous : robot.committed;
-}
-
 RobotPlan previous_plan(std::size_t index, const Robot& robot) {
   const std::vector<Action>& actions = previous_actions(robot);
   return {index, actions.empty() ? 0.0 : actions.back().t_end, actions, 0.0};

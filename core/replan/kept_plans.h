@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/model/action.h"
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
@@ -18,10 +17,6 @@ namespace fleetplan::core {
 
 /// Whether any robot has a previous plan.
 bool have_previous_plans(const std::vector<Robot>& robots);
-
-/// Returns the actions of the robot's previous plan as received; no actions for a robot that is parked or has
-/// no previous plan. If there are none, the robot rests after its committed actions.
-const std::vector<Action>& previous_actions(const Robot& robot);
 
 /// Returns these actions as a plan without visits, with 0 as lower bound.
 RobotPlan previous_plan(std::size_t index, const Robot& robot);

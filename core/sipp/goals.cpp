@@ -14,6 +14,8 @@ namespace {
 constexpr int kGoalsBetweenPolls = 16;
 /// Seconds; far more than the tolerances of times and headings with which a rest counts as a service.
 constexpr double kClearlyBefore = 1e-3;
+/// Seconds: rounding of what is left of a way. A move gains far more.
+constexpr double kNoGain = 1e-6;
 
 /// Estimates the way from one goal to the next one, seconds. A heading that is free is the best one.
 double estimated_leg(SearchSpace& space, std::size_t from, const StopCondition& stop) {
@@ -208,18 +210,55 @@ Trajectory Goals::trajectory_to(LabelId end) const {
     }
   }
   const Label& last = state_.labels[end];
-  if (!is_end(last.place, last.interval)) {  // at rest beyond the horizon
-    const Place& place = state_.places[last.place];
-    const double left = place.any_heading
-                            ? place.estimate.seconds
-                            : place.estimate.with_rotation(last.heading, space_.vertices().motion());
-    trajectory.stops_at = std::max(last.arrival, horizon_);
-    trajectory.cost = *trajectory.stops_at + left;
+  if (!is_end(last.place, last.interval)) {
+    stop_at_rest(trajectory, state_.labels[path.front()], last);
     return trajectory;
   }
   trajectory.cost =
       stages_.back().is_rest ? trajectory.last_served : std::max(service_stop(last).t_end, last.arrival);
   return trajectory;
+}
+
+void Goals::stop_at_rest(Trajectory& trajectory, const Label& first, const Label& last) const {
+  const double t_begin = space_.itinerary().t_begin;
+  const double t_end = std::max(last.arrival, horizon_);
+  trajectory.stops_at = t_end;
+  trajectory.cost = estimated_end(last, t_end);
+  trajectory.estimated_visits = estimated_visits(last, t_end);
+  // A robot that waits for the `not_before` of a goal gains time, and one that has served its goals need not.
+  const double left_at_begin = estimated_end(first, t_begin) - t_begin;
+  trajectory.gains_nothing =
+      t_end > t_begin && left_at_begin > kNoGain && trajectory.cost - t_end >= left_at_begin - kNoGain;
+}
+
+double Goals::time_left(const Label& label) const {
+  const Place& place = state_.places[label.place];
+  return place.any_heading ? place.estimate.seconds
+                           : place.estimate.with_rotation(label.heading, space_.vertices().motion());
+}
+
+double Goals::estimated_end(const Label& label, double t) const {
+  double end = t + time_left(label);
+  for (int k = state_.places[label.place].stage; k < static_cast<int>(stages_.size()); ++k) {
+    end = std::max(end, stages_[k].not_before + stages_[k].after);
+  }
+  return end;
+}
+
+std::vector<Visit> Goals::estimated_visits(const Label& label, double t) const {
+  const auto count = static_cast<int>(space_.goal_count());
+  const int first = state_.places[label.place].stage;
+  std::vector<Visit> visits;
+  double t_arrive = t;
+  for (int k = first; k < count; ++k) {
+    const double way = k == first ? time_left(label) - stages_[k].after
+                                  : stages_[k - 1].after - stages_[k - 1].service - stages_[k].after;
+    t_arrive += std::max(0.0, way);  // not less by rounding
+    const double t_leave = stages_[k].service_end(t_arrive);
+    visits.push_back({space_.itinerary().first_goal + static_cast<std::size_t>(k), t_arrive, t_leave});
+    t_arrive = t_leave;
+  }
+  return visits;
 }
 
 void Goals::append_service(Trajectory& trajectory, const Label& from, const Label& to) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include "core/model/trajectory.h"
 #include "core/runtime/arrays.h"
@@ -94,6 +95,15 @@ class Goals {
   bool touches_goal(const Place& place) const;
   void append_move(Trajectory& trajectory, const Label& from, const Label& to) const;
   void append_service(Trajectory& trajectory, const Label& from, const Label& to) const;
+  /// Ends a trajectory from the first of these labels at rest in the last one, beyond the horizon.
+  void stop_at_rest(Trajectory& trajectory, const Label& first, const Label& last) const;
+  /// Estimate: seconds from rest in this label to the end of the last service, without waiting for any
+  /// `not_before`.
+  double time_left(const Label& label) const;
+  /// Estimates of the end of the last service, and of the visits that are left, for a robot that rests in
+  /// this label until `t`.
+  double estimated_end(const Label& label, double t) const;
+  std::vector<Visit> estimated_visits(const Label& label, double t) const;
 
   SearchSpace& space_;
   const double horizon_;

@@ -17,6 +17,12 @@ struct Visit {
   std::optional<double> t_leave = {};  // seconds, the end of the service; none at the last goal
 };
 
+/// When a robot would come to a goal that its plan does not reach.
+struct EstimatedVisit {
+  std::size_t goal = 0;   // number of the goal in Robot::goals
+  double t_arrive = 0.0;  // seconds; infinite if it has no way
+};
+
 /// The plan of one robot.
 struct RobotPlan {
   std::size_t robot = 0;  // number of the robot in Problem::robots
@@ -26,8 +32,15 @@ struct RobotPlan {
   std::vector<Action> actions = {};
   double lower_bound = 0.0;        // seconds: no plan for the robot alone on the map costs less
   std::vector<Visit> visits = {};  // one for each goal, in their order
-  /// Seconds, if the plan stops at the horizon: `cost` and an estimate of the way that is left.
+  /// Seconds, if the plan stops at the horizon: `cost` and an estimate of the way that is left; infinite if
+  /// robots that stay where they are leave the robot no way.
   std::optional<double> estimated_cost = {};
+  /// If the plan stops at the horizon: one for each goal that is left, in their order.
+  std::vector<EstimatedVisit> estimated_visits = {};
+  /// Whether the plan stops at the horizon, and the robot gains nothing on the way to its goals until then.
+  bool stuck = false;
+  std::vector<std::size_t> blocked_by =
+      {};  // if it is stuck: the robots in its way, as far as they are known
 };
 
 /// A robot without a plan. It executes its committed actions and stays at their end, or stays at its start;

@@ -88,6 +88,26 @@ class ByHand(unittest.TestCase):
         self.assertEqual(executor.overran, ["a"])
         self.assertEqual(self.instruction(executor, now=1.0).type, "wait")
 
+    def test_a_pose_that_is_past_a_closed_gate_by_no_more_than_the_execution_margin_is_as_measured(self):
+        for margins in ({"options": {"execution_margin": 0.05}}, {}):
+            executor = self.executor({"a": actions(("translate", 4.0)), "b": actions(("translate", 2.0))},
+                                     [("a", 0, 0.25, "b", 0, 1.0)], **margins)
+            executor.report(Report("a", pose(1.04)), 1.0)
+            self.assertEqual(executor.overran, [] if margins else ["a"])
+            self.assertEqual(self.instruction(executor, now=1.0).type, "wait")
+            executor.report(Report("a", pose(1.06)), 2.0)
+            self.assertEqual(executor.overran, ["a"])
+
+    def test_a_robot_under_way_does_not_stop_for_a_turn_that_it_steers(self):
+        for turn, room in ((0.03, 3.0), (-0.03, 3.0), (0.2, 1.0)):
+            executor = self.executor({"a": actions(("translate", 1.0), ("rotate", turn), ("translate", 2.0))},
+                                     deceleration=1.0)
+            self.assertAlmostEqual(self.instruction(executor).room, room)
+        executor = self.executor({"a": actions(("translate", 1.0), ("rotate", 0.03), ("translate", 2.0))})
+        executor.report(Report("a", pose(0.995)), 1.0)
+        goes_on = self.instruction(executor, now=1.0)
+        self.assertEqual((goes_on.type, goes_on.action), ("translate", 2))
+
     def test_several_robots_may_be_waited_for_at_one_gate(self):
         plans = {robot: actions(("translate", 1.0)) for robot in "abc"}
         executor = self.executor(plans, [("a", 0, 0.0, "b", 0, 1.0), ("a", 0, 0.0, "c", 0, 0.5)])
@@ -300,6 +320,12 @@ class Courses(unittest.TestCase):
     def test_moves_end_where_the_other_course_leads_elsewhere(self):
         course = Course(pose(0.0), actions(("translate", 1.0), ("rotate", 1.0)))
         self.assertEqual(course.after(0.0, [Move("translate", 3.0)]), 1.0)
+
+    def test_turns_that_are_steered_need_not_be_on_the_other_course(self):
+        course = Course(pose(0.0), actions(("translate", 1.0), ("rotate", 0.04), ("translate", 2.0)))
+        self.assertEqual(course.after(0.0, [Move("translate", 2.0)]), 2.5)
+        straight = Course(pose(0.0), actions(("translate", 4.0)))
+        self.assertEqual(straight.after(0.0, [Move("translate", 1.0), Move("rotate", 0.04), Move("translate", 1.0)]), 0.5)
 
     def test_a_pose_is_found_on_a_course_that_passes_it_twice(self):
         course = Course(pose(0.0), actions(("translate", 2.0), ("rotate", math.pi), ("translate", 2.0)))

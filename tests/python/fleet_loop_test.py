@@ -103,6 +103,16 @@ class Loops(unittest.TestCase):
                 self.assertIsNone(day.loop.failure)
                 self.assertTrue(any(leg.begin != leg.end for leg in day.fleet.legs["tote-01"] if leg.t_start > 12.0))
 
+    def test_plans_may_take_time_on_the_clock_of_a_simulation(self):
+        fleet = {"seed": 1, "speed": (0.8, 1.0), "acceleration": 1.0, "noise": 0.002}
+        day = Day(self.client, 12, fleet, latency=0.5, deceleration=0.8, reaction=0.1).run(1.0)
+        self.assertEqual(day.loop.answer["status"], "solved")
+        self.assertEqual([leg for leg in day.fleet.legs["tote-01"] if leg.t_start < 0.45], [], "there is no plan yet")
+        day.run(40.0)
+        self.assert_nobody_was_met(day)
+        self.assertEqual(day.failures, [])
+        self.assertGreaterEqual(len(day.arrived), 8)
+
     def test_dependencies_that_are_missing_are_asked_for(self):
         client = WithoutDependencies(self.client)
         day = Day(client, 12).run(5.0)

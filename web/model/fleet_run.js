@@ -34,8 +34,8 @@ export function goalsAfter(plans, places, t) {
 export function reachedBy(plans, t) {
   const isIn = (at) => at > 0 && at <= t;
   return plans.reduce((sum, { cost, visits }) => {
-    const made = visits?.filter(({ reason }) => !reason);
-    const times = made?.map(({ t_leave }) => t_leave ?? cost) ?? [cost];
+    const reached = visits?.filter(({ t_arrive }) => t_arrive !== null);
+    const times = reached?.map(({ t_leave }) => t_leave ?? cost) ?? [cost];
     return sum + times.filter(isIn).length;
   }, 0);
 }

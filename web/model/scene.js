@@ -140,8 +140,9 @@ function outdatedTrack(plan) {
 
 /** The radii that goals change, from the ends of their services. */
 function radiiOf({ radiiAfter }, plan) {
-  const visits = Array.isArray(plan?.visits) ? plan.visits.filter((visit) => !visit?.reason) : [];
-  const changes = visits.map(({ goal, t_leave }) => ({
+  const visits = Array.isArray(plan?.visits) ? plan.visits : [];
+  const reached = visits.filter(({ t_arrive }) => t_arrive !== null);
+  const changes = reached.map(({ goal, t_leave }) => ({
     t: t_leave ?? plan.cost,
     radius: radiiAfter[goal] ?? null,
   }));

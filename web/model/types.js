@@ -60,8 +60,9 @@
  * @typedef {{type: "rotate" | "translate" | "wait", t_start: number, t_end: number, from: Pose, to: Pose,
  * goal?: number, reverse?: boolean}} Action
  */
-/** @typedef {{goal: number, t_arrive: number | null, t_leave: number | null, reason?: string}} Visit with a reason if it is put off */
-/** @typedef {{robot: string, cost: number, lower_bound?: number, actions: Action[], visits?: Visit[]}} Plan */
+/** @typedef {{goal: number, t_arrive: number | null, t_leave: number | null}} Visit without times if the goal is not reached */
+/** @typedef {{robot: string, cost: number, lower_bound?: number, actions: Action[], visits?: Visit[], stuck?: boolean,
+ * blocked_by?: string[], blocked_by_total?: number}} Plan */
 /** @typedef {{robot: string, reason: string, detail?: string, blocked_by?: string[],
  * blocked_by_total?: number, actions?: Action[]}} Unplanned */
 

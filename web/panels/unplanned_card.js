@@ -1,4 +1,4 @@
-// The robots without a plan, by the reasons, and more time for those that had too little.
+// The robots without a plan, by the reasons, and more time for those that had too little; and robots that are stuck.
 
 import { byId, element } from "../ui/dom.js";
 import { seconds } from "../ui/format.js";
@@ -17,10 +17,11 @@ export const REASONS = {
   budget_exhausted: "Out of time",
   committed_in_the_way: "In the way of committed motion",
   invalid: "Invalid",
+  stuck: "Stuck within the horizon",
 };
 
 /**
- * Lists the robots that the session's answer leaves without a plan. `budgetOf(request, limits)`: see planning_panel.js;
+ * Lists the robots that the session's answer leaves without a plan, and those that are stuck. `budgetOf(request, limits)`: see planning_panel.js;
  * `plan()` plans the request.
  */
 export function watchUnplanned(session, budgetOf, plan) {
@@ -32,16 +33,16 @@ export function watchUnplanned(session, budgetOf, plan) {
   };
   session.on("answer limits", () => {
     const { answer, request, limits, outdated } = session;
-    const unplanned = answer?.unplanned ?? [];
+    const listed = [...(answer?.unplanned ?? []), ...stuckOf(answer)];
     const box = byId("unplanned");
-    box.hidden = unplanned.length === 0;
+    box.hidden = listed.length === 0;
     box.replaceChildren();
-    if (unplanned.length === 0) return;
+    if (listed.length === 0) return;
     const longer = outdated === null ? longerBudget(answer, budgetOf(request, limits), limits) : null;
     box.append(
-      element("h2", { textContent: "Without a plan" }),
+      element("h2", { textContent: answer.unplanned.length > 0 ? "Without a plan" : "Stuck" }),
       longer === null ? "" : moreTimeButton(longer, planLonger),
-      ...groupsOf(unplanned).map(([reason, entries]) => groupOf(session, reason, entries)),
+      ...groupsOf(listed).map(([reason, entries]) => groupOf(session, reason, entries)),
     );
   });
 }
@@ -52,6 +53,17 @@ export function longerBudget({ unplanned, search }, budget, { max_budget_ms = In
   const mayHelp = isOpen && unplanned.some(({ reason }) => WITH_MORE_TIME.includes(reason));
   const longer = Math.min(LONGER * (budget ?? 0), max_budget_ms / 1000);
   return mayHelp && longer > (budget ?? Infinity) ? longer : null;
+}
+
+/** The robots whose plans gain nothing within the horizon, as entries like those of `unplanned`. */
+export function stuckOf(answer) {
+  const stuck = (answer?.plans ?? []).filter((plan) => plan.stuck === true);
+  return stuck.map(({ robot, blocked_by, blocked_by_total }) => ({
+    robot,
+    reason: "stuck",
+    blocked_by,
+    blocked_by_total,
+  }));
 }
 
 /** The entries by reason, the most frequent one first: [[reason, entries]]. */

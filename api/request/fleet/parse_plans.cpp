@@ -22,23 +22,25 @@ namespace fleetplan::api {
 namespace {
 
 // All but `robot`, `cost`, `actions` and `visits` belong to an answer of /v1/plan and are ignored.
-constexpr std::array<std::string_view, 9> kPlanMembers{"robot",   "cost",     "lower_bound",
-                                                       "ends_at", "actions",  "estimated_cost",
-                                                       "visits",  "metadata", "lattice_spacing"};
-// `reason` and `zone` are of goals that are put off, which have no times and are no visits.
-constexpr std::array<std::string_view, 6> kVisitMembers{"goal",   "t_arrive", "t_leave",
-                                                        "reason", "zone",     "metadata"};
+constexpr std::array<std::string_view, 12> kPlanMembers{
+    "robot", "cost",       "lower_bound",      "estimated_cost", "ends_at",  "actions",
+    "stuck", "blocked_by", "blocked_by_total", "visits",         "metadata", "lattice_spacing"};
+constexpr std::array<std::string_view, 7> kVisitMembers{
+    "goal", "t_arrive", "t_leave", "estimated_t_arrive", "reason", "zone", "metadata"};
 
 // A plan that begins before 0 is a violation to report, not a fault of the request.
 constexpr Range kPlanTime{-kLongestTime, kLongestTime, "seconds"};
 
-core::Visit parse_visit(const JsonReader& json) {
+/// None for a goal that the plan does not reach.
+std::optional<core::Visit> parse_visit(const JsonReader& item) {
+  const JsonReader json = item.object(kVisitMembers);
   core::Visit visit;
   visit.goal = json.require("goal").natural(kGreatestIndex).value_or(0);
-  visit.t_arrive = json.find("t_arrive").number(kPlanTime).value_or(0.0);
+  const JsonReader arrives = json.require("t_arrive", "; give null for a goal that the plan does not reach");
+  if (!arrives.is_null()) visit.t_arrive = arrives.number(kPlanTime).value_or(0.0);
   const JsonReader leaves = json.require("t_leave", "; give null for the last goal");
   visit.t_leave = leaves.is_null() ? core::kForever : leaves.number(kPlanTime).value_or(0.0);
-  return visit;
+  return arrives.is_null() ? std::nullopt : std::optional(visit);
 }
 
 core::RobotPlan parse_plan(const JsonReader& json, const WorldFrame& frame) {
@@ -53,10 +55,8 @@ core::RobotPlan parse_plan(const JsonReader& json, const WorldFrame& frame) {
   const double end = plan.actions.empty() ? 0.0 : plan.actions.back().t_end;
   plan.cost = json.find("cost").number(kPlanTime).value_or(end);
   for (const JsonReader item : json.find("visits").array().items()) {
-    const JsonReader visited = item.object(kVisitMembers);
-    if (visited.require("t_arrive", "; give null for a goal that is put off").is_null()) continue;
-    const core::Visit visit = parse_visit(visited);
-    if (json.fault_count() == before) plan.visits.push_back(visit);
+    const std::optional<core::Visit> visit = parse_visit(item);
+    if (visit && json.fault_count() == before) plan.visits.push_back(*visit);
   }
   return plan;
 }

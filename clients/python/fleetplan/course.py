@@ -13,7 +13,7 @@ from fleetplan.types import Action, ActionPlace, ActionProgress, Goal, Pose
 
 Place: TypeAlias = float
 
-_SAME_HEADING = 1e-6  # radians: above the rounding of a plan's headings
+_STEERED = 0.05  # radians: a turn for which a robot under way need not stop, as plans from measured poses have them
 _ON_PLACE = 1e-9  # of whole progress, metres, radians or seconds: rounding
 
 
@@ -124,24 +124,25 @@ class Course:
 
     def room(self, place: Place, limit: Place) -> float:
         """Metres, or radians of a rotation, from a place to where the robot has to stand, as it may not pass the
-        limit: translations in the same direction follow each other without a stop."""
+        limit: translations in the same direction follow each other without a stop, but for a turn that is steered."""
         index = self.index(place)
         room = (min(limit, index + 1) - place) * self._amounts[index]
-        while limit > index + 1 and index + 1 < len(self.actions) and self._goes_on(index):
-            index += 1
+        while (following := self._goes_on_with(index)) is not None and limit > following:
+            index = following
             room += (min(limit, index + 1) - index) * self._amounts[index]
         return room
 
     def located(self, pose: Pose, place: Place, limit: Place, near: float) -> Place:
         """Where a robot is by its measured pose: from the place where it has been on. It has done an action of which
-        less than `near` is left (metres; radians of a rotation), and is at the limit likewise; past the limit, it is
-        in the same action."""
+        less than `near` is left (metres; radians of a rotation), or that is steered, and is at the limit likewise; past
+        the limit, it is in the same action."""
         while place < self.end and self.actions[self.index(place)]["type"] != "wait":
             index = self.index(place)
             done, amount = max(place, index + self._share(index, pose)), self._amounts[index]
-            if limit <= index + 1 and abs(limit - done) * amount <= near:
+            least = _STEERED if self._is_steered(index) else near
+            if limit <= index + 1 and abs(limit - done) * amount <= least:
                 return limit
-            if limit < done or (index + 1 - done) * amount > near:
+            if limit < done or (index + 1 - done) * amount > least:
                 return done
             place = index + 1.0
         return place
@@ -158,9 +159,13 @@ class Course:
             begin = stop
         return found
 
+    def driven(self, begin: Place, end: Place) -> float:
+        """Metres from one place to another."""
+        return sum(move.amount for move in self.moves(begin, end) if move.type == "translate")
+
     def after(self, place: Place, moves: Sequence[Move], near: float = _ON_PLACE) -> Place:
         """Where a robot is after what it has done on another course that begins in the same way. One of them may have
-        moves of less than `near` that the other does not have."""
+        moves of less than `near`, and turns that are steered, that the other does not have."""
         for move in moves:
             left = move.amount
             while left > _ON_PLACE and place < self.end:
@@ -171,9 +176,9 @@ class Course:
                     place, left = place + left / amount, 0.0
                 elif kind == move.type:
                     place, left = index + 1.0, left - rest
-                elif kind == "wait" or amount <= near:
+                elif kind == "wait" or amount <= _least(kind, near):
                     place = index + 1.0
-                elif move.type == "wait" or left <= near:
+                elif move.type == "wait" or left <= _least(move.type, near):
                     break  # what is not on this course
                 else:
                     return place  # another way
@@ -208,12 +213,28 @@ class Course:
         along = ((pose["x"] - begin["x"]) * x + (pose["y"] - begin["y"]) * y) / (amount * amount)
         return min(1.0, max(0.0, along))
 
-    def _goes_on(self, index: int) -> bool:
-        """Whether the robot goes on in the same direction after this action."""
-        action, following = self.actions[index], self.actions[index + 1]
-        return (action["type"] == following["type"] == "translate"
-                and action.get("reverse", False) == following.get("reverse", False)
-                and abs(turned(_direction(following) - _direction(action))) < _SAME_HEADING)
+    def _goes_on_with(self, index: int) -> int | None:
+        """The translation that a robot goes on with after this one without a stop."""
+        following = index + 1
+        if following < len(self.actions) and self._is_steered(following):
+            following += 1
+        if following >= len(self.actions):
+            return None
+        action, other = self.actions[index], self.actions[following]
+        goes_on = (action["type"] == other["type"] == "translate"
+                   and action.get("reverse", False) == other.get("reverse", False)
+                   and abs(turned(_direction(other) - _direction(action))) <= _STEERED)
+        return following if goes_on else None
+
+    def _is_steered(self, index: int) -> bool:
+        """Whether an action is a turn that a robot makes while it drives."""
+        return (self.actions[index]["type"] == "rotate" and self._amounts[index] <= _STEERED
+                and index + 1 < len(self.actions) and self.actions[index + 1]["type"] == "translate")
+
+
+def _least(kind: str, near: float) -> float:
+    """Metres, radians or seconds: less is not noticed."""
+    return max(near, _STEERED) if kind == "rotate" else near
 
 
 def _amount(action: Action) -> float:

@@ -16,6 +16,7 @@ from fleetplan.types import (Action, ActionProgress, AdvanceAnswer, Goal, Measur
 
 _REACHED = 1e-9  # of whole progress: rounding
 _SAME_TIME = 1e-9  # seconds
+_MARGIN_ROUNDING = 1e-9  # metres
 _TIGHT = 2.0  # seconds: how long after its least slack a pair is tight
 
 
@@ -72,6 +73,7 @@ class _Progress:
     course: Course
     goals: bool  # whether it has any
     arrives: bool  # whether it has served all of them at the end of its actions
+    margin: float  # metres: its execution margin
     gates: list[_Gate] = field(default_factory=list)
     next_gate: int = 0  # those before are open
     clocks: list[_Clock] = field(default_factory=list)
@@ -131,9 +133,10 @@ class Executor:
 
     @property
     def overran(self) -> list[str]:
-        """Robots that have passed a gate that is closed. They have to stand, but what is promised does not hold."""
+        """Robots that have passed a gate that is closed, by more than their execution margin: measured poses may be
+        a little past it. They have to stand, but what is promised does not hold."""
         return [robot for robot, progress in self._robots.items()
-                if self._closed_at(robot) < progress.place - _REACHED]
+                if progress.course.driven(self._closed_at(robot), progress.place) > progress.margin + _MARGIN_ROUNDING]
 
     # ---------------------------------------------------------------- what they do
 
@@ -226,7 +229,7 @@ class Executor:
             actions = robot.get("committed", []) if plan is None else plan["actions"]
             self._robots[robot["id"]] = _Progress(
                 _course(request, robot, actions), bool(goals_of(robot)), plan is not None and "ends_at" not in plan,
-                counted=begin, stays=robot["id"] in invalid)
+                _execution_margin(request, robot), counted=begin, stays=robot["id"] in invalid)
         for dependency in dependencies:
             gate, until = dependency["gate"], dependency["until"]
             self._robots[gate["robot"]].gates.append(_Gate(whole(gate), until["robot"], whole(until)))
@@ -363,6 +366,11 @@ class Executor:
 def goals_of(robot: Robot) -> list[Goal]:
     """The goals of a robot of a request, however they are given."""
     return robot["goals"] if "goals" in robot else [robot["goal"]] if "goal" in robot else []
+
+
+def _execution_margin(request: PlanRequest, robot: Robot) -> float:
+    of_all = request.get("options", {}).get("execution_margin", 0.0)
+    return robot.get("execution_margin", request.get("robot_defaults", {}).get("execution_margin", of_all))
 
 
 def _course(request: PlanRequest, robot: Robot, actions: list[Action]) -> Course:

@@ -21,6 +21,7 @@ LOOP_OPTIONS: PlanOptions = {"time_budget_ms": 900, "horizon": 20.0, "interval_m
                              "inflation": 0.05, "execution_margin": 0.02, "start_overlap": 0.15,
                              "invalid_robots": "report"}
 
+_SAME_TIME = 1e-9  # seconds
 _TRANSFER = 0.5  # seconds: what commitments are longer than planning may take
 
 
@@ -29,6 +30,7 @@ class _Round:
     """From a moment to the plan that is made for it."""
 
     begin: float
+    ready: float  # not followed before, whenever it is made
     places: Mapping[str, Place]  # of robots at the moment
     request: AdvanceAnswer | None = None  # of the moment, once it is known; written by the thread that plans
     committed: bool = False  # robots to what it commits them to
@@ -45,15 +47,16 @@ class FleetLoop:
 
     def __init__(self, client: Client, request: PlanRequest, *, period: float = 1.0, commit: float | None = None,
                  clock: Callable[[], float] = time.monotonic, background: bool = True,
-                 change: Callable[[PlanRequest], None] | None = None, pose_tolerance: float | None = None,
-                 deceleration: float | Mapping[str, float] | None = None, reaction: float = 0.0,
-                 near: float = 0.01) -> None:
+                 latency: float = 0.0, change: Callable[[PlanRequest], None] | None = None,
+                 pose_tolerance: float | None = None, deceleration: float | Mapping[str, float] | None = None,
+                 reaction: float = 0.0, near: float = 0.01) -> None:
         """`period`: seconds from plan to plan; a plan that takes longer delays the next one. `commit`: what robots do
         within so many seconds is decided before each plan; by default, the time budget, half a second, and what the
         way to brake takes. `change` is called with each request before it is planned, in the thread that plans, to
         add obstacles, zones or robots.
         `clock`: seconds. `background`: plans are made in a thread, while robots go on; without it, `step` waits for
-        them, which simulations want. The others are those of `Executor`."""
+        them, which simulations want; `latency` is then how long plans take on their clock, seconds. The others are
+        those of `Executor`."""
         options = LOOP_OPTIONS.copy()
         options.update(request.get("options", {}))
         options["dependencies"] = True
@@ -62,6 +65,7 @@ class FleetLoop:
         self.answer: PlanAnswer | None = None  # to it
         self.failure: FleetplanError | None = None  # of the last round; none if it succeeded
         self._client, self._period, self._clock, self._change = client, period, clock, change
+        self._latency = latency
         self._commit = commit
         if commit is None:
             self._commit = options["time_budget_ms"] / 1000.0 + _TRANSFER + _braking_time(request, deceleration)
@@ -102,6 +106,7 @@ class FleetLoop:
         if self._round is None and now >= self._due:
             self._due = now + self._period
             self._begin_round(now)
+            self._commit_robots()
             self._take_plan(now)
         return self._executor.instructions(now) if self._executor is not None else []
 
@@ -129,10 +134,10 @@ class FleetLoop:
     def _begin_round(self, now: float) -> None:
         self._given, self._goals = self._goals, {}
         if self._executor is None:
-            self._round = _Round(now, {})
+            self._round = _Round(now, now + self._latency, {})
             self._round.future = self._run(self._plan_first)
         else:
-            self._round = _Round(now, self._executor.places())
+            self._round = _Round(now, now + self._latency, self._executor.places())
             advance = self._advance(self._executor, now)
             self._round.future = self._run(functools.partial(self._plan_next, self._round, advance))
 
@@ -203,6 +208,8 @@ class FleetLoop:
         if round_ is None or round_.future is None or not round_.future.done():
             return
         self._commit_robots()
+        if now < round_.ready - _SAME_TIME:
+            return
         self._round = None
         try:
             answer = round_.future.result()

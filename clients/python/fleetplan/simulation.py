@@ -62,13 +62,17 @@ class SimulatedFleet:
         for instruction in instructions:
             self._robots[instruction.robot].instruction = instruction
 
+    def stop(self, robot: str, seconds: float) -> None:
+        """The robot breaks down: it stands for so long, whatever it is instructed."""
+        self._robots[robot].stands_until = max(self._robots[robot].stands_until, self.now + seconds)
+
     def drive(self, seconds: float) -> None:
         """All robots do what they were instructed last."""
         end = self.now + seconds
         for name, robot in self._robots.items():
             factor = self._random.uniform(*self._speed)
             if self._random.random() < 1.0 - math.exp(-self._stops * seconds):
-                robot.stands_until = self.now + self._random.expovariate(1.0 / self._mean_stop)
+                self.stop(name, self._random.expovariate(1.0 / self._mean_stop))
             if robot.instruction is not None:
                 self._drive(name, robot, factor, end)
         self.now = end

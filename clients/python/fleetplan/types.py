@@ -251,6 +251,7 @@ class Visit(TypedDict):
     t_leave: float | None
     reason: NotRequired[Literal["zone_closed", "goal_before"]]
     zone: NotRequired[str]
+    estimated_t_arrive: NotRequired[float | None]
     metadata: NotRequired[Metadata]
 
 
@@ -259,7 +260,10 @@ class RobotPlan(TypedDict):
     cost: float
     lower_bound: float
     ends_at: NotRequired[Literal["horizon", "zone"]]
-    estimated_cost: NotRequired[float]
+    estimated_cost: NotRequired[float | None]
+    stuck: NotRequired[bool]
+    blocked_by: NotRequired[list[str]]
+    blocked_by_total: NotRequired[int]
     lattice_spacing: NotRequired[float]
     actions: list[Action]
     visits: NotRequired[list[Visit]]
@@ -398,6 +402,9 @@ class GivenPlan(TypedDict):
     ends_at: NotRequired[object]
     estimated_cost: NotRequired[object]
     lattice_spacing: NotRequired[object]
+    stuck: NotRequired[object]
+    blocked_by: NotRequired[object]
+    blocked_by_total: NotRequired[object]
     metadata: NotRequired[object]
     actions: list[Action]
     visits: NotRequired[list[Visit]]

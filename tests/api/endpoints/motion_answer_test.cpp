@@ -175,6 +175,70 @@ TEST(MotionAnswer, SaysWhereAPlanStopsAtTheHorizon) {
 
 using testing::HasSubstr;
 
+/// A corridor of 20 m in which robot "b" is parked before robot "a".
+Json queue_request() {
+  return Json::parse(R"({
+    "map": {"rows": ["...................."]},
+    "robot_defaults": {"radius": 0.4, "linear_speed": 1.0, "angular_speed": 1.5},
+    "robots": [{"id": "a", "start": {"x": 2.5, "y": 0.5, "theta": 0.0},
+                "goals": [{"x": 2.5, "y": 0.5}, {"x": 10.5, "y": 0.5, "service": 2.0}, {"x": 12.5, "y": 0.5}]},
+               {"id": "b", "start": {"x": 3.5, "y": 0.5, "theta": 0.0}}],
+    "options": {"horizon": 5.0}})");
+}
+
+TEST(MotionAnswer, EstimatesWhenGoalsBeyondTheHorizonAreVisited) {
+  Json request = queue_request();
+  request["robots"].erase(1);
+  const Json answer = answer_of(request);
+  EXPECT_EQ(answer["warnings"], Json::array());
+  const Json& plan = answer["plans"][0];
+  EXPECT_FALSE(plan.contains("stuck"));
+  ASSERT_EQ(plan["visits"].size(), 3U) << plan.dump();
+  EXPECT_EQ(plan["visits"][0]["t_arrive"], 0.0);
+  EXPECT_FALSE(plan["visits"][0].contains("estimated_t_arrive"));
+  EXPECT_EQ(plan["visits"][1]["t_arrive"], nullptr);
+  EXPECT_EQ(plan["visits"][1]["t_leave"], nullptr);
+  EXPECT_NEAR(plan["visits"][1]["estimated_t_arrive"], 8.0, 1e-9);
+  EXPECT_NEAR(plan["visits"][2]["estimated_t_arrive"], 12.0, 1e-9);
+  EXPECT_NEAR(plan["estimated_cost"], 12.0, 1e-9);
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
+}
+
+TEST(MotionAnswer, SaysWhoIsStuckAndWhy) {
+  const Json request = queue_request();
+  const Json answer = answer_of(request);
+  const Json& plan = answer["plans"][0];
+  EXPECT_EQ(plan["stuck"], true);
+  EXPECT_EQ(plan["blocked_by"], Json::array({"b"}));
+  EXPECT_EQ(plan["blocked_by_total"], 1);
+  EXPECT_EQ(plan["ends_at"], "horizon");
+  EXPECT_EQ(plan["estimated_cost"], nullptr) << "it has no way";
+  EXPECT_EQ(plan["visits"][1]["estimated_t_arrive"], nullptr);
+  EXPECT_EQ(answer["estimated"]["flowtime"], 0.0);
+  ASSERT_EQ(answer["warnings"].size(), 1U);
+  EXPECT_THAT(answer["warnings"][0].get<std::string>(), HasSubstr("within the horizon: \"a\"."));
+  EXPECT_FALSE(answer["plans"][1].contains("stuck"));
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
+}
+
+TEST(MotionAnswer, NamesTheFirstFewRobotsThatAreStuck) {
+  Json request = queue_request();
+  request["map"]["rows"] =
+      Json::array({"........", "########", "........", "########", "........", "########", "........",
+                   "########", "........", "########", "........", "########"});
+  request["robots"] = Json::array();
+  for (int row = 0; row < 6; ++row) {
+    const std::string name = std::to_string(row);
+    const double y = 1.5 + 2.0 * row;
+    request["robots"].push_back(
+        {{"id", "a" + name}, {"start", {{"x", 2.5}, {"y", y}}}, {"goal", {{"x", 7.5}, {"y", y}}}});
+    request["robots"].push_back({{"id", "b" + name}, {"start", {{"x", 3.5}, {"y", y}}}});
+  }
+  const Json answer = answer_of(request);
+  EXPECT_THAT(answer["warnings"][0].get<std::string>(),
+              HasSubstr(R"(: "a0", "a1", "a2", "a3", "a4" and 1 more.)"));
+}
+
 /// Robot "a" looks away from its goal, in a corridor.
 Json backing_request() {
   return Json::parse(R"({

@@ -56,6 +56,8 @@ test("goals that are reached in a round count, services included", () => {
     { goal: 1, t_arrive: 1.8, t_leave: null },
   ];
   assert.equal(reachedBy([{ robot: "a", cost: 1.8, visits }], 2), 2);
+  const left = { goal: 1, t_arrive: null, t_leave: null, estimated_t_arrive: 1.9 };
+  assert.equal(reachedBy([{ robot: "a", cost: 1.8, visits: [visits[0], left] }], 2), 1);
   assert.equal(reachedBy([{ robot: "a", cost: 0, visits: [{ goal: 0, t_arrive: 0, t_leave: null }] }], 2), 0);
 });
 

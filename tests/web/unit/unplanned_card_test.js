@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { groupsOf, longerBudget } from "../../../web/panels/unplanned_card.js";
+import { groupsOf, longerBudget, stuckOf } from "../../../web/panels/unplanned_card.js";
 
 const LIMITS = { max_budget_ms: 60_000 };
 const answer = (reason, search = {}) => ({ unplanned: [{ robot: "a", reason }], search });
@@ -29,4 +29,15 @@ test("more time is offered where it may help, up to the limit of the service", (
     null,
     "of a file",
   );
+});
+
+test("robots that are stuck are listed with those in their way", () => {
+  const plans = [
+    { robot: "a", cost: 9, actions: [] },
+    { robot: "b", cost: 9, actions: [], stuck: true, blocked_by: ["a"], blocked_by_total: 1 },
+  ];
+  assert.deepEqual(stuckOf({ plans }), [
+    { robot: "b", reason: "stuck", blocked_by: ["a"], blocked_by_total: 1 },
+  ]);
+  assert.deepEqual(stuckOf(null), []);
 });

@@ -1,0 +1,83 @@
+#include "core/prioritized/collect_plan.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "core/instance/to_actions.h"
+#include "core/model/itinerary.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Removes goals from waits that serve none. The search may let a robot rest for long enough in a goal's pose
+/// and serve the goal when it comes back. The goal counts as served by the first rest, so the later wait is
+/// for none.
+void remove_wrong_goals(std::vector<Action>& actions, const std::vector<Visit>& visits, std::size_t first) {
+  for (std::size_t i = first; i < actions.size(); ++i) {
+    std::optional<std::size_t>& goal = actions[i].goal;
+    if (goal && *goal < visits.size() && visits[*goal].t_leave <= actions[i].t_start) goal.reset();
+  }
+}
+
+/// Whether the committed actions of a robot may bring it nearer to its goals: they move it, or serve a goal.
+bool commitment_gains(const Robot& robot, const Itinerary& itinerary) {
+  return !itinerary.visited.empty() || itinerary.service_done > 0.0 ||
+         std::any_of(robot.committed.begin(), robot.committed.end(),
+                     [](const Action& action) { return action.type == Action::Type::translate; });
+}
+
+/// Adds to a plan that stops at the horizon what is left.
+void add_estimates(RobotPlan& plan, const Trajectory& trajectory, bool has_gained) {
+  plan.estimated_cost = trajectory.cost;
+  plan.estimated_visits = trajectory.estimated_visits;
+  const auto is_served = [&](const Visit& visit) { return visit.goal < plan.visits.size(); };
+  std::erase_if(plan.estimated_visits, is_served);
+  plan.is_stuck = trajectory.gains_nothing && !has_gained;
+}
+
+RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
+  const auto& trajectory = state.trajectory(index);
+  const Robot& robot = state.instance().robot(index);
+  if (!trajectory)
+    return {index, robot.committed_until(), robot.committed, robot.committed_until()};  // parked
+  const double cost = trajectory->stops_at.value_or(trajectory->cost);
+  if (trajectory->is_previous) {
+    const std::vector<Action>& actions = previous_actions(robot);
+    return {index, cost, actions, std::min(bound, cost), visits_of(robot, actions)};
+  }
+  // Rounding may leave a bound slightly above the cost that it bounds.
+  std::vector<Action> actions = to_actions(robot, *trajectory, state.instance().drive_zones(index));
+  std::vector<Visit> visits = visits_of(robot, actions);
+  remove_wrong_goals(actions, visits, robot.committed.size());
+  RobotPlan plan{index, cost, std::move(actions), std::min(bound, cost), std::move(visits)};
+  if (trajectory->stops_at) {
+    add_estimates(plan, *trajectory, commitment_gains(robot, state.instance().itinerary(index)));
+  }
+  return plan;
+}
+
+}  // namespace
+
+Plan collect_plan(const PlanState& state, const std::vector<std::optional<Unplanned>>& unplanned,
+                  const TautPathBounds& bounds) {
+  Plan plan;
+  const std::optional<double>& horizon = state.instance().options().horizon;
+  if (horizon) plan.estimated = Objectives();
+  for (std::size_t i = 0; i < state.instance().size(); ++i) {
+    if (unplanned[i]) {
+      plan.unplanned.push_back(*unplanned[i]);
+      continue;
+    }
+    // With a horizon, a plan may stop there, or where the committed actions end if that is later.
+    double bound = bounds[i];
+    if (horizon) bound = std::min(bound, std::max(*horizon, state.instance().itinerary(i).t_begin));
+    const RobotPlan& robot = plan.plans.emplace_back(robot_plan(state, i, bound));
+    if (horizon) plan.estimated = including(*plan.estimated, robot.estimated_cost.value_or(robot.cost));
+    plan.objectives = including(plan.objectives, robot.cost);
+    plan.lower_bound = including(plan.lower_bound, robot.lower_bound);
+  }
+  return plan;
+}
+
+}  // namespace fleetplan::core
