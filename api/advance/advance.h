@@ -134,10 +134,6 @@ Remainder remainder_of_measured(const core::Robot& robot, const std::vector<core
 Remainder remainder_of_reported(const core::Robot& robot, const Execution& execution,
                                 const Progress& progress, double at);
 
-/// Puts a wait, from a time at which the robot stands to another one, before the rest of the actions, which
-/// it delays, except for the wait under way.
-void hold(Remainder& rest, double from, double until);
-
 /// The first actions in one line, until the robot has driven so many metres or stops: those that go on from
 /// the first one without a stop. Empty if the first one is no translation.
 std::vector<core::Action> driven_until(const std::vector<core::Action>& actions, double metres);
@@ -150,6 +146,10 @@ std::vector<core::Action> actions_until(const std::vector<core::Action>& actions
 
 /// All actions, of which one under way at `t` becomes two.
 std::vector<core::Action> split_at(const std::vector<core::Action>& actions, double t);
+
+/// Puts a wait, from a time at which the robot stands to another one, before the rest of the actions, which
+/// it delays, except for the wait under way. A service under way goes on, and is told as that.
+void hold(Remainder& rest, double from, double until);
 
 /// The pose in an action at a time within it.
 core::Pose pose_at(const core::Action& action, double t);

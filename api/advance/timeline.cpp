@@ -281,27 +281,6 @@ Remainder remainder_of_reported(const core::Robot& robot, const Execution& execu
                         wait_left(robot, planned, progress.t, service_left, at));
 }
 
-void hold(Remainder& rest, double from, double until) {
-  if (until < from) return;
-  Actions& actions = rest.actions;
-  actions = split_at(actions, from);
-  std::size_t first = 0;
-  while (first < actions.size() && actions[first].t_start < from - kDone) ++first;
-  const core::Pose pose = first == 0 ? rest.start : actions[first - 1].to;
-  const bool stands = first < actions.size() && actions[first].type == Action::Type::wait;
-  const Action wait{Action::Type::wait, from, until, pose, pose};
-  const auto next = actions.begin() + static_cast<std::ptrdiff_t>(first);
-  if (!stands) {
-    delay(actions, first, until - from);
-  } else if (next->t_end > until + kDone) {
-    next->t_start = until;
-  } else {
-    delay(actions, first + 1, until - next->t_end);
-    actions.erase(next);
-  }
-  actions.insert(actions.begin() + static_cast<std::ptrdiff_t>(first), wait);
-}
-
 bool goes_on(const Action& action, const Action& next) {
   return action.type == Action::Type::translate && next.type == Action::Type::translate &&
          action.reverse == next.reverse && next.t_start <= action.t_end + kDone &&
@@ -349,6 +328,33 @@ Actions split_at(const Actions& actions, double t) {
   }
   split.insert(split.end(), next, actions.end());
   return split;
+}
+
+void hold(Remainder& rest, double from, double until) {
+  if (until < from) return;
+  Actions& actions = rest.actions;
+  actions = split_at(actions, from);
+  std::size_t first = 0;
+  while (first < actions.size() && actions[first].t_start < from - kDone) ++first;
+  const core::Pose pose = first == 0 ? rest.start : actions[first - 1].to;
+  const auto is_wait = [&](std::size_t index, bool serves) {
+    return index < actions.size() && actions[index].type == Action::Type::wait &&
+           actions[index].goal.has_value() == serves;
+  };
+  std::size_t served = first;  // behind the waits for the service under way
+  while (is_wait(served, true)) ++served;
+  const std::size_t next = is_wait(served, false) ? served + 1 : served;
+  const double service_end = served == first ? from : actions[served - 1].t_end;
+  const double stand_end = next == first ? from : actions[next - 1].t_end;
+  // What is left of a wait after a service gives way to the hold: it may be that of the hold before.
+  const double end = std::max({until, service_end, served == first ? stand_end : from});
+  delay(actions, next, end - stand_end);
+  const auto at = [&](std::size_t index) { return actions.begin() + static_cast<std::ptrdiff_t>(index); };
+  actions.erase(at(served), at(next));
+  if (end > service_end + kDone) {
+    actions.insert(at(served), {Action::Type::wait, service_end, end, pose, pose});
+  }
+  actions = split_at(actions, until);
 }
 
 }  // namespace fleetplan::api

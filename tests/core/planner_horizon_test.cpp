@@ -51,17 +51,29 @@ Goal goal_at(double x, double y, double service = 0.0, double not_before = 0.0) 
 
 TEST(PlannerHorizon, EstimatesWhenRobotsComeToTheGoalsBeyondIt) {
   const Robot robot =
-      visitor(robot_at(0.5, 0.5).to(18.5, 0.5), {goal_at(2.5, 0.5, 1.0), goal_at(15.5, 0.5, 2.0, 30.0)});
+      visitor(robot_at(0.5, 0.5).to(18.5, 0.5), {goal_at(2.5, 0.5, 1.0), goal_at(15.5, 0.5, 2.0)});
   const Plan plan = plan_of(corridor(), {robot}, up_to(6.0));
   const RobotPlan& only = plan.plans.at(0);
   ASSERT_EQ(only.visits.size(), 1U);
   ASSERT_EQ(only.estimated_visits.size(), 2U);
   EXPECT_EQ(only.estimated_visits[0].goal, 1U);
   EXPECT_NEAR(only.estimated_visits[0].t_arrive, 16.0, 1e-9);
-  EXPECT_NEAR(only.estimated_visits[0].t_leave, 32.0, 1e-9) << "it waits for not_before";
+  EXPECT_NEAR(only.estimated_visits[0].t_leave, 18.0, 1e-9);
   EXPECT_EQ(only.estimated_visits[1].goal, 2U);
-  EXPECT_NEAR(only.estimated_visits[1].t_arrive, 35.0, 1e-9);
-  EXPECT_NEAR(*only.estimated_cost, 35.0, 1e-9);
+  EXPECT_NEAR(only.estimated_visits[1].t_arrive, 21.0, 1e-9);
+  EXPECT_NEAR(*only.estimated_cost, 21.0, 1e-9);
+  EXPECT_FALSE(only.is_stuck);
+}
+
+TEST(PlannerHorizon, EstimatesIncludeWaitsForNotBefore) {
+  const Robot robot = visitor(robot_at(0.5, 0.5).to(18.5, 0.5), {goal_at(15.5, 0.5, 2.0, 40.0)});
+  const Plan plan = plan_of(corridor(), {robot}, up_to(6.0));
+  const RobotPlan& only = plan.plans.at(0);
+  ASSERT_EQ(only.estimated_visits.size(), 2U);
+  EXPECT_LT(only.estimated_visits[0].t_arrive, 22.0);
+  EXPECT_NEAR(only.estimated_visits[0].t_leave, 42.0, 1e-9);
+  EXPECT_NEAR(only.estimated_visits[1].t_arrive, 45.0, 1e-9);
+  EXPECT_NEAR(*only.estimated_cost, 45.0, 1e-9);
   EXPECT_FALSE(only.is_stuck);
 }
 

@@ -73,7 +73,8 @@ void expect_stuck_rightly(const Problem& problem, const RobotPlan& plan, const P
   const auto after =
       time_left(problem, options, later(robot, plan.cost, plan.actions.back().to, plan.visits.size()));
   // Plans of lone robots differ a little from estimates.
-  if (before && after) EXPECT_GE(*after, *before * 0.9 - 0.1) << robot.id;
+  if (!before || !after) return;
+  EXPECT_GE(*after, *before * 0.9 - 0.1) << robot.id;
 }
 
 /// Estimates follow each other in time, each goal has one or is visited, and the last one is the cost.
@@ -105,12 +106,7 @@ void expect_estimates(const Problem& problem, const RobotPlan& plan, const PlanO
 }
 
 void expect_valid(const Problem& problem, const Plan& plan, const PlanOptions& options) {
-  CheckRules rules;
-  rules.tolerances = plan_tolerances(problem.grid(), problem.robots(), plan.plans);
-  rules.horizon = options.horizon;
-  rules.exempt = plan.unavoidable;
-  const CheckedFleet fleet{problem.grid(), problem.robots(), problem.obstacles(), &problem.zones()};
-  const auto report = verify(fleet, plan.plans, rules, StopCondition::never());
+  const auto report = check_plan(problem, options, plan, StopCondition::never());
   ASSERT_TRUE(report);
   EXPECT_TRUE(report->valid()) << support::text(*report);
   Objectives estimated;

@@ -244,7 +244,7 @@ class FromPlanToPlan(unittest.TestCase):
         self.answer = planned({"a": cut})[1]
 
     def test_while_a_plan_is_made_a_robot_does_not_pass_the_end_of_its_commitment(self):
-        self.executor.commit(self.request, self.executor.places())
+        self.executor.commit(self.request, self.executor.places(), 1.0)
         (goes,) = self.executor.instructions(1.0)
         self.assertEqual((goes.type, goes.target, goes.room), ("translate", pose(2.0), 1.0))
         self.executor.report(Report("a", pose(2.0)), 2.0)
@@ -254,7 +254,7 @@ class FromPlanToPlan(unittest.TestCase):
         self.assertEqual(self.executor.instructions(2.0)[0].target, pose(4.0))
 
     def test_what_a_robot_has_done_in_the_meantime_is_done_in_the_new_plan(self):
-        self.executor.commit(self.request, self.executor.places())
+        self.executor.commit(self.request, self.executor.places(), 1.0)
         self.executor.report(Report("a", pose(1.75)), 1.75)
         self.executor.follow(self.request, self.answer, 1.0, 1.75)
         self.assertEqual(self.executor.progress("a"), {"robot": "a", "action": 0, "progress": 0.75})
@@ -265,7 +265,21 @@ class FromPlanToPlan(unittest.TestCase):
     def test_robots_that_have_passed_their_commitment_already_are_listed(self):
         places = self.executor.places()
         self.executor.report(Report("a", pose(2.5)), 2.5)
-        self.assertEqual(self.executor.commit(self.request, places), ["a"])
+        self.assertEqual(self.executor.commit(self.request, places, 1.0), ["a"])
+
+    def test_a_late_robot_is_not_ahead_of_its_commitment(self):
+        course = actions(("translate", 4.0), ("wait", 0.5), ("translate", 2.0))
+        executor = Executor(*planned({"a": course}), 0.0, early=False)
+        executor.report(Report("a", pose(3.0)), 4.0)  # a second late; its wait is 4.0 to 4.5
+        rest = actions(("translate", 1.0), ("wait", 0.5), ("translate", 2.0))
+        request = {"robots": [{"id": "a", "start": pose(3.0), "committed": rest}]}
+        executor.commit(request, executor.places(), 4.0)
+        executor.report(Report("a", pose(4.0)), 5.0)
+        self.assertEqual(executor.instructions(5.4)[0].type, "wait")
+        self.assertEqual(executor.instructions(5.5)[0].type, "translate")
+        executor.commit(request, executor.places(), 4.0)
+        executor.release()
+        self.assertEqual(executor.instructions(5.4)[0].type, "translate")
 
     def test_a_service_under_way_goes_on(self):
         self.executor.report(Report("a", action=2, progress=0.0), 5.0)
@@ -274,14 +288,14 @@ class FromPlanToPlan(unittest.TestCase):
         wait = {**self.old[2], "t_start": 0.0, "t_end": 1.5}
         request = {"robots": [{"id": "a", "start": wait["from"], "committed": [wait], "goals": left}]}
         self.assertEqual(self.executor.states(5.5)[0]["service_left"], 1.5)
-        self.executor.commit(request, self.executor.places())
+        self.executor.commit(request, self.executor.places(), 5.5)
         self.assertAlmostEqual(self.executor.instructions(6.0)[0].seconds, 1.0)  # it is counted in the meantime
         self.executor.follow(request, planned({"a": [wait, self.old[3]]})[1], 5.5, 6.0)
         self.assertAlmostEqual(self.executor.instructions(6.0)[0].seconds, 1.0)
         self.assertEqual(self.executor.instructions(7.0)[0].type, "translate")
 
     def test_robots_that_are_added_begin_at_their_start(self):
-        self.executor.commit(self.request, self.executor.places())
+        self.executor.commit(self.request, self.executor.places(), 1.0)
         request = {**self.request, "robots": [*self.request["robots"], {"id": "new", "start": pose(7.0)}]}
         answer = planned({"a": self.answer["plans"][0]["actions"], "new": actions(("translate", 1.0))})[1]
         self.executor.follow(request, answer, 1.0, 1.0)

@@ -113,6 +113,19 @@ class Loops(unittest.TestCase):
         self.assertEqual(day.failures, [])
         self.assertGreaterEqual(len(day.arrived), 8)
 
+    def test_robots_that_are_stuck_are_told_with_those_in_their_way(self):
+        robots = [{"id": "a", "start": {"x": 2.5, "y": 0.5}, "goal": {"x": 12.5, "y": 0.5}},
+                  {"id": "b", "start": {"x": 4.5, "y": 0.5}}]
+        request = {"map": {"rows": ["." * 20]}, "robots": robots,
+                   "robot_defaults": {"radius": 0.4, "linear_speed": 1.0, "angular_speed": 1.0}}
+        fleet = SimulatedFleet(request)
+        loop = FleetLoop(self.client, request, clock=fleet.clock, background=False, commit=1.0)
+        while fleet.now < 6.0:
+            fleet.obey(loop.step(fleet.reports()))
+            fleet.drive(0.1)
+        self.assertEqual(loop.stuck, {"a": ["b"]})
+        self.assertIsNone(loop.answer["plans"][0]["estimated_cost"])
+
     def test_dependencies_that_are_missing_are_asked_for(self):
         client = WithoutDependencies(self.client)
         day = Day(client, 12).run(5.0)

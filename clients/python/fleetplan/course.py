@@ -159,6 +159,13 @@ class Course:
             begin = stop
         return found
 
+    def next_move(self, place: Place) -> int | None:
+        """The number of the next move of a robot that is not under way with one."""
+        for index in range(int(place + _ON_PLACE), len(self.actions)):
+            if self.actions[index]["type"] != "wait":
+                return index if place <= index + _ON_PLACE else None
+        return None
+
     def driven(self, begin: Place, end: Place) -> float:
         """Metres from one place to another."""
         return sum(move.amount for move in self.moves(begin, end) if move.type == "translate")

@@ -79,6 +79,7 @@ class _Progress:
     clocks: list[_Clock] = field(default_factory=list)
     place: Place = 0.0
     commitment: Place = math.inf  # not to be passed
+    committed_from: dict[int, float] = field(default_factory=dict)  # by action: seconds, when its commitment begins it
     stays: bool = False  # where it is, whatever its actions are
     counted: float = 0.0  # until then, its wait is counted; on the executor's clock
     report: Report | None = None
@@ -182,24 +183,27 @@ class Executor:
         """Where robots are, for `commit`."""
         return {robot: progress.place for robot, progress in self._robots.items()}
 
-    def commit(self, request: AdvanceAnswer, places: Mapping[str, Place]) -> list[str]:
+    def commit(self, request: AdvanceAnswer, places: Mapping[str, Place], begin: float) -> list[str]:
         """While a plan is made for a request of `/v1/advance`, robots go on to the end of their commitments and no
-        further: that plan goes on from there. `places`: where they were when the request was made. Returns the robots
-        that are further already; then the plan cannot be followed."""
+        further: that plan goes on from there. They are not ahead of them either, unless robots may be early: a late
+        robot has its waits still before it. `places`: where they were at `begin`, the moment of the request. Returns
+        the robots that are further already; then the plan cannot be followed."""
         self._committed_at = places
         self._begins_at = {entry["robot"]: whole(entry["is"]) for entry in request.get("progress", [])}
         for robot in request["robots"]:
             progress = self._robots.get(robot["id"])
             if progress is not None:
                 ahead = _course(request, robot, robot.get("committed", []))
-                moves = ahead.moves(0.0, ahead.end)
-                progress.commitment = progress.course.after(places[robot["id"]], moves, self._near)
+                place = places[robot["id"]]
+                progress.commitment = progress.course.after(place, ahead.moves(0.0, ahead.end), self._near)
+                progress.committed_from = self._committed_from(progress.course, ahead, place, begin)
         return [robot for robot, progress in self._robots.items() if progress.place > progress.commitment + _REACHED]
 
     def release(self) -> None:
         """There is no other plan: robots go on with the one that they have."""
         for progress in self._robots.values():
             progress.commitment = math.inf
+            progress.committed_from = {}
 
     def follow(self, request: PlanRequest, answer: PlanAnswer, begin: float, now: float) -> None:
         """Goes on with the plan for the request that was committed to, which began at `begin`. What robots have done
@@ -278,7 +282,7 @@ class Executor:
         progress, course = self._robots[robot], self._robots[robot].course
         while (progress.place < (limit := self._limit(robot)) - _REACHED
                and course.actions[index := course.index(progress.place)]["type"] == "wait"):
-            begins = self._begins(course, index)
+            begins = self._begins(progress, index)
             if now < begins - _SAME_TIME:
                 break
             stop, least = min(limit, index + 1.0), course.amount(index)
@@ -290,14 +294,24 @@ class Executor:
             progress.place, progress.counted = stop, since + needed if least > 0.0 else progress.counted
         progress.counted = now
 
-    def _begins(self, course: Course, index: int) -> float:
+    def _committed_from(self, course: Course, ahead: Course, place: Place, begin: float) -> dict[int, float]:
+        """When the moves of a commitment begin, by the actions that they are on the course now."""
+        times = {}
+        for number, action in enumerate(ahead.actions):
+            index = course.next_move(course.after(place, ahead.moves(0.0, float(number)), self._near))
+            if action["type"] != "wait" and index is not None:
+                times.setdefault(index, begin + action["t_start"])
+        return times
+
+    def _begins(self, progress: _Progress, index: int) -> float:
         """When a robot may begin what a wait is for, or a move."""
+        course = progress.course
         action = course.actions[index]
         if self._early:
             return self.start + (course.not_before(index) if action["type"] == "wait" else 0.0)
         if action["type"] == "wait":
             return self.start + action["t_end"] - course.amount(index)
-        return self.start + action["t_start"]
+        return max(self.start + action["t_start"], progress.committed_from.get(index, -math.inf))
 
     def _instruction(self, robot: str, now: float) -> Instruction:
         progress, course = self._robots[robot], self._robots[robot].course
@@ -308,7 +322,7 @@ class Executor:
         action = course.actions[index]
         if place >= limit - _REACHED:
             return self._stand(robot, place, waits_for=self._waits_for(robot))
-        begins = self._begins(course, index)
+        begins = self._begins(progress, index)
         if action["type"] == "wait":
             left = max(0.0, begins - now) + (index + 1 - place) * course.amount(index)
             return self._stand(robot, place, action.get("goal"), left, self._waits_for(robot))

@@ -125,6 +125,13 @@ class FleetLoop:
         return [robot for robot in served if robot not in self._goals and robot not in self._given]
 
     @property
+    def stuck(self) -> dict[str, list[str]]:
+        """Robots that gain nothing on the way to their goals within the horizon of the last plan, with the robots that
+        are in their way. Somebody should look if it is the same plan after plan."""
+        plans = self.answer["plans"] if self.answer is not None else []
+        return {plan["robot"]: plan.get("blocked_by", []) for plan in plans if plan.get("stuck")}
+
+    @property
     def overran(self) -> list[str]:
         """Robots that have passed a gate that is closed: somebody should look."""
         return self._executor.overran if self._executor is not None else []
@@ -186,7 +193,7 @@ class FleetLoop:
         round_ = self._round
         if round_ is not None and round_.request is not None and not round_.committed and self._executor is not None:
             round_.committed = True
-            round_.passed = self._executor.commit(round_.request, round_.places)
+            round_.passed = self._executor.commit(round_.request, round_.places, round_.begin)
 
     def _plan(self, request: PlanRequest) -> PlanAnswer:
         answer = self._client.plan(request)

@@ -142,6 +142,41 @@ TEST(Timeline, AHoldTakesPlaceDuringAWaitUnderWay) {
   EXPECT_EQ(longer.actions[1].t_end, 12.0);
 }
 
+TEST(Timeline, AServiceGoesOnWhileTheRobotIsHeld) {
+  const Pose here{{1.0, 1.0}, 0.0};
+  const std::vector<Action> served{{Type::wait, 0.0, 8.0, here, here, 0},
+                                   {Type::translate, 8.0, 10.0, here, {{3.0, 1.0}, 0.0}}};
+  Remainder rest{here, served};
+  hold(rest, 0.0, 20.0);
+  expect_contiguous(rest);
+  ASSERT_EQ(rest.actions.size(), 3U);
+  EXPECT_EQ(rest.actions[0].goal, 0U);
+  EXPECT_EQ(rest.actions[0].t_end, 8.0);
+  EXPECT_FALSE(rest.actions[1].goal);
+  EXPECT_EQ(rest.actions[1].t_end, 20.0);
+  EXPECT_EQ(rest.actions[2].t_end, 22.0);
+
+  for (Action& action : rest.actions) {  // the service is late
+    action.t_start += 5.0;
+    action.t_end += 5.0;
+  }
+  rest.actions[0].t_start = 0.0;
+  hold(rest, 0.0, 19.0);
+  expect_contiguous(rest);
+  ASSERT_EQ(rest.actions.size(), 3U) << "held once, not twice";
+  EXPECT_EQ(rest.actions[0].t_end, 13.0);
+  EXPECT_EQ(rest.actions[1].t_end, 19.0);
+  EXPECT_EQ(rest.actions[2].t_end, 21.0);
+
+  hold(rest, 0.0, 10.0);
+  expect_contiguous(rest);
+  ASSERT_EQ(rest.actions.size(), 3U) << "cut where the hold ends, and then it drives";
+  EXPECT_EQ(rest.actions[0].t_end, 10.0);
+  EXPECT_EQ(rest.actions[1].goal, 0U);
+  EXPECT_EQ(rest.actions[1].t_end, 13.0);
+  EXPECT_EQ(rest.actions[2].t_end, 15.0);
+}
+
 Remainder measured(const Pose& pose, double at) {
   const auto progress = measured_progress(robot(), corner(), pose, at, 0.1);
   EXPECT_TRUE(progress);
