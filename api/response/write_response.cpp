@@ -172,12 +172,14 @@ void write_goals_put_off(JsonWriter& json, const core::PostponedGoals& goals, co
   }
 }
 
-/// Writes the visits of a plan, and those that it leaves at the horizon.
-void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan,
+/// Writes the visits of a plan, and those that it leaves at the horizon. `goes_on`: it puts other goals off,
+/// so that the service at its last one has an end.
+void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, bool goes_on,
                           const std::vector<std::string>& metadata) {
   for (const core::Visit& visit : plan.visits) {
     json.begin_object().member("goal", visit.goal).member("t_arrive", visit.t_arrive);
-    json.member("t_leave", visit.t_leave);  // null at the last goal
+    const bool stays = visit.t_leave == core::kForever;
+    json.member("t_leave", stays && goes_on ? plan.cost : visit.t_leave);  // null at the last goal
     end_visit(json, visit.goal, metadata);
   }
   for (const core::Visit& visit : plan.estimated_visits) {
@@ -187,14 +189,15 @@ void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan,
   }
 }
 
-/// Writes the member `visits`. The end of a way out that stands in for goals is none.
+/// Writes the member `visits`. The end of a way out that stands in for goals is none. At the last goal before
+/// those that are put off, the service ends, as at any other goal that is not the last one.
 void write_visits(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPlan& verified) {
   const std::vector<std::string>& metadata = verified.received[plan.robot].goal_metadata;
   const core::Leaving* leaving = verified.problem.leaving(plan.robot);
+  const bool puts_off = leaving != nullptr && leaving->postponed;
   json.key("visits").begin_array();
-  if (leaving == nullptr || !leaving->rests_outside) write_planned_visits(json, plan, metadata);
-  if (leaving != nullptr && leaving->postponed)
-    write_goals_put_off(json, *leaving->postponed, verified, metadata);
+  if (leaving == nullptr || !leaving->rests_outside) write_planned_visits(json, plan, puts_off, metadata);
+  if (puts_off) write_goals_put_off(json, *leaving->postponed, verified, metadata);
   json.end_array();
 }
 

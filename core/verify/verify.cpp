@@ -83,7 +83,8 @@ class FleetCheck {
     less.robot.goal =
         Goal{moves ? plan->actions.back().to.position : robot.committed_end().position, std::nullopt};
     less.plan.visits.resize(std::min(less.plan.visits.size(), *put_off));
-    if (!less.plan.visits.empty()) less.plan.visits.push_back({*put_off, plan->cost, kForever});
+    const bool visits_all_before = *put_off > 0 && less.plan.visits.size() == *put_off;
+    if (visits_all_before) less.plan.visits.push_back({*put_off, plan->cost, kForever});
     return less;
   }
 

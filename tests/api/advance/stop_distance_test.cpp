@@ -34,7 +34,7 @@ struct Line {
     robot.radius = 0.25;
     robot.linear_speed = robot.angular_speed = 1.0;
     robot.start = at_x(from, heading);
-    robot.goal = core::Goal{at_x(to).position};
+    robot.goal = core::Goal{at_x(to).position, {}};
     Execution execution{{}, true};
     if (to != from) {
       execution.actions.push_back(

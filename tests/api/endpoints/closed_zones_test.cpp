@@ -47,6 +47,7 @@ TEST(ClosedZones, AnswersTellWhichGoalsArePutOff) {
   EXPECT_EQ(out["actions"].back()["to"]["y"], 54.5);
   ASSERT_EQ(out["visits"].size(), 3U);
   EXPECT_TRUE(out["visits"][0]["t_arrive"].is_number());
+  EXPECT_EQ(out["visits"][0]["t_leave"], out["cost"]);
   EXPECT_EQ(out["visits"][1], Json::parse(R"({"goal": 1, "t_arrive": null, "t_leave": null,
                                               "reason": "zone_closed", "zone": "fire", "metadata": {"order": 7}})"));
   EXPECT_EQ(out["visits"][2],
