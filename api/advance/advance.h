@@ -158,8 +158,9 @@ core::Pose pose_at(const core::Action& action, double t);
 /// another one, nor passes where another one has ended. Whatever becomes of the plans behind the commitments,
 /// nobody then drives into a robot that stands. Robots are only stopped while they drive; a wait stays
 /// committed. `margins`: metres, by robot, that they keep around their disks; robots that are nearer to each
-/// other at the moment keep half of what they have. `braking`: by robot, see braking_of; none of these
-/// commitments ends before, unless it collides with another commitment. Ends early when the stop is met.
+/// other at the moment keep half of what they have, or a quarter of the margins if they have that. `braking`:
+/// by robot, see braking_of; none of these commitments ends before, unless it collides with another
+/// commitment. Ends early when the stop is met.
 void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins,
                        const std::vector<std::vector<core::Action>>& braking, core::Work& stop);
 

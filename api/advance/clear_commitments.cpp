@@ -20,6 +20,9 @@ constexpr double kTouch = 1e-8;
 /// Disks with a smaller gap touch (metres): more than the contact tolerance.
 constexpr double kTouching = 1e-6;
 
+/// The share of the margins of two robots that is little: errors of measured poses are less.
+constexpr double kLittle = 0.25;
+
 /// A commitment that is ended by less is not ended (seconds).
 constexpr double kSameEnd = 1e-9;
 
@@ -92,11 +95,14 @@ class Clearing {
   }
 
   /// What two robots keep between their bare disks: the margins of both; of robots that are nearer than that
-  /// at the moment, half of what they have.
+  /// at the moment, half of what they have, and all of it if that is little. Otherwise robots that are
+  /// measured again and again would creep up to each other, until errors of their poses are more than what is
+  /// left.
   double margin(std::size_t robot, std::size_t other) const {
     const double now = gap_now(robot, other);
     const double whole = margins_[robot] + margins_[other];
-    return now >= whole - kTouch ? whole : std::max(0.0, 0.5 * now);
+    if (now >= whole - kTouch) return whole;
+    return std::max({0.0, 0.5 * now, std::min(now, kLittle * whole)});
   }
 
   /// Until when a robot that drives at the moment cannot stop, seconds; 0 if it stands.

@@ -281,6 +281,17 @@ class FromPlanToPlan(unittest.TestCase):
         executor.release()
         self.assertEqual(executor.instructions(5.4)[0].type, "translate")
 
+    def test_a_robot_that_waits_after_its_commitment_has_not_passed_it(self):
+        course = actions(("translate", 4.0), ("wait", 1.0), ("wait", 1.0), ("translate", 2.0))
+        executor = Executor(*planned({"a": course}), 0.0, early=False)
+        executor.report(Report("a", pose(3.0)), 3.0)
+        places = executor.places()
+        executor.report(Report("a", pose(4.0)), 4.0)
+        executor.instructions(5.5)
+        self.assertGreater(executor.progress("a")["action"], 0)
+        request = {"robots": [{"id": "a", "start": pose(3.0), "committed": actions(("translate", 1.0), ("wait", 1.0))}]}
+        self.assertEqual(executor.commit(request, places, 3.0), [])
+
     def test_a_service_under_way_goes_on(self):
         self.executor.report(Report("a", action=2, progress=0.0), 5.0)
         self.executor.instructions(5.0)

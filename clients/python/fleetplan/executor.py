@@ -197,7 +197,9 @@ class Executor:
                 place = places[robot["id"]]
                 progress.commitment = progress.course.after(place, ahead.moves(0.0, ahead.end), self._near)
                 progress.committed_from = self._committed_from(progress.course, ahead, place, begin)
-        return [robot for robot, progress in self._robots.items() if progress.place > progress.commitment + _REACHED]
+        # A robot that only waits after its commitment has not passed it.
+        return [robot for robot, progress in self._robots.items()
+                if progress.course.moves(progress.commitment, progress.place)]
 
     def release(self) -> None:
         """There is no other plan: robots go on with the one that they have."""
@@ -296,7 +298,7 @@ class Executor:
 
     def _committed_from(self, course: Course, ahead: Course, place: Place, begin: float) -> dict[int, float]:
         """When the moves of a commitment begin, by the actions that they are on the course now."""
-        times = {}
+        times: dict[int, float] = {}
         for number, action in enumerate(ahead.actions):
             index = course.next_move(course.after(place, ahead.moves(0.0, float(number)), self._near))
             if action["type"] != "wait" and index is not None:

@@ -4,6 +4,7 @@
 
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace fleetplan::api {
@@ -504,17 +505,21 @@ TEST(AdvancedFleet, InflationIsUsedUpByRobotsThatAreNotWhereTheirPlansHaveThem) 
 }
 
 /// A moving robot cannot stop at once: one that is too near to another one already keeps half of what it has.
-TEST(AdvancedFleet, RobotsThatAreTooNearStopHalfWay) {
-  Convoy convoy(2);
-  convoy.executions[0].hold = 30.0;
-  convoy.robots[1].start.position.x() -= 0.1;
-  convoy.executions[1].actions[0].from = convoy.robots[1].start;
-  convoy.executions[1].actions[0].t_end = 4.1;
-  Moment then = moment(1.0, 1.0);
-  then.inflation = 0.08;
-  core::Work stop = core::Work::unbounded();
-  const auto next = advanced(convoy.robots, convoy.executions, then, stop);
-  EXPECT_NEAR(next[1].committed_until(), 0.05, 1e-6);
+/// So that robots do not creep up to each other, it keeps all of a gap of a quarter of both margins.
+TEST(AdvancedFleet, RobotsThatAreTooNearStopHalfWayUnlessLittleIsLeft) {
+  const std::vector<std::pair<double, double>> cases{{0.1, 0.05}, {0.06, 0.02}, {0.04, 0.0}, {0.01, 0.0}};
+  for (const auto& [gap, drives] : cases) {
+    Convoy convoy(2);
+    convoy.executions[0].hold = 30.0;
+    convoy.robots[1].start.position.x() -= gap;
+    convoy.executions[1].actions[0].from = convoy.robots[1].start;
+    convoy.executions[1].actions[0].t_end = 4.0 + gap;
+    Moment then = moment(1.0, 1.0);
+    then.inflation = 0.08;
+    core::Work stop = core::Work::unbounded();
+    const auto next = advanced(convoy.robots, convoy.executions, then, stop);
+    EXPECT_NEAR(next[1].committed_until(), drives, 1e-6) << gap;
+  }
 }
 
 TEST(AdvancedFleet, CommitmentsToOneHorizonStayWhole) {

@@ -62,7 +62,8 @@ class Day:
             instructions = self.step()
             self.fleet.obey(instructions)
             self.fleet.drive(STEP)
-            self.disturbances.happen(self.fleet.now, STEP, self.fleet, self.loop, self.tasks, self.radii)
+            speeds = {report.robot: report.speed for report in self.reports}
+            self.disturbances.happen(self.fleet.now, STEP, self.fleet, self.loop, self.tasks, self.radii, speeds)
             self.watch.look(self.fleet, self.disturbances.standing())
             self.reports = Services.reports(self.fleet, instructions, self.tasks, STEP)
         if offer:
@@ -168,7 +169,8 @@ def main(program, words):
         while day.fleet.now < arguments.seconds - STEP / 2.0:
             day.run(min(60.0, arguments.seconds - day.fleet.now))
             print(f"{day.fleet.now:.0f} s: {len(day.tasks.done)} of {day.tasks.offered} tasks done, {dict(day.rounds)}, "
-                  f"{len(day.failures)} failures, {len(day.watch.overlaps)} overlaps", file=sys.stderr, flush=True)
+                  f"{len(day.failures)} failures, {len(day.watch.overlaps)} overlaps", *day.failures[-1:],
+                  file=sys.stderr, flush=True)
         day.finish(MOST_TO_FINISH)
     report = day.report()
     pathlib.Path(arguments.output, "day.json").write_text(json.dumps(report, indent=1) + "\n")

@@ -16,7 +16,9 @@ MOST_TRIES = 50  # to find one that can be closed
 PERSON = 0.3  # metres: radius
 SEEN = 8.0  # seconds: how far ahead the way of a person is known
 PATIENCE = 3.0  # seconds until a person who is hindered turns round
+TRAPPED = 10.0  # seconds until one who is hindered all the time steps aside, and walks on elsewhere
 CLEAR, TOO_NEAR = 0.4, 0.15  # metres: what people keep from robots, and where robots stop
+BRAKES = 1.0  # metres per second squared
 CROSSINGS = (3.0, WIDTH / 2.0, WIDTH - 3.0)  # metres: where people walk from aisle to aisle
 
 
@@ -54,7 +56,7 @@ class Person:
         self.id, self.rng, self.speed = f"person-{number}", rng, rng.uniform(0.7, 1.3)
         self.x, self.row = rng.choice(CROSSINGS), rng.randrange(AISLES)
         self.y, self.along = self.lane(), True
-        self.target, self.hindered, self.robots = (self.x, self.y), 0.0, ()
+        self.target, self.hindered, self.trapped, self.robots = (self.x, self.y), 0.0, 0.0, ()
 
     def lane(self):
         return aisle_of(self.row) + 0.8 * AISLE
@@ -67,11 +69,23 @@ class Person:
         x, y = self.after(seconds)
         if self.is_hindered_at(x, y):
             self.hindered += seconds
-            if self.hindered > PATIENCE:
+            self.trapped += seconds
+            if self.trapped > TRAPPED:
+                self.step_aside()
+            elif self.hindered > PATIENCE:
                 self.choose()
                 self.hindered = 0.0
             return
         self.x, self.y, self.hindered = x, y, 0.0
+        self.trapped = max(0.0, self.trapped - seconds)
+
+    def step_aside(self):
+        for _ in range(MOST_TRIES):
+            self.x, self.row = self.rng.choice(CROSSINGS), self.rng.randrange(AISLES)
+            self.y, self.along, self.hindered, self.trapped = self.lane(), True, 0.0, 0.0
+            self.target = self.x, self.y
+            if all(math.hypot(self.x - x, self.y - y) > radius + PERSON + 1.0 for x, y, radius in self.robots):
+                return
 
     def after(self, seconds):
         """Where the person is then, if nothing is in the way."""
@@ -129,12 +143,12 @@ class Disturbances:
         self.near = set()  # pairs of a robot that had to stop and a person
         self.count = {"holds": 0, "breakdowns": 0, "closures": 0}
 
-    def happen(self, now, seconds, fleet, loop, tasks, radii):
+    def happen(self, now, seconds, fleet, loop, tasks, radii, speeds):
         """What happens within so many seconds."""
         robots = [(pose["x"], pose["y"], radii[name]) for name in radii for pose in [fleet.pose(name)]]
         for person in self.people:
             person.walk(seconds, robots)
-        self.stop_before_people(fleet, radii)
+        self.stop_before_people(fleet, radii, speeds)
         free = [robot for robot in tasks.active if robot not in self.broken and robot not in self.held]
         if self.holds.has_come(now) and free:
             robot = self.rng.choice(free)
@@ -160,11 +174,15 @@ class Disturbances:
         request["zones"] = [{"id": f"closed-{k}", "type": "blocked", "polygon": corners_of(rectangle)}
                             for k, rectangle in enumerate(self.closed_rectangles())]
 
-    def stop_before_people(self, fleet, radii):
+    def stop_before_people(self, fleet, radii, speeds):
+        """Robots stop for who is right before them."""
         for person in self.people:
             for robot, radius in radii.items():
                 pose = fleet.pose(robot)
-                if math.hypot(pose["x"] - person.x, pose["y"] - person.y) < radius + PERSON + TOO_NEAR:
+                x, y = person.x - pose["x"], person.y - pose["y"]
+                gap = math.hypot(x, y) - radius - PERSON
+                is_ahead = x * math.cos(pose["theta"]) + y * math.sin(pose["theta"]) > 0.0
+                if is_ahead and speeds[robot] > 0.0 and gap < TOO_NEAR + speeds[robot] ** 2 / (2.0 * BRAKES):
                     fleet.stop(robot, 0.5)
                     self.near.add((robot, person.id))
 

@@ -48,7 +48,10 @@ test("a robot has another radius after a goal that changes it", () => {
   const at = (t) => robotRadiusAt(scene.robots[0], tracks.get("a"), t);
   assert.deepEqual([at(0), at(3.9), at(4), at(8.9), at(9)], [0.2, 0.2, 0.4, 0.4, 0.3]);
   const left = visits.map((visit) => (visit.goal === 2 ? { ...visit, t_arrive: null } : visit));
-  const stopped = readTracks(scene, { plans: [{ robot: "a", cost: 9, actions: [], visits: left }], unplanned: [] });
+  const stopped = readTracks(scene, {
+    plans: [{ robot: "a", cost: 9, actions: [], visits: left }],
+    unplanned: [],
+  });
   assert.equal(robotRadiusAt(scene.robots[0], stopped.get("a"), 9), 0.4, "beyond the horizon");
 });
 
