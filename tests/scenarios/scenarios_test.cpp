@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
@@ -97,12 +98,37 @@ json with_previous_plans(const json& request, const json& answer, const std::set
   return both;
 }
 
-TEST(Scenarios, ALatePalletChangesOnlyThePlansThatMust) {
+json request_named(std::string_view name) {
   const auto all = examples();
-  const auto late = std::find_if(all.begin(), all.end(),
-                                 [](const Example& example) { return example.name == "late-pallet"; });
-  ASSERT_NE(late, all.end());
-  const json request = request_with_long_budget(*late);
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Example& example) { return example.name == name; });
+  EXPECT_NE(found, all.end()) << name;
+  return found == all.end() ? json() : request_with_long_budget(*found);
+}
+
+TEST(Scenarios, ARobotThatCannotPassAnotherOneIsStuckWithAHorizonOnceItIsThere) {
+  json request = request_named("partly-solvable");
+  request["options"]["horizon"] = 10.0;
+  const auto plan_of_late_comer = [&] {
+    json answer = json::parse(plan_endpoint(request.dump(), RequestContext{}).body);
+    const json plans = answer.at("plans");
+    const auto found = std::find_if(plans.begin(), plans.end(),
+                                    [](const json& plan) { return plan.at("robot") == "late-comer"; });
+    return std::pair{answer, *found};
+  };
+  const auto [first, comes_near] = plan_of_late_comer();
+  EXPECT_FALSE(comes_near.contains("stuck")) << comes_near;
+  const json advance{{"request", request}, {"plans", first.at("plans")}, {"at", 10.0}};
+  request = json::parse(advance_endpoint(advance.dump(), RequestContext{}).body);
+  const auto [second, stuck] = plan_of_late_comer();
+  EXPECT_EQ(stuck.at("stuck"), true) << stuck;
+  EXPECT_EQ(stuck.at("blocked_by"), json::array({"charging"}));
+  EXPECT_EQ(stuck.at("estimated_cost"), nullptr);
+  EXPECT_EQ(second.at("warnings").size(), 1U) << second.at("warnings");
+}
+
+TEST(Scenarios, ALatePalletChangesOnlyThePlansThatMust) {
+  const json request = request_named("late-pallet");
   const json answer = json::parse(plan_endpoint(request.dump(), RequestContext{}).body);
   ASSERT_EQ(answer.at("plans").size(), request.at("robots").size());
   std::set<std::string> changed;
