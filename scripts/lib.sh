@@ -14,7 +14,7 @@ BUILD_PACKAGES=(g++:g++ cmake:cmake ninja-build:ninja pkgconf:pkg-config esbuild
 # In addition: for the tests of the release build, for all tests, for the checks of the sources, for the fuzz targets.
 UNIT_TEST_PACKAGES=(libgtest-dev libgmock-dev python3:python3 curl:curl jq:jq)
 TEST_PACKAGES=(nodejs:node npm:npm chromium-headless-shell:chromium-headless-shell haproxy:haproxy mosquitto:mosquitto
-  mypy python3-build python3-pip python3-setuptools python3-wheel)
+  mypy python3-build python3-paho-mqtt python3-pip python3-setuptools python3-wheel)
 CHECK_PACKAGES=(clang-tidy:clang-tidy)
 FUZZ_PACKAGES=(clang:clang++ libclang-rt-dev)
 

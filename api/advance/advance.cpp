@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"
 
@@ -174,13 +175,73 @@ Actions braking_in(const Remainder& rest, const core::Robot& robot, const Execut
   return brakes ? driven_until(rest.actions, execution.stop_distance) : Actions();
 }
 
+/// When it can stand at the earliest, seconds.
+double standing_from(const Remainder& rest, const core::Robot& robot, const Execution& execution,
+                     const Located& located) {
+  const Actions braking = braking_in(rest, robot, execution, located);
+  return braking.empty() ? 0.0 : braking.back().t_end;
+}
+
+bool is_released(const Execution& execution) { return execution.reported && execution.reported->released; }
+
+/// What it may do already, after it has been held.
+ReleasedRest held_rest(const core::Robot& robot, const Execution& execution, const Located& located,
+                       const Moment& moment) {
+  ReleasedRest released = released_rest(robot, execution, moment);
+  const double stands_from = standing_from(released.rest, robot, execution, located);
+  if (execution.hold) hold(released.rest, stands_from, *execution.hold);
+  return released;
+}
+
+/// All that a robot will do, and until when it is committed to that.
+struct Course {
+  Remainder rest;
+  double committed_until = 0.0;
+};
+
+Course usual_course(const core::Robot& robot, const Execution& execution, const Located& located,
+                    const Moment& moment) {
+  Course course{remainder_of(robot, execution, located, moment)};
+  const double stands_from = standing_from(course.rest, robot, execution, located);
+  double until = horizon(course.rest.actions, moment);
+  if (execution.hold) {
+    hold(course.rest, stands_from, *execution.hold);
+    until = *execution.hold;
+  }
+  course.committed_until = std::max(until, stands_from);
+  return course;
+}
+
+/// Of a robot in a fleet in which some are released to go on: it does what is released, and then stands.
+Course standing_course(const core::Robot& robot, const Execution& execution, const Located& located,
+                       const Moment& moment) {
+  if (!is_released(execution) || located.is_elsewhere) {
+    Course course{remainder_of(robot, execution, located, moment)};
+    const double stands_from = standing_from(course.rest, robot, execution, located);
+    course.committed_until = std::max({*moment.stand_until, execution.hold.value_or(0.0), stands_from});
+    if (course.committed_until > 0.0) hold(course.rest, stands_from, course.committed_until);
+    return course;
+  }
+  ReleasedRest released = held_rest(robot, execution, located, moment);
+  Course course{std::move(released.rest)};
+  Actions& actions = course.rest.actions;
+  const double end = actions.empty() ? 0.0 : actions.back().t_end;
+  course.committed_until = std::max(end, *moment.stand_until);
+  if (course.committed_until > end) {
+    const core::Pose pose = actions.empty() ? course.rest.start : actions.back().to;
+    actions.push_back({Action::Type::wait, end, course.committed_until, pose, pose});
+  }
+  append(actions, released.after);
+  return course;
+}
+
 }  // namespace
 
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment) {
   const Located located = locate(robot, execution, moment);
-  Remainder rest = remainder_of(robot, execution, located, moment);
-  const Actions braking = braking_in(rest, robot, execution, located);
-  const double stands_from = braking.empty() ? 0.0 : braking.back().t_end;
+  Course course = moment.stand_until ? standing_course(robot, execution, located, moment)
+                                     : usual_course(robot, execution, located, moment);
+  Remainder& rest = course.rest;
   GoalsLeft left = goals_left(robot, execution, located.progress.t, moment.at);
 
   core::Robot next = robot;
@@ -190,23 +251,20 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
   set_goals(next, execution.goals ? *execution.goals : std::move(left.goals));
   if (!execution.goals) align_service(next, rest);
 
-  double until = horizon(rest.actions, moment);
-  if (execution.hold) {
-    hold(rest, stands_from, *execution.hold);
-    until = *execution.hold;
-  }
-  until = std::max(until, stands_from);
-  next.committed = actions_until(rest.actions, until);
+  next.committed = actions_until(rest.actions, course.committed_until);
   next.previous.reset();
   const bool goes_on = execution.planned && !located.is_elsewhere && !execution.goals;
-  if (goes_on) next.previous = split_at(rest.actions, until);
+  if (goes_on) next.previous = split_at(rest.actions, course.committed_until);
   return next;
 }
 
 Actions braking_of(const core::Robot& robot, const Execution& execution, const Moment& moment) {
   if (execution.stop_distance <= 0.0) return {};
   const Located located = locate(robot, execution, moment);
-  return braking_in(remainder_of(robot, execution, located, moment), robot, execution, located);
+  const Remainder rest = is_released(execution) && !located.is_elsewhere
+                             ? released_rest(robot, execution, moment).rest
+                             : remainder_of(robot, execution, located, moment);
+  return braking_in(rest, robot, execution, located);
 }
 
 std::vector<Actions> braking_of(const std::vector<core::Robot>& robots,
@@ -218,6 +276,24 @@ std::vector<Actions> braking_of(const std::vector<core::Robot>& robots,
     braking[k] = braking_of(robots[k], executions[k], moment);
   }
   return braking;
+}
+
+std::optional<double> standing_time(const std::vector<core::Robot>& robots,
+                                    const std::vector<Execution>& executions, const Moment& moment,
+                                    core::Work& stop) {
+  std::optional<double> until;
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    const Execution& execution = executions[k];
+    if (!is_released(execution)) continue;
+    if (stop.met_after(kWorkOfAnAction * (1 + execution.actions.size()))) break;
+    until = std::max(until.value_or(0.0), moment.commit.value_or(0.0));
+    const Located located = locate(robots[k], execution, moment);
+    if (located.is_elsewhere) continue;
+    for (const Action& action : held_rest(robots[k], execution, located, moment).rest.actions) {
+      if (action.type == Action::Type::translate) until = std::max(*until, action.t_end);
+    }
+  }
+  return until;
 }
 
 Place place_of(const core::Robot& robot, const Execution& execution, const Moment& moment) {
@@ -234,7 +310,10 @@ Place place_of(const core::Robot& robot, const Execution& execution, const Momen
 std::vector<double> margins_of(const std::vector<core::Robot>& robots,
                                const std::vector<Execution>& executions, const Moment& moment,
                                const std::vector<core::Robot>& next, core::Work& stop) {
-  std::vector<double> margins(robots.size(), 0.0);
+  // Robots that are released to places where they touch may go there.
+  constexpr double kReleased = -0.5 * core::kContactTolerance;
+  std::vector<double> margins(robots.size(), moment.stand_until ? kReleased : 0.0);
+  if (moment.stand_until) return margins;
   for (std::size_t k = 0; k < next.size(); ++k) {
     if (stop.met_after(1 + executions[k].actions.size())) break;
     const core::Pose planned = planned_pose(robots[k], executions[k].actions, moment.at);

@@ -1,8 +1,9 @@
 #pragma once
 
 // The fleet at a later moment of its plan. All poses are in the client's world, so that no number changes
-// that the moment does not change: what a robot executes, seen from that moment (timeline.cpp), the robots of
-// the next request (advance.cpp), and commitments that end where robots may stay (clear_commitments.cpp).
+// that the moment does not change: what a robot executes, seen from that moment (timeline.cpp), what
+// is released of it already (released.cpp), the robots of the next request (advance.cpp), and commitments
+// that end where robots may stay (clear_commitments.cpp).
 
 #include <cstddef>
 #include <optional>
@@ -26,6 +27,9 @@ struct Moment {
   double pose_tolerance = 0.1;
   double wait_before_move = 0.0;  // of the request's options
   double inflation = 0.0;         // likewise
+  /// If robots have reported how far they are released: then each is committed to that and stands until this
+  /// time at least, see standing_time.
+  std::optional<double> stand_until = {};
 };
 
 /// Where a robot is in its actions.
@@ -38,6 +42,7 @@ struct Place {
 struct ReportedState {
   Place place;                              // in one of its actions
   std::optional<double> service_left = {};  // seconds, if the action is a service
+  std::optional<Place> released = {};       // it may drive to there; nobody can take that back
 };
 
 /// What a robot does, and what happened to it.
@@ -67,9 +72,18 @@ std::vector<std::vector<core::Action>> braking_of(const std::vector<core::Robot>
                                                   const std::vector<Execution>& executions,
                                                   const Moment& moment, core::Work& stop);
 
+/// Until when all robots stand, if some have reported how far they are released: until the last of them has
+/// come to where it may drive to, and for the horizon of commitment at least. So nobody leaves what is
+/// released for it before all others have passed what is released for them, and nobody is planned to pass in
+/// front of a robot that nobody can stop any more. None if nobody has reported that.
+std::optional<double> standing_time(const std::vector<core::Robot>& robots,
+                                    const std::vector<Execution>& executions, const Moment& moment,
+                                    core::Work& stop);
+
 /// By robot, what it keeps around its disk while it is committed: its vicinity and the inflation, metres.
 /// Inflation is there for robots that are not where their plans have them, so it is used up by as much as
-/// they are elsewhere at the moment, up to a half.
+/// they are elsewhere at the moment, up to a half. What is released cannot be shortened for the sake of a
+/// margin: then there is none.
 std::vector<double> margins_of(const std::vector<core::Robot>& robots,
                                const std::vector<Execution>& executions, const Moment& moment,
                                const std::vector<core::Robot>& next, core::Work& stop);
@@ -140,6 +154,20 @@ std::vector<core::Action> driven_until(const std::vector<core::Action>& actions,
 
 /// Whether a translation goes on with another one, without a stop.
 bool goes_on(const core::Action& action, const core::Action& next);
+
+/// What a robot may do already, and what it may not do yet, on a clock that is 0 at the moment.
+struct ReleasedRest {
+  Remainder rest;                   // to the place that is released
+  std::vector<core::Action> after;  // from there on, at its planned times
+};
+
+/// The rest of a robot that has reported how far it is released. It goes there as soon as it can, without the
+/// waits that only give way to others.
+ReleasedRest released_rest(const core::Robot& robot, const Execution& execution, const Moment& moment);
+
+/// Appends actions that follow at their planned times; later, with all that follow, if those before end
+/// later; after a wait if they end earlier. Those of an invalid plan may overlap in time.
+void append(std::vector<core::Action>& actions, const std::vector<core::Action>& following);
 
 /// The actions until `t`, on the clock of the actions; one under way is cut there.
 std::vector<core::Action> actions_until(const std::vector<core::Action>& actions, double t);

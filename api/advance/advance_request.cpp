@@ -27,8 +27,9 @@ constexpr std::array<std::string_view, 9> kRequestMembers{"map",       "robot_de
                                                           "obstacles", "zones",          "options",
                                                           "metadata",  "progress",       "unavoidable"};
 constexpr std::array<std::string_view, 4> kPoseMembers{"robot", "x", "y", "theta"};
-constexpr std::array<std::string_view, 8> kStateMembers{"robot", "action", "progress", "service_left",
-                                                        "x",     "y",      "theta",    "speed"};
+constexpr std::array<std::string_view, 9> kStateMembers{"robot", "action", "progress", "service_left", "x",
+                                                        "y",     "theta",  "speed",    "released"};
+constexpr std::array<std::string_view, 2> kPlaceMembers{"action", "progress"};
 /// Backwards, a robot has a negative speed.
 constexpr Range kMeasuredSpeed{-kMostLinearSpeed, kMostLinearSpeed, "metres per second"};
 constexpr std::array<std::string_view, 2> kHoldMembers{"robot", "until"};
@@ -75,7 +76,7 @@ void parse_events(const JsonReader& root, const RobotNames& names, const Limits&
     ParsedGoals goals = parse_goals(entry, WorldFrame{}, quota);
     if (!robot) return;
     executions[*robot].goals = std::move(goals.goals);
-    request.goal_metadata[*robot] = std::move(goals.metadata);
+    request.goal_texts[*robot] = std::move(goals.texts);
   });
 }
 
@@ -108,6 +109,24 @@ std::optional<core::Pose> parse_measured_at(const JsonReader& entry, const core:
   return core::Pose{{*x, *y}, core::normalize_angle(theta)};
 }
 
+/// Reads how far a robot is released, which is not behind it.
+std::optional<Place> parse_released(const JsonReader& member, const core::Robot& robot, const Place& place,
+                                    const std::vector<core::Action>& actions) {
+  const JsonReader json = member.object(kPlaceMembers);
+  if (!json) return std::nullopt;
+  const auto number = parse_action_number(json.require("action"), robot, actions);
+  const auto fraction = json.require("progress").number(kFraction);
+  if (!number || !fraction) return std::nullopt;
+  const auto whole = [](std::size_t action, double done) { return static_cast<double>(action) + done; };
+  if (whole(*number, *fraction) < whole(place.action, place.fraction)) {
+    member.fault(fault::kOutOfRange, [&] {
+      return "Robot " + in_quotes(robot.id) +
+             " is further than it is released; give its own action and progress if it may go no further.";
+    });
+  }
+  return Place{*number, *fraction};
+}
+
 /// Reads where a robot says that it is in its actions.
 void parse_state(const JsonReader& entry, const core::Robot& robot, Execution& execution) {
   const std::vector<core::Action>& actions = execution.actions;
@@ -126,6 +145,8 @@ void parse_state(const JsonReader& entry, const core::Robot& robot, Execution& e
     });
   }
   execution.reported = ReportedState{{*number, *fraction}, service_left};
+  execution.reported->released =
+      parse_released(entry.find("released"), robot, execution.reported->place, actions);
   execution.measured = parse_measured_at(entry, pose_of(actions, *execution.reported));
 }
 
@@ -162,7 +183,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   read.moment.wait_before_move = fleet.options.plan.wait_before_move;
   read.moment.inflation = fleet.options.plan.inflation;
   read.executions.resize(fleet.robots.size());
-  read.goal_metadata.resize(fleet.robots.size());
+  read.goal_texts.resize(fleet.robots.size());
   const RobotNames names(fleet.robots, "robots of the request");
   parse_events(root, names, limits, read);
   // Without the map's frame, so that no number changes.
@@ -179,7 +200,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   for (ParsedRobot& robot : robots) {
     const std::size_t index = read.robots.size();
     if (stop.met_after(corners)) return std::nullopt;
-    if (!read.executions[index].goals) read.goal_metadata[index] = std::move(robot.goal_metadata);
+    if (!read.executions[index].goals) read.goal_texts[index] = std::move(robot.goal_texts);
     read.executions[index].stop_distance = robot.stop_distance;
     // A robot that is off its path turns back as slowly as it has to anywhere.
     const core::DriveZones zones(fleet.zones, index, robot.robot);
@@ -206,13 +227,15 @@ void write_pose(JsonWriter& json, std::string_view key, const core::Pose& pose) 
   json.end_object();
 }
 
-void write_goal(JsonWriter& json, const core::Goal& goal, const std::string& metadata) {
+/// Without a service, nothing is left of its actions.
+void write_goal(JsonWriter& json, const core::Goal& goal, const GoalTexts& texts) {
   json.begin_object().member("x", goal.position.x()).member("y", goal.position.y());
   if (goal.theta) json.member("theta", *goal.theta);
   if (goal.service > 0.0) json.member("service", goal.service);
   if (goal.not_before > 0.0) json.member("not_before", goal.not_before);
   if (goal.radius_after) json.member("radius_after", *goal.radius_after);
-  if (!metadata.empty()) json.key("metadata").json(metadata);
+  if (!texts.actions.empty() && goal.service > 0.0) json.key("actions").json(texts.actions);
+  if (!texts.metadata.empty()) json.key("metadata").json(texts.metadata);
   json.end_object();
 }
 
@@ -234,41 +257,41 @@ void write_actions(JsonWriter& json, std::string_view key, const std::vector<cor
   json.end_array();
 }
 
-/// The metadata of the goals that are left: the last ones of those that the robot had.
-class GoalMetadata {
+/// What is repeated of the goals that are left: the last ones of those that the robot had.
+class TextsOfGoals {
  public:
-  GoalMetadata(const AdvanceRequest& request, std::size_t index, const core::Robot& left)
-      : all_(request.goal_metadata[index]) {
+  TextsOfGoals(const AdvanceRequest& request, std::size_t index, const core::Robot& left)
+      : all_(request.goal_texts[index]) {
     const Execution& execution = request.executions[index];
     const std::size_t had = execution.goals ? execution.goals->size() : request.robots[index].goal_count();
     visited_ = had - left.goal_count();
   }
 
-  const std::string& of(std::size_t goal) const {
-    static const std::string none;
+  const GoalTexts& of(std::size_t goal) const {
+    static const GoalTexts none;
     return visited_ + goal < all_.size() ? all_[visited_ + goal] : none;
   }
 
  private:
-  const std::vector<std::string>& all_;
+  const std::vector<GoalTexts>& all_;
   std::size_t visited_ = 0;
 };
 
 /// As one goal if the request gave one goal, otherwise as a list.
-void write_goals(JsonWriter& json, const core::Robot& robot, const GoalMetadata& metadata, bool as_one) {
+void write_goals(JsonWriter& json, const core::Robot& robot, const TextsOfGoals& texts, bool as_one) {
   if (!robot.goal) return;
   if (as_one && robot.via.empty()) {
     json.key("goal");
-    return write_goal(json, *robot.goal, metadata.of(0));
+    return write_goal(json, *robot.goal, texts.of(0));
   }
   json.key("goals").begin_array();
-  for (std::size_t k = 0; k < robot.goal_count(); ++k) write_goal(json, robot.goal_at(k), metadata.of(k));
+  for (std::size_t k = 0; k < robot.goal_count(); ++k) write_goal(json, robot.goal_at(k), texts.of(k));
   json.end_array();
 }
 
 /// `radius`: that the robot had.
 void write_robot(JsonWriter& json, const JsonValue& given, double radius, const core::Robot& robot,
-                 const GoalMetadata& metadata, core::Work& work) {
+                 const TextsOfGoals& texts, core::Work& work) {
   const bool has_other_radius = robot.radius != radius;
   json.begin_object();
   for (const JsonValue member : given.children()) {
@@ -279,7 +302,7 @@ void write_robot(JsonWriter& json, const JsonValue& given, double radius, const 
   }
   if (has_other_radius) json.member("radius", robot.radius);
   write_pose(json, "start", robot.start);
-  write_goals(json, robot, metadata, given.find("goal").has_value());
+  write_goals(json, robot, texts, given.find("goal").has_value());
   if (!robot.committed.empty()) write_actions(json, "committed", robot.committed, work);
   if (robot.previous) write_actions(json, "previous", *robot.previous, work);
   json.end_object();
@@ -291,7 +314,7 @@ void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest
   std::size_t index = 0;
   for (const JsonValue robot : given.children()) {
     write_robot(json, robot, request.robots[index].radius, robots[index],
-                GoalMetadata(request, index, robots[index]), work);
+                TextsOfGoals(request, index, robots[index]), work);
     ++index;
   }
   json.end_array();

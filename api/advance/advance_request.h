@@ -20,8 +20,8 @@ struct AdvanceRequest {
   Moment moment;
   std::vector<core::Robot> robots;
   std::vector<Execution> executions;  // by robot
-  /// By robot: the metadata of its goals, or of those that replace them, see ParsedGoals.
-  std::vector<std::vector<std::string>> goal_metadata;
+  /// By robot: what is repeated of its goals, or of those that replace them, see ParsedGoals.
+  std::vector<std::vector<GoalTexts>> goal_texts;
   std::vector<core::MovingObstacle> obstacles;
   JsonReader request;  // the member of the body
 };

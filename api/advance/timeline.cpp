@@ -48,29 +48,6 @@ void delay(Actions& actions, std::size_t first, double seconds) {
   }
 }
 
-/// Appends actions that follow at their planned times; later, with all that follow, if those before end
-/// later; after a wait if they end earlier. Those of an invalid plan may overlap in time.
-void append(Actions& actions, const Actions& following) {
-  double late = 0.0;
-  for (Action next : following) {
-    const double end = actions.empty() ? 0.0 : actions.back().t_end;
-    next.t_start += late;
-    next.t_end += late;
-    if (end > next.t_start) {
-      const double later = end - next.t_start;
-      next.t_end += later;
-      late += later;
-    }
-    const bool waits = next.type == Action::Type::wait && !next.goal;
-    if (end < next.t_start - kDone && !waits) {
-      actions.push_back({Action::Type::wait, end, next.t_start, next.from, next.from});
-    } else {
-      next.t_start = end;
-    }
-    actions.push_back(next);
-  }
-}
-
 /// How far along a translation the pose is, from 0 to 1.
 double fraction(const Action& action, const Pose& pose) {
   const core::Position path = action.to.position - action.from.position;
@@ -192,6 +169,27 @@ std::size_t end_of_service(const Actions& actions, std::size_t index) {
 }
 
 }  // namespace
+
+void append(Actions& actions, const Actions& following) {
+  double late = 0.0;
+  for (Action next : following) {
+    const double end = actions.empty() ? 0.0 : actions.back().t_end;
+    next.t_start += late;
+    next.t_end += late;
+    if (end > next.t_start) {
+      const double later = end - next.t_start;
+      next.t_end += later;
+      late += later;
+    }
+    const bool waits = next.type == Action::Type::wait && !next.goal;
+    if (end < next.t_start - kDone && !waits) {
+      actions.push_back({Action::Type::wait, end, next.t_start, next.from, next.from});
+    } else {
+      next.t_start = end;
+    }
+    actions.push_back(next);
+  }
+}
 
 Pose pose_at(const Action& action, double t) {
   const double duration = action.t_end - action.t_start;

@@ -44,6 +44,10 @@ Reply retime_endpoint(std::string_view body, const RequestContext& context);
 /// POST /v1/export/vda5050: returns a plan as orders of VDA 5050, a pure function of the body.
 Reply vda5050_endpoint(std::string_view body, const RequestContext& context);
 
+/// POST /v1/import/vda5050: returns what vehicles report in messages of VDA 5050 as states of robots, for
+/// POST /v1/advance and the next export.
+Reply import_vda5050_endpoint(std::string_view body, const RequestContext& context);
+
 /// An example request of GET /v1/examples.
 struct Example {
   std::string_view name;  // file name in tests/scenarios without .json

@@ -7,6 +7,7 @@
 #include "api/endpoints/endpoints.h"
 #include "api/endpoints/pipeline.h"
 #include "api/execution/retime_request.h"
+#include "api/vda5050/import.h"
 #include "api/vda5050/parse_vda5050_request.h"
 #include "api/vda5050/write_orders.h"
 
@@ -27,7 +28,9 @@ Reply advance_endpoint(std::string_view body, const RequestContext& context) {
                                 const AwaitTurn& await_turn) -> std::optional<std::string> {
     auto request = parse_advance_request(root, context.limits, stop);
     if (!request || !await_turn()) return std::nullopt;
-    auto robots = advanced(request->robots, request->executions, request->moment, stop);
+    Moment& moment = request->moment;
+    moment.stand_until = standing_time(request->robots, request->executions, moment, stop);
+    auto robots = advanced(request->robots, request->executions, moment, stop);
     if (stop.met()) return std::nullopt;
     const Circumstances circumstances = make_acceptable(*request, robots, context.maps, stop);
     if (stop.met()) return std::nullopt;
@@ -57,6 +60,16 @@ Reply vda5050_endpoint(std::string_view body, const RequestContext& context) {
     return write_orders(*request, stop);
   };
   return pure_endpoint(body, context, kVdaMembers, orders);
+}
+
+Reply import_vda5050_endpoint(std::string_view body, const RequestContext& context) {
+  const auto states = [&](const JsonReader& root, core::Work& stop,
+                          const AwaitTurn& await_turn) -> std::optional<std::string> {
+    const auto import = parse_vda5050_import(root, context.limits, stop);
+    if (!import || !await_turn()) return std::nullopt;
+    return write_states(*import, stop);
+  };
+  return pure_endpoint(body, context, kVdaImportMembers, states);
 }
 
 }  // namespace fleetplan::api

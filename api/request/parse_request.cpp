@@ -189,7 +189,7 @@ std::vector<ReceivedRobot> received(std::vector<ParsedRobot>& robots,
                        .lists_visits = read.lists_visits,
                        .errors = errors.empty() ? std::vector<Fault>{} : std::move(errors[index]),
                        .metadata = std::move(read.metadata),
-                       .goal_metadata = std::move(read.goal_metadata)};
+                       .goal_texts = std::move(read.goal_texts)};
   }
   return received;
 }

@@ -1,5 +1,6 @@
 #include "api/request/shared_members.h"
 
+#include <array>
 #include <cmath>
 
 #include "api/json/json_writer.h"
@@ -19,26 +20,56 @@ bool is_finite(const JsonValue& value) {  // NOLINT(misc-no-recursion)
 
 }  // namespace
 
-std::string parse_metadata(const JsonReader& owner) {
-  const JsonReader member = owner.find("metadata");
-  if (!member) return {};
-  const JsonValue& value = member.value();
-  if (!value.is_object()) {
-    member.must_be(fault::kWrongType, "an object");
-    return {};
-  }
-  if (!is_finite(value)) {
-    member.fault(fault::kOutOfRange, "metadata has a number that is too large for a double.");
+namespace {
+
+/// The text of a member without spaces; an empty one if it is at fault. `what` is it one of, for messages.
+std::string text_of_member(const JsonReader& member, std::string_view name, std::string_view what) {
+  if (!is_finite(member.value())) {
+    member.fault(fault::kOutOfRange, std::string(name) + " has a number that is too large for a double.");
     return {};
   }
   JsonWriter json;
-  copy_json(json, value);
+  copy_json(json, member.value());
   std::string text = json.take();
   if (text.size() <= kMostMetadataBytes) return text;
-  member.fault(fault::kOutOfRange, "metadata has " + std::to_string(text.size()) +
+  member.fault(fault::kOutOfRange, std::string(name) + " has " + std::to_string(text.size()) +
                                        " bytes; this service accepts at most " +
-                                       std::to_string(kMostMetadataBytes) + " in each object.");
+                                       std::to_string(kMostMetadataBytes) + " in each " + std::string(what) +
+                                       ".");
   return {};
+}
+
+constexpr std::array<std::string_view, 3> kActionMembers{"type", "blocking_type", "parameters"};
+constexpr std::array<std::string_view, 3> kBlockingTypes{"NONE", "SOFT", "HARD"};
+
+}  // namespace
+
+std::string parse_metadata(const JsonReader& owner) {
+  const JsonReader member = owner.find("metadata");
+  if (!member) return {};
+  if (member.value().is_object()) return text_of_member(member, "metadata", "object");
+  member.must_be(fault::kWrongType, "an object");
+  return {};
+}
+
+std::string parse_goal_actions(const JsonReader& goal) {
+  const JsonReader member = goal.find("actions").array();
+  if (!member) return {};
+  const std::size_t before = goal.fault_count();
+  for (const JsonReader item : member.items()) {
+    const JsonReader action = item.object(kActionMembers);
+    action.require("type").name();
+    action.find("blocking_type").word(kBlockingTypes);
+    const JsonReader parameters = action.find("parameters");
+    if (parameters && !parameters.value().is_object()) parameters.must_be(fault::kWrongType, "an object");
+  }
+  if (goal.fault_count() != before) return {};
+  if (member.size() == 0) return text_of_member(member, "actions", "goal");
+  const JsonReader service = goal.require("service", "; actions are executed during the service of a goal");
+  if (service && service.value().number() == 0.0) {
+    service.must_be(fault::kOutOfRange, "more than 0 where a goal has actions");
+  }
+  return text_of_member(member, "actions", "goal");
 }
 
 }  // namespace fleetplan::api

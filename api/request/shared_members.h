@@ -1,6 +1,6 @@
 #pragma once
 
-// What several members of a request have in common: quotas, ids that are unique, and metadata.
+// What several members of a request have in common: quotas, ids that are unique, and what answers repeat.
 
 #include <cstddef>
 #include <string>
@@ -73,11 +73,21 @@ class UniqueIds {
   std::unordered_map<std::string, Owner> owner_;  // the first owner of each id
 };
 
-/// The most bytes of one object of metadata, written without spaces.
+/// The most bytes of one object of metadata, and of the actions of a goal, written without spaces.
 inline constexpr std::size_t kMostMetadataBytes = 16'384;
 
 /// Reads `metadata` of a request, a robot or a goal: an object that the answer repeats and that means nothing
 /// here. Returns it as JSON text, or an empty text if it is absent or at fault.
 std::string parse_metadata(const JsonReader& owner);
+
+/// Reads `actions` of a goal: what the robot does there during its service, which means nothing here and is
+/// repeated. Returns them as JSON text, or an empty text if they are absent or at fault.
+std::string parse_goal_actions(const JsonReader& goal);
+
+/// What answers repeat of a goal, as JSON text; empty if it does not have it.
+struct GoalTexts {
+  std::string metadata;  // see parse_metadata
+  std::string actions;   // see parse_goal_actions
+};
 
 }  // namespace fleetplan::api

@@ -155,49 +155,53 @@ void begin_visit_without_times(JsonWriter& json, std::size_t goal) {
   json.begin_object().member("goal", goal).key("t_arrive").json("null").key("t_leave").json("null");
 }
 
-/// Ends the entry of a goal with its metadata, if it has any.
-void end_visit(JsonWriter& json, std::size_t goal, const std::vector<std::string>& metadata) {
-  if (goal < metadata.size()) write_metadata(json, metadata[goal]);
+/// Ends the entry of a goal with its actions and metadata, if it has any. `texts`: of the goals by their
+/// number, or none.
+void end_visit(JsonWriter& json, std::size_t goal, const std::vector<GoalTexts>& texts) {
+  if (goal < texts.size()) {
+    if (!texts[goal].actions.empty()) json.key("actions").json(texts[goal].actions);
+    write_metadata(json, texts[goal].metadata);
+  }
   json.end_object();
 }
 
 /// Writes the goals that are put off: the one that is inside of a zone, and those that follow it.
 void write_goals_put_off(JsonWriter& json, const core::PostponedGoals& goals, const VerifiedPlan& verified,
-                         const std::vector<std::string>& metadata) {
+                         const std::vector<GoalTexts>& texts) {
   for (std::size_t k = 0; k < goals.count; ++k) {
     begin_visit_without_times(json, goals.first + k);
     json.member("reason", k == 0 ? "zone_closed" : "goal_before");
     if (k == 0) json.member("zone", verified.problem.zones()[goals.zone].id);
-    end_visit(json, goals.first + k, metadata);
+    end_visit(json, goals.first + k, texts);
   }
 }
 
 /// Writes the visits of a plan, and those that it leaves at the horizon. `goes_on`: it puts other goals off,
 /// so that the service at its last one has an end.
 void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, bool goes_on,
-                          const std::vector<std::string>& metadata) {
+                          const std::vector<GoalTexts>& texts) {
   for (const core::Visit& visit : plan.visits) {
     json.begin_object().member("goal", visit.goal).member("t_arrive", visit.t_arrive);
     const bool stays = visit.t_leave == core::kForever;
     json.member("t_leave", stays && goes_on ? plan.cost : visit.t_leave);  // null at the last goal
-    end_visit(json, visit.goal, metadata);
+    end_visit(json, visit.goal, texts);
   }
   for (const core::Visit& visit : plan.estimated_visits) {
     begin_visit_without_times(json, visit.goal);
     json.member("estimated_t_arrive", visit.t_arrive);  // null without a way
-    end_visit(json, visit.goal, metadata);
+    end_visit(json, visit.goal, texts);
   }
 }
 
 /// Writes the member `visits`. The end of a way out that stands in for goals is none. At the last goal before
 /// those that are put off, the service ends, as at any other goal that is not the last one.
 void write_visits(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPlan& verified) {
-  const std::vector<std::string>& metadata = verified.received[plan.robot].goal_metadata;
+  const std::vector<GoalTexts>& texts = verified.received[plan.robot].goal_texts;
   const core::Leaving* leaving = verified.problem.leaving(plan.robot);
   const bool puts_off = leaving != nullptr && leaving->postponed;
   json.key("visits").begin_array();
-  if (leaving == nullptr || !leaving->rests_outside) write_planned_visits(json, plan, puts_off, metadata);
-  if (puts_off) write_goals_put_off(json, *leaving->postponed, verified, metadata);
+  if (leaving == nullptr || !leaving->rests_outside) write_planned_visits(json, plan, puts_off, texts);
+  if (puts_off) write_goals_put_off(json, *leaving->postponed, verified, texts);
   json.end_array();
 }
 

@@ -8,6 +8,7 @@
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/options.h"
 #include "api/request/ranges.h"
+#include "api/vda5050/messages.h"
 #include "api/vda5050/route.h"
 #include "core/execution/executed_actions.h"
 
@@ -16,9 +17,9 @@ namespace fleetplan::api {
 namespace {
 
 constexpr std::array<std::string_view, 2> kVersions{"2.1.0", "3.0.0"};  // in the order of VdaVersion
-constexpr std::array<std::string_view, 6> kProgressMembers{
-    "robot", "order_id", "order_update_id", "last_released_sequence_id", "action", "progress"};
-constexpr std::uint64_t kMostUpdates = 4'294'967'294;  // ids are unsigned numbers of 32 bits
+constexpr std::array<std::string_view, 7> kProgressMembers{
+    "robot", "order_id", "order_update_id", "last_released_sequence_id", "action", "progress", "cancel_id"};
+constexpr Range kReleaseAhead{0.1, kLongestTime, "seconds"};
 
 bool is_timestamp(std::string_view text) {
   constexpr std::string_view kShape = "0000-00-00T00:00:00";
@@ -39,7 +40,6 @@ OrderHeader read_header(const JsonReader& root) {
     header.version = static_cast<VdaVersion>(*version);
   }
   header.manufacturer = root.require("manufacturer").name().value_or("");
-  header.map_id = root.find("map_id").name().value_or("map");
   const JsonReader timestamp = root.require("timestamp");
   header.timestamp = timestamp.name().value_or("");
   if (timestamp && timestamp.string() && !is_timestamp(header.timestamp)) {
@@ -48,32 +48,52 @@ OrderHeader read_header(const JsonReader& root) {
   return header;
 }
 
-std::vector<std::string> read_serial_numbers(const JsonReader& member,
-                                             const std::vector<core::Robot>& robots) {
-  std::vector<std::string> serials;
-  serials.reserve(robots.size());
-  for (const core::Robot& robot : robots) serials.push_back(robot.id);
+/// Reads an object with a name for each of some robots.
+template <typename Take>
+void read_names(const JsonReader& member, const RobotNames& robots, const Take& take) {
   if (member && !member.value().is_object()) member.must_be(fault::kWrongType, "an object");
-  const RobotNames names(robots);
-  for (const JsonReader serial : member.members()) {
-    const std::string_view id = serial.value().key();
-    if (const auto robot = names.index_of(id)) {
-      if (const auto name = serial.name()) serials[*robot] = *name;
+  for (const JsonReader entry : member.members()) {
+    const std::string_view id = entry.value().key();
+    if (const auto robot = robots.index_of(id)) {
+      if (const auto name = entry.name()) take(*robot, *name);
     } else {
-      serial.fault(fault::kUnknownKey, [&] { return "There is no robot " + in_quotes(id) + " in robots."; });
+      entry.fault(fault::kUnknownKey, [&] { return "There is no robot " + in_quotes(id) + " in robots."; });
     }
   }
-  return serials;
+}
+
+std::vector<Vehicle> read_vehicles(const JsonReader& root, const std::vector<core::Robot>& robots) {
+  const std::string map_id = root.find("map_id").name().value_or("map");
+  std::vector<Vehicle> vehicles;
+  vehicles.reserve(robots.size());
+  for (const core::Robot& robot : robots) vehicles.push_back({robot.id, map_id});
+  const RobotNames names(robots);
+  read_names(root.find("serial_numbers"), names,
+             [&](std::size_t robot, const std::string& name) { vehicles[robot].serial_number = name; });
+  read_names(root.find("map_ids"), names,
+             [&](std::size_t robot, const std::string& name) { vehicles[robot].map_id = name; });
+  return vehicles;
+}
+
+/// Where a robot is that has reported nothing: at its start, with the order that it has had then, if any.
+OrderProgress first_progress(const std::optional<OrderBase>& base) {
+  OrderProgress progress;
+  if (!base) return progress;
+  progress.order_id = base->order_id;
+  progress.update_id = base->update_id;
+  progress.last_released = base->sequence_id;
+  return progress;
 }
 
 class ProgressReader {
  public:
-  ProgressReader(const std::vector<core::Robot>& robots, const std::vector<core::Actions>& actions,
-                 const std::vector<Route>& routes)
-      : names_(robots), actions_(actions), routes_(routes), seen_(actions.size(), false) {}
+  explicit ProgressReader(const VdaRequest& request)
+      : request_(request), names_(request.robots), seen_(request.robots.size(), false) {}
 
   std::vector<OrderProgress> read(const JsonReader& member) {
-    std::vector<OrderProgress> progress(actions_.size());
+    std::vector<OrderProgress> progress;
+    progress.reserve(request_.bases.size());
+    for (const auto& base : request_.bases) progress.push_back(first_progress(base));
     for (const JsonReader item : member.array().items()) {
       const JsonReader json = item.object(kProgressMembers);
       const JsonReader robot_member = json.require("robot");
@@ -82,36 +102,40 @@ class ProgressReader {
       if (seen_[*robot])
         robot_member.fault(fault::kDuplicate, "The progress of this robot is given twice; give it once.");
       seen_[*robot] = true;
-      progress[*robot] = read_one(json, *robot);
+      OrderProgress& of_robot = progress[*robot] = {};
+      of_robot.at = read_point(json, *robot);
+      read_order(json, *robot, of_robot);
     }
     return progress;
   }
 
  private:
-  OrderProgress read_one(const JsonReader& json, std::size_t robot) const {
-    OrderProgress progress;
-    progress.at = read_point(json, robot);
+  void read_order(const JsonReader& json, std::size_t robot, OrderProgress& progress) const {
     const JsonReader order_id = json.find("order_id");
     const bool has_order = order_id && !order_id.is_null();
-    const auto read_order = [&](std::string_view key) {
+    const auto read_of_order = [&](std::string_view key) {
       return has_order ? json.require(key) : json.find(key);
     };
-    const JsonReader update = read_order("order_update_id");
-    const JsonReader last = read_order("last_released_sequence_id");
-    const auto update_id = update.natural(kMostUpdates);
-    const auto last_released = last.natural(kMostUpdates);
-    if (!has_order) return progress;
+    const JsonReader last = read_of_order("last_released_sequence_id");
+    const auto update_id = read_of_order("order_update_id").natural(kGreatestId);
+    const auto last_released = last.natural(kGreatestId);
+    progress.cancel_id = json.find("cancel_id").name();
+    if (!has_order) return;
     progress.order_id = order_id.name();
     progress.update_id = update_id.value_or(0);
     progress.last_released = last_released.value_or(0);
-    const std::size_t nodes = routes_[robot].nodes.size();
-    if (progress.last_released % 2 != 0 || progress.last_released >= 2 * nodes) {
-      last.fault(fault::kOutOfRange, [&] {
-        return "The robot's order has " + std::to_string(nodes) +
-               " nodes, with the sequence ids 0, 2, 4 and so on. Is the progress of an order of other plans?";
-      });
+    const auto& base = request_.bases[robot];
+    if (base && progress.order_id && *progress.order_id != base->order_id) {
+      order_id.must_be(fault::kUnknownValue, [&] { return "that of base, " + in_quotes(base->order_id); });
     }
-    return progress;
+    const Route& route = request_.routes[robot];
+    if (route.node_of(progress.last_released)) return;
+    last.fault(fault::kOutOfRange, [&] {
+      return "The robot's order has " + std::to_string(route.nodes.size()) +
+             " nodes, with the sequence ids " + std::to_string(route.sequence_id(0)) + ", " +
+             std::to_string(route.sequence_id(1)) + ", " + std::to_string(route.sequence_id(2)) +
+             " and so on. Is the progress of an order of other plans?";
+    });
   }
 
   core::ActionPlace read_point(const JsonReader& json, std::size_t robot) const {
@@ -119,7 +143,7 @@ class ProgressReader {
     const auto index = action.natural(kGreatestIndex);
     const auto fraction = json.require("progress").number(kFraction);
     if (!index || !fraction) return {};
-    const std::size_t count = actions_[robot].size();
+    const std::size_t count = request_.actions[robot].size();
     // A robot that has no actions, or has executed all, may be at their end.
     if (*index < count || (*index == count && *fraction == 0.0)) {
       return core::place_of({robot, *index, *fraction});
@@ -129,23 +153,37 @@ class ProgressReader {
     return {};
   }
 
+  const VdaRequest& request_;
   RobotNames names_;
-  const std::vector<core::Actions>& actions_;
-  const std::vector<Route>& routes_;
   std::vector<bool> seen_;
 };
 
+/// Where the route of a robot begins: behind what it is committed to, if its order goes on with that.
+RouteStart start_of(const VdaRequest& request, std::size_t robot) {
+  const auto& base = request.bases[robot];
+  if (!base) return {};
+  return {.action = std::min(request.robots[robot].committed.size(), request.actions[robot].size()),
+          .sequence_id = base->sequence_id,
+          .is_known = true};
+}
+
 /// Returns the routes of all robots. Ends early when the stop is met.
-std::vector<Route> routes_of(const VdaRequest& request, const std::vector<core::Actions>& actions,
-                             double wait_before_move, core::Work& stop) {
+std::vector<Route> routes_of(const VdaRequest& request, double wait_before_move, core::Work& stop) {
   // A node is as much work as reading so many bytes.
   constexpr std::size_t kWorkOfANode = 256;
-  const auto points = points_of(request.dependencies, request.robots.size());
+  /// So many nodes at least are released ahead, except where a gate is closed.
+  constexpr double kNodesAhead = 2.0;
+  auto points = points_of(request.gates, request.robots.size());
   std::vector<Route> routes;
   routes.reserve(request.robots.size());
   for (std::size_t k = 0; k < request.robots.size(); ++k) {
-    if (stop.met_after(kWorkOfANode * (1 + actions[k].size() + points[k].size()))) break;
-    routes.push_back(route_of(request.robots[k], actions[k], points[k], wait_before_move));
+    const core::Actions actions = request.actions[k];
+    if (request.release_ahead) {
+      points[k] =
+          with_points_within(*request.release_ahead / kNodesAhead, std::move(points[k]), actions, stop);
+    }
+    if (stop.met_after(kWorkOfANode * (1 + actions.size() + points[k].size()))) break;
+    routes.push_back(route_of(request.robots[k], actions, points[k], wait_before_move, start_of(request, k)));
   }
   return routes;
 }
@@ -163,16 +201,22 @@ std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Li
       parse_robots(root.require("robots"), root.find("robot_defaults"), WorldFrame{}, limits, ids);
   request.plans = parse_plans(root.require("plans"), robots, WorldFrame{});
   if (root.fault_count() > 0 || stop.met()) return std::nullopt;
-  for (ParsedRobot& robot : robots) request.robots.push_back(std::move(robot.robot));
-  request.dependencies = parse_dependencies(
+  for (ParsedRobot& robot : robots) {
+    request.goals.push_back(std::move(robot.goals));
+    request.robots.push_back(std::move(robot.robot));
+  }
+  const auto dependencies = parse_dependencies(
       root.require("dependencies",
                    "; make them with POST /v1/dependencies, or with options.dependencies of POST /v1/plan"),
       request.robots, request.plans);
-  request.serial_numbers = read_serial_numbers(root.find("serial_numbers"), request.robots);
-  const auto actions = core::executed_actions(request.robots, request.plans);
-  request.routes = routes_of(request, actions, wait_before_move, stop);
+  request.vehicles = read_vehicles(root, request.robots);
+  request.release_ahead = root.find("release_ahead").number(kReleaseAhead);
+  request.bases = parse_bases(root.find("base"), request.robots);
+  request.actions = core::executed_actions(request.robots, request.plans);
+  request.gates = gates_of(dependencies, request.actions);
+  request.routes = routes_of(request, wait_before_move, stop);
   if (stop.met()) return std::nullopt;
-  request.progress = ProgressReader(request.robots, actions, request.routes).read(root.find("progress"));
+  request.progress = ProgressReader(request).read(root.find("progress"));
   if (root.fault_count() > 0 || stop.met()) return std::nullopt;
   return request;
 }

@@ -12,8 +12,11 @@
 
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
+#include "api/vda5050/order_base.h"
+#include "api/vda5050/release.h"
 #include "api/vda5050/route.h"
 #include "core/execution/dependency.h"
+#include "core/execution/executed_actions.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/runtime/work.h"
@@ -27,25 +30,21 @@ struct OrderHeader {
   VdaVersion version = VdaVersion::v2_1;
   std::string manufacturer;
   std::string timestamp;  // ISO 8601
-  std::string map_id;
-};
-
-/// An order, or an update of one, of a robot's route from a node on.
-struct Order {
-  std::string robot;
-  std::string serial_number;
-  std::string order_id;
-  std::uint64_t update_id = 0;
-  std::size_t first = 0;     // index of its first node
-  std::size_t released = 1;  // the number of nodes of the whole route that are released, > first
 };
 
 /// How far a robot is, and the order that it has.
 struct OrderProgress {
   core::ActionPlace at;
-  std::optional<std::string> order_id;  // none: it has no order yet
-  std::uint64_t update_id = 0;          // update of the last message
-  std::uint64_t last_released = 0;      // the sequence id of the last node of the base
+  std::optional<std::string> order_id;        // none: it has no order yet
+  std::uint64_t update_id = 0;                // update of the last message
+  std::uint64_t last_released = 0;            // the sequence id of the last node of the base
+  std::optional<std::string> cancel_id = {};  // of the action that cancels the order
+};
+
+/// What the messages to a vehicle say of it.
+struct Vehicle {
+  std::string serial_number;
+  std::string map_id;
 };
 
 /// A readable body of POST /v1/export/vda5050, in the client's world.
@@ -53,15 +52,24 @@ struct VdaRequest {
   OrderHeader header;
   std::vector<core::Robot> robots;
   std::vector<core::RobotPlan> plans;
-  std::vector<core::Dependency> dependencies;
-  std::vector<Route> routes;                // by robot
-  std::vector<OrderProgress> progress;      // by robot
-  std::vector<std::string> serial_numbers;  // by robot
+  std::vector<Gate> gates;
+  std::optional<double> release_ahead;          // seconds; none: all that is open
+  std::vector<std::optional<OrderBase>> bases;  // by robot, as all of these
+  std::vector<core::Actions> actions;           // of `robots` and `plans`
+  std::vector<Route> routes;
+  std::vector<OrderProgress> progress;
+  std::vector<Vehicle> vehicles;
+  std::vector<std::vector<JsonReader>> goals;  // of each robot, as they were received
+
+  VdaRequest() = default;
+  VdaRequest(VdaRequest&&) = default;  // a copy would refer to the actions of the original
+  VdaRequest& operator=(VdaRequest&&) = default;
 };
 
-inline constexpr std::array<std::string_view, 13> kVdaMembers{
-    "version",  "map",          "map_id",         "robots",    "robot_defaults", "plans",   "dependencies",
-    "progress", "manufacturer", "serial_numbers", "timestamp", "options",        "metadata"};
+inline constexpr std::array<std::string_view, 16> kVdaMembers{
+    "version",      "map",      "map_id",       "map_ids",       "robots", "robot_defaults",
+    "plans",        "options",  "dependencies", "release_ahead", "base",   "progress",
+    "manufacturer", "metadata", "timestamp",    "serial_numbers"};
 
 /// Reads the root of the document. Returns none if it has faults, or if its stop is met.
 std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Limits& limits,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/execution/executed_actions.h"
 #include "core/geometry/angle.h"
@@ -20,19 +19,23 @@ bool moves(const Action& action) {
 class RouteMaker {
  public:
   RouteMaker(const core::Robot& robot, core::Actions actions, const std::vector<core::ActionPlace>& cuts,
-             double wait_before_move)
+             double wait_before_move, const RouteStart& start)
       : robot_(robot),
         actions_(actions),
+        start_(start),
         purposes_(core::wait_purposes(robot, actions, wait_before_move)),
         cut_(cuts.begin()),
         cuts_end_(cuts.end()) {}
 
   Route run() {
-    if (actions_.empty()) return {};
-    heading_ = actions_.front().from.theta;
-    route_.nodes.push_back({actions_.front().from.position, heading_, {}, {}});
+    if (actions_.empty() && !start_.is_known) return {};
+    route_.first_sequence_id = start_.sequence_id;
+    const core::Pose pose = start_pose();
+    heading_ = pose.theta;
+    const core::ActionPlace at{start_.action, 0.0};
+    route_.nodes.push_back({pose.position, heading_, at, {}, at});
     rotation_speed_ = robot_.angular_speed;
-    for (std::size_t k = 0; k < actions_.size(); ++k) {
+    for (std::size_t k = start_.action; k < actions_.size(); ++k) {
       if (moves(actions_[k])) {
         translate(k);
       } else {
@@ -47,6 +50,11 @@ class RouteMaker {
   RouteNode& last() { return route_.nodes.back(); }
   bool is_first() const { return route_.nodes.size() == 1; }
 
+  core::Pose start_pose() const {
+    if (start_.action > 0) return actions_[start_.action - 1].to;
+    return actions_.empty() ? robot_.start : actions_.front().from;
+  }
+
   void stand(std::size_t k) {
     const Action& action = actions_[k];
     if (action.type == Action::Type::rotate) {
@@ -55,11 +63,14 @@ class RouteMaker {
       if (duration > 0.0) rotation_speed_ = std::min(robot_.angular_speed, angle / duration);
       heading_ = action.to.theta;
       turned_ = true;
+      turned_until_ = {k + 1, 0.0};
     } else if (action.goal && *action.goal < robot_.goal_count()) {
       serve(*action.goal, purposes_[k].least);
+      last().until = {k + 1, 0.0};
     } else if (purposes_[k].least > 0.0) {
       assume_heading();
       last().stops.push_back({{}, purposes_[k].least, 0.0});
+      last().until = {k + 1, 0.0};
     }
   }
 
@@ -76,14 +87,16 @@ class RouteMaker {
 
   /// Makes the robot assume its present heading at the last node.
   void assume_heading() {
+    const bool is_known = is_first() && start_.is_known;
     const bool is_fixed = is_first() || !last().stops.empty();
-    if (is_fixed && turned_) {
+    if (is_known || (is_fixed && turned_)) {
       const core::Position position = last().position;
       const core::ActionPlace at = last().at;
       route_.edges.push_back({0.0, 0.0, rotation_speed_, false});
-      route_.nodes.push_back({position, {}, at, {}});
+      route_.nodes.push_back({position, {}, at, {}, at});
     }
     last().theta = heading_;
+    if (turned_) last().until = turned_until_;
     turned_ = false;
   }
 
@@ -109,62 +122,49 @@ class RouteMaker {
     route_.edges.push_back({(to - from) * way.norm(), speed, rotation_speed_, action.reverse});
     const core::Position position =
         to == 1.0 ? action.to.position : core::Position(action.from.position + to * way);
-    route_.nodes.push_back({position, {}, end, {}});
+    route_.nodes.push_back({position, {}, end, {}, end});
   }
 
   const core::Robot& robot_;
   core::Actions actions_;
+  const RouteStart& start_;
   std::vector<core::WaitPurpose> purposes_;  // by action
   std::vector<core::ActionPlace>::const_iterator cut_;
   std::vector<core::ActionPlace>::const_iterator cuts_end_;
   Route route_;
   double heading_ = 0.0;
   bool turned_ = false;  // it has turned since the last node's heading was fixed
+  core::ActionPlace turned_until_;
   double rotation_speed_ = 0.0;
 };
 
 }  // namespace
 
-Route route_of(const core::Robot& robot, core::Actions actions, const std::vector<core::ActionPlace>& cuts,
-               double wait_before_move) {
-  return RouteMaker(robot, actions, cuts, wait_before_move).run();
+std::optional<std::size_t> Route::node_of(std::uint64_t sequence_id) const {
+  if (sequence_id < first_sequence_id || (sequence_id - first_sequence_id) % 2 != 0) return std::nullopt;
+  const std::uint64_t node = (sequence_id - first_sequence_id) / 2;
+  return node < nodes.size() ? std::optional(static_cast<std::size_t>(node)) : std::nullopt;
 }
 
-std::vector<std::vector<core::ActionPlace>> points_of(const std::vector<core::Dependency>& dependencies,
-                                                      std::size_t robots) {
-  std::vector<std::vector<core::ActionPlace>> points(robots);
-  // Bounded: two places of each dependency.
-  for (const core::Dependency& dependency : dependencies) {
-    for (const core::ActionProgress& progress : {dependency.gate, dependency.until}) {
-      points[progress.robot].push_back(core::place_of(progress));
+Route route_of(const core::Robot& robot, core::Actions actions, const std::vector<core::ActionPlace>& cuts,
+               double wait_before_move, const RouteStart& start) {
+  return RouteMaker(robot, actions, cuts, wait_before_move, start).run();
+}
+
+std::vector<core::ActionPlace> with_points_within(double seconds, std::vector<core::ActionPlace> points,
+                                                  core::Actions actions, core::Work& stop) {
+  constexpr std::size_t kWorkOfAPoint = 256;  // of the node that it becomes
+  for (std::size_t k = 0; k < actions.size(); ++k) {
+    if (!moves(actions[k])) continue;
+    const double pieces = std::ceil((actions[k].t_end - actions[k].t_start) / seconds);
+    for (double piece = 1.0; piece < pieces; piece += 1.0) {
+      if (stop.met_after(kWorkOfAPoint)) return points;
+      points.push_back({k, piece / pieces});
     }
   }
-  for (auto& of_robot : points) {
-    std::sort(of_robot.begin(), of_robot.end());
-    of_robot.erase(std::unique(of_robot.begin(), of_robot.end()), of_robot.end());
-  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
   return points;
-}
-
-std::vector<std::size_t> released_nodes(const std::vector<Route>& routes,
-                                        const std::vector<core::Dependency>& dependencies,
-                                        const std::vector<core::ActionPlace>& progress) {
-  constexpr core::ActionPlace kNever{std::numeric_limits<std::size_t>::max(), 0.0};
-  std::vector<core::ActionPlace> closed(routes.size(), kNever);  // the first gate that is not open
-  for (const core::Dependency& dependency : dependencies) {
-    if (core::place_of(dependency.until) <= progress[dependency.until.robot]) continue;
-    core::ActionPlace& first = closed[dependency.gate.robot];
-    first = std::min(first, core::place_of(dependency.gate));
-  }
-  std::vector<std::size_t> released;
-  released.reserve(routes.size());
-  for (std::size_t robot = 0; robot < routes.size(); ++robot) {
-    const auto& nodes = routes[robot].nodes;
-    const auto is_open = [&](const RouteNode& node) { return node.at <= closed[robot]; };
-    const auto end = std::partition_point(nodes.begin(), nodes.end(), is_open);
-    released.push_back(static_cast<std::size_t>(end - nodes.begin()));
-  }
-  return released;
 }
 
 }  // namespace fleetplan::api

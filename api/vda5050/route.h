@@ -1,14 +1,16 @@
 #pragma once
 
-// The actions of a robot as the nodes and edges of a VDA 5050 order, and which of these nodes it may pass.
+// The actions of a robot as the nodes and edges of a VDA 5050 order.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "core/execution/dependency.h"
 #include "core/execution/executed_actions.h"
 #include "core/model/robot.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
 
@@ -24,6 +26,7 @@ struct RouteNode {
   std::optional<double> theta;  // radians: the heading to assume at the node before its stops
   core::ActionPlace at;         // place at which the robot arrives, see place_of
   std::vector<Stop> stops;
+  core::ActionPlace until = {};  // place at which it has turned to `theta` and made its stops; at least `at`
 };
 
 /// An edge from one node to the next: straight ahead (or back), or, with no length, a rotation in place.
@@ -34,31 +37,35 @@ struct RouteEdge {
   bool reverse = false;
 };
 
-/// The route of a robot: `edges[k]` leads from `nodes[k]` to `nodes[k + 1]`. Empty without actions.
+/// Where a route begins, and how its nodes are numbered.
+struct RouteStart {
+  std::size_t action = 0;         // the first one of the route; those before it are of an earlier order
+  std::uint64_t sequence_id = 0;  // of the first node; the others follow in steps of two
+  bool is_known = false;          // the vehicle has the first node already: nothing can be added to it
+};
+
+/// The route of a robot: `edges[k]` leads from `nodes[k]` to `nodes[k + 1]`. Empty without actions, unless
+/// its first node is known.
 struct Route {
   std::vector<RouteNode> nodes;
   std::vector<RouteEdge> edges;
+  std::uint64_t first_sequence_id = 0;
+
+  std::uint64_t sequence_id(std::size_t node) const { return first_sequence_id + 2 * node; }
+  /// Returns the node of a sequence id; none if the route has no such node.
+  std::optional<std::size_t> node_of(std::uint64_t sequence_id) const;
 };
 
 /// Returns the route of a robot. There is a node wherever the robot stops or turns, and at each of the `cuts`
 /// (ascending, see place_of) within a translation. Waits that only give way are left out: passage is by
-/// release. A robot that has to assume two headings in one place, for two goals, has two nodes there.
+/// release. A robot that has to assume two headings in one place, for two goals, has two nodes there, and so
+/// has one that is served where its first node is known.
 Route route_of(const core::Robot& robot, core::Actions actions, const std::vector<core::ActionPlace>& cuts,
-               double wait_before_move);
+               double wait_before_move, const RouteStart& start = {});
 
-/// Returns the points of routes that dependencies name, by robot, ascending and each once.
-std::vector<std::vector<core::ActionPlace>> points_of(const std::vector<core::Dependency>& dependencies,
-                                                      std::size_t robots);
-
-/// Returns how many nodes of each route, the first ones, are released when every robot has reached the point
-/// of its progress: those that come before or at the first gate whose `until` is not reached. At least the
-/// first node is released.
-///
-/// No robots wait for each other for ever, although they report nodes only: there is a node at each gate and
-/// each `until` within a translation; standing robots occupy the same place, so a gate within a stand acts
-/// where it ends, and an `until` there is reported with the next node, which is no later than the next gate.
-std::vector<std::size_t> released_nodes(const std::vector<Route>& routes,
-                                        const std::vector<core::Dependency>& dependencies,
-                                        const std::vector<core::ActionPlace>& progress);
+/// Adds points to those of a robot, so that no translation takes longer than so many seconds from one to the
+/// next. Ends early when the stop is met.
+std::vector<core::ActionPlace> with_points_within(double seconds, std::vector<core::ActionPlace> points,
+                                                  core::Actions actions, core::Work& stop);
 
 }  // namespace fleetplan::api

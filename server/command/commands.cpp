@@ -168,7 +168,7 @@ struct Command {
   Service::Endpoint Service::*endpoint;
 };
 
-constexpr std::array<Command, 7> kCommands{{
+constexpr std::array<Command, 8> kCommands{{
     {"plan", "Plan the motions of all robots", &Service::plan},
     {"validate", "Check plans: exit code 2 if they are not valid", &Service::validate},
     {"simulate", "Execute plans many times with disturbances", &Service::simulate},
@@ -176,6 +176,7 @@ constexpr std::array<Command, 7> kCommands{{
     {"dependencies", "List what robots must wait for in a plan", &Service::dependencies},
     {"retime", "Give a plan new times after delays", &Service::retime},
     {"export-vda5050", "Turn plans into orders of VDA 5050", &Service::vda5050},
+    {"import-vda5050", "Turn states of VDA 5050 into those of robots", &Service::import_vda5050},
 }};
 
 /// The meaning of the arguments of a command.

@@ -16,6 +16,7 @@ Service planning_service() {
                   .dependencies = api::dependencies_endpoint,
                   .retime = api::retime_endpoint,
                   .vda5050 = api::vda5050_endpoint,
+                  .import_vda5050 = api::import_vda5050_endpoint,
                   .example_list = list_examples,
                   .openapi = api::openapi_endpoint,
                   .examples = {}};

@@ -25,6 +25,7 @@ struct Service {
   Endpoint dependencies;                     // run by a planning worker
   Endpoint retime;                           // takes milliseconds, without a turn
   Endpoint vda5050;                          // takes milliseconds, without a turn
+  Endpoint import_vda5050;                   // takes milliseconds, without a turn
   std::function<api::Reply()> example_list;  // GET /v1/examples
   std::function<api::Reply()> openapi;       // GET /v1/openapi.json
   std::vector<Example> examples;

@@ -275,6 +275,7 @@ Json states_of(const ToAndFro& fleet, Choices& choices) {
 Json reports_of(const ToAndFro& fleet, Choices& choices) {
   Json reports = Json::array();
   const bool is_measured = choices.yes();
+  const bool is_released = choices.yes();
   for (const Json& plan : fleet.plans) {
     if (choices.yes()) continue;
     const Json& actions = plan["actions"];
@@ -284,9 +285,51 @@ Json reports_of(const ToAndFro& fleet, Choices& choices) {
                 {"action", number},
                 {"progress", choices.one_of(std::array{0.0, 0.5, 1.0})}};
     if (is_measured) report.update(actions[static_cast<std::size_t>(number)]["to"]);
+    if (is_released) report["released"] = {{"action", last}, {"progress", 1.0}};
     reports.push_back(std::move(report));
   }
   return reports;
+}
+
+/// Orders of many nodes that vehicles have, from the first place of each robot on.
+Json base_of(const ToAndFro& fleet, Choices& choices) {
+  Json base = Json::array();
+  const int nodes = 1 + choices.up_to(2000);
+  const int most = 1 + choices.up_to(100);
+  for (const Json& plan : fleet.plans) {
+    if (static_cast<int>(base.size()) >= most) break;
+    Json list = Json::array();
+    for (int node = 0; node < nodes; ++node) {
+      const Json& action = plan["actions"][static_cast<std::size_t>(node) % plan["actions"].size()];
+      list.push_back({{"nodeId", name_of('n', node)},
+                      {"sequenceId", 2 * node},
+                      {"released", true},
+                      {"nodePosition", action["from"]}});
+    }
+    list.back()["nodePosition"] = plan["actions"][0]["from"];
+    base.push_back({{"robot", plan["robot"]},
+                    {"order", {{"orderId", "o"}, {"orderUpdateId", 0}, {"nodes", std::move(list)}}}});
+  }
+  return base;
+}
+
+/// What vehicles report, with many actions.
+Json messages_of(const ToAndFro& fleet, Choices& choices) {
+  Json messages = Json::array();
+  Json actions = Json::array();
+  for (int k = choices.up_to(3000); k > 0; --k) {
+    actions.push_back({{"actionId", name_of('a', k)}, {"actionStatus", "FINISHED"}});
+  }
+  for (const Json& plan : fleet.plans) {
+    const Json& place = plan["actions"].back()["to"];
+    messages.push_back({{"serialNumber", plan["robot"]},
+                        {"orderId", "o"},
+                        {"orderUpdateId", 0},
+                        {"lastNodeSequenceId", 2 * choices.up_to(100)},
+                        {"agvPosition", place},
+                        {"actionStates", messages.empty() ? actions : Json::array()}});
+  }
+  return messages;
 }
 
 }  // namespace
@@ -368,7 +411,8 @@ Effort execution_effort(Choices choices) {
     body["at"] = 0.05;
     body["states"] = states_of(fleet, choices);
   } else {
-    effort.endpoint = api::vda5050_endpoint;
+    const bool imports = choices.yes();
+    effort.endpoint = imports ? api::import_vda5050_endpoint : api::vda5050_endpoint;
     body.erase("options");
     body["version"] = choices.one_of(std::array{"2.1.0", "3.0.0"});
     body["manufacturer"] = "m";
@@ -377,6 +421,9 @@ Effort execution_effort(Choices choices) {
     Json numbers = Json::object();
     for (int k = choices.up_to(20'000); k > 0; --k) numbers[name_of('r', k)] = name_of('s', k);
     if (choices.yes()) body["serial_numbers"] = std::move(numbers);
+    if (choices.yes()) body["release_ahead"] = choices.one_of(std::array{0.1, 5.0, 1e8});
+    if (choices.yes()) body["base"] = base_of(fleet, choices);
+    if (imports) body["messages"] = messages_of(fleet, choices);
   }
   effort.body = body.dump();
   effort.steps = choices.up_to(3000);

@@ -33,7 +33,8 @@ function anyOf(...patterns) {
 const BEYOND_SCHEMA = {
   duplicate: /^/, // ids, plans for one robot; keys, which a schema never sees
   unknown_robot: anyOf(
-    "/(plans|states|progress|poses|holds|goals)/\\d+/robot",
+    "/(plans|states|progress|poses|holds|goals|base)/\\d+/robot",
+    "/messages/\\d+/serialNumber",
     "/dependencies/\\d+/(gate|until)/robot",
     "/unavoidable/\\d+/robots?(/\\d)?",
     "/zones/\\d+/robots/\\d+",
@@ -55,6 +56,9 @@ const BEYOND_SCHEMA = {
     "/disturbance/(speed|turn|start_delay)/max",
     "/trace",
     "(/robots/\\d+(/goal(s/\\d+)?)?|/goals/\\d+/goals/\\d+)?/metadata",
+    "(/robots/\\d+/goal(s/\\d+)?|/goals/\\d+/goals/\\d+)/(actions|service)", // actions need a service
+    "/states/\\d+/released(/action)?", // behind the robot
+    "/base/\\d+/order/nodes", // of which none is released
     "/timestamp", // a time with an offset
     "/(states|progress)/\\d+/action",
     "/progress/\\d+/last_released_sequence_id",
@@ -63,12 +67,14 @@ const BEYOND_SCHEMA = {
   missing: anyOf(
     "/(max_delay|dependencies|progress/\\d+/(order_update_id|last_released_sequence_id))",
     "/states/\\d+/[xy]", // of a measured pose
+    "(/robots/\\d+/goal(s/\\d+)?|/goals/\\d+/goals/\\d+)/service", // of actions
   ),
   wrong_type: /^\/dependencies$/, // null, with the policy that needs them
+  unknown_value: /^\/progress\/\d+\/order_id$/, // of another order than that of base
   // `goal` of an action that is no wait, `reverse` of one that is no translation; serial number of no robot; what is
   // left of no service
   unknown_key:
-    /\/((committed|previous|actions)\/\d+\/(goal|reverse)|serial_numbers\/[^/]*|states\/\d+\/service_left)$/,
+    /\/((committed|previous|actions)\/\d+\/(goal|reverse)|(serial_numbers|map_ids)\/[^/]*|states\/\d+\/service_left)$/,
   unknown_obstacle: /^\/unavoidable\/\d+\/obstacle$/,
   discontinuity: /^\/(robots\/\d+\/(committed|previous)|plans\/\d+\/actions)\/\d+\/\w+$/,
   speed: anyOf(
@@ -115,6 +121,7 @@ const KINDS = {
   "/v1/simulate": { component: "SimulateRequest", acceptable: executions.simulations() },
   "/v1/retime": { component: "RetimeRequest", acceptable: executions.retimings() },
   "/v1/export/vda5050": { component: "Vda5050Request", acceptable: executions.orders() },
+  "/v1/import/vda5050": { component: "Vda5050Import", acceptable: executions.reports() },
   "/v1/advance": {
     component: "AdvanceRequest",
     acceptable: executions.moments(),

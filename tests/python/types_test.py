@@ -47,7 +47,9 @@ class Comparison(unittest.TestCase):
         """The annotation describes what the schema does."""
         schema = resolve(schema)
         kinds = schema.get("type")
-        if "oneOf" in schema and "properties" not in schema:
+        if annotation == fleetplan.types.VdaMessage and kinds == "object":
+            pass  # a message of VDA 5050, of which the schema has what is read
+        elif "oneOf" in schema and "properties" not in schema:
             self.compare_alternatives(schema["oneOf"], alternatives(annotation), where)
         elif isinstance(kinds, list):
             self.assertIn(type(None), alternatives(annotation), where)
@@ -145,11 +147,12 @@ class Methods(Comparison):
         self.compare_method("advance", "/v1/advance", {})
         self.compare_method("retime", "/v1/retime", self.PARTS)
         self.compare_method("export_vda5050", "/v1/export/vda5050", self.PARTS)
+        self.compare_method("import_vda5050", "/v1/import/vda5050", self.PARTS)
 
     def test_they_return_the_types_of_answers(self):
         paths = {"plan": "/v1/plan", "validate": "/v1/validate", "dependencies": "/v1/dependencies",
                  "simulate": "/v1/simulate", "advance": "/v1/advance", "retime": "/v1/retime",
-                 "export_vda5050": "/v1/export/vda5050", "limits": "/v1/limits", "health": "/healthz"}
+                 "export_vda5050": "/v1/export/vda5050", "import_vda5050": "/v1/import/vda5050", "limits": "/v1/limits", "health": "/healthz"}
         for name, path in paths.items():
             with self.subTest(name):
                 (operation,) = DOCUMENT["paths"][path].values()

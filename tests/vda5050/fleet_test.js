@@ -9,7 +9,8 @@ import vda from "vda-5050-lib";
 import { Bridge, post } from "../../deploy/vda5050/bridge.js";
 import { startService } from "../web/support/service.js";
 import { startBroker } from "./support/broker.js";
-import { leastGap } from "./support/replay.js";
+import { generator } from "./support/random.js";
+import { leastGapOfAll } from "./support/replay.js";
 import { startVehicle } from "./support/vehicle.js";
 
 const MANUFACTURER = "fleetplan";
@@ -29,15 +30,6 @@ async function planned() {
   assert.equal(answer.status, "solved");
   assert.deepEqual(answer.tight, []);
   return { request, answer };
-}
-
-/** Random numbers in [0, 1) that depend on the seed only. */
-function generator(seed) {
-  let state = seed;
-  return () => {
-    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
-    return state / 2 ** 32;
-  };
 }
 
 /** Lets virtual vehicles drive: {tracks by robot, updates}. */
@@ -86,17 +78,9 @@ async function drive({ request, answer }, interfaceName) {
   }
 }
 
-/** The least gap of all pairs. */
 function gapOf(tracks, request) {
   const radiusOf = (robot) => robot.radius ?? request.robot_defaults.radius;
-  let least = Infinity;
-  for (let i = 0; i < tracks.length; ++i) {
-    for (let j = 0; j < i; ++j) {
-      const radii = radiusOf(request.robots[i]) + radiusOf(request.robots[j]);
-      least = Math.min(least, leastGap(tracks[i], tracks[j], radii));
-    }
-  }
-  return least;
+  return leastGapOfAll(tracks, request.robots.map(radiusOf));
 }
 
 test("vehicles with random speeds arrive and never touch", async () => {

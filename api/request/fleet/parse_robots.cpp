@@ -16,8 +16,8 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kGoalMembers{
-    "x", "y", "theta", "service", "not_before", "radius_after", "metadata"};
+constexpr std::array<std::string_view, 8> kGoalMembers{
+    "x", "y", "theta", "service", "not_before", "radius_after", "actions", "metadata"};
 
 /// Adds the goal if it is valid.
 void add_goal(const JsonReader& member, const WorldFrame& frame, ParsedGoals& read) {
@@ -27,15 +27,16 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, ParsedGoals& re
   const auto service = json.find("service").number(kDuration);
   const auto not_before = json.find("not_before").number(kDuration);
   const auto radius_after = json.find("radius_after").number(kLength);
-  std::string metadata = parse_metadata(json);
+  GoalTexts texts{parse_metadata(json), parse_goal_actions(json)};
+  const bool has_texts = !texts.metadata.empty() || !texts.actions.empty();
   if (!goal || member.fault_count() != before) return;
   goal->service = service.value_or(0.0);
   goal->not_before = not_before.value_or(0.0);
   goal->radius_after = radius_after;
-  if (service || not_before || radius_after || !metadata.empty()) read.lists_visits = true;
-  if (!metadata.empty()) {
-    read.metadata.resize(read.goals.size());
-    read.metadata.push_back(std::move(metadata));
+  if (service || not_before || radius_after || has_texts) read.lists_visits = true;
+  if (has_texts) {
+    read.texts.resize(read.goals.size());
+    read.texts.push_back(std::move(texts));
   }
   read.goals.push_back(*goal);
   read.places.push_back(member);
@@ -205,7 +206,7 @@ class RobotReader {
     ParsedGoals goals = parse_goals(json, frame_, goals_);
     read.goals = std::move(goals.places);
     read.lists_visits = goals.lists_visits;
-    read.goal_metadata = std::move(goals.metadata);
+    read.goal_texts = std::move(goals.texts);
     if (goals.goals.empty()) return;
     read.robot.goal = goals.goals.back();
     goals.goals.pop_back();

@@ -25,7 +25,7 @@ struct ParsedGoals {
   /// Whether they are given as a list, or with a service, a radius or metadata: then the answer tells when
   /// each is visited.
   bool lists_visits = false;
-  std::vector<std::string> metadata;  // by goal, see parse_metadata; shorter if the last ones have none
+  std::vector<GoalTexts> texts;  // by goal; shorter if the last ones have none
 };
 
 /// Reads `x`, `y` and `theta` (optional) of a pose whose members are known. Returns none when one has a
@@ -47,7 +47,7 @@ struct ParsedRobot {
   ReceivedMotion received_committed;
   ReceivedMotion received_previous;
   bool lists_visits = false;               // see ParsedGoals
-  std::vector<std::string> goal_metadata;  // see ParsedGoals
+  std::vector<GoalTexts> goal_texts;       // see ParsedGoals
   std::string metadata;                    // see parse_metadata
   std::optional<double> execution_margin;  // metres
   double stop_distance = 0.0;              // metres that it drives until it stands, see /v1/advance

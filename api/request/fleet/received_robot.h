@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "api/json/faults.h"
+#include "api/request/shared_members.h"
 #include "core/model/action.h"
 
 namespace fleetplan::api {
@@ -40,11 +41,10 @@ class ReceivedMotion {
 struct ReceivedRobot {
   ReceivedMotion committed;
   ReceivedMotion previous;
-  bool lists_visits = false;  // its plan tells when each goal is visited
-  std::vector<Fault> errors;  // why it is invalid; empty if it is not
-  /// The metadata of the robot, and of its goals by their number (see parse_metadata), as in ParsedGoals.
-  std::string metadata = {};
-  std::vector<std::string> goal_metadata = {};
+  bool lists_visits = false;               // its plan tells when each goal is visited
+  std::vector<Fault> errors;               // why it is invalid; empty if it is not
+  std::string metadata = {};               // of the robot, see parse_metadata
+  std::vector<GoalTexts> goal_texts = {};  // by goal, as in ParsedGoals
 };
 
 }  // namespace fleetplan::api

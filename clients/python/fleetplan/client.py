@@ -13,8 +13,9 @@ from urllib.parse import quote
 from fleetplan.errors import ConnectionFailed, ProblemError, problem_error
 from fleetplan.http import Pool, Response, read_json
 from fleetplan.types import (AdvanceAnswer, DependenciesAnswer, Disturbance, Health, Hold, Limits, MeasuredPose,
-                             NewGoals, OrderProgress, PacedState, PlanAnswer, PlanEvent, PlanRequest, Plans,
-                             RetimeAnswer, RobotState, SimulationAnswer, SimulationEvent, Vda5050Answer, Verdict)
+                             NewGoals, OrderBase, OrderProgress, PacedState, PlanAnswer, PlanEvent, PlanRequest, Plans,
+                             RetimeAnswer, RobotState, SimulationAnswer, SimulationEvent, Vda5050Answer, Vda5050States,
+                             VdaMessage, Verdict)
 
 _PROBLEM_WITHOUT_BODY = "the answer is not problem details; is this a proxy?"
 _RETRY_AFTER = 1.0  # seconds, if the server does not say
@@ -102,14 +103,25 @@ class Client:
 
     def export_vda5050(self, request: PlanRequest, plans: Plans, *, version: Literal["2.1.0", "3.0.0"],
                        manufacturer: str, timestamp: str | None = None, map_id: str | None = None,
-                       serial_numbers: Mapping[str, str] | None = None,
+                       map_ids: Mapping[str, str] | None = None, serial_numbers: Mapping[str, str] | None = None,
+                       release_ahead: float | None = None, base: Sequence[OrderBase] = (),
                        progress: Sequence[OrderProgress] = ()) -> Vda5050Answer:
         """`timestamp`: in UTC, as ISO 8601 has it; by default, now. The plans have dependencies."""
-        now = datetime.datetime.now(datetime.UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
-        body = _given(_part(request, "robots", "robot_defaults", "options"), _part(plans, "plans", "dependencies"),
-                      version=version, manufacturer=manufacturer, timestamp=timestamp or now, map_id=map_id,
-                      serial_numbers=serial_numbers, progress=progress or None)
+        body = _vda5050(request, plans, version=version, manufacturer=manufacturer, timestamp=timestamp, map_id=map_id,
+                        map_ids=map_ids, serial_numbers=serial_numbers, release_ahead=release_ahead, base=base or None,
+                        progress=progress or None)
         return cast(Vda5050Answer, self._post("/v1/export/vda5050", body, request))
+
+    def import_vda5050(self, request: PlanRequest, plans: Plans, messages: Sequence[VdaMessage], *,
+                       version: Literal["2.1.0", "3.0.0"], manufacturer: str, timestamp: str | None = None,
+                       map_id: str | None = None, map_ids: Mapping[str, str] | None = None,
+                       serial_numbers: Mapping[str, str] | None = None, release_ahead: float | None = None,
+                       base: Sequence[OrderBase] = (), progress: Sequence[OrderProgress] = ()) -> Vda5050States:
+        """What vehicles report. `messages`: the last state of each; the others are those of the last export."""
+        body = _vda5050(request, plans, version=version, manufacturer=manufacturer, timestamp=timestamp, map_id=map_id,
+                        map_ids=map_ids, serial_numbers=serial_numbers, release_ahead=release_ahead, base=base or None,
+                        progress=progress or None, messages=messages)
+        return cast(Vda5050States, self._post("/v1/import/vda5050", body, request))
 
     # ---------------------------------------------------------------- the server
 
@@ -204,6 +216,12 @@ def _given(*parts: Mapping[str, object], **members: object) -> dict[str, object]
         body.update(part)
     body.update({name: value for name, value in members.items() if value is not None})
     return body
+
+
+def _vda5050(request: PlanRequest, plans: Plans, *, timestamp: str | None, **members: object) -> dict[str, object]:
+    now = datetime.datetime.now(datetime.UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
+    return _given(_part(request, "robots", "robot_defaults", "options"), _part(plans, "plans", "dependencies"),
+                  timestamp=timestamp or now, **members)
 
 
 def _part(whole: Mapping[str, object], *names: str) -> dict[str, object]:

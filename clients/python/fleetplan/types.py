@@ -177,6 +177,12 @@ class Action(_Ends):
     reverse: NotRequired[bool]
 
 
+class GoalAction(TypedDict):
+    type: str
+    blocking_type: NotRequired[Literal["NONE", "SOFT", "HARD"]]
+    parameters: NotRequired[dict[str, Any]]
+
+
 class Goal(TypedDict):
     x: float
     y: float
@@ -184,6 +190,7 @@ class Goal(TypedDict):
     service: NotRequired[float]
     not_before: NotRequired[float]
     radius_after: NotRequired[float]
+    actions: NotRequired[list[GoalAction]]
     metadata: NotRequired[Metadata]
 
 
@@ -252,6 +259,7 @@ class Visit(TypedDict):
     reason: NotRequired[Literal["zone_closed", "goal_before"]]
     zone: NotRequired[str]
     estimated_t_arrive: NotRequired[float | None]
+    actions: NotRequired[list[GoalAction]]
     metadata: NotRequired[Metadata]
 
 
@@ -586,6 +594,7 @@ class RobotState(TypedDict):
     y: NotRequired[float]
     theta: NotRequired[float]
     speed: NotRequired[float]
+    released: NotRequired[ActionPlace]
 
 
 class Hold(TypedDict):
@@ -649,7 +658,10 @@ class RetimeAnswer(TypedDict):
     late: list[LateRobot]
 
 
-# ---------------------------------------------------------------- /v1/export/vda5050
+# ---------------------------------------------------------------- /v1/export/vda5050, /v1/import/vda5050
+
+
+VdaMessage: TypeAlias = dict[str, Any]  # a message of VDA 5050
 
 
 class OrderProgress(TypedDict):
@@ -659,6 +671,13 @@ class OrderProgress(TypedDict):
     last_released_sequence_id: NotRequired[int]
     action: int
     progress: float
+    cancel_id: NotRequired[str]
+
+
+class OrderBase(TypedDict):
+    robot: str
+    order: VdaMessage
+    state: NotRequired[VdaMessage]
 
 
 class OrderNode(TypedDict):
@@ -669,14 +688,35 @@ class OrderNode(TypedDict):
 
 class RobotOrder(TypedDict):
     robot: str
-    order: dict[str, Any]
+    order: VdaMessage
     last_released_sequence_id: int
     nodes: list[OrderNode]
 
 
+class CancelledOrder(TypedDict):
+    robot: str
+    detail: str
+    instant_actions: VdaMessage
+
+
 class Vda5050Answer(TypedDict):
+    cancel_orders: list[CancelledOrder]
     orders: list[RobotOrder]
     all_released: bool
+
+
+class VehicleReport(TypedDict):
+    robot: str
+    accepted: bool
+    arrived: bool
+    failed: bool
+
+
+class Vda5050States(TypedDict):
+    states: list[RobotState]
+    poses: list[MeasuredPose]
+    progress: list[OrderProgress]
+    vehicles: list[VehicleReport]
 
 
 # ---------------------------------------------------------------- GET

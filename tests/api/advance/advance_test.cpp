@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/unbounded_work.h"
+
 namespace fleetplan::api {
 namespace TEST_FILE {
 
@@ -311,6 +313,84 @@ TEST(AdvanceByState, ThePlaceIsThatOfTheStateOrOfThePlan) {
   expect_place(late, 9.0, 0, 0.5);
   late.measured = Pose{{2.0, 2.0}, 0.0};  // beside its path
   expect_place(late, 9.5, 3, 0.5);
+}
+
+/// The plan of a robot that may drive to a place already.
+Execution released(Place at, Place until) {
+  Execution execution = reported(at.action, at.fraction);
+  execution.reported->released = until;
+  return execution;
+}
+
+Moment standing(double at, double until) {
+  Moment then = moment(at);
+  then.stand_until = until;
+  return then;
+}
+
+TEST(AdvanceByRelease, ARobotIsCommittedToWhatIsReleasedAndThenStands) {
+  const core::Robot next = advanced(robot(), released({0, 0.5}, {0, 0.75}), standing(5.0, 2.0));
+  EXPECT_EQ(next.start.position.x(), 2.0);
+  ASSERT_EQ(next.committed.size(), 2U);
+  EXPECT_DOUBLE_EQ(next.committed[0].to.position.x(), 2.5);
+  EXPECT_DOUBLE_EQ(next.committed[0].t_end, 0.5);
+  EXPECT_EQ(next.committed[1].type, Type::wait);
+  EXPECT_EQ(next.committed_until(), 2.0);
+  ASSERT_EQ(next.previous->size(), 7U);
+  EXPECT_DOUBLE_EQ(next.previous->at(2).to.position.x(), 3.0);
+  EXPECT_DOUBLE_EQ(next.previous->at(2).t_end, 2.5);
+  EXPECT_EQ(next.goal_count(), 2U);
+  // It stands where it may stand.
+  const core::Robot stands = advanced(robot(), released({0, 0.75}, {0, 0.75}), standing(5.0, 2.0));
+  EXPECT_DOUBLE_EQ(stands.start.position.x(), 2.5);
+  ASSERT_EQ(stands.committed.size(), 1U);
+  EXPECT_EQ(stands.committed[0].type, Type::wait);
+  const core::Robot at_start = advanced(robot(), released({0, 0.0}, {0, 0.0}), standing(5.0, 0.0));
+  EXPECT_EQ(at_start.start.position.x(), 1.0);
+  EXPECT_TRUE(at_start.committed.empty());
+}
+
+TEST(AdvanceByRelease, ServicesAreDoneButWaitsThatGiveWayAreLeftOut) {
+  const core::Robot next = advanced(robot(), released({0, 0.5}, {3, 0.5}), standing(1.0, 0.0));
+  ASSERT_EQ(next.committed.size(), 3U);
+  EXPECT_EQ(next.committed[1].goal, 0U);
+  EXPECT_DOUBLE_EQ(next.committed[1].t_end, 6.0);
+  EXPECT_DOUBLE_EQ(next.committed[2].to.position.x(), 4.5);
+  EXPECT_DOUBLE_EQ(next.committed_until(), 7.5);
+  // It does not wait for others where it may go on.
+  const core::Robot waiting = advanced(robot(), released({2, 0.25}, {3, 0.5}), standing(7.25, 0.0));
+  ASSERT_EQ(waiting.committed.size(), 1U);
+  EXPECT_DOUBLE_EQ(waiting.committed_until(), 1.5);
+}
+
+TEST(AdvanceByRelease, AllStandUntilTheLastHasComeToWhereItMayGo) {
+  const std::vector<core::Robot> robots(3, robot());
+  std::vector<Execution> executions{released({0, 0.5}, {0, 0.75}), released({3, 0.0}, {4, 1.0}), plan()};
+  Moment then = moment(8.0);
+  then.stand_until = standing_time(robots, executions, then, unbounded_work());
+  EXPECT_EQ(then.stand_until, 3.0);  // the service at x = 6 does not count
+  EXPECT_EQ(advanced(robots[0], executions[0], then).committed_until(), 3.0);
+  EXPECT_EQ(advanced(robots[1], executions[1], then).committed_until(), 4.0);
+  const core::Robot other = advanced(robots[2], executions[2], then);
+  EXPECT_EQ(other.committed_until(), 3.0);
+  EXPECT_EQ(other.committed.front().type, Type::wait);
+  executions[0].hold = 5.0;
+  EXPECT_EQ(standing_time(robots, executions, then, unbounded_work()), 5.5);
+  then.commit = 20.0;
+  EXPECT_EQ(standing_time(robots, executions, then, unbounded_work()), 20.0);
+  executions = {plan(), plan(), plan()};
+  EXPECT_EQ(standing_time(robots, executions, then, unbounded_work()), std::nullopt);
+}
+
+TEST(AdvanceByRelease, ARobotThatIsElsewhereStandsWhereItIs) {
+  Execution execution = released({0, 0.5}, {0, 0.75});
+  execution.measured = Pose{{2.0, 2.0}, 0.0};
+  const core::Robot next = advanced(robot(), execution, standing(5.0, 2.0));
+  EXPECT_EQ(next.start.position, Position(2.0, 2.0));
+  EXPECT_EQ(next.committed_until(), 2.0);
+  EXPECT_EQ(next.committed.front().type, Type::wait);
+  EXPECT_FALSE(next.previous);
+  EXPECT_EQ(standing_time({robot()}, {execution}, moment(5.0), unbounded_work()), 0.0);
 }
 
 /// The same robot picks a load up at x = 3, and puts it down at x = 6.

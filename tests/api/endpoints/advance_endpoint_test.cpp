@@ -139,6 +139,13 @@ TEST(AdvanceEndpoint, ReportsFaultsOfStatesWhereTheyAre) {
       (Faults{{"/states/1/robot", "duplicate"}}));
   EXPECT_EQ(with(R"([{"robot": "a", "action": 0, "progress": 0, "service_left": 1}])"),
             (Faults{{"/states/0/service_left", "unknown_key"}}));
+  EXPECT_EQ(
+      with(R"([{"robot": "a", "action": 0, "progress": 0.5, "released": {"action": 0, "progress": 0.25}}])"),
+      (Faults{{"/states/0/released", "out_of_range"}}));
+  EXPECT_EQ(with(R"([{"robot": "a", "action": 0, "progress": 0, "released": {"action": 99, "x": 1}}])"),
+            (Faults{{"/states/0/released/action", "out_of_range"},
+                    {"/states/0/released/x", "unknown_key"},
+                    {"/states/0/released/progress", "missing"}}));
   EXPECT_EQ(with(R"([{"robot": "a", "action": 0, "progress": 0, "x": 1, "speed": 2000, "held_s": 1}])"),
             (Faults{{"/states/0/speed", "out_of_range"},
                     {"/states/0/held_s", "unknown_key"},

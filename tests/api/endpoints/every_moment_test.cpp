@@ -77,6 +77,13 @@ Json two_seconds_later() {
   return body;
 }
 
+/// One robot cannot be stopped any more.
+Json with_released() {
+  Json body = two_seconds_later();
+  body["states"][0]["released"] = {{"action", 0}, {"progress", 0.75}};
+  return body;
+}
+
 /// The fleet in motion, to be planned again.
 Json in_motion(const char* replan, bool has_horizon) {
   Json request = answer_of(advance_endpoint, two_seconds_later());
@@ -188,7 +195,10 @@ TEST(EveryMoment, OfAPlanWithALoadPickedUpWithinTheVicinityOfAnother) {
                                  kPatience);
 }
 
-TEST(EveryMoment, OfAnAdvance) { expect_answers_at_every_moment(advance_endpoint, two_seconds_later()); }
+TEST(EveryMoment, OfAnAdvance) {
+  expect_answers_at_every_moment(advance_endpoint, two_seconds_later());
+  expect_answers_at_every_moment(advance_endpoint, with_released());
+}
 
 TEST(EveryMoment, OfACheck) { expect_answers_at_every_moment(validate_endpoint, with_plans()); }
 
@@ -197,6 +207,28 @@ TEST(EveryMoment, OfDependencies) { expect_answers_at_every_moment(dependencies_
 TEST(EveryMoment, OfASimulation) { expect_answers_at_every_moment(simulate_endpoint, to_simulate()); }
 
 TEST(EveryMoment, OfNewTimes) { expect_answers_at_every_moment(retime_endpoint, to_retime()); }
+
+/// An order that goes on, and the state of its vehicle.
+Json to_import() {
+  Json body = to_export();
+  const Json order = answer_of(vda5050_endpoint, body)["orders"][0]["order"];
+  body["messages"] = {{{"serialNumber", "a"},
+                       {"orderId", order["orderId"]},
+                       {"orderUpdateId", 0},
+                       {"lastNodeSequenceId", 0},
+                       {"agvPosition", {{"x", 0.5}, {"y", 0.5}, {"theta", 0.0}}}}};
+  body["base"] = {{{"robot", "a"}, {"order", order}, {"state", body["messages"][0]}}};
+  body["release_ahead"] = 1.0;
+  return body;
+}
+
+TEST(EveryMoment, OfAnExportThatGoesOn) {
+  Json body = to_import();
+  body.erase("messages");
+  expect_answers_at_every_moment(vda5050_endpoint, body);
+}
+
+TEST(EveryMoment, OfAnImport) { expect_answers_at_every_moment(import_vda5050_endpoint, to_import()); }
 
 TEST(EveryMoment, OfAnExport) { expect_answers_at_every_moment(vda5050_endpoint, to_export()); }
 

@@ -240,6 +240,7 @@ class Life {
     if (dice_.chance(0.5)) body["commit"] = dice_.between(0.0, 6.0);
     body["pose_tolerance"] = 0.1 * request_.at("map").at("resolution").get<double>();
     const bool observes = dice_.chance(0.6);
+    releases_ = dice_.chance(0.3);
     for (const Json& plan : answer_.at("plans")) {
       if (dice_.chance(0.15)) {
         body["holds"].push_back({{"robot", plan.at("robot")}, {"until", dice_.between(0.0, 20.0)}});
@@ -300,6 +301,19 @@ class Life {
     }
   }
 
+  /// The robot may drive some way already.
+  Json released_from(const Json& state, const Json& actions) {
+    Json released{{"action", state.at("action")}, {"progress", state.at("progress")}};
+    const auto last = actions.size() - 1;
+    if (state.at("action").get<std::size_t>() < last && dice_.chance(0.5)) {
+      released["action"] = state.at("action").get<std::size_t>() + 1;
+      released["progress"] = dice_.between(0.0, 1.0);
+    } else if (dice_.chance(0.5)) {
+      released["progress"] = dice_.between(state.at("progress"), 1.0);
+    }
+    return released;
+  }
+
   /// The robot is late, early, or beside its path, which its pose tells, or a state, or both.
   void observe(Json& body, const Json& robot, const Json& actions) {
     const double late = dice_.chance(0.7) ? dice_.between(-0.5, 3.0) : 0.0;
@@ -321,6 +335,7 @@ class Life {
       observed["progress"] = dice_.chance(0.1) ? dice_.below(2) : under->progress;
       const bool serves = actions.at(under->action).contains("goal");
       if (serves && dice_.chance(0.5)) observed["service_left"] = dice_.between(0.0, 6.0);
+      if (releases_) observed["released"] = released_from(observed, actions);
     }
     body[reports ? "states" : "poses"].push_back(std::move(observed));
   }
@@ -330,6 +345,7 @@ class Life {
   Json request_;
   Json answer_;
   std::string came_from_;
+  bool releases_ = false;  // robots that report are told how far they may drive
 };
 
 TEST(RandomLives, GoOnFromAnyMomentAndMayStopWhereTheirCommitmentsEnd) {

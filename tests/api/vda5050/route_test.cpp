@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "api/vda5050/release.h"
 #include "tests/support/plan_builder.h"
+#include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
 namespace TEST_FILE {
@@ -134,19 +136,66 @@ TEST(Release, EndsAtTheFirstGateWhoseConditionIsNotMet) {
   const auto way = plan(robot).translate_to(4.5, 0.5).wait(1.0).translate_to(6.5, 0.5).build();
   const std::vector<core::Dependency> dependencies{
       {{0, 0, 0.5}, {1, 0, 0.25}, 1.0}, {{0, 1, 0.5}, {1, 0, 0.5}, 1.0}, {{0, 2, 0.5}, {1, 0, 1.0}, 1.0}};
-  const auto points = points_of(dependencies, 2);
-  EXPECT_THAT(points[1],
-              ElementsAre(core::ActionPlace{0, 0.25}, core::ActionPlace{0, 0.5}, core::ActionPlace{1, 0.0}));
+  const auto gates = gates_of(dependencies, {way.actions, way.actions});
+  const auto points = points_of(gates, 2);
+  // A centimetre behind the points that open gates, and before gates.
+  EXPECT_THAT(points[1], ElementsAre(core::ActionPlace{0, 0.2525}, core::ActionPlace{0, 0.5025},
+                                     core::ActionPlace{1, 0.0}));
+  EXPECT_THAT(points[0], ElementsAre(core::ActionPlace{0, 0.4975}, core::ActionPlace{1, 0.5},
+                                     core::ActionPlace{2, 0.495}));
   const std::vector<Route> routes{route(robot, way, points[0]), {}};
   const auto released = [&](core::ActionPlace other) {
-    return released_nodes(routes, dependencies, {core::ActionPlace{}, other}).front();
+    return released_nodes(routes[0], closed_gates(gates, {core::ActionPlace{}, other}).front());
   };
   ASSERT_EQ(routes[0].nodes.size(), 5U);
-  EXPECT_EQ(released({0, 0.0}), 2U);   // up to the gate in the first translation
-  EXPECT_EQ(released({0, 0.25}), 3U);  // to the end of it: the next gate is in the wait there
-  EXPECT_EQ(released({0, 0.5}), 4U);
+  EXPECT_EQ(released({0, 0.0}), 2U);     // up to the gate in the first translation
+  EXPECT_EQ(released({0, 0.2525}), 3U);  // to the end of it: the next gate is in the wait there
+  EXPECT_EQ(released({0, 0.5025}), 4U);
   EXPECT_EQ(released({0, 0.9}), 4U);
   EXPECT_EQ(released({1, 0.0}), 5U);
+}
+
+TEST(Release, GoesSoManySecondsAheadAndToTheNextNodeAtLeast) {
+  const core::Robot robot = make_robot();
+  const auto way = plan(robot).translate_to(4.5, 0.5).wait(10.0).translate_to(6.5, 0.5).build();
+  const auto cuts = with_points_within(1.5, {{0, 0.5}}, way.actions, unbounded_work());
+  EXPECT_THAT(cuts, ElementsAre(core::ActionPlace{0, 1.0 / 3.0}, core::ActionPlace{0, 0.5},
+                                core::ActionPlace{0, 2.0 / 3.0}, core::ActionPlace{2, 0.5}));
+  const Route cut = route(robot, way, cuts);
+  const auto within = [&](double seconds, core::ActionPlace at) {
+    return nodes_within(seconds, cut, way.actions, at);
+  };
+  ASSERT_EQ(cut.nodes.size(), 7U);
+  EXPECT_EQ(within(3.0, {}), 4U);
+  EXPECT_EQ(within(0.1, {}), 2U);
+  EXPECT_EQ(within(0.1, {0, 0.4}), 3U);
+  EXPECT_EQ(within(3.0, {1, 0.0}), 6U) << "the next node comes after a wait of 10 s";
+  EXPECT_EQ(within(100.0, {}), 7U);
+}
+
+TEST(Route, ContinuesAnOrderBehindItsCommittedActions) {
+  core::Robot robot = make_robot();
+  robot.via = {core::Goal{{4.5, 0.5}, {}, 2.0}};
+  auto way = plan(robot).translate_to(4.5, 0.5).wait(2.0).rotate_to(kRight).translate_to(4.5, 2.5).build();
+  way.actions[1].goal = 0;
+  const auto stitched = [&](std::size_t action) {
+    return route_of(robot, way.actions, {{0, 0.5}}, 0.0, {action, 8, true});
+  };
+  const Route behind = stitched(2);
+  EXPECT_THAT(brief(behind), ElementsAre("4.5,0.5 0 2+0 0", testing::StartsWith("4.5,2.5 1.57")));
+  EXPECT_EQ(behind.sequence_id(1), 10U);
+  EXPECT_EQ(behind.node_of(10), 1U);
+  EXPECT_EQ(behind.node_of(6), std::nullopt);
+  EXPECT_EQ(behind.node_of(9), std::nullopt);
+  EXPECT_EQ(behind.node_of(12), std::nullopt);
+  // What the vehicle is to do where it stands is at a node of its own, as it has the first one already.
+  const Route before = stitched(1);
+  ASSERT_EQ(before.nodes.size(), 3U);
+  EXPECT_TRUE(before.nodes[0].stops.empty());
+  EXPECT_EQ(before.nodes[1].position, before.nodes[0].position);
+  ASSERT_EQ(before.nodes[1].stops.size(), 1U);
+  EXPECT_EQ(before.nodes[1].until, (core::ActionPlace{2, 0.0}));
+  EXPECT_THAT(brief(stitched(4)), ElementsAre(testing::StartsWith("4.5,2.5 1.57")));
 }
 
 }  // namespace TEST_FILE

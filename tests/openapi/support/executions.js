@@ -183,6 +183,35 @@ export class Executions {
     });
   }
 
+  /** What vehicles report that have got orders of the plans, and some orders that they had before. */
+  reports() {
+    const text = fc.string({ minLength: 1, maxLength: 20, unit: "grapheme" });
+    const number = fc.nat({ max: 20 });
+    return this.orders().chain((body) => {
+      const serial = ({ id }) => body.serial_numbers[id] ?? id;
+      const serials = body.robots.map(serial);
+      const vehicles = body.robots.filter((robot, k) => serials.indexOf(serial(robot)) === k);
+      const message = (robot) =>
+        fc.record({
+          serialNumber: fc.constant(serial(robot)),
+          orderId: fc.oneof(text, fc.constant(""), fc.constant(orderOf(body, robot.id) ?? "")),
+          orderUpdateId: number,
+          lastNodeSequenceId: number,
+          agvPosition: fc.constant({ theta: 0, ...robot.start, mapId: "map", positionInitialized: true }),
+          actionStates: fc.array(
+            fc.record({ actionId: text, actionStatus: fc.constantFrom("RUNNING", "FINISHED") }),
+            { maxLength: 3 },
+          ),
+        });
+      return fc
+        .record({
+          messages: ofSome(vehicles, message),
+          release_ahead: mostly(within(0.1, 10), within(0.1, 1e8)),
+        })
+        .map((further) => ({ ...body, ...further }));
+    });
+  }
+
   /**
    * Later moments of the plans. Robots are late together, by as much, as each on its own may be where another one
    * has come meanwhile, which is no fault of the service. They are measured, or report how far they are. Starts may
@@ -235,6 +264,8 @@ export class Executions {
     });
   }
 }
+
+const orderOf = ({ progress }, id) => progress.find(({ robot }) => robot === id)?.order_id;
 
 function smallestRadius({ robots, robot_defaults }) {
   const goals = robots.flatMap(goalsOf).map(({ radius_after }) => radius_after);

@@ -52,6 +52,7 @@ Service StubService::service() {
           .dependencies = endpoint,
           .retime = endpoint,
           .vda5050 = endpoint,
+          .import_vda5050 = endpoint,
           .example_list = list,
           .openapi = openapi,
           .examples = {{"tiny", R"({"robots":[]})"}, {"narrow-door", "{}"}}};

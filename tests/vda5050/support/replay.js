@@ -13,6 +13,17 @@ export function leastGap(a, b, radii) {
   return least;
 }
 
+/** The least gap of all pairs. */
+export function leastGapOfAll(tracks, radii) {
+  let least = Infinity;
+  for (let i = 0; i < tracks.length; ++i) {
+    for (let j = 0; j < i; ++j) {
+      least = Math.min(least, leastGap(tracks[i], tracks[j], radii[i] + radii[j]));
+    }
+  }
+  return least;
+}
+
 /** Positions at ascending times; before the first entry and after the last, the vehicle stands. */
 function positions(track, times) {
   let k = 0;

@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+
+#include "api/advance/advance.h"
+#include "core/execution/executed_actions.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+using core::Action;
+using Actions = std::vector<Action>;
+
+double time_of(const Action& action, double fraction) {
+  return action.t_start + fraction * (action.t_end - action.t_start);
+}
+
+/// The place, at an end of its action if that is nearer than rounding (seconds).
+Place at_end(const Actions& actions, Place place) {
+  constexpr double kRounding = 1e-9;
+  const double duration = actions[place.action].t_end - actions[place.action].t_start;
+  if (place.fraction * duration <= kRounding) {
+    place.fraction = 0.0;
+  } else if ((1.0 - place.fraction) * duration <= kRounding) {
+    place.fraction = 1.0;
+  }
+  return place;
+}
+
+/// The actions before a place, of which the one under way there is cut.
+Actions before_place(const Actions& actions, const Place& place) {
+  const auto index = static_cast<std::ptrdiff_t>(place.action);
+  Actions before(actions.begin(), actions.begin() + index);
+  if (place.fraction > 0.0) {
+    Action part = actions[place.action];
+    const double t = time_of(part, place.fraction);
+    part.to = pose_at(part, t);
+    part.t_end = t;
+    before.push_back(part);
+  }
+  return before;
+}
+
+/// The actions after a place, as many seconds earlier.
+Actions after_place(const Actions& actions, const Place& place, double earlier) {
+  Actions after(actions.begin() + static_cast<std::ptrdiff_t>(place.action), actions.end());
+  if (place.fraction >= 1.0) {
+    after.erase(after.begin());
+  } else if (place.fraction > 0.0) {
+    Action& part = after.front();
+    const double t = time_of(part, place.fraction);
+    part.from = pose_at(part, t);
+    part.t_start = t;
+  }
+  for (Action& action : after) {
+    action.t_start -= earlier;
+    action.t_end -= earlier;
+  }
+  return after;
+}
+
+/// What the waits of a robot are for.
+class Waits {
+ public:
+  Waits(const core::Robot& robot, const Actions& actions, double wait_before_move)
+      : robot_(robot), actions_(actions), purposes_(core::wait_purposes(robot, actions, wait_before_move)) {}
+
+  /// Whether the action is a wait that only gives way to others.
+  bool gives_way(std::size_t index) const {
+    const Action& action = actions_[index];
+    const bool serves = action.goal && *action.goal < robot_.goal_count();
+    return action.type == Action::Type::wait && !serves && purposes_[index].least <= 0.0;
+  }
+
+  /// Seconds that the action takes at least. A wait until its goal may be served takes as long as planned.
+  double duration(std::size_t index, const Action& part) const {
+    const double planned = part.t_end - part.t_start;
+    if (part.type != Action::Type::wait || purposes_[index].not_before > 0.0) return planned;
+    return std::min(planned, purposes_[index].least);
+  }
+
+ private:
+  const core::Robot& robot_;
+  const Actions& actions_;
+  std::vector<core::WaitPurpose> purposes_;
+};
+
+/// Moves the actions from an index on together, without waits that give way, so that they end at `t_end`.
+void pack(Actions& actions, std::size_t first, const Waits& waits, double t_end) {
+  Actions packed;
+  double now = 0.0;
+  for (std::size_t k = first; k < actions.size(); ++k) {
+    if (waits.gives_way(k)) continue;
+    Action next = actions[k];
+    next.t_start = now;
+    next.t_end = now = now + waits.duration(k, actions[k]);
+    packed.push_back(next);
+  }
+  actions.resize(std::min(first, actions.size()));
+  for (Action& action : packed) {
+    action.t_start += t_end - now;
+    action.t_end += t_end - now;
+    actions.push_back(action);
+  }
+}
+
+}  // namespace
+
+ReleasedRest released_rest(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+  const Place released = at_end(execution.actions, *execution.reported->released);
+  const Waits waits(robot, execution.actions, moment.wait_before_move);
+  Execution until = execution;
+  Place& place = until.reported->place;
+  while (place.action < released.action && waits.gives_way(place.action)) place = {place.action + 1, 0.0};
+  until.actions = before_place(execution.actions, released);
+  const bool is_cut = place.action == released.action && released.fraction > 0.0;
+  if (is_cut) place.fraction = std::min(1.0, place.fraction / released.fraction);
+  Actions after = after_place(execution.actions, released, moment.at);
+  if (place.action >= until.actions.size()) {
+    // It stands where it may stand, wherever it was measured.
+    const Action& next = execution.actions[place.action];
+    return {{pose_at(next, next.t_start), {}}, std::move(after)};
+  }
+  pack(until.actions, place.action + 1, waits, moment.at);  // late, so that they follow each other
+  const Progress progress = reported_progress(until.actions, *until.reported);
+  return {remainder_of_reported(robot, until, progress, moment.at), std::move(after)};
+}
+
+}  // namespace fleetplan::api

@@ -1,0 +1,38 @@
+#pragma once
+
+// State messages of VDA 5050 as states of robots: POST /v1/import/vda5050.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "api/json/json_reader.h"
+#include "api/request/limits.h"
+#include "api/vda5050/parse_vda5050_request.h"
+#include "api/vda5050/vehicle_states.h"
+#include "core/runtime/work.h"
+
+namespace fleetplan::api {
+
+/// A readable body of POST /v1/import/vda5050.
+struct VdaImport {
+  VdaRequest request;                               // as for POST /v1/export/vda5050
+  std::vector<std::optional<VehicleState>> states;  // by robot
+};
+
+inline constexpr auto kVdaImportMembers = [] {
+  std::array<std::string_view, kVdaMembers.size() + 1> members{};
+  std::copy(kVdaMembers.begin(), kVdaMembers.end(), members.begin());
+  members.back() = "messages";
+  return members;
+}();
+
+/// Reads the root of the document. Returns none if it has faults, or if its stop is met.
+std::optional<VdaImport> parse_vda5050_import(const JsonReader& root, const Limits& limits, core::Work& stop);
+
+/// Returns the answer: `states` and `poses` for POST /v1/advance, `progress` for the next export, and what
+/// became of the orders. Returns none if the stop is met.
+std::optional<std::string> write_states(const VdaImport& import, core::Work& stop);
+
+}  // namespace fleetplan::api

@@ -1,0 +1,353 @@
+// Orders of vehicles that drive while the fleet is planned again: they are continued from what is released of
+// them, or cancelled; and what vehicles report becomes states of robots.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "api/endpoints/endpoints.h"
+#include "tests/api/support/requests.h"
+
+namespace fleetplan::api {
+namespace TEST_FILE {
+
+using testing::HasSubstr;
+
+Json answer_of(Reply (*endpoint)(std::string_view, const RequestContext&), const Json& body) {
+  const Reply reply = endpoint(body.dump(), {});
+  EXPECT_EQ(reply.status, 200) << reply.body << "\n" << body;
+  return json_of(reply);
+}
+
+Faults faults_of_import(const Json& body) {
+  const Reply reply = import_vda5050_endpoint(body.dump(), {});
+  EXPECT_EQ(reply.status, 422) << reply.body;
+  Faults faults;
+  const Json problem = json_of(reply);
+  for (const Json& error : problem["errors"]) faults.emplace_back(error["pointer"], error["code"]);
+  return faults;
+}
+
+/// Robot "a" picks something up on its way through a hall, and "b" crosses before it.
+Json crossing_request() {
+  Json request = Json::parse(R"({
+    "map": {"rows": [], "resolution": 0.5},
+    "robot_defaults": {"radius": 0.4, "linear_speed": 1.0, "angular_speed": 1.0},
+    "robots": [
+      {"id": "a", "start": {"x": 1, "y": 5},
+       "goals": [{"x": 10, "y": 5, "service": 5, "metadata": {"action": "pick"}}, {"x": 18, "y": 5}]},
+      {"id": "b", "start": {"x": 9, "y": 1, "theta": 1.57}, "goal": {"x": 9, "y": 9}}],
+    "options": {"dependencies": true, "interval_margin": 0.5}})");
+  request["map"]["rows"] = Json(20, std::string(40, '.'));
+  return request;
+}
+
+/// A fleet from plan to plan.
+struct Hall {
+  Json request = crossing_request();
+  Json plan = answer_of(plan_endpoint, request);
+  Json body = {{"version", "2.1.0"},
+               {"manufacturer", "acme"},
+               {"timestamp", "2026-11-23T12:00:00.000Z"},
+               {"map_id", "hall"}};
+
+  Json exported() const { return answer_of(vda5050_endpoint, complete()); }
+  Json imported(const Json& messages) const {
+    Json all = complete();
+    all["messages"] = messages;
+    return answer_of(import_vda5050_endpoint, all);
+  }
+  Json complete() const {
+    Json all = body;
+    for (const char* member : {"robots", "robot_defaults", "options"}) all[member] = request[member];
+    for (const char* member : {"plans", "dependencies"}) all[member] = plan[member];
+    return all;
+  }
+
+  /// Plans for a later moment.
+  void advance(double at, const Json& states, const Json& goals = Json::array()) {
+    const Json next{{"request", request}, {"plans", plan["plans"]}, {"at", at},
+                    {"commit", 1.0},      {"states", states},       {"goals", goals}};
+    request = answer_of(advance_endpoint, next);
+    plan = answer_of(plan_endpoint, request);
+    EXPECT_EQ(plan["status"], "solved");
+  }
+};
+
+/// The progress of a vehicle that has been sent an order and has not moved.
+Json progress_of(const Json& sent) {
+  return {{"robot", sent["robot"]},
+          {"order_id", sent["order"]["orderId"]},
+          {"order_update_id", sent["order"]["orderUpdateId"]},
+          {"last_released_sequence_id", sent["last_released_sequence_id"]},
+          {"action", 0},
+          {"progress", 0}};
+}
+
+Json state_message(const Json& order, int node, double x, double y) {
+  return {
+      {"serialNumber", order["serialNumber"]},
+      {"orderId", order["orderId"]},
+      {"orderUpdateId", order["orderUpdateId"]},
+      {"lastNodeSequenceId", node},
+      {"agvPosition", {{"x", x}, {"y", y}, {"theta", 0.0}, {"mapId", "hall"}, {"positionInitialized", true}}},
+      {"actionStates", Json::array()},
+      {"errors", Json::array()}};
+}
+
+/// After three seconds: "a" is at x = 4, and may drive to x = 8.19, where it waits for "b".
+struct Moving : Hall {
+  Json first = exported()["orders"];
+  Json messages = {state_message(first[0]["order"], 0, 4.0, 5.0),
+                   state_message(first[1]["order"], 0, 9.0, 3.9)};
+  Json base = {{{"robot", "a"}, {"order", first[0]["order"]}, {"state", messages[0]}},
+               {{"robot", "b"}, {"order", first[1]["order"]}, {"state", messages[1]}}};
+
+  Moving() { body["progress"] = {progress_of(first[0]), progress_of(first[1])}; }
+
+  /// Begins with the next plan.
+  void begin() {
+    body.erase("progress");
+    body["base"] = base;
+  }
+};
+
+TEST(LiveOrders, AreContinuedFromTheLastReleasedNode) {
+  Moving hall;
+  const Json reported = hall.imported(hall.messages);
+  EXPECT_NEAR(reported["states"][0]["progress"].get<double>(), 1.0 / 3.0, 1e-6);
+  EXPECT_NEAR(reported["states"][0]["released"]["progress"].get<double>(), 0.8, 0.002);
+  hall.advance(3.0, reported["states"]);
+  hall.begin();
+  const Json update = hall.exported();
+  EXPECT_TRUE(update["cancel_orders"].empty());
+  ASSERT_FALSE(update["orders"].empty());
+  EXPECT_TRUE(hall.imported(hall.messages)["vehicles"][0]["accepted"].get<bool>());
+
+  // When "b" has passed, "a" may go on.
+  hall.body["progress"] =
+      hall.imported(Json::array({state_message(hall.first[1]["order"], 4, 9.0, 9.0)}))["progress"];
+  const Json order = hall.exported()["orders"][0]["order"];
+  const Json& last = hall.first[0]["order"]["nodes"][1];
+  EXPECT_EQ(last["nodeId"], "a-2");
+  EXPECT_EQ(order["orderId"], hall.first[0]["order"]["orderId"]);
+  EXPECT_EQ(order["orderUpdateId"], 1);
+  EXPECT_EQ(order["nodes"][0], last);
+  EXPECT_EQ(order["nodes"][1]["sequenceId"], last["sequenceId"].get<int>() + 2);
+  EXPECT_EQ(order["nodes"][1]["nodeId"], "a-1-4") << "not the node that the horizon has had";
+  EXPECT_EQ(order["edges"][0]["startNodeId"], "a-2");
+  EXPECT_TRUE(order["nodes"][1]["released"].get<bool>());
+}
+
+TEST(LiveOrders, AreCancelledIfThePlanTurnsOffBeforeTheEndOfTheirBase) {
+  Moving hall;
+  Json states = hall.imported(hall.messages)["states"];
+  for (Json& state : states) state.erase("released");
+  hall.advance(3.0, states);
+  hall.begin();
+  const Json answer = hall.exported();
+  EXPECT_TRUE(answer["orders"].empty()) << "nobody goes on";
+  EXPECT_FALSE(answer["all_released"].get<bool>());
+  ASSERT_EQ(answer["cancel_orders"].size(), 2U);
+  const Json& cancelled = answer["cancel_orders"][0];
+  EXPECT_EQ(cancelled["robot"], "a");
+  EXPECT_THAT(cancelled["detail"].get<std::string>(), HasSubstr("is at (8.19"));
+  EXPECT_EQ(cancelled["instant_actions"]["serialNumber"], "a");
+  EXPECT_EQ(cancelled["instant_actions"]["actions"][0].dump(),
+            R"({"actionType":"cancelOrder","actionId":"a-2026-11-23T12:00:00.000Z-0-cancel",)"
+            R"("blockingType":"HARD","actionParameters":[]})");
+  hall.body["version"] = "3.0.0";
+  EXPECT_EQ(hall.exported()["cancel_orders"][0]["instant_actions"]["actions"][0]["actionParameters"].size(),
+            1U);
+}
+
+TEST(LiveOrders, AreCancelledIfTheirBaseHasAClosedGate) {
+  Moving hall;
+  hall.advance(3.0, hall.imported(hall.messages)["states"]);
+  hall.begin();
+  const Json gate = {{"robot", "a"}, {"action", 0}, {"progress", 0.5}};
+  hall.plan["dependencies"] = {
+      {{"gate", gate}, {"until", {{"robot", "b"}, {"action", 0}, {"progress", 0.1}}}}};
+  EXPECT_THAT(hall.exported()["cancel_orders"][0]["detail"].get<std::string>(),
+              HasSubstr("is behind a gate"));
+}
+
+TEST(LiveOrders, AreCancelledIfThePlanPassesOtherNodes) {
+  Moving hall;
+  hall.advance(3.0, hall.imported(hall.messages)["states"]);
+  hall.begin();
+  Json& nodes = hall.body["base"][0]["order"]["nodes"];
+  Json beside = nodes[1];
+  beside["nodePosition"]["y"] = 5.5;
+  nodes.insert(nodes.begin() + 1, beside);
+  EXPECT_THAT(hall.exported()["cancel_orders"][0]["detail"].get<std::string>(),
+              HasSubstr("not committed to pass"));
+  // One that it has left behind does not matter.
+  nodes[1]["sequenceId"] = 0;
+  EXPECT_TRUE(hall.exported()["cancel_orders"].empty());
+}
+
+TEST(LiveOrders, EndWithNewGoalsFromTheEndOfTheirBaseOn) {
+  Moving hall;
+  hall.advance(3.0, hall.imported(hall.messages)["states"],
+               Json::parse(R"([{"robot": "a", "goals": [{"x": 3, "y": 8}]}])"));
+  hall.begin();
+  const Json answer = hall.exported();
+  EXPECT_TRUE(answer["cancel_orders"].empty());
+  EXPECT_EQ(answer["orders"][0]["order"]["nodes"][0], hall.first[0]["order"]["nodes"][1]);
+  EXPECT_EQ(answer["orders"][0]["order"]["nodes"].back()["nodePosition"]["x"], 3.0);
+}
+
+TEST(LiveOrders, OfVehiclesThatAreBeingCancelledGetNoUpdate) {
+  Moving hall;
+  hall.body["progress"][0]["cancel_id"] = "stop";
+  hall.body["progress"][1]["progress"] = 1.0;
+  hall.body["progress"][1]["action"] = 1;
+  EXPECT_TRUE(hall.exported()["orders"].empty());
+  Json stopping = hall.imported(hall.messages);
+  EXPECT_EQ(stopping["progress"][0]["cancel_id"], "stop");
+  EXPECT_TRUE(stopping["states"][0].contains("released"));
+  hall.messages[0]["actionStates"] = {{{"actionId", "stop"}, {"actionStatus", "FINISHED"}}};
+  const Json stopped = hall.imported(hall.messages);
+  EXPECT_FALSE(stopped["progress"][0].contains("order_id"));
+  EXPECT_FALSE(stopped["states"][0].contains("released"));
+  EXPECT_EQ(stopped["states"][0]["x"], 4.0);
+  EXPECT_EQ(stopped["states"][0]["theta"], 0.0);
+}
+
+TEST(LiveOrders, HaveTheMapOfTheirVehicle) {
+  Hall hall;
+  hall.body["map_ids"] = {{"b", "floor 1"}};
+  const Json answer = hall.exported();
+  EXPECT_EQ(answer["orders"][0]["order"]["nodes"][0]["nodePosition"]["mapId"], "hall");
+  EXPECT_EQ(answer["orders"][1]["order"]["nodes"][0]["nodePosition"]["mapId"], "floor 1");
+}
+
+TEST(LiveOrders, AreReleasedSoManySecondsAhead) {
+  Hall hall;
+  hall.body["release_ahead"] = 2.0;
+  const Json sent = hall.exported()["orders"];
+  EXPECT_EQ(sent[0]["last_released_sequence_id"], 4);
+  EXPECT_NEAR(sent[0]["order"]["nodes"][2]["nodePosition"]["x"].get<double>(), 3.0, 1e-6);
+  hall.body["progress"] = {progress_of(sent[0])};
+  hall.body["progress"][0]["progress"] = 0.2;
+  EXPECT_EQ(hall.exported()["orders"][0]["order"]["nodes"][0]["sequenceId"], 4);
+}
+
+TEST(LiveOrders, HaveTheActionsOfGoals) {
+  Hall hall;
+  Json& goal = hall.request["robots"][0]["goals"][0];
+  goal["actions"] = Json::parse(R"([{"type": "pick", "parameters": {"loadType": "EPAL", "sides": [1, 2]}},
+                                    {"type": "beep", "blocking_type": "SOFT"}])");
+  hall.plan = answer_of(plan_endpoint, hall.request);
+  EXPECT_EQ(hall.plan["plans"][0]["visits"][0]["actions"], goal["actions"]);
+  const Json order = hall.exported()["orders"][0]["order"];
+  const Json& actions = order["nodes"][2]["actions"];
+  ASSERT_EQ(actions.size(), 2U);
+  EXPECT_EQ(actions[0]["actionType"], "pick");
+  EXPECT_EQ(actions[0]["blockingType"], "HARD");
+  EXPECT_EQ(actions[0]["actionParameters"].dump(),
+            R"([{"key":"loadType","value":"EPAL"},{"key":"sides","value":[1,2]}])");
+  EXPECT_EQ(actions[1]["blockingType"], "SOFT");
+  EXPECT_NE(actions[0]["actionId"], actions[1]["actionId"]);
+
+  // They are executed in the order in which the vehicle does them, and the service is over with the last one.
+  hall.body["progress"] = {progress_of(hall.exported()["orders"][0])};
+  hall.body["progress"][0]["last_released_sequence_id"] = 4;
+  Json message = state_message(order, 4, 10.0, 5.0);
+  message["actionStates"] = {{{"actionId", actions[0]["actionId"]}, {"actionStatus", "FINISHED"}},
+                             {{"actionId", actions[1]["actionId"]}, {"actionStatus", "RUNNING"}}};
+  const Json busy = hall.imported(Json::array({message}))["states"][0];
+  EXPECT_EQ(busy["action"], 0);
+  EXPECT_EQ(busy["progress"], 1.0);
+  EXPECT_EQ(busy["released"].dump(), R"({"action":1,"progress":1.0})");
+  message["actionStates"][1]["actionStatus"] = "FAILED";
+  EXPECT_EQ(hall.imported(Json::array({message}))["states"][0]["action"], 1);
+
+  const Json later{{"request", hall.request}, {"plans", hall.plan["plans"]}, {"at", 2.0}};
+  EXPECT_EQ(answer_of(advance_endpoint, later)["robots"][0]["goals"][0]["actions"], goal["actions"]);
+  goal.erase("service");
+  EXPECT_EQ(brief_faults_of(hall.request), (Faults{{"/robots/0/goals/0/service", "missing"}}));
+  goal["service"] = 0;
+  EXPECT_EQ(brief_faults_of(hall.request), (Faults{{"/robots/0/goals/0/service", "out_of_range"}}));
+  goal["service"] = 1;
+  goal["actions"] = Json::parse(R"([{"blocking_type": "NO", "parameters": 7, "scope": "node"}])");
+  EXPECT_EQ(brief_faults_of(hall.request),
+            (Faults{{"/robots/0/goals/0/actions/0/blocking_type", "unknown_value"},
+                    {"/robots/0/goals/0/actions/0/parameters", "wrong_type"},
+                    {"/robots/0/goals/0/actions/0/scope", "unknown_key"},
+                    {"/robots/0/goals/0/actions/0/type", "missing"}}));
+  goal["actions"] = {{{"type", "pick"}, {"parameters", {{"text", std::string(20'000, 'x')}}}}};
+  EXPECT_EQ(brief_faults_of(hall.request), (Faults{{"/robots/0/goals/0/actions", "out_of_range"}}));
+}
+
+TEST(VehicleStates, TellWhatBecameOfOrders) {
+  Moving hall;
+  const auto told = [&] { return hall.imported(hall.messages)["vehicles"][0].dump(); };
+  EXPECT_EQ(told(), R"({"robot":"a","accepted":true,"arrived":false,"failed":false})");
+  hall.messages[0]["orderId"] = "";
+  EXPECT_EQ(told(), R"({"robot":"a","accepted":false,"arrived":false,"failed":false})");
+  hall.messages[0]["errors"] = Json::parse(R"([{"errorType": "orderError", "errorLevel": "WARNING",
+    "errorReferences": [{"referenceKey": "orderId", "referenceValue": "a-2026-11-23T12:00:00.000Z"},
+                        {"referenceKey": "orderUpdateId", "referenceValue": "0"}]}])");
+  EXPECT_EQ(told(), R"({"robot":"a","accepted":false,"arrived":false,"failed":true})");
+  hall.messages[0]["errors"] = Json::parse(R"([{"errorType": "motor", "errorLevel": "FATAL"}])");
+  EXPECT_EQ(told(), R"({"robot":"a","accepted":false,"arrived":false,"failed":true})");
+  hall.messages[1]["lastNodeSequenceId"] = 4;
+  EXPECT_TRUE(hall.imported(hall.messages)["vehicles"][1]["arrived"].get<bool>());
+}
+
+TEST(VehicleStates, OfMessagesOnTheirWayAreAsBefore) {
+  Moving hall;
+  hall.messages[0]["orderId"] = "an earlier one";
+  const Json state = hall.imported(hall.messages)["states"][0];
+  EXPECT_EQ(state["progress"], 0.0);
+  EXPECT_NEAR(state["released"]["progress"].get<double>(), 0.8, 0.002);
+}
+
+TEST(VehicleStates, HaveNotReachedWhatTheyHaveStillToReach) {
+  Moving hall;
+  hall.messages[1]["lastNodeSequenceId"] = 4;  // of the order before
+  hall.messages[1]["nodeStates"] = Json::parse(R"([{"sequenceId": 0, "released": true}, {"sequenceId": 2}])");
+  const Json told = hall.imported(hall.messages);
+  EXPECT_FALSE(told["vehicles"][1]["arrived"].get<bool>());
+  EXPECT_EQ(told["states"][1]["action"], 1);
+  EXPECT_LT(told["states"][1]["progress"], 0.5);
+}
+
+TEST(VehicleStates, NeverGoBack) {
+  Moving hall;
+  hall.body["progress"][0]["progress"] = 0.5;
+  EXPECT_EQ(hall.imported(hall.messages)["states"][0]["progress"], 0.5);
+}
+
+TEST(VehicleStates, WithFaultsAreRejected) {
+  Moving hall;
+  Json body = hall.complete();
+  EXPECT_EQ(faults_of_import(body), (Faults{{"/messages", "missing"}}));
+  body["messages"] = {hall.messages[0], hall.messages[0]};
+  EXPECT_EQ(faults_of_import(body), (Faults{{"/messages/1/serialNumber", "duplicate"}}));
+  body["messages"] = Json::parse(R"([7, {"serialNumber": "c"},
+    {"serialNumber": "a", "orderId": 1, "orderUpdateId": -1, "agvPosition": {"x": 0}, "actionStates": [{}],
+     "errors": [{}]}])");
+  EXPECT_EQ(faults_of_import(body), (Faults{{"/messages/0", "wrong_type"},
+                                            {"/messages/1/serialNumber", "unknown_robot"},
+                                            {"/messages/2/orderId", "wrong_type"},
+                                            {"/messages/2/orderUpdateId", "out_of_range"},
+                                            {"/messages/2/agvPosition/y", "missing"},
+                                            {"/messages/2/agvPosition/theta", "missing"},
+                                            {"/messages/2/actionStates/0/actionId", "missing"},
+                                            {"/messages/2/actionStates/0/actionStatus", "missing"},
+                                            {"/messages/2/errors/0/errorLevel", "missing"},
+                                            {"/messages/2/lastNodeSequenceId", "missing"}}));
+  body["messages"] = Json::array();
+  body["base"] = Json::parse(R"([{"robot": "a", "order": {"orderId": "", "orderUpdateId": 0, "nodes": []}},
+    {"robot": "b", "order": {"orderId": "x", "orderUpdateId": 0, "nodes": [
+      {"nodeId": "n", "sequenceId": 0, "released": false, "nodePosition": {"x": 0, "y": 0}}]}}])");
+  EXPECT_EQ(faults_of_import(body),
+            (Faults{{"/base/0/order/orderId", "empty"}, {"/base/1/order/nodes", "out_of_range"}}));
+}
+
+}  // namespace TEST_FILE
+}  // namespace fleetplan::api
