@@ -179,7 +179,8 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   if (!report) return unchecked(outcome, !request.problem.obstacles().empty(), request_id);
   if (!report->valid()) return rejected(outcome, *report, request_id);
   const auto dependencies = answer_dependencies(answered, request, stages, stop);
-  std::vector<std::string> warnings = joined(request.warnings, stuck_warning(answered, request.problem.robots()));
+  std::vector<std::string> warnings =
+      joined(request.warnings, stuck_warning(answered, request.problem.robots()));
   if (dependencies) warnings = joined(std::move(warnings), dependencies->warnings);
   stages.verified = Stages::Clock::now();
   if (on_answer) on_answer(request.problem, answered);
