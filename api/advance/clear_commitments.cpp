@@ -120,10 +120,39 @@ class Clearing {
       if (meeting->second_moves) cut(other, when_it_can_stop(other, meeting->t));
     }
     if (cannot_stop_before(robot) == 0.0 && cannot_stop_before(other) == 0.0) return;
+    give_way(robot, other);
+    give_way(other, robot);
     if (const auto contact = first_contact(robot, other)) {
       if (contact->first_moves) cut(robot, contact->t);
       if (contact->second_moves) cut(other, contact->t);
     }
+  }
+
+  /// Ends a commitment so early that the robot does not stand where another one, which cannot stop, comes.
+  void give_way(std::size_t robot, std::size_t other) {
+    constexpr int kHalvings = 40;  // of a commitment, to find its end
+    double late = robots_[robot].committed_until();
+    double early = cannot_stop_before(robot);
+    if (cannot_stop_before(other) == 0.0 || early >= late || may_stand(robot, late, other)) return;
+    if (!may_stand(robot, early, other)) return;
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = 0.5 * (early + late);
+      (may_stand(robot, middle, other) ? early : late) = middle;
+    }
+    cut(robot, early);
+  }
+
+  /// Whether the other one does not come too near to the robot if that ends its commitment at `t`.
+  bool may_stand(std::size_t robot, double t, std::size_t other) {
+    const std::vector<Piece>& mine = pieces_[robot];
+    const auto at_t =
+        std::find_if(mine.begin(), mine.end(), [&](const Piece& piece) { return t < piece.end; });
+    stop_.met_after(kWorkOfAPiece * (mine.size() + pieces_[other].size()));
+    const Piece stay{t, mine.back().end, at_t->at(t), {0.0, 0.0}, at_t->radius};
+    const double margin = this->margin(robot, other) - kTouch;
+    return std::none_of(pieces_[other].begin(), pieces_[other].end(), [&](const Piece& piece) {
+      return first_overlap(piece, stay, piece.radius + stay.radius + margin).has_value();
+    });
   }
 
   double when_it_can_stop(std::size_t index, double t) const {

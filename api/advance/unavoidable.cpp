@@ -1,5 +1,7 @@
 #include "api/advance/unavoidable.h"
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -17,11 +19,15 @@ using core::Position;
 /// Pairs that are listed; where more overlap, nobody reads all of them.
 constexpr std::size_t kMostPairs = 10'000;
 
+/// A commitment that cannot end there ends by so much before disks overlap, at most (seconds).
+constexpr double kLater = 1e-2;
+
 /// What a robot does that stops as soon as it can, or where its commitment ends if that is later.
 struct Stopping {
   std::vector<Piece> pieces;
   double reach = 0.0;  // metres, from its start, with its disk
   bool brakes = false;
+  double until = 0.0;  // seconds; what comes later is after a collision, and not known
 };
 
 Stopping stopping(const core::Robot& robot, const std::vector<Action>& braking) {
@@ -29,6 +35,10 @@ Stopping stopping(const core::Robot& robot, const std::vector<Action>& braking) 
   made.brakes = !braking.empty();
   made.reach = core::largest_radius(robot);
   core::Robot stops = robot;
+  made.until = std::numeric_limits<double>::infinity();
+  if (made.brakes && braking.back().t_end > robot.committed_until() + kLater) {
+    made.until = robot.committed_until() + kLater;
+  }
   if (made.brakes && braking.back().t_end > robot.committed_until()) stops.committed = braking;
   for (const Action& action : stops.committed)
     made.reach += (action.to.position - action.from.position).norm();
@@ -62,7 +72,8 @@ class CollisionSearch {
     if (reach > 0.0 && apart < reach) return 0.0;
     const bool any_brakes = stopping_[first].brakes || stopping_[second].brakes;
     if (!any_brakes || apart > stopping_[first].reach + stopping_[second].reach) return std::nullopt;
-    return first_contact(stopping_[first].pieces, stopping_[second].pieces);
+    const auto t = first_contact(stopping_[first].pieces, stopping_[second].pieces);
+    return t && *t <= std::min(stopping_[first].until, stopping_[second].until) ? t : std::nullopt;
   }
 
   std::optional<double> first_contact(const std::vector<Piece>& mine, const std::vector<Piece>& theirs) {
