@@ -79,6 +79,13 @@ std::optional<double> time_of(const Action& action, const Pose& pose, double at,
   return action.t_start + std::clamp(done, 0.0, 1.0) * duration;
 }
 
+/// The duration of an action with another length, or angle, at its planned speed and no faster than the
+/// robot. The planned speed of a short action is that only up to rounding, which must not grow with its
+/// length.
+double scaled(double duration, double planned, double amount, double speed) {
+  return std::max(planned > 0.0 ? amount * duration / planned : 0.0, amount / speed);
+}
+
 /// After a translation along another line than planned, the next rotation begins with that heading; if none
 /// follows, one turns the robot to its planned heading.
 void turn_back(Actions& driven, Actions& following, double planned_heading, double angular_speed) {
@@ -88,7 +95,8 @@ void turn_back(Actions& driven, Actions& following, double planned_heading, doub
     const double planned_turn = std::abs(turn(next));
     const double duration = next.t_end - next.t_start;
     next.from.theta = last.to.theta;
-    const double longer = planned_turn > 0.0 ? duration * (std::abs(turn(next)) / planned_turn - 1.0) : 0.0;
+    const double longer =
+        scaled(duration, planned_turn, std::abs(turn(next)), angular_speed) - std::max(0.0, duration);
     if (longer > 0.0) {
       next.t_end += longer;
       delay(following, 1, longer);
@@ -114,18 +122,18 @@ double heading_along(const core::Position& path, const Action& planned) {
 
 /// The action under way as it goes on from a measured pose; nothing if it is done. `left`: seconds, of a
 /// wait.
-std::optional<Action> continued(Action action, const Pose& pose, double left) {
+std::optional<Action> continued(const core::Robot& robot, Action action, const Pose& pose, double left) {
   const double duration = action.t_end - action.t_start;
   if (action.type == Action::Type::translate) {
     const core::Position path = action.to.position - pose.position;
     const bool has_reached = path.norm() <= kReached || length(action) <= 0.0;
-    left = has_reached ? 0.0 : path.norm() * duration / length(action);
+    left = has_reached ? 0.0 : scaled(duration, length(action), path.norm(), robot.linear_speed);
     action.from = {pose.position, heading_along(path, action)};
     action.to.theta = action.from.theta;
   } else if (action.type == Action::Type::rotate) {
     const double angle = std::abs(core::rotation_between(pose.theta, action.to.theta));
     const bool has_turned = angle <= core::kSameHeading || turn(action) == 0.0;
-    left = has_turned ? 0.0 : angle * duration / std::abs(turn(action));
+    left = has_turned ? 0.0 : scaled(duration, std::abs(turn(action)), angle, robot.angular_speed);
     action.from.theta = pose.theta;
   }
   action.t_start = 0.0;
@@ -137,7 +145,7 @@ std::optional<Action> continued(Action action, const Pose& pose, double left) {
 Remainder continued_from(const core::Robot& robot, const Pose& pose, const Action& planned, Actions following,
                          double left_of_wait) {
   Remainder rest{planned.to, {}};
-  if (const auto action = continued(planned, pose, left_of_wait)) {
+  if (const auto action = continued(robot, planned, pose, left_of_wait)) {
     rest.start = action->from;
     rest.actions.push_back(*action);
     if (planned.type == Action::Type::translate) {

@@ -117,6 +117,31 @@ TEST(Timeline, ActionsThatOverlapInTimeFollowEachOther) {
   expect_contiguous(remainder_of_measured(robot(), actions, {{3.0, 1.0}, 0.0}, *late, 3.0));
 }
 
+/// Rounding of a short action is far more than that of a long one, relative to its length.
+TEST(Timeline, ActionsThatBecomeLongerAreNoFasterThanTheRobot) {
+  core::Robot fast = robot();
+  fast.linear_speed = 1.0;
+  fast.angular_speed = 2.0;
+  const Pose start{{1.0, 1.0}, 0.0};
+  const Pose bend{{5.0, 1.0}, 0.0};
+  const Pose turned{{5.0, 1.0}, 1e-6};
+  const std::vector<Action> actions{{Type::translate, 0.0, 4.0, start, bend},
+                                    {Type::rotate, 4.0, 4.0 + 0.499e-6, bend, turned},
+                                    {Type::wait, 4.0 + 0.499e-6, 5.0, turned, turned}};
+  for (const Pose& pose : {Pose{{3.0, 1.08}, 0.0}, Pose{{5.0, 1.0}, -0.05}}) {
+    const auto progress = measured_progress(fast, actions, pose, 4.0, 0.1);
+    ASSERT_TRUE(progress);
+    const Remainder rest = remainder_of_measured(fast, actions, pose, *progress, 4.0);
+    expect_contiguous(rest);
+    for (const Action& action : rest.actions) {
+      const double turn = std::abs(core::rotation_between(action.from.theta, action.to.theta));
+      const double way = (action.to.position - action.from.position).norm();
+      EXPECT_LE(turn, 2.0 * (action.t_end - action.t_start) + 1e-9);
+      EXPECT_LE(way, (action.t_end - action.t_start) + 1e-9);
+    }
+  }
+}
+
 TEST(Timeline, AHoldDelaysTheRest) {
   Remainder rest = remainder(robot(), corner(), 1.0);
   hold(rest, 0.0, 30.0);
