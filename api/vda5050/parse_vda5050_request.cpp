@@ -1,6 +1,7 @@
 #include "api/vda5050/parse_vda5050_request.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "api/json/faults.h"
@@ -167,12 +168,32 @@ RouteStart start_of(const VdaRequest& request, std::size_t robot) {
           .is_known = true};
 }
 
+/// So many nodes at least are released ahead, except where a gate is closed.
+constexpr double kNodesAhead = 2.0;
+
+/// Reports a time ahead that is so short that plans of this length would have too many nodes.
+void check_length(const JsonReader& member, const VdaRequest& request) {
+  constexpr double kMostNodes = 100'000.0;
+  if (!request.release_ahead) return;
+  double nodes = 0.0;
+  // Bounded: the actions in the body.
+  for (const core::Actions actions : request.actions) {
+    for (const core::Action& action : actions) {
+      if (action.type != core::Action::Type::translate) continue;
+      nodes += (action.t_end - action.t_start) * kNodesAhead / *request.release_ahead;
+    }
+  }
+  if (nodes <= kMostNodes) return;
+  member.fault(fault::kOutOfRange, [&] {
+    return "The plans would have " + number_text(std::ceil(nodes)) +
+           " nodes, of which this service makes 100,000 at most; give a longer time, or leave it out.";
+  });
+}
+
 /// Returns the routes of all robots. Ends early when the stop is met.
 std::vector<Route> routes_of(const VdaRequest& request, double wait_before_move, core::Work& stop) {
   // A node is as much work as reading so many bytes.
   constexpr std::size_t kWorkOfANode = 256;
-  /// So many nodes at least are released ahead, except where a gate is closed.
-  constexpr double kNodesAhead = 2.0;
   auto points = points_of(request.gates, request.robots.size());
   std::vector<Route> routes;
   routes.reserve(request.robots.size());
@@ -214,6 +235,8 @@ std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Li
   request.bases = parse_bases(root.find("base"), request.robots);
   request.actions = core::executed_actions(request.robots, request.plans);
   request.gates = gates_of(dependencies, request.actions);
+  check_length(root.find("release_ahead"), request);
+  if (root.fault_count() > 0) return std::nullopt;
   request.routes = routes_of(request, wait_before_move, stop);
   if (stop.met()) return std::nullopt;
   request.progress = ProgressReader(request).read(root.find("progress"));

@@ -59,6 +59,7 @@ const BEYOND_SCHEMA = {
     "(/robots/\\d+/goal(s/\\d+)?|/goals/\\d+/goals/\\d+)/(actions|service)", // actions need a service
     "/states/\\d+/released(/action)?", // behind the robot
     "/base/\\d+/order/nodes", // of which none is released
+    "/release_ahead", // of plans that would have too many nodes
     "/timestamp", // a time with an offset
     "/(states|progress)/\\d+/action",
     "/progress/\\d+/last_released_sequence_id",

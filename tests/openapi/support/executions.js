@@ -206,7 +206,7 @@ export class Executions {
       return fc
         .record({
           messages: ofSome(vehicles, message),
-          release_ahead: mostly(within(0.1, 10), within(0.1, 1e8)),
+          release_ahead: within(1e6, 1e8), // robots may be very slow
         })
         .map((further) => ({ ...body, ...further }));
     });
