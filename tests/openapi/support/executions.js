@@ -197,7 +197,12 @@ export class Executions {
           orderId: fc.oneof(text, fc.constant(""), fc.constant(orderOf(body, robot.id) ?? "")),
           orderUpdateId: number,
           lastNodeSequenceId: number,
-          agvPosition: fc.constant({ theta: 0, ...robot.start, mapId: "map", positionInitialized: true }),
+          agvPosition: fc.constant({
+            ...robot.start,
+            theta: robot.start.theta ?? 0,
+            mapId: "map",
+            positionInitialized: true,
+          }),
           actionStates: fc.array(
             fc.record({ actionId: text, actionStatus: fc.constantFrom("RUNNING", "FINISHED") }),
             { maxLength: 3 },
