@@ -75,7 +75,8 @@ class PlansThatHold {
       if (!report) return {std::vector<bool>(robots_.size(), false), true};
       const bool left_some_out = leave_out(*report);
       // A robot that need not stay conflicts with no other once its plan is left out.
-      const bool is_final = left_out_ == LeftOut::unknown && is_complete(*report) && !has_margins(*report);
+      const bool is_final = left_out_ == LeftOut::unknown && is_complete(*report) && !has_margins(*report) &&
+                            !inflates_margin();
       if (!left_some_out || is_final) return {std::move(kept_), false};
     }
   }
@@ -83,14 +84,23 @@ class PlansThatHold {
  private:
   using Pair = std::pair<std::size_t, std::size_t>;
 
+  /// Robots whose inflated disks overlap at first are left out of the margin until they are clear of each
+  /// other. Their bare disks are not, so that these have to be checked, too.
+  bool inflates_margin() const { return options_.inflation > 0.0 && options_.interval_margin > 0.0; }
+
   std::optional<VerifyReport> check() const {
+    auto report = check(options_.inflation);
+    return report && report->valid() && inflates_margin() ? check(0.0) : report;
+  }
+
+  std::optional<VerifyReport> check(double inflation) const {
     std::vector<RobotPlan> plans;
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       if (kept_[i]) plans.push_back(previous_plan(i, robots_[i]));
     }
     CheckRules rules;
     rules.tolerances = plan_tolerances(problem_.grid(), robots_, plans);
-    rules.inflation = options_.inflation;
+    rules.inflation = inflation;
     rules.interval_margin = options_.interval_margin;
     rules.wait_before_move = options_.wait_before_move;
     rules.start_overlap = options_.start_overlap;

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/model/itinerary.h"
 #include "core/planner.h"
 #include "core/replan/follow_kept.h"
@@ -78,6 +80,28 @@ TEST(KeptPlans, HoldUnderTheInflationOfTheRequest) {
   EXPECT_THAT(keep_previous_plans(problem, options, StopCondition::never()).kept, ElementsAre(true, true));
   options.inflation = 0.1;
   EXPECT_THAT(keep_previous_plans(problem, options, StopCondition::never()).kept, ElementsAre(true, false));
+}
+
+/// The first robot is committed to pass the second one, which then drives where the first one has just been.
+Problem passed_within_the_inflation() {
+  const Robot passing = robot_at(1.0, 5.0).radius(0.2).speeds(1.0, 1.0).drives(3.5, 5.0);
+  const double heading = std::atan2(-0.82, -0.5);
+  Robot passed = robot_at(3.0, 5.42, heading).radius(0.2).speeds(1.0, 1.0).to(2.5, 4.6).waits(2.5);
+  passed.previous = straight(passed, 2.5);
+  return make_problem(hall(), {passing, passed});
+}
+
+TEST(KeptPlans, KeepTheMarginOfBareDisksWhereInflatedOnesOverlap) {
+  const Problem problem = passed_within_the_inflation();
+  PlanOptions options;
+  options.inflation = 0.05;
+  EXPECT_TRUE(keep_previous_plans(problem, options, StopCondition::never()).contains(1));
+  options.interval_margin = 0.5;
+  EXPECT_FALSE(keep_previous_plans(problem, options, StopCondition::never()).contains(1));
+  const auto report = check_plan(problem, options, core::plan(problem, options, StopCondition::never()),
+                                 StopCondition::never());
+  ASSERT_TRUE(report);
+  EXPECT_TRUE(report->valid());
 }
 
 TEST(KeptPlans, LeaveOutPlansThatEndElsewhere) {
