@@ -51,7 +51,7 @@ class BaseReader {
     if (!sequence_id || !x || !y || released != true) return;
     base_.sequence_id = *sequence_id;
     base_.last = node;
-    if (!reached_ || *sequence_id > *reached_) base_.still_to_do.push_back({*x, *y});
+    if (!reached_ || *sequence_id > *reached_) base_.still_to_do.emplace_back(*x, *y);
   }
 
   JsonReader order_;
