@@ -3,6 +3,7 @@
 // The actions of the nodes of an order, and the names of its nodes and actions.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -127,10 +127,10 @@ bool Contacts::overlaps_at_start(std::size_t robot) const {
                                          [](const Contact& contact) { return contact.overlapping; });
 }
 
-Endpoint Contacts::endpoint(std::size_t robot, const Segment& path, double narrower) const {
+Endpoint Contacts::endpoint(std::size_t robot, const Segment& path, double narrower, bool has_left) const {
   if (none(robot)) return Endpoint::none;
   const Endpoints& ends = robots_[robot];
-  if (narrower == ends.narrower_at_start && is_same_position(path.from, ends.start)) {
+  if (!has_left && narrower == ends.narrower_at_start && is_same_position(path.from, ends.start)) {
     const bool moves = path.from != path.to;
     return moves && overlaps_at_start(robot) ? Endpoint::leaving : Endpoint::start;
   }

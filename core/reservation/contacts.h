@@ -55,8 +55,10 @@ class Contacts {
   double deficit(std::size_t robot) const;
 
   /// Whether the robot stands at its start or goal, or moves from its start or to its goal. `none` for a
-  /// robot without contacts, or if it has another radius there (`narrower`: see TimedSegment).
-  Endpoint endpoint(std::size_t robot, const Segment& path, double narrower = 0.0) const;
+  /// robot without contacts, or if it has another radius there (`narrower`: see TimedSegment). A robot that
+  /// `has_left` its start before keeps apart from others there, too.
+  Endpoint endpoint(std::size_t robot, const Segment& path, double narrower = 0.0,
+                    bool has_left = false) const;
 
   /// The distance that two robots keep at these endpoints, metres; `full` where they are not in contact.
   double distance(std::size_t robot, Endpoint at, std::size_t other, Endpoint other_at, double full) const;

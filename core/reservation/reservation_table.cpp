@@ -24,7 +24,7 @@ class CollisionDistance {
  public:
   CollisionDistance(const SegmentIndex& index, const Footprint& mine, const Segment& path)
       : robot_(mine.robot), radius_(index.radius(mine.robot) - mine.narrower), contacts_(index.contacts()) {
-    if (contacts_ != nullptr) endpoint_ = contacts_->endpoint(mine.robot, path, mine.narrower);
+    if (contacts_ != nullptr) endpoint_ = contacts_->endpoint(mine.robot, path, mine.narrower, mine.has_left);
   }
 
   double operator()(const Occupant& other) const {
@@ -136,7 +136,9 @@ class ReservationTable::FixedDistance {
         narrower_(mine.narrower),
         departs_(fixed_.departs(robot_, path.from)),
         stays_(departs_ && path.from == path.to && narrower_ == fixed_.robot(robot_).narrower) {
-    if (index_.contacts() != nullptr) endpoint_ = index_.contacts()->endpoint(robot_, path, narrower_);
+    if (index_.contacts() != nullptr) {
+      endpoint_ = index_.contacts()->endpoint(robot_, path, narrower_, mine.has_left);
+    }
   }
 
   /// Inflation is for pairs of robots that may choose: a robot that still stands where its commitment ends
@@ -276,9 +278,12 @@ bool ReservationTable::delay_past_fixed(const Footprint& footprint, const Segmen
 std::vector<std::size_t> ReservationTable::robots_hit(std::size_t robot,
                                                       const std::vector<TimedSegment>& segments) const {
   std::vector<std::size_t> hit;
+  Footprint footprint(robot);
   for (const TimedSegment& segment : segments) {
     const MovingDisk mine(segment);
-    const CollisionDistance collision_distance(*index_, {robot, segment.narrower}, segment.path);
+    footprint.narrower = segment.narrower;
+    const CollisionDistance collision_distance(*index_, footprint, segment.path);
+    footprint.has_left = footprint.has_left || segment.path.from != segment.path.to;
     const bool moving = mine.velocity.squaredNorm() > 0.0;
     const double duration = moving ? segment.duration() : 0.0;
     const double margin = margin_of(robot, segment);
@@ -300,10 +305,13 @@ std::vector<std::size_t> ReservationTable::robots_certainly_hit(
     std::size_t robot, const std::vector<TimedSegment>& segments) const {
   std::vector<std::size_t> hit;
   if (fixed_ == nullptr) return hit;
+  Footprint footprint(robot);
   for (const TimedSegment& segment : segments) {
     const MovingDisk mine(segment);
     const double margin = margin_of(robot, segment);
-    const FixedDistance fixed_distance(*this, {robot, segment.narrower}, segment.path);
+    footprint.narrower = segment.narrower;
+    const FixedDistance fixed_distance(*this, footprint, segment.path);
+    footprint.has_left = footprint.has_left || segment.path.from != segment.path.to;
     fixed_->visit(robot, mine, index_->radius(robot), margin, [&](const FixedReservations::Occupant& other) {
       if (!other.is_obstacle && meet(mine, other.disk, fixed_distance(other), margin))
         hit.push_back(other.robot);

@@ -18,6 +18,7 @@ struct Footprint {
   std::size_t robot = 0;
   /// Metres: by how much the disk is smaller than the robot ever is, see TimedSegment.
   double narrower = 0.0;
+  bool has_left = false;  // the robot's start, even if it stands there again
 
   Footprint() = default;
   /// A robot as large as it ever is, or by so many metres smaller.

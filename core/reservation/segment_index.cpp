@@ -47,9 +47,10 @@ SegmentIndex::SegmentIndex(double width, double height, double cell_size, std::v
   }
 }
 
-SegmentIndex::DiskId SegmentIndex::store(std::size_t robot, const TimedSegment& segment) {
-  const Endpoint endpoint =
-      contacts_ != nullptr ? contacts_->endpoint(robot, segment.path, segment.narrower) : Endpoint::none;
+SegmentIndex::DiskId SegmentIndex::store(std::size_t robot, const TimedSegment& segment, bool has_left) {
+  const Endpoint endpoint = contacts_ != nullptr
+                                ? contacts_->endpoint(robot, segment.path, segment.narrower, has_left)
+                                : Endpoint::none;
   const Occupant occupant{MovingDisk(segment), radii_[robot] - segment.narrower, robot, endpoint};
   if (vacant_.empty()) return occupants_.push_back(occupant);
   const DiskId id = vacant_.back();
@@ -77,10 +78,12 @@ void SegmentIndex::enter(Layer& layer, DiskId id) {
 
 void SegmentIndex::add(std::size_t robot, const std::vector<TimedSegment>& segments) {
   // Bounded: the segments of one trajectory, and a few layers.
+  bool has_left = false;
   for (const TimedSegment& segment : segments) {
-    const DiskId id = store(robot, segment);
+    const DiskId id = store(robot, segment, has_left);
     held_[robot].push_back(id);
     for (Layer& layer : layers_) enter(layer, id);
+    has_left = has_left || segment.path.from != segment.path.to;
   }
 }
 

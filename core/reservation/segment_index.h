@@ -71,7 +71,7 @@ class SegmentIndex {
     std::vector<Bucket> buckets;
   };
 
-  DiskId store(std::size_t robot, const TimedSegment& segment);
+  DiskId store(std::size_t robot, const TimedSegment& segment, bool has_left);
   void enter(Layer& layer, DiskId id);
 
   template <class Visit>

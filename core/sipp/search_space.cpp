@@ -185,6 +185,10 @@ SearchSpace::SearchSpace(const Instance& instance, std::size_t robot, const Stop
       begins_in_goal_pose_(!instance.robot(robot).committed.empty() && !itinerary_.goals.empty() &&
                            is_in_pose(itinerary_.pose, itinerary_.goals.front())),
       costs_to_go_(goal_count()) {
+  while (goals_at_start_ < goal_count() &&
+         itinerary_.goals[goals_at_start_].position == itinerary_.pose.position) {
+    ++goals_at_start_;
+  }
   layers_.push_back({std::make_unique<Vertices>(instance, robot, 0, stop), 0});
   if (changes_radius() && finished()) add_layers(stop);
   if (finished()) find_equal_goals();

@@ -216,7 +216,11 @@ class SearchSpace {
   }
   /// The radius in a stage or, with goal_count(), at rest at the last goal; metres, inflation included.
   double radius(std::size_t stage) const { return instance_.motion(robot_, stage).radius; }
-  Footprint footprint(std::size_t stage) const { return {robot_, instance_.narrower(robot_, stage)}; }
+  Footprint footprint(std::size_t stage) const {
+    Footprint footprint(robot_, instance_.narrower(robot_, stage));
+    footprint.has_left = stage > goals_at_start_;
+    return footprint;
+  }
   /// The committed actions end at rest in the pose of the first goal.
   bool begins_in_goal_pose() const { return begins_in_goal_pose_; }
 
@@ -246,6 +250,7 @@ class SearchSpace {
   std::vector<Layer> layers_;                // one for each radius
   std::vector<std::size_t> layer_of_stage_;  // empty if there is one layer
   bool begins_in_goal_pose_;
+  std::size_t goals_at_start_ = 0;                      // the first so many, which need no move
   std::vector<std::size_t> first_equal_;                // by goal
   std::vector<std::unique_ptr<CostToGo>> costs_to_go_;  // by goal, of the first of equal ones
 };

@@ -119,6 +119,23 @@ TEST_F(TooNear, AMoveMayLeadAwayButNotNearer) {
   EXPECT_FALSE(departure({1, 2}, {2, 2})) << "back";
 }
 
+TEST_F(TooNear, ARobotThatHasLeftMayNotBeSoNearAgain) {
+  Footprint back(0);
+  back.has_left = true;
+  EXPECT_TRUE(table.safe_intervals(back, {2, 2}).empty());
+  EXPECT_FALSE(table.earliest_departure(back, {{2, 2}, {1, 2}}, 1.0, 0.0, kForever));
+  const TimedSegment leaves{{{2, 2}, {1, 2}}, 0.0, 1.0};
+  const TimedSegment leaves_again{{{2, 2}, {1, 2}}, 2.0, 3.0};
+  const TimedSegment elsewhere{{{1, 2}, {1, 9}}, 1.0, 2.0};
+  EXPECT_TRUE(table.robots_hit(0, {leaves, elsewhere}).empty());
+  EXPECT_EQ(table.robots_hit(0, {leaves, elsewhere, leaves_again}), Robots{1});
+  table.remove(1);
+  table.reserve(0, {leaves, elsewhere, leaves_again});
+  const TimedSegment stays{rest(2.75, 2), 0.0, 1.5};
+  EXPECT_TRUE(table.robots_hit(1, {stays}).empty());
+  EXPECT_EQ(table.robots_hit(1, {stays, {{{2.75, 2}, {3.75, 2}}, 2.0, 3.0}}), Robots{0});
+}
+
 TEST_F(TooNear, BothMayLeaveAtOnce) {
   table.remove(1);
   table.reserve(1, {{{{2.75, 2}, {4.75, 2}}, 0.0, 2.0}, {rest(4.75, 2), 2.0, kForever}});
