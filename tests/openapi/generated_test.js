@@ -173,7 +173,7 @@ function expectBounded({ plans, lower_bound }) {
 }
 
 /** A plan for a valid request is complete, in order, bounded, and valid according to /v1/validate. */
-async function expectSound({ options = {}, ...fleet }, answer) {
+async function expectSound({ options = {}, unavoidable: earlier, ...fleet }, answer) {
   const planned = answer.plans.map(({ robot }) => robot);
   const all = fleet.robots.map(({ id }) => id);
   const unplanned = answer.unplanned.map(({ robot }) => robot);
