@@ -171,10 +171,11 @@ RouteStart start_of(const VdaRequest& request, std::size_t robot) {
 /// So many nodes at least are released ahead, except where a gate is closed.
 constexpr double kNodesAhead = 2.0;
 
-/// Reports a time ahead that is so short that plans of this length would have too many nodes.
-void check_length(const JsonReader& member, const VdaRequest& request) {
+/// Reports a time ahead that is so short that plans of this length would have too many nodes. Returns whether
+/// it is long enough.
+bool is_long_enough(const JsonReader& member, const VdaRequest& request) {
   constexpr double kMostNodes = 100'000.0;
-  if (!request.release_ahead) return;
+  if (!request.release_ahead) return true;
   double nodes = 0.0;
   // Bounded: the actions in the body.
   for (const core::Actions actions : request.actions) {
@@ -183,11 +184,12 @@ void check_length(const JsonReader& member, const VdaRequest& request) {
       nodes += (action.t_end - action.t_start) * kNodesAhead / *request.release_ahead;
     }
   }
-  if (nodes <= kMostNodes) return;
+  if (nodes <= kMostNodes) return true;
   member.fault(fault::kOutOfRange, [&] {
     return "The plans would have " + number_text(std::ceil(nodes)) +
            " nodes, of which this service makes 100,000 at most; give a longer time, or leave it out.";
   });
+  return false;
 }
 
 /// Returns the routes of all robots. Ends early when the stop is met.
@@ -235,8 +237,7 @@ std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Li
   request.bases = parse_bases(root.find("base"), request.robots);
   request.actions = core::executed_actions(request.robots, request.plans);
   request.gates = gates_of(dependencies, request.actions);
-  check_length(root.find("release_ahead"), request);
-  if (root.fault_count() > 0) return std::nullopt;
+  if (!is_long_enough(root.find("release_ahead"), request)) return std::nullopt;
   request.routes = routes_of(request, wait_before_move, stop);
   if (stop.met()) return std::nullopt;
   request.progress = ProgressReader(request).read(root.find("progress"));
