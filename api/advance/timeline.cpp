@@ -195,6 +195,7 @@ void append(Actions& actions, const Actions& following) {
     } else {
       next.t_start = end;
     }
+    next.t_end = std::max(next.t_start, next.t_end);  // an action of an invalid plan may end before it begins
     actions.push_back(next);
   }
 }
