@@ -167,14 +167,15 @@ Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>&
                   [](const Execution& execution) { return execution.measured || execution.reported; });
   const auto braking = braking_of(request.robots, request.executions, request.moment, stop);
   Circumstances found;
-  found.unavoidable = unavoidable_collisions(robots, braking, stop);
-  // Robots that could not stop in time overlap later on, whether they are observed then or not.
-  const bool any_overlap = std::any_of(found.unavoidable.begin(), found.unavoidable.end(),
-                                       [](const Collision& collision) { return collision.t == 0.0; });
-  if (any_observed || any_overlap) {
-    found = Mending(request, robots, braking, maps, stop).run();
+  if (!any_observed) {
     found.unavoidable = unavoidable_collisions(robots, braking, stop);
+    // Robots that could not stop in time overlap later on, whether they are observed then or not.
+    const bool any_overlap = std::any_of(found.unavoidable.begin(), found.unavoidable.end(),
+                                         [](const Collision& collision) { return collision.t == 0.0; });
+    if (!any_overlap) return found;
   }
+  found = Mending(request, robots, braking, maps, stop).run();
+  found.unavoidable = unavoidable_collisions(robots, braking, stop);
   return found;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "api/advance/advance.h"
 #include "api/advance/committed_pieces.h"
@@ -168,19 +169,19 @@ class Clearing {
       return (meeting.first_moves && shortens(robot, when_it_can_stop(robot, meeting.t))) ||
              (meeting.second_moves && shortens(other, when_it_can_stop(other, meeting.t)));
     };
-    std::size_t i = 0;
-    for (std::size_t k = 0; k < mine.size() && i + 1 < theirs.size();) {
-      if (stop_.met_after(kWorkOfAPiece)) return std::nullopt;
-      const double distance = mine[k].radius + theirs[i].radius + margin;
-      const auto grown = overlap_by_growth(mine[k], theirs[i], distance);
-      if (grown && ends_one(*grown)) return grown;
-      if (const auto t = first_overlap(mine[k], theirs[i], distance)) {
-        const Meeting meeting{*t, mine[k].moves(), theirs[i].moves()};
-        if (ends_one(meeting)) return meeting;
+    std::optional<Meeting> found;
+    visit_in_time(mine, committed(theirs), stop_, [&](const Piece& piece, const Piece& theirs_then) {
+      const double distance = piece.radius + theirs_then.radius + margin;
+      const auto grown = overlap_by_growth(piece, theirs_then, distance);
+      if (grown && ends_one(*grown)) {
+        found = grown;
+      } else if (const auto t = first_overlap(piece, theirs_then, distance)) {
+        const Meeting meeting{*t, piece.moves(), theirs_then.moves()};
+        if (ends_one(meeting)) found = meeting;
       }
-      theirs[i].end < mine[k].end ? ++i : ++k;
-    }
-    return std::nullopt;
+      return found.has_value();
+    });
+    return found;
   }
 
   /// Where the disks of two commitments begin to overlap, or to come nearer if they overlap. A robot without
@@ -189,19 +190,23 @@ class Clearing {
     const std::vector<Piece>& mine = pieces_[robot];
     const std::vector<Piece>& theirs = pieces_[other];
     const bool may_leave = robots_[robot].goal && gap_now(robot, other) > kTouching;
-    const std::size_t certain = mine.size() - (may_leave ? 1 : 0);
-    std::size_t i = 0;
-    for (std::size_t k = 0; k < certain && i + 1 < theirs.size();) {
-      if (stop_.met_after(kWorkOfAPiece)) return std::nullopt;
-      const double distance = mine[k].radius + theirs[i].radius - kTouch;
-      if (const auto t = first_overlap(mine[k], theirs[i], distance)) {
-        const Meeting meeting{*t, mine[k].moves(), theirs[i].moves()};
-        if ((meeting.first_moves && shortens(robot, *t)) || (meeting.second_moves && shortens(other, *t)))
-          return meeting;
+    const std::span<const Piece> certain = may_leave ? committed(mine) : std::span(mine);
+    std::optional<Meeting> found;
+    visit_in_time(certain, committed(theirs), stop_, [&](const Piece& piece, const Piece& theirs_then) {
+      const auto t = first_overlap(piece, theirs_then, piece.radius + theirs_then.radius - kTouch);
+      if (!t) return false;
+      const Meeting meeting{*t, piece.moves(), theirs_then.moves()};
+      if ((meeting.first_moves && shortens(robot, *t)) || (meeting.second_moves && shortens(other, *t))) {
+        found = meeting;
       }
-      theirs[i].end < mine[k].end ? ++i : ++k;
-    }
-    return std::nullopt;
+      return found.has_value();
+    });
+    return found;
+  }
+
+  /// Without the stay at the end.
+  static std::span<const Piece> committed(std::span<const Piece> pieces) {
+    return pieces.first(pieces.size() - 1);
   }
 
   /// Whether a commitment that ends then is shorter.

@@ -4,10 +4,12 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/geometry/position.h"
 #include "core/model/robot.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
 
@@ -33,5 +35,17 @@ std::vector<Piece> committed_pieces(const core::Robot& robot);
 /// When two pieces begin to be nearer than a distance, in the time of both; at the beginning of that time if
 /// they are nearer then and come nearer.
 std::optional<double> first_overlap(const Piece& a, const Piece& b, double distance);
+
+/// Calls visit(piece, other) for the pieces of two robots whose times overlap, in the order of time, until it
+/// returns true or the stop is met.
+template <class Visit>
+void visit_in_time(std::span<const Piece> pieces, std::span<const Piece> others, core::Work& stop,
+                   const Visit& visit) {
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < pieces.size() && i < others.size();) {
+    if (stop.met_after(kWorkOfAPiece) || visit(pieces[k], others[i])) return;
+    others[i].end < pieces[k].end ? ++i : ++k;
+  }
+}
 
 }  // namespace fleetplan::api

@@ -77,14 +77,12 @@ class CollisionSearch {
   }
 
   std::optional<double> first_contact(const std::vector<Piece>& mine, const std::vector<Piece>& theirs) {
-    std::size_t i = 0;
-    for (std::size_t k = 0; k < mine.size() && i < theirs.size();) {
-      if (stop_.met_after(kWorkOfAPiece)) return std::nullopt;
-      const double distance = mine[k].radius + theirs[i].radius - core::kContactTolerance;
-      if (const auto t = first_overlap(mine[k], theirs[i], distance)) return t;
-      theirs[i].end < mine[k].end ? ++i : ++k;
-    }
-    return std::nullopt;
+    std::optional<double> contact;
+    visit_in_time(mine, theirs, stop_, [&](const Piece& piece, const Piece& other) {
+      contact = first_overlap(piece, other, piece.radius + other.radius - core::kContactTolerance);
+      return contact.has_value();
+    });
+    return contact;
   }
 
   const std::vector<core::Robot>& robots_;

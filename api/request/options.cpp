@@ -122,8 +122,7 @@ constexpr std::array<OptionRow, 21> kTable{{
     {"lattice_spacing", "Lattice spacing", "m", ChosenOption{kLength, &PlanOptions::lattice_spacing},
      "Metres between the points at which robots may stop besides their starts and goals. By default, the "
      "resolution of the map; for a robot whose radius is at least four cells, about this radius. Clearance "
-     "to "
-     "obstacles is exact in any case."},
+     "to obstacles is exact in any case."},
     {"dependencies", "Dependencies", "", AnswerBooleanOption{&ParsedOptions::dependencies},
      "Adds `dependencies` and `tight` to the answer: which robot has to wait for which other one, and where, "
      "when robots execute the plan at their own pace. See docs/execution.md."},

@@ -18,10 +18,6 @@ bool is_finite(const JsonValue& value) {  // NOLINT(misc-no-recursion)
   return true;
 }
 
-}  // namespace
-
-namespace {
-
 /// The text of a member without spaces; an empty one if it is at fault. `what` is it one of, for messages.
 std::string text_of_member(const JsonReader& member, std::string_view name, std::string_view what) {
   if (!is_finite(member.value())) {

@@ -117,8 +117,7 @@ class ZoneReader {
     } else if (*enter) {
       member.fault(fault::kOutOfRange,
                    "enter must be false: nobody enters a blocked zone. Leave it out for a zone in which no "
-                   "robot may be "
-                   "from the first; with false, robots that are inside may leave.");
+                   "robot may be from the first; with false, robots that are inside may leave.");
     }
     zone.may_leave = true;
   }
