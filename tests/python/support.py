@@ -19,9 +19,9 @@ from replay import Walls  # noqa: E402
 
 
 @contextlib.contextmanager
-def service():
-    """The URL of a server of this build."""
-    server = subprocess.Popen([BINARY, "--port", "0", "--log-level", "off"], stdout=subprocess.PIPE, text=True)
+def service(program=BINARY):
+    """The URL of a server, by default of this build."""
+    server = subprocess.Popen([program, "--port", "0", "--log-level", "off"], stdout=subprocess.PIPE, text=True)
     try:
         yield re.search(r"http://\S+", server.stdout.readline()).group()
     finally:

@@ -1,18 +1,17 @@
 """The loop of a fleet manager: plan, execute, advance (docs/fleet_loop.md)."""
 
-import copy
 import functools
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from dataclasses import dataclass
-from types import TracebackType
 
 from fleetplan.client import Client
 from fleetplan.course import Place
 from fleetplan.errors import FleetplanError, RequestRefused
 from fleetplan.executor import Executor, Instruction, Report
-from fleetplan.types import AdvanceAnswer, Goal, Hold, NewGoals, PlanAnswer, PlanOptions, PlanRequest
+from fleetplan.planning_loop import PlanningLoop
+from fleetplan.types import AdvanceAnswer, Hold, NewGoals, PlanAnswer, PlanOptions, PlanRequest
 
 # What a fleet needs that is planned again and again while its robots are late and a little beside their paths: slack
 # between robots in time and space, starts that may be measured too near to something, and no more than the next seconds
@@ -38,7 +37,7 @@ class _Round:
     future: "Future[PlanAnswer] | None" = None
 
 
-class FleetLoop:
+class FleetLoop(PlanningLoop):
     """Plans a fleet, and plans it again while it drives. Call `step` several times per second, with what robots report,
     and send them the instructions that it returns.
 
@@ -57,38 +56,17 @@ class FleetLoop:
         `clock`: seconds. `background`: plans are made in a thread, while robots go on; without it, `step` waits for
         them, which simulations want; `latency` is then how long plans take on their clock, seconds. The others are
         those of `Executor`."""
-        options = LOOP_OPTIONS.copy()
-        options.update(request.get("options", {}))
-        options["dependencies"] = True
-        self.request = copy.deepcopy(request)  # that was planned last
-        self.request["options"] = options
-        self.answer: PlanAnswer | None = None  # to it
-        self.failure: FleetplanError | None = None  # of the last round; none if it succeeded
-        self._client, self._period, self._clock, self._change = client, period, clock, change
+        super().__init__(client, request, LOOP_OPTIONS, period=period, clock=clock, background=background, change=change)
+        self.answer: PlanAnswer | None = None  # to the request
         self._latency = latency
         self._commit = commit
         if commit is None:
-            self._commit = options["time_budget_ms"] / 1000.0 + _TRANSFER + _braking_time(request, deceleration)
+            self._commit = self.request["options"]["time_budget_ms"] / 1000.0 + _TRANSFER + _braking_time(request, deceleration)
         self._pose_tolerance, self._deceleration = pose_tolerance, deceleration
         self._reaction, self._near = reaction, near
-        self._threads = ThreadPoolExecutor(1, "fleetplan") if background else None
         self._executor: Executor | None = None
         self._round: _Round | None = None  # under way
-        self._due = -float("inf")
-        self._goals: dict[str, list[Goal]] = {}  # for the next round
-        self._given: dict[str, list[Goal]] = {}  # in the round under way
         self._holds: dict[str, float] = {}  # until when, on the clock
-
-    def __enter__(self) -> "FleetLoop":
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None,
-                 trace: TracebackType | None) -> None:
-        self.close()
-
-    def close(self) -> None:
-        if self._threads is not None:
-            self._threads.shutdown(cancel_futures=True)
 
     # ---------------------------------------------------------------- the loop
 
@@ -109,10 +87,6 @@ class FleetLoop:
             self._commit_robots()
             self._take_plan(now)
         return self._executor.instructions(now) if self._executor is not None else []
-
-    def give(self, robot: str, goals: Sequence[Goal]) -> None:
-        """Other goals than those that the robot has left, from the next round on."""
-        self._goals[robot] = list(goals)
 
     def hold(self, robot: str, seconds: float) -> None:
         """The robot stands where it is for so long, from the next round on. What it does until then is up to it."""
@@ -148,32 +122,13 @@ class FleetLoop:
             advance = self._advance(self._executor, now)
             self._round.future = self._run(functools.partial(self._plan_next, self._round, advance))
 
-    def _run(self, make: Callable[[], PlanAnswer]) -> "Future[PlanAnswer]":
-        """In the background, if there is one."""
-        if self._threads is not None:
-            return self._threads.submit(make)
-        future: Future[PlanAnswer] = Future()
-        try:
-            future.set_result(make())
-        except FleetplanError as error:
-            future.set_exception(error)
-        return future
-
     def _plan_first(self) -> PlanAnswer:
-        for robot in self.request["robots"]:
-            if robot["id"] in self._given:
-                robot.pop("goal", None)
-                robot["goals"] = self._given[robot["id"]]
-        if self._change is not None:
-            self._change(self.request)
-        return self._plan(self.request)
+        return self._make_plan(self._first_request())
 
     def _plan_next(self, round_: _Round, advance: Callable[[], AdvanceAnswer]) -> PlanAnswer:
-        request = advance()
-        if self._change is not None:
-            self._change(request)
+        request = self._changed(advance())
         round_.request = request
-        return self._plan(request)
+        return self._make_plan(request)
 
     def _advance(self, executor: Executor, now: float) -> Callable[[], AdvanceAnswer]:
         """What returns the request of this moment."""
@@ -194,20 +149,6 @@ class FleetLoop:
         if round_ is not None and round_.request is not None and not round_.committed and self._executor is not None:
             round_.committed = True
             round_.passed = self._executor.commit(round_.request, round_.places, round_.begin)
-
-    def _plan(self, request: PlanRequest) -> PlanAnswer:
-        answer = self._client.plan(request)
-        # With invalid_robots "report", goals at fault do not refuse the request.
-        faults = [fault for entry in answer["unplanned"] if entry["robot"] in self._given
-                  for fault in entry.get("errors", []) if "/goal" in fault["pointer"]]
-        if faults:
-            raise RequestRefused(422, {"code": "invalid_request", "detail": faults[0]["detail"], "errors": faults})
-        if answer.get("dependencies") is None:
-            made = self._client.dependencies(request, answer)  # with a time budget of its own
-            if made["dependencies"] is None:
-                raise FleetplanError("the time budget does not suffice for the dependencies of the plan")
-            answer["dependencies"], answer["tight"] = made["dependencies"], made["tight"]
-        return answer
 
     def _take_plan(self, now: float) -> None:
         """Goes on with the next plan if it is ready."""

@@ -4,21 +4,20 @@ Nothing here talks to vehicles: `VdaLoop` gets their state messages and returns 
 carries them.
 """
 
-import copy
 import datetime
 import functools
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from dataclasses import dataclass
-from types import TracebackType
 from typing import Any, Literal
 
 from fleetplan.client import Client
 from fleetplan.errors import FleetplanError, RequestRefused
 from fleetplan.fleet_loop import LOOP_OPTIONS
-from fleetplan.types import (Goal, NewGoals, OrderBase, OrderProgress, PlanAnswer, PlanOptions, PlanRequest,
+from fleetplan.planning_loop import PlanningLoop
+from fleetplan.types import (NewGoals, OrderBase, OrderProgress, PlanAnswer, PlanOptions, PlanRequest,
                              Vda5050Answer, Vda5050States, VdaMessage, VehicleReport)
 
 # Those of a FleetLoop, but vehicles follow edges exactly, and may stand as near to each other as they like. For others,
@@ -51,7 +50,7 @@ class _Plan:
     tight: frozenset[str]  # robots for which dependencies do not suffice: they go no further than they may already
 
 
-class VdaLoop:
+class VdaLoop(PlanningLoop):
     """Plans a fleet of vehicles, and plans it again while they drive. Call `take` with each state message and `step`
     several times per second, and send the messages that it returns.
 
@@ -67,18 +66,11 @@ class VdaLoop:
         """`release_ahead`: seconds of its plan that a vehicle may go on before the next release. It bounds what a new
         plan cannot change; vehicles stop for a moment if planning takes longer. `period`: seconds from plan to plan.
         `change` is called with each request before it is planned, in the thread that plans."""
-        self._client, self._change = client, change
-        self._period, self._clock = period, clock
+        super().__init__(client, request, VDA_OPTIONS, period=period, clock=clock, background=background, change=change)
         self._header: dict[str, Any] = {"version": version, "manufacturer": manufacturer, "map_id": map_id,
                                         "map_ids": map_ids, "serial_numbers": serial_numbers,
                                         "release_ahead": release_ahead}
         self._serial = {robot["id"]: (serial_numbers or {}).get(robot["id"], robot["id"]) for robot in request["robots"]}
-        self.request = copy.deepcopy(request)  # that was planned last
-        options = VDA_OPTIONS.copy()
-        options.update(request.get("options", {}))
-        options["dependencies"] = True
-        self.request["options"] = options
-        self.failure: FleetplanError | None = None  # of the last round; none if it succeeded
         self.cancelled: dict[str, str] = {}  # why orders were cancelled, by robot, until it has another one
         self.rounds = 0  # that have succeeded
         self._states: dict[str, VdaMessage] = {}  # by serial number, the last ones
@@ -87,22 +79,7 @@ class VdaLoop:
         self._cancels: dict[str, str] = {}  # ids of the actions that cancel orders, by robot
         self._plan: _Plan | None = None
         self._reports: dict[str, VehicleReport] = {}
-        self._goals: dict[str, list[Goal]] = {}  # for the next round
-        self._given: dict[str, list[Goal]] = {}  # in the round under way
-        self._threads = ThreadPoolExecutor(1, "fleetplan") if background else None
         self._round: Future[_Plan] | None = None
-        self._due = -float("inf")
-
-    def __enter__(self) -> "VdaLoop":
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None,
-                 trace: TracebackType | None) -> None:
-        self.close()
-
-    def close(self) -> None:
-        if self._threads is not None:
-            self._threads.shutdown(cancel_futures=True)
 
     # ---------------------------------------------------------------- the loop
 
@@ -127,10 +104,6 @@ class VdaLoop:
                 self._due = now + self._period
                 self._begin_round(now)
         return messages + self._take_plan()
-
-    def give(self, robot: str, goals: Sequence[Goal]) -> None:
-        """Other goals than those that the robot has left, from the next round on; none to let it stand."""
-        self._goals[robot] = list(goals)
 
     def cancel(self, robot: str, reason: str = "cancelled") -> list[Message]:
         """The message that cancels the robot's order, if it has one. It gets another one when it stands, for the goals
@@ -253,41 +226,15 @@ class VdaLoop:
         return functools.partial(self._next_plan, advance, base, now)
 
     def _first_plan(self, now: float) -> _Plan:
-        for robot in self.request["robots"]:
-            if robot["id"] in self._given:
-                robot.pop("goal", None)
-                robot["goals"] = self._given[robot["id"]]
-        return self._planned(self.request, [], now)
+        return self._planned(self._first_request(), [], now)
 
     def _next_plan(self, advance: Callable[[], PlanRequest], base: Sequence[OrderBase], now: float) -> _Plan:
-        return self._planned(advance(), base, now)
+        return self._planned(self._changed(advance()), base, now)
 
     def _planned(self, request: PlanRequest, base: Sequence[OrderBase], now: float) -> _Plan:
-        if self._change is not None:
-            self._change(request)
-        answer = self._client.plan(request)
-        faults = [fault for entry in answer["unplanned"] if entry["robot"] in self._given
-                  for fault in entry.get("errors", []) if "/goal" in fault["pointer"]]
-        if faults:
-            raise RequestRefused(422, {"code": "invalid_request", "detail": faults[0]["detail"], "errors": faults})
-        if answer.get("dependencies") is None:
-            made = self._client.dependencies(request, answer)  # with a time budget of its own
-            if made["dependencies"] is None:
-                raise FleetplanError("the time budget does not suffice for the dependencies of the plan")
-            answer["dependencies"], answer["tight"] = made["dependencies"], made["tight"]
+        answer = self._make_plan(request)
         tight = frozenset(robot for pair in answer.get("tight") or [] for robot in pair["robots"])
         return _Plan(request, answer, now, _timestamp(), base, {}, tight)
-
-    def _run(self, make: Callable[[], _Plan]) -> "Future[_Plan]":
-        """In the background, if there is one."""
-        if self._threads is not None:
-            return self._threads.submit(make)
-        future: Future[_Plan] = Future()
-        try:
-            future.set_result(make())
-        except FleetplanError as error:
-            future.set_exception(error)
-        return future
 
     def _take_plan(self) -> list[Message]:
         """Goes on with the next plan if it is ready, and if all orders can be continued by it."""

@@ -7,21 +7,19 @@ Usage: day.py PROGRAM [ARGUMENTS of scripts/bench --day...]
 
 import argparse
 import collections
-import contextlib
 import json
 import pathlib
-import re
 import statistics
-import subprocess
 import sys
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parents[2] / "clients/python"), str(HERE)]
+sys.path[:0] = [str(HERE.parents[2] / "clients/python"), str(HERE.parents[1] / "python"), str(HERE)]
 
 from disturbances import Disturbances, Rates, Services  # noqa: E402
 from fleetplan import Client, FleetLoop, FleetplanError, RequestRefused  # noqa: E402
 from fleetplan.simulation import SimulatedFleet  # noqa: E402
+from support import service  # noqa: E402
 from tasks import Tasks  # noqa: E402
 from warehouse import make_request, make_warehouse  # noqa: E402
 from watch import Watch  # noqa: E402
@@ -139,18 +137,6 @@ class Day:
                 "overran": self.overran, "rounds": dict(self.rounds), "stuck plans": self.stuck,
                 "failures": collections.Counter(str(error)[:200] for error in self.failures),
                 "disturbances": {**self.disturbances.count, "robots that stopped before people": len(self.disturbances.near)}, "wall seconds": round(self.wall_seconds)}
-
-
-@contextlib.contextmanager
-def service(program):
-    """The URL of a server."""
-    server = subprocess.Popen([program, "--port", "0", "--log-level", "off"], stdout=subprocess.PIPE, text=True)
-    try:
-        yield re.search(r"http://\S+", server.stdout.readline()).group()
-    finally:
-        server.terminate()
-        server.wait()
-        server.stdout.close()
 
 
 def main(program, words):
