@@ -82,8 +82,10 @@ class WayOutSearch {
     if (open_from(least)) return;
     // A disk that is too near to a wall to see a vertex gets to one over the fine lattice.
     const FineLattice fine(grid_, lattice_, radius_);
-    for (const Position& place : way_to_lattice(from, least, fine, lattice_, space_))
+    for (const Position& place : way_to_lattice(from, least, fine, lattice_, space_)) {
+      if (!zones_.allow(prefix_.back(), place)) return;
       prefix_.push_back(place);
+    }
     if (prefix_.size() > 1) open_from(radius_);
   }
 

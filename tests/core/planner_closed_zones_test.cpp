@@ -93,6 +93,46 @@ TEST(ClosedZone, OneWithoutAWayOutStays) {
   ASSERT_EQ(plan.unplanned.size(), 1U);
 }
 
+Zone one_way(double heading, std::vector<Position> polygon) {
+  Zone zone;
+  zone.type = Zone::Type::one_way;
+  zone.heading = heading;
+  zone.half_angle = M_PI / 2;
+  zone.polygon = std::move(polygon);
+  return zone;
+}
+
+TEST(ClosedZone, TheWayToTheLatticeKeepsToOneWayZones) {
+  // The one-way zones leave no vertex in sight of the start, and forbid the way over the fine lattice.
+  Zone zone = closed(0, 0, 0, 0);
+  zone.polygon = {{3.162214272200943, 12.826911581071993},
+                  {-1.8854295208367917, 8.667358523234855},
+                  {2.274123537000347, 3.6197147301971198},
+                  {7.3217673300380826, 7.779267788034258}};
+  const Zone down = one_way(-M_PI / 2, {{7.209957805438911, 2.6447975846119154},
+                                        {8.694853984794117, 5.957533217426903},
+                                        {7.030670598612676, 9.183928681957479},
+                                        {3.47057167984374, 9.894442386938664},
+                                        {0.6953843271037181, 7.55404302068135},
+                                        {0.7948812205111708, 3.925099041424014},
+                                        {3.6941391699635377, 1.7402792825141251}});
+  const Zone up = one_way(M_PI / 2, {{1.2289318564837517, 6.999566733279428},
+                                     {1.4509702674561882, 5.12164676266736},
+                                     {1.4271662351295051, 4.127844537877317},
+                                     {2.281653430082236, 3.470808047314353},
+                                     {3.9622129361909475, 2.724379604994493},
+                                     {5.270746623045822, 4.2812725051111205},
+                                     {5.433069964802501, 6.688963044013017},
+                                     {2.981820113028824, 6.65329503622836}});
+  const Robot robot = robot_at(2.865507187386706, 3.814680262766844, 1.8265859830088944)
+                          .radius(0.6)
+                          .speeds(0.22624350825196715, 2.0853056573105393)
+                          .to(2.5, 9.5);
+  const Plan plan = plan_checked(with_zones(OccupancyGrid(8, 11, 1.0), {robot}, {zone, down, up}));
+  ASSERT_EQ(plan.plans.size(), 1U);
+  EXPECT_TRUE(plan.plans[0].actions.empty()) << "it stays";
+}
+
 TEST(ClosedZone, ALaterGoalInsideIsPutOffAndNotThoseBefore) {
   const Problem problem = with_zones(OccupancyGrid(20, 12, 1.0),
                                      {to_goals(robot_at(0.5, 0.5), {{2.5, 9.5}, {8.5, 5.5}, {18.5, 0.5}})},
