@@ -22,27 +22,36 @@ constexpr std::size_t kMostPairs = 10'000;
 /// A commitment that cannot end there ends by so much before disks overlap, at most (seconds).
 constexpr double kLater = 1e-2;
 
-/// What a robot does that stops as soon as it can, or where its commitment ends if that is later.
+/// What a robot does that executes its commitment, and then stands.
 struct Stopping {
-  std::vector<Piece> pieces;
-  double reach = 0.0;  // metres, from its start, with its disk
+  std::vector<Piece> committed;
+  std::vector<Piece> braking;  // instead, if it cannot stand where its commitment ends; otherwise none
+  double reach = 0.0;          // metres, from its start, with its disk
   bool brakes = false;
-  double until = 0.0;  // seconds; what comes later is after a collision, and not known
+  double until = 0.0;  // seconds; how it brakes after that is after a collision, and not known
 };
+
+double length(const std::vector<Action>& actions) {
+  double metres = 0.0;
+  for (const Action& action : actions) metres += (action.to.position - action.from.position).norm();
+  return metres;
+}
 
 Stopping stopping(const core::Robot& robot, const std::vector<Action>& braking) {
   Stopping made;
+  made.committed = committed_pieces(robot);
   made.brakes = !braking.empty();
-  made.reach = core::largest_radius(robot);
-  core::Robot stops = robot;
   made.until = std::numeric_limits<double>::infinity();
-  if (made.brakes && braking.back().t_end > robot.committed_until() + kLater) {
-    made.until = robot.committed_until() + kLater;
+  double driven = length(robot.committed);
+  if (made.brakes && braking.back().t_end > robot.committed_until()) {
+    if (braking.back().t_end > robot.committed_until() + kLater)
+      made.until = robot.committed_until() + kLater;
+    core::Robot brakes = robot;
+    brakes.committed = braking;
+    made.braking = committed_pieces(brakes);
+    driven = std::max(driven, length(braking));
   }
-  if (made.brakes && braking.back().t_end > robot.committed_until()) stops.committed = braking;
-  for (const Action& action : stops.committed)
-    made.reach += (action.to.position - action.from.position).norm();
-  made.pieces = committed_pieces(stops);
+  made.reach = core::largest_radius(robot) + driven;
   return made;
 }
 
@@ -70,10 +79,17 @@ class CollisionSearch {
     const double reach = a.radius + b.radius - core::kContactTolerance;
     const double apart = (a.start.position - b.start.position).norm();
     if (reach > 0.0 && apart < reach) return 0.0;
-    const bool any_brakes = stopping_[first].brakes || stopping_[second].brakes;
-    if (!any_brakes || apart > stopping_[first].reach + stopping_[second].reach) return std::nullopt;
-    const auto t = first_contact(stopping_[first].pieces, stopping_[second].pieces);
-    return t && *t <= std::min(stopping_[first].until, stopping_[second].until) ? t : std::nullopt;
+    const Stopping& mine = stopping_[first];
+    const Stopping& theirs = stopping_[second];
+    if (!(mine.brakes || theirs.brakes) || apart > mine.reach + theirs.reach) return std::nullopt;
+    if (!mine.braking.empty() || !theirs.braking.empty()) {
+      const auto braked = [](const Stopping& robot) -> const std::vector<Piece>& {
+        return robot.braking.empty() ? robot.committed : robot.braking;
+      };
+      const auto t = first_contact(braked(mine), braked(theirs));
+      if (t && *t <= std::min(mine.until, theirs.until)) return t;
+    }
+    return first_contact(mine.committed, theirs.committed);
   }
 
   std::optional<double> first_contact(const std::vector<Piece>& mine, const std::vector<Piece>& theirs) {

@@ -177,6 +177,22 @@ TEST(StopDistance, OneBehindStopsBeforeThoseThatCollide) {
   EXPECT_GE(until, 0.2 - 1e-6) << "it cannot stop sooner";
 }
 
+TEST(StopDistance, OneThatCannotStopBeforeARobotWithoutCommitmentIsNamedWithIt) {
+  Line line;
+  line.add(0.0, 9.0, 2.7);
+  line.add(3.0, 9.0, 1.0);
+  line.add(5.4, 5.4, 0.0);
+  // At 2 m and 5 m. The second one overlaps the third, and is not committed, but would drive to 6 m.
+  const auto next = line.advance(2.0, 0.0);
+  EXPECT_DOUBLE_EQ(next[0].committed_end().position.x(), 4.7);
+  EXPECT_TRUE(next[1].committed.empty());
+  const auto collisions = line.collisions(2.0, 0.0);
+  ASSERT_EQ(collisions.size(), 2U);
+  EXPECT_EQ(std::pair(collisions[0].first, collisions[0].second), std::pair(std::size_t{0}, std::size_t{1}));
+  EXPECT_NEAR(collisions[0].t, 2.5, 1e-5);
+  EXPECT_EQ(collisions[1].t, 0.0);
+}
+
 TEST(StopDistance, ACommitmentTowardsOneThatMayLeaveStays) {
   Line line;
   line.add(1.0, 9.0, 2.0);

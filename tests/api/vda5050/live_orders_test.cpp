@@ -230,7 +230,7 @@ TEST(LiveOrders, AreReleasedSoManySecondsAhead) {
   const Json sent = hall.exported()["orders"];
   EXPECT_EQ(sent[0]["last_released_sequence_id"], 4);
   EXPECT_NEAR(sent[0]["order"]["nodes"][2]["nodePosition"]["x"].get<double>(), 3.0, 1e-6);
-  hall.body["progress"] = {progress_of(sent[0])};
+  hall.body["progress"] = Json::array({progress_of(sent[0])});
   hall.body["progress"][0]["progress"] = 0.2;
   EXPECT_EQ(hall.exported()["orders"][0]["order"]["nodes"][0]["sequenceId"], 4);
 }
@@ -263,7 +263,7 @@ TEST(LiveOrders, HaveTheActionsOfGoals) {
   EXPECT_NE(actions[0]["actionId"], actions[1]["actionId"]);
 
   // They are executed in the order in which the vehicle does them, and the service is over with the last one.
-  hall.body["progress"] = {progress_of(hall.exported()["orders"][0])};
+  hall.body["progress"] = Json::array({progress_of(hall.exported()["orders"][0])});
   hall.body["progress"][0]["last_released_sequence_id"] = 4;
   Json message = state_message(order, 4, 10.0, 5.0);
   message["actionStates"] = {{{"actionId", actions[0]["actionId"]}, {"actionStatus", "FINISHED"}},
