@@ -310,8 +310,8 @@ Place place_of(const core::Robot& robot, const Execution& execution, const Momen
 std::vector<double> margins_of(const std::vector<core::Robot>& robots,
                                const std::vector<Execution>& executions, const Moment& moment,
                                const std::vector<core::Robot>& next, core::Work& stop) {
-  // Robots that are released to places where they touch may go there.
-  constexpr double kReleased = -0.5 * core::kContactTolerance;
+  // Robots that are released to places where they touch may go there. Two of them stay within the tolerance.
+  constexpr double kReleased = -0.4 * core::kContactTolerance;
   std::vector<double> margins(robots.size(), moment.stand_until ? kReleased : 0.0);
   if (moment.stand_until) return margins;
   for (std::size_t k = 0; k < next.size(); ++k) {

@@ -191,9 +191,11 @@ class Clearing {
     const std::vector<Piece>& theirs = pieces_[other];
     const bool may_leave = robots_[robot].goal && gap_now(robot, other) > kTouching;
     const std::span<const Piece> certain = may_leave ? committed(mine) : std::span(mine);
+    // Less than where one has stopped already that can: rounding must not end the commitment of the other.
+    const double contact = std::min(0.0, margin(robot, other)) - 2.0 * kTouch;
     std::optional<Meeting> found;
     visit_in_time(certain, committed(theirs), stop_, [&](const Piece& piece, const Piece& theirs_then) {
-      const auto t = first_overlap(piece, theirs_then, piece.radius + theirs_then.radius - kTouch);
+      const auto t = first_overlap(piece, theirs_then, piece.radius + theirs_then.radius + contact);
       if (!t) return false;
       const Meeting meeting{*t, piece.moves(), theirs_then.moves()};
       if ((meeting.first_moves && shortens(robot, *t)) || (meeting.second_moves && shortens(other, *t))) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/geometry/tolerance.h"
 #include "core/instance/to_actions.h"
 #include "core/model/itinerary.h"
 
@@ -36,6 +37,13 @@ void add_estimates(RobotPlan& plan, const Trajectory& trajectory, bool has_gaine
   plan.is_stuck = trajectory.gains_nothing && !has_gained;
 }
 
+/// Removes the visit to the last goal from a plan that stops there before its service is over.
+void remove_unserved_last(std::vector<Visit>& visits, const Robot& robot, double stops_at) {
+  if (visits.size() < robot.goal_count() || visits.empty()) return;
+  const double served = std::max(visits.back().t_arrive, robot.goal->not_before) + robot.goal->service;
+  if (served > stops_at + kSameTime) visits.pop_back();
+}
+
 RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
   const auto& trajectory = state.trajectory(index);
   const Robot& robot = state.instance().robot(index);
@@ -50,6 +58,7 @@ RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
   std::vector<Action> actions = to_actions(robot, *trajectory, state.instance().drive_zones(index));
   std::vector<Visit> visits = visits_of(robot, actions);
   remove_wrong_goals(actions, visits, robot.committed.size());
+  if (trajectory->stops_at) remove_unserved_last(visits, robot, *trajectory->stops_at);
   RobotPlan plan{index, cost, std::move(actions), std::min(bound, cost), std::move(visits)};
   if (trajectory->stops_at) {
     add_estimates(plan, *trajectory, commitment_gains(robot, state.instance().itinerary(index)));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -75,6 +76,21 @@ TEST(PlannerHorizon, EstimatesIncludeWaitsForNotBefore) {
   EXPECT_NEAR(only.estimated_visits[1].t_arrive, 45.0, 1e-9);
   EXPECT_NEAR(*only.estimated_cost, 45.0, 1e-9);
   EXPECT_FALSE(only.is_stuck);
+}
+
+TEST(PlannerHorizon, AServiceAtTheLastGoalThatDoesNotBeginIsAnEstimate) {
+  Robot robot = robot_at(0.5, 0.5).to(0.5, 0.5);
+  Goal turned = goal_at(0.5, 0.5);
+  turned.theta = std::numbers::pi;  // it turns for two seconds
+  robot.via = {turned, goal_at(0.5, 0.5)};
+  robot.goal->service = 2.0;
+  const Plan plan = plan_of(corridor(), {robot}, up_to(1.0));
+  const RobotPlan& only = plan.plans.at(0);
+  EXPECT_NEAR(only.cost, 2.0, 1e-9) << "beyond the horizon";
+  ASSERT_EQ(only.visits.size(), 2U);
+  ASSERT_EQ(only.estimated_visits.size(), 1U);
+  EXPECT_NEAR(only.estimated_visits[0].t_arrive, 2.0, 1e-9);
+  EXPECT_NEAR(only.estimated_visits[0].t_leave, 4.0, 1e-9);
 }
 
 TEST(PlannerHorizon, HasNoEstimatesForPlansThatReachTheirGoals) {
