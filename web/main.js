@@ -9,6 +9,7 @@ import { PlanKeeper } from "./files/plan_keeper.js";
 import { fileStem, watchSaving } from "./files/save.js";
 import { watchSharing } from "./files/sharing.js";
 import { Setup } from "./files/setup.js";
+import { Visits } from "./files/visits.js";
 import { offerHook } from "./hook.js";
 import { watchRequest } from "./model/checks.js";
 import { EarlierPlans } from "./model/earlier_plans.js";
@@ -31,6 +32,7 @@ import { TimelineDock } from "./panels/timeline_dock.js";
 import { TimeEntry } from "./panels/time_entry.js";
 import { Transport } from "./panels/transport.js";
 import { watchUnplanned } from "./panels/unplanned_card.js";
+import { FIRST_EXAMPLE, welcome } from "./panels/welcome.js";
 import { BoxSelection } from "./scene/box_selection.js";
 import { Follow } from "./scene/follow.js";
 import { ClosestOverlay, showBlockers, showViolations } from "./scene/overlays.js";
@@ -46,6 +48,7 @@ import { byId, setText } from "./ui/dom.js";
 import { watchShortcuts } from "./ui/input.js";
 import { Tabs } from "./ui/tabs.js";
 
+const visits = new Visits();
 const session = new Session(service, requestAnimationFrame.bind(window));
 const colours = new RobotColours();
 const earlier = new EarlierPlans(session);
@@ -143,4 +146,6 @@ watchShortcuts({
 document.addEventListener("visibilitychange", () => session.player.skip());
 
 offerHook(session, stage, fleet);
-setup.begin(service, address, keeper);
+setup.begin(service, address, keeper, visits.isFirst ? FIRST_EXAMPLE : null).then(() => {
+  if (visits.isFirst) welcome(session, () => planButton.press());
+});

@@ -37,10 +37,11 @@ export class Address {
   }
 
   /**
-   * Opens what the address identifies, or else the first of the examples ([{name}]); resolves to whether it is what the
-   * address identifies.
+   * Opens what the address identifies, or else the `preferred` one of the examples ([{name}]), or the first one; resolves
+   * to whether it is what the address identifies.
+   * @param {string | null} preferred
    */
-  async begin(examples) {
+  async begin(examples, preferred = null) {
     this.#examples = examples;
     if (this.#opening.begun) return false;
     let problem = null;
@@ -49,7 +50,7 @@ export class Address {
       problem = this.#session.problem;
     }
     const named = this.#named(location.hash);
-    const first = named ?? examples[0];
+    const first = named ?? examples.find(({ name }) => name === preferred) ?? examples[0];
     if (first === undefined || !(await this.#opening.example(first.name))) return false;
     if (problem) this.#session.setProblem(problem);
     return named !== undefined;

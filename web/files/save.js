@@ -1,4 +1,4 @@
-// The Save menu: files, a command line, a link.
+// The Save menu: files, a command line, a program, a link.
 
 import { planFile } from "../model/plan_file.js";
 import { byId, makeClosable, setText } from "../ui/dom.js";
@@ -10,17 +10,21 @@ const SHOWN_MS = 1500;
 
 /** `address`: see Address; `needsToken()` resolves to whether the service asks for a token. */
 export function watchSaving(session, address, needsToken) {
-  const [request, plan, curl, link] = ["save-request", "save-plan", "copy-curl", "copy-link"].map(byId);
+  const [request, plan, link] = ["save-request", "save-plan", "copy-link"].map(byId);
+  const curl = ["copy-curl", "welcome-curl"].map(byId);
+  const python = ["copy-python", "welcome-python"].map(byId);
   const note = byId("save-note");
   const stem = () => fileStem(session.name);
   const menu = byId("save-menu");
   let token = false;
   makeClosable(menu);
-  menu.addEventListener("toggle", async () => {
-    if (menu.open) token = await needsToken().catch(() => token); // known before anything is copied
-  });
+  // Known before anything is copied, which has to happen at the click.
+  const learn = async () => (token = await needsToken().catch(() => token));
+  menu.addEventListener("toggle", () => menu.open && learn());
+  byId("welcome").addEventListener("pointerenter", learn);
+  byId("welcome").addEventListener("focusin", learn);
   session.on("answer", () => {
-    for (const button of [request, curl, link]) button.disabled = session.request === null;
+    for (const button of [request, ...curl, ...python, link]) button.disabled = session.request === null;
     plan.disabled = session.answer === null || session.outdated !== null;
     note.hidden = true;
   });
@@ -28,9 +32,15 @@ export function watchSaving(session, address, needsToken) {
   plan.addEventListener("click", () => {
     saveText(`${stem()}.plan.json`, JSON.stringify(planFile(session.request, session.answer)));
   });
-  curl.addEventListener("click", () =>
-    copyFrom(curl, curlCommand(session, document.baseURI, token), session),
-  );
+  const copies = (buttons, write) => {
+    for (const button of buttons) {
+      button.addEventListener("click", () =>
+        copyFrom(button, write(session, document.baseURI, token), session),
+      );
+    }
+  };
+  copies(curl, curlCommand);
+  copies(python, pythonProgram);
   link.addEventListener("click", async () => {
     const { address: made, length } = await address.link();
     note.hidden = length <= LONGEST_LINK;
@@ -72,6 +82,30 @@ export function curlCommand({ example, text }, base, token) {
   if (example !== null)
     return `${curl} ${new URL(`v1/examples/${encodeURIComponent(example)}`, base)} | ${post}`;
   return `${post} <<'JSON'\n${text}\nJSON\n`;
+}
+
+/**
+ * The program that plans the request with the client for Python, like curlCommand. The text of a request is a raw string
+ * where that can hold it, so that it can be read.
+ */
+export function pythonProgram({ example, text }, base, token) {
+  const readable = !text.includes("'''") && !text.endsWith("'") && !text.endsWith("\\");
+  const literal = readable ? `r'''${text}'''` : JSON.stringify(text);
+  const url = JSON.stringify(new URL(".", base).href.replace(/\/$/, ""));
+  const lines = [
+    ...(example === null ? ["import json"] : []),
+    ...(token ? ["import os"] : []),
+    "from fleetplan import Client  # pip install ./clients/python",
+    "",
+    `client = Client(${url}${token ? ', token=os.environ["TOKEN"]' : ""})`,
+    example === null
+      ? `request = json.loads(${literal})`
+      : `request = client.example(${JSON.stringify(example)})`,
+    "answer = client.plan(request)",
+    'for plan in answer["plans"]:',
+    '    print(plan["robot"], plan["cost"], plan["actions"])',
+  ];
+  return `${lines.join("\n")}\n`;
 }
 
 /** Copies a text to the clipboard; returns whether that succeeded. */

@@ -39,16 +39,20 @@ export class Setup {
     session.on("problem", () => this.#showChosen()); // the chosen example may have failed to load
   }
 
-  /** Lists the examples and opens what the address identifies, with its plan. See Address and PlanKeeper. */
-  async begin(service, address, keeper) {
+  /**
+   * Lists the examples and opens what the address identifies, with its plan, or else the `preferred` example. See Address
+   * and PlanKeeper.
+   * @param {string | null} preferred
+   */
+  async begin(service, address, keeper, preferred = null) {
     const examples = service.listExamples().then((listed) => this.#showExamples(listed));
     const limits = service.fetchLimits().then((known) => this.#session.setLimits(known));
     const loaded = Promise.allSettled([examples, limits]);
     await examples.catch(() => this.#showExamples([]));
-    await keeper.restore(await address.begin(this.#examples));
+    await keeper.restore(await address.begin(this.#examples, preferred));
     for (const each of await loaded) {
       if (each.status === "rejected")
-        this.#session.fail(each.reason, () => this.begin(service, address, keeper));
+        this.#session.fail(each.reason, () => this.begin(service, address, keeper, preferred));
     }
   }
 

@@ -21,9 +21,15 @@ export function startBrowser() {
   return shared ? chromium.connect(shared) : chromium.launch(LAUNCH);
 }
 
-/** A context whose waits take as long as a busy machine needs. */
-export async function newContext(browser, options = {}) {
+/** A context whose waits take as long as a busy machine needs. Its browser has visited the page, unless `isNew`. */
+export async function newContext(browser, { isNew = false, ...options } = {}) {
   const context = await browser.newContext(options);
+  if (!isNew) {
+    await context.addInitScript(() => {
+      const isPage = location.protocol.startsWith("http"); // others have no storage
+      if (isPage && localStorage.length === 0) localStorage.setItem("fleetplan-visit", "{}");
+    });
+  }
   context.setDefaultTimeout(PATIENCE_MS);
   return context;
 }
