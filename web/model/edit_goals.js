@@ -26,7 +26,7 @@ export function advanceGoal(request, index, number) {
   if (number < 1) return request;
   return withGoals(request, index, (goals) => {
     const [before, goal] = [goals[number - 1], goals[number]];
-    return goals.toSpliced(number - 1, 2, goal, before);
+    return [...goals.slice(0, number - 1), goal, before, ...goals.slice(number + 1)];
   });
 }
 

@@ -56,13 +56,17 @@ export function moveCorner(request, index, corner, { x, y }) {
 
 /** The request with a corner more, after one of a zone. */
 export function insertCorner(request, index, after, { x, y }) {
-  return withCorners(request, index, (corners) => corners.toSpliced(after + 1, 0, { x, y }));
+  return withCorners(request, index, (corners) => [
+    ...corners.slice(0, after + 1),
+    { x, y },
+    ...corners.slice(after + 1),
+  ]);
 }
 
 /** The request without a corner of a zone, which keeps at least three. */
 export function removeCorner(request, index, corner) {
   return withCorners(request, index, (corners) =>
-    corners.length > 3 ? corners.toSpliced(corner, 1) : corners,
+    corners.length > 3 ? corners.filter((_, number) => number !== corner) : corners,
   );
 }
 
