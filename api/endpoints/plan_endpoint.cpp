@@ -40,16 +40,18 @@ Reply rejected(PlanOutcome outcome, const core::VerifyReport& report, const std:
   return reply;
 }
 
-/// Returns when to give up the check. A plan that was cancelled, as the service drains, may still be checked
+/// Returns when to give up the check: soon after the end of planning, but not before it has had the CPU time
+/// that a thousand robots need. A plan that was cancelled, as the service drains, may still be checked
 /// quickly.
 core::StopCondition check_stop(const core::StopCondition& planning) {
   using Clock = core::StopCondition::Clock;
   constexpr std::chrono::milliseconds kMostAfterPlanning{90};
+  constexpr std::chrono::milliseconds kLeastCpu{25};
   if (planning.cancelled()) {
     return core::StopCondition::even_if_cancelled(Clock::now() + kMostAfterPlanning / 2);
   }
   if (planning.deadline() == Clock::time_point::max()) return planning;
-  return planning.until(planning.deadline() + kMostAfterPlanning);
+  return planning.until(planning.deadline() + kMostAfterPlanning).with_cpu_time(kLeastCpu);
 }
 
 /// Returns when to give up the check of an answer in which no robot moves, if there is no other answer: with

@@ -69,7 +69,7 @@ struct RequestContext {
   AnsweredPlan answered;               // gets the plan that is returned; may be empty
   Turn* turn = nullptr;                // turn to compute; null: it may compute at once
   core::MapCache* maps = nullptr;      // the maps of earlier requests; null: none
-  core::Work::CpuClock cpu_clock = core::Work::thread_cpu_time;
+  core::Work::CpuClock cpu_clock = core::thread_cpu_time;
 };
 
 }  // namespace fleetplan::api

@@ -28,6 +28,9 @@ struct StepClock {
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): changed by tests only
 extern constinit thread_local StepClock step_clock;
 
+/// Returns the CPU time that the calling thread has had.
+std::chrono::nanoseconds thread_cpu_time();
+
 /// When to stop: at a deadline, when a stop is requested, or while the job of the calling thread is short of
 /// memory (see MemoryAccount). Cheap enough to test in every search loop.
 ///
@@ -44,8 +47,7 @@ class StopCondition {
 
   bool met() const {
     if (!is_bounded_) return false;
-    return step_clock.tick(outlasts_) || cancelled() || (heeds_memory_ && is_short_of_memory()) ||
-           Clock::now() >= deadline_;
+    return step_clock.tick(outlasts_) || cancelled() || (heeds_memory_ && is_short_of_memory()) || is_late();
   }
   /// Returns this condition, but not met while the job is short of memory: for the end of a job, which has
   /// memory set apart.
@@ -53,6 +55,13 @@ class StopCondition {
     StopCondition without = *this;
     without.heeds_memory_ = false;
     return without;
+  }
+  /// Returns this condition, but not met for time that has passed before the calling thread, which alone asks
+  /// it, has had so much CPU time from now on: on a busy machine, time passes while nothing is done.
+  StopCondition with_cpu_time(std::chrono::nanoseconds least) const {
+    StopCondition patient = *this;
+    patient.cpu_end_ = thread_cpu_time() + least;
+    return patient;
   }
   /// Returns a condition that is met at `deadline`, or when a stop is requested.
   StopCondition until(Clock::time_point deadline) const {
@@ -69,19 +78,21 @@ class StopCondition {
   }
   bool cancelled() const { return stop_.stop_requested(); }
   /// Whether the time is over: cancelled, or after the deadline, whatever else the condition is met for.
-  bool is_over() const {
-    return is_bounded_ && (step_clock.is_over(outlasts_) || cancelled() || Clock::now() >= deadline_);
-  }
+  bool is_over() const { return is_bounded_ && (step_clock.is_over(outlasts_) || cancelled() || is_late()); }
   Clock::time_point deadline() const { return deadline_; }
   const std::stop_token& stop_token() const { return stop_; }
 
  private:
   StopCondition() = default;
 
+  bool is_late() const { return Clock::now() >= deadline_ && !is_patient(); }
+  bool is_patient() const { return cpu_end_.count() > 0 && thread_cpu_time() < cpu_end_; }
+
   bool is_bounded_ = false;
   bool heeds_memory_ = true;
   bool outlasts_ = false;  // it outlasts the budget: for what is done after it
   Clock::time_point deadline_ = Clock::time_point::max();
+  std::chrono::nanoseconds cpu_end_{0};  // of the calling thread; 0: none
   std::stop_token stop_;
 };
 

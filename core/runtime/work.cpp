@@ -1,7 +1,6 @@
 #include "core/runtime/work.h"
 
 #include <algorithm>
-#include <ctime>
 #include <utility>
 
 namespace fleetplan::core {
@@ -34,12 +33,6 @@ bool Work::look() {
 
 StopCondition Work::before_end(std::chrono::nanoseconds kept) const {
   return until(budget_ ? bounds_.received_at + *budget_ - kept : Clock::time_point::max());
-}
-
-std::chrono::nanoseconds Work::thread_cpu_time() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
 }
 
 }  // namespace fleetplan::core

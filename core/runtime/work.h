@@ -76,8 +76,6 @@ class Work {
   /// The account of the memory that the request's threads have allocated; see MemoryScope.
   const std::shared_ptr<MemoryAccount>& memory() const { return memory_; }
 
-  static std::chrono::nanoseconds thread_cpu_time();
-
  private:
   Work() = default;
 

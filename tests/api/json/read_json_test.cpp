@@ -183,9 +183,9 @@ TEST(ReadJson, TakesLittleTimeForManyKeysWithEqualBeginnings) {
   for (int key = 0; key < 300'000; ++key)
     body.append("\"").append(std::to_string(1'000'000 + key)).append("\":0,");
   body += "\"1000001\":0}";
-  const auto begin = core::Work::thread_cpu_time();
+  const auto begin = core::thread_cpu_time();
   const JsonDocument read = document(body);
-  EXPECT_LT(core::Work::thread_cpu_time() - begin, std::chrono::seconds(5)) << "minutes if it were quadratic";
+  EXPECT_LT(core::thread_cpu_time() - begin, std::chrono::seconds(5)) << "minutes if it were quadratic";
   EXPECT_EQ(brief(read.faults.listed()), (Faults{{"/1000001", "duplicate"}}));
 }
 

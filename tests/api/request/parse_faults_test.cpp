@@ -263,9 +263,9 @@ TEST(Faults, OfHugeRobotsOnALargeBlockedMapAreFoundAtOnce) {
                                  {"goal", {{"x", 751.0}, {"y", 750.0}}}});
   }
   const std::string body = request.dump();
-  const auto begin = core::Work::thread_cpu_time();
+  const auto begin = core::thread_cpu_time();
   EXPECT_GE(parse_request(body, {}, unbounded_work()).failure().faults_total, 400U);
-  EXPECT_LT(core::Work::thread_cpu_time() - begin, std::chrono::seconds(2)) << "4 ms for each pose otherwise";
+  EXPECT_LT(core::thread_cpu_time() - begin, std::chrono::seconds(2)) << "4 ms for each pose otherwise";
 }
 
 }  // namespace TEST_FILE

@@ -19,6 +19,21 @@ TEST(StopCondition, IsMetOnceItsDeadlineHasPassed) {
   EXPECT_FALSE(StopCondition(Clock::now() + std::chrono::hours(1)).met());
 }
 
+TEST(StopCondition, HasItsCpuTimeHoweverLateItIs) {
+  constexpr std::chrono::milliseconds kLeast{5};
+  std::stop_source source;
+  const StopCondition late(Clock::now() - std::chrono::seconds(1), source.get_token());
+  const auto begin = thread_cpu_time();
+  const StopCondition stop = late.with_cpu_time(kLeast);
+  while (!stop.met()) EXPECT_LT(thread_cpu_time() - begin, std::chrono::minutes(1));
+  EXPECT_GE(thread_cpu_time() - begin, kLeast);
+  EXPECT_TRUE(stop.is_over());
+  const StopCondition other = late.with_cpu_time(std::chrono::hours(1));
+  EXPECT_FALSE(other.met());
+  source.request_stop();
+  EXPECT_TRUE(other.met());
+}
+
 TEST(StopCondition, IsMetOnceAStopIsRequested) {
   std::stop_source source;
   const StopCondition stop(Clock::now() + std::chrono::hours(1), source.get_token());
