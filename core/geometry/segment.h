@@ -37,9 +37,6 @@ struct TimedSegment {
   Segment path;
   double t_start = 0.0;
   double t_end = 0.0;
-  /// By how much the disk is smaller than the largest one that the robot ever has, metres; see
-  /// Goal::radius_after.
-  double narrower = 0.0;
 
   double duration() const { return t_end - t_start; }
   Position velocity() const {

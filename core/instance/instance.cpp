@@ -61,20 +61,17 @@ std::vector<Endpoints> endpoints(const Problem& problem, const Lattices& lattice
     const Lattice& lattice = *lattices[all.size()];
     const auto rounding = [&](const Position& p) { return (lattice.snapped(p) - p).norm(); };
     const double radius = radius_at_begin(robot);
-    const double largest = largest_radius(robot);
     Endpoints ends;
-    ends.radius = radius + inflation + robot.vicinity;
+    ends.pair_radius = radius + inflation + robot.vicinity;
     ends.inflation = inflation + robot.vicinity;
     ends.start = robot.committed_end().position;
     ends.start_rounding = rounding(ends.start);
-    ends.narrower_at_start = largest - radius;
+    ends.radius_at_start = radius;
     ends.grows_at_start = growth_at_end(robot, itinerary_of(robot)).has_value();
     if (robot.goal) {
-      const double last = last_radius(robot);
       ends.goal = robot.goal->position;
       ends.goal_rounding = rounding(*ends.goal);
-      ends.growth = last - radius;
-      ends.narrower_at_goal = largest - last;
+      ends.radius_at_goal = last_radius(robot);
     }
     all.push_back(ends);
   }
@@ -95,17 +92,21 @@ std::vector<std::unique_ptr<const DriveZones>> drive_zones_of(const Problem& pro
   return all;
 }
 
-std::shared_ptr<const FixedReservations> fixed(const Problem& problem, double inflation,
+LargestDisk largest_disk_of(const Robot& robot, const PlanOptions& options) {
+  const double radius = largest_radius(robot);
+  return {radius, motion_of(robot, options, radius).pair_radius};
+}
+
+std::shared_ptr<const FixedReservations> fixed(const Problem& problem, const PlanOptions& options,
                                                const Contacts& contacts, const StopCondition& stop) {
   std::vector<FixedReservations::Robot> robots;
   for (const Robot& robot : problem.robots()) {
     const Itinerary itinerary = itinerary_of(robot);
-    const double largest = largest_radius(robot);
-    robots.push_back({largest, robot.start.position, itinerary.pose.position, itinerary.t_begin,
-                      committed_segments(robot, itinerary), robot.vicinity, largest - radius_at_begin(robot),
-                      largest - robot.radius});
+    robots.push_back({largest_disk_of(robot, options), robot.start.position, itinerary.pose.position,
+                      itinerary.t_begin, committed_segments(robot, itinerary), robot.radius,
+                      radius_at_begin(robot)});
   }
-  return std::make_shared<FixedReservations>(problem.grid().width(), problem.grid().height(), inflation,
+  return std::make_shared<FixedReservations>(problem.grid().width(), problem.grid().height(),
                                              std::move(robots), problem.obstacles(),
                                              contacts.empty() ? nullptr : &contacts, stop);
 }
@@ -114,7 +115,7 @@ std::shared_ptr<const FixedReservations> fixed(const Problem& problem, double in
 
 Instance::Instance(const Problem& problem, const PlanOptions& options, const StopCondition& stop)
     : Instance(problem, options, nullptr, stop) {
-  fixed_reservations_ = fixed(problem, options.inflation, contacts_, stop);
+  fixed_reservations_ = fixed(problem, options, contacts_, stop);
 }
 
 Instance::Instance(const Problem& problem, const PlanOptions& options,
@@ -130,20 +131,19 @@ Instance::Instance(const Problem& problem, const PlanOptions& options,
     const Itinerary& itinerary = itineraries_.emplace_back(itinerary_of(robot));
     disks_.emplace_back();
     if (!core::changes_radius(robot)) {
-      add_disk(i, robot.radius, robot.radius, stop);
+      add_disk(i, robot.radius, stop);
       continue;
     }
     const std::vector<double> radii = radii_of(robot);
     const auto first = radii.begin() + static_cast<std::ptrdiff_t>(itinerary.first_goal);
     const bool is_one = std::all_of(first, radii.end(), [&](double radius) { return radius == *first; });
-    const double largest = largest_radius(robot);
     for (auto radius = first; radius != (is_one ? first + 1 : radii.end()); ++radius) {
-      add_disk(i, *radius, largest, stop);
+      add_disk(i, *radius, stop);
     }
   }
 }
 
-void Instance::add_disk(std::size_t index, double radius, double largest, const StopCondition& stop) {
+void Instance::add_disk(std::size_t index, double radius, const StopCondition& stop) {
   const Motion motion = motion_of(robot(index), options_, radius);
   const StaticMap& map = *problem_.map_of(index);
   const Lattice& lattice = this->lattice(index);
@@ -152,11 +152,11 @@ void Instance::add_disk(std::size_t index, double radius, double largest, const 
     auto finer = map.finer_vertices(lattice, motion.radius, stop);
     space = std::make_unique<FreeSpace>(lattice, map.sight(), motion.radius, std::move(finer));
   }
-  disks_[index].push_back({motion, largest - radius, space.get()});
+  disks_[index].push_back({motion, radius, space.get()});
 }
 
-double Instance::largest_pair_radius(std::size_t index) const {
-  return motion_of(robot(index), options_, largest_radius(robot(index))).pair_radius;
+LargestDisk Instance::largest_disk(std::size_t index) const {
+  return largest_disk_of(robot(index), options_);
 }
 
 const Motion& Instance::slimmest_motion(std::size_t index) const {
@@ -166,13 +166,13 @@ const Motion& Instance::slimmest_motion(std::size_t index) const {
       ->motion;
 }
 
-std::vector<TimedSegment> Instance::segments(std::size_t index, const Trajectory& trajectory) const {
-  std::vector<TimedSegment> segments = timed_segments(trajectory);
-  if (!core::changes_radius(robot(index))) return segments;
+std::vector<SizedSegment> Instance::segments(std::size_t index, const Trajectory& trajectory) const {
+  const std::vector<TimedSegment> segments = timed_segments(trajectory);
+  if (!core::changes_radius(robot(index))) return with_radii(segments, robot(index), {});
   std::vector<Visit> visits = itineraries_[index].visited;
   visits.insert(visits.end(), trajectory.visits.begin(), trajectory.visits.end());
   if (robot(index).goal) visits.push_back({robot(index).via.size(), 0.0, trajectory.last_served});
-  return with_radii(std::move(segments), robot(index), radius_steps(robot(index), visits));
+  return with_radii(segments, robot(index), radius_steps(robot(index), visits));
 }
 
 double Instance::radius_at_start(std::size_t index) const {

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/geometry/robot_disk.h"
 #include "core/instance/motion.h"
 #include "core/map/free_space.h"
 #include "core/map/lattice.h"
@@ -45,16 +46,16 @@ class Instance {
   /// On the way to a goal that is left, by its position in Itinerary::goals; one past the last goal: at rest
   /// there for good.
   const Motion& motion(std::size_t index, std::size_t stage) const { return disk(index, stage).motion; }
-  /// Metres: by how much its disk is smaller than the robot ever is, see TimedSegment.
-  double narrower(std::size_t index, std::size_t stage) const { return disk(index, stage).narrower; }
+  /// Its radius then, metres; neither inflation nor vicinity included.
+  double radius(std::size_t index, std::size_t stage) const { return disk(index, stage).radius; }
   /// Whether the robot has several radii on the way to the goals that are left, or after the last one.
   bool changes_radius(std::size_t index) const { return disks_[index].size() > 1; }
-  /// The largest radius of the robot at any time, commitments included; metres, with inflation and vicinity.
-  double largest_pair_radius(std::size_t index) const;
+  /// The largest disk of the robot at any time, commitments included.
+  LargestDisk largest_disk(std::size_t index) const;
   /// The motion with the smallest radius on the way to the goals that are left.
   const Motion& slimmest_motion(std::size_t index) const;
   /// Contiguous segments of a trajectory from t = 0 on, with its radii.
-  std::vector<TimedSegment> segments(std::size_t index, const Trajectory& trajectory) const;
+  std::vector<SizedSegment> segments(std::size_t index, const Trajectory& trajectory) const;
   /// The zones that limit how the robot drives; null if there are none.
   const DriveZones* drive_zones(std::size_t index) const {
     return drive_zones_.empty() ? nullptr : drive_zones_[index].get();
@@ -88,7 +89,7 @@ class Instance {
   /// What a robot is while it has one radius.
   struct Disk {
     Motion motion;
-    double narrower = 0.0;
+    double radius = 0.0;
     FreeSpace* space = nullptr;
   };
 
@@ -96,7 +97,7 @@ class Instance {
     const std::vector<Disk>& all = disks_[index];
     return all[all.size() > 1 ? stage : 0];
   }
-  void add_disk(std::size_t index, double radius, double largest, const StopCondition& stop);
+  void add_disk(std::size_t index, double radius, const StopCondition& stop);
 
   const Problem& problem_;
   PlanOptions options_;

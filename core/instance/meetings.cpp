@@ -31,8 +31,8 @@ struct Passer {
   std::size_t index = 0;
   double radius = 0.0;  // metres, the largest
   std::vector<MovingDisk> pieces = {};
-  std::vector<double> narrower = {};  // of each piece of a robot whose radius changes, see TimedSegment
-  std::size_t next = 0;               // the first piece that has not been compared
+  std::vector<double> radii = {};  // metres, of each piece of a robot whose radius changes
+  std::size_t next = 0;            // the first piece that has not been compared
 };
 
 /// A part of what a robot certainly does.
@@ -167,12 +167,12 @@ class MeetingSearch {
       const Position& place = itinerary.pose.position;
       Passer passer{false, i, largest_radius(robots[i])};
       const bool changes = changes_radius(robots[i]);
-      std::vector<TimedSegment> segments = committed_segments(robots[i], itinerary);
+      std::vector<SizedSegment> segments = committed_segments(robots[i], itinerary);
       if (const auto growth = growth_at_end(robots[i], itinerary)) segments.push_back(*growth);
-      for (const TimedSegment& segment : segments) {
+      for (const SizedSegment& segment : segments) {
         passer.pieces.emplace_back(segment);
-        if (changes) passer.narrower.push_back(segment.narrower);
-        certain_.push_back({i, false, passer.pieces.back(), passer.radius - segment.narrower});
+        if (changes) passer.radii.push_back(segment.radius);
+        certain_.push_back({i, false, passer.pieces.back(), segment.radius});
       }
       const double at_end = changes ? radii_of(robots[i])[itinerary.first_goal] : robots[i].radius;
       if (!planned_[i])
@@ -225,7 +225,7 @@ class MeetingSearch {
 
   void compare(std::size_t index, std::size_t piece, const MotionTree& tree) {
     const Passer& passer = passers_[index];
-    const double radius = passer.radius - (passer.narrower.empty() ? 0.0 : passer.narrower[piece]);
+    const double radius = passer.radii.empty() ? passer.radius : passer.radii[piece];
     tree.visit(passer.pieces[piece], radius, 0.0, [&](std::size_t k) {
       const Certain& part = certain_[k];
       // Committed motions are clear of each other.

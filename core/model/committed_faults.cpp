@@ -37,13 +37,10 @@ std::vector<Disk> certain_motion(const Robot& robot) {
       motion.push_back({MovingDisk(segment), robot.radius});
     }
   } else if (robot.committed_until() > 0.0) {
-    const double largest = largest_radius(robot);
     const Itinerary itinerary = itinerary_of(robot);
-    std::vector<TimedSegment> segments = committed_segments(robot, itinerary);
+    std::vector<SizedSegment> segments = committed_segments(robot, itinerary);
     if (const auto growth = growth_at_end(robot, itinerary)) segments.push_back(*growth);
-    for (const TimedSegment& segment : segments) {
-      motion.push_back({MovingDisk(segment), largest - segment.narrower});
-    }
+    for (const SizedSegment& segment : segments) motion.push_back({MovingDisk(segment), segment.radius});
   }
   return motion;
 }

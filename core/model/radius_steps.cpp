@@ -55,42 +55,40 @@ std::vector<RadiusStep> radius_steps(const Robot& robot, std::span<const Visit> 
   return steps;
 }
 
-std::vector<TimedSegment> with_radii(std::vector<TimedSegment> segments, const Robot& robot,
+std::vector<SizedSegment> with_radii(const std::vector<TimedSegment>& segments, const Robot& robot,
                                      const std::vector<RadiusStep>& steps) {
-  if (!changes_radius(robot)) return segments;
-  const double largest = largest_radius(robot);
   double radius = robot.radius;
   auto step = steps.begin();
-  std::vector<TimedSegment> sized;
+  std::vector<SizedSegment> sized;
   sized.reserve(segments.size() + steps.size());
   // Bounded: each segment and each step once.
-  for (TimedSegment& segment : segments) {
-    for (; step != steps.end() && step->t < segment.t_end - kRounding; ++step) {
-      if (step->t > segment.t_start + kRounding) {
-        TimedSegment before = segment;
+  for (const TimedSegment& segment : segments) {
+    SizedSegment rest{segment, radius};
+    for (; step != steps.end() && step->t < rest.t_end - kRounding; ++step) {
+      if (step->t > rest.t_start + kRounding) {
+        SizedSegment before = rest;
         before.t_end = step->t;
         before.path.to = before.path.from;
-        before.narrower = largest - radius;
         sized.push_back(before);
-        segment.t_start = step->t;
+        rest.t_start = step->t;
       }
       radius = step->radius;
+      rest.radius = radius;
     }
-    segment.narrower = largest - radius;
-    sized.push_back(segment);
+    sized.push_back(rest);
   }
   return sized;
 }
 
-std::vector<TimedSegment> committed_segments(const Robot& robot, const Itinerary& itinerary) {
+std::vector<SizedSegment> committed_segments(const Robot& robot, const Itinerary& itinerary) {
   if (itinerary.t_begin <= 0.0) return {};
   std::vector<TimedSegment> segments = timed_segments(itinerary.committed);
   std::erase_if(segments, [&](const TimedSegment& segment) { return segment.t_start >= itinerary.t_begin; });
   if (!segments.empty()) segments.back().t_end = std::min(segments.back().t_end, itinerary.t_begin);
-  return with_radii(std::move(segments), robot, radius_steps(robot, itinerary.visited));
+  return with_radii(segments, robot, radius_steps(robot, itinerary.visited));
 }
 
-std::optional<TimedSegment> growth_at_end(const Robot& robot, const Itinerary& itinerary) {
+std::optional<SizedSegment> growth_at_end(const Robot& robot, const Itinerary& itinerary) {
   double before = robot.radius;
   double after = robot.radius;
   for (const RadiusStep& step : radius_steps(robot, itinerary.visited)) {
@@ -99,7 +97,7 @@ std::optional<TimedSegment> growth_at_end(const Robot& robot, const Itinerary& i
   }
   if (after <= before) return std::nullopt;
   const Position& place = itinerary.pose.position;
-  return TimedSegment{{place, place}, itinerary.t_begin, itinerary.t_begin, largest_radius(robot) - after};
+  return SizedSegment{{{place, place}, itinerary.t_begin, itinerary.t_begin}, after};
 }
 
 }  // namespace fleetplan::core

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/geometry/robot_disk.h"
 #include "core/geometry/segment.h"
 #include "core/model/itinerary.h"
 #include "core/model/robot.h"
@@ -33,15 +34,14 @@ struct RadiusStep {
 std::vector<RadiusStep> radius_steps(const Robot& robot, std::span<const Visit> visits);
 
 /// The committed motion of a robot, waits included, from t = 0 to its end; see with_radii.
-std::vector<TimedSegment> committed_segments(const Robot& robot, const Itinerary& itinerary);
+std::vector<SizedSegment> committed_segments(const Robot& robot, const Itinerary& itinerary);
 
 /// The instant at which the committed motion ends, if the robot has a larger radius from then on: then it
 /// certainly has it, however soon it leaves.
-std::optional<TimedSegment> growth_at_end(const Robot& robot, const Itinerary& itinerary);
+std::optional<SizedSegment> growth_at_end(const Robot& robot, const Itinerary& itinerary);
 
-/// Contiguous segments from t = 0 with TimedSegment::narrower set; a rest is divided where the radius
-/// changes.
-std::vector<TimedSegment> with_radii(std::vector<TimedSegment> segments, const Robot& robot,
+/// Contiguous segments from t = 0 with the radius of the robot; a rest is divided where it changes.
+std::vector<SizedSegment> with_radii(const std::vector<TimedSegment>& segments, const Robot& robot,
                                      const std::vector<RadiusStep>& steps);
 
 }  // namespace fleetplan::core

@@ -22,18 +22,18 @@ constexpr std::int64_t kFirstExpansions = 16'384;
 /// Goals of a robot between two checks of the stop condition.
 constexpr std::size_t kGoalsBetweenStops = 16;
 
-std::vector<double> radii(const Instance& instance) {
-  std::vector<double> radii;
-  radii.reserve(instance.size());
-  for (std::size_t i = 0; i < instance.size(); ++i) radii.push_back(instance.largest_pair_radius(i));
-  return radii;
+std::vector<LargestDisk> largest_disks(const Instance& instance) {
+  std::vector<LargestDisk> disks;
+  disks.reserve(instance.size());
+  for (std::size_t i = 0; i < instance.size(); ++i) disks.push_back(instance.largest_disk(i));
+  return disks;
 }
 
 /// The part of contiguous segments from `t` on.
-std::vector<TimedSegment> from_time(double t, std::vector<TimedSegment> segments) {
-  std::erase_if(segments, [&](const TimedSegment& segment) { return segment.t_end <= t; });
+std::vector<SizedSegment> from_time(double t, std::vector<SizedSegment> segments) {
+  std::erase_if(segments, [&](const SizedSegment& segment) { return segment.t_end <= t; });
   if (!segments.empty() && segments.front().t_start < t) {
-    TimedSegment& first = segments.front();
+    SizedSegment& first = segments.front();
     first.path.from += first.velocity() * (t - first.t_start);
     first.t_start = t;
   }
@@ -54,7 +54,7 @@ const FixedReservations* fixed_reservations(const Instance& instance) {
 PlanState::PlanState(const Instance& instance)
     : instance_(instance),
       table_(instance.problem().grid().width(), instance.problem().grid().height(),
-             instance.problem().grid().resolution(), radii(instance), contacts(instance),
+             instance.problem().grid().resolution(), largest_disks(instance), contacts(instance),
              fixed_reservations(instance), instance.options().interval_margin),
       search_(table_),
       reservations_{std::vector<std::optional<Trajectory>>(instance.size()),
@@ -64,13 +64,13 @@ PlanState::PlanState(const Instance& instance)
 
 Trajectory PlanState::staying(std::size_t robot) const { return instance_.itinerary(robot).committed; }
 
-std::vector<TimedSegment> PlanState::after_commitment(std::size_t robot, const Trajectory& trajectory) const {
+std::vector<SizedSegment> PlanState::after_commitment(std::size_t robot, const Trajectory& trajectory) const {
   const double t_begin = instance_.itinerary(robot).t_begin;
-  std::vector<TimedSegment> segments = instance_.segments(robot, trajectory);
+  std::vector<SizedSegment> segments = instance_.segments(robot, trajectory);
   return t_begin > 0.0 ? from_time(t_begin, std::move(segments)) : segments;
 }
 
-void PlanState::reserve(std::size_t robot, const std::vector<TimedSegment>& segments) {
+void PlanState::reserve(std::size_t robot, const std::vector<SizedSegment>& segments) {
   remove(robot);
   table_.reserve(robot, segments);
 }
@@ -107,9 +107,8 @@ void PlanState::reserve_start(std::size_t robot, double seconds) {
   const Position& place = itinerary.pose.position;
   remove(robot);
   if (seconds > 0.0) {
-    table_.reserve(
-        robot,
-        {{{place, place}, itinerary.t_begin, itinerary.t_begin + seconds, instance_.narrower(robot, 0)}});
+    const TimedSegment rest{{place, place}, itinerary.t_begin, itinerary.t_begin + seconds};
+    table_.reserve(robot, {{rest, instance_.radius(robot, 0)}});
   }
   reservations_.at_start_until[robot] = seconds;
   if (seconds == kForever) ++staying_count_;
@@ -232,7 +231,7 @@ SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, co
 /// Whether the robot may rest at its goal from some time on: if not, a search need not be prepared.
 bool PlanState::goal_stays_free(std::size_t robot) const {
   const std::size_t at_rest = instance_.itinerary(robot).goals.size();
-  const Footprint footprint(robot, instance_.narrower(robot, at_rest));
+  const Footprint footprint{robot, instance_.radius(robot, at_rest)};
   const auto safe = table_.safe_intervals(footprint, instance_.robot(robot).goal->position);
   return !safe.empty() && safe.back().end == kForever;
 }
@@ -340,7 +339,7 @@ bool PlanState::takes_too_long(std::size_t robot, const StopCondition& stop) {
 Trajectory PlanState::plan_alone(std::size_t robot, const StopCondition& stop) {
   const OccupancyGrid& grid = instance_.problem().grid();
   const double cell_size = grid.width();  // coarse, as the table stays empty
-  const ReservationTable empty(grid.width(), grid.height(), cell_size, radii(instance_));
+  const ReservationTable empty(grid.width(), grid.height(), cell_size, largest_disks(instance_));
   SearchResult result = within_memory(SearchResult(), [&]() -> SearchResult {
     SearchSpace* space = search_spaces_.of(robot, stop);
     if (space == nullptr) return {};

@@ -126,8 +126,8 @@ class PlanState {
   bool goal_stays_free(std::size_t robot) const;
   Way way_off_lattice(std::size_t robot) const;
   bool test_enclosure(std::size_t robot, std::int64_t max_steps);
-  void reserve(std::size_t robot, const std::vector<TimedSegment>& segments);
-  std::vector<TimedSegment> after_commitment(std::size_t robot, const Trajectory& trajectory) const;
+  void reserve(std::size_t robot, const std::vector<SizedSegment>& segments);
+  std::vector<SizedSegment> after_commitment(std::size_t robot, const Trajectory& trajectory) const;
   Trajectory staying(std::size_t robot) const;
 
   const Instance& instance_;

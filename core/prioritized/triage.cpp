@@ -56,7 +56,7 @@ class DiskIndex {
 
 DiskIndex::DiskIndex(const Instance& instance, At at) : instance_(instance), at_(at), size_(0.0) {
   for (std::size_t i = 0; i < instance.size(); ++i) {
-    size_ = std::max(size_, 2.0 * instance.largest_pair_radius(i));
+    size_ = std::max(size_, 2.0 * instance.largest_disk(i).pair_radius);
   }
 }
 

@@ -33,12 +33,13 @@ Contacts::Contacts(std::vector<Endpoints> robots)
   double largest = 0.0;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const Endpoints& robot = robots_[i];
-    points.push_back({robot.start, i, Endpoint::start, robot.radius, robot.start_rounding, robot.inflation,
-                      robot.grows_at_start});
-    if (robot.goal)
-      points.push_back({*robot.goal, i, Endpoint::goal, robot.radius + robot.growth, robot.goal_rounding,
-                        robot.inflation});
-    largest = std::max({largest, robot.radius, robot.radius + robot.growth});
+    points.push_back({robot.start, i, Endpoint::start, robot.pair_radius, robot.start_rounding,
+                      robot.inflation, robot.grows_at_start});
+    largest = std::max(largest, robot.pair_radius);
+    if (!robot.goal) continue;
+    const double at_goal = robot.pair_radius + (robot.radius_at_goal - robot.radius_at_start);
+    points.push_back({*robot.goal, i, Endpoint::goal, at_goal, robot.goal_rounding, robot.inflation});
+    largest = std::max(largest, at_goal);
   }
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return a.position.x() < b.position.x(); });
@@ -116,7 +117,7 @@ std::vector<std::size_t> Contacts::at_start(std::size_t robot) const {
 double Contacts::deficit(std::size_t robot) const {
   double deficit = 0.0;
   for (const Contact& contact : contacts_[robot]) {
-    const double sum = robots_[robot].radius + robots_[contact.other].radius;
+    const double sum = robots_[robot].pair_radius + robots_[contact.other].pair_radius;
     deficit = std::max(deficit, sum - contact.leaving);
   }
   return deficit;
@@ -127,15 +128,14 @@ bool Contacts::overlaps_at_start(std::size_t robot) const {
                                          [](const Contact& contact) { return contact.overlapping; });
 }
 
-Endpoint Contacts::endpoint(std::size_t robot, const Segment& path, double narrower, bool has_left) const {
+Endpoint Contacts::endpoint(std::size_t robot, const Segment& path, double radius, bool has_left) const {
   if (none(robot)) return Endpoint::none;
   const Endpoints& ends = robots_[robot];
-  if (!has_left && narrower == ends.narrower_at_start && is_same_position(path.from, ends.start)) {
+  if (!has_left && radius == ends.radius_at_start && is_same_position(path.from, ends.start)) {
     const bool moves = path.from != path.to;
     return moves && overlaps_at_start(robot) ? Endpoint::leaving : Endpoint::start;
   }
-  const bool at_goal =
-      ends.goal && narrower == ends.narrower_at_goal && is_same_position(path.to, *ends.goal);
+  const bool at_goal = ends.goal && radius == ends.radius_at_goal && is_same_position(path.to, *ends.goal);
   return at_goal ? Endpoint::goal : Endpoint::none;
 }
 

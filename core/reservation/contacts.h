@@ -20,14 +20,12 @@ namespace fleetplan::core {
 struct Endpoints {
   Position start{0.0, 0.0};
   std::optional<Position> goal;
-  double radius = 0.0;          // metres at the start, inflation and vicinity included
-  double start_rounding = 0.0;  // metres
-  double goal_rounding = 0.0;   // metres
-  double inflation = 0.0;       // metres, with the vicinity; a part of the radius
-  /// Metres: by how much the radius is larger at the goal, and TimedSegment::narrower at both.
-  double growth = 0.0;
-  double narrower_at_start = 0.0;
-  double narrower_at_goal = 0.0;
+  double pair_radius = 0.0;      // metres at the start, inflation and vicinity included
+  double start_rounding = 0.0;   // metres
+  double goal_rounding = 0.0;    // metres
+  double inflation = 0.0;        // metres, with the vicinity; a part of the pair radius
+  double radius_at_start = 0.0;  // metres; neither inflation nor vicinity included
+  double radius_at_goal = 0.0;   // metres; likewise
   /// It becomes larger at the start only, so it has not been so near to any bare disk before.
   bool grows_at_start = false;
 };
@@ -55,10 +53,9 @@ class Contacts {
   double deficit(std::size_t robot) const;
 
   /// Whether the robot stands at its start or goal, or moves from its start or to its goal. `none` for a
-  /// robot without contacts, or if it has another radius there (`narrower`: see TimedSegment). A robot that
+  /// robot without contacts, or if `radius` (metres) is not the one that it begins or ends with. A robot that
   /// `has_left` its start before keeps apart from others there, too.
-  Endpoint endpoint(std::size_t robot, const Segment& path, double narrower = 0.0,
-                    bool has_left = false) const;
+  Endpoint endpoint(std::size_t robot, const Segment& path, double radius, bool has_left = false) const;
 
   /// The distance that two robots keep at these endpoints, metres; `full` where they are not in contact.
   double distance(std::size_t robot, Endpoint at, std::size_t other, Endpoint other_at, double full) const;

@@ -29,7 +29,7 @@ class FixedReservations::Collector {
   }
 
   void add_obstacle(const MovingObstacle& obstacle, std::uint32_t index) {
-    const Owner owner{index, true};
+    const Owner owner{index, true, false, Endpoint::none, obstacle.radius};
     const auto& first = obstacle.motion.front();
     const auto& last = obstacle.motion.back();
     const auto rest = [&](const Position& position, double t_begin, double t_end) {
@@ -46,15 +46,15 @@ class FixedReservations::Collector {
          obstacle.after == MovingObstacle::After::stays ? kForever : last.t + kInstant);
   }
 
-  void add_robot(const Robot& robot, std::uint32_t index, double inflation, const Contacts* contacts) {
+  void add_robot(const Robot& robot, std::uint32_t index, const Contacts* contacts) {
     bool from_start = true;
-    for (const TimedSegment& segment : robot.committed) {
-      from_start = from_start && segment.narrower == robot.narrower_at_start &&
+    for (const SizedSegment& segment : robot.committed) {
+      from_start = from_start && segment.radius == robot.radius_at_start &&
                    is_same_position(segment.path.from, robot.start);
       const Endpoint endpoint =
-          contacts != nullptr ? contacts->endpoint(index, segment.path, segment.narrower) : Endpoint::none;
-      add(segment, robot.radius + inflation + robot.vicinity - segment.narrower,
-          {index, false, from_start, endpoint, segment.narrower});
+          contacts != nullptr ? contacts->endpoint(index, segment.path, segment.radius) : Endpoint::none;
+      add(segment, robot.disk.pair_radius_with(segment.radius),
+          {index, false, from_start, endpoint, segment.radius});
     }
   }
 
@@ -65,16 +65,15 @@ class FixedReservations::Collector {
   std::vector<MotionTree::Disk> disks_;
 };
 
-FixedReservations::FixedReservations(double width, double height, double inflation, std::vector<Robot> robots,
+FixedReservations::FixedReservations(double width, double height, std::vector<Robot> robots,
                                      const std::vector<MovingObstacle>& obstacles, const Contacts* contacts,
                                      const StopCondition& stop)
     : robots_(std::move(robots)) {
   double largest = 0.0;
   for (const Robot& robot : robots_) {
-    largest = std::max(largest, robot.radius + inflation + robot.vicinity);
+    largest = std::max(largest, robot.disk.pair_radius);
     if (!robot.committed.empty()) empty_ = false;
   }
-  for (const MovingObstacle& obstacle : obstacles) obstacle_radii_.push_back(obstacle.radius);
   if (!obstacles.empty()) empty_ = false;
   if (empty_) return;
   try {
@@ -84,8 +83,7 @@ FixedReservations::FixedReservations(double width, double height, double inflati
       known_ = !stop.met();
       if (known_) collector.add_obstacle(obstacles[i], i);
     }
-    for (std::uint32_t i = 0; i < robots_.size(); ++i)
-      collector.add_robot(robots_[i], i, inflation, contacts);
+    for (std::uint32_t i = 0; i < robots_.size(); ++i) collector.add_robot(robots_[i], i, contacts);
     if (known_) tree_ = MotionTree(collector.disks(), {width, height, largest}, stop);
     known_ = known_ && tree_.finished();
   } catch (const std::bad_alloc&) {  // not granted to the job

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/geometry/moving_obstacle.h"
+#include "core/geometry/robot_disk.h"
 #include "core/geometry/segment.h"
 #include "core/reservation/contacts.h"
 #include "core/reservation/motion_tree.h"
@@ -17,14 +18,13 @@ class FixedReservations {
  public:
   /// A robot's committed motion, and where it begins what is planned for it.
   struct Robot {
-    double radius = 0.0;                  // metres, the largest; inflation and vicinity not included
+    LargestDisk disk;
     Position start{0.0, 0.0};             // at t = 0
     Position departure{0.0, 0.0};         // at `t_departure`: the end of the committed motion, or the start
     double t_departure = 0.0;             // seconds
-    std::vector<TimedSegment> committed;  // contiguous, from t = 0 to `t_departure`
-    double vicinity = 0.0;                // metres
-    double narrower = 0.0;                // at `t_departure`, see TimedSegment
-    double narrower_at_start = 0.0;       // at t = 0
+    std::vector<SizedSegment> committed;  // contiguous, from t = 0 to `t_departure`
+    double radius_at_start = 0.0;         // metres, at t = 0
+    double radius_at_departure = 0.0;     // metres, at `t_departure`
   };
   /// A part of the motion of an obstacle or of a robot.
   struct Occupant {
@@ -34,14 +34,14 @@ class FixedReservations {
     bool is_obstacle = false;
     bool from_start = false;             // of a robot: it stands at its start, or moves away from there
     Endpoint endpoint = Endpoint::none;  // of a robot, see Contacts
-    double narrower = 0.0;               // of a robot, see TimedSegment
+    double radius = 0.0;                 // metres
+    double pair_radius = 0.0;  // metres, of a robot to other robots: inflation and vicinity included
   };
 
   FixedReservations() = default;
-  /// The map is [0, width] x [0, height] metres. `inflation` is what planning adds to the robots' radii. Null
-  /// `contacts`: no two robots are in contact. If the stop condition is met first, or memory is spent, the
-  /// reservations are not known, see below.
-  FixedReservations(double width, double height, double inflation, std::vector<Robot> robots,
+  /// The map is [0, width] x [0, height] metres. Null `contacts`: no two robots are in contact. If the stop
+  /// condition is met first, or memory is spent, the reservations are not known, see below.
+  FixedReservations(double width, double height, std::vector<Robot> robots,
                     const std::vector<MovingObstacle>& obstacles, const Contacts* contacts,
                     const StopCondition& stop);
 
@@ -50,8 +50,6 @@ class FixedReservations {
   bool known() const { return known_; }
   /// The number of parts, see Occupant.
   std::size_t count() const { return owners_.size(); }
-  std::size_t obstacle_count() const { return obstacle_radii_.size(); }
-  double obstacle_radius(std::size_t obstacle) const { return obstacle_radii_[obstacle]; }
   const Robot& robot(std::size_t index) const { return robots_[index]; }
   /// Whether the robot stands at the place where its committed motion ends, or moves from there.
   bool departs(std::size_t robot, const Position& from) const;
@@ -74,19 +72,18 @@ class FixedReservations {
     bool is_obstacle = false;
     bool from_start = false;
     Endpoint endpoint = Endpoint::none;
-    double narrower = 0.0;
+    double radius = 0.0;
   };
 
   class Collector;
 
   Occupant occupant(std::size_t index) const {
     const Owner& owner = owners_[index];
-    return {tree_[index].motion, owner.index,    owner.index,   owner.is_obstacle,
-            owner.from_start,    owner.endpoint, owner.narrower};
+    return {tree_[index].motion, owner.index,    owner.index,  owner.is_obstacle,
+            owner.from_start,    owner.endpoint, owner.radius, tree_[index].radius};
   }
 
   std::vector<Robot> robots_;
-  std::vector<double> obstacle_radii_;
   MotionTree tree_;
   std::vector<Owner> owners_;  // of the disks of the tree
   bool empty_ = true;

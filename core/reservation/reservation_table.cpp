@@ -23,8 +23,10 @@ using Occupant = SegmentIndex::Occupant;
 class CollisionDistance {
  public:
   CollisionDistance(const SegmentIndex& index, const Footprint& mine, const Segment& path)
-      : robot_(mine.robot), radius_(index.radius(mine.robot) - mine.narrower), contacts_(index.contacts()) {
-    if (contacts_ != nullptr) endpoint_ = contacts_->endpoint(mine.robot, path, mine.narrower, mine.has_left);
+      : robot_(mine.robot),
+        radius_(index.disk(mine.robot).pair_radius_with(mine.radius)),
+        contacts_(index.contacts()) {
+    if (contacts_ != nullptr) endpoint_ = contacts_->endpoint(mine.robot, path, mine.radius, mine.has_left);
   }
 
   double operator()(const Occupant& other) const {
@@ -35,7 +37,7 @@ class CollisionDistance {
 
  private:
   std::size_t robot_;
-  double radius_;
+  double radius_;  // to other robots
   const Contacts* contacts_;
   Endpoint endpoint_ = Endpoint::none;
 };
@@ -131,52 +133,50 @@ class ReservationTable::FixedDistance {
  public:
   FixedDistance(const ReservationTable& table, const Footprint& mine, const Segment& path)
       : fixed_(*table.fixed_),
-        index_(*table.index_),
+        contacts_(table.index_->contacts()),
         robot_(mine.robot),
-        narrower_(mine.narrower),
+        radius_(mine.radius),
+        pair_radius_(table.index_->disk(robot_).pair_radius_with(radius_)),
         departs_(fixed_.departs(robot_, path.from)),
-        stays_(departs_ && path.from == path.to && narrower_ == fixed_.robot(robot_).narrower) {
-    if (index_.contacts() != nullptr) {
-      endpoint_ = index_.contacts()->endpoint(robot_, path, narrower_, mine.has_left);
-    }
+        stays_(departs_ && path.from == path.to && radius_ == fixed_.robot(robot_).radius_at_departure) {
+    if (contacts_ != nullptr) endpoint_ = contacts_->endpoint(robot_, path, radius_, mine.has_left);
   }
 
   /// Inflation is for pairs of robots that may choose: a robot that still stands where its commitment ends
   /// need not leave because committed motion passes within the inflated distance only.
   double operator()(const FixedReservations::Occupant& other) const {
-    const FixedReservations::Robot& mine = fixed_.robot(robot_);
     if (other.is_obstacle) {
       const double slack = departs_ ? kContactTolerance : kSearchSlack;
-      return mine.radius - narrower_ + fixed_.obstacle_radius(other.obstacle) - slack;
+      return radius_ + other.radius - slack;
     }
-    double distance =
-        index_.radius(robot_) - narrower_ + (index_.radius(other.robot) - other.narrower) - kSearchSlack;
+    double distance = pair_radius_ + other.pair_radius - kSearchSlack;
     if (endpoint_ != Endpoint::none) {
-      distance = index_.contacts()->distance(robot_, endpoint_, other.robot, other.endpoint, distance);
+      distance = contacts_->distance(robot_, endpoint_, other.robot, other.endpoint, distance);
     }
     if (!stays_) return distance;
-    const FixedReservations::Robot& theirs = fixed_.robot(other.robot);
-    distance =
-        std::min(distance, mine.radius - narrower_ + (theirs.radius - other.narrower) - kContactTolerance);
-    const bool is_at_start = mine.start == mine.departure && narrower_ == mine.narrower_at_start;
+    distance = std::min(distance, radius_ + other.radius - kContactTolerance);
+    const FixedReservations::Robot& mine = fixed_.robot(robot_);
+    const bool is_at_start = mine.start == mine.departure && radius_ == mine.radius_at_start;
     if (!other.from_start || !is_at_start) return distance;
-    return std::min(distance, (mine.start - theirs.start).norm() - 2.0 * kSamePosition);
+    const Position& their_start = fixed_.robot(other.robot).start;
+    return std::min(distance, (mine.start - their_start).norm() - 2.0 * kSamePosition);
   }
 
  private:
   const FixedReservations& fixed_;
-  const SegmentIndex& index_;
+  const Contacts* contacts_;
   std::size_t robot_;
-  double narrower_;
+  double radius_;
+  double pair_radius_;
   bool departs_;
   bool stays_;
   Endpoint endpoint_ = Endpoint::none;
 };
 
-ReservationTable::ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
-                                   const Contacts* contacts, const FixedReservations* fixed,
-                                   double interval_margin)
-    : index_(std::make_unique<SegmentIndex>(width, height, cell_size, std::move(radii), contacts)),
+ReservationTable::ReservationTable(double width, double height, double cell_size,
+                                   std::vector<LargestDisk> disks, const Contacts* contacts,
+                                   const FixedReservations* fixed, double interval_margin)
+    : index_(std::make_unique<SegmentIndex>(width, height, cell_size, std::move(disks), contacts)),
       fixed_(fixed),
       margin_(interval_margin) {}
 
@@ -192,7 +192,7 @@ bool ReservationTable::departs(std::size_t robot, const Position& from) const {
   return fixed_ != nullptr && fixed_->departs(robot, from);
 }
 
-void ReservationTable::reserve(std::size_t robot, const std::vector<TimedSegment>& segments) {
+void ReservationTable::reserve(std::size_t robot, const std::vector<SizedSegment>& segments) {
   index_->add(robot, segments);
 }
 
@@ -216,11 +216,12 @@ std::vector<SafeInterval> ReservationTable::safe_intervals(const Footprint& foot
     if (!fixed_->known()) return {};
     const FixedDistance fixed_distance(*this, footprint, here);
     const MovingDisk mine({here, 0.0, kForever});
-    fixed_->visit(robot, mine, index_->radius(robot), 0.0, [&](const FixedReservations::Occupant& other) {
-      const UnsafeInterval hit = unsafe_interval(position, other.disk, fixed_distance(other));
-      if (!hit.empty()) unsafe.push_back(other.is_obstacle ? hit : margin.widened(hit));
-      return true;
-    });
+    fixed_->visit(robot, mine, index_->disk(robot).pair_radius, 0.0,
+                  [&](const FixedReservations::Occupant& other) {
+                    const UnsafeInterval hit = unsafe_interval(position, other.disk, fixed_distance(other));
+                    if (!hit.empty()) unsafe.push_back(other.is_obstacle ? hit : margin.widened(hit));
+                    return true;
+                  });
   }
   std::sort(unsafe.begin(), unsafe.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
   std::vector<SafeInterval> safe;
@@ -269,19 +270,19 @@ bool ReservationTable::delay_past_fixed(const Footprint& footprint, const Segmen
   const auto visit = [&](const FixedReservations::Occupant& other) {
     return departure.delay_past(other.disk, fixed_distance(other), other.is_obstacle ? 0.0 : margin_);
   };
-  while (!fixed_->visit(robot, departure.move(), index_->radius(robot), margin_, visit)) {
+  while (!fixed_->visit(robot, departure.move(), index_->disk(robot).pair_radius, margin_, visit)) {
     if (departure.is_never()) return false;
   }
   return true;
 }
 
 std::vector<std::size_t> ReservationTable::robots_hit(std::size_t robot,
-                                                      const std::vector<TimedSegment>& segments) const {
+                                                      const std::vector<SizedSegment>& segments) const {
   std::vector<std::size_t> hit;
-  Footprint footprint(robot);
-  for (const TimedSegment& segment : segments) {
+  Footprint footprint{robot};
+  for (const SizedSegment& segment : segments) {
     const MovingDisk mine(segment);
-    footprint.narrower = segment.narrower;
+    footprint.radius = segment.radius;
     const CollisionDistance collision_distance(*index_, footprint, segment.path);
     footprint.has_left = footprint.has_left || segment.path.from != segment.path.to;
     const bool moving = mine.velocity.squaredNorm() > 0.0;
@@ -302,21 +303,22 @@ std::vector<std::size_t> ReservationTable::robots_hit(std::size_t robot,
 }
 
 std::vector<std::size_t> ReservationTable::robots_certainly_hit(
-    std::size_t robot, const std::vector<TimedSegment>& segments) const {
+    std::size_t robot, const std::vector<SizedSegment>& segments) const {
   std::vector<std::size_t> hit;
   if (fixed_ == nullptr) return hit;
-  Footprint footprint(robot);
-  for (const TimedSegment& segment : segments) {
+  Footprint footprint{robot};
+  for (const SizedSegment& segment : segments) {
     const MovingDisk mine(segment);
     const double margin = margin_of(robot, segment);
-    footprint.narrower = segment.narrower;
+    footprint.radius = segment.radius;
     const FixedDistance fixed_distance(*this, footprint, segment.path);
     footprint.has_left = footprint.has_left || segment.path.from != segment.path.to;
-    fixed_->visit(robot, mine, index_->radius(robot), margin, [&](const FixedReservations::Occupant& other) {
-      if (!other.is_obstacle && meet(mine, other.disk, fixed_distance(other), margin))
-        hit.push_back(other.robot);
-      return true;
-    });
+    fixed_->visit(robot, mine, index_->disk(robot).pair_radius, margin,
+                  [&](const FixedReservations::Occupant& other) {
+                    if (!other.is_obstacle && meet(mine, other.disk, fixed_distance(other), margin))
+                      hit.push_back(other.robot);
+                    return true;
+                  });
   }
   return ascending(std::move(hit));
 }
@@ -328,17 +330,18 @@ double ReservationTable::margin_of(std::size_t robot, const TimedSegment& segmen
 }
 
 std::vector<std::size_t> ReservationTable::obstacles_hit(std::size_t robot,
-                                                         const std::vector<TimedSegment>& segments) const {
+                                                         const std::vector<SizedSegment>& segments) const {
   std::vector<std::size_t> hit;
   if (fixed_ == nullptr) return hit;
-  for (const TimedSegment& segment : segments) {
+  for (const SizedSegment& segment : segments) {
     const MovingDisk mine(segment);
-    const FixedDistance fixed_distance(*this, {robot, segment.narrower}, segment.path);
-    fixed_->visit(robot, mine, index_->radius(robot), 0.0, [&](const FixedReservations::Occupant& other) {
-      if (other.is_obstacle && collide(mine, other.disk, fixed_distance(other)))
-        hit.push_back(other.obstacle);
-      return true;
-    });
+    const FixedDistance fixed_distance(*this, {robot, segment.radius}, segment.path);
+    fixed_->visit(robot, mine, index_->disk(robot).pair_radius, 0.0,
+                  [&](const FixedReservations::Occupant& other) {
+                    if (other.is_obstacle && collide(mine, other.disk, fixed_distance(other)))
+                      hit.push_back(other.obstacle);
+                    return true;
+                  });
   }
   return ascending(std::move(hit));
 }

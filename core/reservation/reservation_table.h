@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/robot_disk.h"
 #include "core/geometry/segment.h"
 
 namespace fleetplan::core {
@@ -12,19 +13,6 @@ namespace fleetplan::core {
 class Contacts;
 class FixedReservations;
 class SegmentIndex;
-
-/// The disk with which a robot stands or moves somewhere. Robots whose radius does not change have one.
-struct Footprint {
-  std::size_t robot = 0;
-  /// Metres: by how much the disk is smaller than the robot ever is, see TimedSegment.
-  double narrower = 0.0;
-  bool has_left = false;  // the robot's start, even if it stands there again
-
-  Footprint() = default;
-  /// A robot as large as it ever is, or by so many metres smaller.
-  Footprint(std::size_t of_robot, double smaller = 0.0)  // NOLINT(google-explicit-constructor)
-      : robot(of_robot), narrower(smaller) {}
-};
 
 /// The reserved trajectories, which all other robots avoid, and what a search asks about them: safe
 /// intervals, earliest departures, conflicts.
@@ -34,16 +22,16 @@ struct Footprint {
 /// of its commitment on.
 class ReservationTable {
  public:
-  /// `radii[i]` is the largest radius of robot i in metres, inflation included; the map is [0, width] x [0,
-  /// height] metres. `contacts` (null: no two robots are in contact) and `fixed`, the obstacles and committed
-  /// motion (null: there are none), outlive the table. The interval margin (PlanOptions) is in seconds.
-  ReservationTable(double width, double height, double cell_size, std::vector<double> radii,
+  /// The disks are by robot; the map is [0, width] x [0, height] metres. `contacts` (null: no two robots are
+  /// in contact) and `fixed`, the obstacles and committed motion (null: there are none), outlive the table.
+  /// The interval margin (PlanOptions) is in seconds.
+  ReservationTable(double width, double height, double cell_size, std::vector<LargestDisk> disks,
                    const Contacts* contacts = nullptr, const FixedReservations* fixed = nullptr,
                    double interval_margin = 0.0);
   ~ReservationTable();
 
   /// Reserves contiguous segments for a robot that has no reservation yet; they follow its commitment.
-  void reserve(std::size_t robot, const std::vector<TimedSegment>& segments);
+  void reserve(std::size_t robot, const std::vector<SizedSegment>& segments);
   /// Removes the robot's reservation; no effect if it has none.
   void remove(std::size_t robot);
 
@@ -66,13 +54,13 @@ class ReservationTable {
   /// The robots whose reservations come nearer to these segments of `robot` than they are kept apart,
   /// ascending; those that they only touch, up to rounding, are left out, as departures are delayed until
   /// then. Committed motion is left out. The segments follow the robot's commitment.
-  std::vector<std::size_t> robots_hit(std::size_t robot, const std::vector<TimedSegment>& segments) const;
+  std::vector<std::size_t> robots_hit(std::size_t robot, const std::vector<SizedSegment>& segments) const;
   /// The robots whose committed motion comes nearer to these segments of `robot` than they are kept apart,
   /// ascending.
   std::vector<std::size_t> robots_certainly_hit(std::size_t robot,
-                                                const std::vector<TimedSegment>& segments) const;
+                                                const std::vector<SizedSegment>& segments) const;
   /// The obstacles that these segments of `robot` meet, ascending.
-  std::vector<std::size_t> obstacles_hit(std::size_t robot, const std::vector<TimedSegment>& segments) const;
+  std::vector<std::size_t> obstacles_hit(std::size_t robot, const std::vector<SizedSegment>& segments) const;
 
  private:
   class Departure;

@@ -11,6 +11,13 @@ constexpr std::size_t kMaxLayers = 6;
 /// Buckets of all layers together, to bound memory on huge maps.
 constexpr double kMaxBuckets = 2.5e5;
 
+std::vector<double> pair_radii(const std::vector<LargestDisk>& disks) {
+  std::vector<double> radii;
+  radii.reserve(disks.size());
+  for (const LargestDisk& disk : disks) radii.push_back(disk.pair_radius);
+  return radii;
+}
+
 /// The class radii, ascending: the distinct radii if they are few, else evenly spread quantiles.
 std::vector<double> class_radii(std::vector<double> radii) {
   std::sort(radii.begin(), radii.end());
@@ -31,27 +38,28 @@ double bucket_size(double width, double height, double cell_size, const std::vec
 
 }  // namespace
 
-SegmentIndex::SegmentIndex(double width, double height, double cell_size, std::vector<double> radii,
+SegmentIndex::SegmentIndex(double width, double height, double cell_size, std::vector<LargestDisk> disks,
                            const Contacts* contacts)
-    : radii_(std::move(radii)),
+    : disks_(std::move(disks)),
       contacts_(contacts),
-      grid_(width, height, bucket_size(width, height, cell_size, radii_)),
-      layer_of_(radii_.size()),
-      held_(radii_.size()),
-      ignored_(radii_.size(), 0) {
-  const std::vector<double> classes = class_radii(radii_);
+      grid_(width, height, bucket_size(width, height, cell_size, pair_radii(disks_))),
+      layer_of_(disks_.size()),
+      held_(disks_.size()),
+      ignored_(disks_.size(), 0) {
+  const std::vector<double> classes = class_radii(pair_radii(disks_));
   for (const double radius : classes) layers_.push_back({radius, std::vector<Bucket>(grid_.count())});
-  for (std::size_t i = 0; i < radii_.size(); ++i) {
-    const auto it = std::lower_bound(classes.begin(), classes.end(), radii_[i]);
+  for (std::size_t i = 0; i < disks_.size(); ++i) {
+    const auto it = std::lower_bound(classes.begin(), classes.end(), disks_[i].pair_radius);
     layer_of_[i] = static_cast<std::size_t>(it - classes.begin());
   }
 }
 
-SegmentIndex::DiskId SegmentIndex::store(std::size_t robot, const TimedSegment& segment, bool has_left) {
+SegmentIndex::DiskId SegmentIndex::store(std::size_t robot, const SizedSegment& segment, bool has_left) {
   const Endpoint endpoint = contacts_ != nullptr
-                                ? contacts_->endpoint(robot, segment.path, segment.narrower, has_left)
+                                ? contacts_->endpoint(robot, segment.path, segment.radius, has_left)
                                 : Endpoint::none;
-  const Occupant occupant{MovingDisk(segment), radii_[robot] - segment.narrower, robot, endpoint};
+  const double radius = disks_[robot].pair_radius_with(segment.radius);
+  const Occupant occupant{MovingDisk(segment), radius, robot, endpoint};
   if (vacant_.empty()) return occupants_.push_back(occupant);
   const DiskId id = vacant_.back();
   vacant_.pop_back();
@@ -76,10 +84,10 @@ void SegmentIndex::enter(Layer& layer, DiskId id) {
       });
 }
 
-void SegmentIndex::add(std::size_t robot, const std::vector<TimedSegment>& segments) {
+void SegmentIndex::add(std::size_t robot, const std::vector<SizedSegment>& segments) {
   // Bounded: the segments of one trajectory, and a few layers.
   bool has_left = false;
-  for (const TimedSegment& segment : segments) {
+  for (const SizedSegment& segment : segments) {
     const DiskId id = store(robot, segment, has_left);
     held_[robot].push_back(id);
     for (Layer& layer : layers_) enter(layer, id);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/geometry/disk_motion.h"
+#include "core/geometry/robot_disk.h"
 #include "core/geometry/segment.h"
 #include "core/reservation/bucket_grid.h"
 #include "core/reservation/contacts.h"
@@ -14,31 +15,30 @@ namespace fleetplan::core {
 
 /// The timed segments of robots, indexed in space and time.
 ///
-/// Robots are sorted into a few classes of radii. For each class there is a layer of buckets. A segment is
-/// entered into every bucket of a layer where it could touch a robot of that class, with the time window in
-/// which it could. A query therefore only visits the buckets on its own centre line, and there only the
-/// entries whose time window overlaps the query's.
+/// Robots are sorted into a few classes by the largest radius that they ever have. For each class there is a
+/// layer of buckets. A segment is entered into every bucket of a layer where it could touch a robot of that
+/// class, with the time window in which it could. A query therefore only visits the buckets on its own centre
+/// line, and there only the entries whose time window overlaps the query's.
 class SegmentIndex {
  public:
   /// A robot on one of its segments.
   struct Occupant {
     MovingDisk disk;
-    double radius = 0.0;
+    double radius = 0.0;  // metres, to other robots
     std::size_t robot = 0;
     Endpoint endpoint = Endpoint::none;
   };
 
   /// An empty index; for the arguments see ReservationTable.
-  SegmentIndex(double width, double height, double cell_size, std::vector<double> radii,
+  SegmentIndex(double width, double height, double cell_size, std::vector<LargestDisk> disks,
                const Contacts* contacts);
 
-  /// The largest radius that the robot ever has, metres.
-  double radius(std::size_t robot) const { return radii_[robot]; }
+  const LargestDisk& disk(std::size_t robot) const { return disks_[robot]; }
   const BucketGrid& grid() const { return grid_; }
   /// Null if no two robots are in contact.
   const Contacts* contacts() const { return contacts_; }
 
-  void add(std::size_t robot, const std::vector<TimedSegment>& segments);
+  void add(std::size_t robot, const std::vector<SizedSegment>& segments);
   /// Removes all segments of a robot.
   void remove(std::size_t robot);
   /// Visits leave out the segments of an ignored robot.
@@ -71,7 +71,7 @@ class SegmentIndex {
     std::vector<Bucket> buckets;
   };
 
-  DiskId store(std::size_t robot, const TimedSegment& segment, bool has_left);
+  DiskId store(std::size_t robot, const SizedSegment& segment, bool has_left);
   void enter(Layer& layer, DiskId id);
 
   template <class Visit>
@@ -91,7 +91,7 @@ class SegmentIndex {
     return true;
   }
 
-  std::vector<double> radii_;  // by robot
+  std::vector<LargestDisk> disks_;  // by robot
   const Contacts* contacts_;
   BucketGrid grid_;
   std::vector<Layer> layers_;

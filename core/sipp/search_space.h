@@ -217,9 +217,7 @@ class SearchSpace {
   /// The radius in a stage or, with goal_count(), at rest at the last goal; metres, inflation included.
   double radius(std::size_t stage) const { return instance_.motion(robot_, stage).radius; }
   Footprint footprint(std::size_t stage) const {
-    Footprint footprint(robot_, instance_.narrower(robot_, stage));
-    footprint.has_left = stage > goals_at_start_;
-    return footprint;
+    return {robot_, instance_.radius(robot_, stage), stage > goals_at_start_};
   }
   /// The committed actions end at rest in the pose of the first goal.
   bool begins_in_goal_pose() const { return begins_in_goal_pose_; }

@@ -108,26 +108,27 @@ class Crowd {
   const core::OccupancyGrid& grid() const { return workload_.grid; }
   const core::ReservationTable& table() const { return table_; }
   const core::Robot& robot(std::size_t index) const { return workload_.robots[index]; }
+  core::Footprint footprint(std::size_t index) const { return {index, robot(index).radius}; }
 
  private:
   static core::ReservationTable table_of(const Workload& workload) {
-    std::vector<double> radii;
-    for (const core::Robot& robot : workload.robots) radii.push_back(robot.radius);
-    return {workload.grid.width(), workload.grid.height(), workload.grid.resolution(), std::move(radii)};
+    std::vector<core::LargestDisk> disks;
+    for (const core::Robot& robot : workload.robots) disks.push_back({robot.radius, robot.radius});
+    return {workload.grid.width(), workload.grid.height(), workload.grid.resolution(), std::move(disks)};
   }
 
   /// From t = 0 to for ever, rotations and waits as standing.
-  static std::vector<TimedSegment> reservations(const core::Robot& robot, const core::RobotPlan& plan) {
-    std::vector<TimedSegment> segments;
+  static std::vector<core::SizedSegment> reservations(const core::Robot& robot, const core::RobotPlan& plan) {
+    std::vector<core::SizedSegment> segments;
     Position at = robot.start.position;
     double now = 0.0;
     for (const core::Action& action : plan.actions) {
       if (action.t_end > now)
-        segments.push_back({{action.from.position, action.to.position}, now, action.t_end});
+        segments.push_back({{{action.from.position, action.to.position}, now, action.t_end}, robot.radius});
       at = action.to.position;
       now = action.t_end;
     }
-    segments.push_back({{at, at}, now, core::kForever});
+    segments.push_back({{{at, at}, now, core::kForever}, robot.radius});
     return segments;
   }
 
@@ -158,7 +159,8 @@ void BM_SafeIntervals(benchmark::State& state) {
   std::size_t next = 0;
   for (auto _ : state) {
     const Question& question = asked[next++ % kInputs];
-    benchmark::DoNotOptimize(crowd.table().safe_intervals(question.robot, question.path.from));
+    benchmark::DoNotOptimize(
+        crowd.table().safe_intervals(crowd.footprint(question.robot), question.path.from));
   }
 }
 BENCHMARK(BM_SafeIntervals);
@@ -171,8 +173,8 @@ void BM_EarliestDeparture(benchmark::State& state) {
   for (auto _ : state) {
     const Question& question = asked[next++ % kInputs];
     const double duration = question.path.length() / crowd.robot(question.robot).linear_speed;
-    benchmark::DoNotOptimize(crowd.table().earliest_departure(question.robot, question.path, duration,
-                                                              question.t_min, core::kForever));
+    benchmark::DoNotOptimize(crowd.table().earliest_departure(crowd.footprint(question.robot), question.path,
+                                                              duration, question.t_min, core::kForever));
   }
 }
 BENCHMARK(BM_EarliestDeparture)->ArgName("cells")->Arg(1)->Arg(8)->Arg(32);

@@ -14,6 +14,7 @@
 #include "core/model/trajectory.h"
 #include "core/reservation/fixed_reservations.h"
 #include "core/reservation/reservation_table.h"
+#include "tests/core/reservation/disks.h"
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
@@ -43,14 +44,16 @@ class RandomFixed : public testing::TestWithParam<int> {
  protected:
   RandomFixed() : dice(static_cast<std::uint64_t>(GetParam())) {
     margin = dice.chance(0.5) ? dice.between(0.1, 2.0) : 0.0;
-    std::vector<FixedReservations::Robot> robots{{0.4, {1, 1}, {1, 1}, 0.0, {}}};
+    std::vector<FixedReservations::Robot> robots{idle({1, 1}, kRadius)};
     for (int i = 1; i <= 5; ++i) robots.push_back(robot(i <= 3));
-    fixed = std::make_unique<FixedReservations>(kSize, kSize, kInflation, robots, obstacles(), nullptr,
+    fixed = std::make_unique<FixedReservations>(kSize, kSize, robots, obstacles(), nullptr,
                                                 StopCondition::never());
-    std::vector<double> radii;
-    for (const auto& each : robots) radii.push_back(each.radius + kInflation);
-    table = std::make_unique<ReservationTable>(kSize, kSize, 0.5, radii, nullptr, fixed.get(), margin);
-    for (std::size_t i = 1; i < robots.size(); ++i) reserve(i, robots[i], radii[0] + radii[i]);
+    std::vector<LargestDisk> disks;
+    for (const auto& each : robots) disks.push_back(each.disk);
+    table = std::make_unique<ReservationTable>(kSize, kSize, 0.5, disks, nullptr, fixed.get(), margin);
+    for (std::size_t i = 1; i < robots.size(); ++i) {
+      reserve(i, robots[i], disks[0].pair_radius + disks[i].pair_radius);
+    }
   }
 
   Position place() { return {dice.between(0, kSize), dice.between(0, kSize)}; }
@@ -68,11 +71,15 @@ class RandomFixed : public testing::TestWithParam<int> {
     return trajectory;
   }
 
+  static FixedReservations::Robot idle(const Position& at, double radius) {
+    return {{radius, radius + kInflation}, at, at, 0.0, {}, radius, radius};
+  }
+
   FixedReservations::Robot robot(bool is_committed) {
     const Position start = place();
-    FixedReservations::Robot random{dice.between(0.1, 0.6), start, start, 0.0, {}};
+    FixedReservations::Robot random = idle(start, dice.between(0.1, 0.6));
     if (!is_committed) return random;
-    random.committed = timed_segments(random_trajectory(start, 0.0));
+    random.committed = sized(timed_segments(random_trajectory(start, 0.0)), random.disk.radius);
     random.t_departure = random.committed.back().t_start + dice.between(0.1, 3.0);
     random.committed.back().t_end = random.t_departure;
     random.departure = random.committed.back().path.to;
@@ -82,8 +89,8 @@ class RandomFixed : public testing::TestWithParam<int> {
   void reserve(std::size_t i, const FixedReservations::Robot& each, double reach) {
     std::vector<TimedSegment> after{{{each.departure, each.departure}, each.t_departure, kForever}};
     if (each.committed.empty()) after = timed_segments(random_trajectory(each.start, 0.0));
-    table->reserve(i, after);
-    others.push_back({each.committed, reach, margin});
+    table->reserve(i, sized(after, each.disk.radius));
+    others.push_back({{each.committed.begin(), each.committed.end()}, reach, margin});
     others.back().segments.insert(others.back().segments.end(), after.begin(), after.end());
   }
 
@@ -93,7 +100,7 @@ class RandomFixed : public testing::TestWithParam<int> {
       MovingObstacle obstacle{"o", dice.between(0.1, 0.7), {}, MovingObstacle::After::leaves};
       if (dice.chance(0.3)) obstacle.after = MovingObstacle::After::stays;
       double t = dice.chance(0.5) ? 0.0 : dice.between(0.0, 8.0);
-      Other other{{}, 0.4 + obstacle.radius, 0.0};
+      Other other{{}, kRadius + obstacle.radius, 0.0};
       for (int k = 1 + dice.below(5); k > 0; --k) {
         const Position p = 1.5 * place() - Position(3, 3);  // also beyond the map
         if (!obstacle.motion.empty()) {
@@ -109,6 +116,7 @@ class RandomFixed : public testing::TestWithParam<int> {
       others.push_back(other);
       all.push_back(obstacle);
     }
+    obstacle_count = all.size();
     return all;
   }
 
@@ -126,12 +134,14 @@ class RandomFixed : public testing::TestWithParam<int> {
     return most;
   }
 
+  static constexpr double kRadius = 0.4;  // metres, of the robot that queries
   static constexpr double kInflation = 0.1;
   static constexpr int kShifts = 8;
   static constexpr double kWide = 2e-6;  // seconds; more than the instants of obstacles
   support::Dice dice;
   double margin = 0.0;
-  std::vector<Other> others;
+  std::vector<Other> others;  // the obstacles come first
+  std::size_t obstacle_count = 0;
   std::unique_ptr<FixedReservations> fixed;
   std::unique_ptr<ReservationTable> table;
 };
@@ -140,7 +150,7 @@ TEST_P(RandomFixed, NothingIsMetInASafeInterval) {
   for (int k = 0; k < 40; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << GetParam() << ", position " << k);
     const Position position = place();
-    const auto safe = table->safe_intervals(0, position);
+    const auto safe = table->safe_intervals({0, kRadius}, position);
     for (int i = 0; i < 200; ++i) {
       const double t = dice.between(0.0, kHorizon);
       const auto contains = [&](const SafeInterval& interval) { return interval.contains(t); };
@@ -159,7 +169,7 @@ TEST_P(RandomFixed, SafeIntervalsAreTheComplementOfAllCollisions) {
   for (int k = 0; k < 60; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << GetParam() << ", position " << k);
     const Position position = place();
-    const auto safe = table->safe_intervals(0, position);
+    const auto safe = table->safe_intervals({0, kRadius}, position);
     for (int i = 0; i < 50; ++i) {
       const double t = dice.between(0.0, kHorizon);
       bool meets = false;
@@ -183,7 +193,7 @@ TEST_P(RandomFixed, DeparturesAreFreeAndTheEarliest) {
     const Segment path{place(), place()};
     const double duration = path.length() / dice.between(0.8, 2.0);
     const double t_min = dice.between(0.0, 12.0);
-    const auto departure = table->earliest_departure(0, path, duration, t_min, kForever);
+    const auto departure = table->earliest_departure({0, kRadius}, path, duration, t_min, kForever);
     const Position velocity = (path.to - path.from) / duration;
     for (int i = 0; departure && i <= 100; ++i) {
       const double s = duration * i / 100.0;
@@ -213,8 +223,8 @@ TEST_P(RandomFixed, ObstaclesHitAreThoseThatAreMet) {
   for (int k = 0; k < 40; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << GetParam() << ", trajectory " << k);
     const auto segments = timed_segments(random_trajectory(place(), 0.0));
-    const auto hit = table->obstacles_hit(0, segments);
-    for (std::size_t i = 0; i < fixed->obstacle_count(); ++i) {
+    const auto hit = table->obstacles_hit(0, sized(segments, kRadius));
+    for (std::size_t i = 0; i < obstacle_count; ++i) {
       bool meets = false;
       for (const TimedSegment& mine : segments) {
         for (const TimedSegment& theirs : others[i].segments) {
@@ -242,15 +252,19 @@ TEST_P(NearStarts, DoNotComeNearerWhileBothLeave) {
     const Position a(6, 6);
     const double apart = dice.between(0.3, 1.0);
     const Position b = a + apart * direction();
-    const Contacts contacts({{a, std::nullopt, 0.5, 0.0, 0.0}, {b, std::nullopt, 0.5, 0.0, 0.0}});
-    ReservationTable table(kSize, kSize, 1.0, {0.5, 0.5}, &contacts);
+    constexpr double kRadius = 0.5;
+    const Endpoints at_a{a, std::nullopt, kRadius, 0.0, 0.0, 0.0, kRadius};
+    const Endpoints at_b{b, std::nullopt, kRadius, 0.0, 0.0, 0.0, kRadius};
+    const Contacts contacts({at_a, at_b});
+    ReservationTable table(kSize, kSize, 1.0, disks_of({kRadius, kRadius}), &contacts);
     const double leaves = dice.between(0.0, 3.0);
     const Segment theirs{b, b + 3.0 * direction()};
     const std::vector<TimedSegment> moves{{theirs, leaves, leaves + 3.0}};
-    table.reserve(1, timed_segments({b, moves, 0.0}));
-    ASSERT_GE(table.safe_intervals(0, a).front().end, leaves) << "both may stand there";
+    table.reserve(1, sized(timed_segments({b, moves, 0.0}), kRadius));
+    ASSERT_GE(table.safe_intervals({0, kRadius}, a).front().end, leaves) << "both may stand there";
     const Segment mine{a, a + 3.0 * direction()};
-    const auto departure = table.earliest_departure(0, mine, 3.0, dice.between(0.0, 3.0), leaves + 1.0);
+    const auto departure =
+        table.earliest_departure({0, kRadius}, mine, 3.0, dice.between(0.0, 3.0), leaves + 1.0);
     if (!departure) continue;
     for (int i = 0; i <= 300; ++i) {
       const double t = *departure + 0.01 * i;

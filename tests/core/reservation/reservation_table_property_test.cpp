@@ -11,6 +11,7 @@
 #include "core/geometry/tolerance.h"
 #include "core/model/trajectory.h"
 #include "core/reservation/reservation_table.h"
+#include "tests/core/reservation/disks.h"
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
@@ -27,7 +28,7 @@ class RandomReservations : public testing::TestWithParam<int> {
   RandomReservations()
       : dice(static_cast<std::uint64_t>(GetParam())),
         radii(random_radii()),
-        table(kWidth, kHeight, 0.5, radii),
+        table(kWidth, kHeight, 0.5, disks_of(radii)),
         committed(radii.size()) {
     for (std::size_t robot = 1; robot < radii.size(); ++robot) reserve(robot);
     for (std::size_t robot = 1; robot < radii.size(); ++robot) {  // remove some reservations, renew others
@@ -66,8 +67,10 @@ class RandomReservations : public testing::TestWithParam<int> {
 
   void reserve(std::size_t robot) {
     committed[robot] = timed_segments(random_trajectory());
-    table.reserve(robot, committed[robot]);
+    table.reserve(robot, sized(committed[robot], radii[robot]));
   }
+
+  Footprint footprint() const { return {querying, radii[querying]}; }
 
   double reach(std::size_t other) const { return radii[querying] + radii[other] - kSearchSlack; }
 
@@ -118,7 +121,7 @@ TEST_P(RandomReservations, SafeIntervalsAreComplementOfUnsafeIntervals) {
       free_from = hit.end;
     }
     if (free_from < kForever) expected.push_back({free_from, kForever});
-    const auto safe = table.safe_intervals(querying, position);
+    const auto safe = table.safe_intervals(footprint(), position);
     ASSERT_EQ(safe.size(), expected.size());
     for (std::size_t i = 0; i < safe.size(); ++i) {
       ASSERT_EQ(safe[i].begin, expected[i].begin);
@@ -150,7 +153,7 @@ TEST_P(RandomReservations, EarliestDepartureIsFirstThatNoSegmentForbids) {
     };
     // Neighbouring segments forbid adjacent intervals; their common end is forbidden as well.
     const auto expected = first_free(over_all_segments(interval, 1e-9), t_min, t_max);
-    const auto departure = table.earliest_departure(querying, path, duration, t_min, t_max);
+    const auto departure = table.earliest_departure(footprint(), path, duration, t_min, t_max);
     ASSERT_EQ(departure.has_value(), expected.has_value());
     if (!departure) continue;
     ASSERT_NEAR(*departure, *expected, kRounding);
@@ -171,7 +174,7 @@ TEST_P(RandomReservations, RobotsHitAreThoseWithCollidingSegment) {
         }
       }
     }
-    const auto hit = table.robots_hit(querying, segments);
+    const auto hit = table.robots_hit(querying, sized(segments, radii[querying]));
     ASSERT_EQ(hit, std::vector<std::size_t>(expected.begin(), expected.end()));
   }
 }
@@ -180,14 +183,14 @@ TEST_P(RandomReservations, CommitAndRemoveChangeNothing) {
   std::vector<std::pair<Position, std::vector<SafeInterval>>> before;
   for (int k = 0; k < 40; ++k) {
     const Position position = place();
-    before.emplace_back(position, table.safe_intervals(querying, position));
+    before.emplace_back(position, table.safe_intervals(footprint(), position));
   }
   for (int round = 0; round < 3; ++round) {
-    table.reserve(querying, timed_segments(random_trajectory()));
+    table.reserve(querying, sized(timed_segments(random_trajectory()), radii[querying]));
     table.remove(querying);
   }
   for (const auto& [position, intervals] : before) {
-    const auto after = table.safe_intervals(querying, position);
+    const auto after = table.safe_intervals(footprint(), position);
     ASSERT_EQ(after.size(), intervals.size()) << "seed " << GetParam();
     for (std::size_t i = 0; i < after.size(); ++i) {
       ASSERT_EQ(after[i].begin, intervals[i].begin);
