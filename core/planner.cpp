@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/bounds/taut_path_bounds.h"
+#include "core/commitments/meetings.h"
 #include "core/instance/instance.h"
-#include "core/instance/meetings.h"
 #include "core/lns/large_neighbourhood_search.h"
 #include "core/prioritized/collect_plan.h"
 #include "core/prioritized/plan_around_kept.h"

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <vector>
 
+#include "core/commitments/contacts.h"
+#include "core/commitments/fixed_reservations.h"
 #include "core/geometry/robot_disk.h"
 #include "core/instance/motion.h"
 #include "core/map/free_space.h"
@@ -15,8 +17,6 @@
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
 #include "core/model/trajectory.h"
-#include "core/reservation/contacts.h"
-#include "core/reservation/fixed_reservations.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "core/geometry/disk_motion.h"
+#include "core/geometry/motion_tree.h"
 #include "core/geometry/tolerance.h"
 #include "core/map/occupancy_grid.h"
 #include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"
-#include "core/reservation/motion_tree.h"
 
 namespace fleetplan::core {
 namespace {
@@ -37,10 +37,9 @@ std::vector<Disk> certain_motion(const Robot& robot) {
       motion.push_back({MovingDisk(segment), robot.radius});
     }
   } else if (robot.committed_until() > 0.0) {
-    const Itinerary itinerary = itinerary_of(robot);
-    std::vector<SizedSegment> segments = committed_segments(robot, itinerary);
-    if (const auto growth = growth_at_end(robot, itinerary)) segments.push_back(*growth);
-    for (const SizedSegment& segment : segments) motion.push_back({MovingDisk(segment), segment.radius});
+    for (const SizedSegment& segment : certain_segments(robot, itinerary_of(robot))) {
+      motion.push_back({MovingDisk(segment), segment.radius});
+    }
   }
   return motion;
 }

@@ -100,4 +100,10 @@ std::optional<SizedSegment> growth_at_end(const Robot& robot, const Itinerary& i
   return SizedSegment{{{place, place}, itinerary.t_begin, itinerary.t_begin}, after};
 }
 
+std::vector<SizedSegment> certain_segments(const Robot& robot, const Itinerary& itinerary) {
+  std::vector<SizedSegment> segments = committed_segments(robot, itinerary);
+  if (const auto growth = growth_at_end(robot, itinerary)) segments.push_back(*growth);
+  return segments;
+}
+
 }  // namespace fleetplan::core

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/bounds/lower_bound.h"
-#include "core/instance/meetings.h"
+#include "core/commitments/meetings.h"
 #include "core/instance/motion.h"
 #include "core/model/itinerary.h"
 

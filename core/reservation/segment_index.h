@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/commitments/contacts.h"
 #include "core/geometry/disk_motion.h"
 #include "core/geometry/robot_disk.h"
 #include "core/geometry/segment.h"
 #include "core/reservation/bucket_grid.h"
-#include "core/reservation/contacts.h"
 #include "core/runtime/arrays.h"
 
 namespace fleetplan::core {

@@ -76,6 +76,7 @@ const std::vector<FolderRule>& folder_rules() {
       {"core/map/", all_robots, {}},
       {"core/model/", all_robots, {}},
       {"core/runtime/", all_robots, {}},
+      {"core/commitments/", all_robots, {}},
       {"core/reservation/", all_robots, {}},
       {"core/bounds/", all_robots, {}},
       {"core/instance/", all_robots, {}},
@@ -86,8 +87,9 @@ const std::vector<FolderRule>& folder_rules() {
        {}},
       // The checker is independent: it shares no collision test with the search.
       {"core/verify/",
-       {"core/reservation/", "core/sipp/", "core/prioritized/", "core/lns/", "core/bounds/", "core/replan/",
-        "core/execution/", "core/geometry/disk_motion.h"},
+       {"core/commitments/", "core/reservation/", "core/sipp/", "core/prioritized/", "core/lns/",
+        "core/bounds/", "core/replan/", "core/execution/", "core/geometry/disk_motion.h",
+        "core/geometry/motion_tree.h"},
        {}},
   };
   return all;

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/instance/meetings.h"
+#include "core/commitments/meetings.h"
 #include "core/model/plan.h"
 #include "core/planner.h"
 #include "core/verify/verify.h"

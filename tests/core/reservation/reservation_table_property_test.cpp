@@ -11,7 +11,7 @@
 #include "core/geometry/tolerance.h"
 #include "core/model/trajectory.h"
 #include "core/reservation/reservation_table.h"
-#include "tests/core/reservation/disks.h"
+#include "tests/core/support/disks.h"
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/model/trajectory.h"
-#include "tests/core/reservation/disks.h"
+#include "tests/core/support/disks.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {

@@ -1,4 +1,4 @@
-#include "core/reservation/motion_tree.h"
+#include "core/geometry/motion_tree.h"
 
 #include <cmath>
 #include <optional>

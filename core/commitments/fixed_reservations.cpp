@@ -1,4 +1,4 @@
-#include "core/reservation/fixed_reservations.h"
+#include "core/commitments/fixed_reservations.h"
 
 #include <algorithm>
 #include <new>

@@ -1,4 +1,4 @@
-#include "core/instance/meetings.h"
+#include "core/commitments/meetings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "core/geometry/disk_motion.h"
+#include "core/geometry/motion_tree.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"
-#include "core/reservation/motion_tree.h"
 
 namespace fleetplan::core {
 namespace {
@@ -167,9 +167,7 @@ class MeetingSearch {
       const Position& place = itinerary.pose.position;
       Passer passer{false, i, largest_radius(robots[i])};
       const bool changes = changes_radius(robots[i]);
-      std::vector<SizedSegment> segments = committed_segments(robots[i], itinerary);
-      if (const auto growth = growth_at_end(robots[i], itinerary)) segments.push_back(*growth);
-      for (const SizedSegment& segment : segments) {
+      for (const SizedSegment& segment : certain_segments(robots[i], itinerary)) {
         passer.pieces.emplace_back(segment);
         if (changes) passer.radii.push_back(segment.radius);
         certain_.push_back({i, false, passer.pieces.back(), segment.radius});

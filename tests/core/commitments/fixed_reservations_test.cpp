@@ -1,4 +1,4 @@
-#include "core/reservation/fixed_reservations.h"
+#include "core/commitments/fixed_reservations.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/model/trajectory.h"
 #include "core/reservation/reservation_table.h"
-#include "tests/core/reservation/disks.h"
+#include "tests/core/support/disks.h"
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {

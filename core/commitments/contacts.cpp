@@ -1,4 +1,4 @@
-#include "core/reservation/contacts.h"
+#include "core/commitments/contacts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/reservation/contacts.h"
+#include "core/commitments/contacts.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "core/geometry/tolerance.h"
 #include "core/model/trajectory.h"
 #include "core/reservation/reservation_table.h"
-#include "tests/core/reservation/disks.h"
+#include "tests/core/support/disks.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {

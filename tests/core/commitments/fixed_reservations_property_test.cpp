@@ -9,12 +9,12 @@
 #include <optional>
 #include <vector>
 
+#include "core/commitments/fixed_reservations.h"
 #include "core/geometry/disk_motion.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/trajectory.h"
-#include "core/reservation/fixed_reservations.h"
 #include "core/reservation/reservation_table.h"
-#include "tests/core/reservation/disks.h"
+#include "tests/core/support/disks.h"
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {

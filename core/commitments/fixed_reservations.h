@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/commitments/contacts.h"
+#include "core/geometry/motion_tree.h"
 #include "core/geometry/moving_obstacle.h"
 #include "core/geometry/robot_disk.h"
 #include "core/geometry/segment.h"
-#include "core/reservation/contacts.h"
-#include "core/reservation/motion_tree.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
