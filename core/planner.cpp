@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/bounds/taut_path_bounds.h"
-#include "core/commitments/meetings.h"
+#include "core/commitments/unavoidable_collisions.h"
 #include "core/instance/instance.h"
 #include "core/lns/large_neighbourhood_search.h"
 #include "core/prioritized/collect_plan.h"
@@ -62,7 +62,7 @@ std::vector<std::size_t> robots_to_plan(const Instance& instance,
 /// 500 robots; the limit is for plans in which many robots meet in one small area, and for a busy machine.
 constexpr std::chrono::milliseconds kMostForPrevious{500};
 /// The most time for finding unavoidable collisions. Without them, no plan can be checked.
-constexpr std::chrono::milliseconds kMostForMeetings{150};
+constexpr std::chrono::milliseconds kMostForUnavoidable{150};
 
 /// The time for finding out why robots are stuck, also after the budget is spent.
 constexpr std::chrono::milliseconds kTimeForStuck{30};
@@ -153,15 +153,16 @@ std::vector<std::size_t> changeable_robots(const PlanState& state, std::vector<s
 
 /// Finds the unavoidable collisions, and names them in `unplanned` as the reason of robots that have no way,
 /// or no goal, and stay where something passes.
-UnavoidableMeetings find_meetings(const PlanState& state, std::vector<std::optional<Unplanned>>& unplanned,
-                                  const StopCondition& stop) {
+UnavoidableCollisions find_unavoidable(const PlanState& state,
+                                       std::vector<std::optional<Unplanned>>& unplanned,
+                                       const StopCondition& stop) {
   const Instance& instance = state.instance();
   std::vector<bool> planned(instance.size(), false);
   for (std::size_t i = 0; i < instance.size(); ++i) planned[i] = state.trajectory(i).has_value();
-  UnavoidableMeetings found = unavoidable_meetings(instance.problem(), planned, stop);
+  UnavoidableCollisions found = unavoidable_collisions(instance.problem(), planned, stop);
   std::vector<std::vector<std::size_t>> others(found.while_staying.size());
-  for (const Meeting& meeting : found.meetings) {
-    if (meeting.other) others[meeting.robot].push_back(*meeting.other);
+  for (const UnavoidableCollision& collision : found.collisions) {
+    if (collision.other) others[collision.robot].push_back(*collision.other);
   }
   for (std::size_t i = 0; i < found.while_staying.size(); ++i) {
     const bool has_no_way = !unplanned[i] || unplanned[i]->reason == Unplanned::Reason::blocked_by_robots;
@@ -242,7 +243,8 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   for (Unplanned& robot : prioritized.unplanned) unplanned[robot.robot] = std::move(robot);
   std::erase_if(movers, [&](std::size_t robot) { return !state.trajectory(robot); });
   unplanned = with_zones_named(problem, options, std::move(unplanned), stop);
-  const UnavoidableMeetings meetings = find_meetings(state, unplanned, beyond_budget(stop, kMostForMeetings));
+  const UnavoidableCollisions found =
+      find_unavoidable(state, unplanned, beyond_budget(stop, kMostForUnavoidable));
   progress.plan_found(objectives_of(state));
 
   const bool anytime = options.mode == PlanOptions::Mode::anytime;
@@ -251,8 +253,8 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   const std::int64_t expansions = state.expansions();
   const auto current_plan = [&](const LnsResult& lns) {
     Plan plan = collect_plan(state, unplanned, bounds);
-    plan.unavoidable = meetings.meetings;
-    plan.meetings_known = meetings.finished;
+    plan.unavoidable = found.collisions;
+    plan.unavoidable_known = found.finished;
     plan.search = {prioritized.attempts, expansions + lns.expansions, lns.improvements};
     return plan;
   };

@@ -150,10 +150,10 @@ core::RobotPlan plan_of(const RobotPlan& plan, const Frame& frame) {
   return made;
 }
 
-std::vector<core::Meeting> meetings_of(const std::vector<Meeting>& meetings) {
-  std::vector<core::Meeting> made;
-  for (const Meeting& meeting : meetings) {
-    made.push_back({meeting.robot, meeting.other, meeting.obstacle, meeting.t});
+std::vector<core::UnavoidableCollision> unavoidable_of(const std::vector<UnavoidableCollision>& collisions) {
+  std::vector<core::UnavoidableCollision> made;
+  for (const UnavoidableCollision& collision : collisions) {
+    made.push_back({collision.robot, collision.other, collision.obstacle, collision.t});
   }
   return made;
 }
@@ -191,8 +191,8 @@ Plan plan_of(const core::Plan& plan, const Frame& frame) {
                               robot.detail,
                               {robot.blocked_by.begin(), robot.blocked_by.end()}});
   }
-  for (const core::Meeting& meeting : plan.unavoidable) {
-    made.unavoidable.push_back({meeting.robot, meeting.other, meeting.obstacle, meeting.t});
+  for (const core::UnavoidableCollision& collision : plan.unavoidable) {
+    made.unavoidable.push_back({collision.robot, collision.other, collision.obstacle, collision.t});
   }
   using Status = Plan::Status;
   made.status = made.unplanned.empty() ? Status::solved : made.plans.empty() ? Status::none : Status::partial;

@@ -46,7 +46,7 @@ core::Zone zone_of(const Zone& zone, const Frame& frame);
 core::PlanOptions options_of(const Options& options, bool in_motion);
 
 core::RobotPlan plan_of(const RobotPlan& plan, const Frame& frame);
-std::vector<core::Meeting> meetings_of(const std::vector<Meeting>& meetings);
+std::vector<core::UnavoidableCollision> unavoidable_of(const std::vector<UnavoidableCollision>& collisions);
 
 /// Converts a plan, except whether it is verified and how long it took.
 Plan plan_of(const core::Plan& plan, const Frame& frame);

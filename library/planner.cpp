@@ -84,7 +84,7 @@ Plan plan(const Problem& problem, const Options& options, const Control& control
   const core::Plan found = planned(*made.problem, core_options, stop, control);
   Plan plan = library::plan_of(found, library::Frame(problem.map));
   plan.search.seconds = std::chrono::duration<double>(Clock::now() - started).count();
-  if (!found.meetings_known) return plan;
+  if (!found.unavoidable_known) return plan;
 
   const Clock::time_point now = Clock::now();
   const auto patience = core::StopCondition::even_if_cancelled(

@@ -41,7 +41,7 @@ Verification verify(const Problem& problem, std::span<const RobotPlan> plans, co
   core_rules.wait_before_move = rules.wait_before_move;
   core_rules.start_overlap = rules.start_overlap;
   core_rules.horizon = rules.horizon;
-  core_rules.exempt = library::meetings_of(rules.unavoidable);
+  core_rules.exempt = library::unavoidable_of(rules.unavoidable);
   const core::OccupancyGrid grid = library::grid_of(problem.map);
   auto report = core::verify({grid, fleet.robots, fleet.obstacles, &fleet.zones},
                              core_plans(plans, library::Frame(problem.map)), core_rules, end_of(rules));

@@ -16,7 +16,7 @@
 #include "api/request/parse_request.h"
 #include "api/response/reply.h"
 #include "api/response/write_response.h"
-#include "core/commitments/meetings.h"
+#include "core/commitments/unavoidable_collisions.h"
 #include "core/instance/instance.h"
 #include "core/model/plan.h"
 #include "core/replan/follow_kept.h"
@@ -106,10 +106,10 @@ core::Plan without_moves(const core::Plan& plan, const core::Problem& problem,
   std::sort(left.unplanned.begin(), left.unplanned.end(),
             [](const core::Unplanned& a, const core::Unplanned& b) { return a.robot < b.robot; });
   // A robot that is at its goal, or has none, stays, too.
-  core::UnavoidableMeetings found =
-      core::unavoidable_meetings(problem, std::vector<bool>(problem.robots().size(), false), stop);
-  left.unavoidable = std::move(found.meetings);
-  left.meetings_known = found.finished;
+  core::UnavoidableCollisions found =
+      core::unavoidable_collisions(problem, std::vector<bool>(problem.robots().size(), false), stop);
+  left.unavoidable = std::move(found.collisions);
+  left.unavoidable_known = found.finished;
   return left;
 }
 
@@ -168,13 +168,13 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
     return moves(robot, request.problem);
   });
   std::optional<core::VerifyReport> report;
-  if (any_moves && plan.meetings_known) report = check(plan, check_stop(stop).despite_memory());
+  if (any_moves && plan.unavoidable_known) report = check(plan, check_stop(stop).despite_memory());
   core::Plan less;
-  const bool is_whole = report || (!any_moves && plan.meetings_known);
+  const bool is_whole = report || (!any_moves && plan.unavoidable_known);
   const core::StopCondition last = last_stop(stages, stop);
   if (!is_whole) less = without_moves(plan, request.problem, last);
   const core::Plan& answered = is_whole ? plan : less;
-  if (!report && answered.meetings_known) report = check(answered, last);
+  if (!report && answered.unavoidable_known) report = check(answered, last);
   const PlanOutcome outcome =
       outcome_of(answered, std::chrono::duration<double>(stages.planned - stages.started).count());
   if (!report && stop.cancelled()) return problem_reply(ErrorCode::draining, kDrainingDetail, request_id);

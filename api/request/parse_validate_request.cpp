@@ -35,12 +35,13 @@ std::chrono::nanoseconds check_budget(ParsedOptions options, const Limits& limit
 
 /// Returns the rules of a check. Inflation and added waits are left out, as they are the planner's business:
 /// plans are checked with bare radii.
-core::CheckRules rules_of(const core::PlanOptions& options, std::vector<core::Meeting> meetings) {
+core::CheckRules rules_of(const core::PlanOptions& options,
+                          std::vector<core::UnavoidableCollision> collisions) {
   core::CheckRules rules;
   rules.interval_margin = options.interval_margin;
   rules.start_overlap = options.start_overlap;
   rules.horizon = options.horizon;
-  rules.exempt = std::move(meetings);
+  rules.exempt = std::move(collisions);
   return rules;
 }
 
@@ -55,7 +56,7 @@ Result<ValidateRequest, RequestError> parse_validate_request(std::string_view bo
     const double tolerance = root.find("tolerance").number(kTolerance).value_or(kDefaultTolerance);
     const WorldFrame frame = fleet.map ? fleet.map->frame : WorldFrame{};
     auto plans = parse_plans(root.require("plans"), fleet.robots, frame);
-    auto meetings = parse_meetings(root.find("unavoidable"), fleet);
+    auto collisions = parse_unavoidable(root.find("unavoidable"), fleet);
     if (!fleet.map || reading.met()) return std::nullopt;
     RequestedDependencies dependencies = requested_dependencies(fleet);
     std::vector<core::Robot> robots;
@@ -64,7 +65,7 @@ Result<ValidateRequest, RequestError> parse_validate_request(std::string_view bo
     if (fleet.options.invalid_robots == InvalidRobots::report) {
       mark_invalid_robots(root.find("unplanned"), robots);
     }
-    core::CheckRules rules = rules_of(fleet.options.plan, std::move(meetings));
+    core::CheckRules rules = rules_of(fleet.options.plan, std::move(collisions));
     rules.tolerances.assign(robots.size(), core::Tolerance::of_all(tolerance));
     return ValidateRequest{.grid = std::move(fleet.map->grid),
                            .robots = std::move(robots),

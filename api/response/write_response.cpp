@@ -263,20 +263,21 @@ void write_unplanned(JsonWriter& json, const core::Unplanned& unplanned, const V
   json.end_object();
 }
 
-void write_meeting(JsonWriter& json, const core::Meeting& meeting, const VerifiedPlan& verified) {
-  const std::string& robot = verified.problem.robots()[meeting.robot].id;
+void write_unavoidable(JsonWriter& json, const core::UnavoidableCollision& collision,
+                       const VerifiedPlan& verified) {
+  const std::string& robot = verified.problem.robots()[collision.robot].id;
   json.begin_object();
-  if (meeting.other) {
+  if (collision.other) {
     json.key("robots")
         .begin_array()
         .value(robot)
-        .value(verified.problem.robots()[*meeting.other].id)
+        .value(verified.problem.robots()[*collision.other].id)
         .end_array();
   } else {
     json.member("robot", robot);
   }
-  if (meeting.obstacle) json.member("obstacle", verified.problem.obstacles()[*meeting.obstacle].id);
-  json.member("t", meeting.t).end_object();
+  if (collision.obstacle) json.member("obstacle", verified.problem.obstacles()[*collision.obstacle].id);
+  json.member("t", collision.t).end_object();
 }
 
 void write_timings(JsonWriter& json, const Stages& stages) {
@@ -338,7 +339,7 @@ std::string write_response(const VerifiedPlan& verified, const std::string& requ
   json.end_array();
   if (!plan.unavoidable.empty()) {
     json.key("unavoidable").begin_array();
-    for (const core::Meeting& one : plan.unavoidable) write_meeting(json, one, verified);
+    for (const core::UnavoidableCollision& one : plan.unavoidable) write_unavoidable(json, one, verified);
     json.end_array();
   }
   if (verified.dependencies != nullptr) {

@@ -74,7 +74,7 @@ struct Unplanned {
     goal_unreachable,
     blocked_by_robots,
     budget_exhausted,
-    committed_in_the_way,  // another's committed motion or an obstacle passes where it stands, see Meeting
+    committed_in_the_way,  // committed motion of another or an obstacle passes there: Plan::unavoidable
     invalid,               // see Robot::invalid
   };
   std::size_t robot = 0;
@@ -94,16 +94,16 @@ inline constexpr std::size_t kUnplannedReasons = static_cast<std::size_t>(Unplan
 
 /// An unavoidable collision, which no plan prevents: a robot cannot leave its place in time before the
 /// committed motion of another robot, or an obstacle, passes there. The check of a plan exempts these pairs.
-struct Meeting {
+struct UnavoidableCollision {
   std::size_t robot = 0;
   std::optional<std::size_t> other;     // another robot, or
   std::optional<std::size_t> obstacle;  // index into the problem's obstacles
   double t = 0.0;                       // seconds; the begin of the overlap
 };
 
-/// The most meetings of one robot in a plan; later ones are not listed. If a robot has so many, later
-/// collisions of what it certainly does are exempt, too. So the list grows with the robots only.
-inline constexpr std::size_t kMostMeetingsOfRobot = 8;
+/// The most unavoidable collisions of one robot in a plan; later ones are not listed. If a robot has so many,
+/// later collisions of what it certainly does are exempt, too. So the list grows with the robots only.
+inline constexpr std::size_t kMostUnavoidableOfRobot = 8;
 
 /// The sum (flowtime) and the maximum (makespan) of the planned robots' costs, or of their lower bounds, in
 /// seconds.
@@ -132,8 +132,9 @@ struct SearchStatistics {
 struct Plan {
   std::vector<RobotPlan> plans;
   std::vector<Unplanned> unplanned;
-  std::vector<Meeting> unavoidable = {};  // by time; at most kMostMeetingsOfRobot for each robot
-  bool meetings_known = true;  // false if finding them was given up: then the plan cannot be checked
+  std::vector<UnavoidableCollision> unavoidable =
+      {};                         // by time; at most kMostUnavoidableOfRobot for each robot
+  bool unavoidable_known = true;  // false if finding them was given up: then the plan cannot be checked
   Objectives objectives;
   std::optional<Objectives> estimated =
       {};  // with a horizon: the objectives by RobotPlan::estimated_cost, of robots that have a way

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/bounds/lower_bound.h"
-#include "core/commitments/meetings.h"
+#include "core/commitments/unavoidable_collisions.h"
 #include "core/instance/motion.h"
 #include "core/model/itinerary.h"
 
@@ -75,9 +75,9 @@ Plan plan_without_search(const Problem& problem, const PlanOptions& options, con
     plan.lower_bound.makespan = std::max(plan.lower_bound.makespan, kept.lower_bound);
     plan.plans.push_back(std::move(kept));
   }
-  UnavoidableMeetings found = unavoidable_meetings(problem, planned, stop);
-  plan.unavoidable = std::move(found.meetings);
-  plan.meetings_known = found.finished;
+  UnavoidableCollisions found = unavoidable_collisions(problem, planned, stop);
+  plan.unavoidable = std::move(found.collisions);
+  plan.unavoidable_known = found.finished;
   plan.deterministic = false;
   return plan;
 }

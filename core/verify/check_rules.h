@@ -57,9 +57,9 @@ struct CheckRules {
   std::optional<double> horizon = {};
   /// Committed actions must be repeated to the last digit. Otherwise the tolerances apply.
   bool exact_commitments = false;
-  /// Unavoidable collisions that are allowed: of exactly the pair of each meeting, during the one
-  /// uninterrupted overlap that contains Meeting::t (of the bare disks; contact counts).
-  std::vector<Meeting> exempt = {};
+  /// Unavoidable collisions that are allowed: of exactly the pair of each collision, during the one
+  /// uninterrupted overlap that contains UnavoidableCollision::t (of the bare disks; contact counts).
+  std::vector<UnavoidableCollision> exempt = {};
 };
 
 }  // namespace fleetplan::core

@@ -62,7 +62,7 @@ struct Unplanned {
 
 /// An unavoidable collision, which no plan prevents: a robot cannot leave its place in time before the
 /// committed motion of another robot, or an obstacle, passes there.
-struct Meeting {
+struct UnavoidableCollision {
   std::size_t robot = 0;
   std::optional<std::size_t> other = {};     // another robot, or
   std::optional<std::size_t> obstacle = {};  // an obstacle
@@ -95,7 +95,7 @@ struct Plan {
   Status status = Status::none;
   std::vector<RobotPlan> plans = {};
   std::vector<Unplanned> unplanned = {};
-  std::vector<Meeting> unavoidable = {};  // by time
+  std::vector<UnavoidableCollision> unavoidable = {};  // by time
   Objectives objectives;
   Objectives lower_bound;  // objectives of the planned robots' lower bounds
   /// Whether the independent checker (verify.h) has found no violation. False only if the time did not

@@ -44,12 +44,12 @@ struct Violation {
 struct Rules {
   /// How far plans may deviate, >= 0, in metres, seconds and radians. 1e-6 allows for decimal text.
   double tolerance = 1e-6;
-  double inflation = 0.0;                 // metres, as in Options
-  double interval_margin = 0.0;           // seconds, as in Options
-  double wait_before_move = 0.0;          // seconds, as in Options
-  double start_overlap = 0.0;             // metres, as in Options
-  std::optional<double> horizon = {};     // seconds, as in Options: plans that end later may end anywhere
-  std::vector<Meeting> unavoidable = {};  // collisions that are allowed, as in Plan
+  double inflation = 0.0;              // metres, as in Options
+  double interval_margin = 0.0;        // seconds, as in Options
+  double wait_before_move = 0.0;       // seconds, as in Options
+  double start_overlap = 0.0;          // metres, as in Options
+  std::optional<double> horizon = {};  // seconds, as in Options: plans that end later may end anywhere
+  std::vector<UnavoidableCollision> unavoidable = {};  // collisions that are allowed, as in Plan
 
   /// The time for the check. Thousands of robots that move in one small area may take minutes.
   std::chrono::nanoseconds time_budget = std::chrono::seconds(60);
@@ -79,7 +79,7 @@ struct Verification {
 Verification verify(const Problem& problem, std::span<const RobotPlan> plans, const Rules& rules = {});
 
 /// Checks a plan of plan() for the same problem and options: by the rules that follow from the options, with
-/// its unavoidable meetings allowed.
+/// its unavoidable collisions allowed.
 Verification verify(const Problem& problem, const Plan& plan, const Options& options = {});
 
 }  // namespace fleetplan

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/commitments/meetings.h"
+#include "core/commitments/unavoidable_collisions.h"
 #include "core/model/plan.h"
 #include "core/planner.h"
 #include "core/verify/verify.h"
@@ -154,20 +154,20 @@ TEST(PlannerCommitted, AnObstacleThatAppearsOnTopOfARobot) {
   EXPECT_EQ(plan.unavoidable[0].t, 0.0);
 }
 
-TEST(PlannerCommitted, AnObstacleThatComesBackIsAnotherMeeting) {
+TEST(PlannerCommitted, AnObstacleThatComesBackIsAnotherCollision) {
   const Problem problem = with_obstacles(
       OccupancyGrid(9, 3, 1.0), {robot_at(4.5, 1.5)},
       {person({{0.0, {0.5, 1.5}}, {8.0, {8.5, 1.5}}, {16.0, {0.5, 1.5}}, {17.0, {0.5, 0.5}}})});
   EXPECT_EQ(checked_plan(problem).unavoidable.size(), 2u);
 }
 
-TEST(PlannerCommitted, TheMeetingsOfARobotAreLimited) {
+TEST(PlannerCommitted, TheUnavoidableCollisionsOfARobotAreLimited) {
   std::vector<MovingObstacle> people;
   for (int k = 0; k < 30; ++k) {
     people.push_back(person({{3.0 * k, {0.5, 1.5}}, {3.0 * k + 8.0, {8.5, 1.5}}}));
   }
   const Problem problem = with_obstacles(OccupancyGrid(9, 3, 1.0), {robot_at(4.5, 1.5)}, people);
-  EXPECT_EQ(checked_plan(problem).unavoidable.size(), kMostMeetingsOfRobot);
+  EXPECT_EQ(checked_plan(problem).unavoidable.size(), kMostUnavoidableOfRobot);
 }
 
 TEST(PlannerCommitted, ARobotWhoseCommitmentMeetsAnObstacleIsPlannedAfterIt) {
@@ -239,7 +239,7 @@ TEST(PlannerCommitted, ARobotPassesWhereAnotherOneWillStayBeforeItArrives) {
   EXPECT_EQ(plan.plans.size(), 2u);
 }
 
-TEST(PlannerCommitted, APlanOfABudgetThatIsSpentHasTheMeetings) {
+TEST(PlannerCommitted, APlanOfABudgetThatIsSpentHasTheUnavoidableCollisions) {
   const Problem problem = with_obstacles(OccupancyGrid(9, 3, 1.0),
                                          {robot_at(4.5, 1.5).to(8.5, 2.5), robot_at(0.5, 0.5).to(0.5, 2.5)},
                                          {person({{0.0, {4.5, 0.5}}, {3.0, {4.5, 2.5}}})});

@@ -234,7 +234,7 @@ const CASES = {
     }),
     [["/obstacles/0/motion/1/t", "out_of_range"]],
   ],
-  "a meeting with an unknown obstacle": [
+  "an unavoidable collision with an unknown obstacle": [
     "/v1/validate",
     request((r) => Object.assign(r, { plans: [], unavoidable: [{ robot: "a", obstacle: "x", t: 0 }] })),
     [["/unavoidable/0/obstacle", "unknown_obstacle"]],

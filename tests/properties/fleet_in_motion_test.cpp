@@ -50,7 +50,7 @@ TEST_P(FleetInMotion, GoesOnFromAnyMoment) {
       robot.goal->not_before = 0.0;
     }
     problem = problem_of(next);
-    // A robot that is held stands in the way of what others are committed to; others are amid a meeting.
+    // A robot that is held stands in the way of what others are committed to; others are amid a collision.
     if (!problem && (disturbance == 1 || !plan.unavoidable.empty())) return;
     ASSERT_TRUE(problem) << "at t = " << t << " the fleet is not accepted";
     const int budget = dice.chance(0.3) ? 10 : 500;

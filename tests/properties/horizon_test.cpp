@@ -209,7 +209,7 @@ TEST_P(HorizonOfRandomFleet, SaysOnlyOfRobotsThatGainNothingThatTheyAreStuck) {
   request.options.horizon = dice.between(0.5, 20.0);
   for (int round = 0; round < 3; ++round) {
     const auto problem = support::problem_of(request);
-    if (!problem) return;  // robots amid a meeting
+    if (!problem) return;  // robots amid a collision
     const Plan plan = core::plan(*problem, request.options, StopCondition::never());
     expect_valid(*problem, plan, request.options);
     if (testing::Test::HasFailure()) return;

@@ -46,7 +46,7 @@ TEST_P(Loads, AreCarriedWithoutCollisions) {
     const double t = dice.between(0.0, std::max(1.0, 0.8 * plan.objectives.makespan));
     FleetRequest next = moment_of(dice, request, plan, t);
     problem = problem_of(next);
-    if (!problem && !plan.unavoidable.empty()) return;  // amid a meeting
+    if (!problem && !plan.unavoidable.empty()) return;  // amid a collision
     ASSERT_TRUE(problem) << "at t = " << t << " the fleet is not accepted";
     Plan later = planned(*problem, next.options, dice.chance(0.3) ? 10 : 200);
     expect_no_worse_than_previous(*problem, next.options, later);

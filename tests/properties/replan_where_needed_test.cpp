@@ -66,9 +66,10 @@ const RobotPlan* plan_of(const Plan& plan, std::size_t robot) {
 }
 
 bool meets(const Plan& plan, std::size_t robot) {
-  return std::any_of(plan.unavoidable.begin(), plan.unavoidable.end(), [robot](const Meeting& meeting) {
-    return meeting.robot == robot || meeting.other == robot;
-  });
+  return std::any_of(plan.unavoidable.begin(), plan.unavoidable.end(),
+                     [robot](const UnavoidableCollision& collision) {
+                       return collision.robot == robot || collision.other == robot;
+                     });
 }
 
 bool follows_previous(const Robot& robot, const RobotPlan& plan) {
@@ -86,7 +87,7 @@ void expect_kept(const Problem& problem, const PlanOptions& options, const Plan&
     const RobotPlan* now = plan_of(plan, i);
     EXPECT_TRUE(now != nullptr || !certain[i]) << "robot " << i << " is unplanned, although its plan holds";
     if (!has_time || !kept.kept[i] || now == nullptr || follows_previous(problem.robots()[i], *now)) continue;
-    if (meets(plan, i)) continue;  // all of a meeting is exempt, also what can be avoided
+    if (meets(plan, i)) continue;  // all of a collision is exempt, also what can be avoided
     std::vector<RobotPlan> plans = plan.plans;
     for (RobotPlan& other : plans) {
       if (other.robot == i) other = previous_plan(i, problem.robots()[i]);

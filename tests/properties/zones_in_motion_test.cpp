@@ -43,7 +43,7 @@ TEST_P(ZonesInMotion, FleetsGoOnFromAnyMoment) {
     const double t = dice.between(0.0, std::max(1.0, 0.8 * plan.objectives.makespan));
     FleetRequest next = support::moment_of(dice, request, plan, t);
     const std::optional<Problem> problem = support::problem_of(next);
-    if (!problem && !plan.unavoidable.empty()) return;  // amid a meeting
+    if (!problem && !plan.unavoidable.empty()) return;  // amid a collision
     ASSERT_TRUE(problem) << "at t = " << t << " the fleet is not accepted";
     Plan later = support::planned(*problem, next.options, dice.chance(0.3) ? 10 : 300);
     support::expect_no_worse_than_previous(*problem, next.options, later);

@@ -101,9 +101,9 @@ inline bool expect_no_worse_than_previous(const core::Problem& problem, const co
   return true;
 }
 
-/// Expects that every listed meeting is a collision that the checker finds, and that each pair is listed
+/// Expects that the checker finds every unavoidable collision that is listed, and that each pair is listed
 /// once.
-inline void expect_real_meetings(const core::Problem& problem, const core::Plan& plan) {
+inline void expect_real_collisions(const core::Problem& problem, const core::Plan& plan) {
   if (plan.unavoidable.empty()) return;
   std::set<std::pair<std::size_t, std::size_t>> pairs;
   std::set<std::pair<std::size_t, std::size_t>> with_obstacles;
@@ -116,14 +116,14 @@ inline void expect_real_meetings(const core::Problem& problem, const core::Plan&
       pairs.insert({violation.robots[0], violation.robots[1]});
     if (violation.obstacle) with_obstacles.insert({violation.robots[0], *violation.obstacle});
   }
-  for (const core::Meeting& meeting : plan.unavoidable) {
-    if (meeting.obstacle) {
-      EXPECT_TRUE(with_obstacles.contains({meeting.robot, *meeting.obstacle}))
-          << "robot " << meeting.robot << " and obstacle " << *meeting.obstacle << " at " << meeting.t;
+  for (const core::UnavoidableCollision& collision : plan.unavoidable) {
+    if (collision.obstacle) {
+      EXPECT_TRUE(with_obstacles.contains({collision.robot, *collision.obstacle}))
+          << "robot " << collision.robot << " and obstacle " << *collision.obstacle << " at " << collision.t;
     } else {
-      const auto pair = std::minmax(meeting.robot, meeting.other.value());
+      const auto pair = std::minmax(collision.robot, collision.other.value());
       EXPECT_TRUE(pairs.contains(pair))
-          << "robots " << pair.first << " and " << pair.second << " at " << meeting.t;
+          << "robots " << pair.first << " and " << pair.second << " at " << collision.t;
     }
   }
 }
@@ -132,7 +132,7 @@ inline core::Plan planned(const core::Problem& problem, const core::PlanOptions&
   core::Plan plan = core::plan(problem, options, budget_of(budget_ms));
   expect_safe(problem, plan, options);
   expect_each_robot_once(problem, plan);
-  expect_real_meetings(problem, plan);
+  expect_real_collisions(problem, plan);
   return plan;
 }
 

@@ -53,11 +53,11 @@ inline void expect_safe(const core::Problem& problem, const std::vector<core::Ro
 }
 
 /// Expects of the result of planning with `options` all that the options ask for: interval margin, added
-/// waits and the overlap of starts. Meetings that the plan lists as unavoidable are exempt; on a busy
+/// waits and the overlap of starts. Collisions that the plan lists as unavoidable are exempt; on a busy
 /// machine, finding them may be given up, and then the plan cannot be checked (see core::Plan).
 inline void expect_safe(const core::Problem& problem, const core::Plan& plan,
                         const core::PlanOptions& options) {
-  if (!plan.meetings_known) return;
+  if (!plan.unavoidable_known) return;
   core::CheckRules rules;
   rules.interval_margin = options.interval_margin;
   rules.wait_before_move = options.wait_before_move;

@@ -194,7 +194,7 @@ std::vector<core::Dependency> parse_dependencies(const JsonReader& member,
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kMeetingMembers{"robots", "robot", "obstacle", "t"};
+constexpr std::array<std::string_view, 4> kUnavoidableMembers{"robots", "robot", "obstacle", "t"};
 
 /// Robots or obstacles by id.
 using Names = std::unordered_map<std::string_view, std::size_t>;
@@ -210,24 +210,24 @@ std::optional<std::size_t> find(const JsonReader& member, const Names& names, co
   return std::nullopt;
 }
 
-class MeetingReader {
+class UnavoidableReader {
  public:
-  explicit MeetingReader(const Fleet& fleet) {
+  explicit UnavoidableReader(const Fleet& fleet) {
     for (std::size_t k = 0; k < fleet.robots.size(); ++k) robots_.emplace(fleet.robots[k].robot.id, k);
     for (std::size_t k = 0; k < fleet.obstacles.size(); ++k) obstacles_.emplace(fleet.obstacles[k].id, k);
   }
 
-  core::Meeting read(const JsonReader& item) const {
-    const JsonReader json = item.object(kMeetingMembers);
-    core::Meeting meeting;
-    meeting.t = json.require("t").number(kDuration).value_or(0.0);
+  core::UnavoidableCollision read(const JsonReader& item) const {
+    const JsonReader json = item.object(kUnavoidableMembers);
+    core::UnavoidableCollision collision;
+    collision.t = json.require("t").number(kDuration).value_or(0.0);
     if (const JsonReader pair = json.find("robots")) {
-      read_pair(pair, meeting);
-      return meeting;
+      read_pair(pair, collision);
+      return collision;
     }
-    meeting.robot = robot(json.require("robot", "; give it with \"obstacle\", or \"robots\"")).value_or(0);
-    meeting.obstacle = find(json.require("obstacle"), obstacles_, fault::kUnknownObstacle, "obstacle");
-    return meeting;
+    collision.robot = robot(json.require("robot", "; give it with \"obstacle\", or \"robots\"")).value_or(0);
+    collision.obstacle = find(json.require("obstacle"), obstacles_, fault::kUnknownObstacle, "obstacle");
+    return collision;
   }
 
  private:
@@ -235,12 +235,12 @@ class MeetingReader {
     return find(member, robots_, fault::kUnknownRobot, "robot");
   }
 
-  void read_pair(const JsonReader& member, core::Meeting& meeting) const {
+  void read_pair(const JsonReader& member, core::UnavoidableCollision& collision) const {
     const JsonReader pair = member.array();
     if (pair && pair.size() != 2) pair.fault(fault::kOutOfRange, "robots must be the ids of two robots.");
     if (!pair || pair.size() != 2) return;
-    meeting.robot = robot(pair.item(0)).value_or(0);
-    meeting.other = robot(pair.item(1));
+    collision.robot = robot(pair.item(0)).value_or(0);
+    collision.other = robot(pair.item(1));
   }
 
   Names robots_;
@@ -249,16 +249,16 @@ class MeetingReader {
 
 }  // namespace
 
-std::vector<core::Meeting> parse_meetings(const JsonReader& member, const Fleet& fleet) {
-  std::vector<core::Meeting> meetings;
-  if (!member) return meetings;
-  const MeetingReader reader(fleet);
+std::vector<core::UnavoidableCollision> parse_unavoidable(const JsonReader& member, const Fleet& fleet) {
+  std::vector<core::UnavoidableCollision> collisions;
+  if (!member) return collisions;
+  const UnavoidableReader reader(fleet);
   const std::size_t before = member.fault_count();
   for (const JsonReader item : member.array().items()) {
-    const core::Meeting meeting = reader.read(item);
-    if (member.fault_count() == before) meetings.push_back(meeting);
+    const core::UnavoidableCollision collision = reader.read(item);
+    if (member.fault_count() == before) collisions.push_back(collision);
   }
-  return meetings;
+  return collisions;
 }
 
 void mark_invalid_robots(const JsonReader& unplanned, std::vector<core::Robot>& robots) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// The plans of a request, and what belongs to them: dependencies, meetings that the check exempts, and robots
-// that an answer calls invalid.
+// The plans of a request, and what belongs to them: dependencies, unavoidable collisions, which the check
+// exempts, and robots that an answer calls invalid.
 
 #include <vector>
 
@@ -28,8 +28,8 @@ std::vector<core::Dependency> parse_dependencies(const JsonReader& member,
                                                  const std::vector<core::Robot>& robots,
                                                  const std::vector<core::RobotPlan>& plans);
 
-/// Reads `unavoidable` of a request to validate (may be absent): the meetings that the check exempts.
-std::vector<core::Meeting> parse_meetings(const JsonReader& member, const Fleet& fleet);
+/// Reads `unavoidable` of a request to validate (may be absent): the collisions that the check exempts.
+std::vector<core::UnavoidableCollision> parse_unavoidable(const JsonReader& member, const Fleet& fleet);
 
 /// Makes the robots invalid that `unplanned` of an answer lists as such. Whatever else it contains is
 /// ignored.

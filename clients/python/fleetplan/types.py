@@ -300,7 +300,7 @@ class Unplanned(TypedDict):
     metadata: NotRequired[Metadata]
 
 
-class Meeting(TypedDict):
+class UnavoidableCollision(TypedDict):
     robots: NotRequired[list[str]]
     robot: NotRequired[str]
     obstacle: NotRequired[str]
@@ -356,7 +356,7 @@ class PlanAnswer(TypedDict):
     request_id: str
     plans: list[RobotPlan]
     unplanned: list[Unplanned]
-    unavoidable: NotRequired[list[Meeting]]
+    unavoidable: NotRequired[list[UnavoidableCollision]]
     dependencies: NotRequired[list[Dependency] | None]
     tight: NotRequired[list[TightPair] | None]
     flowtime: float
@@ -422,7 +422,7 @@ class GivenPlans(TypedDict):
     """Plans that need not be from this service, in the place of its answer."""
 
     plans: list[GivenPlan]
-    unavoidable: NotRequired[list[Meeting]]
+    unavoidable: NotRequired[list[UnavoidableCollision]]
     dependencies: NotRequired[list[Dependency] | None]
 
 
@@ -612,7 +612,7 @@ SamePlace = TypedDict("SamePlace", {"robot": str, "was": ActionPlace, "is": Acti
 
 class AdvanceAnswer(PlanRequest):
     progress: list[SamePlace]
-    unavoidable: NotRequired[list[Meeting]]
+    unavoidable: NotRequired[list[UnavoidableCollision]]
 
 
 # ---------------------------------------------------------------- /v1/retime

@@ -10,11 +10,11 @@
 namespace fleetplan::core {
 namespace {
 
-/// How much earlier than an overlap by more than a tolerance a meeting may begin, in metres: it may begin
-/// when the disks touch.
+/// How much earlier than an overlap by more than a tolerance an unavoidable collision may begin, in metres:
+/// it may begin when the disks touch.
 constexpr double kTouching = 2.0 * kMostTolerance;
 
-/// Rounding of the time of a meeting that went through decimal text, seconds.
+/// Rounding of the time of an unavoidable collision that went through decimal text, seconds.
 constexpr double kTextRounding = 1e-6;
 
 /// Returns the positions of the robot at `t`, ascending; two where its radius changes then.
@@ -37,8 +37,8 @@ bool goes_on(const ExecutedFleet& fleet, std::size_t position, double t) {
 
 }  // namespace
 
-Exemptions::Exemptions(const std::vector<Meeting>& meetings, const ExecutedFleet& fleet, double inflation,
-                       const std::vector<std::vector<Leg>>& obstacles,
+Exemptions::Exemptions(const std::vector<UnavoidableCollision>& collisions, const ExecutedFleet& fleet,
+                       double inflation, const std::vector<std::vector<Leg>>& obstacles,
                        const std::vector<double>& obstacle_radii, const StopCondition& stop)
     : fleet_(fleet),
       inflation_(inflation),
@@ -50,21 +50,22 @@ Exemptions::Exemptions(const std::vector<Meeting>& meetings, const ExecutedFleet
     certain_.push_back({fleet.stays[i] ? kNever : fleet.departures[i].committed_until, kNever});
   }
   std::vector<std::size_t> listed(fleet.size(), 0);
-  for (const Meeting& meeting : meetings) {
+  for (const UnavoidableCollision& collision : collisions) {
     if (stop.met()) return;
-    const std::vector<std::size_t> ones = positions_at(fleet, meeting.robot, meeting.t);
-    if (ones.empty() || !is_certain(ones.front(), meeting.t)) continue;
-    count(ones.front(), meeting.t, listed);
+    const std::vector<std::size_t> ones = positions_at(fleet, collision.robot, collision.t);
+    if (ones.empty() || !is_certain(ones.front(), collision.t)) continue;
+    count(ones.front(), collision.t, listed);
     for (const std::size_t one : ones) {
-      if (meeting.obstacle && *meeting.obstacle < obstacles.size()) {
-        add_obstacle(one, *meeting.obstacle, std::max(meeting.t, fleet.begin_of(one)));
+      if (collision.obstacle && *collision.obstacle < obstacles.size()) {
+        add_obstacle(one, *collision.obstacle, std::max(collision.t, fleet.begin_of(one)));
       }
-      if (meeting.other && *meeting.other != meeting.robot) add_meeting(one, *meeting.other, meeting.t);
+      if (collision.other && *collision.other != collision.robot)
+        add_pair(one, *collision.other, collision.t);
     }
   }
 }
 
-void Exemptions::add_meeting(std::size_t one, std::size_t other_robot, double t) {
+void Exemptions::add_pair(std::size_t one, std::size_t other_robot, double t) {
   for (const std::size_t other : positions_at(fleet_, other_robot, t)) {
     if (!is_certain(other, t)) continue;
     add_robots(one, other, std::max({t, fleet_.begin_of(one), fleet_.begin_of(other)}));
@@ -101,10 +102,10 @@ bool Exemptions::is_certain(std::size_t position, double t) const {
   return t <= certain_[position].until + kTextRounding;
 }
 
-void Exemptions::count(std::size_t position, double t, std::vector<std::size_t>& meetings) {
+void Exemptions::count(std::size_t position, double t, std::vector<std::size_t>& collisions) {
   std::size_t first = position;
   while (first > 0 && fleet_.same_robot(first - 1, position)) --first;
-  if (++meetings[first] < kMostMeetingsOfRobot) return;
+  if (++collisions[first] < kMostUnavoidableOfRobot) return;
   double& from = certain_[first].exempt_from;
   from = std::isinf(from) ? t : std::max(from, t);
   for (std::size_t next = first + 1; next < fleet_.size() && fleet_.same_robot(first, next); ++next) {

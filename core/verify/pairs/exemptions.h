@@ -13,17 +13,17 @@
 
 namespace fleetplan::core {
 
-/// The times at which pairs may collide, see CheckRules::exempt. Meetings count only if they begin while both
-/// bodies do what is certain: obstacles move, robots execute their commitments, and robots without a plan or
-/// a goal stay for ever where these end. A robot with kMostMeetingsOfRobot meetings has no more listed, so
-/// all that it certainly does is exempt from the last one on.
+/// The times at which pairs may collide, see CheckRules::exempt. Unavoidable collisions count only if they
+/// begin while both bodies do what is certain: obstacles move, robots execute their commitments, and robots
+/// without a plan or a goal stay for ever where these end. A robot with kMostUnavoidableOfRobot collisions
+/// has no more listed, so all that it certainly does is exempt from the last one on.
 class Exemptions {
  public:
   /// Finds the times. `obstacles` are the legs of the moving obstacles, `obstacle_radii` their radii. All
   /// robots are enlarged by `inflation` and, against robots, by their vicinity. Incomplete if `stop` is met.
-  Exemptions(const std::vector<Meeting>& meetings, const ExecutedFleet& fleet, double inflation,
-             const std::vector<std::vector<Leg>>& obstacles, const std::vector<double>& obstacle_radii,
-             const StopCondition& stop);
+  Exemptions(const std::vector<UnavoidableCollision>& collisions, const ExecutedFleet& fleet,
+             double inflation, const std::vector<std::vector<Leg>>& obstacles,
+             const std::vector<double>& obstacle_radii, const StopCondition& stop);
 
   /// The times at which two robots, by their positions in the fleet in any order, may collide.
   const std::vector<TimeSpan>& of_robots(std::size_t one, std::size_t other) const;
@@ -45,9 +45,9 @@ class Exemptions {
     double until = 0.0;
     double exempt_from = 0.0;
   };
-  void count(std::size_t position, double t, std::vector<std::size_t>& meetings);
+  void count(std::size_t position, double t, std::vector<std::size_t>& collisions);
   bool is_certain(std::size_t position, double t) const;
-  void add_meeting(std::size_t one, std::size_t other_robot, double t);
+  void add_pair(std::size_t one, std::size_t other_robot, double t);
   void add_obstacle(std::size_t position, std::size_t obstacle, double t);
   void add_robots(std::size_t one, std::size_t other, double t);
 

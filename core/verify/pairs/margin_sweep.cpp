@@ -33,7 +33,7 @@ double least_possible(const Leg& a, const TimeSpan& time, const Leg& b, const Ti
 /// Returns what remains of a time span without others.
 std::vector<TimeSpan> without(const TimeSpan& span, const std::vector<TimeSpan>& left_out) {
   std::vector<TimeSpan> rest{span};
-  // Bounded: the meetings of two robots that are listed.
+  // Bounded: the collisions of two robots that are listed.
   for (const TimeSpan& out : left_out) {
     std::vector<TimeSpan> smaller;
     for (const TimeSpan& part : rest) {

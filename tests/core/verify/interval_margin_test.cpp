@@ -76,16 +76,16 @@ TEST(IntervalMargin, AddsNothingToACollision) {
   EXPECT_THAT(kinds_of(crossing(0.5).violations(margin_of(5))), ElementsAre(Kind::robot_collision));
 }
 
-TEST(IntervalMargin, IsNotAskedOfUnavoidableMeetings) {
+TEST(IntervalMargin, IsNotAskedOfUnavoidableCollisions) {
   Scene scene;
   Robot committed = robot_at(2, 10);
   committed.committed = support::PlanBuilder(0, committed).translate_to(18, 10).build().actions;
   scene.stand(committed);
   scene.stand(robot_at(10, 10));
   CheckRules rules = margin_of(1);
-  rules.exempt = {Meeting{1, 0, {}, 8.0}};
+  rules.exempt = {UnavoidableCollision{1, 0, {}, 8.0}};
   EXPECT_THAT(scene.violations(rules), IsEmpty());
-  rules.exempt = {Meeting{1, 0, {}, 3.0}};
+  rules.exempt = {UnavoidableCollision{1, 0, {}, 3.0}};
   EXPECT_EQ(scene.violations(rules).size(), 1U);
 }
 

@@ -74,33 +74,33 @@ TEST(MovingObstacle, MayMeetARobotThatCannotAvoidIt) {
   scene.obstacle({at(0, 0, 5), at(10, 10, 5), at(20, 0, 5)});
   ASSERT_EQ(scene.violations(CheckRules{}).size(), 2U);
   CheckRules rules;
-  rules.exempt = {Meeting{0, {}, 0, 4.0}};  // of the way there
+  rules.exempt = {UnavoidableCollision{0, {}, 0, 4.0}};  // of the way there
   EXPECT_EQ(scene.violations(rules).size(), 1U);
   EXPECT_GT(scene.violations(rules).front().t, 10.0);
   rules.exempt.push_back({0, {}, 0, 14.0});
   EXPECT_THAT(scene.violations(rules), IsEmpty());
-  rules.exempt = {Meeting{0, {}, 0, 2.0}};  // they do not meet then
+  rules.exempt = {UnavoidableCollision{0, {}, 0, 2.0}};  // they do not meet then
   EXPECT_EQ(scene.violations(rules).size(), 2U);
 }
 
 TEST(MovingObstacle, MayNotMeetARobotThatThePlanMoves) {
-  // However many meetings are claimed.
+  // However many collisions are claimed.
   Scene scene;
   scene.add(robot_at(5, 5), [](PlanBuilder& plan) { plan.wait(1); });
   scene.obstacle({at(0, 0, 5), at(10, 10, 5), at(20, 0, 5)});
   CheckRules rules;
-  rules.exempt.assign(kMostMeetingsOfRobot, Meeting{0, {}, 0, 4.0});
+  rules.exempt.assign(kMostUnavoidableOfRobot, UnavoidableCollision{0, {}, 0, 4.0});
   EXPECT_EQ(scene.violations(rules).size(), 2U);
 }
 
-TEST(MovingObstacle, MayMeetARobotThatHasTooManyMeetingsToListAgain) {
+TEST(MovingObstacle, MayMeetARobotThatHasTooManyCollisionsToListAgain) {
   Scene scene;
   scene.stand(robot_at(5, 5));
   std::vector<MovingObstacle::Entry> motion;
   for (int k = 0; k < 30; ++k) motion.push_back(at(10 * k, k % 2 == 0 ? 0 : 10, 5));
   scene.obstacle(motion);
   CheckRules rules;
-  for (std::size_t k = 0; k < kMostMeetingsOfRobot; ++k) {
+  for (std::size_t k = 0; k < kMostUnavoidableOfRobot; ++k) {
     EXPECT_FALSE(scene.violations(rules).empty());
     rules.exempt.push_back({0, {}, 0, 10.0 * static_cast<double>(k) + 4.0});
   }

@@ -142,7 +142,7 @@ test("a robot without a plan executes its committed actions", () => {
   assert.equal(robotPoseAt(scene.robots[0], tracks.get("a"), 5).x, 1.5);
 });
 
-test("a plan file keeps obstacles with the request and unavoidable meetings with the answer", () => {
+test("a plan file keeps obstacles with the request and unavoidable collisions with the answer", () => {
   const answer = { plans: [], unplanned: [], unavoidable: [{ robot: "a", obstacle: "person", t: 2 }] };
   const read = readDocument(JSON.parse(JSON.stringify(planFile(MOVING, answer))));
   assert.deepEqual(read.request, MOVING);

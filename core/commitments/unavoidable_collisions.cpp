@@ -1,4 +1,4 @@
-#include "core/commitments/meetings.h"
+#include "core/commitments/unavoidable_collisions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,8 @@ namespace {
 
 /// Seconds; overlaps with a shorter pause are one.
 constexpr double kApart = 1e-6;
-/// Metres: of a meeting, disks overlap by more. Slightly more than contact, so that rounding makes none of
-/// it.
+/// Metres: disks that overlap by more collide. Slightly more than contact, so that rounding makes no
+/// collision of it.
 constexpr double kOverlap = kContactTolerance + kSamePosition;
 /// Pieces of a motion that are compared with robots by their common box first.
 constexpr std::size_t kGroup = 16;
@@ -110,9 +110,9 @@ class Overlaps {
 
   /// Whether all that are listed begin before `t`.
   bool has_all_before(double t) const {
-    if (all_.size() < kMostMeetingsOfRobot) return false;
+    if (all_.size() < kMostUnavoidableOfRobot) return false;
     const auto listed = begins();
-    return listed.size() >= kMostMeetingsOfRobot && listed[kMostMeetingsOfRobot - 1].first < t;
+    return listed.size() >= kMostUnavoidableOfRobot && listed[kMostUnavoidableOfRobot - 1].first < t;
   }
 
  private:
@@ -126,9 +126,9 @@ class Overlaps {
 
 /// Compares what passes with the robots in one part of time after the other. Robots for which all is known
 /// are left out, so crowds take little time.
-class MeetingSearch {
+class CollisionSearch {
  public:
-  MeetingSearch(const Problem& problem, const std::vector<bool>& planned, const StopCondition& stop)
+  CollisionSearch(const Problem& problem, const std::vector<bool>& planned, const StopCondition& stop)
       : problem_(problem), planned_(planned), stop_(stop), overlaps_(problem.robots().size()) {
     add_robots();
     for (std::size_t i = 0; i < problem.obstacles().size(); ++i) {
@@ -139,8 +139,8 @@ class MeetingSearch {
     }
   }
 
-  UnavoidableMeetings run() {
-    UnavoidableMeetings result;
+  UnavoidableCollisions run() {
+    UnavoidableCollisions result;
     for (const double t : ends_of_parts()) {
       if (certain_.empty()) break;
       finished_ = finished_ && compare_until(t);
@@ -150,11 +150,13 @@ class MeetingSearch {
     result.finished = finished_;
     for (std::size_t i = 0; i < overlaps_.size(); ++i) {
       result.while_staying.push_back(overlaps_[i].meets_while_staying);
-      list(i, result.meetings);
+      list(i, result.collisions);
     }
-    std::sort(result.meetings.begin(), result.meetings.end(), [](const Meeting& a, const Meeting& b) {
-      return std::tie(a.t, a.robot, a.obstacle, a.other) < std::tie(b.t, b.robot, b.obstacle, b.other);
-    });
+    std::sort(result.collisions.begin(), result.collisions.end(),
+              [](const UnavoidableCollision& a, const UnavoidableCollision& b) {
+                return std::tie(a.t, a.robot, a.obstacle, a.other) <
+                       std::tie(b.t, b.robot, b.obstacle, b.other);
+              });
     return result;
   }
 
@@ -247,13 +249,13 @@ class MeetingSearch {
     std::erase_if(certain_, [&](const Certain& part) { return known[part.robot]; });
   }
 
-  void list(std::size_t robot, std::vector<Meeting>& meetings) const {
+  void list(std::size_t robot, std::vector<UnavoidableCollision>& collisions) const {
     const auto begins = overlaps_[robot].begins();
-    for (std::size_t k = 0; k < std::min(begins.size(), kMostMeetingsOfRobot); ++k) {
-      Meeting meeting{robot, std::nullopt, std::nullopt, begins[k].first};
+    for (std::size_t k = 0; k < std::min(begins.size(), kMostUnavoidableOfRobot); ++k) {
+      UnavoidableCollision collision{robot, std::nullopt, std::nullopt, begins[k].first};
       const Passer& passer = passers_[begins[k].second];
-      (passer.is_obstacle ? meeting.obstacle : meeting.other) = passer.index;
-      meetings.push_back(meeting);
+      (passer.is_obstacle ? collision.obstacle : collision.other) = passer.index;
+      collisions.push_back(collision);
     }
   }
 
@@ -268,14 +270,14 @@ class MeetingSearch {
 
 }  // namespace
 
-UnavoidableMeetings unavoidable_meetings(const Problem& problem, const std::vector<bool>& planned,
-                                         const StopCondition& stop) {
+UnavoidableCollisions unavoidable_collisions(const Problem& problem, const std::vector<bool>& planned,
+                                             const StopCondition& stop) {
   const bool any_committed =
       std::any_of(problem.robots().begin(), problem.robots().end(),
                   [](const Robot& robot) { return !robot.committed.empty() && !robot.invalid; });
   if (problem.obstacles().empty() && !any_committed) return {};
-  UnavoidableMeetings result = MeetingSearch(problem, planned, stop).run();
-  if (result.meetings.empty()) result.while_staying.clear();
+  UnavoidableCollisions result = CollisionSearch(problem, planned, stop).run();
+  if (result.collisions.empty()) result.while_staying.clear();
   return result;
 }
 

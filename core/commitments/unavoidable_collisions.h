@@ -10,10 +10,10 @@ namespace fleetplan::core {
 
 /// The collisions that no plan avoids: of what is certain, bare disks that overlap by more than
 /// kContactTolerance and rounding.
-struct UnavoidableMeetings {
-  std::vector<Meeting> meetings;  // by time; each uninterrupted overlap once, of each robot the first
-                                  // kMostMeetingsOfRobot
-  /// By robot, empty if there are no meetings: whether it meets something at the place where it stays.
+struct UnavoidableCollisions {
+  /// By time; each uninterrupted overlap once, of each robot the first kMostUnavoidableOfRobot.
+  std::vector<UnavoidableCollision> collisions;
+  /// By robot, empty if there are no collisions: whether it meets something at the place where it stays.
   std::vector<bool> while_staying;
   bool finished = true;  // false when the stop condition was met first; then there may be more
 };
@@ -21,7 +21,7 @@ struct UnavoidableMeetings {
 /// Certain are moving obstacles, the committed motion of robots, and the stay of robots that are not
 /// `planned` (by robot) at their committed end. Committed motion against committed motion is left out, as it
 /// is clear in a valid problem. The effort is nearly linear in the request.
-UnavoidableMeetings unavoidable_meetings(const Problem& problem, const std::vector<bool>& planned,
-                                         const StopCondition& stop);
+UnavoidableCollisions unavoidable_collisions(const Problem& problem, const std::vector<bool>& planned,
+                                             const StopCondition& stop);
 
 }  // namespace fleetplan::core
