@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <list>
@@ -12,6 +11,48 @@
 
 namespace fleetplan::server {
 
+/// Which body is parsed next: the policy of ParseSlots, without threads and without a clock.
+class ParseSchedule {
+ public:
+  using Time = core::StopCondition::Clock::time_point;
+
+  /// Bodies up to this many bytes may use the additional slot.
+  static constexpr std::size_t kSmall = std::size_t{64} * 1024;
+
+  /// A body that is to be parsed.
+  struct Body {
+    std::string client;
+    std::size_t bytes = 0;  // decoded, as far as that is known
+  };
+  enum class Kind { none, any, small };
+  /// A body that waits.
+  struct Waiting {
+    Waiting(const Body& waiting, Time arrived);
+
+    const Body& body;
+    const Time due;          // the end of its parsing if it had been alone
+    Kind slot = Kind::none;  // its slot, or none yet
+  };
+
+  explicit ParseSchedule(std::size_t slots) : free_(slots) {}
+
+  /// Takes a free slot for a body and returns its kind; none if there is no free one.
+  Kind take(const Body& body);
+  /// Lets a body wait for which there is no free slot. It outlives its wait, which ends when it gets a slot.
+  void wait(Waiting& waiting) { waiting_.push_back(&waiting); }
+  void stop_waiting(Waiting& waiting) { waiting_.remove(&waiting); }
+  /// Takes a slot back from a body. Returns the one that has got it, or null.
+  Waiting* give_back(Kind kind, const Body& body);
+
+ private:
+  std::list<Waiting*>::iterator next();
+
+  std::size_t free_;
+  bool small_is_free_ = true;
+  std::map<std::string, std::size_t> taken_;  // number of slots, by client
+  std::list<Waiting*> waiting_;
+};
+
 /// Bounds how many bodies are parsed at the same time, as parsing needs many times the memory of the body.
 /// Slots go round the clients: next is a body of the client that has the fewest. Of those, small bodies come
 /// before large ones that arrived at the same time, but no body waits for ever: next is the one that would
@@ -19,36 +60,20 @@ namespace fleetplan::server {
 /// so that these do not wait behind large ones. Thread-safe.
 class ParseSlots {
  public:
-  /// Bodies up to this many bytes may use the additional slot.
-  static constexpr std::size_t kSmall = std::size_t{64} * 1024;
-
-  explicit ParseSlots(std::size_t slots) : free_(slots) {}
-
-  /// A body that is to be parsed.
-  struct Body {
-    std::string client;
-    std::size_t bytes = 0;  // decoded, as far as that is known
-  };
+  using Body = ParseSchedule::Body;
   class Slot;
 
-  /// The number of bodies that wait for a slot.
-  std::size_t waiting() const;
+  explicit ParseSlots(std::size_t slots) : schedule_(slots) {}
 
  private:
-  using Clock = core::StopCondition::Clock;
-  enum class Kind { none, any, small };
+  using Kind = ParseSchedule::Kind;
   struct Waiting;
 
   Kind await(const Body& body, const core::StopCondition& stop);
-  Kind take(const Body& body);
   void give_back(Kind kind, const Body& body);
-  std::list<Waiting*>::iterator next();
 
-  mutable std::mutex mutex_;
-  std::size_t free_;
-  bool small_is_free_ = true;
-  std::map<std::string, std::size_t> taken_;  // number of slots, by client
-  std::list<Waiting*> waiting_;
+  std::mutex mutex_;
+  ParseSchedule schedule_;  // guarded by the mutex
 };
 
 /// Waits for a slot and holds it.

@@ -4,7 +4,8 @@
 
 #include <atomic>
 #include <chrono>
-#include <mutex>
+#include <deque>
+#include <map>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -15,7 +16,7 @@ namespace TEST_FILE {
 
 using Slot = ParseSlots::Slot;
 
-constexpr std::size_t kLarge = 10 * ParseSlots::kSmall;
+constexpr std::size_t kLarge = 10 * ParseSchedule::kSmall;
 
 const core::StopCondition kForever = core::StopCondition::never();
 const core::StopCondition kNow(core::StopCondition::Clock::time_point::min());
@@ -33,7 +34,7 @@ TEST(ParseSlots, BoundHowManyBodiesAreParsed) {
 TEST(ParseSlots, HaveOneMoreForSmallBodies) {
   ParseSlots slots(1);
   const Slot large(slots, {"client", kLarge}, kForever);
-  Slot small(slots, {"client", ParseSlots::kSmall}, kForever);
+  Slot small(slots, {"client", ParseSchedule::kSmall}, kForever);
   EXPECT_TRUE(small.has_slot());
   EXPECT_FALSE(Slot(slots, {"client", 1}, kNow).has_slot());
   small.release();
@@ -52,35 +53,44 @@ TEST(ParseSlots, StopWaitingWhenTheClientLeaves) {
 /// Bodies that wait for the only slot, in the order in which they get it.
 class Waiting : public testing::Test {
  protected:
-  void wait(const std::string& name, const std::string& client, std::size_t bytes) {
-    const std::size_t others = slots.waiting();
-    threads.emplace_back([this, name, client, bytes] {
-      const Slot slot(slots, {client, bytes}, kForever);
-      const std::lock_guard lock(mutex);
-      order.push_back(name);
-    });
-    while (slots.waiting() == others) std::this_thread::yield();
+  Waiting() {
+    hog_slot = schedule.take(hog);
+    schedule.take(small_of_hog);
+  }
+
+  void wait(const std::string& name, const std::string& client, std::size_t bytes, int arrived_ms = 0) {
+    const auto& body = bodies.emplace_back(ParseSlots::Body{client, bytes});
+    const ParseSchedule::Time arrived{std::chrono::milliseconds(arrived_ms)};
+    ASSERT_EQ(schedule.take(body), Kind::none);
+    schedule.wait(waiting.emplace_back(body, arrived));
+    names.emplace(&waiting.back(), name);
   }
 
   std::vector<std::string> served() {
-    first.release();
-    threads.clear();
+    std::vector<std::string> order;
+    auto* next = schedule.give_back(hog_slot, hog);
+    for (; next != nullptr; next = schedule.give_back(next->slot, next->body)) {
+      EXPECT_EQ(next->slot, Kind::any);
+      order.push_back(names.at(next));
+    }
     return order;
   }
 
-  ParseSlots slots{1};
-  Slot first{slots, {"hog", kLarge}, kForever};
-  Slot small{slots, {"hog", 1}, kForever};
-  std::mutex mutex;
-  std::vector<std::string> order;
-  std::vector<std::jthread> threads;
+  using Kind = ParseSchedule::Kind;
+  ParseSchedule schedule{1};
+  const ParseSlots::Body hog{"hog", kLarge};
+  const ParseSlots::Body small_of_hog{"hog", 1};
+  Kind hog_slot = Kind::none;
+  std::deque<ParseSlots::Body> bodies;
+  std::deque<ParseSchedule::Waiting> waiting;
+  std::map<const ParseSchedule::Waiting*, std::string> names;
 };
 
 TEST_F(Waiting, GoesRoundTheClients) {
   wait("first of the hog", "hog", kLarge);
   wait("second of the hog", "hog", kLarge);
   wait("other", "other", 2 * kLarge);
-  EXPECT_EQ(served().front(), "other");
+  EXPECT_EQ(served(), (std::vector<std::string>{"other", "first of the hog", "second of the hog"}));
 }
 
 TEST_F(Waiting, ServesTheSmallestOfThoseThatCameTogether) {
@@ -91,9 +101,15 @@ TEST_F(Waiting, ServesTheSmallestOfThoseThatCameTogether) {
 
 TEST_F(Waiting, DoesNotServeSmallBodiesThatComeLater) {
   wait("large", "client", kLarge);
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // longer than it takes to parse it
-  wait("later", "client", kLarge / 10);
+  wait("later", "client", kLarge / 10, 100);  // after longer than it takes to parse the large one
   EXPECT_EQ(served(), (std::vector<std::string>{"large", "later"}));
+}
+
+TEST_F(Waiting, LeavesOutBodiesThatNobodyWaitsForAnyMore) {
+  wait("first", "client", kLarge);
+  wait("second", "client", 2 * kLarge);
+  schedule.stop_waiting(waiting.front());
+  EXPECT_EQ(served(), std::vector<std::string>{"second"});
 }
 
 TEST(ParseSlots, ServeEveryBodyWithoutMoreThanTheirNumber) {
