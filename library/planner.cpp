@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/replan/follow_kept.h"
 #include "core/replan/kept_plans.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"

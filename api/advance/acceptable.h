@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "api/advance/advance_request.h"
-#include "api/advance/unavoidable.h"
+#include "api/advance/committed_motion.h"
 #include "core/map/static_map.h"
 #include "core/model/robot.h"
 #include "core/runtime/work.h"

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "api/advance/advance.h"
-#include "api/advance/committed_pieces.h"
+#include "api/advance/committed_motion.h"
 #include "core/model/radius_steps.h"
 
 namespace fleetplan::api {

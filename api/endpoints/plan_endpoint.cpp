@@ -19,7 +19,6 @@
 #include "core/commitments/unavoidable_collisions.h"
 #include "core/instance/instance.h"
 #include "core/model/plan.h"
-#include "core/replan/follow_kept.h"
 #include "core/replan/kept_plans.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/verify.h"

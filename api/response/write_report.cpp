@@ -1,9 +1,8 @@
-#include "api/response/write_report.h"
-
 #include <algorithm>
 #include <string_view>
 
 #include "api/json/json_writer.h"
+#include "api/response/write_response.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::api {

@@ -9,7 +9,6 @@
 #include "api/json/error.h"
 #include "api/json/json_writer.h"
 #include "api/response/reply.h"
-#include "api/response/write_report.h"
 #include "core/geometry/angle.h"
 
 namespace fleetplan::api {

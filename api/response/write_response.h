@@ -1,6 +1,6 @@
 #pragma once
 
-// The answer with a plan, and the parts of it that other answers have as well.
+// The answer with a plan, the parts of it that other answers have as well, and the report of a check.
 
 #include <chrono>
 #include <optional>
@@ -10,11 +10,13 @@
 #include "api/json/json_writer.h"
 #include "api/request/fleet/received_robot.h"
 #include "core/execution/dependency.h"
+#include "core/geometry/moving_obstacle.h"
 #include "core/geometry/position.h"
 #include "core/model/action.h"
 #include "core/model/plan.h"
 #include "core/model/problem.h"
 #include "core/model/robot.h"
+#include "core/model/zone.h"
 #include "core/verify/verify.h"
 
 namespace fleetplan::api {
@@ -56,5 +58,15 @@ void write_actions(JsonWriter& json, const std::vector<core::Action>& actions, c
 /// Writes the members `dependencies` and `tight`; without dependencies (null), both are null.
 void write_dependencies(JsonWriter& json, const core::Dependencies* dependencies,
                         const std::vector<core::Robot>& robots);
+
+/// Returns the smallest clearance as answers report it, metres: contact, an overlap of at most
+/// kContactTolerance, is 0.
+std::optional<double> reported_clearance(const core::VerifyReport& report);
+
+/// Returns the answer of POST /v1/validate. It contains at most the first twenty violations and the number of
+/// all, with `"truncated": true` if there are more.
+std::string write_report(const core::VerifyReport& report, const std::vector<core::Robot>& robots,
+                         const std::vector<core::MovingObstacle>& obstacles,
+                         const std::vector<core::Zone>& zones);
 
 }  // namespace fleetplan::api

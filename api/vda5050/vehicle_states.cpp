@@ -1,5 +1,3 @@
-#include "api/vda5050/vehicle_states.h"
-
 #include <array>
 #include <string>
 #include <unordered_map>
@@ -7,6 +5,7 @@
 
 #include "api/json/faults.h"
 #include "api/request/ranges.h"
+#include "api/vda5050/import.h"
 #include "api/vda5050/messages.h"
 #include "core/geometry/angle.h"
 

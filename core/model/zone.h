@@ -34,7 +34,9 @@ struct Zone {
   /// no robot may be inside in the first place.
   bool may_leave = false;
 
-  bool is_for(std::size_t robot) const;
+  bool is_for(std::size_t robot) const {
+    return robots.empty() || std::binary_search(robots.begin(), robots.end(), robot);
+  }
   /// Whether robots may not be inside from the first.
   bool is_wall() const { return type == Type::blocked && !may_leave; }
 

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <new>
 #include <utility>
 
 #include "core/geometry/tolerance.h"
 #include "core/instance/to_actions.h"
 #include "core/model/itinerary.h"
+#include "core/prioritized/enclosure.h"
+#include "core/prioritized/partial_plan.h"
 
 namespace fleetplan::core {
 namespace {
@@ -66,13 +70,22 @@ RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
   return plan;
 }
 
+/// The objectives of the estimates, without robots that have none.
+Objectives estimated_objectives(const Plan& plan) {
+  Objectives estimated;
+  for (const RobotPlan& robot : plan.plans) {
+    const double cost = robot.estimated_cost.value_or(robot.cost);
+    if (cost < kForever) estimated = including(estimated, cost);
+  }
+  return estimated;
+}
+
 }  // namespace
 
 Plan collect_plan(const PlanState& state, const std::vector<std::optional<Unplanned>>& unplanned,
                   const TautPathBounds& bounds) {
   Plan plan;
   const std::optional<double>& horizon = state.instance().options().horizon;
-  if (horizon) plan.estimated = Objectives();
   for (std::size_t i = 0; i < state.instance().size(); ++i) {
     if (unplanned[i]) {
       plan.unplanned.push_back(*unplanned[i]);
@@ -82,10 +95,60 @@ Plan collect_plan(const PlanState& state, const std::vector<std::optional<Unplan
     double bound = bounds[i];
     if (horizon) bound = std::min(bound, std::max(*horizon, state.instance().itinerary(i).t_begin));
     const RobotPlan& robot = plan.plans.emplace_back(robot_plan(state, i, bound));
-    if (horizon) plan.estimated = including(*plan.estimated, robot.estimated_cost.value_or(robot.cost));
     plan.objectives = including(plan.objectives, robot.cost);
     plan.lower_bound = including(plan.lower_bound, robot.lower_bound);
   }
+  if (horizon) plan.estimated = estimated_objectives(plan);
+  return plan;
+}
+
+namespace {
+
+/// Steps of Enclosure for each robot: about 2 ms.
+constexpr std::int64_t kStepsOfStuck = 50'000;
+
+std::vector<std::size_t> robots_that_stay(const PlanState& state) {
+  const std::vector<double>& until = state.reservations().at_start_until;
+  std::vector<std::size_t> staying;
+  for (std::size_t robot = 0; robot < until.size(); ++robot) {
+    if (until[robot] == kForever) staying.push_back(robot);
+  }
+  return staying;
+}
+
+/// Without a way to its goals.
+void have_no_way(RobotPlan& plan, const std::vector<std::size_t>& closed_by) {
+  plan.blocked_by = closed_by;
+  plan.estimated_cost = kForever;
+  for (Visit& visit : plan.estimated_visits) visit.t_arrive = visit.t_leave = kForever;
+}
+
+void explain_stuck(PlanState& state, RobotPlan& plan, const std::vector<std::size_t>& staying,
+                   BlockingRobots& blocking) {
+  if (!staying.empty()) {
+    const Enclosure::Result way = Enclosure(state.instance(), plan.robot, staying).find(kStepsOfStuck);
+    if (way.answer == Enclosure::Answer::closed) return have_no_way(plan, way.robots);
+  }
+  plan.blocked_by = blocking.find(plan.robot);
+}
+
+}  // namespace
+
+Plan with_stuck_explained(PlanState& state, Plan plan, const StopCondition& stop) {
+  const auto is_stuck = [](const RobotPlan& robot) { return robot.is_stuck; };
+  if (std::none_of(plan.plans.begin(), plan.plans.end(), is_stuck)) return plan;
+  try {
+    state.resume();
+    const std::vector<std::size_t> staying = robots_that_stay(state);
+    BlockingRobots blocking(state, stop);
+    for (RobotPlan& robot : plan.plans) {
+      if (robot.is_stuck && !stop.met()) explain_stuck(state, robot, staying, blocking);
+    }
+    if (stop.met()) plan.deterministic = false;
+  } catch (const std::bad_alloc&) {  // not granted to the job: the others are stuck without a reason
+    plan.deterministic = false;
+  }
+  plan.estimated = estimated_objectives(plan);
   return plan;
 }
 

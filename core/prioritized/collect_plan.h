@@ -1,11 +1,15 @@
 #pragma once
 
+// The plan of a state. What it says of robots that stop at the horizon: when they would come to the goals
+// that are left, and who keeps those that are stuck from them.
+
 #include <optional>
 #include <vector>
 
 #include "core/bounds/taut_path_bounds.h"
 #include "core/model/plan.h"
 #include "core/prioritized/plan_state.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 
@@ -13,5 +17,10 @@ namespace fleetplan::core {
 /// trajectory, or is parked. `unplanned` is by robot.
 Plan collect_plan(const PlanState& state, const std::vector<std::optional<Unplanned>>& unplanned,
                   const TautPathBounds& bounds);
+
+/// Returns the plan with what keeps its stuck robots from their goals: RobotPlan::blocked_by, and no
+/// estimates where robots that stay for good close the way. `state` follows the plan. What takes longer than
+/// `stop` allows, or more memory than there is, is left out; the plan is then not deterministic.
+Plan with_stuck_explained(PlanState& state, Plan plan, const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include "core/prioritized/blocking_robots.h"
 #include "core/prioritized/triage.h"
 
 namespace fleetplan::core {
@@ -21,6 +21,9 @@ constexpr std::array<SearchLimits, 3> kRounds{{
     {.thorough = false, .max_expansions = 5'000},
     {},
 }};
+
+/// The expansions of all searches for blocking robots together: about a tenth of a second.
+constexpr std::int64_t kMostBlockingExpansions = 20'000;
 
 std::size_t rounds_of(Effort effort) {
   if (effort == Effort::none) return 0;
@@ -169,6 +172,34 @@ bool return_to(PlanState& state, const KeptPlan& kept, const StopCondition& stop
     state.restore(kept.reservations);
   }
   return !is_over;
+}
+
+std::vector<std::size_t> BlockingRobots::find(std::size_t robot) {
+  if (stop_.met()) return {};
+  const Trajectory alone = state_.plan_alone(robot, stop_);
+  std::vector<std::size_t> blocking = state_.conflicting_robots(robot, alone);
+  if (blocking.empty()) return state_.robots_committed_against(robot, alone);
+  const std::optional<Trajectory> followed = state_.trajectory(robot);
+  state_.remove(robot);
+  for (std::size_t k = 0; k < blocking.size() && blocking.size() > 1;) {
+    if (stop_.met() || expansions_ > kMostBlockingExpansions) break;
+    const std::int64_t before = state_.expansions();
+    std::vector<std::size_t> fewer = blocking;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+    const auto found = state_.plan_ignoring(fewer, robot, {}, stop_).trajectory;
+    if (found && !(followed && found->gains_nothing)) {
+      blocking = std::move(fewer);
+    } else {
+      ++k;
+    }
+    expansions_ += state_.expansions() - before;
+  }
+  if (followed) {
+    state_.follow(robot, *followed);
+  } else {
+    state_.stay_at_start(robot);
+  }
+  return blocking;
 }
 
 PartialPlan explain(PlanState& state, const SafePlan& plan, const StopCondition& stop) {

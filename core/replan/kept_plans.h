@@ -1,6 +1,6 @@
 #pragma once
 
-// Previous plans, and which of them hold.
+// Previous plans: which of them hold, and plans that go on with those.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +14,8 @@
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
+
+class PlanState;
 
 /// Whether any robot has a previous plan.
 bool have_previous_plans(const std::vector<Robot>& robots);
@@ -49,5 +51,21 @@ KeptPlans keep_previous_plans(const Problem& problem, const PlanOptions& options
 /// Returns those of the kept plans that also hold if all other robots stay at their starts or committed ends.
 KeptPlans keep_if_others_stay(const Problem& problem, const PlanOptions& options, const KeptPlans& previous,
                               const StopCondition& stop);
+
+/// Lets the robots whose plans are kept follow them in `state`, except those whose plans conflict with a
+/// robot that stays. Robots with `certain` plans, which hold if all others stay, follow them in any case.
+/// Returns the number of robots that follow a plan.
+std::size_t follow_kept_plans(PlanState& state, const KeptPlans& previous, const KeptPlans& certain);
+
+/// Lets all of `movers`, whose plans are kept, follow them in `state`. Takes hardly any time, and no search
+/// may follow.
+void finish_with_kept_plans(PlanState& state, const std::vector<std::size_t>& movers);
+
+/// Returns the plan for which no search is needed: parked robots, and robots whose previous plans hold while
+/// all others stay at their starts or committed ends. The others are unplanned for lack of a budget, with
+/// this detail. Takes as long as a few checks of the plans; none of the previous plans is kept if `stop` is
+/// met first.
+Plan plan_without_search(const Problem& problem, const PlanOptions& options, const char* detail,
+                         const StopCondition& stop);
 
 }  // namespace fleetplan::core

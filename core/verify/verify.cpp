@@ -7,9 +7,8 @@
 #include "core/geometry/tolerance.h"
 #include "core/verify/execution.h"
 #include "core/verify/pairs/check_pairs.h"
-#include "core/verify/rules/motion_rules.h"
 #include "core/verify/rules/place_rules.h"
-#include "core/verify/rules/visit_rules.h"
+#include "core/verify/rules/plan_rules.h"
 
 namespace fleetplan::core {
 namespace {

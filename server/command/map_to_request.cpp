@@ -16,7 +16,6 @@
 #include "api/json/read_json.h"
 #include "api/request/parse_request.h"
 #include "server/command/command_io.h"
-#include "server/command/ros_map_file.h"
 
 namespace fleetplan::server {
 

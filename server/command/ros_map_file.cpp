@@ -1,6 +1,4 @@
 
-#include "server/command/ros_map_file.h"
-
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -16,6 +14,7 @@
 #include "api/json/json_writer.h"
 #include "api/request/limits.h"
 #include "server/command/command_io.h"
+#include "server/command/map_to_request.h"
 
 namespace fleetplan::server {
 

@@ -13,8 +13,7 @@
 #include "core/verify/geometry/relative_motion.h"
 #include "core/verify/pairs/exemptions.h"
 #include "core/verify/pairs/fleet_clearance.h"
-#include "core/verify/pairs/margin_sweep.h"
-#include "core/verify/pairs/obstacle_sweep.h"
+#include "core/verify/pairs/sweeps.h"
 
 namespace fleetplan::core {
 namespace {

@@ -1,11 +1,10 @@
-#include "core/verify/pairs/margin_sweep.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <map>
 #include <utility>
 
 #include "core/verify/pairs/moving_boxes.h"
+#include "core/verify/pairs/sweeps.h"
 
 namespace fleetplan::core {
 namespace {

@@ -1,5 +1,3 @@
-#include "core/verify/pairs/obstacle_sweep.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 
 #include "core/verify/geometry/relative_motion.h"
 #include "core/verify/pairs/moving_boxes.h"
+#include "core/verify/pairs/sweeps.h"
 
 namespace fleetplan::core {
 namespace {

@@ -1,5 +1,3 @@
-#include "core/verify/rules/motion_rules.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 #include <utility>
 
 #include "core/geometry/angle.h"
+#include "core/verify/rules/plan_rules.h"
 
 namespace fleetplan::core {
 namespace {

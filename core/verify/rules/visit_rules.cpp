@@ -1,5 +1,3 @@
-#include "core/verify/rules/visit_rules.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,6 +8,7 @@
 
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
+#include "core/verify/rules/plan_rules.h"
 
 namespace fleetplan::core {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "api/advance/advance.h"
-#include "api/advance/unavoidable.h"
+#include "api/advance/committed_motion.h"
 #include "api/endpoints/endpoints.h"
 #include "tests/api/support/requests.h"
 

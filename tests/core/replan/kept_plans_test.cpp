@@ -7,7 +7,6 @@
 
 #include "core/model/itinerary.h"
 #include "core/planner.h"
-#include "core/replan/follow_kept.h"
 #include "tests/core/replan/fleets.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/ascii_map.h"

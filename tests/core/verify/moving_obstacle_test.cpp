@@ -10,7 +10,7 @@
 #include "core/model/plan.h"
 #include "core/verify/execution.h"
 #include "core/verify/pairs/exemptions.h"
-#include "core/verify/pairs/obstacle_sweep.h"
+#include "core/verify/pairs/sweeps.h"
 #include "tests/core/verify/random_fleet.h"
 #include "tests/core/verify/scene.h"
 

@@ -1,9 +1,11 @@
 #pragma once
 
-// How a plan moves: from action to action, within the speeds, after waits, and as committed.
+// What the plan of one robot does: how it moves (motion_rules.cpp): from action to action, within the speeds,
+// after waits, and as committed; and where it begins, calls and ends (visit_rules.cpp).
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "core/model/plan.h"
 #include "core/model/robot.h"
@@ -33,5 +35,25 @@ ViolationList check_waits(const Robot& robot, const RobotPlan& plan, double wait
 /// number that differs, at all if `exact`, otherwise by more than the tolerance.
 std::optional<Violation> check_commitments(const Robot& robot, const RobotPlan& plan,
                                            const Tolerance& tolerance, bool exact);
+
+/// Checks that a plan begins at the robot's start (`wrong_start`) and rests at its goal (`wrong_goal`).
+/// Reports each at most once: the position if that is wrong, otherwise the heading. A parked robot must rest
+/// at its start, in any heading. With goals left, a plan may rest anywhere.
+std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance,
+                                       GoalsLeft goals_left);
+
+/// Checks that the robot visits its goals (`wrong_visit`): in their order it rests in the pose of each, from
+/// `not_before` on, for the whole service, the last one at the end of its plan. Rests are uninterrupted
+/// waits, the instants between two actions included. Reports the first goal that is not visited, and each
+/// visit, or `goal` of a wait that is not committed, that does not take place. Whether the robot ends at its
+/// last goal is not part of this (see check_endpoints). With goals left, a plan may end before all are
+/// visited.
+std::vector<Violation> check_visits(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance,
+                                    GoalsLeft goals_left, const StopCondition& stop);
+
+/// Returns the number of goals before the last one that a robot serves if it executes nothing but its
+/// commitment.
+std::size_t goals_served_by_commitment(const Robot& robot, const Tolerance& tolerance,
+                                       const StopCondition& stop);
 
 }  // namespace fleetplan::core

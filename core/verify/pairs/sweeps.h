@@ -1,6 +1,7 @@
 #pragma once
 
-// Robots that pass the same place with less than the interval margin between them.
+// Sweeps through the time of a fleet: robots that overlap moving obstacles, and robots that pass the same
+// place with less than the interval margin between them.
 
 #include <cstddef>
 #include <functional>
@@ -10,6 +11,8 @@
 #include "core/runtime/stop_condition.h"
 #include "core/verify/execution.h"
 #include "core/verify/geometry/relative_motion.h"
+#include "core/verify/pairs/exemptions.h"
+#include "core/verify/pairs/fleet_clearance.h"
 
 namespace fleetplan::core {
 
@@ -34,5 +37,16 @@ std::optional<std::vector<ShiftedOverlap>> overlaps_within_margin(const Executed
                                                                   double inflation, const LeftOut& left_out,
                                                                   std::size_t most,
                                                                   const StopCondition& stop);
+
+/// Returns the overlaps of robots (`first`, a position in the fleet) and obstacles (`second`) by more than
+/// the tolerance of the robot: one for each uninterrupted overlap, at most `max_overlaps`. The instants at
+/// which an obstacle appears and vanishes count. Times in which all overlaps of a robot are exempt are left
+/// out. Exact up to rounding. Returns none if `stop` is met first.
+std::optional<std::vector<Overlap>> overlaps_with_obstacles(const ExecutedFleet& fleet,
+                                                            const std::vector<std::vector<Leg>>& obstacles,
+                                                            const std::vector<double>& obstacle_radii,
+                                                            const Exemptions& exemptions,
+                                                            std::size_t max_overlaps,
+                                                            const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -1,20 +1,70 @@
-#include "api/advance/unavoidable.h"
+#include "api/advance/committed_motion.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
-#include "api/advance/committed_pieces.h"
 #include "core/geometry/tolerance.h"
+#include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"
 
 namespace fleetplan::api {
 
-namespace {
-
-using core::Action;
 using core::Position;
+
+std::vector<Piece> committed_pieces(const core::Robot& robot) {
+  std::vector<core::RadiusStep> steps;
+  if (core::changes_radius(robot)) {
+    steps = core::radius_steps(robot, core::itinerary_of(robot).visited);
+  }
+  std::vector<Piece> pieces;
+  double radius = robot.radius;
+  auto step = steps.begin();
+  const auto add = [&](Piece piece) {
+    for (; step != steps.end() && step->t < piece.end; ++step) {
+      if (step->t > piece.begin) {
+        pieces.push_back({piece.begin, step->t, piece.from, piece.velocity, radius, piece.grows});
+        piece.from = piece.at(step->t);
+        piece.begin = step->t;
+      }
+      piece.grows = step->radius > radius;
+      radius = step->radius;
+    }
+    piece.radius = radius;
+    pieces.push_back(piece);
+  };
+  for (const core::Action& action : robot.committed) {
+    const double duration = action.t_end - action.t_start;
+    const Position path = action.to.position - action.from.position;
+    const Position velocity = duration > 0.0 ? Position(path / duration) : Position(0.0, 0.0);
+    add({action.t_start, action.t_end, action.from.position, velocity});
+  }
+  add({robot.committed_until(),
+       std::numeric_limits<double>::infinity(),
+       robot.committed_end().position,
+       {0.0, 0.0}});
+  return pieces;
+}
+
+std::optional<double> first_overlap(const Piece& a, const Piece& b, double distance) {
+  const double begin = std::max(a.begin, b.begin);
+  const double end = std::min(a.end, b.end);
+  if (begin > end) return std::nullopt;
+  const Position apart = a.at(begin) - b.at(begin);
+  const Position velocity = a.velocity - b.velocity;
+  const double closing = apart.dot(velocity);
+  if (closing >= 0.0) return std::nullopt;
+  const double gap = apart.squaredNorm() - distance * distance;
+  if (gap < 0.0) return begin;
+  const double speed = velocity.squaredNorm();
+  const double under_root = closing * closing - speed * gap;
+  if (under_root <= 0.0) return std::nullopt;
+  const double t = begin + gap / (-closing + std::sqrt(under_root));
+  return t < end ? std::optional(t) : std::nullopt;
+}
+
+namespace {
 
 /// Pairs that are listed; where more overlap, nobody reads all of them.
 constexpr std::size_t kMostPairs = 10'000;
@@ -31,13 +81,13 @@ struct Stopping {
   double until = 0.0;  // seconds; how it brakes after that is after a collision, and not known
 };
 
-double length(const std::vector<Action>& actions) {
+double length(const std::vector<core::Action>& actions) {
   double metres = 0.0;
-  for (const Action& action : actions) metres += (action.to.position - action.from.position).norm();
+  for (const core::Action& action : actions) metres += (action.to.position - action.from.position).norm();
   return metres;
 }
 
-Stopping stopping(const core::Robot& robot, const std::vector<Action>& braking) {
+Stopping stopping(const core::Robot& robot, const std::vector<core::Action>& braking) {
   Stopping made;
   made.committed = committed_pieces(robot);
   made.brakes = !braking.empty();
@@ -109,7 +159,7 @@ class CollisionSearch {
 }  // namespace
 
 std::vector<Collision> unavoidable_collisions(const std::vector<core::Robot>& robots,
-                                              const std::vector<std::vector<Action>>& braking,
+                                              const std::vector<std::vector<core::Action>>& braking,
                                               core::Work& stop) {
   CollisionSearch search(robots, stop);
   for (std::size_t k = 0; k < robots.size(); ++k) {
