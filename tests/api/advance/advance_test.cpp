@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/api/advance/driving_fleet.h"
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
@@ -17,17 +18,13 @@ using core::Pose;
 using core::Position;
 using Type = core::Action::Type;
 
-Pose at_x(double x) { return {{x, 1.0}, 0.0}; }
-
 core::Goal goal(double x, double service = 0.0, double not_before = 0.0) {
   return {{x, 1.0}, std::nullopt, service, not_before};
 }
 
 /// Serves at x = 3 from 2 s to 7 s, waits for others until 8 s, and is at x = 6 from 11 s on.
 core::Robot robot() {
-  core::Robot robot;
-  robot.start = at_x(1.0);
-  robot.linear_speed = robot.angular_speed = 1.0;
+  core::Robot robot = robot_at(at_x(1.0), 0.0);
   robot.via = {goal(3.0, 5.0)};
   robot.goal = goal(6.0, 1.0);
   return robot;
@@ -40,10 +37,6 @@ Execution plan() {
            {Type::translate, 8.0, 11.0, at_x(3.0), at_x(6.0)},
            {Type::wait, 11.0, 12.0, at_x(6.0), at_x(6.0), 1}},
           true};
-}
-
-Moment moment(double at, std::optional<double> commit = {}, double wait_before_move = 0.0) {
-  return {at, commit, 0.1, wait_before_move};
 }
 
 TEST(Advance, ByDefaultTheActionUnderWayIsCommitted) {
@@ -425,32 +418,15 @@ TEST(Advance, NewGoalsDoNotTakeALoadAway) {
   EXPECT_EQ(advanced(carrier(), execution, moment(12.5)).radius, 0.4);
 }
 
-/// Robots of radius 0.25 that follow each other at 1 m/s along a line, half a metre apart.
-struct Convoy {
-  std::vector<core::Robot> robots;
-  std::vector<Execution> executions;
-
-  explicit Convoy(int count) {
-    for (int k = 0; k < count; ++k) {
-      core::Robot follower;
-      follower.radius = 0.25;
-      follower.linear_speed = follower.angular_speed = 1.0;
-      follower.start = at_x(5.0 - 0.5 * k);
-      follower.goal = goal(9.0 - 0.5 * k);
-      const Action drive{Type::translate, 0.0, 4.0, follower.start, at_x(9.0 - 0.5 * k)};
-      robots.push_back(follower);
-      executions.push_back({{drive}, true});
-    }
-  }
-
-  std::vector<core::Robot> advance(double at) {
-    core::Work stop = core::Work::unbounded();
-    return advanced(robots, executions, moment(at, 1.0), stop);
-  }
-};
+/// Robots that follow each other along a line, half a metre apart.
+DrivingFleet convoy_of(int count) {
+  DrivingFleet convoy;
+  for (int k = 0; k < count; ++k) convoy.add_on_line(5.0 - 0.5 * k, 9.0 - 0.5 * k);
+  return convoy;
+}
 
 TEST(AdvancedFleet, RobotsBehindOneThatIsHeldAreCommittedUntilTheyTouch) {
-  Convoy convoy(4);
+  DrivingFleet convoy = convoy_of(4);
   convoy.executions[1].hold = 30.0;
   convoy.robots[2].start.position.x() -= 0.25;
   convoy.executions[2].actions[0].from = convoy.robots[2].start;
@@ -458,7 +434,7 @@ TEST(AdvancedFleet, RobotsBehindOneThatIsHeldAreCommittedUntilTheyTouch) {
   convoy.robots[3].start.position.x() -= 0.25;
   convoy.executions[3].actions[0].from = convoy.robots[3].start;
   convoy.executions[3].actions[0].t_end = 4.25;
-  const auto next = convoy.advance(1.0);
+  const auto next = convoy.advance(1.0, 1.0);
   EXPECT_EQ(next[0].committed.back().t_end, 1.0);
   EXPECT_EQ(next[1].committed.back().t_end, 30.0);
   for (const std::size_t behind : {2U, 3U}) {
@@ -469,57 +445,42 @@ TEST(AdvancedFleet, RobotsBehindOneThatIsHeldAreCommittedUntilTheyTouch) {
 }
 
 TEST(AdvancedFleet, OneThatTouchesAHeldRobotIsNotCommittedToGoOn) {
-  Convoy convoy(2);
+  DrivingFleet convoy = convoy_of(2);
   convoy.executions[0].hold = 30.0;
-  EXPECT_TRUE(convoy.advance(1.0)[1].committed.empty());
+  EXPECT_TRUE(convoy.advance(1.0, 1.0)[1].committed.empty());
 }
 
 TEST(AdvancedFleet, OneThatMovesAwayFromAHeldRobotGoesOn) {
-  Convoy convoy(2);
+  DrivingFleet convoy = convoy_of(2);
   convoy.executions[1].hold = 30.0;
-  EXPECT_EQ(convoy.advance(1.0)[0].committed.back().t_end, 1.0);
+  EXPECT_EQ(convoy.advance(1.0, 1.0)[0].committed.back().t_end, 1.0);
 }
 
 TEST(AdvancedFleet, ALateRobotStopsThoseThatWouldDriveIntoIt) {
-  Convoy convoy(2);
+  DrivingFleet convoy = convoy_of(2);
   convoy.executions[0].measured = Pose{{5.9, 1.0}, 0.0};  // planned: 6
-  const auto next = convoy.advance(1.0);
+  const auto next = convoy.advance(1.0, 1.0);
   // Both drive at the same speed, so the gap that is left stays.
   EXPECT_EQ(next[0].committed.back().t_end, 1.0);
   EXPECT_EQ(next[1].committed.back().t_end, 1.0);
   convoy.executions[0].measured = Pose{{6.2, 1.3}, 0.0};  // beside its path
-  EXPECT_NEAR(convoy.advance(1.0)[1].committed.back().t_end, 0.3, 1e-6);
+  EXPECT_NEAR(convoy.advance(1.0, 1.0)[1].committed.back().t_end, 0.3, 1e-6);
 }
 
 /// One drives to x = 3 and then aside to y = 3; the other one passes there later, in one long move.
-struct Crossing {
-  std::vector<core::Robot> robots;
-  std::vector<Execution> executions;
-
-  Crossing() {
-    core::Robot first;
-    first.radius = 0.25;
-    first.linear_speed = first.angular_speed = 1.0;
-    first.start = at_x(1.0);
-    core::Robot second = first;
-    second.start = {{3.0, -5.0}, 1.5};
-    robots = {first, second};
-    const Action ahead{Type::translate, 0.0, 2.0, first.start, at_x(3.0)};
-    const Action aside{Type::translate, 2.0, 4.0, {{3.0, 1.0}, 1.5}, {{3.0, 3.0}, 1.5}};
-    const Action cross{Type::translate, 0.0, 8.0, second.start, {{3.0, 3.0}, 1.5}};
-    executions = {{{ahead, aside}, true}, {{cross}, true}};
-  }
-
-  std::vector<core::Robot> advance(double at, std::optional<double> commit = {}, double inflation = 0.0) {
-    Moment then = moment(at, commit);
-    then.inflation = inflation;
-    core::Work stop = core::Work::unbounded();
-    return advanced(robots, executions, then, stop);
-  }
-};
+DrivingFleet crossing(double inflation = 0.0) {
+  const core::Robot first = robot_at(at_x(1.0));
+  const core::Robot second = robot_at({{3.0, -5.0}, 1.5});
+  DrivingFleet fleet;
+  fleet.inflation = inflation;
+  fleet.add(first, {{Type::translate, 0.0, 2.0, first.start, at_x(3.0)},
+                    {Type::translate, 2.0, 4.0, {{3.0, 1.0}, 1.5}, {{3.0, 3.0}, 1.5}}});
+  fleet.add(second, {{Type::translate, 0.0, 8.0, second.start, {{3.0, 3.0}, 1.5}}});
+  return fleet;
+}
 
 TEST(AdvancedFleet, NobodyIsCommittedToPassWhereAnotherCommitmentHasEnded) {
-  const auto next = Crossing().advance(1.0);
+  const auto next = crossing().advance(1.0);
   EXPECT_EQ(next[0].committed.back().to.position, Position(3.0, 1.0));
   // From y = -4 to half a metre before y = 1.
   EXPECT_NEAR(next[1].committed.back().t_end, 4.5, 1e-6);
@@ -528,31 +489,26 @@ TEST(AdvancedFleet, NobodyIsCommittedToPassWhereAnotherCommitmentHasEnded) {
 }
 
 TEST(AdvancedFleet, CommitmentsKeepTheDistanceOfThePlan) {
-  EXPECT_NEAR(Crossing().advance(1.0, {}, 0.1)[1].committed.back().t_end, 4.3, 1e-6);
-  Crossing crossing;
-  crossing.robots[0].vicinity = 0.2;
-  EXPECT_NEAR(crossing.advance(1.0, {}, 0.1)[1].committed.back().t_end, 4.1, 1e-6);
+  EXPECT_NEAR(crossing(0.1).advance(1.0)[1].committed.back().t_end, 4.3, 1e-6);
+  DrivingFleet fleet = crossing(0.1);
+  fleet.robots[0].vicinity = 0.2;
+  EXPECT_NEAR(fleet.advance(1.0)[1].committed.back().t_end, 4.1, 1e-6);
 }
 
 /// One stops where it touches another one that waits, and then goes on past it.
 TEST(AdvancedFleet, NobodyGoesOnIntoOneThatHasStoppedBesideIt) {
-  core::Robot waits;
-  waits.radius = 0.5;
-  waits.linear_speed = waits.angular_speed = 1.0;
-  waits.start = {{9.75, 9.75}, -3.0691895301690075};
+  const core::Robot waits = robot_at({{9.75, 9.75}, -3.0691895301690075}, 0.5);
   const Action wait{Type::wait, 0.0, 2.2, waits.start, waits.start};
   const Action past{Type::translate, 2.2, 7.4, waits.start, {{2.0, 9.187893222363368}, waits.start.theta}};
-  core::Robot comes = waits;
-  comes.radius = 0.25;
-  comes.start = {{8.2, 5.13}, 1.279898456223541};
+  const core::Robot comes = robot_at({{8.2, 5.13}, 1.279898456223541});
   const Action drive{
       Type::translate, 0.0, 4.63, comes.start, {{10.859688605502331, 14.0}, comes.start.theta}};
-  const std::vector<Execution> executions{{{wait, past}, true}, {{drive}, true}};
+  DrivingFleet fleet;
+  fleet.add(waits, {wait, past});
+  fleet.add(comes, {drive});
   for (const double inflation : {0.0, 0.05, 0.1}) {
-    Moment then = moment(0.0, 4.0);
-    then.inflation = inflation;
-    core::Work stop = core::Work::unbounded();
-    const auto next = advanced({waits, comes}, executions, then, stop);
+    fleet.inflation = inflation;
+    const auto next = fleet.advance(0.0, 4.0);
     EXPECT_LT(next[1].committed_until(), 3.0);
     const Position stands = next[1].committed_end().position;
     for (double t = 2.2; t <= next[0].committed_until(); t += 0.01) {
@@ -563,20 +519,15 @@ TEST(AdvancedFleet, NobodyGoesOnIntoOneThatHasStoppedBesideIt) {
 
 /// Two robots of radius 0.25 pass each other 0.7 m apart, as near as an inflation of 0.1 m allows.
 TEST(AdvancedFleet, InflationIsUsedUpByRobotsThatAreNotWhereTheirPlansHaveThem) {
-  Convoy convoy(2);
-  core::Robot& up = convoy.robots[0];
-  core::Robot& down = convoy.robots[1];
-  up.start = at_x(1.0);
-  down.start = {{9.0, 1.7}, std::numbers::pi};
+  DrivingFleet fleet;
+  fleet.inflation = 0.1;
+  fleet.add_on_line(1.0, 9.0);
+  const core::Robot down = robot_at({{9.0, 1.7}, std::numbers::pi});
   const Pose end_of_down{{1.0, 1.7}, std::numbers::pi};
-  convoy.executions = {{{{Type::translate, 0.0, 8.0, up.start, at_x(9.0)}}, true},
-                       {{{Type::translate, 0.0, 8.0, down.start, end_of_down}}, true}};
+  fleet.add(down, {{Type::translate, 0.0, 8.0, down.start, end_of_down}});
   const auto until = [&](double y) {
-    convoy.executions[0].measured = Pose{{3.5, y}, 0.0};
-    Moment then = moment(2.5, 4.0);
-    then.inflation = 0.1;
-    core::Work stop = core::Work::unbounded();
-    return advanced(convoy.robots, convoy.executions, then, stop)[0].committed_until();
+    fleet.executions[0].measured = Pose{{3.5, y}, 0.0};
+    return fleet.advance(2.5, 4.0)[0].committed_until();
   };
   EXPECT_EQ(until(1.0), 4.0);
   EXPECT_EQ(until(1.04), 4.0) << "nearer than planned by no more than it is off its path";
@@ -589,28 +540,26 @@ TEST(AdvancedFleet, InflationIsUsedUpByRobotsThatAreNotWhereTheirPlansHaveThem) 
 TEST(AdvancedFleet, RobotsThatAreTooNearStopHalfWayUnlessLittleIsLeft) {
   const std::vector<std::pair<double, double>> cases{{0.1, 0.05}, {0.06, 0.02}, {0.04, 0.0}, {0.01, 0.0}};
   for (const auto& [gap, drives] : cases) {
-    Convoy convoy(2);
+    DrivingFleet convoy = convoy_of(2);
     convoy.executions[0].hold = 30.0;
     convoy.robots[1].start.position.x() -= gap;
     convoy.executions[1].actions[0].from = convoy.robots[1].start;
     convoy.executions[1].actions[0].t_end = 4.0 + gap;
-    Moment then = moment(1.0, 1.0);
-    then.inflation = 0.08;
-    core::Work stop = core::Work::unbounded();
-    const auto next = advanced(convoy.robots, convoy.executions, then, stop);
+    convoy.inflation = 0.08;
+    const auto next = convoy.advance(1.0, 1.0);
     EXPECT_NEAR(next[1].committed_until(), drives, 1e-6) << gap;
   }
 }
 
 TEST(AdvancedFleet, CommitmentsToOneHorizonStayWhole) {
-  const auto next = Crossing().advance(1.0, 1.0);
+  const auto next = crossing().advance(1.0, 1.0);
   for (const core::Robot& robot : next) EXPECT_EQ(robot.committed_until(), 1.0);
 }
 
 TEST(AdvancedFleet, AWaitStaysCommittedWhereAnotherRobotTouches) {
-  Crossing crossing;
-  crossing.executions[0].hold = 30.0;
-  const auto next = crossing.advance(2.0);
+  DrivingFleet fleet = crossing();
+  fleet.executions[0].hold = 30.0;
+  const auto next = fleet.advance(2.0);
   EXPECT_EQ(next[0].committed_until(), 30.0);
   EXPECT_NEAR(next[1].committed_until(), 3.5, 1e-6);
 }

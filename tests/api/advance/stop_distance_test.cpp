@@ -2,15 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
-#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "api/advance/advance.h"
-#include "api/advance/committed_motion.h"
 #include "api/endpoints/endpoints.h"
+#include "tests/api/advance/driving_fleet.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
@@ -18,51 +16,11 @@ namespace TEST_FILE {
 
 using core::Action;
 using core::Pose;
-using core::Position;
 using Type = core::Action::Type;
 
-Pose at_x(double x, double theta = 0.0) { return {{x, 1.0}, theta}; }
-
-/// Robots of radius 0.25 that drive along one line at 1 m/s, and can stop after so many metres.
-struct Line {
-  std::vector<core::Robot> robots;
-  std::vector<Execution> executions;
-  double inflation = 0.0;
-
-  void add(double from, double to, double stop_distance) {
-    core::Robot robot;
-    const double heading = to < from ? std::numbers::pi : 0.0;
-    robot.radius = 0.25;
-    robot.linear_speed = robot.angular_speed = 1.0;
-    robot.start = at_x(from, heading);
-    robot.goal = core::Goal{at_x(to).position, std::nullopt};
-    Execution execution{{}, true};
-    if (to != from) {
-      execution.actions.push_back(
-          {Type::translate, 0.0, std::abs(to - from), robot.start, at_x(to, heading)});
-    }
-    execution.stop_distance = stop_distance;
-    robots.push_back(robot);
-    executions.push_back(execution);
-  }
-
-  Moment moment(double at, double commit) const { return {at, commit, 0.1, 0.0, inflation}; }
-
-  std::vector<core::Robot> advance(double at, double commit) const {
-    core::Work stop = core::Work::unbounded();
-    return advanced(robots, executions, moment(at, commit), stop);
-  }
-
-  std::vector<Collision> collisions(double at, double commit) const {
-    core::Work stop = core::Work::unbounded();
-    return unavoidable_collisions(advance(at, commit),
-                                  braking_of(robots, executions, moment(at, commit), stop), stop);
-  }
-};
-
 TEST(StopDistance, NoCommitmentEndsSooner) {
-  Line line;
-  line.add(1.0, 9.0, 0.5);
+  DrivingFleet line;
+  line.add_on_line(1.0, 9.0, 0.5);
   for (const auto& [commit, until] : {std::pair{0.0, 0.5}, {0.3, 0.5}, {0.8, 0.8}}) {
     const core::Robot next = line.advance(2.0, commit)[0];
     EXPECT_DOUBLE_EQ(next.committed_until(), until);
@@ -73,22 +31,22 @@ TEST(StopDistance, NoCommitmentEndsSooner) {
 }
 
 TEST(StopDistance, ARobotStopsWhereItsPlanStopsIt) {
-  Line line;
-  line.add(1.0, 9.0, 0.5);
+  DrivingFleet line;
+  line.add_on_line(1.0, 9.0, 0.5);
   EXPECT_DOUBLE_EQ(line.advance(7.75, 0.0)[0].committed_until(), 0.25);
 }
 
 TEST(StopDistance, OneThatIsAboutToSetOutNeedNot) {
-  Line line;
-  line.add(1.0, 9.0, 0.5);
+  DrivingFleet line;
+  line.add_on_line(1.0, 9.0, 0.5);
   EXPECT_TRUE(line.advance(0.0, 0.0)[0].committed.empty());
   line.robots[0].committed = {line.executions[0].actions[0]};  // it was under way
   EXPECT_DOUBLE_EQ(line.advance(0.0, 0.0)[0].committed_until(), 0.5);
 }
 
 TEST(StopDistance, TranslationsThatGoOnAreOne) {
-  Line line;
-  line.add(1.0, 9.0, 0.5);
+  DrivingFleet line;
+  line.add_on_line(1.0, 9.0, 0.5);
   const Pose border = at_x(3.2);
   line.executions[0].actions = {{Type::translate, 0.0, 2.2, at_x(1.0), border},
                                 {Type::translate, 2.2, 3.2, border, at_x(3.7)},
@@ -102,8 +60,8 @@ TEST(StopDistance, TranslationsThatGoOnAreOne) {
 }
 
 TEST(StopDistance, AHoldBeginsWhereTheRobotStands) {
-  Line line;
-  line.add(1.0, 9.0, 0.5);
+  DrivingFleet line;
+  line.add_on_line(1.0, 9.0, 0.5);
   line.executions[0].hold = 30.0;
   const core::Robot next = line.advance(2.0, 1.0)[0];
   ASSERT_EQ(next.committed.size(), 2U);
@@ -116,8 +74,8 @@ TEST(StopDistance, AHoldBeginsWhereTheRobotStands) {
 }
 
 TEST(StopDistance, ALateRobotDrivesOnFromWhereItIs) {
-  Line line;
-  line.add(1.0, 9.0, 0.5);
+  DrivingFleet line;
+  line.add_on_line(1.0, 9.0, 0.5);
   line.executions[0].measured = at_x(2.5);
   EXPECT_DOUBLE_EQ(line.advance(2.0, 0.0)[0].committed_end().position.x(), 3.0);
   line.executions[0].measured = Pose{{2.5, 1.5}, 0.0};  // beside its path
@@ -125,17 +83,17 @@ TEST(StopDistance, ALateRobotDrivesOnFromWhereItIs) {
 }
 
 TEST(StopDistance, OneThatStandsOrTurnsHasNothingToDo) {
-  Line line;
-  line.add(1.0, 1.0, 0.5);
+  DrivingFleet line;
+  line.add_on_line(1.0, 1.0, 0.5);
   line.executions[0].actions = {{Type::wait, 0.0, 4.0, at_x(1.0), at_x(1.0)},
                                 {Type::rotate, 4.0, 5.0, at_x(1.0), at_x(1.0, 1.0)}};
   for (const double at : {1.0, 4.5, 9.0}) EXPECT_TRUE(line.advance(at, 0.0)[0].committed.empty());
 }
 
 TEST(StopDistance, OneThatCanStopDoesBeforeOneThatCannot) {
-  Line line;
-  line.add(1.0, 9.0, 2.0);
-  line.add(9.0, 1.0, 0.1);
+  DrivingFleet line;
+  line.add_on_line(1.0, 9.0, 2.0);
+  line.add_on_line(9.0, 1.0, 0.1);
   // At 3 m and 7 m after two seconds, and 3.5 m apart. The first one drives to 5 m.
   const auto next = line.advance(2.0, 3.0);
   EXPECT_DOUBLE_EQ(next[0].committed_until(), 2.0);
@@ -144,18 +102,18 @@ TEST(StopDistance, OneThatCanStopDoesBeforeOneThatCannot) {
 }
 
 TEST(StopDistance, MarginsGiveWayButNotDisks) {
-  Line line;
-  line.add(1.0, 9.0, 1.0);
-  line.add(4.6, 4.6, 0.0);
+  DrivingFleet line;
+  line.add_on_line(1.0, 9.0, 1.0);
+  line.add_on_line(4.6, 4.6, 0.0);
   line.inflation = 0.1;
   EXPECT_DOUBLE_EQ(line.advance(2.0, 3.0)[0].committed_until(), 1.0);
   EXPECT_TRUE(line.collisions(2.0, 3.0).empty()) << "it stands before the other one, within its inflation";
 }
 
 TEST(StopDistance, TwoThatCannotStopAreNamedAndTheirCommitmentsEndWhereTheyTouch) {
-  Line line;
-  line.add(1.0, 9.0, 2.0);
-  line.add(7.0, 1.0, 2.0);
+  DrivingFleet line;
+  line.add_on_line(1.0, 9.0, 2.0);
+  line.add_on_line(7.0, 1.0, 2.0);
   // At 3 m and 5 m, 1.5 m apart.
   for (const core::Robot& next : line.advance(2.0, 1.0)) EXPECT_NEAR(next.committed_until(), 0.75, 1e-6);
   const auto collisions = line.collisions(2.0, 1.0);
@@ -166,10 +124,10 @@ TEST(StopDistance, TwoThatCannotStopAreNamedAndTheirCommitmentsEndWhereTheyTouch
 }
 
 TEST(StopDistance, OneBehindStopsBeforeThoseThatCollide) {
-  Line line;
-  line.add(1.0, 9.0, 2.0);
-  line.add(7.0, 1.0, 2.0);
-  line.add(0.3, 8.0, 0.2);
+  DrivingFleet line;
+  line.add_on_line(1.0, 9.0, 2.0);
+  line.add_on_line(7.0, 1.0, 2.0);
+  line.add_on_line(0.3, 8.0, 0.2);
   EXPECT_EQ(line.collisions(2.0, 1.0).size(), 1U);
   // At 2.3 m; the first one ends at 3.75 m.
   const double until = line.advance(2.0, 3.0)[2].committed_until();
@@ -178,10 +136,10 @@ TEST(StopDistance, OneBehindStopsBeforeThoseThatCollide) {
 }
 
 TEST(StopDistance, OneThatCannotStopBeforeARobotWithoutCommitmentIsNamedWithIt) {
-  Line line;
-  line.add(0.0, 9.0, 2.7);
-  line.add(3.0, 9.0, 1.0);
-  line.add(5.4, 5.4, 0.0);
+  DrivingFleet line;
+  line.add_on_line(0.0, 9.0, 2.7);
+  line.add_on_line(3.0, 9.0, 1.0);
+  line.add_on_line(5.4, 5.4, 0.0);
   // At 2 m and 5 m. The second one overlaps the third, and is not committed, but would drive to 6 m.
   const auto next = line.advance(2.0, 0.0);
   EXPECT_DOUBLE_EQ(next[0].committed_end().position.x(), 4.7);
@@ -194,9 +152,9 @@ TEST(StopDistance, OneThatCannotStopBeforeARobotWithoutCommitmentIsNamedWithIt) 
 }
 
 TEST(StopDistance, ACommitmentTowardsOneThatMayLeaveStays) {
-  Line line;
-  line.add(1.0, 9.0, 2.0);
-  line.add(4.5, 4.5, 0.0);
+  DrivingFleet line;
+  line.add_on_line(1.0, 9.0, 2.0);
+  line.add_on_line(4.5, 4.5, 0.0);
   const auto next = line.advance(2.0, 0.0);
   EXPECT_DOUBLE_EQ(next[0].committed_until(), 2.0);
   const auto collisions = line.collisions(2.0, 0.0);

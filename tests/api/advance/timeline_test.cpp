@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "api/advance/advance.h"
+#include "tests/api/advance/driving_fleet.h"
 
 namespace fleetplan::api {
 namespace TEST_FILE {
@@ -15,18 +16,16 @@ using Type = core::Action::Type;
 constexpr double kQuarter = std::numbers::pi / 2.0;
 
 core::Robot robot() {
-  core::Robot robot;
-  robot.start = {{1.0, 1.0}, 0.0};
-  robot.linear_speed = 1.0;
+  core::Robot robot = robot_at(at_x(1.0));
   robot.angular_speed = kQuarter;
   return robot;
 }
 
 /// 4 m east, a quarter turn, a wait, 2 m north: 4 s, 1 s, 2 s, 2 s.
 std::vector<Action> corner() {
-  const Pose start{{1.0, 1.0}, 0.0};
-  const Pose bend{{5.0, 1.0}, 0.0};
-  const Pose turned{{5.0, 1.0}, kQuarter};
+  const Pose start = at_x(1.0);
+  const Pose bend = at_x(5.0);
+  const Pose turned = at_x(5.0, kQuarter);
   const Pose end{{5.0, 3.0}, kQuarter};
   return {{Type::translate, 0.0, 4.0, start, bend},
           {Type::rotate, 4.0, 5.0, bend, turned},
@@ -112,9 +111,9 @@ TEST(Timeline, ActionsThatOverlapInTimeFollowEachOther) {
   expect_contiguous(rest);
   EXPECT_EQ(rest.actions.back().t_end, 1.0 + 4.0 + 5.0 + 2.0);
 
-  const auto late = measured_progress(robot(), actions, {{3.0, 1.0}, 0.0}, 3.0, 1e-6);
+  const auto late = measured_progress(robot(), actions, at_x(3.0), 3.0, 1e-6);
   ASSERT_TRUE(late);
-  expect_contiguous(remainder_of_measured(robot(), actions, {{3.0, 1.0}, 0.0}, *late, 3.0));
+  expect_contiguous(remainder_of_measured(robot(), actions, at_x(3.0), *late, 3.0));
 }
 
 /// Rounding of a short action is far more than that of a long one, relative to its length.
@@ -122,9 +121,9 @@ TEST(Timeline, ActionsThatBecomeLongerAreNoFasterThanTheRobot) {
   core::Robot fast = robot();
   fast.linear_speed = 1.0;
   fast.angular_speed = 2.0;
-  const Pose start{{1.0, 1.0}, 0.0};
-  const Pose bend{{5.0, 1.0}, 0.0};
-  const Pose turned{{5.0, 1.0}, 1e-6};
+  const Pose start = at_x(1.0);
+  const Pose bend = at_x(5.0);
+  const Pose turned = at_x(5.0, 1e-6);
   const std::vector<Action> actions{{Type::translate, 0.0, 4.0, start, bend},
                                     {Type::rotate, 4.0, 4.0 + 0.499e-6, bend, turned},
                                     {Type::wait, 4.0 + 0.499e-6, 5.0, turned, turned}};
@@ -168,9 +167,9 @@ TEST(Timeline, AHoldTakesPlaceDuringAWaitUnderWay) {
 }
 
 TEST(Timeline, AServiceGoesOnWhileTheRobotIsHeld) {
-  const Pose here{{1.0, 1.0}, 0.0};
+  const Pose here = at_x(1.0);
   const std::vector<Action> served{{Type::wait, 0.0, 8.0, here, here, 0},
-                                   {Type::translate, 8.0, 10.0, here, {{3.0, 1.0}, 0.0}}};
+                                   {Type::translate, 8.0, 10.0, here, at_x(3.0)}};
   Remainder rest{here, served};
   hold(rest, 0.0, 20.0);
   expect_contiguous(rest);
@@ -211,7 +210,7 @@ Remainder measured(const Pose& pose, double at) {
 }
 
 TEST(Timeline, APoseThatIsAsPlannedChangesNoTime) {
-  const Remainder rest = measured({{2.5, 1.0}, 0.0}, 1.5);
+  const Remainder rest = measured(at_x(2.5), 1.5);
   const Remainder planned = remainder(robot(), corner(), 1.5);
   ASSERT_EQ(rest.actions.size(), planned.actions.size());
   for (std::size_t k = 0; k < rest.actions.size(); ++k) {
@@ -232,7 +231,7 @@ TEST(Timeline, ALateRobotDrivesStraightToTheEndOfItsActionAndTheRestIsLater) {
 }
 
 TEST(Timeline, ARobotMayStillBeInAnEarlierActionThanPlanned) {
-  const Remainder driving = measured({{3.0, 1.0}, 0.0}, 8.0);
+  const Remainder driving = measured(at_x(3.0), 8.0);
   ASSERT_EQ(driving.actions.size(), 4U);
   EXPECT_EQ(driving.start.theta, 0.0);
   EXPECT_NEAR(driving.actions[3].t_end, 2.0 + 5.0, 1e-12);
@@ -243,7 +242,7 @@ TEST(Timeline, ARobotMayStillBeInAnEarlierActionThanPlanned) {
 }
 
 TEST(Timeline, ARobotThatIsEarlyWaitsForItsPlan) {
-  const Remainder rest = measured({{4.0, 1.0}, 0.0}, 1.0);
+  const Remainder rest = measured(at_x(4.0), 1.0);
   ASSERT_EQ(rest.actions.size(), 5U);
   EXPECT_NEAR(rest.actions[0].t_end, 1.0, 1e-12);
   EXPECT_EQ(rest.actions[1].type, Type::wait);
@@ -270,8 +269,8 @@ TEST(Timeline, ARobotThatStandsIsWhereItsPlanHasIt) {
 
 TEST(Timeline, APoseBesideThePathIsNoProgress) {
   EXPECT_FALSE(measured_progress(robot(), corner(), {{2.0, 1.2}, 0.0}, 1.0, 0.1));
-  EXPECT_FALSE(measured_progress(robot(), corner(), {{2.0, 1.0}, 0.5}, 1.0, 0.1));
-  EXPECT_FALSE(measured_progress(robot(), {}, {{1.2, 1.0}, 0.0}, 1.0, 0.1));
+  EXPECT_FALSE(measured_progress(robot(), corner(), at_x(2.0, 0.5), 1.0, 0.1));
+  EXPECT_FALSE(measured_progress(robot(), {}, at_x(1.2), 1.0, 0.1));
   // Not yet planned.
   EXPECT_FALSE(measured_progress(robot(), corner(), {{5.0, 2.0}, kQuarter}, 1.0, 0.1));
 }

@@ -1,0 +1,76 @@
+#pragma once
+
+// Small fleets in motion, with robots that mostly drive along the line y = 1.
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "api/advance/advance.h"
+#include "api/advance/committed_motion.h"
+#include "tests/support/unbounded_work.h"
+
+namespace fleetplan::api {
+
+inline core::Pose at_x(double x, double theta = 0.0) { return {{x, 1.0}, theta}; }
+
+inline Moment moment(double at, std::optional<double> commit = {}, double wait_before_move = 0.0) {
+  return {at, commit, 0.1, wait_before_move};
+}
+
+/// A robot with speeds of 1 m/s and 1 rad/s, without a goal.
+inline core::Robot robot_at(const core::Pose& start, double radius = 0.25) {
+  core::Robot robot;
+  robot.radius = radius;
+  robot.linear_speed = robot.angular_speed = 1.0;
+  robot.start = start;
+  return robot;
+}
+
+/// Robots and the plans that they execute.
+struct DrivingFleet {
+  std::vector<core::Robot> robots = {};
+  std::vector<Execution> executions = {};
+  double inflation = 0.0;
+
+  void add(const core::Robot& robot, std::vector<core::Action> actions) {
+    robots.push_back(robot);
+    executions.push_back({std::move(actions), true});
+  }
+
+  /// Adds a robot that drives along the line at 1 m/s, or stands if it is at its goal.
+  void add_on_line(double from, double to, double stop_distance = 0.0) {
+    const double heading = to < from ? std::numbers::pi : 0.0;
+    core::Robot robot = robot_at(at_x(from, heading));
+    robot.goal = core::Goal{at_x(to).position, std::nullopt};
+    std::vector<core::Action> actions;
+    if (to != from) {
+      actions.push_back(
+          {core::Action::Type::translate, 0.0, std::abs(to - from), robot.start, at_x(to, heading)});
+    }
+    add(robot, std::move(actions));
+    executions.back().stop_distance = stop_distance;
+  }
+
+  std::vector<core::Robot> advance(double at, std::optional<double> commit = {}) const {
+    return advanced(robots, executions, moment_of(at, commit), unbounded_work());
+  }
+
+  /// Those that robots cannot avoid from there on.
+  std::vector<Collision> collisions(double at, double commit) const {
+    core::Work& stop = unbounded_work();
+    return unavoidable_collisions(advance(at, commit),
+                                  braking_of(robots, executions, moment_of(at, commit), stop), stop);
+  }
+
+ private:
+  Moment moment_of(double at, std::optional<double> commit) const {
+    Moment then = moment(at, commit);
+    then.inflation = inflation;
+    return then;
+  }
+};
+
+}  // namespace fleetplan::api
