@@ -160,12 +160,12 @@ class Mending {
 
 }  // namespace
 
-Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>& robots, core::MapCache* maps,
+Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>& robots,
+                              const std::vector<std::vector<Action>>& braking, core::MapCache* maps,
                               core::Work& stop) {
   const bool any_observed =
       std::any_of(request.executions.begin(), request.executions.end(),
                   [](const Execution& execution) { return execution.measured || execution.reported; });
-  const auto braking = braking_of(request.robots, request.executions, request.moment, stop);
   Circumstances found;
   if (!any_observed) {
     found.unavoidable = unavoidable_collisions(robots, braking, stop);

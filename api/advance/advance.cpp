@@ -235,6 +235,16 @@ Course standing_course(const core::Robot& robot, const Execution& execution, con
   return course;
 }
 
+/// What this robot cannot leave out.
+Actions braking_of(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+  if (execution.stop_distance <= 0.0) return {};
+  const Located located = locate(robot, execution, moment);
+  const Remainder rest = is_released(execution) && !located.is_elsewhere
+                             ? released_rest(robot, execution, moment).rest
+                             : remainder_of(robot, execution, located, moment);
+  return braking_in(rest, robot, execution, located);
+}
+
 }  // namespace
 
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment) {
@@ -256,15 +266,6 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
   const bool goes_on = execution.planned && !located.is_elsewhere && !execution.goals;
   if (goes_on) next.previous = split_at(rest.actions, course.committed_until);
   return next;
-}
-
-Actions braking_of(const core::Robot& robot, const Execution& execution, const Moment& moment) {
-  if (execution.stop_distance <= 0.0) return {};
-  const Located located = locate(robot, execution, moment);
-  const Remainder rest = is_released(execution) && !located.is_elsewhere
-                             ? released_rest(robot, execution, moment).rest
-                             : remainder_of(robot, execution, located, moment);
-  return braking_in(rest, robot, execution, located);
 }
 
 std::vector<Actions> braking_of(const std::vector<core::Robot>& robots,
@@ -325,15 +326,14 @@ std::vector<double> margins_of(const std::vector<core::Robot>& robots,
 
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
-                                  core::Work& stop) {
+                                  const std::vector<Actions>& braking, core::Work& stop) {
   std::vector<core::Robot> next;
   next.reserve(robots.size());
   for (std::size_t k = 0; k < robots.size(); ++k) {
     if (stop.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return next;
     next.push_back(advanced(robots[k], executions[k], moment));
   }
-  clear_commitments(next, margins_of(robots, executions, moment, next, stop),
-                    braking_of(robots, executions, moment, stop), stop);
+  clear_commitments(next, margins_of(robots, executions, moment, next, stop), braking, stop);
   return next;
 }
 

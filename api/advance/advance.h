@@ -61,13 +61,9 @@ struct Execution {
 /// has no previous actions if it has no plan, is elsewhere than planned, or gets other goals.
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment);
 
-/// What a robot that drives at the moment cannot leave out, on the clock of the moment: its motion until it
-/// can stand, which it can after its stop distance, and where its plan has it stand. Empty for one that
-/// stands, turns, or is not on its path.
-std::vector<core::Action> braking_of(const core::Robot& robot, const Execution& execution,
-                                     const Moment& moment);
-
-/// By robot.
+/// By robot: what one that drives at the moment cannot leave out, on the clock of the moment: its motion
+/// until it can stand, which it can after its stop distance, and where its plan has it stand. Empty for one
+/// that stands, turns, or is not on its path.
 std::vector<std::vector<core::Action>> braking_of(const std::vector<core::Robot>& robots,
                                                   const std::vector<Execution>& executions,
                                                   const Moment& moment, core::Work& stop);
@@ -89,10 +85,10 @@ std::vector<double> margins_of(const std::vector<core::Robot>& robots,
                                const std::vector<core::Robot>& next, core::Work& stop);
 
 /// All of them. Committed actions end where they touch another robot that is committed or stands at the end
-/// of its commitment: see clear_commitments.
+/// of its commitment: see clear_commitments. `braking`: by robot, see braking_of.
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
-                                  core::Work& stop);
+                                  const std::vector<std::vector<core::Action>>& braking, core::Work& stop);
 
 /// Where the robot is in its actions at the moment: as reported, otherwise as measured, otherwise as planned.
 /// A robot that has done all of them is at the end of the last one, and one without actions at the beginning.

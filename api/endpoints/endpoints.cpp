@@ -109,9 +109,10 @@ Reply advance_endpoint(std::string_view body, const RequestContext& context) {
     if (!request || !await_turn()) return std::nullopt;
     Moment& moment = request->moment;
     moment.stand_until = standing_time(request->robots, request->executions, moment, stop);
-    auto robots = advanced(request->robots, request->executions, moment, stop);
+    const auto braking = braking_of(request->robots, request->executions, moment, stop);
+    auto robots = advanced(request->robots, request->executions, moment, braking, stop);
     if (stop.met()) return std::nullopt;
-    const Circumstances circumstances = make_acceptable(*request, robots, context.maps, stop);
+    const Circumstances circumstances = make_acceptable(*request, robots, braking, context.maps, stop);
     if (stop.met()) return std::nullopt;
     return write_advanced(*request, robots, circumstances, stop);
   };

@@ -55,17 +55,19 @@ struct DrivingFleet {
   }
 
   std::vector<core::Robot> advance(double at, std::optional<double> commit = {}) const {
-    return advanced(robots, executions, moment_of(at, commit), unbounded_work());
+    return advanced(robots, executions, moment_of(at, commit), braking(at, commit), unbounded_work());
   }
 
   /// Those that robots cannot avoid from there on.
   std::vector<Collision> collisions(double at, double commit) const {
-    core::Work& stop = unbounded_work();
-    return unavoidable_collisions(advance(at, commit),
-                                  braking_of(robots, executions, moment_of(at, commit), stop), stop);
+    return unavoidable_collisions(advance(at, commit), braking(at, commit), unbounded_work());
   }
 
  private:
+  std::vector<std::vector<core::Action>> braking(double at, std::optional<double> commit) const {
+    return braking_of(robots, executions, moment_of(at, commit), unbounded_work());
+  }
+
   Moment moment_of(double at, std::optional<double> commit) const {
     Moment then = moment(at, commit);
     then.inflation = inflation;
