@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "api/advance/advance.h"
+#include "core/geometry/angle.h"
 #include "tests/api/advance/driving_fleet.h"
 
 namespace fleetplan::api {
