@@ -141,8 +141,10 @@ PrioritizedResult first_plan(PlanState& state, const KeptPlans& previous,
   return result;
 }
 
-/// Returns the robots that large neighbourhood search may plan again.
+/// Returns the robots that large neighbourhood search may plan again. A way that is planned beyond the
+/// horizon costs more than what is estimated there, which would be in vain where others stand.
 std::vector<std::size_t> changeable_robots(const PlanState& state, std::vector<std::size_t> movers) {
+  if (const auto& whole = state.whole_way_of()) std::erase(movers, *whole);
   if (state.instance().options().replan == PlanOptions::Replan::where_needed) {
     std::erase_if(movers, [&](std::size_t robot) { return state.trajectory(robot)->is_previous; });
   }

@@ -1,5 +1,7 @@
 #include "api/advance/advance.h"
 
+#include <fleetplan/limits.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -24,6 +26,7 @@ struct GoalsLeft {
   std::vector<core::Goal> goals;
   std::size_t visited = 0;
   double radius = 0.0;  // metres, of the robot
+  double age = 0.0;     // seconds for which the next one could have been served already
 };
 
 /// Whether the last goal has been served by the rest at the end of a plan.
@@ -72,6 +75,10 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
   }
   left.radius = core::changes_radius(robot) ? core::radii_of(robot)[left.visited] : robot.radius;
   if (left.goals.empty()) return left;
+  double due = itinerary.visited.empty() ? -robot.goal_age : itinerary.visited.back().t_leave;
+  const double not_before = robot.goal_at(left.visited).not_before;
+  if (not_before > 0.0) due = std::max(due, not_before);
+  left.age = std::clamp(at - due, 0.0, kLongestTime);
   core::Goal& last = left.goals.back();
   if (last.radius_after && execution.planned && has_served_last(robot, actions, progress)) {
     left.radius = *std::exchange(last.radius_after, std::nullopt);
@@ -260,8 +267,10 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
   renumber(rest.actions, execution.goals ? robot.goal_count() : left.visited);
   set_goals(next, execution.goals ? *execution.goals : std::move(left.goals));
   if (!execution.goals) align_service(next, rest);
+  const bool counts_age = moment.has_horizon && next.goal && !execution.goals;
 
   next.committed = actions_until(rest.actions, course.committed_until);
+  next.goal_age = counts_age && !core::has_arrived(next) ? left.age : 0.0;
   next.previous.reset();
   const bool goes_on = execution.planned && !located.is_elsewhere && !execution.goals;
   if (goes_on) next.previous = split_at(rest.actions, course.committed_until);

@@ -27,6 +27,7 @@ struct Moment {
   double pose_tolerance = 0.1;
   double wait_before_move = 0.0;  // of the request's options
   double inflation = 0.0;         // likewise
+  bool has_horizon = false;       // likewise; then the ages of goals count
   /// If robots have reported how far they are released: then each is committed to that and stands until this
   /// time at least, see standing_time.
   std::optional<double> stand_until = {};

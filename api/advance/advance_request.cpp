@@ -182,6 +182,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   }
   read.moment.wait_before_move = fleet.options.plan.wait_before_move;
   read.moment.inflation = fleet.options.plan.inflation;
+  read.moment.has_horizon = fleet.options.plan.horizon.has_value();
   read.executions.resize(fleet.robots.size());
   read.goal_texts.resize(fleet.robots.size());
   const RobotNames names(fleet.robots, "robots of the request");
@@ -219,7 +220,8 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
 namespace {
 
 // The members of a robot that depend on the moment.
-constexpr std::array<std::string_view, 5> kChanging{"start", "goal", "goals", "committed", "previous"};
+constexpr std::array<std::string_view, 6> kChanging{"start",     "goal",     "goals",
+                                                    "committed", "previous", "goal_age"};
 
 void write_pose(JsonWriter& json, std::string_view key, const core::Pose& pose) {
   json.key(key).begin_object();
@@ -303,6 +305,7 @@ void write_robot(JsonWriter& json, const JsonValue& given, double radius, const 
   if (has_other_radius) json.member("radius", robot.radius);
   write_pose(json, "start", robot.start);
   write_goals(json, robot, texts, given.find("goal").has_value());
+  if (robot.goal_age > 0.0) json.member("goal_age", robot.goal_age);
   if (!robot.committed.empty()) write_actions(json, "committed", robot.committed, work);
   if (robot.previous) write_actions(json, "previous", *robot.previous, work);
   json.end_object();

@@ -63,6 +63,10 @@ bool is_in_pose(const Pose& pose, const Goal& goal) {
          (!goal.theta || angle_between(pose.theta, *goal.theta) <= kContactTolerance);
 }
 
+bool has_arrived(const Robot& robot) {
+  return robot.via.empty() && robot.goal->service == 0.0 && is_in_pose(robot.committed_end(), *robot.goal);
+}
+
 ServedGoals served_goals(const Robot& robot, std::span<const Action> actions) {
   return GoalService(robot).run(actions);
 }
@@ -93,6 +97,13 @@ Trajectory committed_trajectory(const Robot& robot) {
 
 const std::vector<Action>& previous_actions(const Robot& robot) {
   return robot.goal && robot.previous && !robot.previous->empty() ? *robot.previous : robot.committed;
+}
+
+double previous_service_end(const Robot& robot) {
+  const std::vector<Visit> visits = visits_of(robot, previous_actions(robot));
+  if (visits.size() < robot.goal_count()) return kForever;
+  const double end = std::max(visits.back().t_arrive, robot.goal->not_before) + robot.goal->service;
+  return std::max(end, robot.committed_until());
 }
 
 Itinerary itinerary_of(const Robot& robot) {

@@ -16,6 +16,9 @@ namespace fleetplan::core {
 /// theta, with any heading.
 bool is_in_pose(const Pose& pose, const Goal& goal);
 
+/// Whether nothing is left to do for the robot, which has a goal, when its committed actions end.
+bool has_arrived(const Robot& robot);
+
 /// The goals that a robot has served at the end of some actions. The last goal always remains.
 struct ServedGoals {
   std::vector<Visit> visits;  // to the first goals, in their order
@@ -36,6 +39,11 @@ std::vector<Visit> visits_of(const Robot& robot, std::span<const Action> actions
 /// Returns the actions of the robot's previous plan as received; no actions for a robot that is parked or has
 /// no previous plan. If there are none, the robot rests after its committed actions.
 const std::vector<Action>& previous_actions(const Robot& robot);
+
+/// Returns when the service at the last goal ends by the previous plan of a robot with a goal, seconds;
+/// kForever if it does not serve all goals. A service that is committed does not end before the commitment
+/// does.
+double previous_service_end(const Robot& robot);
 
 /// What is left to plan for a robot after its committed actions.
 struct Itinerary {

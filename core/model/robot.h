@@ -44,6 +44,7 @@ struct Robot {
   bool invalid = false;
   bool may_reverse = false;  // it may translate backwards
   double vicinity = 0.0;     // metres, >= 0, added to its radius against other robots only
+  double goal_age = 0.0;     // seconds, >= 0, for which its next goal could have been served already
 
   std::size_t goal_count() const { return via.size() + (goal ? 1 : 0); }
   const Goal& goal_at(std::size_t index) const { return index < via.size() ? via[index] : *goal; }

@@ -19,6 +19,8 @@ constexpr std::int64_t kOffLatticeSteps = 50'000;
 constexpr double kWidestCells = 3.0;
 /// Expansions of a search on the map before Enclosure is asked.
 constexpr std::int64_t kFirstExpansions = 16'384;
+/// Seconds: a way that ends later by less is no later than by the previous plan; far above rounding.
+constexpr double kNoLater = 1e-6;
 /// Goals of a robot between two checks of the stop condition.
 constexpr std::size_t kGoalsBetweenStops = 16;
 
@@ -205,7 +207,49 @@ SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, cons
 }
 
 SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
-  if (!instance_.options().horizon && !goal_stays_free(robot)) return {};
+  if (robot == whole_way_of_) {
+    SearchResult whole = search_whole_way(robot, limits, stop);
+    if (whole.trajectory) return whole;
+    whole_way_of_.reset();
+  }
+  return search_until(instance_.options().horizon.value_or(kForever), robot, limits, stop);
+}
+
+/// Robots with nothing to do may make way for others, but may also be unable to: whoever waits before one
+/// would wait for ever, although there is another way.
+SearchResult PlanState::search_whole_way(std::size_t robot, const SearchLimits& limits,
+                                         const StopCondition& stop) {
+  const std::vector<std::size_t> arrived = arrived_without_plan(robot);
+  const std::vector<double> reserved = reservations_.at_start_until;
+  for (const std::size_t other : arrived) stay_at_start(other);
+  EnclosureTest test(*this, robot);
+  SearchLimits with_test = limits;
+  with_test.no_path_test = &test;
+  with_test.bound = std::min(limits.bound, previous_service_end(instance_.robot(robot)) + kNoLater);
+  SearchResult result = search_until(kForever, robot, with_test, stop);
+  if (!result.trajectory && with_test.bound < limits.bound) {
+    with_test.bound = limits.bound;
+    result = search_until(kForever, robot, with_test, stop);
+  }
+  for (const std::size_t other : arrived) reserve_start(other, reserved[other]);
+  if (std::erase(closed_by_robots_, robot) > 0) ways_[robot] = {};  // by robots that may make way
+  return result;
+}
+
+/// The robots, but for one, that stand at their goals and have no plan yet.
+std::vector<std::size_t> PlanState::arrived_without_plan(std::size_t except) const {
+  std::vector<std::size_t> arrived;
+  for (std::size_t other = 0; other < instance_.size(); ++other) {
+    const Robot& robot = instance_.robot(other);
+    if (other == except || !robot.goal || trajectory(other) || stays(other)) continue;
+    if (has_arrived(robot)) arrived.push_back(other);
+  }
+  return arrived;
+}
+
+SearchResult PlanState::search_until(double horizon, std::size_t robot, const SearchLimits& limits,
+                                     const StopCondition& stop) {
+  if (horizon == kForever && !goal_stays_free(robot)) return {};
   constexpr auto no_memory = [] { return SearchResult{std::nullopt, false, 0}; };
   const auto search_once = [&]() -> SearchResult {
     constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
@@ -216,7 +260,7 @@ SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, co
     if (space == nullptr) return no_memory();
     SearchLimits within = limits;
     within.bound = std::min(limits.bound, instance_.longest_plan(robot));
-    within.horizon = instance_.options().horizon.value_or(kForever);
+    within.horizon = horizon;
     return search_.run(*space, within, stop);
   };
   const std::int64_t shortages = memory_shortages();

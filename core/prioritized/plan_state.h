@@ -73,6 +73,12 @@ class PlanState {
   /// The number of robots that follow a trajectory.
   std::size_t planned_count() const { return planned_count_; }
 
+  /// With a horizon, plan() plans this robot beyond it, to its goals, past all robots that have arrived and
+  /// are not planned yet: as long as it has such a way, no later than by its previous plan if possible.
+  void plan_whole_way_of(std::size_t robot) { whole_way_of_ = robot; }
+  /// None as well if it has no such way.
+  const std::optional<std::size_t>& whole_way_of() const { return whole_way_of_; }
+
   /// Plans a robot that has a goal and no reservation; changes no reservation.
   SearchResult plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
   /// Plans a robot as plan() does, without the reservations of the robots of `ignored`.
@@ -117,12 +123,16 @@ class PlanState {
   Result within_memory(Result otherwise, const Compute& compute);
   void release_memory();
   SearchResult search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
+  SearchResult search_until(double horizon, std::size_t robot, const SearchLimits& limits,
+                            const StopCondition& stop);
+  SearchResult search_whole_way(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
   void find_way(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
   std::int64_t find_leg(std::size_t robot, SearchSpace& space, std::size_t goal, std::int64_t max_expansions,
                         const StopCondition& stop);
   bool is_reserved(std::size_t robot, const Reservations& among) const;
   bool stays(std::size_t robot) const { return reservations_.at_start_until[robot] == kForever; }
   void forget_ways_closed_by_robots(std::size_t except);
+  std::vector<std::size_t> arrived_without_plan(std::size_t except) const;
   bool goal_stays_free(std::size_t robot) const;
   Way way_off_lattice(std::size_t robot) const;
   bool test_enclosure(std::size_t robot, std::int64_t max_steps);
@@ -140,6 +150,7 @@ class PlanState {
   std::size_t staying_count_ = 0;
   std::vector<Way> ways_;                      // by robot
   std::vector<std::size_t> closed_by_robots_;  // robots whose way robots close, until one of those leaves
+  std::optional<std::size_t> whole_way_of_;
   std::int64_t expansions_ = 0;
   std::int64_t map_expansions_ = 0;
 };

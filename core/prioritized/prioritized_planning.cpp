@@ -63,7 +63,12 @@ class PrioritizedPlanning {
         time_(time),
         progress_(progress),
         order_(initial_order(state.instance(), movers, random)),
-        stop_(time.first_part) {}
+        stop_(time.first_part) {
+    const bool may_stop = state.instance().options().horizon && !order_.empty();
+    if (may_stop && state.instance().robot(order_.front()).goal_age > 0.0) {
+      state.plan_whole_way_of(order_.front());
+    }
+  }
 
   PrioritizedResult run() {
     OrderingResult ordering = plan_in_orders();

@@ -21,9 +21,15 @@ std::size_t permutations(std::size_t count, std::size_t limit) {
   return std::min(product, limit);
 }
 
-/// Whether nothing is left to do for the robot when its committed actions end.
-bool has_arrived(const Robot& robot) {
-  return robot.via.empty() && robot.goal->service == 0.0 && is_in_pose(robot.committed_end(), *robot.goal);
+/// Moves robots that have arrived to the end, and the one whose goal is the oldest to the front.
+void order_for_horizon(const std::vector<Robot>& all, PriorityOrder& order) {
+  // No search fails that may end with a wait, so no robot would be raised above one in its way for good.
+  const auto end =
+      std::stable_partition(order.begin(), order.end(), [&](auto i) { return !has_arrived(all[i]); });
+  const auto oldest = std::min_element(order.begin(), end, [&](auto a, auto b) {
+    return std::pair(-all[a].goal_age, a) < std::pair(-all[b].goal_age, b);
+  });
+  if (oldest != end && all[*oldest].goal_age > 0.0) std::rotate(order.begin(), oldest, oldest + 1);
 }
 
 }  // namespace
@@ -48,10 +54,7 @@ PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& op
     case PlanOptions::Priority::shortest_first:
       std::stable_sort(robots.begin(), robots.end(),
                        [&](auto a, auto b) { return weighted_distance(a) < weighted_distance(b); });
-      // With a horizon, no search fails, so no robot would be raised above one that is in its way for good.
-      if (options.horizon) {
-        std::stable_partition(robots.begin(), robots.end(), [&](auto i) { return !has_arrived(all[i]); });
-      }
+      if (options.horizon) order_for_horizon(all, robots);
       break;
     case PlanOptions::Priority::longest_first:
       std::stable_sort(robots.begin(), robots.end(),

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -170,11 +171,23 @@ class Repair {
            (result.complete || result.expansions >= quick_search_of(robot).max_expansions);
   }
 
-  /// Plans a robot that failed among all others.
+  /// Plans a robot that failed among all others. The one whose whole way is planned gives way only if all
+  /// others do not suffice.
   SearchResult plan_failed(std::size_t robot) {
     ++result_.attempts;
     progress_.next_attempt();
     if (++failures_[robot] > kMaxFailuresOfRobot) return {};
+    const auto& whole = state_.whole_way_of();
+    if (whole && *whole != robot && state_.trajectory(*whole)) {
+      keeps_its_way_ = *whole;
+      SearchResult result = make_way_for(robot);
+      keeps_its_way_.reset();
+      if (result.trajectory) return result;
+    }
+    return make_way_for(robot);
+  }
+
+  SearchResult make_way_for(std::size_t robot) {
     if (!ejects(robot)) return plan_among_fewer(robot);
     return ejection_.plan(robot, planned_robots([](std::size_t) { return true; }), failures_);
   }
@@ -206,12 +219,12 @@ class Repair {
     return state_.plan_ignoring(all, robot, {}, stop_);
   }
 
-  /// Returns the robots with a trajectory that satisfy the condition, by order.
+  /// Returns the robots with a trajectory that satisfy the condition and may give way, by order.
   template <class Condition>
   std::vector<std::size_t> planned_robots(Condition&& condition) const {
     std::vector<std::size_t> found;
     for (const std::size_t other : order_) {
-      if (state_.trajectory(other) && condition(other)) found.push_back(other);
+      if (state_.trajectory(other) && other != keeps_its_way_ && condition(other)) found.push_back(other);
     }
     return found;
   }
@@ -250,7 +263,8 @@ class Repair {
   const std::int64_t first_ejection_;
   std::vector<std::int64_t> rank_;  // by robot; a smaller rank is a higher priority
   std::int64_t highest_rank_ = 0;
-  std::vector<int> failures_;  // by robot
+  std::vector<int> failures_;                 // by robot
+  std::optional<std::size_t> keeps_its_way_;  // a robot that gives way to nobody
   EjectionSearch ejection_;
   std::set<std::pair<std::int64_t, std::size_t>> pending_;  // rank, robot
   OrderingResult result_;

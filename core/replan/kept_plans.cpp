@@ -27,15 +27,6 @@ Itinerary as_committed(const Robot& robot) {
   return itinerary_of(follower);
 }
 
-/// Returns when the service at the last goal ends, seconds. A service that is committed does not end before
-/// the commitment does.
-double last_service_end(const Robot& robot) {
-  const std::vector<Visit> visits = visits_of(robot, previous_actions(robot));
-  if (visits.size() < robot.goal_count()) return kForever;
-  const double end = std::max(visits.back().t_arrive, robot.goal->not_before) + robot.goal->service;
-  return std::max(end, robot.committed_until());
-}
-
 }  // namespace
 
 bool have_previous_plans(const std::vector<Robot>& robots) {
@@ -55,7 +46,7 @@ Trajectory previous_trajectory(const Robot& robot) {
   for (const Visit& visit : all.visited) {
     if (visit.goal >= first) trajectory.visits.push_back(visit);
   }
-  if (robot.goal && changes_radius(robot)) trajectory.last_served = last_service_end(robot);
+  if (robot.goal && changes_radius(robot)) trajectory.last_served = previous_service_end(robot);
   trajectory.is_previous = true;
   return trajectory;
 }

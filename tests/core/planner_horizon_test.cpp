@@ -184,5 +184,24 @@ TEST(PlannerHorizon, SaysNothingOfItWithoutAHorizon) {
   EXPECT_TRUE(plan.plans.at(0).estimated_visits.empty());
 }
 
+/// A robot that cannot make way rests in the short passage between two halls; the long one leads around it.
+TEST(PlannerHorizon, TheOldestGoalIsServedOnAnotherWayIfNobodyCanMakeWay) {
+  const OccupancyGrid grid = support::ascii_map({
+      ".....#.....",
+      ".###.#.###.",
+      ".#.......#.",
+      ".#######.#.",
+      "...........",
+  });
+  std::vector<Robot> robots{robot_at(4.5, 4.5).to(6.5, 4.5), robot_at(5.5, 2.5).to(5.5, 2.5)};
+  robots[1].linear_speed = 1e-3;
+  const Plan waits = plan_of(grid, robots, up_to(5.0));
+  EXPECT_TRUE(waits.plans[0].estimated_cost.has_value());
+  robots[0].goal_age = 1.0;
+  const Plan goes_around = plan_of(grid, robots, up_to(5.0));
+  EXPECT_FALSE(goes_around.plans[0].estimated_cost.has_value());
+  EXPECT_EQ(goes_around.plans[0].actions.back().to.position, Position(6.5, 4.5));
+}
+
 }  // namespace TEST_FILE
 }  // namespace fleetplan::core

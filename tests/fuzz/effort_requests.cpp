@@ -164,6 +164,7 @@ void add_members(Json& request, Choices& choices) {
   if (choices.yes()) request["robot_defaults"]["may_reverse"] = true;
   const int goals = choices.up_to(200);
   Json& robots = request["robots"];
+  if (options.contains("horizon")) robots[0]["goal_age"] = 60.0;
   for (std::size_t k = 0; goals > 0 && k < robots.size() && k < 100; ++k) {
     if (!robots[k].contains("goal")) continue;
     Json list = Json::array();

@@ -74,7 +74,7 @@ ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota&
 
 namespace {
 
-constexpr std::array<std::string_view, 15> kRobotMembers{"id",
+constexpr std::array<std::string_view, 16> kRobotMembers{"id",
                                                          "radius",
                                                          "linear_speed",
                                                          "angular_speed",
@@ -86,6 +86,7 @@ constexpr std::array<std::string_view, 15> kRobotMembers{"id",
                                                          "start",
                                                          "goal",
                                                          "goals",
+                                                         "goal_age",
                                                          "committed",
                                                          "previous",
                                                          "metadata"};
@@ -185,6 +186,7 @@ class RobotReader {
     read.stop_distance = traits.stop_distance.value.value_or(0.0);
     robot.may_reverse = traits.may_reverse.value_or(false);
     read.body_radius = traits.body_radius;
+    robot.goal_age = json.find("goal_age").number(kDuration).value_or(0.0);
     read.metadata = parse_metadata(json);
     ActionsOwner owner{.start = std::nullopt,
                        .linear_speed = traits.linear_speed.value,

@@ -210,6 +210,7 @@ class Robot(RobotDefaults, total=False):
     start: Required[Start]
     goal: Goal
     goals: list[Goal]
+    goal_age: float
     committed: list[Action]
     previous: list[Action]
     metadata: Metadata

@@ -79,6 +79,33 @@ TEST(AdvanceEndpoint, KeepsTheNumbersOfThePlan) {
   EXPECT_EQ(robot["committed"][0], robot["previous"][0]);
 }
 
+TEST(AdvanceEndpoint, WithAHorizonItKeepsTheAgesOfGoals) {
+  Json request = swap_request();
+  request["options"] = {{"horizon", 100.0}};
+  request["robots"][0]["goals"] = {{{"x", 0.5}, {"y", 3.5}, {"service", 1.0}},
+                                   {{"x", 8.5}, {"y", 3.5}, {"not_before", 20.0}}};
+  request["robots"][0].erase("goal");
+  request["robots"][1]["goal_age"] = 5.0;
+  const Json first = advance_request(request, 1.0);
+  const Json plans = first["plans"];
+  const auto ages = [&](double at, const Json& goals = Json::array()) {
+    Json body = first;
+    body["at"] = at;
+    body["goals"] = goals;
+    const Json next = advanced_json(body);
+    return std::pair(next["robots"][0].value("goal_age", -1.0), next["robots"][1].value("goal_age", -1.0));
+  };
+  const double served = plans[0]["visits"][0]["t_leave"];
+  EXPECT_LT(served, 10.0);
+  EXPECT_EQ(ages(1.0), std::pair(1.0, 6.0));
+  EXPECT_EQ(ages(served + 1.0).first, -1.0) << "the next goal is not due yet";
+  EXPECT_EQ(ages(50.0).second, -1.0) << "it has arrived";
+  const Json again{{{"robot", "b"}, {"goals", {{{"x", 1.5}, {"y", 1.5}}}}}};
+  EXPECT_EQ(ages(1.0, again).second, -1.0) << "it has another goal";
+  request.erase("options");
+  EXPECT_FALSE(advanced_json(advance_request(request, 1.0))["robots"][1].contains("goal_age"));
+}
+
 TEST(AdvanceEndpoint, TakesItsTurnOnceItHasBeenRead) {
   TestTurn turn;
   RequestContext context;

@@ -25,7 +25,7 @@
 #include "core/planner.h"
 #include "core/verify/verify.h"
 #include "tests/api/support/fleet_json.h"
-#include "tests/support/step_limit.h"
+#include "tests/api/support/lives.h"
 #include "tests/support/summary.h"
 #include "tests/support/unbounded_work.h"
 
@@ -35,13 +35,6 @@ namespace TEST_FILE {
 using support::Dice;
 
 constexpr int kRoundsOfALife = 5;
-/// So many steps may the checks of previous plans outlast the budget.
-constexpr std::int64_t kPatience = 100'000;
-
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
 
 std::vector<core::Zone> zones_for(Dice& dice, const core::Problem& problem) {
   using Type = core::Zone::Type;
@@ -91,43 +84,6 @@ Json first_request(Dice& dice) {
     if (dice.chance(0.3)) add_stop_distances(dice, json);
     return json;
   }
-}
-
-/// The answer of POST /v1/plan if planning, but neither reading nor the check, is ended after so many steps.
-Reply planned_in(std::int64_t steps, const Json& request) {
-  core::CallerThread executor;
-  const Planner planner = [&](const core::Problem& problem, const core::PlanOptions& options,
-                              const core::StopCondition& stop, core::Observer* observer) {
-    const support::StepLimit limit(steps, kPatience);
-    return core::plan(problem, options, stop, executor, observer);
-  };
-  return plan_with(planner, request.dump(), {});
-}
-
-core::Pose pose_of(const Json& pose) {
-  const auto number = [&](const char* key) { return pose.at(key).get<double>(); };
-  return {core::Position(number("x"), number("y")), number("theta")};
-}
-
-/// Where actions have their robot at a time.
-struct Under {
-  std::size_t action;
-  double progress;
-  core::Pose pose;
-};
-
-/// None before and after the actions.
-std::optional<Under> under_way(const Json& actions, double t) {
-  std::size_t number = 0;
-  for (const Json& action : actions) {
-    const core::Action one{core::Action::Type::translate, action.at("t_start"), action.at("t_end"),
-                           pose_of(action.at("from")), pose_of(action.at("to"))};
-    if (one.t_start <= t && t < one.t_end) {
-      return Under{number, (t - one.t_start) / (one.t_end - one.t_start), support::pose_within(one, t)};
-    }
-    ++number;
-  }
-  return std::nullopt;
 }
 
 using Pair = std::pair<std::string, std::string>;  // ids, in the order of the request

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
+#include <vector>
 
 #include "tests/core/support/planning.h"
 
@@ -30,6 +32,24 @@ TEST(InitialOrder, IsByDistanceOrAsListed) {
   EXPECT_EQ(first_order(Priority::shortest_first), (PriorityOrder{1, 4, 0, 3, 2}));
   EXPECT_EQ(first_order(Priority::longest_first), (PriorityOrder{2, 0, 3, 4, 1}));
   EXPECT_EQ(first_order(Priority::as_listed), (PriorityOrder{0, 1, 2, 3, 4}));
+}
+
+TEST(InitialOrder, WithAHorizonTheOldestGoalComesFirst) {
+  const auto order_with = [](double age, double other_age, std::optional<double> horizon) {
+    PlanOptions options;
+    options.horizon = horizon;
+    std::vector<Robot> robots{robot_at(1, 1).to(2, 1), robot_at(1, 3).to(4, 3), robot_at(1, 5).to(7, 5),
+                              robot_at(1, 7).to(1, 7)};
+    robots[1].goal_age = other_age;
+    robots[2].goal_age = age;
+    robots[3].goal_age = 100.0;  // it has arrived
+    Planning p(OccupancyGrid(10, 10, 1.0), robots, options);
+    return initial_order(p.instance, p.movers(), p.random);
+  };
+  EXPECT_EQ(order_with(0.0, 0.0, 10.0), (PriorityOrder{0, 1, 2, 3}));
+  EXPECT_EQ(order_with(0.1, 0.0, 10.0), (PriorityOrder{2, 0, 1, 3}));
+  EXPECT_EQ(order_with(2.0, 2.0, 10.0), (PriorityOrder{1, 0, 2, 3})) << "a tie";
+  EXPECT_EQ(order_with(2.0, 0.0, std::nullopt), (PriorityOrder{3, 0, 1, 2}));
 }
 
 TEST(InitialOrder, AtRandomDependsOnlyOnTheSeed) {

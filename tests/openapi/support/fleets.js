@@ -86,6 +86,7 @@ function fleets(document, map, free) {
     goal: fc.option(goals),
     before: mostly(fc.constant([]), fc.array(goals, { maxLength: LARGEST_LIST })),
     own: fc.option(traits),
+    age: members([], { goal_age: within(0, 100) }),
   });
   const most = Math.min(6, free.length);
   const cells = fc.shuffledSubarray(free, { minLength: most, maxLength: most });
@@ -102,8 +103,8 @@ function fleets(document, map, free) {
     })
     .map(({ robots, starts, ends, robot_defaults, ids }) => ({
       robot_defaults,
-      robots: robots.map(({ start, goal, before, own }, index) => {
-        const one = { id: ids[index], ...own, start: place(starts[index], start) };
+      robots: robots.map(({ start, goal, before, own, age }, index) => {
+        const one = { id: ids[index], ...own, ...age, start: place(starts[index], start) };
         if (!goal) return one;
         const last = { ...place(ends[index], goal.pose), ...goal.errand };
         if (before.length === 0) return { ...one, goal: last };
