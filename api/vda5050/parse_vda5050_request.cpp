@@ -63,12 +63,15 @@ void read_names(const JsonReader& member, const RobotNames& robots, const Take& 
   }
 }
 
-std::vector<Vehicle> read_vehicles(const JsonReader& root, const std::vector<core::Robot>& robots) {
+std::vector<Vehicle> read_vehicles(const JsonReader& root, const std::string& manufacturer,
+                                   const std::vector<core::Robot>& robots) {
   const std::string map_id = root.find("map_id").name().value_or("map");
   std::vector<Vehicle> vehicles;
   vehicles.reserve(robots.size());
-  for (const core::Robot& robot : robots) vehicles.push_back({robot.id, map_id});
+  for (const core::Robot& robot : robots) vehicles.push_back({manufacturer, robot.id, map_id});
   const RobotNames names(robots);
+  read_names(root.find("manufacturers"), names,
+             [&](std::size_t robot, const std::string& name) { vehicles[robot].manufacturer = name; });
   read_names(root.find("serial_numbers"), names,
              [&](std::size_t robot, const std::string& name) { vehicles[robot].serial_number = name; });
   read_names(root.find("map_ids"), names,
@@ -232,7 +235,7 @@ std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Li
       root.require("dependencies",
                    "; make them with POST /v1/dependencies, or with options.dependencies of POST /v1/plan"),
       request.robots, request.plans);
-  request.vehicles = read_vehicles(root, request.robots);
+  request.vehicles = read_vehicles(root, request.header.manufacturer, request.robots);
   request.release_ahead = root.find("release_ahead").number(kReleaseAhead);
   request.bases = parse_bases(root.find("base"), request.robots);
   request.actions = core::executed_actions(request.robots, request.plans);

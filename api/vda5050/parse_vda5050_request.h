@@ -28,8 +28,8 @@ enum class VdaVersion : std::uint8_t { v2_1, v3_0 };
 /// The members that all orders of an answer have.
 struct OrderHeader {
   VdaVersion version = VdaVersion::v2_1;
-  std::string manufacturer;
-  std::string timestamp;  // ISO 8601
+  std::string manufacturer;  // of vehicles without one of their own
+  std::string timestamp;     // ISO 8601
 };
 
 /// How far a robot is, and the order that it has.
@@ -43,6 +43,7 @@ struct OrderProgress {
 
 /// What the messages to a vehicle say of it.
 struct Vehicle {
+  std::string manufacturer;
   std::string serial_number;
   std::string map_id;
 };
@@ -66,10 +67,10 @@ struct VdaRequest {
   VdaRequest& operator=(VdaRequest&&) = default;
 };
 
-inline constexpr std::array<std::string_view, 16> kVdaMembers{
-    "version",      "map",      "map_id",       "map_ids",       "robots", "robot_defaults",
-    "plans",        "options",  "dependencies", "release_ahead", "base",   "progress",
-    "manufacturer", "metadata", "timestamp",    "serial_numbers"};
+inline constexpr std::array<std::string_view, 17> kVdaMembers{
+    "version",      "map",           "map_id",   "map_ids",      "robots",        "robot_defaults",
+    "plans",        "options",       "base",     "dependencies", "release_ahead", "progress",
+    "manufacturer", "manufacturers", "metadata", "timestamp",    "serial_numbers"};
 
 /// Reads the root of the document. Returns none if it has faults, or if its stop is met.
 std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Limits& limits,

@@ -1,6 +1,8 @@
 #include <array>
+#include <map>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "api/json/faults.h"
@@ -86,13 +88,51 @@ class StateReader {
   VehicleState state_;
 };
 
+/// The robots by what their vehicles' messages say of the sender.
+class Senders {
+ public:
+  explicit Senders(const std::vector<Vehicle>& vehicles) {
+    for (std::size_t k = 0; k < vehicles.size(); ++k) {
+      const Vehicle& vehicle = vehicles[k];
+      const auto [first, is_new] = robots_.emplace(vehicle.serial_number, k);
+      if (!is_new && vehicles[first->second].manufacturer != vehicle.manufacturer) {
+        of_several_makes_.insert(vehicle.serial_number);
+      }
+      robots_of_makes_.emplace(std::pair(vehicle.manufacturer, vehicle.serial_number), k);
+    }
+  }
+
+  /// The robot of a message with this serial number. Only where several makes have it, the manufacturer
+  /// counts.
+  std::optional<std::size_t> find(const JsonReader& message, const std::string& serial) const {
+    if (!of_several_makes_.contains(serial)) {
+      if (const auto robot = robots_.find(serial); robot != robots_.end()) return robot->second;
+      message.find("serialNumber").fault(fault::kUnknownRobot, [&] {
+        return "There is no robot with the serial number " + in_quotes(serial) + ".";
+      });
+      return std::nullopt;
+    }
+    const JsonReader make = message.require("manufacturer", ", as several makes have this serial number");
+    const auto name = make.name();
+    if (!name) return std::nullopt;
+    const auto robot = robots_of_makes_.find({*name, serial});
+    if (robot != robots_of_makes_.end()) return robot->second;
+    make.fault(fault::kUnknownRobot, [&] {
+      return "There is no robot of this manufacturer with the serial number " + in_quotes(serial) + ".";
+    });
+    return std::nullopt;
+  }
+
+ private:
+  std::unordered_map<std::string, std::size_t> robots_;  // by serial number, the first of several
+  std::unordered_set<std::string> of_several_makes_;     // serial numbers
+  std::map<std::pair<std::string, std::string>, std::size_t> robots_of_makes_;  // by manufacturer and number
+};
+
 }  // namespace
 
 std::vector<std::optional<VehicleState>> parse_states(const JsonReader& member, const VdaRequest& request) {
-  std::unordered_map<std::string_view, std::size_t> robots;
-  for (std::size_t k = 0; k < request.vehicles.size(); ++k) {
-    robots.emplace(request.vehicles[k].serial_number, k);
-  }
+  const Senders senders(request.vehicles);
   std::vector<std::optional<VehicleState>> states(request.robots.size());
   // Bounded: the messages in the body.
   for (const JsonReader item : member.array().items()) {
@@ -100,14 +140,12 @@ std::vector<std::optional<VehicleState>> parse_states(const JsonReader& member, 
     const JsonReader serial = json.require("serialNumber");
     const auto name = serial.name();
     if (!name) continue;
-    const auto robot = robots.find(*name);
-    if (robot == robots.end()) {
-      serial.fault(fault::kUnknownRobot,
-                   [&] { return "There is no robot with the serial number " + in_quotes(*name) + "."; });
-    } else if (states[robot->second]) {
+    const auto robot = senders.find(json, *name);
+    if (!robot) continue;
+    if (states[*robot]) {
       serial.fault(fault::kDuplicate, "There are two messages of this vehicle; give the last one.");
     } else {
-      states[robot->second] = StateReader(json, request.progress[robot->second]).read();
+      states[*robot] = StateReader(json, request.progress[*robot]).read();
     }
   }
   return states;

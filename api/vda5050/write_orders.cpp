@@ -33,7 +33,7 @@ bool is_v3(const OrderHeader& header) { return header.version == VdaVersion::v3_
 /// Begins a message to a vehicle with the members that all messages have.
 void begin_message(JsonWriter& json, const OrderHeader& header, const Vehicle& vehicle, std::uint64_t id) {
   json.begin_object().member("headerId", id).member("timestamp", header.timestamp);
-  json.member("version", is_v3(header) ? "3.0.0" : "2.1.0").member("manufacturer", header.manufacturer);
+  json.member("version", is_v3(header) ? "3.0.0" : "2.1.0").member("manufacturer", vehicle.manufacturer);
   json.member("serialNumber", vehicle.serial_number);
 }
 

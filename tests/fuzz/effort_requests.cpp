@@ -421,6 +421,7 @@ Effort execution_effort(Choices choices) {
     body["dependencies"] = dependencies_of(fleet, choices);
     Json numbers = Json::object();
     for (int k = choices.up_to(20'000); k > 0; --k) numbers[name_of('r', k)] = name_of('s', k);
+    if (choices.yes()) body["manufacturers"] = numbers;
     if (choices.yes()) body["serial_numbers"] = std::move(numbers);
     if (choices.yes()) body["release_ahead"] = choices.one_of(std::array{0.1, 5.0, 1e8});
     if (choices.yes()) body["base"] = base_of(fleet, choices);

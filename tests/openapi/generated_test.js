@@ -75,7 +75,7 @@ const BEYOND_SCHEMA = {
   // `goal` of an action that is no wait, `reverse` of one that is no translation; serial number of no robot; what is
   // left of no service
   unknown_key:
-    /\/((committed|previous|actions)\/\d+\/(goal|reverse)|(serial_numbers|map_ids)\/[^/]*|states\/\d+\/service_left)$/,
+    /\/((committed|previous|actions)\/\d+\/(goal|reverse)|(serial_numbers|map_ids|manufacturers)\/[^/]*|states\/\d+\/service_left)$/,
   unknown_obstacle: /^\/unavoidable\/\d+\/obstacle$/,
   discontinuity: /^\/(robots\/\d+\/(committed|previous)|plans\/\d+\/actions)\/\d+\/\w+$/,
   speed: anyOf(

@@ -45,13 +45,13 @@ class Loop:
     """What is stepped, once."""
 
     def step(self):
-        return [Message("order", "0815", {"orderId": "o"}), Message("order", "0815", {"orderId": "p"})]
+        return [Message("order", "acme", "0815", {"orderId": "o"}), Message("order", "acme", "0815", {"orderId": "p"})]
 
 
 class Mqtt(unittest.TestCase):
     def test_states_arrive_and_orders_are_sent(self):
         states, received = queue.Queue(), queue.Queue()
-        with broker() as port, MqttTransport(states.put, manufacturer="acme", host="127.0.0.1", port=port) as transport:
+        with broker() as port, MqttTransport(states.put, manufacturer=["acme", "bolt"], host="127.0.0.1", port=port) as transport:
             vehicle = paho.Client()
             vehicle.on_message = lambda _client, _data, message: received.put((message.topic, json.loads(message.payload)))
             vehicle.connect("127.0.0.1", port)

@@ -15,8 +15,8 @@ from fleetplan.vda5050 import VdaLoop
 class Vehicle:
     """Takes orders as the standard says, drives what is released at random speeds, and reports."""
 
-    def __init__(self, name, start, speed, dice):
-        self.name, self.speed, self.dice = name, speed, dice
+    def __init__(self, name, address, start, speed, dice):
+        self.name, self.address, self.speed, self.dice = name, address, speed, dice
         self.pose = {"x": start["x"], "y": start["y"], "theta": start.get("theta", 0.0)}
         self.order_id, self.update_id, self.last = "", 0, 0
         self.nodes, self.actions, self.errors = [], {}, []  # nodes that are still to come, in the base
@@ -72,7 +72,8 @@ class Vehicle:
                 break
 
     def state(self):
-        return {"headerId": 0, "serialNumber": self.name, "orderId": self.order_id, "orderUpdateId": self.update_id,
+        manufacturer, serial_number = self.address
+        return {"headerId": 0, "manufacturer": manufacturer, "serialNumber": serial_number, "orderId": self.order_id, "orderUpdateId": self.update_id,
                 "lastNodeId": "", "lastNodeSequenceId": self.last, "driving": bool(self.nodes),
                 "agvPosition": {**self.pose, "mapId": "map", "positionInitialized": True}, "errors": self.errors,
                 "actionStates": [{"actionId": name, "actionStatus": status} for name, status in self.actions.items()]}
@@ -108,16 +109,22 @@ class Fleet:
 
 
 class Day:
-    """Vehicles that go to and fro between their start, where they are served, and their goal."""
+    """Vehicles of two makes, with the same serial numbers, that go to and fro between their start, where they are served,
+    and their goal."""
 
     def __init__(self, client, robots, seed=0, **how):
         self.request = json.loads((PROJECT / "tests/scenarios/warehouse.json").read_text())
         self.request["robots"] = self.request["robots"][:robots]
         self.request["options"] = {"time_budget_ms": 20000}  # a busy machine changes nothing
         self.now = 0.0
-        self.vehicles = {robot["id"]: Vehicle(robot["id"], robot["start"], robot["linear_speed"],
-                                              random.Random(f"{seed} {robot['id']}")) for robot in self.request["robots"]}
+        self.vehicles = {robot["id"]: Vehicle(robot["id"], (("acme", "bolt")[k % 2], str(k // 2)), robot["start"],
+                                              robot["linear_speed"], random.Random(f"{seed} {robot['id']}"))
+                         for k, robot in enumerate(self.request["robots"])}
+        self.of_address = {vehicle.address: vehicle for vehicle in self.vehicles.values()}
         self.loop = VdaLoop(client, self.request, manufacturer="acme", clock=lambda: self.now, background=False,
+                            manufacturers={name: "bolt" for name, vehicle in self.vehicles.items()
+                                           if vehicle.address[0] == "bolt"},
+                            serial_numbers={name: vehicle.address[1] for name, vehicle in self.vehicles.items()},
                             map_id="hall", **how)
         self.trips = {robot["id"]: [{**robot["start"], "service": 2.0}, robot["goal"]] for robot in self.request["robots"]}
         self.arrived, self.failures, self.orders, self.out = [], [], 0, set()
@@ -125,7 +132,7 @@ class Day:
     def send(self, messages):
         for message in messages:
             self.orders += message.topic == "order"
-            self.vehicles[message.serial_number].take(message)
+            self.of_address[message.manufacturer, message.serial_number].take(message)
 
     def run(self, seconds):
         end = self.now + seconds

@@ -3,7 +3,7 @@
 import datetime
 import json
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from types import TracebackType
 from typing import Any
 
@@ -18,12 +18,14 @@ _CONNECT = 10.0  # seconds: for which `start` waits for the broker
 class MqttTransport:
     """Publishes messages for vehicles, and calls `take` with their state messages, in a thread of its own."""
 
-    def __init__(self, take: Callable[[VdaMessage], None], *, manufacturer: str, version: str = "2.1.0",
-                 host: str = "localhost", port: int = 1883, interface: str = "uagv", username: str | None = None,
-                 password: str | None = None, tls: bool = False) -> None:
-        """`interface`: the first level of the topics; the version's major number is the second one."""
-        self._take, self._manufacturer, self._version = take, manufacturer, version
-        self._address, self._root = (host, port), f"{interface}/v{version.split('.')[0]}/{manufacturer}"
+    def __init__(self, take: Callable[[VdaMessage], None], *, manufacturer: str | Collection[str],
+                 version: str = "2.1.0", host: str = "localhost", port: int = 1883, interface: str = "uagv",
+                 username: str | None = None, password: str | None = None, tls: bool = False) -> None:
+        """`manufacturer`: or all of those of the fleet. `interface`: the first level of the topics; the version's major
+        number is the second one."""
+        self._take, self._version = take, version
+        makes = {manufacturer} if isinstance(manufacturer, str) else set(manufacturer)
+        self._address, self._root = (host, port), f"{interface}/v{version.split('.')[0]}"
         self._headers: dict[str, int] = {}  # the next headerId of each topic
         versions = getattr(paho, "CallbackAPIVersion", None)  # from 2.0 of paho-mqtt on
         self._client: Any = paho.Client() if versions is None else paho.Client(versions.VERSION1)
@@ -31,7 +33,8 @@ class MqttTransport:
             self._client.username_pw_set(username, password)
         if tls:
             self._client.tls_set()
-        self._client.on_connect = lambda client, *_: client.subscribe(f"{self._root}/+/state", qos=0)
+        topics = [(f"{self._root}/{make}/+/state", 0) for make in sorted(makes)]
+        self._client.on_connect = lambda client, *_: client.subscribe(topics)
         self._client.on_message = lambda _client, _data, message: self._receive(message.payload)
 
     def __enter__(self) -> "MqttTransport":
@@ -58,12 +61,12 @@ class MqttTransport:
 
     def send(self, messages: Iterable[Message]) -> None:
         for message in messages:
-            topic = f"{self._root}/{message.serial_number}/{message.topic}"
+            topic = f"{self._root}/{message.manufacturer}/{message.serial_number}/{message.topic}"
             header = self._headers.get(topic, 0)
             self._headers[topic] = header + 1
             now = datetime.datetime.now(datetime.UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
             body = {"headerId": header, "timestamp": now, "version": self._version,
-                    "manufacturer": self._manufacturer, "serialNumber": message.serial_number, **message.body}
+                    "manufacturer": message.manufacturer, "serialNumber": message.serial_number, **message.body}
             self._client.publish(topic, json.dumps(body, separators=(",", ":")), qos=0)
 
     def _receive(self, payload: bytes) -> None:

@@ -33,6 +33,7 @@ class Message:
     """To be published on a topic of a vehicle."""
 
     topic: Literal["order", "instantActions"]
+    manufacturer: str
     serial_number: str
     body: VdaMessage  # without header
 
@@ -59,21 +60,24 @@ class VdaLoop(PlanningLoop):
     """
 
     def __init__(self, client: Client, request: PlanRequest, *, manufacturer: str,
-                 version: Literal["2.1.0", "3.0.0"] = "2.1.0", serial_numbers: Mapping[str, str] | None = None,
-                 map_id: str | None = None, map_ids: Mapping[str, str] | None = None, release_ahead: float = 5.0,
-                 period: float = 2.0, clock: Callable[[], float] = time.monotonic, background: bool = True,
+                 manufacturers: Mapping[str, str] | None = None, version: Literal["2.1.0", "3.0.0"] = "2.1.0",
+                 serial_numbers: Mapping[str, str] | None = None, map_id: str | None = None,
+                 map_ids: Mapping[str, str] | None = None, release_ahead: float = 5.0, period: float = 2.0,
+                 clock: Callable[[], float] = time.monotonic, background: bool = True,
                  change: Callable[[PlanRequest], None] | None = None) -> None:
         """`release_ahead`: seconds of its plan that a vehicle may go on before the next release. It bounds what a new
         plan cannot change; vehicles stop for a moment if planning takes longer. `period`: seconds from plan to plan.
         `change` is called with each request before it is planned, in the thread that plans."""
         super().__init__(client, request, VDA_OPTIONS, period=period, clock=clock, background=background, change=change)
-        self._header: dict[str, Any] = {"version": version, "manufacturer": manufacturer, "map_id": map_id,
-                                        "map_ids": map_ids, "serial_numbers": serial_numbers,
-                                        "release_ahead": release_ahead}
-        self._serial = {robot["id"]: (serial_numbers or {}).get(robot["id"], robot["id"]) for robot in request["robots"]}
+        self._header: dict[str, Any] = {"version": version, "manufacturer": manufacturer,
+                                        "manufacturers": manufacturers, "map_id": map_id, "map_ids": map_ids,
+                                        "serial_numbers": serial_numbers, "release_ahead": release_ahead}
+        ids = [robot["id"] for robot in request["robots"]]
+        self._vehicles = {robot: ((manufacturers or {}).get(robot, manufacturer), (serial_numbers or {}).get(robot, robot))
+                          for robot in ids}
         self.cancelled: dict[str, str] = {}  # why orders were cancelled, by robot, until it has another one
         self.rounds = 0  # that have succeeded
-        self._states: dict[str, VdaMessage] = {}  # by serial number, the last ones
+        self._states: dict[str, VdaMessage] = {}  # by robot, the last ones
         self._lock = threading.Lock()  # of the states
         self._orders: dict[str, VdaMessage] = {}  # the last messages, by robot
         self._cancels: dict[str, str] = {}  # ids of the actions that cancel orders, by robot
@@ -85,9 +89,11 @@ class VdaLoop(PlanningLoop):
 
     def take(self, state: VdaMessage) -> None:
         """A vehicle reports. Any thread may call this."""
-        if state.get("serialNumber") in self._serial.values():
-            with self._lock:
-                self._states[state["serialNumber"]] = state
+        of_serial = [(robot, make) for robot, (make, serial) in self._vehicles.items() if serial == state.get("serialNumber")]
+        for robot, make in of_serial:
+            if len(of_serial) == 1 or make == state.get("manufacturer"):
+                with self._lock:
+                    self._states[robot] = state
 
     def step(self) -> list[Message]:
         """The messages to send now. Before all vehicles have reported, none.
@@ -96,7 +102,7 @@ class VdaLoop(PlanningLoop):
         dropped, and the loop goes on with the next call."""
         now = self._clock()
         messages: list[Message] = []
-        if len(self._states) < len(self._serial):
+        if len(self._states) < len(self._vehicles):
             return messages
         if self._round is None:
             messages += self._release()
@@ -116,7 +122,7 @@ class VdaLoop(PlanningLoop):
         body = {"actions": [{"actionType": "cancelOrder", "actionId": action_id, "blockingType": "HARD",
                              "actionParameters": parameters}]}
         self._begin_cancel(robot, action_id, reason)
-        return [Message("instantActions", self._serial[robot], body)]
+        return [Message("instantActions", *self._vehicles[robot], body)]
 
     @property
     def idle(self) -> list[str]:
@@ -154,7 +160,7 @@ class VdaLoop(PlanningLoop):
         still knows a horizon waits for its order to be continued."""
         for robot, report in self._reports.items():
             entry = plan.progress[robot]
-            waits = self._states[self._serial[robot]].get("nodeStates")
+            waits = self._states[robot].get("nodeStates")
             if report["accepted"] and report["arrived"] and not waits and robot not in self._cancels:
                 plan.progress[robot] = {"robot": robot, "action": entry["action"], "progress": entry["progress"]}
                 self._orders.pop(robot, None)
@@ -189,7 +195,7 @@ class VdaLoop(PlanningLoop):
             known["last_released_sequence_id"] = entry["last_released_sequence_id"]
             self._orders[robot] = order
             self.cancelled.pop(robot, None)
-            messages.append(Message("order", self._serial[robot], _headless(order)))
+            messages.append(Message("order", *self._vehicles[robot], _headless(order)))
         return messages
 
     def _begin_cancel(self, robot: str, action_id: str, reason: str) -> None:
@@ -218,7 +224,7 @@ class VdaLoop(PlanningLoop):
         with self._lock:
             reported = dict(self._states)
         base: list[OrderBase] = [
-            {"robot": robot, "order": self._orders[robot], "state": reported[self._serial[robot]]}
+            {"robot": robot, "order": self._orders[robot], "state": reported[robot]}
             for robot, entry in plan.progress.items() if "order_id" in entry]
         goals: list[NewGoals] = [{"robot": robot, "goals": given} for robot, given in self._given.items()]
         advance = functools.partial(self._client.advance, plan.request, plan.answer, now - plan.begin,
@@ -252,7 +258,7 @@ class VdaLoop(PlanningLoop):
             return self._cancel_all(exported)
         self.failure, self._given, self._plan, self.request = None, {}, plan, plan.request
         self.rounds += 1
-        return self._published(plan, exported, set(self._serial))
+        return self._published(plan, exported, set(self._vehicles))
 
     def _progress_of(self, base: OrderBase) -> OrderProgress:
         """An order at the begin of a plan."""
@@ -272,7 +278,7 @@ class VdaLoop(PlanningLoop):
             robot, message = entry["robot"], entry["instant_actions"]
             if robot not in self._cancels:
                 self._begin_cancel(robot, message["actions"][0]["actionId"], entry["detail"])
-                messages.append(Message("instantActions", self._serial[robot], _headless(message)))
+                messages.append(Message("instantActions", *self._vehicles[robot], _headless(message)))
         self._goals = {**self._given, **self._goals}
         self._given = {}
         return messages

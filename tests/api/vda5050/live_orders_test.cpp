@@ -224,6 +224,26 @@ TEST(LiveOrders, HaveTheMapOfTheirVehicle) {
   EXPECT_EQ(answer["orders"][1]["order"]["nodes"][0]["nodePosition"]["mapId"], "floor 1");
 }
 
+TEST(LiveOrders, OfSeveralMakesMayHaveTheSameSerialNumbers) {
+  Moving hall;
+  hall.body["manufacturers"] = {{"b", "bolt"}};
+  hall.body["serial_numbers"] = {{"a", "1"}, {"b", "1"}};
+  for (Json& message : hall.messages) {
+    message["manufacturer"] = message["serialNumber"] == "b" ? Json("bolt") : hall.body["manufacturer"];
+    message["serialNumber"] = "1";
+  }
+  const Json states = hall.imported(hall.messages);
+  Moving plain;
+  EXPECT_EQ(states, plain.imported(plain.messages));
+
+  hall.messages[0].erase("manufacturer");
+  hall.messages[1]["manufacturer"] = "nobody";
+  Json body = hall.complete();
+  body["messages"] = hall.messages;
+  EXPECT_EQ(faults_of_import(body),
+            (Faults{{"/messages/0/manufacturer", "missing"}, {"/messages/1/manufacturer", "unknown_robot"}}));
+}
+
 TEST(LiveOrders, AreReleasedSoManySecondsAhead) {
   Hall hall;
   hall.body["release_ahead"] = 2.0;

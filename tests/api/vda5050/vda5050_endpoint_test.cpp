@@ -75,8 +75,11 @@ void expect_order(const Json& order) {
 TEST(Vda5050, GivesEachRobotThatMovesAnOrder) {
   Json body = exported(swap_request());
   body["serial_numbers"] = {{"b", "0815"}};
+  body["manufacturers"] = {{"b", "bolt"}};
   const Json answer = orders(body);
   ASSERT_EQ(answer["orders"].size(), 2U);
+  EXPECT_EQ(answer["orders"][0]["order"]["manufacturer"], body["manufacturer"]);
+  EXPECT_EQ(answer["orders"][1]["order"]["manufacturer"], "bolt");
   const Json& order = answer["orders"][1]["order"];
   EXPECT_EQ(order["version"], "2.1.0");
   EXPECT_EQ(order["serialNumber"], "0815");
@@ -230,12 +233,15 @@ TEST(Vda5050, RejectsWhatItCannotExport) {
 
   body = valid;
   body["serial_numbers"] = {{"c", "1"}};
+  body["manufacturers"] = {{"a", ""}, {"c", "acme"}};
   body["progress"] = Json::parse(R"([
     {"robot": "c", "action": 0, "progress": 0},
     {"robot": "a", "action": 1000, "progress": 0},
     {"robot": "a", "action": 0, "progress": 2},
     {"robot": "b", "action": 0, "progress": 0, "order_id": "x", "order_update_id": 0, "last_released_sequence_id": 1}])");
   EXPECT_EQ(faults_of_export(body), (Faults{{"/serial_numbers/c", "unknown_key"},
+                                            {"/manufacturers/a", "empty"},
+                                            {"/manufacturers/c", "unknown_key"},
                                             {"/progress/0/robot", "unknown_robot"},
                                             {"/progress/1/action", "out_of_range"},
                                             {"/progress/2/robot", "duplicate"},

@@ -168,6 +168,7 @@ export class Executions {
             .date({ min: new Date(0), max: new Date("9999-12-31"), noInvalidDate: true })
             .map((date) => date.toISOString()),
           map_id: text,
+          manufacturers: ofSome(ids, (id) => text.map((make) => [id, make])).map(Object.fromEntries),
           serial_numbers: ofSome(ids, (id) => text.map((serial) => [id, serial])).map(Object.fromEntries),
           progress: ofSome(moving(answer.plans), progress),
         })
@@ -194,6 +195,7 @@ export class Executions {
       const message = (robot) =>
         fc.record({
           serialNumber: fc.constant(serial(robot)),
+          manufacturer: fc.constant(body.manufacturers[robot.id] ?? body.manufacturer),
           orderId: fc.oneof(text, fc.constant(""), fc.constant(orderOf(body, robot.id) ?? "")),
           orderUpdateId: number,
           lastNodeSequenceId: number,
