@@ -13,12 +13,16 @@ from client import Connection, Lost, request
 
 # Relative frequency of each kind of request. Huge requests are rare because each occupies the server for seconds.
 KINDS = {"scenario": 20, "random": 40, "gzip": 10, "stream": 6, "bad body": 10, "bad framing": 8, "small": 10,
-         "cancelled": 6, "slow": 2, "pipelined": 4, "huge": 0.3}
+         "cancelled": 6, "slow": 2, "pipelined": 4, "orders": 2, "huge": 0.3}
 COSTLY = {"costly": 1}  # in addition, if they are asked for: see costly.py
 
 
 class Wrong(Exception):
     """A wrong answer."""
+
+
+class Busy(Exception):
+    """A 503."""
 
 
 def detail_of(answer):
@@ -208,6 +212,45 @@ class Client(threading.Thread):
                 self.check(kind, connection.receive(), {200}, time.monotonic() - begin, id_)
         finally:
             connection.close()
+
+    def do_orders(self, kind):
+        try:
+            self.continue_orders(kind)
+        except Busy:
+            pass  # such vehicles go on with the orders that they have
+
+    def continue_orders(self, kind):
+        """Vehicles get the orders of a plan, and report; the next plan goes on with what is released of them."""
+        instance = workload.vehicles(self.random)
+        plan = self.posted(kind, "/v1/plan", instance)
+        header = {"version": self.random.choice(["2.1.0", "3.0.0"]), "manufacturer": "acme", "release_ahead": 3.0,
+                  "timestamp": "2026-01-31T12:00:00.000Z"}
+        sent = self.posted(kind, "/v1/export/vda5050", workload.of_orders(header, instance, plan))
+        orders = {entry["robot"]: entry["order"] for entry in sent["orders"]}
+        progress = [workload.progress_of(entry) for entry in sent["orders"]]
+        messages = [workload.state_of(robot, order) for robot, order in orders.items()]
+        reported = self.posted(kind, "/v1/import/vda5050",
+                               {**workload.of_orders(header, instance, plan), "progress": progress, "messages": messages})
+        if not all(vehicle["accepted"] for vehicle in reported["vehicles"] if vehicle["robot"] in orders):
+            raise Wrong(f"an order is not accepted: {reported}")
+        later = self.posted(kind, "/v1/advance", {
+            "request": instance, "plans": plan["plans"], "at": 0.5, "commit": 1.0, "states": reported["states"]})
+        base = [{"robot": robot, "order": order, "state": state} for (robot, order), state in zip(orders.items(), messages)]
+        plan = self.posted(kind, "/v1/plan", later)
+        updates = self.posted(kind, "/v1/export/vda5050", {**workload.of_orders(header, later, plan), "base": base})
+        if updates["cancel_orders"]:
+            raise Wrong(f"an order is cancelled: {updates['cancel_orders']}")
+        for entry in updates["orders"]:
+            known = [node for node in orders[entry["robot"]]["nodes"] if node["released"]]
+            if entry["order"]["nodes"][0] != known[-1]:
+                raise Wrong(f"an update that does not begin where the base ends: {entry['order']['nodes'][0]}, {known[-1]}")
+
+    def posted(self, kind, path, body):
+        """The content of the answer."""
+        answer = self.ask(kind, "POST", path, {200}, json.dumps(body).encode())
+        if answer.status == 503:
+            raise Busy
+        return answer.json()
 
     def do_costly(self, kind):
         """Every third client leaves before the answer."""

@@ -257,6 +257,26 @@ def many_serial_numbers(members):
             "serial_numbers": {f"u{i}": "x" for i in range(members)}}
 
 
+def orders_of_a_long_leg(**more):
+    """One action, of which an order makes as many nodes as it may."""
+    start, end = {"x": 0.5, "y": 0.5, "theta": 0}, {"x": 1490.5, "y": 0.5, "theta": 0}
+    return {"version": "2.1.0", "manufacturer": "m", "timestamp": "2026-01-31T12:00:00.000Z", "robot_defaults": ROBOT,
+            "robots": [{"id": "a", "start": start, "goal": end}], "dependencies": [], "release_ahead": 0.1,
+            "plans": [{"robot": "a", "actions": [{"type": "translate", "t_start": 0, "t_end": 1490, "from": start, "to": end}]}],
+            **more}
+
+
+def report_of_many_actions(count):
+    """What a vehicle reports that has ended so many actions, with as many nodes to come."""
+    message = {"serialNumber": "a", "orderId": "o", "orderUpdateId": 0, "lastNodeSequenceId": 2,
+               "nodeStates": [{"sequenceId": 4 + 2 * k} for k in range(count)],
+               "actionStates": [{"actionId": f"a{k}", "actionStatus": "FINISHED"} for k in range(count)],
+               "errors": [{"errorLevel": "WARNING", "errorReferences": [{"referenceKey": "orderId", "referenceValue": "o"}]}] * count,
+               "agvPosition": {"x": 700.5, "y": 0.5, "theta": 0}}
+    progress = {"robot": "a", "action": 0, "progress": 0, "order_id": "o", "order_update_id": 0, "last_released_sequence_id": 2}
+    return orders_of_a_long_leg(messages=[message], progress=[progress])
+
+
 def chunk(kind, data):
     """A chunk of a PNG."""
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -333,6 +353,10 @@ def costly_requests():
         Costly("a PNG of 1000 texts", posted(image_map(8, 4, inside=texts)), 0.1, 200, planned(["solved"])),
         Costly("1,200,000 serial numbers", posted(many_serial_numbers(1_200_000), "/v1/export/vda5050"), 1.5, 300,
                refused("invalid_request", "parse_unfinished", "memory_exceeded")),
+        Costly("orders of 29,800 nodes", posted(orders_of_a_long_leg(), "/v1/export/vda5050"), 1.0, 300,
+               answered_or_unfinished("orders")),
+        Costly("reports of 100,000 actions", posted(report_of_many_actions(100_000), "/v1/import/vda5050"), 1.5, 400,
+               answered_or_unfinished("states")),
     ]
 
 

@@ -45,6 +45,42 @@ def random_fleet(random_: random.Random):
             "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 2.0}}
 
 
+def vehicles(random_: random.Random):
+    """Robots that cross each other's ways in a hall."""
+    rows = random_.sample(range(2, 18), 3)
+    columns = random_.sample(range(4, 16), 3)
+    ways = [((1, row), (18, row)) for row in rows] + [((column, 1), (column, 18)) for column in columns]
+    pose = lambda cell: {"x": cell[0] + 0.5, "y": cell[1] + 0.5}
+    robots = [{"id": f"v{k}", "start": pose(start), "goals": [{**pose(goal), "service": random_.uniform(0.0, 3.0)}]}
+              for k, (start, goal) in enumerate(way[::random_.choice([1, -1])] for way in ways)]
+    return {"map": {"rows": ["." * 20] * 20}, "robots": robots,
+            "robot_defaults": {"radius": 0.3, "linear_speed": random_.uniform(0.5, 2.0), "angular_speed": 2.0},
+            "options": {"dependencies": True, "interval_margin": 0.5, "time_budget_ms": 2000}}
+
+
+def of_orders(header, instance, plan):
+    """A body of `/v1/export/vda5050`."""
+    members = {name: instance[name] for name in ("robots", "robot_defaults", "options")}
+    return {**header, **members, "plans": plan["plans"], "dependencies": plan["dependencies"]}
+
+
+def progress_of(sent):
+    """Of a robot that has been sent this order, and has not moved."""
+    return {"robot": sent["robot"], "order_id": sent["order"]["orderId"], "action": 0, "progress": 0.0,
+            "order_update_id": sent["order"]["orderUpdateId"],
+            "last_released_sequence_id": sent["last_released_sequence_id"]}
+
+
+def state_of(robot, order):
+    """Of a vehicle that stands at the first node of its order."""
+    first, *rest = order["nodes"]
+    position = {**first["nodePosition"], "positionInitialized": True}
+    position.setdefault("theta", 0.0)
+    return {"serialNumber": robot, "orderId": order["orderId"], "orderUpdateId": order["orderUpdateId"],
+            "lastNodeSequenceId": first["sequenceId"], "agvPosition": position, "actionStates": [], "errors": [],
+            "nodeStates": [{"sequenceId": node["sequenceId"], "released": node["released"]} for node in rest]}
+
+
 def endless(budget_ms):
     """A request that uses its whole budget: 100 robots in a hall, whose plan is improved until the time is over."""
     places = [(c + 0.5, r + 0.5) for r in range(0, 20, 4) for c in range(20)]
