@@ -163,13 +163,17 @@ Remainder remainder_of(const core::Robot& robot, const Execution& execution, con
   return remainder_of_measured(robot, actions, *measured, located.progress, moment.at);
 }
 
-/// Whether a robot that is so far in its actions is on the way, not only about to set out.
-bool drives(const core::Robot& robot, const Actions& actions, const Progress& progress) {
+/// Whether a robot that is so far in its actions is on the way, not only about to set out. Its own word
+/// counts.
+bool drives(const core::Robot& robot, const Execution& execution, const Progress& progress) {
+  const Actions& actions = execution.actions;
   const auto [index, t] = progress;
+  const auto speed = execution.reported ? execution.reported->speed : std::nullopt;
+  if (speed && std::abs(*speed) < kLeastLinearSpeed) return false;
   if (index >= actions.size() || actions[index].type != Action::Type::translate) return false;
   if (t >= actions[index].t_end)
     return index + 1 < actions.size() && goes_on(actions[index], actions[index + 1]);
-  if (t > actions[index].t_start) return true;
+  if (t > actions[index].t_start || speed) return true;
   // At its begin: it goes on, or it was under way when its actions began.
   return index > 0 ? goes_on(actions[index - 1], actions[index]) : !robot.committed.empty();
 }
@@ -177,8 +181,8 @@ bool drives(const core::Robot& robot, const Actions& actions, const Progress& pr
 /// What it cannot leave out of this remainder.
 Actions braking_in(const Remainder& rest, const core::Robot& robot, const Execution& execution,
                    const Located& located) {
-  const bool brakes = execution.stop_distance > 0.0 && !located.is_elsewhere &&
-                      drives(robot, execution.actions, located.progress);
+  const bool brakes =
+      execution.stop_distance > 0.0 && !located.is_elsewhere && drives(robot, execution, located.progress);
   return brakes ? driven_until(rest.actions, execution.stop_distance) : Actions();
 }
 

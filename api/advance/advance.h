@@ -44,6 +44,7 @@ struct ReportedState {
   Place place;                              // in one of its actions
   std::optional<double> service_left = {};  // seconds, if the action is a service
   std::optional<Place> released = {};       // it may drive to there; nobody can take that back
+  std::optional<double> speed = {};         // metres per second, negative backwards
 };
 
 /// What a robot does, and what happened to it.
@@ -64,7 +65,7 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
 
 /// By robot: what one that drives at the moment cannot leave out, on the clock of the moment: its motion
 /// until it can stand, which it can after its stop distance, and where its plan has it stand. Empty for one
-/// that stands, turns, or is not on its path.
+/// that stands, by its plan or because it says so, turns, or is not on its path.
 std::vector<std::vector<core::Action>> braking_of(const std::vector<core::Robot>& robots,
                                                   const std::vector<Execution>& executions,
                                                   const Moment& moment, core::Work& stop);

@@ -134,7 +134,7 @@ void parse_state(const JsonReader& entry, const core::Robot& robot, Execution& e
   const auto number = parse_action_number(entry.require("action"), robot, actions);
   const auto fraction = entry.require("progress").number(kFraction);
   const auto service_left = left_member.number(kDuration);
-  entry.find("speed").number(kMeasuredSpeed);
+  const auto speed = entry.find("speed").number(kMeasuredSpeed);
   if (!number || !fraction) return;
   const core::Action& action = actions[*number];
   const bool is_service = action.goal && *action.goal < robot.goal_count();
@@ -144,7 +144,7 @@ void parse_state(const JsonReader& entry, const core::Robot& robot, Execution& e
              " is no service, which is a wait with goal: leave service_left out.";
     });
   }
-  execution.reported = ReportedState{{*number, *fraction}, service_left};
+  execution.reported = ReportedState{{*number, *fraction}, service_left, {}, speed};
   execution.reported->released =
       parse_released(entry.find("released"), robot, execution.reported->place, actions);
   execution.measured = parse_measured_at(entry, pose_of(actions, *execution.reported));

@@ -44,6 +44,30 @@ TEST(StopDistance, OneThatIsAboutToSetOutNeedNot) {
   EXPECT_DOUBLE_EQ(line.advance(0.0, 0.0)[0].committed_until(), 0.5);
 }
 
+TEST(StopDistance, ARobotKnowsWhetherItDrives) {
+  DrivingFleet line;
+  line.add_on_line(1.0, 9.0, 0.5);
+  const auto committed_until = [&](double progress, double speed) {
+    line.executions[0].reported = ReportedState{{0, progress}, {}, {}, speed};
+    return line.advance(2.0, 0.0)[0].committed_until();
+  };
+  EXPECT_DOUBLE_EQ(committed_until(0.25, 0.9), 0.5);
+  EXPECT_DOUBLE_EQ(committed_until(0.25, -0.1), 0.5) << "backwards";
+  EXPECT_EQ(committed_until(0.25, 0.0), 0.0) << "it has been stopped on its way";
+  EXPECT_DOUBLE_EQ(committed_until(0.0, 0.1), 0.5) << "it has just set out";
+  EXPECT_EQ(committed_until(0.0, 0.0), 0.0);
+  EXPECT_EQ(committed_until(1.0, 0.9), 0.0) << "it has arrived";
+}
+
+TEST(StopDistance, OneThatStandsIsInNobodysWay) {
+  DrivingFleet line;
+  line.add_on_line(1.0, 9.0, 2.0);
+  line.add_on_line(4.0, 4.0, 0.0);
+  EXPECT_EQ(line.collisions(2.0, 0.0).size(), 1U);
+  line.executions[0].reported = ReportedState{{0, 0.25}, {}, {}, 0.0};
+  EXPECT_TRUE(line.collisions(2.0, 0.0).empty());
+}
+
 TEST(StopDistance, TranslationsThatGoOnAreOne) {
   DrivingFleet line;
   line.add_on_line(1.0, 9.0, 0.5);

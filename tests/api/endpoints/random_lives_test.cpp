@@ -121,13 +121,25 @@ void expect_that_all_may_stop(const Json& request, const core::Problem& problem,
   }
 }
 
+/// The state that a robot has reported; null if it has not.
+const Json* state_of(const Json& body, const Json& robot) {
+  if (!body.contains("states")) return nullptr;
+  for (const Json& state : body.at("states")) {
+    if (state.at("robot") == robot) return &state;
+  }
+  return nullptr;
+}
+
 /// Exactly the robots that overlap at the moment are named, and some of those that need some way to stop.
-void expect_that_the_overlapping_are_named(const Json& request, const core::Problem& problem) {
+void expect_that_the_overlapping_are_named(const Json& request, const core::Problem& problem,
+                                           const Json& body) {
   const std::set<Pair> named = named_pairs(request);
   constexpr double kRounding = 1e-9;
   const auto& robots = problem.robots();
   const auto needs_way = [&](std::size_t robot) {
-    return request.at("robots").at(robot).value("stop_distance", 0.0) > 0.0;
+    const Json* state = state_of(body, robots[robot].id);
+    const bool stands = state != nullptr && state->value("speed", 1.0) == 0.0;
+    return !stands && request.at("robots").at(robot).value("stop_distance", 0.0) > 0.0;
   };
   for (std::size_t j = 0; j < robots.size(); ++j) {
     for (std::size_t i = 0; i < j; ++i) {
@@ -157,12 +169,11 @@ double driven(const Json& actions, std::size_t first) {
   return metres;
 }
 
-/// A robot that drives at the moment, by its plan, and is not named drives for as long as it needs to stop.
-void expect_that_it_can_stop(const Json& robot, const Json& actions, double at) {
+/// A robot that is so far in its actions, drives, and is not named drives for as long as it needs to stop.
+void expect_that_it_can_stop(const Json& robot, const Json& actions, std::size_t action, double progress) {
   constexpr double kRounding = 1e-6;
-  const auto under = under_way(actions, at);
-  if (!under || under->progress < kRounding || actions[under->action].at("type") != "translate") return;
-  const double left = driven(actions, under->action) - under->progress * length(actions[under->action]);
+  if (actions[action].at("type") != "translate" || progress == 1.0) return;
+  const double left = driven(actions, action) - progress * length(actions[action]);
   const double needs = std::min(robot.value("stop_distance", 0.0), left);
   EXPECT_GE(driven(robot.value("committed", Json::array()), 0), needs - kRounding) << robot;
 }
@@ -220,24 +231,31 @@ class Life {
     EXPECT_TRUE(parsed) << parsed.failure().detail;
     if (!parsed) return false;
     expect_that_all_may_stop(request_, parsed->problem, parsed->options.start_overlap);
-    expect_that_the_overlapping_are_named(request_, parsed->problem);
+    expect_that_the_overlapping_are_named(request_, parsed->problem, body);
     expect_that_they_can_stop(body);
     return true;
   }
 
-  /// Robots that nobody has observed, and that are not named.
+  /// Robots that nobody has measured, and that are not named.
   void expect_that_they_can_stop(const Json& body) const {
+    constexpr double kSetOut = 1e-6;  // less of an action may be about to begin
     std::set<std::string> others;
     for (const auto& [first, second] : named_pairs(request_)) others.insert({first, second});
-    for (const char* member : {"poses", "states"}) {
-      for (const Json& observed : body.value(member, Json::array())) others.insert(observed.at("robot"));
-    }
+    for (const Json& observed : body.value("poses", Json::array())) others.insert(observed.at("robot"));
     for (const Json& plan : answer_.at("plans")) {
       const auto is_of_plan = [&](const Json& robot) { return robot.at("id") == plan.at("robot"); };
       const Json& robots = request_.at("robots");
       const auto robot = std::find_if(robots.begin(), robots.end(), is_of_plan);
       if (others.contains(plan.at("robot"))) continue;
-      expect_that_it_can_stop(*robot, plan.at("actions"), body.at("at"));
+      const Json& actions = plan.at("actions");
+      if (const Json* state = state_of(body, plan.at("robot"))) {
+        const double progress = state->at("progress");
+        const bool drives = state->contains("speed") ? state->at("speed") != 0.0 : progress > kSetOut;
+        if (state->contains("x") || !drives) continue;
+        expect_that_it_can_stop(*robot, actions, state->at("action"), progress);
+      } else if (const auto under = under_way(actions, body.at("at")); under && under->progress > kSetOut) {
+        expect_that_it_can_stop(*robot, actions, under->action, under->progress);
+      }
     }
   }
 
@@ -291,6 +309,7 @@ class Life {
       observed["progress"] = dice_.chance(0.1) ? dice_.below(2) : under->progress;
       const bool serves = actions.at(under->action).contains("goal");
       if (serves && dice_.chance(0.5)) observed["service_left"] = dice_.between(0.0, 6.0);
+      if (dice_.chance(0.4)) observed["speed"] = dice_.chance(0.5) ? 0.0 : 1.0;
       if (releases_) observed["released"] = released_from(observed, actions);
     }
     body[reports ? "states" : "poses"].push_back(std::move(observed));
