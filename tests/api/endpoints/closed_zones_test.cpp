@@ -113,6 +113,29 @@ TEST(ClosedZones, ARobotThatLeavesWithoutAnotherGoalRestsOutside) {
   EXPECT_EQ(json_of(check)["valid"], true) << check.body;
 }
 
+TEST(ClosedZones, ARobotThatIsParkedOnTheOnlyWayOutIsNamed) {
+  Json request = Json::parse(R"({
+    "map": {"rows": ["............"]},
+    "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 3.0},
+    "robots": [{"id": "in", "start": {"x": 1.5, "y": 0.5}, "goal": {"x": 2.5, "y": 0.5}},
+               {"id": "parked", "start": {"x": 3.5, "y": 0.5}}],
+    "zones": [{"id": "fire", "type": "blocked", "enter": false, "polygon": [
+      {"x": 0, "y": 0}, {"x": 5, "y": 0}, {"x": 5, "y": 1}, {"x": 0, "y": 1}]}]})");
+  for (const double goal : {2.5, 10.5}) {  // inside, so that it is put off, and outside
+    request["robots"][0]["goal"]["x"] = goal;
+    request["options"] = Json::object();
+    const Json in = planned(request)["unplanned"][0];
+    EXPECT_EQ(in["robot"], "in");
+    EXPECT_EQ(in["reason"], "blocked_by_robots");
+    EXPECT_EQ(in["blocked_by"], Json({"parked"}));
+
+    request["options"]["horizon"] = 5.0;
+    const Json waits = planned(request)["plans"][0];
+    EXPECT_EQ(waits["stuck"], true);
+    EXPECT_EQ(waits["blocked_by"], Json({"parked"}));
+  }
+}
+
 TEST(ClosedZones, WithoutEnterStartsAndGoalsInsideAreFaults) {
   Json request = hall_request();
   request["zones"][0].erase("enter");
