@@ -57,6 +57,7 @@ Lattices lattices_of(const Problem& problem, const PlanOptions& options) {
 
 std::vector<Endpoints> endpoints(const Problem& problem, const Lattices& lattices, double inflation) {
   std::vector<Endpoints> all;
+  if (problem.one_at_a_time()) return all;
   for (const Robot& robot : problem.robots()) {
     const Lattice& lattice = *lattices[all.size()];
     const auto rounding = [&](const Position& p) { return (lattice.snapped(p) - p).norm(); };
@@ -197,6 +198,10 @@ bool Instance::fits_at_goal(std::size_t index) const {
     if (!sight(index).disk_fits(goals[k].position, largest - kMostOverlap)) return false;
   }
   return true;
+}
+
+bool Instance::fits_at(std::size_t index, const Position& position) const {
+  return sight(index).disk_fits(position, motion(index).radius - kMostOverlap);
 }
 
 double Instance::longest_plan(std::size_t index) const {

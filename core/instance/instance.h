@@ -82,6 +82,8 @@ class Instance {
   bool is_clear_at_start(std::size_t index) const;
   /// Whether the robot's disk fits at all goals that are left, or is in contact with a wall.
   bool fits_at_goal(std::size_t index) const;
+  /// Whether its disk fits at this position on the way to its first goal, or is in contact with a wall.
+  bool fits_at(std::size_t index, const Position& position) const;
   /// Shared by all robots for which it is the same.
   FreeSpace& free_space(std::size_t index, std::size_t stage = 0) const { return *disk(index, stage).space; }
 

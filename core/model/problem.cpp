@@ -36,7 +36,7 @@ class FaultSearch {
         break;
       }
       check_obstacles(i);
-      for (std::size_t j = 0; j < i; ++j) check_pair(j, i);
+      for (std::size_t j = 0; j < i && !conditions_.one_at_a_time; ++j) check_pair(j, i);
       for (; next != committed.end() && next->robot == i; ++next) add(*next, [&] { return next->gap; });
     }
     return std::move(faults_);
@@ -141,7 +141,8 @@ Problem::Problem(ZoneMaps maps, std::vector<Robot> robots, ProblemConditions con
       robots_(std::move(robots)),
       obstacles_(std::move(conditions.obstacles)),
       zones_(std::move(conditions.zones)),
-      leaving_(std::move(leaving)) {}
+      leaving_(std::move(leaving)),
+      one_at_a_time_(conditions.one_at_a_time) {}
 
 std::variant<Problem, ProblemFaults> Problem::create(OccupancyGrid grid, std::vector<Robot> robots,
                                                      ProblemConditions conditions,

@@ -56,6 +56,8 @@ struct ProblemConditions {
   double pair_overlap = 0.0;
   double wall_overlap = 0.0;
   double inflation = 0.0;  // metres, of the plan: with it, robots leave zones and are clear of them
+  /// Each robot is alone on the map, as the others are there at other times: they are not compared.
+  bool one_at_a_time = false;
   /// Lists the first faults of every robot, instead of the first ones of all.
   bool list_faults_of_every_robot = false;
 };
@@ -87,6 +89,8 @@ class Problem {
   const std::vector<Robot>& robots() const { return robots_; }
   const std::vector<MovingObstacle>& obstacles() const { return obstacles_; }
   const std::vector<Zone>& zones() const { return zones_; }
+  /// Whether each robot is alone on the map, see ProblemConditions.
+  bool one_at_a_time() const { return one_at_a_time_; }
   /// What zones that may be left change for a robot; null if nothing.
   const Leaving* leaving(std::size_t robot) const { return leaving_.empty() ? nullptr : &leaving_[robot]; }
 
@@ -99,6 +103,7 @@ class Problem {
   std::vector<MovingObstacle> obstacles_;
   std::vector<Zone> zones_;
   std::vector<Leaving> leaving_;  // by robot, or none
+  bool one_at_a_time_;
 };
 
 }  // namespace fleetplan::core

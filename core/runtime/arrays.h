@@ -70,6 +70,11 @@ class PagedArray {
     return (*page)[index & kMask];
   }
 
+  /// Makes room for elements up to this size.
+  void grow(std::size_t size) {
+    if ((size >> (2 * kBits)) >= books_.size()) books_.resize((size >> (2 * kBits)) + 1);
+  }
+
   /// Approximate memory in use.
   std::size_t bytes() const { return pages_ * sizeof(Page) + books_.size() * sizeof(books_[0]); }
 

@@ -59,6 +59,7 @@ class Search {
   bool begin(Pass pass);
   bool can_serve_all();
   void label_start();
+  double heading_at_start(PlaceId start) const;
   void expand(LabelId id);
   void offer_from(EdgeId id, int interval);
   bool offer(EdgeId id, EdgeKind kind, int interval, bool next_interval_follows);
@@ -161,6 +162,14 @@ bool Search::can_serve_all() {
   return true;
 }
 
+/// The heading in which the robot begins; if it may have any, the best one by the estimate.
+double Search::heading_at_start(PlaceId start) const {
+  if (!space_.any_heading_at_start()) return space_.vertices().start_pose().theta;
+  const CostToGo::Estimate& estimate = state_.places[start].estimate;
+  const bool is_ahead = estimate.seconds <= estimate.reverse_seconds;
+  return is_ahead ? estimate.heading : opposite_heading(estimate.heading);
+}
+
 /// Labels and expands the start, unless the robot cannot be there or the goal is out of bound.
 void Search::label_start() {
   const PlaceId start = successors_.place_of(space_.vertices().start(), 0);
@@ -172,7 +181,7 @@ void Search::label_start() {
   // A robot that may stay where it begins for good rests there at once, whatever the start delay.
   const double t = goals_.is_end(start, interval) ? t_begin : t_begin + limits_.start_delay;
   if (!state_.intervals[interval].contains(t)) return;
-  const double heading = space_.vertices().start_pose().theta;
+  const double heading = heading_at_start(start);
   const double served = space_.itinerary().service_done;
   if (!(evaluate(start, interval, t, heading).cost - served < limits_.bound)) return;
   state_.dominance.add(interval, t, heading);

@@ -76,13 +76,26 @@ class CostToGo::BackwardSearch {
         goal_(vertices.goals()[goal].vertex),
         goal_heading_(vertices.goals()[goal].heading),
         start_(goal == 0 ? vertices.start() : vertices.goals()[goal - 1].vertex),
-        start_position_(vertices.position(start_)),
-        from_start_(vertices, start_, goal_),
+        start_position_(start_ >= 0 ? vertices.position(start_) : Position(0.0, 0.0)),
         shortening_(vertices.any_angle() ? 1.0 - kShortened * (1.0 - vertices.least_straight()) : 1.0),
         nodes_(static_cast<std::size_t>(vertices.count())),
-        reverse_seconds_(motion_.may_reverse ? static_cast<std::size_t>(vertices.count()) : 0) {}
+        reverse_seconds_(motion_.may_reverse ? static_cast<std::size_t>(vertices.count()) : 0),
+        first_late_(start_ >= 0 ? vertices.count() : vertices.first_late()) {
+    if (start_ >= 0) from_start_.emplace(vertices, start_, goal_);
+  }
+
+  void begin_late() {
+    nodes_.grow(static_cast<std::size_t>(vertices_.count()));
+    if (motion_.may_reverse) reverse_seconds_.grow(static_cast<std::size_t>(vertices_.count()));
+    for (int vertex = first_late_; vertex < vertices_.count(); ++vertex) {
+      node(vertex) = Node();
+      set_none(vertex);
+    }
+    late_known_ = first_late_ == vertices_.count();
+  }
 
   Estimate from(int vertex, const StopCondition& stop) {
+    if (vertex >= first_late_ && !late_known_) estimate_late(stop);
     Estimate straight;
     straight.seconds = kForever;
     if (vertices_.any_angle() && goal_in_sight(vertex)) {
@@ -90,20 +103,15 @@ class CostToGo::BackwardSearch {
       straight.straight = true;
       if (!is_slowed(vertex, goal_)) return straight;
     }
-    begin(stop);
     const Node& n = node(vertex);
-    for (int step = 0; n.state != State::closed; ++step) {
-      if (open_.empty()) return straight;
-      if (step % kStopStride == kStopStride - 1 && stop.met()) return via(vertex, goal_);
-      expand_best();
-    }
+    if (!settle(vertex, stop)) return open_.empty() ? straight : via(vertex, goal_);
     if (straight.straight && straight.least() <= least(n, vertex)) return straight;
     return {n.seconds, n.heading, straight.straight, reverse_seconds(vertex)};
   }
 
   std::optional<bool> reaches(int vertex, std::int64_t max_expansions, const StopCondition& stop) {
     if (vertices_.any_angle() && goal_in_sight(vertex)) return true;
-    if (vertex == start_) return from_start_.reach_goal(max_expansions, stop);
+    if (vertex == start_) return from_start_->reach_goal(max_expansions, stop);
     begin(stop);
     const Node& n = node(vertex);
     const std::int64_t last = expansions_ + max_expansions;
@@ -115,8 +123,22 @@ class CostToGo::BackwardSearch {
     return n.seconds < kForever;
   }
 
-  std::int64_t expansions() const { return expansions_ + from_start_.expansions(); }
-  std::size_t bytes() const { return nodes_.bytes() + reverse_seconds_.bytes() + from_start_.bytes(); }
+  double metres(int vertex) {
+    double length = 0.0;
+    const bool is_straight = vertices_.any_angle() && goal_in_sight(vertex) && !is_slowed(vertex, goal_);
+    // Bounded: the way has been found.
+    for (int here = vertex; here != goal_;) {
+      const int next = is_straight ? goal_ : node(here).next;
+      length += vertices_.between(here, next).length;
+      here = next;
+    }
+    return length;
+  }
+
+  std::int64_t expansions() const { return expansions_ + (from_start_ ? from_start_->expansions() : 0); }
+  std::size_t bytes() const {
+    return nodes_.bytes() + reverse_seconds_.bytes() + (from_start_ ? from_start_->bytes() : 0);
+  }
 
  private:
   enum class State : std::uint8_t { unseen, open, closed };
@@ -142,6 +164,10 @@ class CostToGo::BackwardSearch {
   /// The cost to go from a vertex that was reached, forwards or backwards, whichever is less; seconds.
   double least(const Node& node, int vertex) { return std::min(node.seconds, reverse_seconds(vertex)); }
   void set(Node& node, int vertex, int next, const Estimate& estimate);
+  void set_none(int vertex);
+  void estimate_late(const StopCondition& stop);
+  bool estimate_late(int vertex, const StopCondition& stop);
+  bool settle(int vertex, const StopCondition& stop);
   void begin(const StopCondition& stop);
   double seconds_from_start(int vertex);
   Estimate via(int vertex, int next);
@@ -157,29 +183,85 @@ class CostToGo::BackwardSearch {
   const Vertices& vertices_;
   const int goal_;
   const std::optional<double> goal_heading_;
-  const int start_;  // or the goal before; the search is directed there
+  const int start_;  // or the goal before; the search is directed there; -1: in all directions
   const Position start_position_;
-  TimesFromStart from_start_;
+  std::optional<TimesFromStart> from_start_;
   const double shortening_;  // of lattice moves by any-angle ones
   PagedArray<Node> nodes_;
   PagedArray<double> reverse_seconds_;  // see Estimate; of a robot that may reverse
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
   std::int64_t expansions_ = 0;
   bool has_begun_ = false;
+  const int first_late_;     // the vertices from here on come and go, and are on no way of the others
+  bool late_known_ = false;  // their estimates
 };
+
+/// Expands until the cost to go from a vertex is known. Returns false if it has none, or if `stop` is met
+/// first.
+bool CostToGo::BackwardSearch::settle(int vertex, const StopCondition& stop) {
+  begin(stop);
+  const Node& n = node(vertex);
+  for (int step = 0; n.state != State::closed; ++step) {
+    if (open_.empty()) return false;
+    if (step % kStopStride == kStopStride - 1 && stop.met()) return false;
+    expand_best();
+  }
+  return true;
+}
+
+/// No way from this vertex is known, and the search does not come to it.
+void CostToGo::BackwardSearch::set_none(int vertex) {
+  Node& n = node(vertex);
+  n.state = State::closed;
+  set(n, vertex, goal_, {kForever, 0.0, false});
+}
+
+/// Estimates the late vertices by their neighbours, again and again until nothing changes.
+void CostToGo::BackwardSearch::estimate_late(const StopCondition& stop) {
+  late_known_ = true;
+  for (bool changed = true; changed && !stop.met();) {
+    changed = false;
+    for (int vertex = first_late_; vertex < vertices_.count(); ++vertex) {
+      changed = estimate_late(vertex, stop) || changed;
+    }
+  }
+}
+
+/// Returns whether the cost to go is less than before.
+bool CostToGo::BackwardSearch::estimate_late(int vertex, const StopCondition& stop) {
+  Node& n = node(vertex);
+  bool changed = false;
+  const auto try_by = [&](int next) {
+    const Estimate estimate = via(vertex, next);
+    if (!(estimate.least() < least(n, vertex) - kSameTime)) return;
+    set(n, vertex, next, estimate);
+    changed = true;
+  };
+  vertices_.for_each_neighbour(vertex, [&](int neighbour) {
+    if (!vertices_.allow(vertex, neighbour)) return;
+    if (neighbour == goal_) return try_by(goal_);
+    if (neighbour < first_late_ && !settle(neighbour, stop)) return;
+    if (least(node(neighbour), neighbour) == kForever) return;
+    try_by(neighbour);
+    const int next = node(neighbour).next;
+    if (vertices_.any_angle() && vertices_.in_sight(vertex, next)) try_by(next);
+  });
+  return changed;
+}
 
 void CostToGo::BackwardSearch::begin(const StopCondition& stop) {
   if (has_begun_) return;
   has_begun_ = true;
-  from_start_.reach_goal(std::numeric_limits<std::int64_t>::max(), stop);
+  if (from_start_) from_start_->reach_goal(std::numeric_limits<std::int64_t>::max(), stop);
   node(goal_).state = State::closed;
   relax_neighbours(goal_, goal_);
 }
 
 /// About the seconds that translations from the start to a vertex take, at least.
 double CostToGo::BackwardSearch::seconds_from_start(int vertex) {
+  if (!from_start_) return 0.0;
   const double straight = motion_.translation_time((vertices_.position(vertex) - start_position_).norm());
-  return std::max(straight, shortening_ * from_start_.at_least(vertex));
+  return std::max(straight, shortening_ * from_start_->at_least(vertex));
 }
 
 /// The cost from `vertex` with a first translation straight to `next`, which is closed or the goal.
@@ -260,6 +342,7 @@ void CostToGo::BackwardSearch::close(int vertex) {
   // Lazy Theta* (Nash, Koenig, Tovey, AAAI 2010): only now is it known that the shortcut is blocked.
   set(n, vertex, n.next, {kForever, n.heading, false});
   vertices_.for_each_neighbour(vertex, [&](int neighbour) {
+    if (neighbour >= first_late_) return;
     if (neighbour != goal_ && node(neighbour).state != State::closed) return;
     if (!vertices_.allow(vertex, neighbour)) return;
     const Estimate estimate = via(vertex, neighbour);
@@ -298,6 +381,10 @@ void CostToGo::BackwardSearch::relax_neighbours(int vertex, int next) {
 CostToGo::CostToGo(const Vertices& vertices, std::size_t goal)
     : search_(std::make_unique<BackwardSearch>(vertices, goal)) {}
 CostToGo::~CostToGo() = default;
+
+void CostToGo::begin_late() { search_->begin_late(); }
+
+double CostToGo::metres(int vertex) { return search_->metres(vertex); }
 
 CostToGo::Estimate CostToGo::from(int vertex, const StopCondition& stop) {
   return search_->from(vertex, stop);

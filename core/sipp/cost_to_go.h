@@ -93,9 +93,14 @@ class CostToGo {
     }
   };
 
-  /// To the goal with this index in Vertices::goals(). `vertices` outlives this object.
+  /// To the goal with this index in Vertices::goals(). `vertices` outlives this object. If they have no start
+  /// yet, the search goes in all directions, so that estimates do not depend on the starts to come.
   explicit CostToGo(const Vertices& vertices, std::size_t goal = 0);
   ~CostToGo();
+
+  /// To be called when Vertices::begin_at() has replaced the start. What is known of all other vertices is
+  /// kept.
+  void begin_late();
 
   /// From any vertex but the goal. If `stop` is met during the search, the estimate is the straight line's.
   Estimate from(int vertex, const StopCondition& stop);
@@ -103,6 +108,9 @@ class CostToGo {
   /// Whether the map has a path from a vertex; none if that takes more than `max_expansions` more expansions,
   /// or if `stop` is met first.
   std::optional<bool> reaches(int vertex, std::int64_t max_expansions, const StopCondition& stop);
+
+  /// The length of the way that from() has estimated for a vertex and that exists, metres.
+  double metres(int vertex);
 
   /// Expansions of the backward search so far.
   std::int64_t expansions() const;

@@ -23,7 +23,7 @@ constexpr std::size_t kWorkBetweenPolls = 16 * 1024;
 
 }  // namespace
 
-Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop)
+Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stage)
     : stage_(stage),
       motion_(instance.motion(robot, stage)),
       zones_(instance.drive_zones(robot)),
@@ -34,9 +34,32 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stag
       finer_(space_.finer()),
       first_own_(lattice_.vertex_count() + finer_.count()),
       any_angle_(instance.options().any_angle),
-      start_pose_(instance.itinerary(robot).pose),
-      start_(instance.motion(robot).radius == motion_.radius ? add_start(instance, robot) : -1) {
+      start_pose_(instance.itinerary(robot).pose) {
   if (limit_speeds()) slowest_motion_.angular_speed = zones_->least_angular_speed();
+}
+
+Vertices::Vertices(const Instance& instance, std::size_t robot, const Goal& goal)
+    : Vertices(instance, robot, std::size_t{0}) {
+  goals_.push_back({add_goal(instance, robot, goal.position), goal.theta});
+  early_own_ = own_.size();
+}
+
+void Vertices::begin_at(const Instance& instance, std::size_t robot) {
+  // Bounded: the own vertices of a goal, and their links.
+  own_.resize(early_own_);
+  for (OwnVertex& own : own_) std::erase_if(own.links, [&](int link) { return link >= first_late(); });
+  first_inside_ = std::numeric_limits<int>::max();
+  end_inside_ = 0;
+  outside_ = -1;
+  start_pose_ = instance.itinerary(robot).pose;
+  const int goal = goals_.front().vertex;
+  start_ = is_same_position(start_pose_.position, position(goal)) ? goal : add_start(instance, robot);
+  never_entered_ = start_ != goal && !instance.is_clear_at_start(robot) ? start_ : -1;
+}
+
+Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop)
+    : Vertices(instance, robot, stage) {
+  if (instance.motion(robot).radius == motion_.radius) start_ = add_start(instance, robot);
   if (start_ >= 0 && !instance.is_clear_at_start(robot)) never_entered_ = start_;
   // Committed actions that end in contact with the goal end there: a service goes on, without a move.
   double same = instance.robot(robot).committed.empty() ? kSamePosition : kContactTolerance;
@@ -66,7 +89,8 @@ int Vertices::add_start(const Instance& instance, std::size_t robot) {
   if (leaving != nullptr && !leaving->way_out.empty()) return add_way_out(leaving->way_out);
   const Position& position = start_pose_.position;
   const double radius = instance.radius_at_start(robot);
-  const double deficit = std::max(motion_.radius - radius, instance.contacts().deficit(robot));
+  const double too_near = instance.problem().one_at_a_time() ? 0.0 : instance.contacts().deficit(robot);
+  const double deficit = std::max(motion_.radius - radius, too_near);
   const int vertex = vertex_at(position);
   if (vertex >= 0 && radius == motion_.radius && deficit <= kContactTolerance) return vertex;
   // Two metres for one that is missing: the way need not lead straight away from the others.
@@ -192,6 +216,26 @@ SearchSpace::SearchSpace(const Instance& instance, std::size_t robot, const Stop
   layers_.push_back({std::make_unique<Vertices>(instance, robot, 0, stop), 0});
   if (changes_radius() && finished()) add_layers(stop);
   if (finished()) find_equal_goals();
+}
+
+SearchSpace::SearchSpace(const Instance& instance, std::size_t robot, const Goal& goal)
+    : instance_(instance),
+      robot_(robot),
+      own_itinerary_{.committed = {}, .pose = instance.itinerary(robot).pose, .visited = {}, .goals = {goal}},
+      itinerary_(own_itinerary_),
+      begins_in_goal_pose_(false),
+      first_equal_{0},
+      costs_to_go_(1) {
+  layers_.push_back({std::make_unique<Vertices>(instance, robot, goal), 0});
+  cost_to_go(0);  // before there is a start
+}
+
+void SearchSpace::begin_at(std::size_t robot, bool any_heading) {
+  robot_ = robot;
+  any_heading_at_start_ = any_heading;
+  own_itinerary_.pose = instance_.itinerary(robot).pose;
+  layers_.front().vertices->begin_at(instance_, robot);
+  cost_to_go(0).begin_late();
 }
 
 void SearchSpace::add_layers(const StopCondition& stop) {

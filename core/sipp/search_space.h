@@ -39,6 +39,13 @@ class Vertices {
   /// at the last one. See Instance::motion.
   /// If `stop` is met first, the view is not finished() and must not be used.
   Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop);
+  /// With one goal and without a start, until begin_at() gives one: for robots that are alike, one after the
+  /// other, on their ways to the same goal.
+  Vertices(const Instance& instance, std::size_t robot, const Goal& goal);
+  /// Replaces the start by the place where the plan of this robot begins. The vertices from first_late() on
+  /// are those of the start.
+  void begin_at(const Instance& instance, std::size_t robot);
+  int first_late() const { return first_own_ + static_cast<int>(early_own_); }
 
   bool finished() const { return finished_; }
 
@@ -127,6 +134,8 @@ class Vertices {
   }
 
  private:
+  Vertices(const Instance& instance, std::size_t robot, std::size_t stage);
+
   bool is_free(int from, int to) const;
   struct OwnVertex {
     Position position;
@@ -173,6 +182,7 @@ class Vertices {
   bool any_angle_;
   Pose start_pose_;
   std::vector<OwnVertex> own_;
+  std::size_t early_own_ = 0;  // own vertices that begin_at() keeps
   // The own vertices on the way out of zones, the start included, and the vertex at which that ends.
   int first_inside_ = std::numeric_limits<int>::max();
   int end_inside_ = 0;
@@ -189,6 +199,13 @@ class SearchSpace {
  public:
   /// If `stop` is met first, the space is not finished() and must not be used.
   SearchSpace(const Instance& instance, std::size_t robot, const StopCondition& stop);
+  /// For robots that are alike, one after the other, on their ways to the same goal; they share the costs to
+  /// go. begin_at() makes it the space of a robot, which has no commitments and one radius.
+  SearchSpace(const Instance& instance, std::size_t robot, const Goal& goal);
+  /// `any_heading`: the robot has the heading at its start that suits it best.
+  void begin_at(std::size_t robot, bool any_heading);
+  SearchSpace(const SearchSpace&) = delete;
+  SearchSpace& operator=(const SearchSpace&) = delete;
 
   bool finished() const { return layers_.back().vertices->finished(); }
 
@@ -219,6 +236,8 @@ class SearchSpace {
   Footprint footprint(std::size_t stage) const {
     return {robot_, instance_.radius(robot_, stage), stage > goals_at_start_};
   }
+  /// The first move needs no rotation.
+  bool any_heading_at_start() const { return any_heading_at_start_; }
   /// The committed actions end at rest in the pose of the first goal.
   bool begins_in_goal_pose() const { return begins_in_goal_pose_; }
 
@@ -243,8 +262,10 @@ class SearchSpace {
   void find_equal_goals();
 
   const Instance& instance_;
-  const std::size_t robot_;
+  std::size_t robot_;
+  Itinerary own_itinerary_;  // of robots one after the other
   const Itinerary& itinerary_;
+  bool any_heading_at_start_ = false;
   std::vector<Layer> layers_;                // one for each radius
   std::vector<std::size_t> layer_of_stage_;  // empty if there is one layer
   bool begins_in_goal_pose_;

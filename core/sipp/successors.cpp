@@ -123,6 +123,7 @@ inline Move Successors::move_between(LabelId from, PlaceId target, bool reverse)
     move.duration = zones_->translation_time(here.position, there.position);
     rotation = angle_between(label.heading, move.heading) / zones_->angular_speed_at(here.position);
   }
+  if (label.parent == LabelId::none && space_.any_heading_at_start()) rotation = 0.0;
   move.ready = label.arrival + rotation + motion_.wait_before_move;
   move.latest = changes_radius_ ? goals_.latest_departure(label) : state_.intervals[label.interval].end;
   move.continues_straight = label.by_translation && label.reverse == reverse &&

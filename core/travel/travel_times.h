@@ -1,0 +1,49 @@
+#pragma once
+
+// How long a robot takes from pose to pose, alone on the map.
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/model/plan_options.h"
+#include "core/model/problem.h"
+#include "core/model/robot.h"
+#include "core/runtime/executor.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// What one robot needs for a way.
+struct Travel {
+  double seconds = 0.0;  // until it rests in the pose at the end, rotations included
+  double metres = 0.0;
+};
+
+/// The ways that are asked for: from where the robots of a problem begin, to one of these goals each.
+struct TravelQuestions {
+  struct Column {
+    Goal goal;
+    std::vector<std::size_t> robots;  // that come from their starts
+  };
+  std::vector<bool> any_heading;  // by robot: it begins in the heading that suits it best
+  std::vector<Column> columns;
+};
+
+/// By column, then as in Column::robots; none where there is no way.
+using TravelAnswers = std::vector<std::vector<std::optional<Travel>>>;
+
+/// Returns the fastest ways that the planner knows for robots that are alike and on the map one at a time
+/// (ProblemConditions). The goals of the problem's own robots do not matter. None if `stop` is met first, or
+/// if `go_on`, which is asked now and then by the caller's thread and may be empty, ends it.
+///
+/// Each is the faster one of two ways of straight moves between the vertices of the robot's lattice, its
+/// start and the goal: that of a backward search from the goal (CostToGo), which all ways to this goal share
+/// and whose estimates do not depend on the others; and that of the planner's own search (AaSipp) with these
+/// estimates, a heuristic weight of 1 and no accepted suboptimality, which knows more headings.
+std::optional<TravelAnswers> travel_times(const Problem& problem, const PlanOptions& options,
+                                          const TravelQuestions& questions, const StopCondition& stop,
+                                          Executor& executor, const std::function<bool()>& go_on);
+
+}  // namespace fleetplan::core
