@@ -173,6 +173,8 @@ RouteTable main_routes(const Backend& backend) {
   routes.post("/v1/advance", compute(backend, backend.service.advance));
   routes.post("/v1/dependencies", compute(backend, backend.service.dependencies));
   routes.post("/v1/retime", compute(backend, backend.service.retime));
+  routes.post("/v1/matrix", compute(backend, backend.service.matrix));
+  routes.post("/v1/assign", compute(backend, backend.service.assign));
   routes.post("/v1/export/vda5050", compute(backend, backend.service.vda5050));
   routes.post("/v1/import/vda5050", compute(backend, backend.service.import_vda5050));
   routes.get("/v1/examples", example_list(backend));

@@ -14,6 +14,7 @@
 #include "api/request/fleet/parse_plans.h"
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/parse_body.h"
+#include "api/request/parse_request.h"
 #include "api/request/ranges.h"
 #include "core/geometry/angle.h"
 #include "core/model/drive_zones.h"
@@ -22,10 +23,6 @@ namespace fleetplan::api {
 
 namespace {
 
-// The last two are of an earlier moment.
-constexpr std::array<std::string_view, 9> kRequestMembers{"map",       "robot_defaults", "robots",
-                                                          "obstacles", "zones",          "options",
-                                                          "metadata",  "progress",       "unavoidable"};
 constexpr std::array<std::string_view, 4> kPoseMembers{"robot", "x", "y", "theta"};
 constexpr std::array<std::string_view, 9> kStateMembers{"robot", "action", "progress", "service_left", "x",
                                                         "y",     "theta",  "speed",    "released"};
@@ -170,7 +167,7 @@ void parse_states(const JsonReader& list, const RobotNames& names, AdvanceReques
 std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
                                                     core::Work& stop) {
   AdvanceRequest read;
-  read.request = root.require("request").object(kRequestMembers);
+  read.request = root.require("request").object(kPlanRequestMembers);
   read.fleet = parse_fleet(read.request, limits, [&](const ParsedOptions& options) {
     stop.set_budget(effective_budget(options, limits));
   });
@@ -411,8 +408,7 @@ std::string write_advanced(const AdvanceRequest& request, const std::vector<core
   JsonWriter json;
   json.begin_object();
   for (const JsonValue member : request.request.value().children()) {
-    const bool is_of_earlier = member.key() == "progress" || member.key() == "unavoidable";
-    if (is_of_earlier || (member.key() == "options" && needs_options)) continue;
+    if (is_of_an_answer(member.key()) || (member.key() == "options" && needs_options)) continue;
     json.key(member.key());
     if (member.key() == "robots") {
       write_robots(json, member, request, robots, work);

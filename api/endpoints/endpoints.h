@@ -41,6 +41,12 @@ Reply dependencies_endpoint(std::string_view body, const RequestContext& context
 /// whom.
 Reply retime_endpoint(std::string_view body, const RequestContext& context);
 
+/// POST /v1/matrix: returns how long a robot takes between poses, alone on the map.
+Reply matrix_endpoint(std::string_view body, const RequestContext& context);
+
+/// POST /v1/assign: gives tasks to robots and returns the request with their goals.
+Reply assign_endpoint(std::string_view body, const RequestContext& context);
+
 /// POST /v1/export/vda5050: returns a plan as orders of VDA 5050, a pure function of the body.
 Reply vda5050_endpoint(std::string_view body, const RequestContext& context);
 

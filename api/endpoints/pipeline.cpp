@@ -58,7 +58,7 @@ double work_of(std::size_t robots, const std::vector<core::RobotPlan>& plans) {
   return static_cast<double>(work);
 }
 
-Reply unfinished_reply(std::string_view what, std::chrono::nanoseconds budget,
+Reply unfinished_reply(std::string_view what, std::string_view fewer, std::chrono::nanoseconds budget,
                        const core::StopCondition& stop, const RequestContext& context) {
   if (stop.cancelled()) return problem_reply(ErrorCode::draining, kDrainingDetail, context.request_id);
   if (core::memory_shortages() > 0) return memory_exceeded(context);
@@ -66,8 +66,8 @@ Reply unfinished_reply(std::string_view what, std::chrono::nanoseconds budget,
   return problem_reply(
       ErrorCode::check_unfinished,
       std::string(what) + " within " + number_text(ms) +
-          " ms: increase options.time_budget_ms, up to max_budget_ms of /v1/limits, or send fewer "
-          "robots or a shorter part of the plans.",
+          " ms: increase options.time_budget_ms, up to max_budget_ms of /v1/limits, or send fewer " +
+          std::string(fewer) + '.',
       context.request_id);
 }
 
@@ -113,7 +113,7 @@ Reply check(std::string_view body, const RequestContext& context, core::Work& wo
   if (!request) return problem_reply(request.failure(), context.request_id);
   const core::StopCondition stop = work.before_end();
   const auto unfinished = [&] {
-    return unfinished_reply("The plans could not be checked", request->budget, stop, context);
+    return unfinished_reply("The plans could not be checked", kFewerPlans, request->budget, stop, context);
   };
   if (!take_turn(context.turn, need_of(*request, body, stop), work)) {
     return stop.cancelled() ? unfinished() : too_busy(context.request_id);

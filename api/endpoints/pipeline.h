@@ -40,10 +40,11 @@ bool take_turn(Turn* turn, const TurnNeed& need, core::Work& work);
 /// Returns the TurnNeed::work of plans that are to be checked or executed.
 double work_of(std::size_t robots, const std::vector<core::RobotPlan>& plans);
 
-/// Returns the reply when a check or a simulation of plans was stopped before it had an answer. `what` begins
-/// the sentence: "The plans could not be checked".
-Reply unfinished_reply(std::string_view what, std::chrono::nanoseconds budget,
+/// Returns the reply when a check, a simulation or another computation was stopped before it had an answer.
+/// `what` begins the sentence: "The plans could not be checked"; `fewer` ends it: "poses".
+Reply unfinished_reply(std::string_view what, std::string_view fewer, std::chrono::nanoseconds budget,
                        const core::StopCondition& stop, const RequestContext& context);
+inline constexpr std::string_view kFewerPlans = "robots or a shorter part of the plans";
 
 /// Waits for the turn of a request whose body has been read and has no fault so far. Returns false if the
 /// answer is not to be made.

@@ -23,7 +23,7 @@ namespace fleetplan::api {
 
 /// What a request needs of the server, known once it is parsed.
 struct TurnNeed {
-  enum class Kind { plan, check, simulation, conversion };
+  enum class Kind { plan, check, simulation, conversion, travel };
 
   Kind kind = Kind::plan;
   core::StopCondition stop;  // ends the computation

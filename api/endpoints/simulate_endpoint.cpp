@@ -127,7 +127,7 @@ Reply simulated(std::string_view body, const RequestContext& context, core::Work
   if (!request) return problem_reply(request.failure(), context.request_id);
   const core::StopCondition stop = end_of_runs(work, *request);
   const auto unfinished = [&] {
-    return unfinished_reply("Not a single run was finished", request->budget, stop, context);
+    return unfinished_reply("Not a single run was finished", kFewerPlans, request->budget, stop, context);
   };
   work.end_reading();
   if (context.turn != nullptr && !context.turn->request(need_of(*request, stop))) {

@@ -23,4 +23,7 @@ struct Limits {
   std::int64_t max_budget_ms = 120'000;      // a longer one is clamped, with a warning
 };
 
+/// The most pairs of poses of one matrix, and of robots and tasks of one assignment.
+inline constexpr std::size_t kMostPairs = 250'000;
+
 }  // namespace fleetplan::api

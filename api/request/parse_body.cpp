@@ -112,7 +112,8 @@ void set_default_start_safe_interval(const JsonReader& options, const std::vecto
   if (in_motion && !is_given) plan.start_safe_interval = plan.horizon ? kWithHorizon : 0.0;
 }
 
-/// Reports a lattice of too many vertices, or of none.
+}  // namespace
+
 void check_lattice(const JsonReader& options, const core::PlanOptions& plan, const core::OccupancyGrid& grid,
                    const Limits& limits) {
   if (!plan.lattice_spacing) return;
@@ -131,8 +132,6 @@ void check_lattice(const JsonReader& options, const core::PlanOptions& plan, con
                                           std::to_string(limits.max_cells) + ". Use a larger spacing.");
   }
 }
-
-}  // namespace
 
 RequestError request_error(const FaultList& faults) {
   RequestError error{ErrorCode::invalid_request, "", faults.listed(), faults.count()};

@@ -39,6 +39,10 @@ RequestedDependencies requested_dependencies(const Fleet& fleet);
 Fleet parse_fleet(const JsonReader& root, const Limits& limits,
                   const std::function<void(const ParsedOptions&)>& set_budget);
 
+/// Reports a lattice of too many vertices, or of none. `options` is the member of the request.
+void check_lattice(const JsonReader& options, const core::PlanOptions& plan, const core::OccupancyGrid& grid,
+                   const Limits& limits);
+
 RequestError request_error(const JsonError& error, const core::Work& stop);
 /// Returns the error with the listed faults, of which there must be one, and the number of all.
 RequestError request_error(const FaultList& faults);

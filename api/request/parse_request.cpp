@@ -173,11 +173,6 @@ std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, co
   return ProblemMaker(fleet, root, stop, maps).run();
 }
 
-// The last two are of /v1/advance, for who executes the plans, and are ignored.
-constexpr std::array<std::string_view, 9> kPlanRequestMembers{"map",       "robot_defaults", "robots",
-                                                              "obstacles", "zones",          "options",
-                                                              "metadata",  "progress",       "unavoidable"};
-
 /// Returns what answers repeat of the robots. `errors` are those of each robot, or none.
 std::vector<ReceivedRobot> received(std::vector<ParsedRobot>& robots,
                                     std::vector<std::vector<Fault>> errors) {
@@ -196,25 +191,30 @@ std::vector<ReceivedRobot> received(std::vector<ParsedRobot>& robots,
 
 }  // namespace
 
+std::optional<PlanRequest> parse_plan_request(const JsonReader& request, const Limits& limits,
+                                              core::Work& stop, core::MapCache* maps) {
+  Fleet fleet = parse_fleet(request, limits, [&](const ParsedOptions& options) {
+    stop.set_budget(effective_budget(options, limits));
+  });
+  if (!fleet.map || stop.met()) return std::nullopt;
+  auto made = make_problem(fleet, request, stop, maps);
+  if (!made) return std::nullopt;
+  std::vector<std::string> warnings = std::move(fleet.options.warnings);
+  if (auto warning = budget_warning(fleet.options, limits)) warnings.push_back(std::move(*warning));
+  return PlanRequest{.problem = std::move(made->problem),
+                     .options = fleet.options.plan,
+                     .budget = effective_budget(fleet.options, limits),
+                     .frame = fleet.map->frame,
+                     .warnings = std::move(warnings),
+                     .received = received(fleet.robots, std::move(made->errors)),
+                     .metadata = std::move(fleet.metadata),
+                     .dependencies = requested_dependencies(fleet)};
+}
+
 Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits, core::Work& stop,
                                                 core::MapCache* maps) {
-  const auto parse = [&](const JsonReader& root, core::Work& reading) -> std::optional<PlanRequest> {
-    Fleet fleet = parse_fleet(root, limits, [&](const ParsedOptions& options) {
-      reading.set_budget(effective_budget(options, limits));
-    });
-    if (!fleet.map || reading.met()) return std::nullopt;
-    auto made = make_problem(fleet, root, reading, maps);
-    if (!made) return std::nullopt;
-    std::vector<std::string> warnings = std::move(fleet.options.warnings);
-    if (auto warning = budget_warning(fleet.options, limits)) warnings.push_back(std::move(*warning));
-    return PlanRequest{.problem = std::move(made->problem),
-                       .options = fleet.options.plan,
-                       .budget = effective_budget(fleet.options, limits),
-                       .frame = fleet.map->frame,
-                       .warnings = std::move(warnings),
-                       .received = received(fleet.robots, std::move(made->errors)),
-                       .metadata = std::move(fleet.metadata),
-                       .dependencies = requested_dependencies(fleet)};
+  const auto parse = [&](const JsonReader& root, core::Work& reading) {
+    return parse_plan_request(root, limits, reading, maps);
   };
   return parse_body<PlanRequest>(body, limits, stop, kPlanRequestMembers, parse);
 }

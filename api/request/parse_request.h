@@ -2,6 +2,7 @@
 
 // The bodies of requests to plan, to validate and to simulate. Each kind has its own source file.
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "api/json/error.h"
+#include "api/json/json_reader.h"
 #include "api/json/result.h"
 #include "api/request/fleet/received_robot.h"
 #include "api/request/limits.h"
@@ -40,6 +42,21 @@ struct PlanRequest {
   std::string metadata;                 // see parse_metadata
   RequestedDependencies dependencies;
 };
+
+/// The members of a request of POST /v1/plan. Those from `progress` on are of the answers of other endpoints,
+/// for who executes the plans, and are ignored.
+inline constexpr std::array<std::string_view, 11> kPlanRequestMembers{
+    "map",      "robot_defaults", "robots",      "obstacles", "zones",     "options",
+    "metadata", "progress",       "unavoidable", "assigned",  "unassigned"};
+
+inline bool is_of_an_answer(std::string_view member) {
+  return member == "progress" || member == "unavoidable" || member == "assigned" || member == "unassigned";
+}
+
+/// Reads a request of POST /v1/plan, which may be a part of a body. Returns none only when it reported
+/// faults, or when the stop is met.
+std::optional<PlanRequest> parse_plan_request(const JsonReader& request, const Limits& limits,
+                                              core::Work& stop, core::MapCache* maps);
 
 /// Reads a body of POST /v1/plan; ends with `parse_unfinished` or `draining` when the stop is met. `maps`,
 /// which may be null, has those of earlier requests.

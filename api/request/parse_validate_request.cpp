@@ -13,13 +13,14 @@ namespace fleetplan::api {
 
 namespace {
 
-// The members of a request to validate, then those that answers of /v1/plan and /v1/advance add, which are
-// ignored.
-constexpr std::array<std::string_view, 27> kValidateRequestMembers{
-    "map",       "robot_defaults", "robots",        "obstacles", "unavoidable", "options",  "plans",
-    "tolerance", "status",         "request_id",    "unplanned", "flowtime",    "makespan", "lower_bound",
-    "verified",  "min_clearance",  "deterministic", "search",    "timings_ms",  "warnings", "lattice_spacing",
-    "metadata",  "zones",          "dependencies",  "tight",     "estimated",   "progress"};
+// The members of a request to validate, then those that answers of /v1/plan, /v1/advance and /v1/assign add,
+// which are ignored.
+constexpr std::array<std::string_view, 29> kValidateRequestMembers{
+    "map",        "robot_defaults", "robots",          "obstacles",     "unavoidable",   "options",
+    "plans",      "tolerance",      "status",          "request_id",    "unplanned",     "flowtime",
+    "makespan",   "lower_bound",    "verified",        "min_clearance", "deterministic", "search",
+    "timings_ms", "warnings",       "lattice_spacing", "metadata",      "zones",         "dependencies",
+    "tight",      "estimated",      "progress",        "assigned",      "unassigned"};
 
 constexpr double kDefaultTolerance = core::kMostTolerance;  // metres, seconds, radians
 constexpr double kLargestTolerance = 1e9;

@@ -168,13 +168,15 @@ struct Command {
   Service::Endpoint Service::*endpoint;
 };
 
-constexpr std::array<Command, 8> kCommands{{
+constexpr std::array<Command, 10> kCommands{{
     {"plan", "Plan the motions of all robots", &Service::plan},
     {"validate", "Check plans: exit code 2 if they are not valid", &Service::validate},
     {"simulate", "Execute plans many times with disturbances", &Service::simulate},
     {"advance", "Move a request to a later moment of its plans", &Service::advance},
     {"dependencies", "List what robots must wait for in a plan", &Service::dependencies},
     {"retime", "Give a plan new times after delays", &Service::retime},
+    {"matrix", "Tell how long a robot takes between poses", &Service::matrix},
+    {"assign", "Give tasks to robots", &Service::assign},
     {"export-vda5050", "Turn plans into orders of VDA 5050", &Service::vda5050},
     {"import-vda5050", "Turn states of VDA 5050 into those of robots", &Service::import_vda5050},
 }};

@@ -122,6 +122,8 @@ Schedule::Kind kind_of(api::TurnNeed::Kind kind) {
       return Schedule::Kind::simulation;
     case api::TurnNeed::Kind::conversion:
       return Schedule::Kind::conversion;
+    case api::TurnNeed::Kind::travel:
+      return Schedule::Kind::travel;
     case api::TurnNeed::Kind::check:
       break;
   }

@@ -45,8 +45,8 @@ class Schedule {
     std::size_t burst = 0;
   };
 
-  enum class Kind { plan, check, simulation, conversion };
-  static constexpr std::size_t kKinds = 4;
+  enum class Kind { plan, check, simulation, conversion, travel };
+  static constexpr std::size_t kKinds = 5;
 
   /// The needs of a job that asks for its turn.
   struct Need {

@@ -15,6 +15,8 @@ Service planning_service() {
                   .advance = api::advance_endpoint,
                   .dependencies = api::dependencies_endpoint,
                   .retime = api::retime_endpoint,
+                  .matrix = api::matrix_endpoint,
+                  .assign = api::assign_endpoint,
                   .vda5050 = api::vda5050_endpoint,
                   .import_vda5050 = api::import_vda5050_endpoint,
                   .example_list = list_examples,

@@ -24,6 +24,8 @@ struct Service {
   Endpoint advance;                          // takes milliseconds, without a turn
   Endpoint dependencies;                     // run by a planning worker
   Endpoint retime;                           // takes milliseconds, without a turn
+  Endpoint matrix;                           // run by a planning worker
+  Endpoint assign;                           // run by a planning worker
   Endpoint vda5050;                          // takes milliseconds, without a turn
   Endpoint import_vda5050;                   // takes milliseconds, without a turn
   std::function<api::Reply()> example_list;  // GET /v1/examples

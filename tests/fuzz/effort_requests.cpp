@@ -333,6 +333,41 @@ Json messages_of(const ToAndFro& fleet, Choices& choices) {
   return messages;
 }
 
+/// The travel times from all starts to all goals of a request to plan, as far as they are not too many pairs.
+Json matrix_of(const Json& request) {
+  constexpr std::size_t kMost = 500;
+  Json from = Json::array();
+  Json to = Json::array();
+  for (const Json& robot : request["robots"]) {
+    if (from.size() < kMost) from.push_back(robot["start"]);
+    if (to.size() < kMost && robot.contains("goal"))
+      to.push_back({{"x", robot["goal"]["x"]}, {"y", robot["goal"]["y"]}});
+  }
+  Json matrix{{"map", request["map"]}, {"robot", request["robot_defaults"]}, {"from", from}, {"to", to}};
+  if (request.contains("zones")) matrix["zones"] = request["zones"];
+  matrix["options"] = request["options"];
+  return matrix;
+}
+
+/// Tasks for the robots of a request to plan, at their starts and goals.
+Json tasks_of(Json request, Choices& choices) {
+  constexpr std::size_t kMostPairs = 250'000;
+  const std::size_t robots = request["robots"].size();
+  const int goals = 1 + choices.up_to(20);
+  const bool is_named = choices.yes();
+  Json tasks = Json::array();
+  for (std::size_t k = 0; k < robots && k < kMostPairs / robots; ++k) {
+    Json task{{"id", std::to_string(k)}, {"goals", Json::array()}};
+    for (int goal = 0; goal < goals; ++goal) {
+      const Json& start = request["robots"][(k + static_cast<std::size_t>(goal)) % robots]["start"];
+      task["goals"].push_back({{"x", start["x"]}, {"y", start["y"]}, {"service", goal}});
+    }
+    if (is_named) task["robots"] = {request["robots"][k]["id"], request["robots"][0]["id"]};
+    tasks.push_back(task);
+  }
+  return {{"request", std::move(request)}, {"tasks", tasks}};
+}
+
 }  // namespace
 
 Effort planning_effort(Choices choices) {
@@ -361,7 +396,12 @@ Effort planning_effort(Choices choices) {
   const std::int64_t steps = choices.up_to(3000);
   const std::size_t memory = static_cast<std::size_t>(1 + choices.up_to(63)) << 20;
   add_members(request, choices);
-  return {api::plan_endpoint, true, request.dump(), request["robots"].size(), steps, memory};
+  const std::size_t count = request["robots"].size();
+  const int kind = choices.up_to(3);
+  if (kind == 2) return {api::matrix_endpoint, false, matrix_of(request).dump(), count, steps, memory};
+  if (kind == 3)
+    return {api::assign_endpoint, false, tasks_of(request, choices).dump(), count, steps, memory};
+  return {api::plan_endpoint, true, request.dump(), count, steps, memory};
 }
 
 Effort execution_effort(Choices choices) {

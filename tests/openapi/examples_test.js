@@ -42,7 +42,7 @@ for (const name of scenarios) {
   });
 }
 
-const POSTED = ["plan", "validate", "simulate", "advance", "dependencies", "retime", "export/vda5050", "import/vda5050"];
+const POSTED = ["plan", "validate", "simulate", "advance", "dependencies", "retime", "matrix", "assign", "export/vda5050", "import/vda5050"];
 for (const path of POSTED.map((name) => `/v1/${name}`)) {
   test(`the document's examples for ${path} get the documented answers`, async () => {
     const { requestBody, responses } = paths[path].post;

@@ -38,6 +38,7 @@ const BEYOND_SCHEMA = {
     "/dependencies/\\d+/(gate|until)/robot",
     "/unavoidable/\\d+/robots?(/\\d)?",
     "/zones/\\d+/robots/\\d+",
+    "/tasks/\\d+/robots/\\d+",
   ),
   bad_map_row: /^\/map\/rows\/\d+$/, // rows of different lengths
   bad_image: /^(\/map\/image|\/zones\/\d+\/mask)\/(pgm|png)$/,
@@ -55,8 +56,8 @@ const BEYOND_SCHEMA = {
     "/obstacles/\\d+/motion/\\d+/t",
     "/disturbance/(speed|turn|start_delay)/max",
     "/trace",
-    "(/robots/\\d+(/goal(s/\\d+)?)?|/goals/\\d+/goals/\\d+)?/metadata",
-    "(/robots/\\d+/goal(s/\\d+)?|/goals/\\d+/goals/\\d+)/(actions|service)", // actions need a service
+    "(/robots?(/\\d+(/goal(s/\\d+)?)?)?|/(goals|tasks)/\\d+/goals/\\d+)?/metadata",
+    "(/robots/\\d+/goal(s/\\d+)?|/(goals|tasks)/\\d+/goals/\\d+)/(actions|service)", // actions need a service
     "/states/\\d+/released(/action)?", // behind the robot
     "/base/\\d+/order/nodes", // of which none is released
     "/release_ahead", // of plans that would have too many nodes
@@ -68,7 +69,7 @@ const BEYOND_SCHEMA = {
   missing: anyOf(
     "/(max_delay|dependencies|progress/\\d+/(order_update_id|last_released_sequence_id))",
     "/states/\\d+/[xy]", // of a measured pose
-    "(/robots/\\d+/goal(s/\\d+)?|/goals/\\d+/goals/\\d+)/service", // of actions
+    "(/robots/\\d+/goal(s/\\d+)?|/(goals|tasks)/\\d+/goals/\\d+)/service", // of actions
   ),
   wrong_type: /^\/dependencies$/, // null, with the policy that needs them
   unknown_value: /^\/progress\/\d+\/order_id$/, // of another order than that of base
@@ -84,8 +85,8 @@ const BEYOND_SCHEMA = {
   ),
   committed_collision: /^\/robots\/\d+\/committed\/\d+$/,
   committed_in_zone: /^\/robots\/\d+\/committed\/\d+$/,
-  start_in_obstacle: /^\/robots\/\d+\/start$/,
-  goal_in_obstacle: /^\/robots\/\d+\/goal(s\/\d+)?$/,
+  start_in_obstacle: /^\/(robots\/\d+\/start|from\/\d+)$/,
+  goal_in_obstacle: /^\/(robots\/\d+\/goal(s\/\d+)?|to\/\d+)$/,
   starts_overlap: /^\/robots\/\d+\/start$/,
   goals_overlap: /^\/robots\/\d+\/goal(s\/\d+)?$/,
   dependency: /^\/dependencies\/\d+(\/slack|\/(gate|until)\/\w+)?$/,
@@ -121,6 +122,13 @@ const KINDS = {
   "/v1/dependencies": { component: "ValidateRequest", acceptable: executions.checks() },
   "/v1/simulate": { component: "SimulateRequest", acceptable: executions.simulations() },
   "/v1/retime": { component: "RetimeRequest", acceptable: executions.retimings() },
+  "/v1/matrix": { component: "MatrixRequest", acceptable: executions.matrices(), sound: expectWhole },
+  "/v1/assign": {
+    component: "AssignRequest",
+    acceptable: executions.assignments(),
+    within: "/request",
+    sound: expectEachTaskOnce,
+  },
   "/v1/export/vda5050": { component: "Vda5050Request", acceptable: executions.orders() },
   "/v1/import/vda5050": { component: "Vda5050Import", acceptable: executions.reports() },
   "/v1/advance": {
@@ -133,7 +141,7 @@ const KINDS = {
 
 /** Problems that a time budget may cause where all else is right, on a machine that is very busy. */
 const UNFINISHED = {
-  check_unfinished: ["/v1/validate", "/v1/dependencies", "/v1/simulate"],
+  check_unfinished: ["/v1/validate", "/v1/dependencies", "/v1/simulate", "/v1/matrix", "/v1/assign"],
   parse_unfinished: Object.keys(KINDS),
 };
 
@@ -203,6 +211,21 @@ function lastOf(events) {
 async function expectPlannable({ body }) {
   const { status, json } = await client.post("/v1/plan", body);
   assert.equal(status, 200, `${JSON.stringify(json)} to ${body}`);
+}
+
+/** A matrix has a row for each pose of `from`, and in it a number for each pose of `to`. */
+function expectWhole({ from, to }, { seconds, metres }) {
+  for (const rows of [seconds, metres]) {
+    assert.equal(rows.length, from.length);
+    for (const row of rows) assert.equal(row.length, to.length);
+  }
+}
+
+/** Each task is in one of the lists, and no robot has two. */
+function expectEachTaskOnce({ tasks }, { assigned, unassigned }) {
+  const told = [...assigned, ...unassigned].map(({ task }) => task);
+  assert.deepEqual(told.sort(), tasks.map(({ id }) => id).sort());
+  assert.equal(new Set(assigned.map(({ robot }) => robot)).size, assigned.length);
 }
 
 /** The milliseconds that the service may take for a request. */

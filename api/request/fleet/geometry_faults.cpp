@@ -176,11 +176,11 @@ std::string obstacle_name(const core::ProblemFault& found, const std::vector<cor
 }
 
 /// Returns the detail of a disk in an obstacle. `outside`: see outside_text.
-std::string in_obstacle(const std::string& pose, const std::string& robot, double radius, double gap,
-                        const std::string& obstacle, const std::string& outside) {
-  if (!outside.empty()) return "The " + pose + " of robot " + robot + ' ' + outside;
-  return "The " + pose + " of robot " + robot + " does not fit: its disk overlaps " + obstacle + " by " +
-         metres(-gap) + " (radius " + number_text(radius) + " m). Move it or make the robot smaller.";
+std::string in_obstacle(const std::string& pose, double radius, double gap, const std::string& obstacle,
+                        const std::string& outside) {
+  if (!outside.empty()) return "The " + pose + ' ' + outside;
+  return "The " + pose + " does not fit: its disk overlaps " + obstacle + " by " + metres(-gap) +
+         " (radius " + number_text(radius) + " m). Move it or make the robot smaller.";
 }
 
 std::string overlap(const char* poses, const std::string& earlier, const std::string& later, double gap) {
@@ -218,6 +218,12 @@ std::string collision(const core::ProblemFault& found, const std::string& robot,
 
 }  // namespace
 
+std::string describe_pose(const core::ProblemFault& found, const JsonReader& pose, double radius,
+                          const std::vector<core::Zone>& zones, const core::OccupancyGrid& grid,
+                          const WorldFrame& frame) {
+  return in_obstacle("pose", radius, found.gap, obstacle_name(found, zones), outside_text(pose, grid, frame));
+}
+
 GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
                        const std::vector<std::size_t>& indices, const core::OccupancyGrid& grid) {
   using Kind = core::ProblemFault::Kind;
@@ -229,12 +235,13 @@ GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
   const auto outside = [&](const JsonReader& pose) { return outside_text(pose, grid, fleet.map->frame); };
   switch (found.kind) {
     case Kind::start_in_obstacle:
-      return {read.start, fault::kStartInObstacle,
-              in_obstacle("start", name, read.robot.radius, found.gap, obstacle, outside(read.start))};
+      return {
+          read.start, fault::kStartInObstacle,
+          in_obstacle("start of robot " + name, read.robot.radius, found.gap, obstacle, outside(read.start))};
     case Kind::goal_in_obstacle:
       return {read.goals[found.goal], fault::kGoalInObstacle,
-              in_obstacle(goal_name(read, found.goal), name, found.radius, found.gap, obstacle,
-                          outside(read.goals[found.goal]))};
+              in_obstacle(goal_name(read, found.goal) + " of robot " + name, found.radius, found.gap,
+                          obstacle, outside(read.goals[found.goal]))};
     case Kind::starts_overlap:
       return {read.start, fault::kStartsOverlap, overlap("starts", other, name, found.gap)};
     case Kind::goals_overlap:

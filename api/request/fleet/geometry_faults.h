@@ -22,6 +22,12 @@ struct GeometryFault {
   std::string detail;
 };
 
+/// Returns the words for a pose that a robot of this radius cannot have, because of an obstacle. `zones` are
+/// those of the problem.
+std::string describe_pose(const core::ProblemFault& found, const JsonReader& pose, double radius,
+                          const std::vector<core::Zone>& zones, const core::OccupancyGrid& grid,
+                          const WorldFrame& frame);
+
 /// Returns the words for a fault. `indices` are those of the problem's robots in the fleet, whose map is
 /// `grid`.
 GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,

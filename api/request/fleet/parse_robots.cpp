@@ -56,6 +56,11 @@ std::optional<core::Goal> parse_pose(const JsonReader& pose, const WorldFrame& f
   return read;
 }
 
+std::optional<core::Goal> parse_plain_pose(const JsonReader& pose, const WorldFrame& frame) {
+  constexpr std::array<std::string_view, 3> kMembers{"x", "y", "theta"};
+  return parse_pose(pose.object(kMembers), frame);
+}
+
 ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota& quota) {
   ParsedGoals read;
   const JsonReader single = robot.find("goal");
@@ -90,8 +95,6 @@ constexpr std::array<std::string_view, 16> kRobotMembers{"id",
                                                          "committed",
                                                          "previous",
                                                          "metadata"};
-constexpr std::array<std::string_view, 3> kStartMembers{"x", "y", "theta"};
-
 constexpr std::array<std::string_view, 8> kDefaults{"radius",        "linear_speed", "angular_speed",
                                                     "may_reverse",   "vicinity",     "execution_margin",
                                                     "stop_distance", "body_radius"};
@@ -162,6 +165,15 @@ Traits parse_traits(const JsonReader& robot, const Traits& defaults) {
   return traits;
 }
 
+/// What the core has to know of the traits; what is missing is a fault already.
+void take_traits(const Traits& traits, core::Robot& robot) {
+  robot.radius = traits.radius.value.value_or(1.0);
+  robot.linear_speed = traits.linear_speed.value.value_or(1.0);
+  robot.angular_speed = traits.angular_speed.value.value_or(1.0);
+  robot.vicinity = traits.vicinity.value.value_or(0.0);
+  robot.may_reverse = traits.may_reverse.value_or(false);
+}
+
 /// Reads one robot after the other; counts their goals and actions.
 class RobotReader {
  public:
@@ -178,13 +190,9 @@ class RobotReader {
     core::Robot& robot = read.robot;
     robot.id = json.require("id").name().value_or("");
     const Traits traits = parse_traits(json, defaults_);
-    robot.radius = traits.radius.value.value_or(1.0);
-    robot.linear_speed = traits.linear_speed.value.value_or(1.0);
-    robot.angular_speed = traits.angular_speed.value.value_or(1.0);
-    robot.vicinity = traits.vicinity.value.value_or(0.0);
+    take_traits(traits, robot);
     read.execution_margin = traits.execution_margin.value;
     read.stop_distance = traits.stop_distance.value.value_or(0.0);
-    robot.may_reverse = traits.may_reverse.value_or(false);
     read.body_radius = traits.body_radius;
     robot.goal_age = json.find("goal_age").number(kDuration).value_or(0.0);
     read.metadata = parse_metadata(json);
@@ -193,7 +201,7 @@ class RobotReader {
                        .angular_speed = traits.angular_speed.value,
                        .may_reverse = robot.may_reverse};
     read.start = json.require("start", "; give {\"x\", \"y\"} and optionally \"theta\"");
-    if (const auto start = parse_pose(read.start.object(kStartMembers), frame_)) {
+    if (const auto start = parse_plain_pose(read.start, frame_)) {
       robot.start = {start->position, start->theta.value_or(0.0)};
       owner.start = robot.start;
     }
@@ -261,6 +269,25 @@ std::vector<ParsedRobot> parse_robots(const JsonReader& robots, const JsonReader
     read.push_back(reader.read(item));
     ids.check(UniqueIds::Kind::robot, read.back().robot.id, read.size() - 1, item);
   }
+  return read;
+}
+
+std::optional<core::Robot> parse_lone_robot(const JsonReader& robot) {
+  constexpr std::array<std::string_view, 10> kMembers{
+      "id",       "radius",           "linear_speed",  "angular_speed", "may_reverse",
+      "vicinity", "execution_margin", "stop_distance", "body_radius",   "metadata"};
+  const std::size_t before = robot.fault_count();
+  const JsonReader json = robot.object(kMembers);
+  if (!json) return std::nullopt;
+  core::Robot read;
+  read.id = json.find("id").name().value_or("");
+  const Traits traits = parse_traits(json);
+  for (const TraitRow& row : kTraitTable) {
+    if (row.required) json.require(row.name);
+  }
+  take_traits(traits, read);
+  parse_metadata(json);
+  if (robot.fault_count() != before) return std::nullopt;
   return read;
 }
 

@@ -32,6 +32,9 @@ struct ParsedGoals {
 /// fault.
 std::optional<core::Goal> parse_pose(const JsonReader& pose, const WorldFrame& frame);
 
+/// Reads a pose that has no other members.
+std::optional<core::Goal> parse_plain_pose(const JsonReader& pose, const WorldFrame& frame);
+
 /// Reads `goal` or `goals` of a robot. Without both, or with an empty list, there are none. `quota` limits
 /// the goals of the request.
 ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota& quota);
@@ -58,6 +61,10 @@ struct ParsedRobot {
 /// actions than the limits allow. `ids` gets those of the robots.
 std::vector<ParsedRobot> parse_robots(const JsonReader& robots, const JsonReader& defaults,
                                       const WorldFrame& frame, const Limits& limits, UniqueIds& ids);
+
+/// Reads the robot of a request about one robot: its traits, and nothing of where it is. `id` is optional.
+/// Returns none when one has a fault.
+std::optional<core::Robot> parse_lone_robot(const JsonReader& robot);
 
 /// The robots of a request by their ids.
 class RobotNames {

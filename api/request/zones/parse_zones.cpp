@@ -32,8 +32,13 @@ constexpr Range kHalfAngle{kLeastHalfAngle, std::numbers::pi, "radians"};
 
 class ZoneReader {
  public:
-  ZoneReader(const WorldMap* map, const Limits& limits, const std::vector<ParsedRobot>& robots)
-      : map_(map), corners_(limits.max_zone_corners, "corners of zones"), names_(robots) {}
+  ZoneReader(const WorldMap* map, const Limits& limits, const std::vector<ParsedRobot>& robots,
+             ZoneRobots named)
+      : map_(map),
+        corners_(limits.max_zone_corners, "corners of zones"),
+        names_(robots),
+        not_there_(robots.size()),
+        named_(named) {}
 
   /// Reads a zone, or the parts of its mask.
   std::vector<core::Zone> read(const JsonReader& item) {
@@ -150,10 +155,11 @@ class ZoneReader {
                  "robots must name at least one robot; leave it out for a zone for all robots.");
     }
     for (const JsonReader item : list.items()) {
-      const auto robot = names_.find(item);
+      const auto robot = index_of(item);
       if (!robot) continue;
       const auto place = std::lower_bound(zone.robots.begin(), zone.robots.end(), *robot);
       if (place != zone.robots.end() && *place == *robot) {
+        if (*robot == not_there_) continue;
         item.fault(fault::kDuplicate, [&] {
           return "The robot " + in_quotes(*item.string()) + " is already in this list; name it once.";
         });
@@ -163,9 +169,18 @@ class ZoneReader {
     }
   }
 
+  std::optional<std::size_t> index_of(const JsonReader& item) const {
+    if (named_ == ZoneRobots::of_request) return names_.find(item);
+    const auto name = item.name();
+    if (!name) return std::nullopt;
+    return names_.index_of(*name).value_or(not_there_);
+  }
+
   const WorldMap* map_;
   Quota corners_;
   RobotNames names_;
+  std::size_t not_there_;
+  ZoneRobots named_;
   std::unordered_map<std::string, std::size_t> zones_;  // their numbers by id
   std::size_t count_ = 0;
 };
@@ -173,12 +188,12 @@ class ZoneReader {
 }  // namespace
 
 std::vector<core::Zone> parse_zones(const JsonReader& member, const WorldMap* map, const Limits& limits,
-                                    const std::vector<ParsedRobot>& robots) {
+                                    const std::vector<ParsedRobot>& robots, ZoneRobots named) {
   const JsonReader items = member.array();
   if (!items) return {};
   Quota quota(limits.max_zones, "zones");
   if (!quota.take(items)) return {};
-  ZoneReader reader(map, limits, robots);
+  ZoneReader reader(map, limits, robots, named);
   std::vector<core::Zone> zones;
   zones.reserve(items.size());
   for (const JsonReader item : items.items()) {

@@ -123,6 +123,53 @@ export class Executions {
     });
   }
 
+  /** Travel times of a robot from its start to its goals, as far as they are places for its smallest disk. */
+  matrices() {
+    return this.#fleets.chain(({ request, answer }) => {
+      const { map, zones, options, robots, robot_defaults } = request;
+      const pose = ({ x, y, theta }) => ({ x, y, ...(theta === undefined ? {} : { theta }) });
+      const planned = answer.plans.map(({ robot }) => robot);
+      const travellers = robots.filter((robot) => planned.includes(robot.id) && goalsOf(robot).length > 0);
+      return fc
+        .record({
+          robot: fc.constantFrom(...travellers),
+          rows: fc.integer({ min: 1, max: 3 }),
+          with_zones: fc.boolean(),
+        })
+        .map(({ robot: { start, goal, goals, committed, previous, ...traits }, rows, with_zones }) => {
+          const to = goalsOf({ goal, goals });
+          const radius = smallestRadius({ robots: [{ ...traits, goal, goals }], robot_defaults });
+          return {
+            map,
+            ...(with_zones && zones ? { zones } : {}),
+            ...(options ? { options } : {}),
+            robot: { ...robot_defaults, ...traits, radius },
+            from: Array(rows).fill(pose(start)),
+            to: to.map(pose),
+          };
+        });
+    });
+  }
+
+  /** Tasks at goals that robots have, for some of the robots. */
+  assignments() {
+    return this.#fleets.chain(({ request }) => {
+      const robot = fc.constantFrom(...request.robots.map(({ id }) => id));
+      const goals = request.robots.flatMap(goalsOf);
+      const task = fc.record(
+        {
+          id: fc.uuid(),
+          goals: fc.array(fc.constantFrom(...goals), { minLength: 1, maxLength: 3 }),
+          robots: fc.uniqueArray(robot, { minLength: 1, maxLength: 3 }),
+          weight: within(0.001, 1000),
+          due: within(0, 1e8),
+        },
+        { requiredKeys: ["id", "goals"], noNullPrototype: true },
+      );
+      return fc.record({ request: fc.constant(request), tasks: fc.array(task, { maxLength: 6 }) });
+    });
+  }
+
   retimings() {
     return this.#fleets.chain(({ request, answer }) => {
       const { robots, robot_defaults, options } = request;

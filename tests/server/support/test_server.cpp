@@ -51,6 +51,8 @@ Service StubService::service() {
           .advance = endpoint,
           .dependencies = endpoint,
           .retime = endpoint,
+          .matrix = endpoint,
+          .assign = endpoint,
           .vda5050 = endpoint,
           .import_vda5050 = endpoint,
           .example_list = list,

@@ -1,0 +1,57 @@
+#pragma once
+
+// The request of POST /v1/assign and its answer.
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/json/json_reader.h"
+#include "api/request/limits.h"
+#include "api/request/parse_request.h"
+#include "core/map/static_map.h"
+#include "core/runtime/work.h"
+#include "core/travel/arrivals.h"
+
+namespace fleetplan::api {
+
+inline constexpr std::array<std::string_view, 2> kAssignMembers{"request", "tasks"};
+
+/// A valid body of POST /v1/assign.
+struct AssignRequest {
+  PlanRequest plan;
+  std::vector<core::Task> tasks;
+  // By task:
+  std::vector<std::string> ids;
+  std::vector<double> weights;
+  std::vector<JsonReader> goals;  // its member
+  JsonReader request;             // the member of the body
+};
+
+/// Reads the root of the document. Nothing if it has faults, or if its stop is met. `maps`, which may be
+/// null, has the maps of earlier requests.
+std::optional<AssignRequest> parse_assign_request(const JsonReader& root, const Limits& limits,
+                                                  core::Work& stop, core::MapCache* maps);
+
+/// The robot of each task and its arrival; none for a task that no robot has.
+struct Assigned {
+  std::size_t robot = 0;
+  double t_arrive = 0.0;  // seconds
+};
+
+/// Gives each task to one robot, at most one each, at the least sum of weighted arrivals; `arrivals` as by
+/// core::arrivals(). If there are too few robots, the tasks without one weigh the least. None if `stop` is
+/// met first.
+std::optional<std::vector<std::optional<Assigned>>> assigned(const AssignRequest& request,
+                                                             const std::vector<std::vector<double>>& arrivals,
+                                                             const core::StopCondition& stop);
+
+/// The request of the body, with the goals of the tasks after those that their robots have, `assigned` and
+/// `unassigned`. `any_way`: by task, whether any robot could do it.
+std::string write_assigned(const AssignRequest& request, const std::vector<std::optional<Assigned>>& assigned,
+                           const std::vector<bool>& any_way);
+
+}  // namespace fleetplan::api
