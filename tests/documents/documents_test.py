@@ -199,6 +199,15 @@ class Examples(DocumentTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"(?s)\Asolved flowtime \d+\.\d+ s\nleft\n .*\nright\n .*\nparked\n\Z")
 
+    def test_the_example_of_tasks_gives_each_robot_one(self):
+        (program,) = blocks("docs/assignment.md", "python")
+        self.assertIn(SERVICE, program)
+        done = subprocess.run([sys.executable, "-c", program.replace(SERVICE, self.url)],
+                              env={**os.environ, "PYTHONPATH": str(PROJECT / "clients/python")},
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"\A(\w+ by amr-[12] after \d+\.\d s alone\n){2}solved after \d+\.\d s\n\Z")
+
     @unittest.skipUnless(shutil.which("curl") and shutil.which("jq"), "needs curl and jq")
     def test_the_shell_examples_with_curl_succeed(self):
         place = SERVICE.removeprefix("http://")

@@ -85,6 +85,22 @@ class WithTheService(unittest.TestCase):
             {"robot": "east-bound", "action": 0, "progress": 0.0, "held_s": 5.0}])
         self.assertIn("east-bound", {late["robot"] for late in times["late"]})
 
+    def test_a_matrix_has_the_times_of_a_robot(self):
+        robot = {"radius": 0.2, "linear_speed": 1.0, "angular_speed": 3.0}
+        poses = [{key: value for key, value in one["start"].items()} for one in self.request["robots"]]
+        times = self.client.matrix(self.request, robot, poses, poses)
+        self.assertEqual((times["seconds"][0][0], times["metres"][1][1]), (0.0, 0.0))
+        self.assertGreater(times["seconds"][0][1], 1.0)
+
+    def test_robots_get_tasks(self):
+        goals = [one.get("goals") or [one["goal"]] for one in self.request["robots"]]
+        without = {**self.request, "robots": [{key: value for key, value in one.items() if key not in ("goal", "goals")}
+                                              for one in self.request["robots"]]}
+        assigned = self.client.assign(without, [{"id": "first", "goals": goals[0]}, {"id": "second", "goals": goals[1]}])
+        self.assertEqual([one["task"] for one in assigned["assigned"]], ["first", "second"])
+        self.assertEqual(len({one["robot"] for one in assigned["assigned"]}), 2)
+        self.assertNotEqual(self.client.plan(assigned)["status"], "none")
+
     def test_plans_become_orders(self):
         exported = self.client.export_vda5050(self.request, self.answer, version="2.1.0", manufacturer="acme")
         self.assertEqual([entry["robot"] for entry in exported["orders"]], ["east-bound", "west-bound"])

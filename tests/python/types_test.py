@@ -18,7 +18,8 @@ SCHEMAS = DOCUMENT["components"]["schemas"]
 # what it is given are the same type here, or only part of one.
 OTHER_NAMES = {"GivenAction": "Action", "GivenMotion": "Action", "GivenPose": "Pose"}
 # Members of answers that requests may have, so that answers can be sent back.
-IGNORED = {"PlanRequest": {"progress", "unavoidable"}}
+IGNORED = {"PlanRequest": {"progress", "unavoidable", "assigned", "unassigned"},
+           "AdvanceAnswer": {"assigned", "unassigned"}, "AssignAnswer": {"progress", "unavoidable"}}
 # `problem` is raised.
 WITHOUT = {"PlanEvent": 3, "SimulationEvent": 2}
 
@@ -111,7 +112,7 @@ class Methods(Comparison):
     PARTS = {"request": {"robots", "robot_defaults", "options"}, "plans": {"plans", "dependencies"}}
     ANSWERS = {"status", "request_id", "unplanned", "tight", "flowtime", "makespan", "lower_bound", "estimated", "verified",
                "min_clearance", "deterministic", "lattice_spacing", "search", "timings_ms", "warnings", "metadata", "map",
-               "progress"}  # members that requests may have so that answers can be merged into them
+               "progress", "assigned", "unassigned"}  # members that requests may have so that answers can be merged into them
 
     def compare_method(self, name, path, spread):
         schema = resolve(DOCUMENT["paths"][path]["post"]["requestBody"]["content"]["application/json"]["schema"])
@@ -146,12 +147,15 @@ class Methods(Comparison):
         self.compare_method("simulate_events", "/v1/simulate", self.PLANS)
         self.compare_method("advance", "/v1/advance", {})
         self.compare_method("retime", "/v1/retime", self.PARTS)
+        self.compare_method("matrix", "/v1/matrix", {"request": {"map", "zones", "options"}, "from_": {"from"}})
+        self.compare_method("assign", "/v1/assign", {})
         self.compare_method("export_vda5050", "/v1/export/vda5050", self.PARTS)
         self.compare_method("import_vda5050", "/v1/import/vda5050", self.PARTS)
 
     def test_they_return_the_types_of_answers(self):
         paths = {"plan": "/v1/plan", "validate": "/v1/validate", "dependencies": "/v1/dependencies",
                  "simulate": "/v1/simulate", "advance": "/v1/advance", "retime": "/v1/retime",
+                 "matrix": "/v1/matrix", "assign": "/v1/assign",
                  "export_vda5050": "/v1/export/vda5050", "import_vda5050": "/v1/import/vda5050", "limits": "/v1/limits", "health": "/healthz"}
         for name, path in paths.items():
             with self.subTest(name):

@@ -12,10 +12,10 @@ from urllib.parse import quote
 
 from fleetplan.errors import ConnectionFailed, ProblemError, problem_error
 from fleetplan.http import Pool, Response, read_json
-from fleetplan.types import (AdvanceAnswer, DependenciesAnswer, Disturbance, Health, Hold, Limits, MeasuredPose,
-                             NewGoals, OrderBase, OrderProgress, PacedState, PlanAnswer, PlanEvent, PlanRequest, Plans,
-                             RetimeAnswer, RobotState, SimulationAnswer, SimulationEvent, Vda5050Answer, Vda5050States,
-                             VdaMessage, Verdict)
+from fleetplan.types import (AdvanceAnswer, AssignAnswer, DependenciesAnswer, Disturbance, Health, Hold, Limits,
+                             LoneRobot, MatrixAnswer, MeasuredPose, NewGoals, OrderBase, OrderProgress, PacedState,
+                             PlanAnswer, PlanEvent, PlanRequest, Plans, RetimeAnswer, RobotState, SimulationAnswer,
+                             SimulationEvent, Task, TravelPose, Vda5050Answer, Vda5050States, VdaMessage, Verdict)
 
 _PROBLEM_WITHOUT_BODY = "the answer is not problem details; is this a proxy?"
 _RETRY_AFTER = 1.0  # seconds, if the server does not say
@@ -67,6 +67,18 @@ class Client:
         body = _given(request=request, plans=plans["plans"], at=at, commit=commit, states=states or None,
                       poses=poses or None, holds=holds or None, goals=goals or None, pose_tolerance=pose_tolerance)
         return cast(AdvanceAnswer, self._post("/v1/advance", body, request))
+
+    # ---------------------------------------------------------------- which robot does what
+
+    def matrix(self, request: PlanRequest, robot: LoneRobot, from_: Sequence[TravelPose],
+               to: Sequence[TravelPose]) -> MatrixAnswer:
+        """How long the robot takes between these poses alone on the map, with the zones and options of the request."""
+        body = _given(_part(request, "map", "zones", "options"), {"from": from_}, robot=robot, to=to)
+        return cast(MatrixAnswer, self._post("/v1/matrix", body, request))
+
+    def assign(self, request: PlanRequest, tasks: Sequence[Task]) -> AssignAnswer:
+        """The request with the goals of the tasks that its robots get, at most one each."""
+        return cast(AssignAnswer, self._post("/v1/assign", {"request": request, "tasks": tasks}, request))
 
     # ---------------------------------------------------------------- plans, of this service or of others
 

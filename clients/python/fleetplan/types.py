@@ -659,6 +659,58 @@ class RetimeAnswer(TypedDict):
     late: list[LateRobot]
 
 
+# ---------------------------------------------------------------- /v1/matrix, /v1/assign
+
+
+class TravelPose(TypedDict):
+    x: float
+    y: float
+    theta: NotRequired[float]
+
+
+class LoneRobot(TypedDict):
+    id: NotRequired[str]
+    radius: float
+    linear_speed: float
+    angular_speed: float
+    may_reverse: NotRequired[bool]
+    vicinity: NotRequired[float]
+    execution_margin: NotRequired[float]
+    stop_distance: NotRequired[float]
+    body_radius: NotRequired[float]
+    metadata: NotRequired[Metadata]
+
+
+class MatrixAnswer(TypedDict):
+    seconds: list[list[float | None]]
+    metres: list[list[float | None]]
+    warnings: list[str]
+
+
+class Task(TypedDict):
+    id: str
+    goals: list[Goal]
+    robots: NotRequired[list[str]]
+    due: NotRequired[float]
+    weight: NotRequired[float]
+
+
+class AssignedTask(TypedDict):
+    task: str
+    robot: str
+    t_arrive: float
+
+
+class UnassignedTask(TypedDict):
+    task: str
+    reason: Literal["no_way", "no_robot"]
+
+
+class AssignAnswer(PlanRequest):
+    assigned: list[AssignedTask]
+    unassigned: list[UnassignedTask]
+
+
 # ---------------------------------------------------------------- /v1/export/vda5050, /v1/import/vda5050
 
 
