@@ -71,8 +71,8 @@ class PlansThatHold {
       if (!report) return {std::vector<bool>(robots_.size(), false), true};
       const bool left_some_out = leave_out(*report);
       // A robot that need not stay conflicts with no other once its plan is left out.
-      const bool is_final = left_out_ == LeftOut::unknown && is_complete(*report) && !has_margins(*report) &&
-                            !inflates_margin();
+      const bool is_final =
+          left_out_ == LeftOut::unknown && is_complete(*report) && !has_margins(*report) && !is_inflated();
       if (!left_some_out || is_final) return {std::move(kept_), false};
     }
   }
@@ -80,13 +80,13 @@ class PlansThatHold {
  private:
   using Pair = std::pair<std::size_t, std::size_t>;
 
-  /// Robots whose inflated disks overlap at first are left out of the margin until they are clear of each
-  /// other. Their bare disks are not, so that these have to be checked, too.
-  bool inflates_margin() const { return options_.inflation > 0.0 && options_.interval_margin > 0.0; }
+  /// Robots whose inflated disks overlap at first may be near each other until these are clear. Their bare
+  /// disks may not, so that these have to be checked, too.
+  bool is_inflated() const { return options_.inflation > 0.0; }
 
   std::optional<VerifyReport> check() const {
     auto report = check(options_.inflation);
-    return report && report->valid() && inflates_margin() ? check(0.0) : report;
+    return report && report->valid() && is_inflated() ? check(0.0) : report;
   }
 
   std::optional<VerifyReport> check(double inflation) const {

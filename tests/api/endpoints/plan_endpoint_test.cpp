@@ -397,6 +397,25 @@ TEST(PlanEndpoint, KeepsIdsInAnyLanguage) {
   EXPECT_EQ(planned(request)["plans"][0]["robot"], id);
 }
 
+TEST(PlanEndpoint, KeepsNoPreviousPlanThatOverlapsAgainWithinTheInflation) {
+  // They overlap at the start, clear each other, and would overlap again before their inflated disks are
+  // clear.
+  const Json plan = planned(Json::parse(R"({
+    "map": {"rows": ["............", "............", "............", "............",
+                     "............", "............", "............", "............"]},
+    "robot_defaults": {"radius": 0.5, "linear_speed": 1, "angular_speed": 1},
+    "robots": [
+      {"id": "a", "start": {"x": 5, "y": 4, "theta": 0.7853981633974483}, "goal": {"x": 8, "y": 7},
+       "previous": [{"type": "translate", "t_start": 0, "t_end": 4.242640687119286,
+                     "from": {"x": 5, "y": 4, "theta": 0.7853981633974483},
+                     "to": {"x": 8, "y": 7, "theta": 0.7853981633974483}}]},
+      {"id": "b", "start": {"x": 5.7, "y": 4, "theta": 0},
+       "committed": [{"type": "translate", "t_start": 0, "t_end": 0.7,
+                      "from": {"x": 5.7, "y": 4, "theta": 0}, "to": {"x": 6.4, "y": 4, "theta": 0}}]}],
+    "options": {"inflation": 0.15, "start_overlap": 0.6}})"));
+  EXPECT_EQ(plan["status"], "solved");
+}
+
 /// Waits until its budget is spent and some more, as on a machine that is busy with other work.
 template <class Made>
 Reply planned_late(Json request, const Made& made) {
