@@ -152,15 +152,38 @@ Located locate(const core::Robot& robot, const Execution& execution, const Momen
   return {progress.value_or(planned), !progress};
 }
 
+/// Lets an early robot drive on where its plan has no stop between the translation under way and the next
+/// one, and wait for its planned time after that.
+void wait_after_line(Actions& rest) {
+  std::size_t last = 2;
+  while (last + 1 < rest.size() && goes_on(rest[last], rest[last + 1])) ++last;
+  const double early = rest[1].t_end - rest[1].t_start;
+  for (std::size_t k = 2; k <= last; ++k) {
+    rest[k].t_start -= early;
+    rest[k].t_end -= early;
+  }
+  const core::Pose& end = rest[last].to;
+  const Action wait{Action::Type::wait, rest[last].t_end, rest[last].t_end + early, end, end};
+  rest.insert(rest.begin() + static_cast<std::ptrdiff_t>(last) + 1, wait);
+  rest.erase(rest.begin() + 1);
+}
+
 /// What it does from there on.
 Remainder remainder_of(const core::Robot& robot, const Execution& execution, const Located& located,
                        const Moment& moment) {
   const Actions& actions = execution.actions;
   const auto& measured = execution.measured;
+  const Progress& progress = located.progress;
   if (located.is_elsewhere) return {*measured, {}};
-  if (execution.reported) return remainder_of_reported(robot, execution, located.progress, moment.at);
-  if (!measured) return remainder(robot, actions, moment.at);
-  return remainder_of_measured(robot, actions, *measured, located.progress, moment.at);
+  if (!execution.reported && !measured) return remainder(robot, actions, moment.at);
+  Remainder rest = execution.reported ? remainder_of_reported(robot, execution, progress, moment.at)
+                                      : remainder_of_measured(robot, actions, *measured, progress, moment.at);
+  const bool is_in_line = execution.stop_distance > 0.0 && progress.action + 1 < actions.size() &&
+                          goes_on(actions[progress.action], actions[progress.action + 1]);
+  const bool stops = rest.actions.size() > 2 && rest.actions[0].type == Action::Type::translate &&
+                     rest.actions[1].type == Action::Type::wait;
+  if (is_in_line && stops) wait_after_line(rest.actions);
+  return rest;
 }
 
 /// Whether a robot that is so far in its actions is on the way, not only about to set out. Its own word

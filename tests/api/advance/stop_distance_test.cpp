@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -81,6 +82,25 @@ TEST(StopDistance, TranslationsThatGoOnAreOne) {
   EXPECT_DOUBLE_EQ(line.advance(2.2, 0.0)[0].committed_end().position.x(), 3.7) << "on the border";
   line.executions[0].actions[1].t_start = 2.7;  // it stands there
   EXPECT_DOUBLE_EQ(line.advance(2.0, 0.0)[0].committed_end().position.x(), 3.2);
+}
+
+TEST(StopDistance, AnEarlyRobotDrivesOnWhereItsPlanHasNoStop) {
+  DrivingFleet line;
+  line.add_on_line(1.0, 9.0, 0.5);
+  const Pose border = at_x(3.2);
+  line.executions[0].actions = {{Type::translate, 0.0, 2.2, at_x(1.0), border},
+                                {Type::translate, 2.2, 3.2, border, at_x(4.2)},
+                                {Type::rotate, 3.2, 4.2, at_x(4.2), at_x(4.2, 1.0)}};
+  line.executions[0].reported = ReportedState{{0, 2.0 / 2.2}, {}, {}, {}};  // at 3 m, a second early
+  const core::Robot next = line.advance(1.0, 0.0)[0];
+  EXPECT_DOUBLE_EQ(next.committed_end().position.x(), 3.5);
+  EXPECT_NEAR(next.committed_until(), 0.5, 1e-9);
+  const auto& rest = *next.previous;
+  const auto wait =
+      std::find_if(rest.begin(), rest.end(), [](const Action& action) { return action.type == Type::wait; });
+  ASSERT_NE(wait, rest.end());
+  EXPECT_DOUBLE_EQ(wait->from.position.x(), 4.2) << "after the line";
+  EXPECT_NEAR(wait->t_end, 2.2, 1e-9) << "it turns when it was to turn";
 }
 
 TEST(StopDistance, AHoldBeginsWhereTheRobotStands) {

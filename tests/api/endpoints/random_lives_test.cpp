@@ -236,7 +236,7 @@ class Life {
     return true;
   }
 
-  /// Robots that nobody has measured, and that are not named.
+  /// Robots that nobody has measured, that are not named, and that say nothing of where they stop.
   void expect_that_they_can_stop(const Json& body) const {
     constexpr double kSetOut = 1e-6;  // less of an action may be about to begin
     std::set<std::string> others;
@@ -251,7 +251,7 @@ class Life {
       if (const Json* state = state_of(body, plan.at("robot"))) {
         const double progress = state->at("progress");
         const bool drives = state->contains("speed") ? state->at("speed") != 0.0 : progress > kSetOut;
-        if (state->contains("x") || !drives) continue;
+        if (state->contains("x") || state->contains("released") || !drives) continue;
         expect_that_it_can_stop(*robot, actions, state->at("action"), progress);
       } else if (const auto under = under_way(actions, body.at("at")); under && under->progress > kSetOut) {
         expect_that_it_can_stop(*robot, actions, under->action, under->progress);
