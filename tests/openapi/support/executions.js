@@ -136,18 +136,20 @@ export class Executions {
           rows: fc.integer({ min: 1, max: 3 }),
           with_zones: fc.boolean(),
         })
-        .map(({ robot: { start, goal, goals, committed, previous, ...traits }, rows, with_zones }) => {
-          const to = goalsOf({ goal, goals });
-          const radius = smallestRadius({ robots: [{ ...traits, goal, goals }], robot_defaults });
-          return {
-            map,
-            ...(with_zones && zones ? { zones } : {}),
-            ...(options ? { options } : {}),
-            robot: { ...robot_defaults, ...traits, radius },
-            from: Array(rows).fill(pose(start)),
-            to: to.map(pose),
-          };
-        });
+        .map(
+          ({ robot: { start, goal, goals, committed, previous, goal_age, ...traits }, rows, with_zones }) => {
+            const to = goalsOf({ goal, goals });
+            const radius = smallestRadius({ robots: [{ ...traits, goal, goals }], robot_defaults });
+            return {
+              map,
+              ...(with_zones && zones ? { zones } : {}),
+              ...(options ? { options } : {}),
+              robot: { ...robot_defaults, ...traits, radius },
+              from: Array(rows).fill(pose(start)),
+              to: to.map(pose),
+            };
+          },
+        );
     });
   }
 
