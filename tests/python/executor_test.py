@@ -352,6 +352,11 @@ class Courses(unittest.TestCase):
         straight = Course(pose(0.0), actions(("translate", 4.0)))
         self.assertEqual(straight.after(0.0, [Move("translate", 1.0), Move("rotate", 0.04), Move("translate", 1.0)]), 0.5)
 
+    def test_a_little_more_than_the_moves_before_a_service_does_not_end_it(self):
+        course = Course(pose(0.0), actions(("translate", 1.0), ("rotate", 0.1), ("wait", 7.0, 0), ("rotate", 3.0)))
+        self.assertEqual(course.after(0.0, [Move("translate", 1.0), Move("rotate", 0.1001)], 0.03), 2.0)
+        self.assertEqual(course.after(0.0, [Move("translate", 1.0), Move("rotate", 1.6)], 0.03), 3.5)
+
     def test_a_pose_is_found_on_a_course_that_passes_it_twice(self):
         course = Course(pose(0.0), actions(("translate", 2.0), ("rotate", math.pi), ("translate", 2.0)))
         self.assertEqual(course.located(pose(1.0), 0.0, course.end, 0.01), 0.5)

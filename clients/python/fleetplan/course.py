@@ -179,13 +179,16 @@ class Course:
                 index = self.index(place)
                 kind, amount = self.actions[index]["type"], self.amount(index)
                 rest = (index + 1 - place) * amount
+                is_small = move.type != "wait" and left <= _least(move.type, near)
                 if kind == move.type and left < rest - _ON_PLACE:
                     place, left = place + left / amount, 0.0
                 elif kind == move.type:
                     place, left = index + 1.0, left - rest
+                elif is_small and self.actions[index].get("goal") is not None:
+                    break  # the service has not been left for so little
                 elif kind == "wait" or amount <= _least(kind, near):
                     place = index + 1.0
-                elif move.type == "wait" or left <= _least(move.type, near):
+                elif move.type == "wait" or is_small:
                     break  # what is not on this course
                 else:
                     return place  # another way
