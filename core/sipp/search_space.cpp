@@ -41,7 +41,7 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stag
 Vertices::Vertices(const Instance& instance, std::size_t robot, const Goal& goal)
     : Vertices(instance, robot, std::size_t{0}) {
   goals_.push_back({add_goal(instance, robot, goal.position), goal.theta});
-  early_own_ = own_.size();
+  early_own_ = own_.size();  // NOLINT(*-prefer-member-initializer): the constructor delegates
 }
 
 void Vertices::begin_at(const Instance& instance, std::size_t robot) {

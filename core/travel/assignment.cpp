@@ -15,7 +15,7 @@ struct Cost {
   std::int64_t without = 0;
   double sum = 0.0;
 
-  auto operator<=>(const Cost&) const = default;
+  auto operator<=>(const Cost&) const = default;  // NOLINT(modernize-use-nullptr): its own 0
   Cost operator+(const Cost& other) const { return {without + other.without, sum + other.sum}; }
   Cost operator-(const Cost& other) const { return {without - other.without, sum - other.sum}; }
 };
