@@ -66,7 +66,8 @@ class Travels {
     }
     CostToGo& costs = space.cost_to_go(0);
     const CostToGo::Estimate estimate = costs.from(vertices.start(), stop);
-    if (estimate.least() == kForever) return std::nullopt;
+    // Of a search that was stopped, the estimate is none of a way.
+    if (estimate.least() == kForever || stop.met()) return std::nullopt;
     const double seconds =
         space.any_heading_at_start() ? estimate.least() : estimate.with_rotation(heading, vertices.motion());
     // In zones that limit speeds, the estimate is none of a whole way.

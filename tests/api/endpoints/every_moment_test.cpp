@@ -228,6 +228,36 @@ TEST(EveryMoment, OfAnExportThatGoesOn) {
   expect_answers_at_every_moment(vda5050_endpoint, body);
 }
 
+/// A large map with pillars, so that searches ask several times.
+Json wide_hall() {
+  Json hall{{"rows", Json::array()}};
+  for (int row = 0; row < 80; ++row) {
+    hall["rows"].push_back(row % 4 == 1 ? std::string(60, '#') + std::string(20, '.') : std::string(80, '.'));
+  }
+  return hall;
+}
+
+Json robot_of_the_hall() {
+  return {{"radius", 0.3}, {"linear_speed", 1.0}, {"angular_speed", 1.0}, {"may_reverse", true}};
+}
+
+TEST(EveryMoment, OfAMatrix) {
+  const Json places =
+      Json::parse(R"([{"x": 0.5, "y": 0.5}, {"x": 30.5, "y": 41.5, "theta": 1}, {"x": 5.5, "y": 76.5}])");
+  expect_answers_at_every_moment(
+      matrix_endpoint,
+      {{"map", wide_hall()}, {"robot", robot_of_the_hall()}, {"from", places}, {"to", places}});
+}
+
+TEST(EveryMoment, OfAnAssignment) {
+  Json request{{"map", wide_hall()}, {"robot_defaults", robot_of_the_hall()}};
+  request["robots"] = Json::parse(R"([{"id": "a", "start": {"x": 0.5, "y": 0.5}},
+    {"id": "b", "start": {"x": 5.5, "y": 76.5}, "goal": {"x": 30.5, "y": 41.5}}])");
+  const Json tasks = Json::parse(R"([{"id": "1", "goals": [{"x": 0.5, "y": 40.5}, {"x": 70.5, "y": 3.5}]},
+    {"id": "2", "goals": [{"x": 3.5, "y": 60.5, "service": 1}]}])");
+  expect_answers_at_every_moment(assign_endpoint, {{"request", request}, {"tasks", tasks}});
+}
+
 TEST(EveryMoment, OfAnImport) { expect_answers_at_every_moment(import_vda5050_endpoint, to_import()); }
 
 TEST(EveryMoment, OfAnExport) { expect_answers_at_every_moment(vda5050_endpoint, to_export()); }
