@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
+#include "api/request/limits.h"
 #include "tests/support/base64.h"
 
 namespace fleetplan::fuzz {
@@ -351,12 +352,11 @@ Json matrix_of(const Json& request) {
 
 /// Tasks for the robots of a request to plan, at their starts and goals.
 Json tasks_of(Json request, Choices& choices) {
-  constexpr std::size_t kMostPairs = 250'000;
   const std::size_t robots = request["robots"].size();
   const int goals = 1 + choices.up_to(20);
   const bool is_named = choices.yes();
   Json tasks = Json::array();
-  for (std::size_t k = 0; k < robots && k < kMostPairs / robots; ++k) {
+  for (std::size_t k = 0; k < robots && k < api::kMostPairs / robots; ++k) {
     Json task{{"id", std::to_string(k)}, {"goals", Json::array()}};
     for (int goal = 0; goal < goals; ++goal) {
       const Json& start = request["robots"][(k + static_cast<std::size_t>(goal)) % robots]["start"];

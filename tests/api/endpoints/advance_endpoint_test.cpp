@@ -34,10 +34,7 @@ Json advanced_json(const Json& body) {
 Faults faults_of_advance(const Json& body) {
   const Reply reply = advance_endpoint(body.dump(), {});
   EXPECT_EQ(reply.status, 422) << reply.body;
-  Faults faults;
-  const Json problem = json_of(reply);
-  for (const auto& fault : problem["errors"]) faults.emplace_back(fault["pointer"], fault["code"]);
-  return faults;
+  return faults_in(reply);
 }
 
 TEST(AdvanceEndpoint, CopiesWhatTheMomentDoesNotChange) {

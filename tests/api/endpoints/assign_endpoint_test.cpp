@@ -43,12 +43,7 @@ Json answer_to(const Json& request) {
   return json_of(reply);
 }
 
-Faults faults(const Json& request) {
-  const Json problem = json_of(reply_to(request));
-  Faults faults;
-  for (const Json& fault : problem["errors"]) faults.emplace_back(fault["pointer"], fault["code"]);
-  return faults;
-}
+Faults faults(const Json& request) { return faults_in(reply_to(request)); }
 
 /// Who has which task.
 Faults pairs(const Json& answer) {

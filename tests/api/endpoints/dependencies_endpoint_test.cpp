@@ -156,16 +156,13 @@ TEST(NewTimes, ReportFaultsOfStatesAndPlans) {
   request["dependencies"] = Json::array();
   const Reply reply = retime_endpoint(request.dump(), context());
   EXPECT_EQ(reply.status, 422);
-  const Json problem = json_of(reply);
-  Faults faults;
-  for (const Json& fault : problem["errors"]) faults.emplace_back(fault["pointer"], fault["code"]);
-  EXPECT_EQ(faults, (Faults{{"/plans/1/actions/1/t_start", "discontinuity"},
-                            {"/states/0/action", "out_of_range"},
-                            {"/states/1/progress", "out_of_range"},
-                            {"/states/1/speed_factor", "out_of_range"},
-                            {"/states/2/robot", "duplicate"},
-                            {"/states/3/robot", "unknown_robot"},
-                            {"/states/3/held", "unknown_key"}}));
+  EXPECT_EQ(faults_in(reply), (Faults{{"/plans/1/actions/1/t_start", "discontinuity"},
+                                      {"/states/0/action", "out_of_range"},
+                                      {"/states/1/progress", "out_of_range"},
+                                      {"/states/1/speed_factor", "out_of_range"},
+                                      {"/states/2/robot", "duplicate"},
+                                      {"/states/3/robot", "unknown_robot"},
+                                      {"/states/3/held", "unknown_key"}}));
 }
 
 }  // namespace TEST_FILE

@@ -57,10 +57,7 @@ Json simulated(const Json& request, const RequestContext& context = {}) {
 Faults faults_of_simulation(const Json& request) {
   const Reply reply = reply_to(request);
   EXPECT_EQ(reply.status, 422) << reply.body;
-  Faults faults;
-  const Json body = json_of(reply);
-  for (const auto& fault : body["errors"]) faults.emplace_back(fault["pointer"], fault["code"]);
-  return faults;
+  return faults_in(reply);
 }
 
 TEST(SimulateEndpoint, HasThePlannedFiguresWithoutDisturbance) {

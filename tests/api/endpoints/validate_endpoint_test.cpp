@@ -40,10 +40,7 @@ std::vector<std::string> kinds_of(const Json& answer) {
 Faults faults_of_validation(const Json& request) {
   const Reply reply = validate_endpoint(request.dump(), {});
   EXPECT_EQ(reply.status, 422);
-  Faults faults;
-  const Json body = json_of(reply);
-  for (const auto& fault : body["errors"]) faults.emplace_back(fault["pointer"], fault["code"]);
-  return faults;
+  return faults_in(reply);
 }
 
 TEST(ValidateEndpoint, AcceptsAGoodPlan) {

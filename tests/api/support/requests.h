@@ -52,4 +52,12 @@ inline std::string detail_of(const Json& request, const Limits& limits = {}) {
 
 inline Json json_of(const Reply& reply) { return Json::parse(reply.body); }
 
+/// The faults that a refusal lists.
+inline Faults faults_in(const Reply& refusal) {
+  Faults faults;
+  const Json problem = json_of(refusal);
+  for (const Json& fault : problem["errors"]) faults.emplace_back(fault["pointer"], fault["code"]);
+  return faults;
+}
+
 }  // namespace fleetplan::api

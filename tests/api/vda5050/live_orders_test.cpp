@@ -23,10 +23,7 @@ Json answer_of(Reply (*endpoint)(std::string_view, const RequestContext&), const
 Faults faults_of_import(const Json& body) {
   const Reply reply = import_vda5050_endpoint(body.dump(), {});
   EXPECT_EQ(reply.status, 422) << reply.body;
-  Faults faults;
-  const Json problem = json_of(reply);
-  for (const Json& error : problem["errors"]) faults.emplace_back(error["pointer"], error["code"]);
-  return faults;
+  return faults_in(reply);
 }
 
 /// Robot "a" picks something up on its way through a hall, and "b" crosses before it.

@@ -44,10 +44,7 @@ Json orders(const Json& body) {
 Faults faults_of_export(const Json& body) {
   const Reply reply = vda5050_endpoint(body.dump(), {});
   EXPECT_EQ(reply.status, 422);
-  Faults faults;
-  const Json answer = json_of(reply);
-  for (const Json& error : answer["errors"]) faults.emplace_back(error["pointer"], error["code"]);
-  return faults;
+  return faults_in(reply);
 }
 
 /// The rules that the schema of an order does not have.
